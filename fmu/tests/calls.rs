@@ -1,0 +1,279 @@
+//! The lifecycle and its misuse, through the C functions.
+#![allow(unsafe_code, reason = "calls the C functions as an importer does")]
+
+mod common;
+
+use std::ffi::{c_char, c_int, c_void};
+use std::ptr;
+
+use common::{ERROR, OK, Unit, reference};
+use softstop_fmu::ffi::*;
+use softstop_fmu::library_guid;
+
+#[test]
+fn a_life_without_faults() {
+    let unit = Unit::new();
+    unit.begin();
+    assert_eq!(unit.step(0.0, 10.0), OK);
+    assert!(unit.get("impact.velocity") > 8.0);
+    unsafe {
+        assert_eq!(fmi2Terminate(unit.component), OK);
+        assert_eq!(fmi2Reset(unit.component), OK);
+    }
+    assert!(unit.take_log().is_empty());
+}
+
+#[test]
+fn refused_instances() {
+    let guid = library_guid();
+    for (name, kind, given, word) in [
+        (None, 1, guid, "instanceName"),
+        (Some(""), 1, guid, "instanceName"),
+        (Some("unit"), 0, guid, "fmuType = 0"),
+        (Some("unit"), 1, None, "fmuGUID"),
+        (Some("unit"), 1, Some("{other}"), "{other}"),
+    ] {
+        let lines = Unit::with(name, kind, given).err().expect("no instance");
+        assert_eq!(lines.len(), 1);
+        assert!(lines[0].contains(word), "{lines:?}");
+    }
+}
+
+#[test]
+fn no_callbacks_at_all() {
+    let guid = std::ffi::CString::new(library_guid().expect("a GUID")).expect("no NUL");
+    let silent = CallbackFunctions {
+        logger: None,
+        allocate_memory: None,
+        free_memory: None,
+        step_finished: None,
+        environment: ptr::null_mut(),
+    };
+    for functions in [ptr::null(), &raw const silent] {
+        unsafe {
+            let unit = fmi2Instantiate(
+                c"unit".as_ptr(),
+                1,
+                guid.as_ptr(),
+                ptr::null(),
+                functions,
+                0,
+                1,
+            );
+            assert!(!unit.is_null());
+            assert_eq!(fmi2DoStep(unit, 0.0, 1.0, 1), ERROR);
+            fmi2FreeInstance(unit);
+        }
+    }
+}
+
+#[test]
+fn null_component() {
+    unsafe {
+        fmi2FreeInstance(ptr::null_mut());
+        assert_eq!(fmi2DoStep(ptr::null_mut(), 0.0, 1.0, 1), ERROR);
+        assert_eq!(fmi2Reset(ptr::null_mut()), ERROR);
+    }
+}
+
+#[test]
+fn null_arrays_and_strings() {
+    let unit = Unit::new();
+    let mass = reference("mass");
+    let mut value = 0.0;
+    let text: *const c_char = ptr::null();
+    unsafe {
+        unit.refused(
+            fmi2GetReal(unit.component, ptr::null(), 1, &raw mut value),
+            &["vr is NULL"],
+        );
+        unit.refused(
+            fmi2GetReal(unit.component, &raw const mass, 1, ptr::null_mut()),
+            &["value is NULL"],
+        );
+        unit.refused(
+            fmi2SetReal(
+                unit.component,
+                &raw const mass,
+                usize::MAX,
+                &raw const value,
+            ),
+            &["vr", "elements"],
+        );
+        unit.refused(
+            fmi2SetString(unit.component, &raw const mass, 1, &raw const text),
+            &["value is NULL"],
+        );
+        unit.refused(
+            fmi2SetDebugLogging(unit.component, 1, 2, ptr::null()),
+            &["categories"],
+        );
+        unit.refused(
+            fmi2GetRealStatus(unit.component, 2, ptr::null_mut()),
+            &["value is NULL"],
+        );
+        unit.refused(
+            fmi2GetFMUstate(unit.component, ptr::null_mut()),
+            &["FMUstate is NULL"],
+        );
+        unit.refused(
+            fmi2SetFMUstate(unit.component, ptr::null_mut()),
+            &["FMUstate is NULL"],
+        );
+        assert_eq!(fmi2FreeFMUstate(unit.component, ptr::null_mut()), OK);
+        assert_eq!(
+            fmi2GetReal(unit.component, ptr::null(), 0, ptr::null_mut()),
+            OK
+        );
+        assert_eq!(
+            fmi2GetString(unit.component, ptr::null(), 0, ptr::null_mut()),
+            OK
+        );
+    }
+}
+
+#[test]
+fn calls_in_the_wrong_state() {
+    let unit = Unit::new();
+    let component = unit.component;
+    unsafe {
+        unit.refused(
+            unit.step(0.0, 1.0),
+            &["fmi2DoStep", "before initialisation"],
+        );
+        unit.refused(
+            fmi2EnterInitializationMode(component),
+            &["fmi2SetupExperiment"],
+        );
+        unit.refused(
+            fmi2ExitInitializationMode(component),
+            &["before initialisation"],
+        );
+        unit.refused(fmi2Terminate(component), &["before initialisation"]);
+        unit.begin();
+        unit.refused(
+            fmi2SetupExperiment(component, 0, 0.0, 0.0, 0, 0.0),
+            &["after initialisation"],
+        );
+        unit.refused(fmi2CancelStep(component), &["no step is under way"]);
+        unit.refused(unit.set("mass", 2.0), &["mass is a fixed parameter"]);
+        assert_eq!(unit.step(0.0, 1.0), OK);
+        assert_eq!(fmi2Terminate(component), OK);
+        unit.refused(fmi2Terminate(component), &["after fmi2Terminate"]);
+        unit.refused(unit.set("force", 1.0), &["after fmi2Terminate"]);
+        assert!(unit.get("position").is_finite());
+    }
+}
+
+#[test]
+fn an_experiment_that_makes_no_sense() {
+    let unit = Unit::new();
+    for (tolerance, start, stop, word) in [
+        (f64::NAN, 0.0, 1.0, "tolerance"),
+        (-1.0, 0.0, 1.0, "tolerance"),
+        (1e-6, f64::INFINITY, 1.0, "startTime"),
+        (1e-6, 2.0, 1.0, "stopTime"),
+    ] {
+        let status = unsafe { fmi2SetupExperiment(unit.component, 1, tolerance, start, 1, stop) };
+        unit.refused(status, &[word]);
+    }
+    unit.begin();
+}
+
+#[test]
+fn values_are_set_all_or_none() {
+    let unit = Unit::new();
+    let references = [reference("mass"), reference("clearance")];
+    let values = [2.0, f64::NAN];
+    let status = unsafe { fmi2SetReal(unit.component, references.as_ptr(), 2, values.as_ptr()) };
+    unit.refused(status, &["clearance = NaN"]);
+    assert_eq!(unit.get("mass"), 1.0);
+}
+
+#[test]
+fn status_of_the_last_step() {
+    let unit = Unit::new();
+    unit.begin();
+    assert_eq!(unit.step(0.0, 2.5), OK);
+    let (mut status, mut time, mut ended): (c_int, f64, c_int) = (-1, -1.0, -1);
+    let mut text = ptr::null();
+    unsafe {
+        assert_eq!(fmi2GetStatus(unit.component, 0, &raw mut status), OK);
+        assert_eq!(fmi2GetRealStatus(unit.component, 2, &raw mut time), OK);
+        assert_eq!(fmi2GetBooleanStatus(unit.component, 3, &raw mut ended), OK);
+        assert_eq!((status, time, ended), (OK, 2.5, 0));
+        unit.refused(
+            fmi2GetIntegerStatus(unit.component, 0, &raw mut status),
+            &["kind 0"],
+        );
+        unit.refused(
+            fmi2GetStringStatus(unit.component, 1, &raw mut text),
+            &["fmi2Pending"],
+        );
+        unit.refused(
+            fmi2GetRealStatus(unit.component, 77, &raw mut time),
+            &["kind 77"],
+        );
+    }
+}
+
+#[test]
+fn input_derivatives() {
+    let unit = Unit::new();
+    unit.begin();
+    let set = |name: &str, order: c_int, value: f64| {
+        let reference = reference(name);
+        let (order, value) = (&raw const order, &raw const value);
+        unsafe {
+            fmi2SetRealInputDerivatives(unit.component, &raw const reference, 1, order, value)
+        }
+    };
+    assert_eq!(set("force", 1, 0.25), OK);
+    assert_eq!(set("force", 2, 0.0), OK);
+    unit.refused(set("force", 2, 1.0), &["force", "order 2"]);
+    unit.refused(set("force", 0, 1.0), &["force", "order 0"]);
+    unit.refused(set("force", 1, f64::NAN), &["force = NaN"]);
+    unit.refused(set("clearance", 1, 1.0), &["clearance"]);
+    assert_eq!(unit.step(0.0, 2.0), OK);
+    assert_eq!(unit.get("force"), 0.5);
+}
+
+#[test]
+fn snapshots_are_overwritten_in_place() {
+    let unit = Unit::new();
+    unit.begin();
+    let mut state: *mut c_void = ptr::null_mut();
+    unsafe {
+        assert_eq!(fmi2GetFMUstate(unit.component, &raw mut state), OK);
+        let first = state;
+        assert_eq!(unit.step(0.0, 3.0), OK);
+        assert_eq!(fmi2GetFMUstate(unit.component, &raw mut state), OK);
+        assert_eq!(state, first);
+        let position = unit.get("position");
+        assert_eq!(fmi2Reset(unit.component), OK);
+        assert_eq!(fmi2SetFMUstate(unit.component, state), OK);
+        assert_eq!(unit.get("position"), position);
+        assert_eq!(unit.step(3.0, 1.0), OK);
+        assert_eq!(fmi2FreeFMUstate(unit.component, &raw mut state), OK);
+        assert!(state.is_null());
+    }
+}
+
+#[test]
+fn ten_thousand_instances_from_several_threads() {
+    let threads: Vec<_> = (0..4)
+        .map(|_| {
+            std::thread::spawn(|| {
+                let units: Vec<_> = (0..2500).map(|_| Unit::new()).collect();
+                units.iter().for_each(Unit::begin);
+                assert!(units.iter().all(|unit| unit.step(0.0, 1.0) == OK));
+                units[0].get("position")
+            })
+        })
+        .collect();
+    let ends: Vec<_> = threads
+        .into_iter()
+        .map(|t| t.join().expect("no panic"))
+        .collect();
+    assert!(ends.iter().all(|end| *end == ends[0]));
+}

@@ -1,0 +1,228 @@
+//! The package: its description, its start values, and that it is the same each time.
+#![allow(
+    unsafe_code,
+    reason = "loads the packaged library and calls its C functions"
+)]
+
+use std::ffi::{CString, c_char, c_int, c_uint, c_void};
+use std::fs;
+use std::io::{Cursor, Read};
+use std::path::Path;
+use std::ptr;
+
+use softstop::{Scene, Start};
+use softstop_fmu::package::{self, Library, PackageError};
+use softstop_fmu::variables::{Access, Kind, VARIABLES, by_name, by_reference};
+use softstop_fmu::{StartValues, guid_of, library_guid, library_start_values, model_description};
+
+fn library() -> Library {
+    let path = package::find_library().expect("the library that was built with this test");
+    Library::read(&path).expect("a readable library")
+}
+
+fn other_design() -> (Scene, Start) {
+    let mut scene = StartValues::DEFAULT.scene();
+    scene.clearance = 7.25;
+    scene.excitation.frequency = 1.31;
+    scene.piercing = None;
+    (
+        scene,
+        Start {
+            position: 4.5,
+            velocity: -2.25,
+        },
+    )
+}
+
+fn entry(archive: &[u8], name: &str) -> Vec<u8> {
+    let mut archive = zip::ZipArchive::new(Cursor::new(archive)).expect("an archive");
+    let mut bytes = Vec::new();
+    let mut file = archive.by_name(name).expect("an entry");
+    file.read_to_end(&mut bytes).expect("a readable entry");
+    bytes
+}
+
+#[test]
+fn top_level_description_is_up_to_date() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../modelDescription.xml");
+    let kept = fs::read_to_string(path).expect("modelDescription.xml at the top level");
+    let start = StartValues::DEFAULT;
+    let guid = guid_of(&start).expect("a GUID");
+    let written = model_description::write(&start, &guid).expect("XML");
+    assert!(
+        kept == written,
+        "modelDescription.xml is not up to date: run cargo xtask xml"
+    );
+}
+
+#[test]
+fn library_and_description_agree() {
+    assert_eq!(library_start_values(), StartValues::DEFAULT);
+    let guid = guid_of(&StartValues::DEFAULT).expect("a GUID");
+    assert_eq!(library_guid(), Some(guid.as_str()));
+    let (scene, start) = other_design();
+    let other = guid_of(&StartValues::from_scene(&scene, start)).expect("a GUID");
+    assert_ne!(guid, other);
+}
+
+#[test]
+fn start_values_and_scenes_are_the_same_thing() {
+    let (scene, start) = other_design();
+    for (scene, start) in [
+        (scene, start),
+        (StartValues::DEFAULT.scene(), StartValues::DEFAULT.start()),
+        (
+            Scene {
+                stop: softstop::Stop::None,
+                ..scene
+            },
+            start,
+        ),
+    ] {
+        let values = StartValues::from_scene(&scene, start);
+        assert_eq!(values.scene(), scene);
+        assert_eq!(values.start(), start);
+    }
+}
+
+#[test]
+fn default_is_the_loaded_machine() {
+    let sample = softstop::samples::LOADED;
+    let scene = sample.ratios.scene().expect("a valid sample");
+    let start = Start {
+        position: sample.position,
+        velocity: sample.velocity,
+    };
+    assert_eq!(StartValues::DEFAULT, StartValues::from_scene(&scene, start));
+}
+
+#[test]
+fn the_table_is_sound() {
+    for variable in VARIABLES {
+        let name = variable.name;
+        let same = VARIABLES.iter().filter(|other| other.name == name).count();
+        assert_eq!(same, 1, "{name}");
+        let found = by_reference(variable.reference).expect("found by reference");
+        assert_eq!(found.name, name);
+        if let (Access::Parameter { slot, .. }, Kind::Real(kind)) =
+            (&variable.access, &variable.kind)
+        {
+            assert!(kind.contains(StartValues::DEFAULT.get(*slot)), "{name}");
+        }
+        for known in variable
+            .dependencies()
+            .iter()
+            .flat_map(|d| d.inputs.iter().chain(d.initial))
+        {
+            let known = by_name(known).expect("a dependency that exists");
+            assert!(!known.is_output(), "{name} depends on {}", known.name);
+        }
+    }
+}
+
+#[test]
+fn archive_is_the_same_each_time() {
+    let start = StartValues::DEFAULT;
+    let first = package::archive(&start, &[library()]).expect("an archive");
+    let second = package::archive(&start, &[library()]).expect("an archive");
+    assert!(first == second);
+}
+
+type Instantiate = unsafe extern "C" fn(
+    *const c_char,
+    c_int,
+    *const c_char,
+    *const c_char,
+    *const c_void,
+    c_int,
+    c_int,
+) -> *mut c_void;
+type Free = unsafe extern "C" fn(*mut c_void);
+type GetReal = unsafe extern "C" fn(*mut c_void, *const c_uint, usize, *mut f64) -> c_int;
+
+#[test]
+fn packed_library_starts_with_its_own_values() {
+    let (scene, start) = other_design();
+    let values = StartValues::from_scene(&scene, start);
+    let archive = package::archive(&values, &[library()]).expect("an archive");
+    let guid = guid_of(&values).expect("a GUID");
+    let xml = String::from_utf8(entry(&archive, "modelDescription.xml")).expect("UTF-8");
+    assert!(xml.contains(&format!("guid=\"{guid}\"")));
+    assert!(xml.contains("start=\"7.25\""));
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder
+        .path()
+        .join(std::env::consts::DLL_PREFIX.to_owned() + "packed");
+    let suffix = std::env::consts::DLL_EXTENSION;
+    let name = format!("binaries/{}/softstop.{suffix}", package::HOST_PLATFORM);
+    fs::write(&path, entry(&archive, &name)).expect("a written library");
+    let guids = [guid.as_str(), library_guid().expect("a GUID")];
+    let guids = guids.map(|guid| CString::new(guid).expect("no NUL"));
+    // SAFETY: the library is ours, and the types are those of the standard (see abi.rs).
+    unsafe {
+        let library = libloading::Library::new(&path).expect("a library that loads");
+        let instantiate = library
+            .get::<Instantiate>(b"fmi2Instantiate")
+            .expect("a function");
+        let free = library
+            .get::<Free>(b"fmi2FreeInstance")
+            .expect("a function");
+        let get_real = library.get::<GetReal>(b"fmi2GetReal").expect("a function");
+        let [own, default] = guids.each_ref().map(|guid| {
+            let nothing = ptr::null();
+            instantiate(
+                c"unit".as_ptr(),
+                1,
+                guid.as_ptr(),
+                nothing,
+                ptr::null(),
+                0,
+                0,
+            )
+        });
+        assert!(default.is_null());
+        assert!(!own.is_null());
+        let names = [
+            "clearance",
+            "excitation.frequency",
+            "initial.velocity",
+            "piercing.travel",
+        ];
+        let references = names.map(|name| by_name(name).expect("a variable").reference);
+        let mut read = [f64::NAN; 4];
+        assert_eq!(get_real(own, references.as_ptr(), 4, read.as_mut_ptr()), 0);
+        assert_eq!(read, [7.25, 1.31, -2.25, 0.0]);
+        free(own);
+    }
+}
+
+#[test]
+fn the_file_appears_whole_or_not_at_all() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("design.fmu");
+    package::write(&path, &StartValues::DEFAULT, &[library()]).expect("a written file");
+    let names: Vec<_> = fs::read_dir(folder.path())
+        .expect("a readable folder")
+        .map(|entry| entry.expect("an entry").file_name())
+        .collect();
+    assert_eq!(names, ["design.fmu"]);
+
+    let nowhere = folder.path().join("missing").join("design.fmu");
+    let error =
+        package::write(&nowhere, &StartValues::DEFAULT, &[library()]).expect_err("no such folder");
+    assert!(error.to_string().contains("design.fmu"), "{error}");
+    assert!(matches!(error, PackageError::File { .. }));
+}
+
+#[test]
+fn foreign_libraries_are_refused() {
+    let foreign = Library {
+        platform: "win64".to_owned(),
+        bytes: vec![0; 4096],
+    };
+    let error = package::archive(&StartValues::DEFAULT, &[foreign]).expect_err("no start block");
+    assert!(error.to_string().contains("win64"), "{error}");
+    let none = package::archive(&StartValues::DEFAULT, &[]).expect_err("no library");
+    assert!(matches!(none, PackageError::NoLibrary));
+}

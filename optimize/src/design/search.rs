@@ -1,0 +1,261 @@
+//! The outer search over stiffness and clearance: a particle swarm, then Nelder-Mead from
+//! the best particle, restarted with a fresh, smaller simplex until nothing is gained.
+//!
+//! Both see the unit cube. The swarm keeps to it by itself; Nelder-Mead does not, so points
+//! outside are pulled in, and an optimum on the boundary (common here) is met exactly.
+
+use argmin::core::{CostFunction, Error, Executor, State};
+use argmin::solver::neldermead::NelderMead;
+use argmin::solver::particleswarm::ParticleSwarm;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rand_xoshiro::rand_core::SeedableRng;
+
+use super::space::Space;
+use super::{Design, Problem};
+
+/// Fewest zones a search makes sense with.
+pub const LEAST_EVALUATIONS: u64 = 100;
+/// Particles of the swarm for each coordinate.
+const PARTICLES: usize = 12;
+/// Edges of the first simplex of the polish, as a share of the box.
+const FIRST_EDGE: f64 = 0.05;
+/// By how much each restart of the polish narrows the simplex.
+const NARROWING: f64 = 0.2;
+const RESTARTS: usize = 8;
+/// Rounds of one start of the polish: far more than it takes in two coordinates.
+const MOST_ROUNDS: u64 = 200;
+/// A restart that gains less than this, relative, is the last.
+const GAIN: f64 = 1e-10;
+
+/// How to search.
+#[derive(Debug, Clone, Copy)]
+pub struct Settings {
+    /// The same seed gives the same result, on any number of cores.
+    pub seed: u64,
+    /// Zones to compute at most, at least [`LEAST_EVALUATIONS`].
+    pub evaluations: u64,
+}
+
+/// Who watches the search, from several threads at once.
+pub trait Watch: Sync {
+    /// One more zone has been computed; the velocity is that of its best motion, if any.
+    fn evaluated(&self, velocity: Option<f64>);
+    /// Whether to give up.
+    fn stop(&self) -> bool;
+}
+
+/// Watches nothing.
+#[derive(Debug, Clone, Copy)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn evaluated(&self, _: Option<f64>) {}
+    fn stop(&self) -> bool {
+        false
+    }
+}
+
+/// Why a search has no design to show.
+#[derive(Debug, thiserror::Error)]
+pub enum SearchError {
+    /// Nothing within the bounds is feasible.
+    #[error(
+        "no stable z = 1 motion in a hysteresis zone was met within the bounds; nearest try, at stiffness = {stiffness}, clearance = {clearance}: {reason}"
+    )]
+    NoDesign {
+        /// k4/k1 of the least infeasible point.
+        stiffness: f64,
+        /// rho of the least infeasible point.
+        clearance: f64,
+        /// What is wrong there.
+        reason: String,
+    },
+    /// The watcher said stop.
+    #[error("stopped")]
+    Stopped,
+    /// The optimiser failed.
+    #[error("the optimiser failed: {0}")]
+    Optimizer(Error),
+}
+
+/// The feasible design with the highest before-impact velocity.
+///
+/// # Errors
+/// [`SearchError`] if nothing feasible was met or the watcher stopped the search.
+pub fn search(
+    problem: &Problem,
+    settings: Settings,
+    watch: &dyn Watch,
+) -> Result<Design, SearchError> {
+    let space = Space::new(problem.stiffness, problem.clearance);
+    let cost = Cost {
+        problem,
+        space,
+        watch,
+    };
+    let best = match outer(&cost, settings) {
+        Err(error) if !watch.stop() => return Err(SearchError::Optimizer(error)),
+        outcome => outcome.unwrap_or_default(),
+    };
+    if watch.stop() {
+        return Err(SearchError::Stopped);
+    }
+    let (stiffness, clearance) = space.values(&best);
+    problem
+        .at(stiffness, clearance)
+        .map_err(|infeasible| SearchError::NoDesign {
+            stiffness,
+            clearance,
+            reason: infeasible.reason,
+        })
+}
+
+/// The best point of the unit cube.
+fn outer(cost: &Cost<'_>, settings: Settings) -> Result<Vec<f64>, Error> {
+    if cost.space.dimension() == 0 {
+        cost.watch.evaluated(None);
+        return Ok(Vec::new());
+    }
+    let swarm = settings.evaluations * 3 / 4;
+    let start = swarm_best(cost, settings.seed, swarm)?;
+    Ok(polish(cost, start, settings.evaluations - swarm)?.unit)
+}
+
+/// A point of the unit cube and what it costs.
+#[derive(Debug, Clone)]
+struct Point {
+    unit: Vec<f64>,
+    cost: f64,
+}
+
+/// What the optimisers minimise: minus the velocity, or a finite grade above every velocity.
+struct Cost<'search> {
+    problem: &'search Problem,
+    space: Space,
+    watch: &'search dyn Watch,
+}
+
+impl CostFunction for &Cost<'_> {
+    type Param = Vec<f64>;
+    type Output = f64;
+
+    /// Never is NaN (the swarm would panic, Nelder-Mead stall) and never fails (Nelder-Mead
+    /// would panic); once stopped, infinite.
+    fn cost(&self, unit: &Vec<f64>) -> Result<f64, Error> {
+        if self.watch.stop() {
+            return Ok(f64::INFINITY);
+        }
+        let (stiffness, clearance) = self.space.values(unit);
+        let outcome = self.problem.at(stiffness, clearance);
+        self.watch
+            .evaluated(outcome.as_ref().ok().map(Design::before_impact_velocity));
+        Ok(match outcome {
+            Ok(design) => -design.before_impact_velocity(),
+            Err(infeasible) => 1.0 + infeasible.gap,
+        })
+    }
+}
+
+/// The same for the swarm, which is to end at once when it is stopped.
+struct Stoppable<'search>(&'search Cost<'search>);
+
+impl CostFunction for Stoppable<'_> {
+    type Param = Vec<f64>;
+    type Output = f64;
+
+    fn cost(&self, unit: &Vec<f64>) -> Result<f64, Error> {
+        if self.0.watch.stop() {
+            return Err(SearchError::Stopped.into());
+        }
+        self.0.cost(unit)
+    }
+}
+
+fn swarm_best(cost: &Cost<'_>, seed: u64, evaluations: u64) -> Result<Point, Error> {
+    let dimension = cost.space.dimension();
+    let particles = PARTICLES * dimension;
+    let cube = (vec![0.0; dimension], vec![1.0; dimension]);
+    let solver = ParticleSwarm::new(cube, particles)
+        .with_rng_generator(Xoshiro256PlusPlus::seed_from_u64(seed));
+    let rounds = (evaluations / particles as u64).saturating_sub(1);
+    let result = Executor::new(Stoppable(cost), solver)
+        .configure(|state| state.max_iters(rounds))
+        .timer(false)
+        .run()?;
+    let best = result
+        .state
+        .get_best_param()
+        .ok_or_else(|| Error::msg("the swarm is empty"))?;
+    Ok(Point {
+        unit: best.position.clone(),
+        cost: best.cost,
+    })
+}
+
+fn polish(cost: &Cost<'_>, start: Point, evaluations: u64) -> Result<Point, Error> {
+    let mut best = start;
+    let mut edge = FIRST_EDGE;
+    // A Nelder-Mead step takes one or two evaluations, a shrinking one more than that.
+    let rounds = (evaluations / (2 * RESTARTS as u64)).clamp(10, MOST_ROUNDS);
+    for _ in 0..RESTARTS {
+        let found = nelder_mead(cost, &best, edge, rounds)?;
+        let gain = best.cost - found.cost;
+        let enough = gain > GAIN * best.cost.abs();
+        if gain > 0.0 {
+            best = found;
+        }
+        if !enough && edge < FIRST_EDGE * NARROWING {
+            break;
+        }
+        edge *= NARROWING;
+    }
+    Ok(best)
+}
+
+fn nelder_mead(cost: &Cost<'_>, from: &Point, edge: f64, rounds: u64) -> Result<Point, Error> {
+    let tolerance = 1e-13 * from.cost.abs().max(1.0);
+    let solver = NelderMead::new(simplex(&from.unit, edge)).with_sd_tolerance(tolerance)?;
+    let result = Executor::new(cost, solver)
+        .configure(|state| state.max_iters(rounds))
+        .timer(false)
+        .run()?;
+    let unit = result
+        .state
+        .get_best_param()
+        .ok_or_else(|| Error::msg("the simplex is empty"))?;
+    Ok(Point {
+        unit: unit
+            .iter()
+            .map(|coordinate| coordinate.clamp(0.0, 1.0))
+            .collect(),
+        cost: result.state.get_best_cost(),
+    })
+}
+
+/// A simplex with one corner here and its edges pointing into the cube.
+fn simplex(unit: &[f64], edge: f64) -> Vec<Vec<f64>> {
+    let mut corners = vec![unit.to_vec()];
+    for axis in 0..unit.len() {
+        let mut corner = unit.to_vec();
+        corner[axis] += if corner[axis] + edge > 1.0 {
+            -edge
+        } else {
+            edge
+        };
+        corners.push(corner);
+    }
+    corners
+}
+
+#[cfg(test)]
+mod tests {
+    use super::simplex;
+
+    #[test]
+    fn simplices_stay_inside_the_cube() {
+        assert_eq!(
+            simplex(&[1.0, 0.0], 0.25),
+            [[1.0, 0.0], [0.75, 0.0], [1.0, 0.25]]
+        );
+    }
+}

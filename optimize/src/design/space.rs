@@ -1,0 +1,129 @@
+//! The box that is searched, and its image, the unit cube that the optimiser sees.
+
+use std::fmt;
+
+/// A closed interval; a value that is held has both ends equal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// Lower end.
+    pub low: f64,
+    /// Upper end, not below the lower one; may be infinite.
+    pub high: f64,
+}
+
+impl Interval {
+    /// A single value.
+    #[must_use]
+    pub const fn held(value: f64) -> Self {
+        Self {
+            low: value,
+            high: value,
+        }
+    }
+
+    /// Whether there is anything to search.
+    #[must_use]
+    pub fn is_held(&self) -> bool {
+        self.low == self.high
+    }
+
+    /// The value at `unit` in [0, 1], both ends exact; what lies outside is pulled in.
+    #[must_use]
+    pub fn at(&self, unit: f64) -> f64 {
+        if unit <= 0.0 || self.is_held() {
+            self.low
+        } else if unit >= 1.0 {
+            self.high
+        } else {
+            (self.low + unit * (self.high - self.low)).clamp(self.low, self.high)
+        }
+    }
+
+    /// Which end a value stands at, if the interval has two.
+    #[must_use]
+    pub fn end(&self, value: f64) -> Option<&'static str> {
+        if self.is_held() {
+            None
+        } else if value == self.low {
+            Some("lower")
+        } else if value == self.high {
+            Some("upper")
+        } else {
+            None
+        }
+    }
+}
+
+impl fmt::Display for Interval {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_held() {
+            write!(formatter, "{}", self.low)
+        } else if self.high.is_infinite() {
+            write!(formatter, "any")
+        } else {
+            write!(formatter, "{} to {}", self.low, self.high)
+        }
+    }
+}
+
+/// The intervals of the outer search, stiffness and clearance, of which those that are held
+/// are taken out of the optimiser's sight.
+#[derive(Debug, Clone, Copy)]
+pub struct Space {
+    axes: [Interval; 2],
+}
+
+impl Space {
+    /// The space of these two intervals.
+    #[must_use]
+    pub const fn new(stiffness: Interval, clearance: Interval) -> Self {
+        Self {
+            axes: [stiffness, clearance],
+        }
+    }
+
+    /// How many coordinates the optimiser has.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.axes.iter().filter(|axis| !axis.is_held()).count()
+    }
+
+    /// Stiffness and clearance at a point of the unit cube.
+    #[must_use]
+    pub fn values(&self, unit: &[f64]) -> (f64, f64) {
+        let mut coordinates = unit.iter().copied();
+        let [stiffness, clearance] = self.axes.map(|axis| {
+            if axis.is_held() {
+                axis.low
+            } else {
+                axis.at(coordinates.next().unwrap_or(0.5))
+            }
+        });
+        (stiffness, clearance)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn held_axes_take_no_coordinate_and_ends_are_exact() {
+        let range = Interval {
+            low: 0.1,
+            high: 0.3,
+        };
+        let space = Space::new(Interval::held(7.0), range);
+        assert_eq!(space.dimension(), 1);
+        assert_eq!(space.values(&[0.0]), (7.0, 0.1));
+        assert_eq!(space.values(&[1.0]), (7.0, 0.3));
+        assert_eq!(
+            space.values(&[1.7]),
+            (7.0, 0.3),
+            "outside the cube: pulled in"
+        );
+        assert_eq!(range.end(0.3), Some("upper"));
+        assert_eq!(range.end(0.2), None);
+        assert_eq!(Interval::held(2.0).end(2.0), None);
+    }
+}

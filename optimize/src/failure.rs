@@ -1,0 +1,51 @@
+//! The three ways in which a run ends without its result, and their exit codes.
+
+use std::fmt;
+use std::process::ExitCode;
+
+/// Why there is no result.
+#[derive(Debug)]
+pub enum Failure {
+    /// The user's values cannot be used; the message names parameter, value and range.
+    Usage(String),
+    /// The values are good, but the run could not do the job.
+    Run(anyhow::Error),
+    /// Ctrl-C or a termination signal.
+    Interrupted,
+}
+
+impl Failure {
+    /// A usage failure with this message.
+    pub fn usage(message: impl Into<String>) -> Self {
+        Self::Usage(message.into())
+    }
+
+    /// 2 for bad usage (as clap does), 1 for a failed run, 130 for an interrupt (128 + SIGINT).
+    #[must_use]
+    pub fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Usage(_) => 2,
+            Self::Run(_) => 1,
+            Self::Interrupted => 130,
+        })
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Usage(message) => write!(
+                formatter,
+                "error: {message}\n\nFor more information, try '--help'."
+            ),
+            Self::Run(error) => write!(formatter, "error: {error:#}"),
+            Self::Interrupted => write!(formatter, "interrupted: no files were written"),
+        }
+    }
+}
+
+impl From<anyhow::Error> for Failure {
+    fn from(error: anyhow::Error) -> Self {
+        Self::Run(error)
+    }
+}

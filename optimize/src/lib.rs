@@ -1,0 +1,80 @@
+//! The program `softstop`: periodic motions, hysteresis zones and optimal designs of
+//! machines whose mass strikes a soft, preloaded stop (F. Peterka, Chaos, Solitons &
+//! Fractals 18 (2003) 79-88).
+//!
+//! One way through it: [`arguments`] and [`configuration`] turn what the user wrote into a
+//! [`arguments::Machine`]; a subcommand ([`orbit`], [`zone`], [`optimize`]) asks the core or
+//! the search in [`design`]; [`report`] and [`chart`] say and draw the answer; [`output`]
+//! puts files in place whole or not at all.
+
+pub mod arguments;
+pub mod chart;
+pub mod configuration;
+pub mod design;
+pub mod failure;
+pub mod interrupt;
+pub mod optimize;
+pub mod orbit;
+pub mod output;
+pub mod report;
+pub mod zone;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use failure::Failure;
+
+/// Exact dynamics and optimal design of machines with a soft, preloaded stop.
+#[derive(Debug, Parser)]
+#[command(name = "softstop", version, arg_required_else_help = true, after_help = EXAMPLES)]
+pub struct CommandLine {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  softstop optimize                                the best design beside points A and B
+  softstop orbit --frequency 1.15 --clearance 10   the paper's point A
+  softstop zone --regime loaded --clearance 10     where impacts and rest coexist
+
+Exit codes: 0 done, 1 the run could not do it, 2 bad usage or values, 130 interrupted.
+All quantities are the paper's dimensionless ratios: m = k1 = F0 = 1.";
+
+/// The subcommands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// The stable motion with one impact per period of the drive (z = 1)
+    Orbit(orbit::OrbitArguments),
+    /// The hysteresis zone of a clearance: from grazing (g0) to the fold (s_SN)
+    Zone(zone::ZoneArguments),
+    /// Search stiffness, clearance and frequency for the hardest impact
+    Optimize(optimize::OptimizeArguments),
+}
+
+/// Reads the command line, does what it says and turns the outcome into an exit code.
+pub fn main() -> ExitCode {
+    let line = CommandLine::parse();
+    match run(line.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{failure}");
+            failure.exit_code()
+        }
+    }
+}
+
+/// Carries out one subcommand.
+///
+/// # Errors
+/// [`Failure`] says whether the user's values, the run or an interrupt ended it.
+pub fn run(command: Command) -> Result<(), Failure> {
+    interrupt::install();
+    match command {
+        Command::Orbit(arguments) => orbit::run(&arguments),
+        Command::Zone(arguments) => zone::run(&arguments),
+        Command::Optimize(arguments) => optimize::run(&arguments),
+    }
+}

@@ -1,0 +1,255 @@
+//! The optimum against dense grids, and the promises of the search.
+
+use softstop_optimize::arguments::{Machine, Preload, SceneSettings};
+use softstop_optimize::design::search::{SearchError, Settings, Unwatched, Watch, search};
+use softstop_optimize::design::space::Interval;
+use softstop_optimize::design::{Design, Problem};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+const CLEARANCE: Interval = Interval {
+    low: 2.0,
+    high: 22.0,
+};
+const ANY: Interval = Interval {
+    low: 0.01,
+    high: f64::INFINITY,
+};
+
+fn problem(margin: f64) -> Problem {
+    let machine = Machine::from_layers(&[&SceneSettings::default()]).expect("the paper's machine");
+    Problem {
+        machine,
+        margin,
+        stiffness: Interval::held(7.0),
+        clearance: CLEARANCE,
+        frequency: ANY,
+    }
+}
+
+fn solve(problem: &Problem, evaluations: u64) -> Result<Design, SearchError> {
+    search(
+        problem,
+        Settings {
+            seed: 0,
+            evaluations,
+        },
+        &Unwatched,
+    )
+}
+
+/// `count` points of an interval, both ends among them.
+fn grid(range: Interval, count: usize) -> impl Iterator<Item = f64> {
+    (0..count).map(move |index| range.at(index as f64 / (count - 1) as f64))
+}
+
+/// The velocity at one point, with the places of the zone taken from a grid too.
+fn on_grid(problem: &Problem, stiffness: f64, clearance: f64, places: usize) -> f64 {
+    let ratios = problem.machine.at(stiffness, clearance);
+    let Ok(zone) = softstop::zone::hysteresis(&ratios) else {
+        return f64::NEG_INFINITY;
+    };
+    let window = Interval {
+        low: problem.margin,
+        high: 1.0 - problem.margin,
+    };
+    grid(window, places)
+        .filter_map(|place| zone.orbit_at(place).ok())
+        .filter(|orbit| orbit.is_stable())
+        .map(|orbit| orbit.before_impact_velocity)
+        .fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// No grid point is better, and the best one is as near as its distance from the optimum lets
+/// it be: `slack` is what the velocity falls within one step of the grid.
+#[track_caller]
+fn agrees(optimum: f64, grid: f64, slack: f64) {
+    assert!(
+        grid <= optimum * (1.0 + 1e-9),
+        "a grid point has {grid}, the optimum {optimum}"
+    );
+    assert!(
+        optimum - grid <= slack,
+        "the grid has {grid}, the optimum {optimum}"
+    );
+}
+
+#[test]
+fn best_clearance_of_the_papers_stop() -> Outcome {
+    let problem = problem(0.25);
+    let design = solve(&problem, 400)?;
+    let best = grid(CLEARANCE, 401)
+        .map(|clearance| (on_grid(&problem, 7.0, clearance, 21), clearance))
+        .fold((f64::NEG_INFINITY, 0.0), |best, point| {
+            if point.0 > best.0 { point } else { best }
+        });
+    agrees(design.before_impact_velocity(), best.0, 1e-3);
+    let step = 20.0 / 400.0;
+    assert!(
+        (design.ratios.clearance - best.1).abs() <= step,
+        "{} {}",
+        design.ratios.clearance,
+        best.1
+    );
+    Ok(())
+}
+
+#[test]
+fn best_clearance_to_a_millionth() -> Outcome {
+    let problem = problem(0.25);
+    let design = solve(&problem, 400)?;
+    let near = design.ratios.clearance;
+    let fine = Interval {
+        low: near - 0.05,
+        high: near + 0.05,
+    };
+    let best = grid(fine, 201).map(|clearance| on_grid(&problem, 7.0, clearance, 11));
+    let best = best.fold(f64::NEG_INFINITY, f64::max);
+    agrees(design.before_impact_velocity(), best, 1e-6 * best);
+    Ok(())
+}
+
+#[test]
+fn best_stiffness_and_clearance() -> Outcome {
+    let stiffness = Interval {
+        low: 1.0,
+        high: 30.0,
+    };
+    let problem = Problem {
+        stiffness,
+        ..problem(0.25)
+    };
+    let design = solve(&problem, 800)?;
+    let best = grid(stiffness, 16)
+        .flat_map(|k4| grid(CLEARANCE, 31).map(move |rho| (k4, rho)))
+        .map(|(k4, rho)| on_grid(&problem, k4, rho, 5))
+        .fold(f64::NEG_INFINITY, f64::max);
+    agrees(design.before_impact_velocity(), best, 0.02 * best);
+    Ok(())
+}
+
+#[test]
+fn the_same_seed_gives_the_same_design() -> Outcome {
+    let problem = Problem {
+        stiffness: Interval {
+            low: 5.0,
+            high: 9.0,
+        },
+        ..problem(0.3)
+    };
+    let settings = Settings {
+        seed: 42,
+        evaluations: 200,
+    };
+    let first = search(&problem, settings, &Unwatched)?;
+    let second = search(&problem, settings, &Unwatched)?;
+    assert_eq!(first.ratios, second.ratios);
+    assert_eq!(
+        first.before_impact_velocity().to_bits(),
+        second.before_impact_velocity().to_bits()
+    );
+    Ok(())
+}
+
+#[test]
+fn without_margin_the_fold_itself_is_allowed() -> Outcome {
+    let problem = Problem {
+        clearance: Interval::held(10.0),
+        ..problem(0.0)
+    };
+    let design = solve(&problem, 100)?;
+    let fold = design.zone.velocity_sn;
+    assert!(
+        design.before_impact_velocity() >= fold * (1.0 - 1e-7),
+        "{} below {fold}",
+        design.before_impact_velocity()
+    );
+    Ok(())
+}
+
+#[test]
+fn frequency_bounds_cut_the_zone() -> Outcome {
+    let frequency = Interval {
+        low: 1.1,
+        high: 1.2,
+    };
+    let bounded = Problem {
+        frequency,
+        clearance: Interval::held(10.0),
+        ..problem(0.1)
+    };
+    let design = solve(&bounded, 100)?;
+    assert!(
+        (design.ratios.frequency - 1.2).abs() < 1e-12,
+        "{}",
+        design.ratios.frequency
+    );
+    let fixed = Problem {
+        frequency: Interval::held(1.15),
+        ..bounded
+    };
+    let design = solve(&fixed, 100)?;
+    assert!(
+        (design.before_impact_velocity() - 6.494627).abs() < 5e-7,
+        "{}",
+        design.before_impact_velocity()
+    );
+    Ok(())
+}
+
+#[test]
+fn a_preload_deflection_follows_the_stiffness() {
+    let scene = SceneSettings {
+        preload_deflection: Some(10.0),
+        ..SceneSettings::default()
+    };
+    let machine = Machine::from_layers(&[&scene]).expect("the paper's machine");
+    assert_eq!(machine.preload, Preload::Deflection(10.0));
+    assert_eq!(machine.ratios.preload, 70.0);
+    assert_eq!(machine.at(12.0, 10.0).preload, 120.0);
+}
+
+#[test]
+fn nothing_feasible_is_an_error_that_says_why() {
+    let wide = Interval {
+        low: 26.0,
+        high: 40.0,
+    };
+    let problem = Problem {
+        clearance: wide,
+        ..problem(0.25)
+    };
+    let error = solve(&problem, 100).expect_err("no zone there").to_string();
+    assert!(
+        error.contains("clearance = 26"),
+        "the nearest try is at the lower bound: {error}"
+    );
+}
+
+#[test]
+fn a_stopped_search_has_no_result() {
+    struct Stop;
+    impl Watch for Stop {
+        fn evaluated(&self, _: Option<f64>) {}
+        fn stop(&self) -> bool {
+            true
+        }
+    }
+    let stiffness = Interval {
+        low: 1.0,
+        high: 30.0,
+    };
+    let problem = Problem {
+        stiffness,
+        ..problem(0.25)
+    };
+    let outcome = search(
+        &problem,
+        Settings {
+            seed: 0,
+            evaluations: 2000,
+        },
+        &Stop,
+    );
+    assert!(matches!(outcome, Err(SearchError::Stopped)));
+}

@@ -1,0 +1,58 @@
+//! Errors of the library: each names the parameter, its value and what is allowed.
+
+use thiserror::Error;
+
+/// A scene that does not describe a machine.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SceneError {
+    /// A parameter lies outside its range.
+    #[error("{name} = {value}: must be {allowed}")]
+    OutOfRange {
+        /// The parameter's name, as in TOML and in the FMU.
+        name: &'static str,
+        /// The value that was given.
+        value: f64,
+        /// The allowed range in words.
+        allowed: &'static str,
+    },
+    /// A piercing strip needs a friction at least as large as zero and a place to be in.
+    #[error("piercing: thickness = {thickness} and travel = {travel} leave no room for a strip")]
+    EmptyPiercing {
+        /// Thickness of the strip in m.
+        thickness: f64,
+        /// Travel from the strip to the stop in m.
+        travel: f64,
+    },
+}
+
+/// A motion that cannot be carried on.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MotionError {
+    /// The target time is not finite or lies before the present one.
+    #[error("until = {until} s: must be finite and not before the present time {present} s")]
+    TimeBackwards {
+        /// The requested time in s.
+        until: f64,
+        /// The present time in s.
+        present: f64,
+    },
+    /// An input is not finite.
+    #[error("{name} = {value}: must be finite")]
+    NotFinite {
+        /// The input's name.
+        name: &'static str,
+        /// The value that was given.
+        value: f64,
+    },
+    /// The motion left the range of floating-point numbers.
+    #[error("the motion grew beyond all bounds near t = {time} s (position {position} m)")]
+    Unbounded {
+        /// The time in s up to which it is known.
+        time: f64,
+        /// The last position in m.
+        position: f64,
+    },
+    /// The parameters are not those of a machine.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}

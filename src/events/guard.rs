@@ -1,0 +1,115 @@
+//! What ends a phase: a linear function of state and push that rises through zero.
+
+use crate::flow::{Course, DEGREE, Node, Taylor};
+
+/// g = `position` x + `velocity` v + `push` q - `level`; the event is g rising through zero.
+///
+/// q is the push per mass, c + r t + A cos(angle): the force that is not the phase's own spring or
+/// damper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Guard {
+    /// Weight of the position, in 1/m.
+    pub position: f64,
+    /// Weight of the velocity, in s/m.
+    pub velocity: f64,
+    /// Weight of the push, in s^2/m.
+    pub push: f64,
+    /// Level to be crossed.
+    pub level: f64,
+}
+
+impl Guard {
+    const NONE: Self = Self {
+        position: 0.0,
+        velocity: 0.0,
+        push: 0.0,
+        level: 0.0,
+    };
+
+    /// The position rises above `level` m.
+    pub const fn rising_to(level: f64) -> Self {
+        Self {
+            position: 1.0,
+            level,
+            ..Self::NONE
+        }
+    }
+
+    /// The position falls below `level` m.
+    pub const fn falling_to(level: f64) -> Self {
+        Self {
+            position: -1.0,
+            level: -level,
+            ..Self::NONE
+        }
+    }
+
+    /// The velocity turns from positive to negative.
+    pub const fn turning_back() -> Self {
+        Self {
+            velocity: -1.0,
+            ..Self::NONE
+        }
+    }
+
+    /// The velocity turns from negative to positive.
+    pub const fn turning_forward() -> Self {
+        Self {
+            velocity: 1.0,
+            ..Self::NONE
+        }
+    }
+
+    /// The push per mass rises above `level` m/s^2.
+    pub const fn push_above(level: f64) -> Self {
+        Self {
+            push: 1.0,
+            level,
+            ..Self::NONE
+        }
+    }
+
+    /// The push per mass falls below `level` m/s^2.
+    pub const fn push_below(level: f64) -> Self {
+        Self {
+            push: -1.0,
+            level: -level,
+            ..Self::NONE
+        }
+    }
+
+    /// True if g stays below zero for ever after `node`.
+    pub(crate) fn is_out_of_reach(&self, course: &Course, node: &Node) -> bool {
+        if self.velocity != 0.0 {
+            return false;
+        }
+        let most = |weight: f64, (low, high): (f64, f64)| {
+            if weight == 0.0 {
+                0.0
+            } else if weight > 0.0 {
+                weight * high
+            } else {
+                weight * low
+            }
+        };
+        most(self.position, course.position_range(node)) + most(self.push, course.push_range())
+            < self.level
+    }
+
+    /// Taylor coefficients of g about the expansion point.
+    pub(crate) fn polynomial(&self, taylor: &Taylor) -> [f64; DEGREE + 1] {
+        let mut g = [0.0; DEGREE + 1];
+        for n in 0..=DEGREE {
+            let rate = if n < DEGREE {
+                (n + 1) as f64 * taylor.position[n + 1]
+            } else {
+                0.0
+            };
+            g[n] = self.position * taylor.position[n]
+                + self.velocity * rate
+                + self.push * taylor.push[n];
+        }
+        g[0] -= self.level;
+        g
+    }
+}

@@ -1,0 +1,253 @@
+//! The first rise of a smooth function through zero on an interval, with a certificate.
+//!
+//! An interval is decided only when a bound proves what the function does there: it has one sign,
+//! or it is monotone, or its curvature has one sign (then at most one extremum, which is located
+//! and looked at: that is how a graze is told from a near miss). Otherwise it is halved.
+
+use crate::flow::{DEGREE, evaluate};
+
+/// A polynomial on [0, span] with a bound on its fourth derivative.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Candidate<'a> {
+    /// Coefficients, constant first.
+    pub coefficients: &'a [f64; DEGREE + 1],
+    /// Bound on |g''''| over the interval.
+    pub bound: f64,
+}
+
+/// Value and first derivative at one point.
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    at: f64,
+    value: f64,
+    rate: f64,
+}
+
+/// What is proven about an interval.
+enum Verdict {
+    NoRise,
+    /// g is <= 0 at the first and > 0 at the second, and rises through zero once between them.
+    Rise(Point, Point),
+    Unknown,
+}
+
+/// Halvings after which an interval is below the resolution of its ends.
+const DEEPEST: u32 = 60;
+
+impl Candidate<'_> {
+    /// The first s in [0, span] at which g rises from <= 0 to > 0; `ends` are (g, g') there.
+    pub fn first_rise(&self, span: f64, ends: ((f64, f64), (f64, f64))) -> Option<f64> {
+        let (left, right) = ends;
+        let left = Point {
+            at: 0.0,
+            value: left.0,
+            rate: left.1,
+        };
+        let right = Point {
+            at: span,
+            value: right.0,
+            rate: right.1,
+        };
+        let (low, high) = self.isolate(left, right, 0)?;
+        Some(self.polish(low, high))
+    }
+
+    fn isolate(&self, left: Point, right: Point, depth: u32) -> Option<(Point, Point)> {
+        match self.judge(left, right) {
+            Verdict::NoRise => None,
+            Verdict::Rise(low, high) => Some((low, high)),
+            Verdict::Unknown => {
+                let middle = 0.5 * (left.at + right.at);
+                if depth == DEEPEST || middle <= left.at || middle >= right.at {
+                    return (left.value <= 0.0 && right.value > 0.0).then_some((left, right));
+                }
+                let middle = self.point(middle);
+                self.isolate(left, middle, depth + 1)
+                    .or_else(|| self.isolate(middle, right, depth + 1))
+            }
+        }
+    }
+
+    fn judge(&self, left: Point, right: Point) -> Verdict {
+        let span = right.at - left.at;
+        let third = span / 3.0;
+        let bernstein = [
+            left.value,
+            left.value + third * left.rate,
+            right.value - third * right.rate,
+            right.value,
+        ];
+        let (low, high) = extremes(&bernstein);
+        let slack = self.bound * span.powi(4) / 384.0;
+        if high + slack < 0.0 || low - slack > 0.0 {
+            return Verdict::NoRise;
+        }
+        if !slack.is_finite() {
+            // The motion is about to leave the range of numbers; halving cannot help.
+            return rise_if(left, right);
+        }
+        // Bernstein coefficients of the interpolant's derivative, and its largest error
+        // sqrt(3)/216 bound span^3 (Birkhoff and Priver 1967).
+        let slopes = [left.rate, (bernstein[2] - bernstein[1]) / third, right.rate];
+        let slack = 0.00802 * self.bound * span.powi(3);
+        let (low, high) = extremes(&slopes);
+        if low - slack > 0.0 {
+            return rise_if(left, right);
+        }
+        if high + slack < 0.0 {
+            return Verdict::NoRise;
+        }
+        self.judge_curvature(left, right, slopes, self.bound * span * span / 12.0)
+    }
+
+    fn judge_curvature(&self, left: Point, right: Point, slopes: [f64; 3], slack: f64) -> Verdict {
+        let half = 0.5 * (right.at - left.at);
+        let curvatures = [
+            (slopes[1] - slopes[0]) / half,
+            (slopes[2] - slopes[1]) / half,
+        ];
+        let (low, high) = extremes(&curvatures);
+        let turns = left.rate * right.rate < 0.0;
+        if low - slack > 0.0 {
+            // Convex: beyond the bottom there is at most one zero, and g rises through it.
+            let rises = right.rate > 0.0 && right.value > 0.0;
+            let from_below = left.value <= 0.0 || turns;
+            if !(rises && from_below) {
+                Verdict::NoRise
+            } else if left.value <= 0.0 {
+                Verdict::Rise(left, right)
+            } else {
+                rise_if(self.extremum(left, right), right)
+            }
+        } else if high + slack < 0.0 {
+            // Concave: g rises before the top only.
+            if right.value > 0.0 || !turns {
+                rise_if(left, right)
+            } else {
+                rise_if(left, self.extremum(left, right))
+            }
+        } else {
+            Verdict::Unknown
+        }
+    }
+
+    /// The point at which g' changes its sign, once, between two points.
+    fn extremum(&self, left: Point, right: Point) -> Point {
+        let sign = if left.rate > 0.0 { -1.0 } else { 1.0 };
+        let derivative = self.derivative();
+        let at = bracketed_newton(
+            (left.at, sign * left.rate),
+            (right.at, sign * right.rate),
+            None,
+            |s| {
+                let (rate, curvature) = evaluate(&derivative, s);
+                (sign * rate, sign * curvature)
+            },
+        );
+        self.point(at)
+    }
+
+    /// The zero through which g rises between two points.
+    fn polish(&self, low: Point, high: Point) -> f64 {
+        let guess = if low.rate > 0.0 {
+            inverse_hermite(low, high)
+        } else {
+            parabola(low, high)
+        };
+        bracketed_newton((low.at, low.value), (high.at, high.value), guess, |s| {
+            evaluate(self.coefficients, s)
+        })
+    }
+
+    fn derivative(&self) -> [f64; DEGREE + 1] {
+        let mut rates = [0.0; DEGREE + 1];
+        for n in 0..DEGREE {
+            rates[n] = (n + 1) as f64 * self.coefficients[n + 1];
+        }
+        rates
+    }
+
+    fn point(&self, at: f64) -> Point {
+        let (value, rate) = evaluate(self.coefficients, at);
+        Point { at, value, rate }
+    }
+}
+
+/// Where the cubic through both ends, taken as position over value, passes zero.
+fn inverse_hermite(low: Point, high: Point) -> Option<f64> {
+    let rise = high.value - low.value;
+    let span = high.at - low.at;
+    let u = -low.value / rise;
+    let (m0, m1) = (rise / (low.rate * span), rise / (high.rate * span));
+    let steep = low.rate > 0.0 && high.rate > 0.0 && m0 < 3.0 && m1 < 3.0;
+    let v = 1.0 - u;
+    let share = u * u * (3.0 - 2.0 * u) + u * v * v * m0 - u * u * v * m1;
+    steep.then_some(low.at + share * span)
+}
+
+fn rise_if(left: Point, right: Point) -> Verdict {
+    if left.value <= 0.0 && right.value > 0.0 {
+        Verdict::Rise(left, right)
+    } else {
+        Verdict::NoRise
+    }
+}
+
+fn extremes(values: &[f64]) -> (f64, f64) {
+    values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (low.min(*v), high.max(*v))
+        })
+}
+
+/// The later zero of the parabola through both values with the first slope.
+fn parabola(low: Point, high: Point) -> Option<f64> {
+    let span = high.at - low.at;
+    let curvature = (high.value - low.value - low.rate * span) / (span * span);
+    let root = (low.rate * low.rate - 4.0 * curvature * low.value).sqrt();
+    (curvature > 0.0).then(|| low.at + (root - low.rate) / (2.0 * curvature))
+}
+
+/// The zero of a function that rises from <= 0 at `low` to > 0 at `high` (position, value): Newton,
+/// kept inside the bracket by bisection. It ends when the next step, foreseen from the last two as
+/// for quadratic convergence, would be lost in rounding.
+fn bracketed_newton(
+    (mut low, f_low): (f64, f64),
+    (mut high, f_high): (f64, f64),
+    guess: Option<f64>,
+    f: impl Fn(f64) -> (f64, f64),
+) -> f64 {
+    let secant = low - f_low * (high - low) / (f_high - f_low);
+    let guess = guess.unwrap_or(secant);
+    let mut at = if guess > low && guess < high {
+        guess
+    } else {
+        0.5 * (low + high)
+    };
+    let mut last_step: Option<f64> = None;
+    loop {
+        let (value, rate) = f(at);
+        if value > 0.0 {
+            high = at;
+        } else {
+            low = at;
+        }
+        let step = value / rate;
+        let next = at - step;
+        let shrinks = step.abs() < 0.5 * last_step.unwrap_or(2.0 * (high - low)).abs();
+        let converges = shrinks && next >= low && next <= high;
+        if converges && let Some(last) = last_step {
+            let foreseen = step.abs() * (step / last) * (step / last);
+            if foreseen <= 0.25 * f64::EPSILON * next.abs() {
+                return next;
+            }
+        }
+        let target = if converges { next } else { 0.5 * (low + high) };
+        if target <= low || target >= high {
+            return target.clamp(low, high);
+        }
+        last_step = converges.then_some(step);
+        at = target;
+    }
+}

@@ -1,0 +1,94 @@
+//! Derivatives at a scan node and the bounds that follow from them over the next window.
+
+use super::guard::Guard;
+use crate::flow::{Course, Flow, Node};
+
+/// Derivatives of position (0..=6) and push (0..=4) at a node.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Jets {
+    pub node: Node,
+    position: [f64; 7],
+    push: [f64; 5],
+}
+
+/// Value and first derivative of a guard function at both ends of a window.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ends {
+    pub left: (f64, f64),
+    pub right: (f64, f64),
+}
+
+impl Jets {
+    #[inline]
+    pub fn new(course: &Course, node: Node) -> Self {
+        let flow = &course.flow;
+        let (constant, ramp) = course.push_at(node.elapsed);
+        let (w, a) = (flow.frequency, flow.amplitude);
+        let (cos, sin) = (a * node.drive.0, a * w * node.drive.1);
+        let square = w * w;
+        let push = [
+            constant + cos,
+            ramp - sin,
+            -square * cos,
+            square * sin,
+            square * square * cos,
+        ];
+        let mut position = [node.position, node.velocity, 0.0, 0.0, 0.0, 0.0, 0.0];
+        if !course.is_held() {
+            let (twice_decay, b) = (2.0 * flow.modes.decay, flow.modes.stiffness);
+            for n in 0..5 {
+                position[n + 2] = push[n] - twice_decay * position[n + 1] - b * position[n];
+            }
+        }
+        Self {
+            node,
+            position,
+            push,
+        }
+    }
+
+    /// g and g' at this node.
+    #[inline]
+    pub fn guard(&self, guard: &Guard) -> (f64, f64) {
+        let (x, q) = (&self.position, &self.push);
+        (
+            guard.position * x[0] + guard.velocity * x[1] + guard.push * q[0] - guard.level,
+            guard.position * x[1] + guard.velocity * x[2] + guard.push * q[1],
+        )
+    }
+
+    /// Bound on |g''''| over `span` seconds from this node.
+    ///
+    /// The fourth derivative of the position obeys the phase's own equation under the fourth
+    /// derivative of the push, which is at most A w^4: variation of constants with the bounds on
+    /// the fundamental solutions gives |x''''| <= |x4| C + |x5| S + A w^4 span S.
+    #[inline]
+    pub fn bound(&self, flow: &Flow, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
+        let x = &self.position;
+        let square = flow.frequency * flow.frequency;
+        let drive = flow.amplitude * square * square;
+        let fourth = x[4].abs() * c + x[5].abs() * s + drive * span * s;
+        let mut bound = guard.position.abs() * fourth + guard.push.abs() * drive;
+        if guard.velocity != 0.0 {
+            let fifth = x[5].abs() * c + x[6].abs() * s + drive * flow.frequency * span * s;
+            bound += guard.velocity.abs() * fifth;
+        }
+        bound
+    }
+}
+
+impl Ends {
+    /// True if g < 0 throughout a window of length `span` with |g''''| <= `bound`.
+    ///
+    /// The cubic Hermite interpolant is off by at most bound span^4 / 384, and lies below its
+    /// largest Bernstein coefficient.
+    #[inline]
+    pub fn stay_below(&self, span: f64, bound: f64) -> bool {
+        let (g0, d0) = self.left;
+        let (g1, d1) = self.right;
+        let third = span * (1.0 / 3.0);
+        let top = g0.max(g1).max(g0 + third * d0).max(g1 - third * d1);
+        let square = span * span;
+        top + bound * square * square * (1.0 / 384.0) < 0.0
+    }
+}

@@ -1,0 +1,162 @@
+//! Where an arc ends: the first crossing of any guard, guaranteed.
+//!
+//! The motion is scanned in windows. A window is passed only when a bound on the fourth derivative
+//! proves that no guard rises through zero in it; otherwise it is halved down to the reach of one
+//! Taylor polynomial, on which [`isolate`] finds the first rise with a certificate. Nothing is
+//! concluded from the signs at window ends alone.
+
+mod guard;
+mod isolate;
+mod jets;
+
+pub use guard::Guard;
+
+use crate::flow::{Course, Node};
+use isolate::Candidate;
+use jets::{Ends, Jets};
+
+/// A crossing found on a course.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Found {
+    /// Time since departure in s.
+    pub elapsed: f64,
+    /// Which of the guards it is.
+    pub guard: usize,
+    /// Position in m.
+    pub position: f64,
+    /// Velocity in m/s.
+    pub velocity: f64,
+}
+
+/// What is known of a course's first crossing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Outlook {
+    /// It is this one.
+    Crossing(Found),
+    /// There is none up to the node that the search has reached.
+    ClearUntil(Node),
+    /// There is none at all.
+    Never,
+    /// The motion left the range of floating-point numbers.
+    Unbounded(Node),
+}
+
+/// Windows between two looks at whether the guards can be reached at all.
+const WINDOWS_PER_LOOK: u32 = 8;
+
+/// Windows over which the rounding of the rotations stays below that of a fresh evaluation.
+const WINDOWS_UNREFRESHED: f64 = 10.5;
+
+/// Searches the first crossing on `course` from `node` on, at least up to `until` seconds after
+/// departure.
+///
+/// The windows are laid from the departure, so the answer does not depend on how a search is
+/// divided into calls.
+pub fn first_crossing(course: &Course, guards: &[Guard], node: Node, until: f64) -> Outlook {
+    let scan = Scan { course, guards };
+    let mut left = Jets::new(course, node);
+    let mut windows = 0;
+    while left.node.elapsed < until {
+        if windows == WINDOWS_PER_LOOK && scan.is_out_of_reach(&left.node) {
+            return Outlook::Never;
+        }
+        windows = if windows == WINDOWS_PER_LOOK {
+            1
+        } else {
+            windows + 1
+        };
+        let right = Jets::new(course, course.next(&left.node));
+        if !(right.node.position.is_finite() && right.node.velocity.is_finite()) {
+            return Outlook::Unbounded(left.node);
+        }
+        if !scan.is_clear(&left, &right, course.flow.window_bounds)
+            && let Some(found) = scan.search(&left, &right)
+        {
+            return Outlook::Crossing(found);
+        }
+        left = right;
+    }
+    Outlook::ClearUntil(left.node)
+}
+
+struct Scan<'a> {
+    course: &'a Course,
+    guards: &'a [Guard],
+}
+
+impl Scan<'_> {
+    fn is_out_of_reach(&self, node: &Node) -> bool {
+        self.guards
+            .iter()
+            .all(|guard| guard.is_out_of_reach(self.course, node))
+    }
+
+    /// True if no guard can rise through zero between two nodes.
+    #[inline]
+    fn is_clear(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> bool {
+        let span = right.node.elapsed - left.node.elapsed;
+        self.guards.iter().all(|guard| {
+            let ends = Ends {
+                left: left.guard(guard),
+                right: right.guard(guard),
+            };
+            ends.stay_below(span, left.bound(&self.course.flow, guard, span, bounds))
+        })
+    }
+
+    /// The first crossing between two nodes, by halving down to the reach of a Taylor polynomial.
+    fn search(&self, left: &Jets, right: &Jets) -> Option<Found> {
+        let span = right.node.elapsed - left.node.elapsed;
+        let bounds = self.course.flow.modes.bounds(span);
+        if span <= self.course.flow.reach * 1.000001 {
+            return self.search_polynomial(left, right, bounds);
+        }
+        if self.is_clear(left, right, bounds) {
+            return None;
+        }
+        let middle = self.course.node(left.node.elapsed + 0.5 * span);
+        let middle = Jets::new(self.course, middle);
+        self.search(left, &middle)
+            .or_else(|| self.search(&middle, right))
+    }
+
+    fn search_polynomial(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> Option<Found> {
+        let span = right.node.elapsed - left.node.elapsed;
+        let node = self.refreshed(&left.node);
+        let taylor = self.course.expand(&node);
+        let mut horizon = f64::INFINITY;
+        let mut first = None;
+        for (index, guard) in self.guards.iter().enumerate() {
+            let candidate = Candidate {
+                coefficients: &guard.polynomial(&taylor),
+                bound: left.bound(&self.course.flow, guard, span, bounds),
+            };
+            let ends = (left.guard(guard), right.guard(guard));
+            if let Some(rise) = candidate
+                .first_rise(span, ends)
+                .filter(|rise| *rise < horizon)
+            {
+                horizon = rise;
+                first = Some(index);
+            }
+        }
+        first.map(|guard| {
+            let (position, velocity) = taylor.state(horizon);
+            Found {
+                elapsed: node.elapsed + horizon,
+                guard,
+                position,
+                velocity,
+            }
+        })
+    }
+
+    /// The node without the rounding that many rotations gather.
+    fn refreshed(&self, node: &Node) -> Node {
+        if node.elapsed <= WINDOWS_UNREFRESHED * self.course.flow.window {
+            *node
+        } else {
+            self.course.node(node.elapsed)
+        }
+    }
+}

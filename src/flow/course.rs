@@ -1,0 +1,307 @@
+//! One motion along a flow, from one departure.
+
+use super::response::Responses;
+use super::{Flow, LARGEST_LOSS, Taylor};
+
+/// Everything a motion starts from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Departure {
+    /// Position in m.
+    pub position: f64,
+    /// Velocity in m/s.
+    pub velocity: f64,
+    /// cos and sin of the drive angle.
+    pub drive: (f64, f64),
+    /// Constant force per mass c in m/s^2: the law's own and the external one.
+    pub constant: f64,
+    /// Rate r of the external force per mass in m/s^3.
+    pub ramp: f64,
+    /// True if the acceleration is known to be exactly zero: a held mass is let go.
+    pub balanced: bool,
+}
+
+/// A motion's state at one time after departure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Node {
+    /// Time since departure in s.
+    pub elapsed: f64,
+    /// Position in m.
+    pub position: f64,
+    /// Velocity in m/s.
+    pub velocity: f64,
+    /// cos and sin of the drive angle.
+    pub drive: (f64, f64),
+    deviation: (f64, f64),
+}
+
+/// The exact motion that follows from a departure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Course {
+    /// The flow it follows.
+    pub flow: Flow,
+    /// Where it started.
+    pub departure: Departure,
+    form: Form,
+}
+
+/// How states beyond the reach of one Taylor polynomial are evaluated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Form {
+    /// Particular solution plus the free deviation from it at departure.
+    Particular {
+        particular: Particular,
+        deviation: (f64, f64),
+    },
+    /// Answers from rest, by doubling.
+    Responses,
+    /// The mass does not move.
+    Held,
+}
+
+/// The particular solution offset + slope t + cosine cos(angle) + sine sin(angle).
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Particular {
+    offset: f64,
+    slope: f64,
+    cosine: f64,
+    sine: f64,
+    frequency: f64,
+}
+
+impl Particular {
+    /// With offset + slope t = (c + r t)/b - 2 a r/b^2.
+    fn new(flow: &Flow, from: &Departure, (cosine, sine): (f64, f64)) -> Self {
+        let b = flow.modes.stiffness;
+        let slope = from.ramp / b;
+        let offset = (from.constant - 2.0 * flow.modes.decay * slope) / b;
+        Self {
+            offset,
+            slope,
+            cosine,
+            sine,
+            frequency: flow.frequency,
+        }
+    }
+
+    /// Position and velocity.
+    #[inline]
+    fn at(&self, elapsed: f64, (cos, sin): (f64, f64)) -> (f64, f64) {
+        (
+            self.offset + self.slope * elapsed + self.cosine * cos + self.sine * sin,
+            self.slope + self.frequency * (self.sine * cos - self.cosine * sin),
+        )
+    }
+}
+
+impl Course {
+    /// The motion of `flow` from `departure`.
+    pub fn new(flow: Flow, departure: Departure) -> Self {
+        let form = match flow.steady {
+            Some(steady) if is_well_conditioned(&flow, &departure) => {
+                let particular = Particular::new(&flow, &departure, steady);
+                let (x, v) = particular.at(0.0, departure.drive);
+                let deviation = (departure.position - x, departure.velocity - v);
+                Form::Particular {
+                    particular,
+                    deviation,
+                }
+            }
+            _ => Form::Responses,
+        };
+        Self {
+            flow,
+            departure,
+            form,
+        }
+    }
+
+    /// A mass held at the departure's position while the drive turns.
+    pub fn held(flow: Flow, departure: Departure) -> Self {
+        Self {
+            flow,
+            departure,
+            form: Form::Held,
+        }
+    }
+
+    /// True if nothing moves.
+    pub fn is_held(&self) -> bool {
+        self.form == Form::Held
+    }
+
+    /// Position in m and velocity in m/s, `elapsed` >= 0 seconds after departure, when the drive
+    /// stands at `drive` = (cos, sin).
+    pub fn at(&self, elapsed: f64, drive: (f64, f64)) -> (f64, f64) {
+        if self.is_held() {
+            return (self.departure.position, 0.0);
+        }
+        if elapsed <= 0.5 * self.flow.reach {
+            return self.expand(&self.start()).state(elapsed);
+        }
+        match self.form {
+            Form::Particular {
+                particular,
+                deviation,
+            } => {
+                let (x, v) = particular.at(elapsed, drive);
+                let (y, rate) = self.flow.modes.at(elapsed).apply(deviation.0, deviation.1);
+                (x + y, v + rate)
+            }
+            Form::Responses | Form::Held => self.by_responses(elapsed),
+        }
+    }
+
+    fn by_responses(&self, elapsed: f64) -> (f64, f64) {
+        let from = &self.departure;
+        let (x, v) = self
+            .flow
+            .modes
+            .at(elapsed)
+            .apply(from.position, from.velocity);
+        let answers = Responses::at(&self.flow.modes, self.flow.frequency, elapsed);
+        let (a, (cos, sin)) = (self.flow.amplitude, from.drive);
+        let sum = |c: f64, r: f64, p: f64, q: f64| {
+            from.constant * c + from.ramp * r + a * (cos * p - sin * q)
+        };
+        (
+            x + sum(
+                answers.constant.0,
+                answers.ramp.0,
+                answers.cosine.0,
+                answers.sine.0,
+            ),
+            v + sum(
+                answers.constant.1,
+                answers.ramp.1,
+                answers.cosine.1,
+                answers.sine.1,
+            ),
+        )
+    }
+
+    /// The departure as a node.
+    pub fn start(&self) -> Node {
+        let deviation = match self.form {
+            Form::Particular { deviation, .. } => deviation,
+            Form::Responses | Form::Held => (0.0, 0.0),
+        };
+        Node {
+            elapsed: 0.0,
+            position: self.departure.position,
+            velocity: self.departure.velocity,
+            drive: self.departure.drive,
+            deviation,
+        }
+    }
+
+    /// The node at `elapsed`, evaluated afresh.
+    pub fn node(&self, elapsed: f64) -> Node {
+        let (sin, cos) = (self.flow.frequency * elapsed).sin_cos();
+        let drive = turned(self.departure.drive, (cos, sin));
+        let (position, velocity) = self.at(elapsed, drive);
+        let deviation = match self.form {
+            Form::Particular { particular, .. } => {
+                let (x, v) = particular.at(elapsed, drive);
+                (position - x, velocity - v)
+            }
+            Form::Responses | Form::Held => (0.0, 0.0),
+        };
+        Node {
+            elapsed,
+            position,
+            velocity,
+            drive,
+            deviation,
+        }
+    }
+
+    /// The node one scan window on: by rotation where that is possible.
+    #[inline]
+    pub(crate) fn next(&self, node: &Node) -> Node {
+        let elapsed = node.elapsed + self.flow.window;
+        let Form::Particular { particular, .. } = self.form else {
+            return self.node(elapsed);
+        };
+        let [[c, s], [dc, ds]] = self.flow.window_modes;
+        let (y, rate) = node.deviation;
+        let deviation = (c * y + s * rate, dc * y + ds * rate);
+        let drive = turned(node.drive, self.flow.window_turn);
+        let (x, v) = particular.at(elapsed, drive);
+        Node {
+            elapsed,
+            position: x + deviation.0,
+            velocity: v + deviation.1,
+            drive,
+            deviation,
+        }
+    }
+
+    /// Constant and ramp of the push per mass, seen from a node.
+    pub(crate) fn push_at(&self, elapsed: f64) -> (f64, f64) {
+        let from = &self.departure;
+        (from.constant + from.ramp * elapsed, from.ramp)
+    }
+
+    /// Taylor polynomials about a node.
+    pub(crate) fn expand(&self, node: &Node) -> Taylor {
+        let taylor = Taylor::about(
+            &self.flow,
+            (node.position, node.velocity),
+            node.drive,
+            self.push_at(node.elapsed),
+        );
+        if self.is_held() {
+            taylor.at_rest(node.position)
+        } else if self.departure.balanced && node.elapsed == 0.0 {
+            taylor.balanced()
+        } else {
+            taylor
+        }
+    }
+
+    /// Bounds on the position from `node` to the end of time (infinite where it may grow).
+    pub(crate) fn position_range(&self, node: &Node) -> (f64, f64) {
+        match self.form {
+            Form::Held => (node.position, node.position),
+            Form::Particular { particular, .. } if particular.slope == 0.0 => {
+                let (y, rate) = node.deviation;
+                let steady = particular.cosine.hypot(particular.sine);
+                around(
+                    particular.offset,
+                    steady + self.flow.modes.envelope(y, rate),
+                )
+            }
+            _ => (f64::NEG_INFINITY, f64::INFINITY),
+        }
+    }
+
+    /// Bounds on the push per mass to the end of time.
+    pub(crate) fn push_range(&self) -> (f64, f64) {
+        if self.departure.ramp == 0.0 {
+            around(self.departure.constant, self.flow.amplitude)
+        } else {
+            (f64::NEG_INFINITY, f64::INFINITY)
+        }
+    }
+}
+
+/// An interval, widened by more than the rounding of its ends.
+fn around(centre: f64, radius: f64) -> (f64, f64) {
+    let slack = 1e-12 * (centre.abs() + radius);
+    (centre - radius - slack, centre + radius + slack)
+}
+
+/// The static deflection must not dwarf the motion it has to describe.
+fn is_well_conditioned(flow: &Flow, from: &Departure) -> bool {
+    let (b, w) = (flow.modes.stiffness.abs(), flow.frequency);
+    let stiff = w * w <= LARGEST_LOSS * b;
+    let at_rest = from.constant == 0.0 && from.ramp == 0.0;
+    let small = from.position.abs().max(from.velocity.abs() / w) * LARGEST_LOSS;
+    at_rest || stiff || (from.ramp == 0.0 && from.constant.abs() <= small * b)
+}
+
+/// (cos, sin) of the sum of two angles.
+#[inline]
+pub(crate) fn turned((cos, sin): (f64, f64), (c, s): (f64, f64)) -> (f64, f64) {
+    (cos * c - sin * s, sin * c + cos * s)
+}

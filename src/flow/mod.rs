@@ -1,0 +1,91 @@
+//! The exact motion inside one phase.
+//!
+//! Every phase obeys x'' + 2 a x' + b x = c + r t + A cos(angle + w t). [`Flow`] holds a, b, A and w
+//! and what can be computed once; a [`Course`] is one motion along it. Three evaluations share the
+//! work, each where it is free of cancellation: a Taylor series for short times, the particular
+//! solution plus [`modes`](modes::Modes) for ordinary ones, and zero-state responses by doubling
+//! where the particular solution blows up.
+
+mod course;
+mod modes;
+mod response;
+mod taylor;
+
+pub use course::{Course, Departure, Node};
+pub(crate) use modes::Modes;
+pub(crate) use taylor::{DEGREE, Taylor, evaluate};
+
+use nalgebra::Matrix2;
+
+/// Largest loss of digits (as a factor) that the particular-solution form may bring.
+const LARGEST_LOSS: f64 = 64.0;
+
+/// One linear law under the harmonic drive, per unit of mass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Flow {
+    pub(crate) modes: Modes,
+    /// A = F0/m in m/s^2.
+    pub(crate) amplitude: f64,
+    /// w in rad/s.
+    pub(crate) frequency: f64,
+    /// Steady state per drive, x = .0 cos(angle) + .1 sin(angle), where it is well conditioned.
+    steady: Option<(f64, f64)>,
+    /// Time in s that one scan step spans.
+    pub(crate) window: f64,
+    /// Bounds on the fundamental solutions over one window.
+    pub(crate) window_bounds: (f64, f64),
+    /// Time in s over which a Taylor polynomial is exact to round-off.
+    pub(crate) reach: f64,
+    window_modes: [[f64; 2]; 2],
+    window_turn: (f64, f64),
+}
+
+impl Flow {
+    /// The flow of m x'' + `damping` x' + `stiffness` x = `amplitude` cos(w t) + ..., all SI, with
+    /// `mass` > 0, `damping` >= 0, `frequency` > 0.
+    pub fn new(mass: f64, damping: f64, stiffness: f64, amplitude: f64, frequency: f64) -> Self {
+        let modes = Modes::new(0.5 * damping / mass, stiffness / mass);
+        let amplitude = amplitude / mass;
+        let window = 1.0 / frequency.max(modes.slow_rate());
+        let reach = 1.0 / frequency.max(modes.fastest_rate());
+        let (sin, cos) = (frequency * window).sin_cos();
+        Self {
+            modes,
+            amplitude,
+            frequency,
+            steady: steady_state(&modes, amplitude, frequency),
+            window,
+            window_bounds: modes.bounds(window),
+            reach,
+            window_modes: modes.at(window).rows(),
+            window_turn: (cos, sin),
+        }
+    }
+
+    /// State transition d(x, v)(elapsed) / d(x, v)(0).
+    pub fn transition(&self, elapsed: f64) -> Matrix2<f64> {
+        let [[c, s], [dc, ds]] = self.modes.at(elapsed).rows();
+        Matrix2::new(c, s, dc, ds)
+    }
+
+    /// The mass under the force alone: x'' at rest displacement zero.
+    pub(crate) fn acceleration(&self, x: f64, v: f64, push: f64) -> f64 {
+        push - 2.0 * self.modes.decay * v - self.modes.stiffness * x
+    }
+}
+
+/// A / (b - w^2 + 2 i a w) as coefficients of cos and sin, unless it (or the static deflection)
+/// dwarfs the motion it has to describe.
+fn steady_state(modes: &Modes, amplitude: f64, w: f64) -> Option<(f64, f64)> {
+    let (a, b) = (modes.decay, modes.stiffness);
+    let real = (-w).mul_add(w, b);
+    let imaginary = 2.0 * a * w;
+    let size = real.hypot(imaginary);
+    let resonant = size * LARGEST_LOSS < b.abs().max(w * w);
+    let limp = b.abs() * LARGEST_LOSS < 4.0 * a * a || b == 0.0;
+    if resonant || limp {
+        return None;
+    }
+    let scale = amplitude / size;
+    Some((scale * (real / size), scale * (imaginary / size)))
+}

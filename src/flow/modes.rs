@@ -1,0 +1,155 @@
+//! The free motion x'' + 2 a x' + b x = 0 without cancellation anywhere in (a, b, t).
+
+/// Fundamental solutions of x'' + 2 a x' + b x = 0 for a >= 0 and any real b.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Modes {
+    /// a in 1/s.
+    pub decay: f64,
+    /// b in 1/s^2.
+    pub stiffness: f64,
+    kind: Kind,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    /// b > a^2: roots -a +- i `omega`.
+    Oscillating { omega: f64 },
+    /// b <= a^2: real roots `slow` >= `fast`, `spread` = slow - fast (0 at the double root).
+    Aperiodic { slow: f64, fast: f64, spread: f64 },
+}
+
+/// Values of the fundamental solutions at one time: C(0) = 1, C'(0) = 0; S(0) = 0, S'(0) = 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Fundamental {
+    /// C(t).
+    pub cosine: f64,
+    /// S(t) in s.
+    pub sine: f64,
+    /// S'(t).
+    pub sine_rate: f64,
+    /// b, since C' = -b S.
+    stiffness: f64,
+}
+
+impl Fundamental {
+    /// Position and velocity that grow out of (x, v).
+    #[inline]
+    pub fn apply(&self, x: f64, v: f64) -> (f64, f64) {
+        (
+            self.cosine * x + self.sine * v,
+            self.sine_rate * v - self.stiffness * self.sine * x,
+        )
+    }
+
+    /// The rows [[C, S], [C', S']].
+    pub fn rows(&self) -> [[f64; 2]; 2] {
+        [
+            [self.cosine, self.sine],
+            [-self.stiffness * self.sine, self.sine_rate],
+        ]
+    }
+}
+
+impl Modes {
+    pub fn new(decay: f64, stiffness: f64) -> Self {
+        // fma: b - a^2 rounded once, so that a near-double root keeps its digits.
+        let discriminant = (-decay).mul_add(decay, stiffness);
+        let kind = if discriminant > 0.0 {
+            Kind::Oscillating {
+                omega: discriminant.sqrt(),
+            }
+        } else {
+            let half = discriminant.abs().sqrt();
+            let fast = -(decay + half);
+            let slow = if fast == 0.0 { 0.0 } else { stiffness / fast };
+            Kind::Aperiodic {
+                slow,
+                fast,
+                spread: 2.0 * half,
+            }
+        };
+        Self {
+            decay,
+            stiffness,
+            kind,
+        }
+    }
+
+    /// C, S and S' after `t` >= 0 seconds.
+    ///
+    /// Aperiodic: with E1 = exp(slow t), E2 = exp(fast t),
+    /// S = E1 (1 - exp(-spread t)) / spread, C = E2 - fast S, S' = E2 + slow S; every difference
+    /// of nearly equal terms is inside `exp_m1`.
+    #[inline]
+    pub fn at(&self, t: f64) -> Fundamental {
+        let (cosine, sine, sine_rate) = match self.kind {
+            Kind::Oscillating { omega } => {
+                let fade = (-self.decay * t).exp();
+                let (sin, cos) = (omega * t).sin_cos();
+                let sine = fade * sin / omega;
+                (
+                    fade * cos + self.decay * sine,
+                    sine,
+                    fade * cos - self.decay * sine,
+                )
+            }
+            Kind::Aperiodic { slow, fast, spread } => {
+                let lag = (-spread * t).exp_m1();
+                let first = (slow * t).exp();
+                let second = first * (1.0 + lag);
+                let sine = if spread == 0.0 {
+                    first * t
+                } else {
+                    first * (-lag / spread)
+                };
+                (second - fast * sine, sine, second + slow * sine)
+            }
+        };
+        Fundamental {
+            cosine,
+            sine,
+            sine_rate,
+            stiffness: self.stiffness,
+        }
+    }
+
+    /// Fastest rate of the free motion in 1/s: no mode grows, decays or turns faster.
+    pub fn fastest_rate(&self) -> f64 {
+        (2.0 * self.decay).max(self.stiffness.abs().sqrt())
+    }
+
+    /// Rate in 1/s that stays when the fast mode has died out.
+    pub fn slow_rate(&self) -> f64 {
+        match self.kind {
+            Kind::Oscillating { .. } => self.stiffness.sqrt(),
+            Kind::Aperiodic { slow, .. } => slow.abs(),
+        }
+    }
+
+    /// Bounds (max |C|, max |S|) over 0 <= t <= `span`.
+    ///
+    /// For b >= 0 the energy b x^2 + v^2 never grows, hence |C| <= 1, |S| <= t and |S| <= 1/sqrt(b);
+    /// for real roots S <= exp(slow t) / spread as well. For b < 0, C <= exp(slow t) and
+    /// S <= t exp(slow t).
+    #[inline]
+    pub fn bounds(&self, span: f64) -> (f64, f64) {
+        match self.kind {
+            Kind::Oscillating { .. } => (1.0, span.min(1.0 / self.stiffness.sqrt())),
+            Kind::Aperiodic { slow, spread, .. } => {
+                let growth = if slow > 0.0 { (slow * span).exp() } else { 1.0 };
+                (growth, growth * span.min(1.0 / spread))
+            }
+        }
+    }
+
+    /// The largest |y| that can follow from (y, y'), or infinity where the motion grows.
+    pub fn envelope(&self, y: f64, rate: f64) -> f64 {
+        match self.kind {
+            Kind::Oscillating { omega } => y.hypot((rate + self.decay * y) / omega),
+            Kind::Aperiodic { .. } if self.stiffness > 0.0 => {
+                y.abs() + rate.abs() / self.stiffness.sqrt()
+            }
+            Kind::Aperiodic { .. } => f64::INFINITY,
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Local Taylor polynomials of the exact motion: they locate crossings without cancellation.
+
+use super::Flow;
+
+/// Degree of the polynomials (odd): over one [`reach`](Flow::reach) the remainder is below 1/20!.
+pub(crate) const DEGREE: usize = 19;
+
+/// Coefficients of position and drive about one instant, x(s) = sum c_n s^n.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Taylor {
+    /// Position in m/s^n.
+    pub position: [f64; DEGREE + 1],
+    /// Push c + r t + A cos(angle + w t) in m/s^2/s^n.
+    pub push: [f64; DEGREE + 1],
+}
+
+const RECIPROCALS: [f64; DEGREE + 2] = {
+    let mut table = [0.0; DEGREE + 2];
+    let mut n = 1;
+    while n < table.len() {
+        table[n] = 1.0 / n as f64;
+        n += 1;
+    }
+    table
+};
+
+impl Taylor {
+    /// Expands the motion from (x, v) with drive (cos, sin) and push `constant` + `ramp` t.
+    pub fn about(
+        flow: &Flow,
+        (x, v): (f64, f64),
+        (cos, sin): (f64, f64),
+        (constant, ramp): (f64, f64),
+    ) -> Self {
+        let mut push = [0.0; DEGREE + 1];
+        let (mut even, mut odd) = (flow.amplitude * cos, -flow.amplitude * sin * flow.frequency);
+        let square = -flow.frequency * flow.frequency;
+        for n in (0..DEGREE).step_by(2) {
+            push[n] = even;
+            push[n + 1] = odd;
+            even *= square * RECIPROCALS[n + 1] * RECIPROCALS[n + 2];
+            odd *= square
+                * RECIPROCALS[n + 2]
+                * if n + 3 <= DEGREE {
+                    RECIPROCALS[n + 3]
+                } else {
+                    0.0
+                };
+        }
+        push[0] += constant;
+        push[1] += ramp;
+        let (twice_decay, b) = (2.0 * flow.modes.decay, flow.modes.stiffness);
+        let mut position = [0.0; DEGREE + 1];
+        position[0] = x;
+        position[1] = v;
+        for n in 0..DEGREE - 1 {
+            let sum = push[n] - b * position[n];
+            let damped = twice_decay * position[n + 1];
+            position[n + 2] = (sum * RECIPROCALS[n + 1] - damped) * RECIPROCALS[n + 2];
+        }
+        Self { position, push }
+    }
+
+    /// The same drive, with the mass at rest at `position`.
+    pub fn at_rest(mut self, position: f64) -> Self {
+        self.position = [0.0; DEGREE + 1];
+        self.position[0] = position;
+        self
+    }
+
+    /// The same motion where the initial acceleration is known to be exactly zero.
+    pub fn balanced(mut self) -> Self {
+        self.position[2] = 0.0;
+        self
+    }
+
+    /// The push per mass `s` seconds on.
+    pub fn push(&self, s: f64) -> f64 {
+        evaluate(&self.push, s).0
+    }
+
+    /// Position and velocity `s` seconds on.
+    pub fn state(&self, s: f64) -> (f64, f64) {
+        evaluate(&self.position, s)
+    }
+}
+
+/// Value and first derivative of a polynomial: Horner on its even and its odd half, side by side.
+#[inline]
+pub(crate) fn evaluate(coefficients: &[f64; DEGREE + 1], s: f64) -> (f64, f64) {
+    let square = s * s;
+    let (mut even, mut odd) = (0.0, 0.0);
+    let (mut even_rate, mut odd_rate) = (0.0, 0.0);
+    for pair in coefficients.chunks_exact(2).rev() {
+        even_rate = even_rate * square + even;
+        odd_rate = odd_rate * square + odd;
+        even = even * square + pair[0];
+        odd = odd * square + pair[1];
+    }
+    // p = E(s^2) + s O(s^2), hence p' = O + 2 s (E' + s O').
+    (even + s * odd, odd + 2.0 * s * (even_rate + s * odd_rate))
+}

@@ -1,0 +1,134 @@
+//! Time without drift: whole drive periods are counted, only the rest is a fraction.
+
+use std::f64::consts::TAU;
+
+/// 2 pi - TAU: the part of 2 pi that the double lacks.
+const TAU_LOW: f64 = 2.449_293_598_294_706_4e-16;
+
+/// A time: `cycles` whole drive periods and `offset` seconds, 0 <= offset < period.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+pub struct Instant {
+    /// Whole periods since time 0 (an integer; exact up to 2^53).
+    pub cycles: f64,
+    /// Seconds into the present period.
+    pub offset: f64,
+}
+
+/// Counts drive periods. The drive angle depends on the offset alone, so that after any number of
+/// periods it is as accurate as in the first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Clock {
+    frequency: f64,
+    /// Drive angle at time 0 in rad.
+    pub phase: f64,
+    period: f64,
+    period_low: f64,
+}
+
+impl Clock {
+    /// The clock of the drive cos(`frequency` t + `phase`).
+    pub fn new(frequency: f64, phase: f64) -> Self {
+        let period = TAU / frequency;
+        let rest = (-period).mul_add(frequency, TAU) + TAU_LOW;
+        Self {
+            frequency,
+            phase,
+            period,
+            period_low: rest / frequency,
+        }
+    }
+
+    /// The drive period in s.
+    pub fn period(&self) -> f64 {
+        self.period
+    }
+
+    /// The instant `time` seconds after time 0.
+    pub fn instant(&self, time: f64) -> Instant {
+        self.after(
+            Instant {
+                cycles: 0.0,
+                offset: 0.0,
+            },
+            time,
+        )
+    }
+
+    /// The instant at which `cycles` periods are complete.
+    pub fn at_cycle(cycles: u64) -> Instant {
+        Instant {
+            cycles: cycles as f64,
+            offset: 0.0,
+        }
+    }
+
+    /// Seconds since time 0.
+    pub fn time(&self, at: Instant) -> f64 {
+        at.cycles
+            .mul_add(self.period, at.cycles.mul_add(self.period_low, at.offset))
+    }
+
+    /// The instant `elapsed` seconds after `from`.
+    #[inline]
+    pub fn after(&self, from: Instant, elapsed: f64) -> Instant {
+        let offset = from.offset + elapsed;
+        if offset >= 0.0 && offset < self.period {
+            return Instant {
+                cycles: from.cycles,
+                offset,
+            };
+        }
+        if offset >= self.period && offset < 2.0 * self.period {
+            // Exact by Sterbenz, apart from the part of the period below its last digit.
+            let offset = (offset - self.period - self.period_low).max(0.0);
+            return Instant {
+                cycles: from.cycles + 1.0,
+                offset,
+            };
+        }
+        self.carried(from.cycles, offset)
+    }
+
+    fn carried(&self, cycles: f64, offset: f64) -> Instant {
+        let whole = (offset / self.period).floor();
+        let rest = (-whole).mul_add(self.period, offset) - whole * self.period_low;
+        if rest < 0.0 {
+            let rest = rest + self.period;
+            // A rest of less than one unit in the last place rounds up to the period itself.
+            let offset = if rest < self.period { rest } else { 0.0 };
+            let back = if rest < self.period { 1.0 } else { 0.0 };
+            Instant {
+                cycles: cycles + whole - back,
+                offset,
+            }
+        } else if rest >= self.period {
+            Instant {
+                cycles: cycles + whole + 1.0,
+                offset: rest - self.period,
+            }
+        } else {
+            Instant {
+                cycles: cycles + whole,
+                offset: rest,
+            }
+        }
+    }
+
+    /// Seconds from one instant to another.
+    #[inline]
+    pub fn elapsed(&self, from: Instant, to: Instant) -> f64 {
+        let cycles = to.cycles - from.cycles;
+        if cycles == 0.0 {
+            to.offset - from.offset
+        } else {
+            cycles * self.period + (to.offset - from.offset + cycles * self.period_low)
+        }
+    }
+
+    /// (cos, sin) of the drive angle.
+    #[inline]
+    pub fn drive(&self, at: Instant) -> (f64, f64) {
+        let (sin, cos) = (self.frequency * at.offset + self.phase).sin_cos();
+        (cos, sin)
+    }
+}

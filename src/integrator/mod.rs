@@ -1,0 +1,11 @@
+//! The exact integrator: from crossing to crossing.
+
+mod clock;
+mod motion;
+mod observer;
+mod simulation;
+
+pub use clock::{Clock, Instant};
+pub use motion::{Force, Motion, Start};
+pub use observer::{Arc, Crossing, CrossingKind, Observer};
+pub use simulation::{Energy, Impact, Sample, Simulation};

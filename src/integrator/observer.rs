@@ -1,0 +1,81 @@
+//! Who watches a motion: arcs as they end, crossings as they happen.
+
+use super::clock::Instant;
+use crate::flow::Course;
+use crate::phases::{Phase, PhaseKind};
+
+/// A stretch of motion in one phase.
+#[derive(Debug, Clone, Copy)]
+pub struct Arc<'a> {
+    /// When it began.
+    pub start: Instant,
+    /// Its exact motion.
+    pub course: &'a Course,
+    /// Its phase; none while the mass is held.
+    pub phase: Option<&'a Phase>,
+    /// What the mass does on it.
+    pub kind: PhaseKind,
+}
+
+/// What happens at a crossing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CrossingKind {
+    /// A surface is passed.
+    Surface {
+        /// Onwards (towards the stop) rather than back.
+        forward: bool,
+        /// It is an impact: the clearance is passed onwards.
+        impact: bool,
+        /// A strip has been pierced through.
+        pierces: bool,
+    },
+    /// The velocity passes zero under dry friction.
+    Reversal,
+    /// A held mass is let go.
+    Release,
+}
+
+/// A crossing: an exact instant with the states on both sides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crossing {
+    /// When it happens.
+    pub instant: Instant,
+    /// What happens.
+    pub kind: CrossingKind,
+    /// Position in m.
+    pub position: f64,
+    /// Velocity before in m/s.
+    pub velocity: f64,
+    /// Velocity after in m/s.
+    pub velocity_after: f64,
+    /// Acceleration before in m/s^2.
+    pub acceleration_before: f64,
+    /// Acceleration after in m/s^2.
+    pub acceleration_after: f64,
+}
+
+impl Crossing {
+    /// The before-impact velocity in m/s, if this is an impact.
+    pub fn impact_velocity(&self) -> Option<f64> {
+        match self.kind {
+            CrossingKind::Surface { impact: true, .. } => Some(self.velocity),
+            _ => None,
+        }
+    }
+}
+
+/// Watches a motion. To add one, implement the two methods; both do nothing unless overridden.
+pub trait Observer {
+    /// An arc has ended `elapsed` seconds after its start.
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        let _ = (arc, elapsed);
+    }
+
+    /// A crossing has happened.
+    fn crossing(&mut self, crossing: &Crossing) {
+        let _ = crossing;
+    }
+}
+
+/// Watches nothing.
+impl Observer for () {}

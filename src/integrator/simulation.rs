@@ -1,0 +1,312 @@
+//! A machine that runs on: the motion with its tallies, its inputs and its tunable parameters.
+
+use super::clock::{Clock, Instant};
+use super::motion::{Force, Motion, Start};
+use super::observer::{Arc, Crossing, CrossingKind, Observer};
+use crate::error::MotionError;
+use crate::phases::{Law, PhaseKind};
+use crate::scene::Scene;
+use crate::trajectory::{Work, mechanical_energy, work};
+
+/// A running machine, SI units, absolute time in s.
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    scene: Scene,
+    motion: Motion,
+    /// Absolute time of the clock's time 0.
+    epoch: f64,
+    now: f64,
+    tallies: Tallies,
+}
+
+/// Outputs at the present time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Position in m.
+    pub position: f64,
+    /// Velocity in m/s.
+    pub velocity: f64,
+    /// Acceleration in m/s^2.
+    pub acceleration: f64,
+    /// Jerk in m/s^3.
+    pub jerk: f64,
+    /// F in m x'' + b1 x' + k1 x + F = F0 cos(w t + phi) + f, in N: positive where stop or strip
+    /// press the mass back; what contact adds to the damping b1 is part of it.
+    pub contact_force: f64,
+    /// What the mass does.
+    pub phase: PhaseKind,
+}
+
+/// An impact at absolute time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impact {
+    /// Time in s.
+    pub time: f64,
+    /// Before-impact velocity in m/s.
+    pub velocity: f64,
+}
+
+/// Energies in J since the start; supplied = dissipated + change of mechanical.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Energy {
+    /// Kinetic, suspension and loaded stop.
+    pub mechanical: f64,
+    /// Work of drive, external force and tuning.
+    pub supplied: f64,
+    /// Work lost in dampers, strip and friction.
+    pub dissipated: f64,
+}
+
+#[derive(Debug, Clone)]
+struct Tallies {
+    mass: f64,
+    free: Law,
+    impacts: u64,
+    pierced: u64,
+    last_impact: Option<(Instant, f64)>,
+    work: Work,
+    /// Seconds of the present arc whose work is already counted.
+    counted: f64,
+}
+
+impl Observer for Tallies {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.count_work(arc, elapsed);
+        self.counted = 0.0;
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        if let CrossingKind::Surface {
+            impact, pierces, ..
+        } = crossing.kind
+        {
+            self.pierced += u64::from(pierces);
+            if impact {
+                self.impacts += 1;
+                self.last_impact = Some((crossing.instant, crossing.velocity));
+            }
+        }
+    }
+}
+
+impl Tallies {
+    fn count_work(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.work += work(arc, self.mass, &self.free, self.counted, elapsed);
+        self.counted = elapsed;
+    }
+}
+
+impl Simulation {
+    /// The machine at time 0 s.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the scene is invalid or the start not finite.
+    pub fn new(scene: &Scene, start: Start) -> Result<Self, MotionError> {
+        Self::new_at(scene, start, 0.0)
+    }
+
+    /// The machine at absolute time `time` in s; the drive is F0 cos(w t + phi) in absolute time.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the scene is invalid, or the start or the time not finite.
+    pub fn new_at(scene: &Scene, start: Start, time: f64) -> Result<Self, MotionError> {
+        scene.validate()?;
+        start.validate()?;
+        if !time.is_finite() {
+            return Err(MotionError::NotFinite {
+                name: "time",
+                value: time,
+            });
+        }
+        let clock = Clock::new(scene.excitation.frequency, scene.excitation.phase);
+        let phases = scene.phases();
+        let tallies = Tallies {
+            mass: scene.mass,
+            free: phases.free,
+            impacts: 0,
+            pierced: 0,
+            last_impact: None,
+            work: Work::default(),
+            counted: 0.0,
+        };
+        let motion = Motion::new(phases, clock, clock.instant(time), start);
+        Ok(Self {
+            scene: *scene,
+            motion,
+            epoch: 0.0,
+            now: time,
+            tallies,
+        })
+    }
+
+    /// The parameters that hold now.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The present time in s.
+    pub fn time(&self) -> f64 {
+        self.now
+    }
+
+    /// Advances to absolute time `until` in s, exactly, however the way is divided.
+    ///
+    /// # Errors
+    /// [`MotionError`] if `until` is not finite or in the past, or the motion grows beyond all
+    /// bounds; the machine then stays where it was.
+    pub fn advance(&mut self, until: f64) -> Result<(), MotionError> {
+        if !(until.is_finite() && until >= self.now) {
+            return Err(MotionError::TimeBackwards {
+                until,
+                present: self.now,
+            });
+        }
+        let instant = self.motion.clock().instant(until - self.epoch);
+        // Equal times may be written as instants that differ in the last digit.
+        if instant > self.motion.now() {
+            let (motion, tallies) = (self.motion.clone(), self.tallies.clone());
+            if let Err(error) = self.motion.advance(instant, &mut self.tallies) {
+                (self.motion, self.tallies) = (motion, tallies);
+                return Err(error);
+            }
+        }
+        self.now = until;
+        Ok(())
+    }
+
+    /// Outputs at the present time.
+    pub fn sample(&self) -> Sample {
+        let Start { position, velocity } = self.motion.state();
+        let force = self.motion.force();
+        let (cos, sin) = self.motion.clock().drive(self.motion.now());
+        let drive = self.scene.excitation;
+        let push = drive.amplitude * cos + force.value;
+        let push_rate = force.rate - drive.amplitude * drive.frequency * sin;
+        let phase = self.motion.kind();
+        let Some(law) = self.motion.phase() else {
+            let contact_force = push - self.scene.stiffness * position;
+            let (acceleration, jerk) = (0.0, 0.0);
+            return Sample {
+                position,
+                velocity,
+                acceleration,
+                jerk,
+                contact_force,
+                phase,
+            };
+        };
+        let contact_force = law.contact_force(&self.motion.phases().free, position, velocity);
+        let free = self.scene.damping * velocity + self.scene.stiffness * position;
+        let acceleration = (push - free - contact_force) / self.scene.mass;
+        let resisting = law.law.damping * acceleration + law.law.stiffness * velocity;
+        let jerk = (push_rate - resisting) / self.scene.mass;
+        Sample {
+            position,
+            velocity,
+            acceleration,
+            jerk,
+            contact_force,
+            phase,
+        }
+    }
+
+    /// Sets the external force from now on: `value` + `rate` (t - now), in N and N/s.
+    ///
+    /// # Errors
+    /// [`MotionError::NotFinite`] if one of them is not finite.
+    pub fn set_force(&mut self, value: f64, rate: f64) -> Result<(), MotionError> {
+        for (name, value) in [("force", value), ("force rate", rate)] {
+            if !value.is_finite() {
+                return Err(MotionError::NotFinite { name, value });
+            }
+        }
+        let force = Force { value, rate };
+        if self.motion.force() != force {
+            let (clock, at) = (*self.motion.clock(), self.motion.now());
+            self.restart(self.motion.phases().clone(), clock, at, force);
+        }
+        Ok(())
+    }
+
+    /// Feeds a strip or not, from the next upward crossing of the clearance on.
+    pub fn feed_strip(&mut self, fed: bool) {
+        self.motion.feed_strip(fed);
+    }
+
+    /// Takes new parameters from now on. The drive angle stays continuous unless the drive's phase
+    /// itself is changed; mass, suspension and geometry may change too.
+    ///
+    /// # Errors
+    /// [`MotionError::Scene`] if the scene is invalid; nothing is changed then.
+    pub fn tune(&mut self, scene: &Scene) -> Result<(), MotionError> {
+        scene.validate()?;
+        if *scene == self.scene {
+            return Ok(());
+        }
+        let before = self.energy().mechanical;
+        let (mut clock, mut at) = (*self.motion.clock(), self.motion.now());
+        let (old, new) = (self.scene.excitation, scene.excitation);
+        if old.frequency != new.frequency || old.phase != new.phase {
+            let angle = old.frequency * at.offset + clock.phase + new.phase - old.phase;
+            clock = Clock::new(new.frequency, angle);
+            at = Clock::at_cycle(0);
+            if let Some((instant, _)) = &mut self.tallies.last_impact {
+                *instant =
+                    clock.instant(self.motion.clock().time(*instant) + self.epoch - self.now);
+            }
+            self.epoch = self.now;
+        }
+        let force = self.motion.force();
+        self.scene = *scene;
+        self.restart(scene.phases(), clock, at, force);
+        self.tallies.mass = scene.mass;
+        self.tallies.free = self.motion.phases().free;
+        let mechanical = mechanical_energy(scene, self.motion.phase(), self.motion.state());
+        self.tallies.work.supplied += mechanical - before;
+        Ok(())
+    }
+
+    /// Ends the present arc here and begins another from the same state.
+    fn restart(&mut self, phases: crate::phases::Phases, clock: Clock, at: Instant, force: Force) {
+        self.settle_work();
+        let state = self.motion.state();
+        let fed = self.motion.is_fed();
+        self.motion = Motion::with(phases, clock, at, state, force, fed);
+        self.tallies.counted = 0.0;
+    }
+
+    fn settle_work(&mut self) {
+        let arc = self.motion.arc();
+        let elapsed = self.motion.clock().elapsed(arc.start, self.motion.now());
+        self.tallies.count_work(&arc, elapsed);
+    }
+
+    /// Upward crossings of the clearance since the start.
+    pub fn impact_count(&self) -> u64 {
+        self.tallies.impacts
+    }
+
+    /// Strips pierced through since the start.
+    pub fn pierce_count(&self) -> u64 {
+        self.tallies.pierced
+    }
+
+    /// The last impact, if there was one.
+    pub fn last_impact(&self) -> Option<Impact> {
+        let (instant, velocity) = self.tallies.last_impact?;
+        Some(Impact {
+            time: self.epoch + self.motion.clock().time(instant),
+            velocity,
+        })
+    }
+
+    /// Energies since the start.
+    pub fn energy(&mut self) -> Energy {
+        self.settle_work();
+        Energy {
+            mechanical: mechanical_energy(&self.scene, self.motion.phase(), self.motion.state()),
+            supplied: self.tallies.work.supplied,
+            dissipated: self.tallies.work.dissipated,
+        }
+    }
+}

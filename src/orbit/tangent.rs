@@ -1,0 +1,53 @@
+//! The exact Jacobian of a motion: free transitions joined by saltation matrices.
+
+use nalgebra::Matrix2;
+
+use crate::integrator::{Arc, Crossing, CrossingKind, Observer};
+
+/// Watches a motion and gathers d(state now) / d(state at the start).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tangent {
+    /// The product so far.
+    pub matrix: Matrix2<f64>,
+    /// Integral of the damping coefficient over time and mass; without sticking,
+    /// det(matrix) = exp(-damping_integral) (Liouville).
+    pub damping_integral: f64,
+}
+
+impl Default for Tangent {
+    fn default() -> Self {
+        Self {
+            matrix: Matrix2::identity(),
+            damping_integral: 0.0,
+        }
+    }
+}
+
+impl Observer for Tangent {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        let transition = match arc.phase {
+            Some(phase) => {
+                self.damping_integral += 2.0 * phase.flow.modes.decay * elapsed;
+                phase.flow.transition(elapsed)
+            }
+            None => Matrix2::new(1.0, 0.0, 0.0, 0.0),
+        };
+        self.matrix = transition * self.matrix;
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.matrix = saltation(crossing) * self.matrix;
+    }
+}
+
+/// The saltation matrix S = I + (f+ - f-) grad h / (grad h . f-) of a crossing, f = (v, a)
+/// (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004, ch. 7).
+pub fn saltation(crossing: &Crossing) -> Matrix2<f64> {
+    let (v, a) = (crossing.velocity, crossing.acceleration_before);
+    let jump = (crossing.velocity_after - v, crossing.acceleration_after - a);
+    match crossing.kind {
+        CrossingKind::Surface { .. } => Matrix2::new(1.0 + jump.0 / v, 0.0, jump.1 / v, 1.0),
+        CrossingKind::Reversal => Matrix2::new(1.0, jump.0 / a, 0.0, 1.0 + jump.1 / a),
+        CrossingKind::Release => Matrix2::identity(),
+    }
+}

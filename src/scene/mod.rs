@@ -1,0 +1,109 @@
+//! What stands on the table: plain, validated data.
+//!
+//! A [`Scene`] holds the parameters of
+//!
+//! ```text
+//! m x'' + b1 x' + k1 x + F(x, x') = F0 cos(w t + phi) + f(t)
+//! ```
+//!
+//! (Peterka 2003, eq. 8) in SI units. [`Ratios`] holds the same in the paper's dimensionless
+//! quantities; the two agree through [`Ratios::scene`] and [`Ratios::dimensional`].
+
+mod ratios;
+mod validate;
+
+pub use ratios::{PiercingRatios, Ratios, Units};
+
+use serde::{Deserialize, Serialize};
+
+/// Parameters of one machine, SI units.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Mass m in kg, > 0.
+    pub mass: f64,
+    /// Stiffness k1 of the suspension in N/m, >= 0.
+    pub stiffness: f64,
+    /// Viscous damping b1 of the impact-less motion in N s/m, >= 0.
+    pub damping: f64,
+    /// The harmonic drive.
+    pub excitation: Excitation,
+    /// Clearance r in m; negative means interference.
+    pub clearance: f64,
+    /// Total viscous damping b while bodies touch (x > r) in N s/m, >= 0. It replaces
+    /// [`Scene::damping`] there.
+    pub contact_damping: f64,
+    /// The stop.
+    pub stop: Stop,
+    /// The strip that is pierced ahead of the stop, if one is fed.
+    #[serde(default)]
+    pub piercing: Option<Piercing>,
+}
+
+/// The drive F0 cos(w t + phi).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Excitation {
+    /// Amplitude F0 in N, >= 0.
+    pub amplitude: f64,
+    /// Angular frequency w in rad/s, > 0.
+    pub frequency: f64,
+    /// Drive angle phi at time 0 in rad.
+    #[serde(default)]
+    pub phase: f64,
+}
+
+/// The stop's law of force.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "model", rename_all = "camelCase", deny_unknown_fields)]
+pub enum Stop {
+    /// No stop: the linear oscillator (Peterka 2003, Fig. 1a).
+    None,
+    /// A pre-stressed spring: F = preload + stiffness (x - x_stop) for x > x_stop
+    /// (Peterka 2003, eq. 5).
+    Preloaded {
+        /// Stiffness k4 in N/m, >= 0.
+        stiffness: f64,
+        /// Force at first touch in N, >= 0.
+        preload: f64,
+    },
+}
+
+/// The strip met from the clearance on (Peterka 2003, eqs. 1-4).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Piercing {
+    /// Stiffness k2 of the forming force in N/m, >= 0.
+    pub stiffness: f64,
+    /// Stiffness k3 of the dry friction in N/m, >= 0: its force is k3 (x - r) sign x'.
+    pub friction: f64,
+    /// Thickness s of the strip in m, >= 0: phase I is r < x < r + s.
+    pub thickness: f64,
+    /// Travel v in m, >= 0: phase II is r + s < x < r + s + v, the stop stands behind it.
+    pub travel: f64,
+}
+
+impl Piercing {
+    /// Dry friction force in N of phase II while the mass moves on (eq. 2).
+    pub fn cut_force_forward(&self) -> f64 {
+        0.1 * self.thickness * (self.stiffness + self.friction)
+    }
+
+    /// Dry friction force in N of phase II while the mass moves back (eq. 3).
+    pub fn cut_force_backward(&self) -> f64 {
+        -0.05 * self.thickness * (self.stiffness + self.friction)
+    }
+}
+
+impl Scene {
+    /// Where the stop stands, in m: the clearance, or behind the strip.
+    pub fn stop_position(&self) -> f64 {
+        let behind = self.piercing.map_or(0.0, |p| p.thickness + p.travel);
+        self.clearance + behind
+    }
+
+    /// Period of the drive, 2 pi / w, in s.
+    pub fn period(&self) -> f64 {
+        std::f64::consts::TAU / self.excitation.frequency
+    }
+}

@@ -1,0 +1,167 @@
+//! A motion kept: its arcs, its crossings, its energies.
+
+mod work;
+
+pub use work::{Work, work};
+
+use crate::error::MotionError;
+use crate::flow::Course;
+use crate::integrator::{Arc, Clock, Crossing, Instant, Motion, Observer, Start};
+use crate::phases::{Law, Phase, PhaseKind};
+use crate::scene::Scene;
+
+/// One arc of a trajectory.
+#[derive(Debug, Clone)]
+pub struct KeptArc {
+    /// When it began.
+    pub start: Instant,
+    /// How long it lasts, in s.
+    pub duration: f64,
+    /// Its exact motion.
+    pub course: Course,
+    /// What the mass does on it.
+    pub kind: PhaseKind,
+}
+
+/// A mass that touches: when, and how fast.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// When it happens.
+    pub instant: Instant,
+    /// Before-impact velocity in m/s.
+    pub before_impact_velocity: f64,
+}
+
+/// An exact motion over a span of time.
+#[derive(Debug, Clone)]
+pub struct Trajectory {
+    /// The clock of its instants.
+    pub clock: Clock,
+    /// Its arcs in order of time, without gaps.
+    pub arcs: Vec<KeptArc>,
+    /// Its crossings in order of time.
+    pub crossings: Vec<Crossing>,
+    /// Energies supplied and dissipated, in J.
+    pub work: Work,
+    /// Mechanical energy at the end less that at the start, in J.
+    pub stored: f64,
+    /// State at the end.
+    pub end: Start,
+}
+
+impl Trajectory {
+    /// The impacts in order of time.
+    pub fn impacts(&self) -> impl Iterator<Item = Touch> + '_ {
+        self.crossings.iter().filter_map(|crossing| {
+            let before_impact_velocity = crossing.impact_velocity()?;
+            Some(Touch {
+                instant: crossing.instant,
+                before_impact_velocity,
+            })
+        })
+    }
+
+    /// Position in m and velocity in m/s at any time within the trajectory.
+    pub fn at(&self, instant: Instant) -> Option<Start> {
+        let next = self.arcs.partition_point(|arc| arc.start <= instant);
+        let arc = self.arcs.get(next.checked_sub(1)?)?;
+        let elapsed = self.clock.elapsed(arc.start, instant);
+        if next == self.arcs.len() && elapsed > arc.duration {
+            return None;
+        }
+        let (position, velocity) = arc.course.at(elapsed, self.clock.drive(instant));
+        Some(Start { position, velocity })
+    }
+
+    /// supplied - dissipated - stored, in J: zero but for rounding.
+    pub fn energy_defect(&self) -> f64 {
+        self.work.supplied - self.work.dissipated - self.stored
+    }
+}
+
+/// Mechanical energy in J: kinetic, suspension and, in a phase, the stop's spring.
+pub fn mechanical_energy(scene: &Scene, phase: Option<&Phase>, state: Start) -> f64 {
+    let kinetic = 0.5 * scene.mass * state.velocity * state.velocity;
+    let spring = 0.5 * scene.stiffness * state.position * state.position;
+    kinetic + spring + phase.map_or(0.0, |phase| phase.stored_energy(state.position))
+}
+
+impl Scene {
+    /// The exact motion from `start` at time 0 over `periods` whole drive periods.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the scene is invalid or the motion grows beyond all bounds.
+    pub fn trajectory(&self, start: Start, periods: u64) -> Result<Trajectory, MotionError> {
+        self.trajectory_until(start, Clock::at_cycle(periods))
+    }
+
+    /// The exact motion from `start` at time 0 to any later instant.
+    ///
+    /// # Errors
+    /// As [`Scene::trajectory`].
+    pub fn trajectory_until(&self, start: Start, end: Instant) -> Result<Trajectory, MotionError> {
+        let mut motion = self.motion(start)?;
+        let energy_before = mechanical_energy(self, motion.phase(), start);
+        let mut recorder = Recorder::new(self.mass, motion.phases().free);
+        motion.advance(end, &mut recorder)?;
+        let arc = motion.arc();
+        let elapsed = motion.clock().elapsed(arc.start, end);
+        recorder.arc(&arc, elapsed);
+        let state = motion.state();
+        Ok(Trajectory {
+            clock: *motion.clock(),
+            arcs: recorder.arcs,
+            crossings: recorder.crossings,
+            work: recorder.work,
+            stored: mechanical_energy(self, motion.phase(), state) - energy_before,
+            end: state,
+        })
+    }
+
+    /// The motion from `start` at time 0, ready to be advanced.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the scene is invalid or the start not finite.
+    pub fn motion(&self, start: Start) -> Result<Motion, MotionError> {
+        self.validate()?;
+        start.validate()?;
+        let clock = Clock::new(self.excitation.frequency, self.excitation.phase);
+        Ok(Motion::new(self.phases(), clock, Clock::at_cycle(0), start))
+    }
+}
+
+struct Recorder {
+    mass: f64,
+    free: Law,
+    arcs: Vec<KeptArc>,
+    crossings: Vec<Crossing>,
+    work: Work,
+}
+
+impl Recorder {
+    fn new(mass: f64, free: Law) -> Self {
+        Self {
+            mass,
+            free,
+            arcs: Vec::new(),
+            crossings: Vec::new(),
+            work: Work::default(),
+        }
+    }
+}
+
+impl Observer for Recorder {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.work += work(arc, self.mass, &self.free, 0.0, elapsed);
+        self.arcs.push(KeptArc {
+            start: arc.start,
+            duration: elapsed,
+            course: *arc.course,
+            kind: arc.kind,
+        });
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.crossings.push(*crossing);
+    }
+}

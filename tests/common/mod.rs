@@ -1,0 +1,49 @@
+//! What the integration tests share.
+#![allow(dead_code, reason = "each test binary uses its own part")]
+
+use serde_json::Value;
+use softstop::{PiercingRatios, Ratios};
+
+/// A number that the reference files hold as text (30 or 40 digits) or as a double.
+pub fn number(value: &Value, key: &str) -> f64 {
+    match &value[key] {
+        Value::String(text) => text.parse().expect("a number"),
+        other => other
+            .as_f64()
+            .unwrap_or_else(|| panic!("{key} missing in {value}")),
+    }
+}
+
+/// The list under a key.
+pub fn list<'a>(value: &'a Value, key: &str) -> &'a [Value] {
+    value[key]
+        .as_array()
+        .unwrap_or_else(|| panic!("{key} missing in {value}"))
+}
+
+/// The 30-digit results of tests/reference/machine.py.
+pub fn machine() -> Value {
+    serde_json::from_str(include_str!("../reference/machine.json")).expect("machine.json")
+}
+
+/// The machine that a record of machine.json describes.
+pub fn ratios(parameters: &Value) -> Ratios {
+    let get = |key: &str, default: f64| match parameters.get(key) {
+        Some(_) => number(parameters, key),
+        None => default,
+    };
+    Ratios {
+        frequency: get("frequency", 1.0),
+        clearance: number(parameters, "clearance"),
+        damping: number(parameters, "damping"),
+        contact_damping: number(parameters, "contact_damping"),
+        stiffness: number(parameters, "stiffness"),
+        preload: number(parameters, "preload"),
+        piercing: (parameters["regime"] == "loaded").then(|| PiercingRatios {
+            stiffness: number(parameters, "k2"),
+            friction: number(parameters, "k3"),
+            thickness: number(parameters, "sigma"),
+            travel: number(parameters, "sigma_nu") - number(parameters, "sigma"),
+        }),
+    }
+}

@@ -1,0 +1,71 @@
+//! The exact flow against 40-digit values (tests/reference/flow.py): every kind of root, zero and
+//! tiny stiffness, exact and near resonance, short and long times.
+
+use serde_json::Value;
+use softstop::flow::{Course, Departure, Flow};
+
+fn number(case: &Value, key: &str) -> f64 {
+    match &case[key] {
+        Value::String(text) => text.parse().expect("a number"),
+        value => value.as_f64().unwrap_or_else(|| panic!("{key} in {case}")),
+    }
+}
+
+/// Rounding errors, in units of the 2^-53 sensitivity of the case to its own inputs, that an
+/// evaluation may show.
+const ALLOWED: f64 = 40.0;
+
+#[test]
+fn flow_agrees_with_forty_digits() {
+    let text = include_str!("reference/flow.json");
+    let cases: Vec<Value> = serde_json::from_str(text).expect("flow.json");
+    assert!(cases.len() > 200);
+    let mut worst = (0.0, String::new());
+    for case in &cases {
+        let get = |key| number(case, key);
+        let w = get("drive_frequency");
+        let flow = Flow::new(
+            1.0,
+            2.0 * get("decay"),
+            get("stiffness"),
+            get("amplitude"),
+            w,
+        );
+        let (sin, cos) = get("drive_angle").sin_cos();
+        let departure = Departure {
+            position: get("position"),
+            velocity: get("velocity"),
+            drive: (cos, sin),
+            constant: get("constant"),
+            ramp: get("ramp"),
+            balanced: false,
+        };
+        let elapsed = get("elapsed");
+        let (sin, cos) = (get("drive_angle") + w * elapsed).sin_cos();
+        let (x, v) = Course::new(flow, departure).at(elapsed, (cos, sin));
+        let checks = [
+            (x, "expected_position", "position_sensitivity"),
+            (v, "expected_velocity", "velocity_sensitivity"),
+        ];
+        for (value, expected, sensitivity) in checks {
+            let scale = get(sensitivity).abs().max(f64::MIN_POSITIVE) * f64::EPSILON * 0.5;
+            let ratio = (value - get(expected)).abs() / scale;
+            if !(ratio <= worst.0) {
+                worst = (ratio, format!("{} {expected}", case["name"]));
+            }
+            if !(ratio <= ALLOWED) {
+                println!(
+                    "{} {expected}: {value:e} vs {:e}: {ratio:.1}",
+                    case["name"],
+                    get(expected)
+                );
+            }
+        }
+    }
+    assert!(
+        worst.0 <= ALLOWED,
+        "worst: {} roundings in {}",
+        worst.0,
+        worst.1
+    );
+}

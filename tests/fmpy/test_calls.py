@@ -1,0 +1,178 @@
+"""Wrong calls and what is left after them; resets and snapshots."""
+
+import math
+
+import numpy as np
+import pytest
+from conftest import PERIOD, UNLOADED
+
+
+def test_fixed_parameter_after_initialisation(unit):
+    unit.begin()
+    unit.refused(lambda: unit.set({"mass": 2.0}), "mass", "fixed")
+    unit.step(1.0)
+    assert unit.get("mass") == 1.0
+
+
+def test_unknown_reference(unit):
+    unit.begin()
+    unit.refused(lambda: unit.fmu.getReal([4711]), "4711")
+    unit.refused(lambda: unit.fmu.setReal([4711], [1.0]), "4711")
+    unit.refused(lambda: unit.fmu.getReal([unit.reference("phase")]), "phase", "Enumeration")
+    unit.refused(lambda: unit.fmu.getString([unit.reference("mass")]), "mass", "String")
+    unit.step(1.0)
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_values_that_are_not_finite(unit, value):
+    unit.refused(lambda: unit.set({"mass": value}), "mass")
+    unit.begin()
+    unit.refused(lambda: unit.set({"force": value}), "force")
+    unit.refused(lambda: unit.fmu.doStep(0.0, value), "communicationStepSize")
+    unit.refused(lambda: unit.fmu.doStep(value, 1.0), "currentCommunicationPoint")
+    unit.step(1.0)
+    assert np.isfinite(unit.state()).all()
+
+
+def test_step_sizes_and_points(unit):
+    unit.begin(stop=10.0)
+    unit.refused(lambda: unit.fmu.doStep(0.0, 0.0), "communicationStepSize")
+    unit.refused(lambda: unit.fmu.doStep(0.0, -1.0), "communicationStepSize")
+    unit.step(1.0)
+    unit.refused(lambda: unit.fmu.doStep(0.0, 1.0), "currentCommunicationPoint")
+    unit.refused(lambda: unit.fmu.doStep(1.001, 1.0), "currentCommunicationPoint")
+    unit.refused(lambda: unit.fmu.doStep(1.0, 9.5), "stop time")
+    unit.step(9.0)
+
+
+def test_wrong_states(unit):
+    unit.refused(lambda: unit.fmu.doStep(0.0, 1.0), "before initialisation")
+    unit.refused(unit.fmu.enterInitializationMode, "fmi2SetupExperiment")
+    unit.refused(unit.fmu.exitInitializationMode, "before initialisation")
+    unit.refused(unit.fmu.terminate, "before initialisation")
+    unit.refused(lambda: unit.get("position"), "before initialisation")
+    unit.begin()
+    unit.refused(unit.fmu.enterInitializationMode, "after initialisation")
+    unit.refused(unit.fmu.cancelStep, "fmi2Pending")
+    unit.fmu.terminate()
+    unit.refused(lambda: unit.fmu.doStep(0.0, 1.0), "after fmi2Terminate")
+    assert unit.get("position") == unit.get("initial.position")
+    unit.fmu.reset()
+    unit.begin()
+    unit.step(1.0)
+
+
+def test_wrong_guid_is_refused(make):
+    with pytest.raises(Exception, match="instantiate"):
+        make(guid="{00000000-0000-0000-0000-000000000000}")
+
+
+def test_stops_that_are_not_available_yet(unit):
+    for value, name in [(2, "kelvinVoigt"), (3, "piecewiseLinear"), (4, "hertz"), (6, "rigid")]:
+        unit.refused(lambda: unit.set({"stop.model": value}), "stop.model", name, "preloaded")
+    unit.refused(lambda: unit.set({"stop.model": 9}), "stop.model = 9", "preloaded")
+    unit.begin()
+    unit.step(1.0)
+
+
+def test_negative_mass_and_frequency_zero_then_reset(unit):
+    unit.refused(lambda: unit.set({"mass": -1.0}), "mass = -1")
+    unit.refused(lambda: unit.set({"excitation.frequency": 0.0}), "excitation.frequency = 0")
+    unit.fmu.reset()
+    unit.begin()
+    unit.step(1.0)
+
+
+def test_outputs_cannot_be_set(unit):
+    unit.refused(lambda: unit.set({"position": 1.0}), "position", "output")
+
+
+def test_what_the_flags_rule_out(unit):
+    unit.begin()
+    state = unit.fmu.getFMUstate()
+    unit.refused(lambda: unit.fmu.serializeFMUstate(state), "canSerializeFMUstate")
+    unit.fmu.freeFMUstate(state)
+    unit.refused(
+        lambda: unit.fmu.getDirectionalDerivative(
+            [unit.reference("acceleration")], [unit.reference("force")], [1.0]
+        ),
+        "providesDirectionalDerivative",
+    )
+
+
+def run(unit):
+    values = []
+    for _ in range(40):
+        unit.step(0.731)
+        values.append([*unit.state(), *unit.get("energy.supplied", "impact.time")])
+    return np.array(values)
+
+
+def test_reset_equals_fresh(make):
+    used, fresh = make().begin(UNLOADED), make()
+    used.set({"force": 1.0, "clearance": 9.0, "material": False})
+    run(used)
+    used.fmu.reset()
+    assert used.get("initial.position") != UNLOADED["initial.position"]
+    used.begin()
+    fresh.begin()
+    assert (run(used) == run(fresh)).all()
+
+
+def test_snapshot_continues_bit_by_bit(make):
+    one, other = make().begin(), make().begin(UNLOADED)
+    one.set({"force": 0.1, "clearance": 9.9})
+    run(one)
+    time, state = one.time, one.fmu.getFMUstate()
+    first = run(one)
+    one.fmu.setFMUstate(state)
+    one.time = time
+    assert (run(one) == first).all()
+    other.fmu.setFMUstate(state)
+    other.time = time
+    assert (run(other) == first).all()
+    one.fmu.freeFMUstate(state)
+    assert state.value is None
+
+
+def test_start_time_and_communication_points_from_elsewhere(make):
+    late = make().begin(UNLOADED | {"excitation.phase": 0.0}, start=4 * PERIOD)
+    late.step(PERIOD)
+    np.testing.assert_allclose(
+        late.state(), [UNLOADED["initial.position"], UNLOADED["initial.velocity"]], atol=1e-10
+    )
+    assert late.get("impact.time") > 4 * PERIOD
+
+
+def test_a_million_small_steps(make):
+    many, one = make().begin(UNLOADED), make().begin(UNLOADED)
+    vr = many.fmu.component
+    step, time = many.fmu.dll.fmi2DoStep, 0.0
+    for _ in range(1_000_000):
+        assert step(vr, time, 1e-3, 0) == 0
+        time += 1e-3
+    one.step(time)
+    np.testing.assert_allclose(many.state(), one.state(), atol=1e-9)
+
+
+def test_many_instances_are_independent(make):
+    units = [make(name=f"unit {number}") for number in range(50)]
+    for number, unit in enumerate(units):
+        unit.begin(UNLOADED | {"initial.velocity": 9.0 + 0.01 * number})
+    for _ in range(3):
+        for unit in units:
+            unit.step(1.7)
+    alone = make().begin(UNLOADED | {"initial.velocity": 9.49})
+    for _ in range(3):
+        alone.step(1.7)
+    assert (units[49].state() == alone.state()).all()
+
+
+def test_events_are_logged_on_demand(make):
+    unit = make(logging_on=True).begin()
+    unit.step(2 * PERIOD)
+    assert [(status, category) for status, category, _ in unit.lines] == [(0, "events")]
+    unit.fmu.setDebugLogging(False, ["events"])
+    unit.step(PERIOD)
+    assert len(unit.lines) == 1
+    unit.refused(lambda: unit.fmu.setDebugLogging(True, ["nonsense"]), "nonsense")
