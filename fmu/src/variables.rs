@@ -193,7 +193,7 @@ impl<'a> View<'a> {
 
     fn energy(&self) -> &Energy {
         // On a copy, so that reading leaves no trace in the motion.
-        self.energy.get_or_init(|| self.simulation.clone().energy())
+        self.energy.get_or_init(|| self.simulation.energy())
     }
 }
 

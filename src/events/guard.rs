@@ -98,16 +98,13 @@ impl Guard {
 
     /// Taylor coefficients of g about the expansion point.
     pub(crate) fn polynomial(&self, taylor: &Taylor) -> [f64; DEGREE + 1] {
-        let mut g = [0.0; DEGREE + 1];
-        for n in 0..=DEGREE {
-            let rate = if n < DEGREE {
-                (n + 1) as f64 * taylor.position[n + 1]
-            } else {
-                0.0
-            };
-            g[n] = self.position * taylor.position[n]
-                + self.velocity * rate
-                + self.push * taylor.push[n];
+        let (x, q) = (&taylor.position, &taylor.push);
+        let mut g: [f64; DEGREE + 1] =
+            std::array::from_fn(|n| self.position * x[n] + self.push * q[n]);
+        if self.velocity != 0.0 {
+            for (n, c) in x.iter().enumerate().skip(1) {
+                g[n - 1] += self.velocity * n as f64 * c;
+            }
         }
         g[0] -= self.level;
         g

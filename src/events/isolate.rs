@@ -161,8 +161,8 @@ impl Candidate<'_> {
 
     fn derivative(&self) -> [f64; DEGREE + 1] {
         let mut rates = [0.0; DEGREE + 1];
-        for n in 0..DEGREE {
-            rates[n] = (n + 1) as f64 * self.coefficients[n + 1];
+        for (n, c) in self.coefficients.iter().enumerate().skip(1) {
+            rates[n - 1] = n as f64 * c;
         }
         rates
     }

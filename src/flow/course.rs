@@ -31,7 +31,7 @@ pub struct Node {
     pub velocity: f64,
     /// cos and sin of the drive angle.
     pub drive: (f64, f64),
-    deviation: (f64, f64),
+    pub(super) deviation: (f64, f64),
 }
 
 /// The exact motion that follows from a departure.
@@ -41,12 +41,12 @@ pub struct Course {
     pub flow: Flow,
     /// Where it started.
     pub departure: Departure,
-    form: Form,
+    pub(super) form: Form,
 }
 
 /// How states beyond the reach of one Taylor polynomial are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Form {
+pub(super) enum Form {
     /// Particular solution plus the free deviation from it at departure.
     Particular {
         particular: Particular,
@@ -60,11 +60,11 @@ enum Form {
 
 /// The particular solution offset + slope t + cosine cos(angle) + sine sin(angle).
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Particular {
-    offset: f64,
-    slope: f64,
-    cosine: f64,
-    sine: f64,
+pub(super) struct Particular {
+    pub offset: f64,
+    pub slope: f64,
+    pub cosine: f64,
+    pub sine: f64,
     frequency: f64,
 }
 

@@ -8,6 +8,7 @@
 
 mod course;
 mod modes;
+mod power;
 mod response;
 mod taylor;
 

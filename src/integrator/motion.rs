@@ -1,11 +1,13 @@
 //! The loop: course, first crossing, next phase.
 
+use std::cmp::Ordering;
+
 use super::clock::{Clock, Instant};
 use super::observer::{Arc, Crossing, CrossingKind, Observer};
 use crate::error::MotionError;
 use crate::events::{Found, Outlook, first_crossing};
 use crate::flow::{Course, Departure, Node};
-use crate::phases::{Exit, Law, Mode, Phase, PhaseKind, Phases, Surface};
+use crate::phases::{Exit, Law, Mode, Phase, PhaseKind, Phases, SPACING, Surface};
 
 /// A state to start from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,6 +57,43 @@ pub struct Motion {
     now: Instant,
     course: Course,
     outlook: Outlook,
+    hum: Hum,
+}
+
+/// Crossings of one and the same surface in a row, reversals left out.
+#[derive(Debug, Clone, Copy, Default)]
+struct Hum {
+    surface: usize,
+    crossings: u32,
+}
+
+/// Crossings in a row after which bounces of [`HUM_HEIGHT`] are no longer followed. At a preloaded
+/// stop that is pressed with less than its preload, bounces shrink only by viscous damping: their
+/// number grows beyond all bounds as their height goes to zero.
+const HUM_CROSSINGS: u32 = 10_000;
+/// Height of a bounce, relative to the length of the motion, that then counts as rest.
+const HUM_HEIGHT: f64 = 1e-11;
+
+impl Hum {
+    fn count(&mut self, surface: usize) {
+        if surface == self.surface {
+            self.crossings += 1;
+        } else {
+            *self = Self {
+                surface,
+                crossings: 0,
+            };
+        }
+    }
+
+    /// Height below which a bounce counts as rest.
+    fn resolution(&self) -> f64 {
+        if self.crossings < HUM_CROSSINGS {
+            SPACING
+        } else {
+            HUM_HEIGHT
+        }
+    }
 }
 
 impl Motion {
@@ -95,6 +134,7 @@ impl Motion {
             now: at,
             course,
             outlook,
+            hum: Hum::default(),
         };
         motion.depart(start, drive, mode);
         motion
@@ -175,7 +215,7 @@ impl Motion {
         until: Instant,
         observer: &mut impl Observer,
     ) -> Result<(), MotionError> {
-        if !(until >= self.now) {
+        if until.partial_cmp(&self.now).is_none_or(Ordering::is_lt) {
             let (until, present) = (self.clock.time(until), self.clock.time(self.now));
             return Err(MotionError::TimeBackwards { until, present });
         }
@@ -232,6 +272,9 @@ impl Motion {
         let drive = self.clock.drive(at);
         self.force.value += self.force.rate * found.elapsed;
         let push = self.phases.held.amplitude * drive.0 + self.force.value / self.phases.mass;
+        if let Some(surface) = self.surface_of(found.guard) {
+            self.hum.count(surface);
+        }
         let landing = self.land(&found, push);
         let before = self.mode;
         self.start = at;
@@ -251,6 +294,17 @@ impl Motion {
                 push,
             ),
         });
+    }
+
+    /// The surface that a guard watches, if it watches one.
+    fn surface_of(&self, guard: usize) -> Option<usize> {
+        let Mode::Moving(phase) = self.mode else {
+            return None;
+        };
+        match self.phases.phases[phase].exits[guard] {
+            Exit::Forward(surface) | Exit::Backward(surface) => Some(surface),
+            Exit::Reversal { .. } => None,
+        }
     }
 
     /// State and mode right after a crossing.
@@ -275,7 +329,7 @@ impl Motion {
             Exit::Reversal { forward, backward } => {
                 let mode = self
                     .phases
-                    .from_rest(forward, backward, found.position, push);
+                    .leave_rest(forward, backward, found.position, push);
                 let state = Start {
                     position: found.position,
                     velocity: 0.0,
@@ -293,7 +347,9 @@ impl Motion {
 
     fn pass(&self, surface: usize, velocity: f64, push: f64, forward: bool) -> Landing {
         let at: &Surface = &self.phases.surfaces[surface];
-        let mode = self.phases.at_surface(at, velocity, push, self.fed);
+        let mode = self
+            .phases
+            .at_surface(at, velocity, push, self.fed, self.hum.resolution());
         let held = matches!(mode, Mode::Held { .. });
         let fed = self.fed || at.above_unfed.is_none();
         let kind = CrossingKind::Surface {

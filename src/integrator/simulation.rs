@@ -65,14 +65,11 @@ struct Tallies {
     pierced: u64,
     last_impact: Option<(Instant, f64)>,
     work: Work,
-    /// Seconds of the present arc whose work is already counted.
-    counted: f64,
 }
 
 impl Observer for Tallies {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.count_work(arc, elapsed);
-        self.counted = 0.0;
+        self.work += work(arc, self.mass, &self.free, elapsed);
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
@@ -90,9 +87,11 @@ impl Observer for Tallies {
 }
 
 impl Tallies {
-    fn count_work(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.work += work(arc, self.mass, &self.free, self.counted, elapsed);
-        self.counted = elapsed;
+    /// Work of the arc that is under way.
+    fn work_under_way(&self, motion: &Motion) -> Work {
+        let arc = motion.arc();
+        let elapsed = motion.clock().elapsed(arc.start, motion.now());
+        work(&arc, self.mass, &self.free, elapsed)
     }
 }
 
@@ -127,7 +126,6 @@ impl Simulation {
             pierced: 0,
             last_impact: None,
             work: Work::default(),
-            counted: 0.0,
         };
         let motion = Motion::new(phases, clock, clock.instant(time), start);
         Ok(Self {
@@ -268,17 +266,10 @@ impl Simulation {
 
     /// Ends the present arc here and begins another from the same state.
     fn restart(&mut self, phases: crate::phases::Phases, clock: Clock, at: Instant, force: Force) {
-        self.settle_work();
+        self.tallies.work += self.tallies.work_under_way(&self.motion);
         let state = self.motion.state();
         let fed = self.motion.is_fed();
         self.motion = Motion::with(phases, clock, at, state, force, fed);
-        self.tallies.counted = 0.0;
-    }
-
-    fn settle_work(&mut self) {
-        let arc = self.motion.arc();
-        let elapsed = self.motion.clock().elapsed(arc.start, self.motion.now());
-        self.tallies.count_work(&arc, elapsed);
     }
 
     /// Upward crossings of the clearance since the start.
@@ -301,12 +292,13 @@ impl Simulation {
     }
 
     /// Energies since the start.
-    pub fn energy(&mut self) -> Energy {
-        self.settle_work();
+    pub fn energy(&self) -> Energy {
+        let mut work = self.tallies.work;
+        work += self.tallies.work_under_way(&self.motion);
         Energy {
             mechanical: mechanical_energy(&self.scene, self.motion.phase(), self.motion.state()),
-            supplied: self.tallies.work.supplied,
-            dissipated: self.tallies.work.dissipated,
+            supplied: work.supplied,
+            dissipated: work.dissipated,
         }
     }
 }

@@ -174,8 +174,8 @@ pub fn fixed_point(
         let next = state + step;
         let next_passage = map.apply(next)?;
         let next_residual = next_passage.end - next;
-        let stalls = !(next_residual.norm() < residual.norm());
-        if stalls && residual.norm() <= round_off(&state, &passage) {
+        let shrinks = next_residual.norm() < residual.norm();
+        if !shrinks && residual.norm() <= round_off(&state, &passage) {
             return Ok((state, passage));
         }
         (state, passage, residual) = (next, next_passage, next_residual);

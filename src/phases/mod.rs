@@ -8,6 +8,7 @@ mod lower;
 mod settle;
 
 pub use settle::Mode;
+pub(crate) use settle::SPACING;
 
 use crate::events::Guard;
 use crate::flow::Flow;

@@ -9,6 +9,9 @@ use crate::events::Guard;
 
 use super::{Layer, PhaseKind, Phases, Surface};
 
+/// Rounding of a position, relative to it: lower bounces are not described.
+pub(crate) const SPACING: f64 = 4.0 * f64::EPSILON;
+
 /// What the mass does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
@@ -34,7 +37,7 @@ impl Phases {
         if position == layer.from {
             let mut surface = self.surfaces[layer.surface];
             surface.above = layer.forward;
-            return self.at_surface(&surface, velocity, push, fed);
+            return self.at_surface(&surface, velocity, push, fed, SPACING);
         }
         self.inside(layer, position, velocity, push)
     }
@@ -45,20 +48,28 @@ impl Phases {
         } else if velocity < 0.0 {
             Mode::Moving(layer.backward)
         } else {
-            self.from_rest(layer.forward, layer.backward, position, push)
+            self.leave_rest(layer.forward, layer.backward, position, push)
         }
     }
 
-    /// The mode after reaching a surface.
-    pub(crate) fn at_surface(&self, at: &Surface, velocity: f64, push: f64, fed: bool) -> Mode {
+    /// The mode after reaching a surface. Where both sides press the mass onto it, a bounce lower
+    /// than `resolution` times the length of the motion counts as rest.
+    pub(crate) fn at_surface(
+        &self,
+        at: &Surface,
+        velocity: f64,
+        push: f64,
+        fed: bool,
+        resolution: f64,
+    ) -> Mode {
         let above = if fed {
             at.above
         } else {
             at.above_unfed.unwrap_or(at.above)
         };
-        let held = self.from_rest(above, at.below, at.position, push);
+        let held = self.leave_rest(above, at.below, at.position, push);
         let rests = matches!(held, Mode::Held { .. });
-        if velocity == 0.0 || (rests && self.is_below_resolution(at, above, velocity, push)) {
+        if velocity == 0.0 || (rests && self.bounce(at, above, velocity, push) < resolution) {
             held
         } else if velocity > 0.0 {
             Mode::Moving(above)
@@ -68,7 +79,7 @@ impl Phases {
     }
 
     /// The mode of a mass at rest between two laws.
-    pub(crate) fn from_rest(
+    pub(crate) fn leave_rest(
         &self,
         forward: usize,
         backward: usize,
@@ -103,9 +114,9 @@ impl Phases {
         ]
     }
 
-    /// True if the bounce that would follow, v^2 / (2 a) high on either side, is smaller than the
-    /// spacing of the numbers that describe it: such a mass is at rest.
-    fn is_below_resolution(&self, at: &Surface, above: usize, velocity: f64, push: f64) -> bool {
+    /// Height v^2 / (2 a) of the bounce that would follow on the lower side, in units of the length
+    /// of the motion.
+    fn bounce(&self, at: &Surface, above: usize, velocity: f64, push: f64) -> f64 {
         let acceleration = |phase: usize| {
             self.phases[phase]
                 .acceleration_from_rest(at.position, push, self.mass)
@@ -114,7 +125,7 @@ impl Phases {
         let (ahead, behind) = (acceleration(above), acceleration(at.below));
         let w = self.held.frequency;
         let length = at.position.abs().max(behind / (w * w));
-        velocity * velocity < 2.0 * f64::EPSILON * length * ahead.min(behind)
+        velocity * velocity / (2.0 * length * ahead.min(behind))
     }
 
     /// What a mode is in the machine.

@@ -152,7 +152,7 @@ impl Recorder {
 
 impl Observer for Recorder {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.work += work(arc, self.mass, &self.free, 0.0, elapsed);
+        self.work += work(arc, self.mass, &self.free, elapsed);
         self.arcs.push(KeptArc {
             start: arc.start,
             duration: elapsed,

@@ -1,23 +1,22 @@
 //! The chart of a design: before-impact velocity over drive frequency, in the paper's symbols.
 
+mod branch;
 mod style;
 
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::scatter::MarkerShape;
-use kuva::plot::{LinePlot, ScatterPlot};
+use kuva::plot::{LinePlot, LineStyle, ScatterPlot};
 use kuva::render::annotations::{ReferenceLine, ShadedRegion, TextAnnotation};
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
 use kuva::render::render::{collect_legend_entries, render_multiple};
 use softstop::orbit::Orbit;
-use softstop::zone::{self, Zone, ZoneError};
+use softstop::zone::{self, ZoneError};
 
 use crate::arguments::Regime;
 use crate::design::Design;
+use branch::Branch;
 use style::Frame;
-
-/// Points on each branch: a curve without visible corners.
-const POINTS: usize = 160;
 
 /// What the chart shows.
 #[derive(Debug, Clone)]
@@ -38,40 +37,6 @@ pub struct Chart {
     allowance: String,
     title: String,
     subtitle: String,
-}
-
-/// The stable z = 1 motions of a zone.
-#[derive(Debug, Clone)]
-struct Branch {
-    label: String,
-    frequency_g0: f64,
-    frequency_sn: f64,
-    /// eta and X'-.
-    curve: Vec<(f64, f64)>,
-}
-
-impl Branch {
-    /// Evenly spread points, and those of the continuation, which are dense where it turns.
-    fn new(zone: &Zone, label: String) -> Self {
-        let spread = (0..POINTS).filter_map(|index| {
-            let place = index as f64 / (POINTS - 1) as f64;
-            let orbit = zone.orbit_at(place).ok()?;
-            let point = (zone.frequency_at(place), orbit.before_impact_velocity);
-            orbit.is_stable().then_some(point)
-        });
-        let followed = zone
-            .branch
-            .iter()
-            .map(|point| (point.parameter, point.before_impact_velocity));
-        let mut curve: Vec<(f64, f64)> = spread.chain(followed).collect();
-        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Self {
-            label,
-            frequency_g0: zone.frequency_g0,
-            frequency_sn: zone.frequency_sn,
-            curve,
-        }
-    }
 }
 
 impl Chart {
@@ -126,7 +91,7 @@ impl Chart {
         let branches = [&self.branch, &self.reference_branch];
         let curves = branches
             .into_iter()
-            .flat_map(|branch| branch.curve.iter().copied());
+            .flat_map(|branch| branch.pieces.iter().flatten().copied());
         Frame::around(
             &curves
                 .chain([self.design, self.reference])
@@ -135,13 +100,6 @@ impl Chart {
     }
 
     fn plots(&self) -> Vec<Plot> {
-        let curve = |branch: &Branch, color: &str| {
-            LinePlot::new()
-                .with_data(branch.curve.clone())
-                .with_color(color)
-                .with_stroke_width(2.5)
-                .with_legend(branch.label.clone())
-        };
         let mark = |point: (f64, f64), color: &str, shape, size, label: String| {
             ScatterPlot::new()
                 .with_data([point])
@@ -167,12 +125,15 @@ impl Chart {
             10.0,
             format!("optimum: η = {eta:.3}, X′₋ = {velocity:.2}"),
         );
-        vec![
-            Plot::Line(curve(&self.branch, style::DESIGN)),
-            Plot::Scatter(optimum),
-            Plot::Line(curve(&self.reference_branch, style::REFERENCE).with_dashed()),
-            Plot::Scatter(point),
-        ]
+        let mut plots = lines(&self.branch, style::DESIGN, LineStyle::Solid);
+        plots.push(Plot::Scatter(optimum));
+        plots.extend(lines(
+            &self.reference_branch,
+            style::REFERENCE,
+            LineStyle::Dashed,
+        ));
+        plots.push(Plot::Scatter(point));
+        plots
     }
 
     fn annotations(&self, layout: Layout, frame: &Frame) -> Layout {
@@ -200,6 +161,22 @@ impl Chart {
             ))
             .with_annotation(frame.beside(self.reference, self.reference_name))
     }
+}
+
+/// The pieces of a branch, the first one named in the legend.
+fn lines(branch: &Branch, color: &str, line: LineStyle) -> Vec<Plot> {
+    let plot = |piece: &Vec<(f64, f64)>| {
+        LinePlot::new()
+            .with_data(piece.clone())
+            .with_color(color)
+            .with_stroke_width(2.5)
+            .with_line_style(line.clone())
+    };
+    let mut pieces = branch.pieces.iter().map(plot);
+    let first = pieces
+        .next()
+        .map(|piece| piece.with_legend(branch.label.clone()));
+    first.into_iter().chain(pieces).map(Plot::Line).collect()
 }
 
 fn label(name: &str, stiffness: f64, clearance: f64) -> String {
