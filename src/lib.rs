@@ -1,4 +1,27 @@
-//! softstop simulates impact oscillators with soft, preloaded and rigid stops exactly.
+//! Exact simulation of impact oscillators with soft and preloaded stops,
+//!
+//! ```text
+//! m x'' + b1 x' + k1 x + F(x, x') = F0 cos(w t + phi) + f(t)        (Peterka 2003, eq. 8)
+//! ```
+//!
+//! The data flows through the modules in this order: [`scene`] (plain data) → [`phases`] (the few
+//! smooth laws that a scene can reach) → [`flow`] (closed form per phase) → [`events`] (first
+//! crossing, guaranteed) → [`integrator`] (the loop) → [`trajectory`] → [`orbit`] →
+//! [`continuation`] → [`zone`].
+//!
+//! ```
+//! use softstop::{Ratios, Start};
+//!
+//! let scene = Ratios::unloaded().scene()?;
+//! let motion = scene.trajectory(Start { position: 0.0, velocity: 14.0 }, 1000)?;
+//! let last = motion.impacts().last().expect("it strikes in every period");
+//! assert!((last.before_impact_velocity - 6.494_627_429_363).abs() < 1e-10);
+//! assert!(motion.energy_defect().abs() < 1e-11 * motion.work.supplied);
+//!
+//! let orbit = softstop::orbit::find(&scene)?;
+//! assert!(orbit.is_stable());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 #![forbid(unsafe_code)]
 
 pub mod continuation;

@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use proptest::prelude::*;
 use softstop::integrator::{Crossing, Observer};
 use softstop::orbit::StroboscopicMap;
-use softstop::{Clock, PiercingRatios, Ratios, Simulation, Start, Units};
+use softstop::{Clock, PhaseKind, PiercingRatios, Ratios, Simulation, Start, Units};
 
 /// Machines around the paper's, loaded or not, away from the degenerate.
 fn machines() -> impl Strategy<Value = Ratios> {
@@ -193,5 +193,68 @@ proptest! {
         prop_assert_eq!(plain.crossings.len(), scaled.crossings.len());
         prop_assert!((plain.end.position - scaled.end.position / length).abs() < 1e-7);
         prop_assert!((plain.end.velocity - scaled.end.velocity / length / rate).abs() < 1e-7);
+    }
+}
+
+/// A mass pressed onto a preloaded stop with less than its preload bounces ever lower and comes to
+/// rest on it, after a bounded number of crossings.
+#[test]
+fn endless_bounces_end_in_rest() {
+    let mut scene = Ratios {
+        clearance: 1.0,
+        ..Ratios::unloaded()
+    }
+    .scene()
+    .expect("valid");
+    scene.excitation.amplitude = 0.2;
+    scene.contact_damping = 4.0;
+    let mut machine = Simulation::new(
+        &scene,
+        Start {
+            position: 0.0,
+            velocity: 0.0,
+        },
+    )
+    .expect("valid");
+    machine.set_force(20.0, 0.0).expect("finite");
+    machine.advance(60.0).expect("bounded");
+    let sample = machine.sample();
+    assert_eq!(sample.phase, PhaseKind::Resting);
+    assert_eq!((sample.position, sample.velocity), (1.0, 0.0));
+    assert!((sample.contact_force - 19.0).abs() <= 0.2);
+    assert!(machine.impact_count() < 2_000_000);
+}
+
+/// A creeping contact costs no more evaluations than an ordinary one, whatever its damping: the
+/// impact is found and the creep follows (x - r) b / (stiffness) in closed form.
+#[test]
+fn heavy_damping_creeps() {
+    for damping in [1e4, 1e6, 1e8] {
+        let mut scene = Ratios {
+            clearance: 1.0,
+            ..Ratios::unloaded()
+        }
+        .scene()
+        .expect("valid");
+        scene.excitation.amplitude = 0.0;
+        scene.contact_damping = damping;
+        let mut machine = Simulation::new(
+            &scene,
+            Start {
+                position: 0.0,
+                velocity: 3.0,
+            },
+        )
+        .expect("valid");
+        machine.set_force(90.0, 0.0).expect("finite");
+        machine.advance(10.0).expect("bounded");
+        let touched = machine.last_impact().expect("an impact");
+        // Slow mode: damping x' + 8 x = 90 - 70 + 7, so x' = 19 / damping at x = 1; the speed of
+        // the impact is lost within v m / damping.
+        let dead = touched.velocity / damping;
+        let time = 10.0 - touched.time;
+        let depth = dead + 19.0 / 8.0 * -(-8.0 * time / damping).exp_m1();
+        let error = machine.sample().position - 1.0 - depth;
+        assert!(error.abs() < 1e-3 * depth, "{damping}: {error}");
     }
 }

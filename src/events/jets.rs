@@ -57,6 +57,16 @@ impl Jets {
         )
     }
 
+    /// Bound on |g''| over `span` seconds from this node, as in [`Jets::bound`]. Under heavy damping
+    /// it is the sharper one: high derivatives drown in the rounding of the damper's force.
+    pub fn low_bound(&self, flow: &Flow, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
+        let x = &self.position;
+        let drive = flow.amplitude * flow.frequency * flow.frequency;
+        let second = x[2].abs() * c + x[3].abs() * s + drive * span * s;
+        let third = x[3].abs() * c + x[4].abs() * s + drive * flow.frequency * span * s;
+        guard.position.abs() * second + guard.velocity.abs() * third + guard.push.abs() * drive
+    }
+
     /// Bound on |g''''| over `span` seconds from this node.
     ///
     /// The fourth derivative of the position obeys the phase's own equation under the fourth
@@ -78,6 +88,12 @@ impl Jets {
 }
 
 impl Ends {
+    /// True if g < 0 throughout a window of length `span` with |g''| <= `bound`: the chord is off by
+    /// at most bound span^2 / 8.
+    pub fn stay_below_chord(&self, span: f64, bound: f64) -> bool {
+        self.left.0.max(self.right.0) + bound * span * span * 0.125 < 0.0
+    }
+
     /// True if g < 0 throughout a window of length `span` with |g''''| <= `bound`.
     ///
     /// The cubic Hermite interpolant is off by at most bound span^4 / 384, and lies below its

@@ -100,7 +100,9 @@ impl Scan<'_> {
                 left: left.guard(guard),
                 right: right.guard(guard),
             };
-            ends.stay_below(span, left.bound(&self.course.flow, guard, span, bounds))
+            let flow = &self.course.flow;
+            ends.stay_below(span, left.bound(flow, guard, span, bounds))
+                || ends.stay_below_chord(span, left.low_bound(flow, guard, span, bounds))
         })
     }
 
