@@ -2,7 +2,7 @@
 //!
 //! The motion is scanned in windows. A window is passed only when a bound on the fourth derivative
 //! proves that no guard rises through zero in it; otherwise it is halved down to the reach of one
-//! Taylor polynomial, on which [`isolate`] finds the first rise with a certificate. Nothing is
+//! Taylor polynomial, on which the first rise is found with a certificate. Nothing is
 //! concluded from the signs at window ends alone.
 
 mod guard;

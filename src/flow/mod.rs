@@ -3,7 +3,7 @@
 //! Every phase obeys x'' + 2 a x' + b x = c + r t + A cos(angle + w t). [`Flow`] holds a, b, A and w
 //! and what can be computed once; a [`Course`] is one motion along it. Three evaluations share the
 //! work, each where it is free of cancellation: a Taylor series for short times, the particular
-//! solution plus [`modes`](modes::Modes) for ordinary ones, and zero-state responses by doubling
+//! solution plus the free modes for ordinary ones, and zero-state responses by doubling
 //! where the particular solution blows up.
 
 mod course;
