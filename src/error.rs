@@ -15,7 +15,7 @@ pub enum SceneError {
         /// The allowed range in words.
         allowed: &'static str,
     },
-    /// A piercing strip needs a friction at least as large as zero and a place to be in.
+    /// A strip without thickness and travel.
     #[error("piercing: thickness = {thickness} and travel = {travel} leave no room for a strip")]
     EmptyPiercing {
         /// Thickness of the strip in m.
@@ -50,6 +50,14 @@ pub enum MotionError {
         /// The time in s up to which it is known.
         time: f64,
         /// The last position in m.
+        position: f64,
+    },
+    /// Crossings pile up at one instant.
+    #[error("the motion does not get on from t = {time} s, position {position} m")]
+    Stalled {
+        /// The time in s.
+        time: f64,
+        /// The position in m.
         position: f64,
     },
     /// The parameters are not those of a machine.

@@ -73,7 +73,6 @@ fn time_does_not_run_backwards() {
 
 #[test]
 fn an_unbounded_motion_is_an_error() {
-    // Friction stiffer than the strip: phase I pushes back with growing force when nothing stops it.
     let scene = Scene {
         mass: 1.0,
         stiffness: 0.0,
@@ -129,8 +128,89 @@ proptest! {
             piercing: Some(Piercing { stiffness: k2, friction: k3, thickness, travel: 0.1 }),
         };
         if let Ok(mut motion) = scene.motion(Start { position, velocity }) {
-            let small = motion.clock().after(motion.now(), 1e-3 * scene.period());
+            // Some ten turns of the fastest mode, however fast that is.
+            let turn = motion
+                .phases()
+                .phases
+                .iter()
+                .map(|phase| (mass / phase.law.stiffness.abs()).sqrt())
+                .fold(scene.period(), f64::min);
+            let small = motion.clock().after(motion.now(), 10.0 * turn);
             let _ = motion.advance(small, &mut ());
         }
     }
+}
+
+/// A machine in which nothing moves, or everything balances exactly, ends its run all the same.
+#[test]
+fn exact_balance_does_not_hang() {
+    let levels = [0.0, 1.0, 3.8];
+    for (&clearance, &amplitude) in levels
+        .iter()
+        .zip(&levels)
+        .chain([(&0.0, &1.0), (&3.8, &0.0)])
+    {
+        for loaded in [false, true] {
+            for (preload, stiffness, suspension) in [
+                (0.0, 7.4, 1.1),
+                (70.0, 7.0, 1.0),
+                (0.0, 0.0, 0.0),
+                (5.0, 7.0, 0.0),
+            ] {
+                let base = if loaded {
+                    Ratios::loaded()
+                } else {
+                    Ratios::unloaded()
+                };
+                let mut scene = Ratios { clearance, ..base }.scene().expect("valid");
+                scene.mass = 0.7;
+                scene.stiffness = suspension;
+                scene.excitation.amplitude = amplitude;
+                scene.stop = Stop::Preloaded { stiffness, preload };
+                let start = Start {
+                    position: clearance,
+                    velocity: 0.0,
+                };
+                let mut machine = Simulation::new(&scene, start).expect("valid");
+                machine
+                    .set_force(suspension * clearance, 0.0)
+                    .expect("finite");
+                machine.advance(5.0 * scene.period()).expect("gets on");
+                assert!(machine.sample().position.is_finite());
+                assert!(machine.energy().dissipated.is_finite());
+            }
+        }
+    }
+}
+
+/// What is fed is latched at the clearance: taking the strip away while it is pierced changes
+/// nothing before the next stroke, whatever else is set.
+#[test]
+fn the_strip_stays_until_the_stroke_is_over() {
+    let scene = machine();
+    let start = Start {
+        position: 9.0,
+        velocity: 9.0,
+    };
+    let mut with = Simulation::new(&scene, start).expect("valid");
+    let mut without = with.clone();
+    let mut time = 0.0;
+    while with.sample().phase != softstop::PhaseKind::Pierce {
+        time += 0.01;
+        with.advance(time).expect("bounded");
+        without.advance(time).expect("bounded");
+    }
+    without.feed_strip(false);
+    without.set_force(1e-300, 0.0).expect("finite");
+    while with.sample().phase != softstop::PhaseKind::Free {
+        time += 0.01;
+        with.advance(time).expect("bounded");
+        without.advance(time).expect("bounded");
+        let (a, b) = (with.sample(), without.sample());
+        assert_eq!(a.phase, b.phase);
+        assert!((a.position - b.position).abs() < 1e-12);
+    }
+    with.advance(time + scene.period()).expect("bounded");
+    without.advance(time + scene.period()).expect("bounded");
+    assert_eq!((with.pierce_count(), without.pierce_count()), (2, 1));
 }

@@ -38,7 +38,7 @@ fn flow_agrees_with_forty_digits() {
             drive: (cos, sin),
             constant: get("constant"),
             ramp: get("ramp"),
-            balanced: false,
+            acceleration: None,
         };
         let elapsed = get("elapsed");
         let (sin, cos) = (get("drive_angle") + w * elapsed).sin_cos();

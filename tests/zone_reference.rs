@@ -46,8 +46,8 @@ fn folds_agree_with_thirty_digits() {
     assert!(compared >= 18, "only {compared} folds compared");
 }
 
-/// Velocity at the fold over clearance, unloaded, k4/k1 = 7 (model.md of the project's brief, from
-/// an independent exact integrator).
+/// Velocity at the fold over clearance, unloaded, k4/k1 = 7 (from an independent exact
+/// integrator).
 const FOLDS: [(f64, f64, f64); 9] = [
     (2.0, 10.74, 1.69031),
     (4.0, 16.10, 1.57552),

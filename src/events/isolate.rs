@@ -13,6 +13,8 @@ pub(super) struct Candidate<'a> {
     pub coefficients: &'a [f64; DEGREE + 1],
     /// Bound on |g''''| over the interval.
     pub bound: f64,
+    /// Rounding of g: what stays below it cannot be told from zero.
+    pub rounding: f64,
 }
 
 /// Value and first derivative at one point.
@@ -80,6 +82,10 @@ impl Candidate<'_> {
         let (low, high) = extremes(&bernstein);
         let slack = self.bound * span.powi(4) / 384.0;
         if high + slack < 0.0 || low - slack > 0.0 {
+            return Verdict::NoRise;
+        }
+        let flat = high.max(-low) + slack <= self.rounding;
+        if flat && left.value <= 0.0 && right.value <= 0.0 {
             return Verdict::NoRise;
         }
         if !slack.is_finite() {

@@ -9,6 +9,8 @@ pub(super) struct Jets {
     pub node: Node,
     position: [f64; 7],
     push: [f64; 5],
+    /// Amplitude of the drive on the mass, in m/s^2: none while it is held.
+    drive: f64,
 }
 
 /// Value and first derivative of a guard function at both ends of a window.
@@ -40,11 +42,25 @@ impl Jets {
                 position[n + 2] = push[n] - twice_decay * position[n + 1] - b * position[n];
             }
         }
+        let drive = if course.is_held() { 0.0 } else { a };
         Self {
             node,
             position,
             push,
+            drive,
         }
+    }
+
+    /// The rounding that g may carry at this node.
+    pub fn rounding(&self, guard: &Guard) -> f64 {
+        let (x, q) = (&self.position, &self.push);
+        let terms = [
+            guard.position * x[0],
+            guard.velocity * x[1],
+            guard.push * q[0],
+            guard.level,
+        ];
+        2.0 * f64::EPSILON * terms.iter().map(|term| term.abs()).sum::<f64>() + f64::MIN_POSITIVE
     }
 
     /// g and g' at this node.
@@ -61,10 +77,13 @@ impl Jets {
     /// it is the sharper one: high derivatives drown in the rounding of the damper's force.
     pub fn low_bound(&self, flow: &Flow, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
         let x = &self.position;
-        let drive = flow.amplitude * flow.frequency * flow.frequency;
+        let square = flow.frequency * flow.frequency;
+        let drive = self.drive * square;
         let second = x[2].abs() * c + x[3].abs() * s + drive * span * s;
         let third = x[3].abs() * c + x[4].abs() * s + drive * flow.frequency * span * s;
-        guard.position.abs() * second + guard.velocity.abs() * third + guard.push.abs() * drive
+        guard.position.abs() * second
+            + guard.velocity.abs() * third
+            + guard.push.abs() * flow.amplitude * square
     }
 
     /// Bound on |g''''| over `span` seconds from this node.
@@ -76,9 +95,10 @@ impl Jets {
     pub fn bound(&self, flow: &Flow, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
         let x = &self.position;
         let square = flow.frequency * flow.frequency;
-        let drive = flow.amplitude * square * square;
+        let drive = self.drive * square * square;
         let fourth = x[4].abs() * c + x[5].abs() * s + drive * span * s;
-        let mut bound = guard.position.abs() * fourth + guard.push.abs() * drive;
+        let mut bound =
+            guard.position.abs() * fourth + guard.push.abs() * flow.amplitude * square * square;
         if guard.velocity != 0.0 {
             let fifth = x[5].abs() * c + x[6].abs() * s + drive * flow.frequency * span * s;
             bound += guard.velocity.abs() * fifth;
@@ -92,6 +112,13 @@ impl Ends {
     /// at most bound span^2 / 8.
     pub fn stay_below_chord(&self, span: f64, bound: f64) -> bool {
         self.left.0.max(self.right.0) + bound * span * span * 0.125 < 0.0
+    }
+
+    /// True if g is indistinguishable from zero throughout a window of length `span` with |g''| <=
+    /// `bound`, and at neither end above it: nothing rises there.
+    pub fn stay_at_zero(&self, span: f64, bound: f64, rounding: f64) -> bool {
+        let (g0, g1) = (self.left.0, self.right.0);
+        g0 <= 0.0 && g1 <= 0.0 && bound * span * span * 0.125 - g0.min(g1) <= rounding
     }
 
     /// True if g < 0 throughout a window of length `span` with |g''''| <= `bound`.

@@ -44,9 +44,6 @@ pub enum Outlook {
 /// Windows between two looks at whether the guards can be reached at all.
 const WINDOWS_PER_LOOK: u32 = 8;
 
-/// Windows over which the rounding of the rotations stays below that of a fresh evaluation.
-const WINDOWS_UNREFRESHED: f64 = 10.5;
-
 /// Searches the first crossing on `course` from `node` on, at least up to `until` seconds after
 /// departure.
 ///
@@ -94,29 +91,41 @@ impl Scan<'_> {
     /// True if no guard can rise through zero between two nodes.
     #[inline]
     fn is_clear(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> bool {
+        self.guards
+            .iter()
+            .all(|guard| self.cannot_rise(guard, left, right, bounds))
+    }
+
+    #[inline]
+    fn cannot_rise(&self, guard: &Guard, left: &Jets, right: &Jets, bounds: (f64, f64)) -> bool {
+        let flow = &self.course.flow;
         let span = right.node.elapsed - left.node.elapsed;
-        self.guards.iter().all(|guard| {
-            let ends = Ends {
-                left: left.guard(guard),
-                right: right.guard(guard),
-            };
-            let flow = &self.course.flow;
-            ends.stay_below(span, left.bound(flow, guard, span, bounds))
-                || ends.stay_below_chord(span, left.low_bound(flow, guard, span, bounds))
-        })
+        let ends = Ends {
+            left: left.guard(guard),
+            right: right.guard(guard),
+        };
+        ends.stay_below(span, left.bound(flow, guard, span, bounds)) || {
+            let bound = left.low_bound(flow, guard, span, bounds);
+            ends.stay_below_chord(span, bound)
+                || ends.stay_at_zero(span, bound, left.rounding(guard))
+        }
     }
 
     /// The first crossing between two nodes, by halving down to the reach of a Taylor polynomial.
     fn search(&self, left: &Jets, right: &Jets) -> Option<Found> {
         let span = right.node.elapsed - left.node.elapsed;
         let bounds = self.course.flow.modes.bounds(span);
-        if span <= self.course.flow.reach * 1.000001 {
-            return self.search_polynomial(left, right, bounds);
-        }
         if self.is_clear(left, right, bounds) {
             return None;
         }
-        let middle = self.course.node(left.node.elapsed + 0.5 * span);
+        if span <= self.course.flow.reach * 1.000001 {
+            return self.search_polynomial(left, right, bounds);
+        }
+        let half = left.node.elapsed + 0.5 * span;
+        if half <= left.node.elapsed || half >= right.node.elapsed {
+            return self.search_polynomial(left, right, bounds);
+        }
+        let middle = self.course.node(half);
         let middle = Jets::new(self.course, middle);
         self.search(left, &middle)
             .or_else(|| self.search(&middle, right))
@@ -124,14 +133,18 @@ impl Scan<'_> {
 
     fn search_polynomial(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> Option<Found> {
         let span = right.node.elapsed - left.node.elapsed;
-        let node = self.refreshed(&left.node);
+        let node = left.node;
         let taylor = self.course.expand(&node);
         let mut horizon = f64::INFINITY;
         let mut first = None;
         for (index, guard) in self.guards.iter().enumerate() {
+            if self.cannot_rise(guard, left, right, bounds) {
+                continue;
+            }
             let candidate = Candidate {
                 coefficients: &guard.polynomial(&taylor),
                 bound: left.bound(&self.course.flow, guard, span, bounds),
+                rounding: left.rounding(guard),
             };
             let ends = (left.guard(guard), right.guard(guard));
             if let Some(rise) = candidate
@@ -151,14 +164,5 @@ impl Scan<'_> {
                 velocity,
             }
         })
-    }
-
-    /// The node without the rounding that many rotations gather.
-    fn refreshed(&self, node: &Node) -> Node {
-        if node.elapsed <= WINDOWS_UNREFRESHED * self.course.flow.window {
-            *node
-        } else {
-            self.course.node(node.elapsed)
-        }
     }
 }

@@ -16,8 +16,9 @@ pub struct Departure {
     pub constant: f64,
     /// Rate r of the external force per mass in m/s^3.
     pub ramp: f64,
-    /// True if the acceleration is known to be exactly zero: a held mass is let go.
-    pub balanced: bool,
+    /// Acceleration in m/s^2 from rest, where the phase was chosen by it: the arc then starts with
+    /// this very number.
+    pub acceleration: Option<f64>,
 }
 
 /// A motion's state at one time after departure.
@@ -32,6 +33,9 @@ pub struct Node {
     /// cos and sin of the drive angle.
     pub drive: (f64, f64),
     pub(super) deviation: (f64, f64),
+    /// Scan windows are counted from here, so that their times do not drift.
+    origin: f64,
+    windows: u32,
 }
 
 /// The exact motion that follows from a departure.
@@ -43,6 +47,9 @@ pub struct Course {
     pub departure: Departure,
     pub(super) form: Form,
 }
+
+/// Windows passed by rotation before a node is evaluated afresh.
+const ROTATIONS: u32 = 8;
 
 /// How states beyond the reach of one Taylor polynomial are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -191,6 +198,8 @@ impl Course {
             velocity: self.departure.velocity,
             drive: self.departure.drive,
             deviation,
+            origin: 0.0,
+            windows: 0,
         }
     }
 
@@ -212,15 +221,27 @@ impl Course {
             velocity,
             drive,
             deviation,
+            origin: elapsed,
+            windows: 0,
         }
     }
 
-    /// The node one scan window on: by rotation where that is possible.
+    /// The node one scan window on: by rotation where that is possible, evaluated afresh every few
+    /// windows, so that neither times nor states drift.
     #[inline]
     pub(crate) fn next(&self, node: &Node) -> Node {
-        let elapsed = node.elapsed + self.flow.window;
-        let Form::Particular { particular, .. } = self.form else {
-            return self.node(elapsed);
+        let (origin, windows) = (node.origin, node.windows + 1);
+        let elapsed = origin + f64::from(windows) * self.flow.window;
+        let particular = match self.form {
+            Form::Particular { particular, .. } if windows % ROTATIONS != 0 => particular,
+            _ if windows == u32::MAX => return self.node(elapsed),
+            _ => {
+                return Node {
+                    origin,
+                    windows,
+                    ..self.node(elapsed)
+                };
+            }
         };
         let [[c, s], [dc, ds]] = self.flow.window_modes;
         let (y, rate) = node.deviation;
@@ -233,6 +254,8 @@ impl Course {
             velocity: v + deviation.1,
             drive,
             deviation,
+            origin,
+            windows,
         }
     }
 
@@ -252,10 +275,11 @@ impl Course {
         );
         if self.is_held() {
             taylor.at_rest(node.position)
-        } else if self.departure.balanced && node.elapsed == 0.0 {
-            taylor.balanced()
         } else {
-            taylor
+            match self.departure.acceleration {
+                Some(acceleration) if node.elapsed == 0.0 => taylor.with_acceleration(acceleration),
+                _ => taylor,
+            }
         }
     }
 

@@ -69,7 +69,7 @@ impl Flow {
         Matrix2::new(c, s, dc, ds)
     }
 
-    /// The mass under the force alone: x'' at rest displacement zero.
+    /// x'' in m/s^2 of a state under `push` per mass.
     pub(crate) fn acceleration(&self, x: f64, v: f64, push: f64) -> f64 {
         push - 2.0 * self.modes.decay * v - self.modes.stiffness * x
     }

@@ -115,7 +115,10 @@ impl Modes {
 
     /// Fastest rate of the free motion in 1/s: no mode grows, decays or turns faster.
     pub fn fastest_rate(&self) -> f64 {
-        (2.0 * self.decay).max(self.stiffness.abs().sqrt())
+        match self.kind {
+            Kind::Oscillating { .. } => (2.0 * self.decay).max(self.stiffness.sqrt()),
+            Kind::Aperiodic { fast, .. } => fast.abs(),
+        }
     }
 
     /// Rate in 1/s that stays when the fast mode has died out.

@@ -68,9 +68,9 @@ impl Taylor {
         self
     }
 
-    /// The same motion where the initial acceleration is known to be exactly zero.
-    pub fn balanced(mut self) -> Self {
-        self.position[2] = 0.0;
+    /// The same motion where the initial acceleration is known.
+    pub fn with_acceleration(mut self, acceleration: f64) -> Self {
+        self.position[2] = 0.5 * acceleration;
         self
     }
 

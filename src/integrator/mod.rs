@@ -1,6 +1,8 @@
 //! The exact integrator: from crossing to crossing.
 
 mod clock;
+mod hum;
+mod landing;
 mod motion;
 mod observer;
 mod simulation;

@@ -3,11 +3,12 @@
 use std::cmp::Ordering;
 
 use super::clock::{Clock, Instant};
-use super::observer::{Arc, Crossing, CrossingKind, Observer};
+use super::hum::Hum;
+use super::observer::{Arc, Crossing, Observer};
 use crate::error::MotionError;
 use crate::events::{Found, Outlook, first_crossing};
 use crate::flow::{Course, Departure, Node};
-use crate::phases::{Exit, Law, Mode, Phase, PhaseKind, Phases, SPACING, Surface};
+use crate::phases::{Mode, Phase, PhaseKind, Phases};
 
 /// A state to start from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,53 +49,20 @@ pub struct Force {
 /// nothing, so results do not depend on how a run is divided.
 #[derive(Debug, Clone)]
 pub struct Motion {
-    phases: Phases,
+    pub(super) phases: Phases,
     clock: Clock,
-    mode: Mode,
-    fed: bool,
-    force: Force,
+    pub(super) mode: Mode,
+    pub(super) fed: bool,
+    pub(super) force: Force,
     start: Instant,
     now: Instant,
     course: Course,
     outlook: Outlook,
-    hum: Hum,
+    pub(super) hum: Hum,
 }
 
-/// Crossings of one and the same surface in a row, reversals left out.
-#[derive(Debug, Clone, Copy, Default)]
-struct Hum {
-    surface: usize,
-    crossings: u32,
-}
-
-/// Crossings in a row after which bounces of [`HUM_HEIGHT`] are no longer followed. At a preloaded
-/// stop that is pressed with less than its preload, bounces shrink only by viscous damping: their
-/// number grows beyond all bounds as their height goes to zero.
-const HUM_CROSSINGS: u32 = 10_000;
-/// Height of a bounce, relative to the length of the motion, that then counts as rest.
-const HUM_HEIGHT: f64 = 1e-11;
-
-impl Hum {
-    fn count(&mut self, surface: usize) {
-        if surface == self.surface {
-            self.crossings += 1;
-        } else {
-            *self = Self {
-                surface,
-                crossings: 0,
-            };
-        }
-    }
-
-    /// Height below which a bounce counts as rest.
-    fn resolution(&self) -> f64 {
-        if self.crossings < HUM_CROSSINGS {
-            SPACING
-        } else {
-            HUM_HEIGHT
-        }
-    }
-}
+/// Crossings at one and the same instant that a motion may make.
+const MOST_AT_ONCE: u32 = 100;
 
 impl Motion {
     /// A motion of `phases` from `start` at time `at`, with a strip fed.
@@ -118,7 +86,7 @@ impl Motion {
             drive,
             constant: 0.0,
             ramp: 0.0,
-            balanced: false,
+            acceleration: None,
         };
         let course = Course::held(phases.held, departure);
         let push = phases.held.amplitude * drive.0 + force.value / phases.mass;
@@ -200,6 +168,37 @@ impl Motion {
         }
     }
 
+    /// Whether the strip's phases hold now, or would at the next crossing of the clearance.
+    pub(super) fn is_latched(&self) -> bool {
+        match self.mode {
+            Mode::Moving(0) => self.fed,
+            Mode::Moving(phase) | Mode::Held { forward: phase, .. } => {
+                self.phases.belongs_to_strip(phase)
+            }
+        }
+    }
+
+    /// Goes on from here under another external force. Phase, latched strip and bounces in a row
+    /// stay as they are; only a held mass may be let go at once.
+    pub(super) fn set_force(&mut self, force: Force) {
+        let mut state = self.state();
+        let drive = self.clock.drive(self.now);
+        self.start = self.now;
+        self.force = force;
+        let mode = match self.mode {
+            Mode::Held { forward, backward } => {
+                let push = self.push(drive);
+                self.phases
+                    .leave_rest(forward, backward, state.position, push)
+            }
+            Mode::Moving(phase) => {
+                state.position = self.phases.phases[phase].confine(state.position);
+                self.mode
+            }
+        };
+        self.depart(state, drive, mode);
+    }
+
     /// Changes the feed of strips; it takes effect at the next upward crossing of the clearance.
     pub fn feed_strip(&mut self, fed: bool) {
         self.fed = fed;
@@ -215,15 +214,22 @@ impl Motion {
         until: Instant,
         observer: &mut impl Observer,
     ) -> Result<(), MotionError> {
-        if until.partial_cmp(&self.now).is_none_or(Ordering::is_lt) {
+        let finite = until.cycles.is_finite() && until.offset.is_finite();
+        if !finite || until.partial_cmp(&self.now).is_none_or(Ordering::is_lt) {
             let (until, present) = (self.clock.time(until), self.clock.time(self.now));
             return Err(MotionError::TimeBackwards { until, present });
         }
+        let mut crossings_at_once = 0;
         loop {
             let horizon = self.clock.elapsed(self.start, until);
             self.look_ahead(horizon)?;
             match self.outlook {
                 Outlook::Crossing(found) if found.elapsed <= horizon => {
+                    let instantly = found.elapsed == 0.0;
+                    crossings_at_once = if instantly { crossings_at_once + 1 } else { 0 };
+                    if crossings_at_once > MOST_AT_ONCE {
+                        return Err(self.stalled());
+                    }
                     self.cross(found, observer);
                 }
                 _ => break,
@@ -231,6 +237,11 @@ impl Motion {
         }
         self.now = until;
         Ok(())
+    }
+
+    fn stalled(&self) -> MotionError {
+        let (time, position) = (self.clock.time(self.start), self.course.departure.position);
+        MotionError::Stalled { time, position }
     }
 
     fn look_ahead(&mut self, horizon: f64) -> Result<(), MotionError> {
@@ -271,7 +282,7 @@ impl Motion {
         let at = self.clock.after(self.start, found.elapsed);
         let drive = self.clock.drive(at);
         self.force.value += self.force.rate * found.elapsed;
-        let push = self.phases.held.amplitude * drive.0 + self.force.value / self.phases.mass;
+        let push = self.push(drive);
         if let Some(surface) = self.surface_of(found.guard) {
             self.hum.count(surface);
         }
@@ -296,81 +307,10 @@ impl Motion {
         });
     }
 
-    /// The surface that a guard watches, if it watches one.
-    fn surface_of(&self, guard: usize) -> Option<usize> {
-        let Mode::Moving(phase) = self.mode else {
-            return None;
-        };
-        match self.phases.phases[phase].exits[guard] {
-            Exit::Forward(surface) | Exit::Backward(surface) => Some(surface),
-            Exit::Reversal { .. } => None,
-        }
-    }
-
-    /// State and mode right after a crossing.
-    fn land(&self, found: &Found, push: f64) -> Landing {
-        let phase = match self.mode {
-            Mode::Moving(phase) => phase,
-            Mode::Held { forward, backward } => {
-                let phase = if found.guard == 0 { forward } else { backward };
-                let state = Start {
-                    position: found.position,
-                    velocity: 0.0,
-                };
-                let mode = Mode::Moving(phase);
-                return Landing {
-                    state,
-                    mode,
-                    kind: CrossingKind::Release,
-                };
-            }
-        };
-        match self.phases.phases[phase].exits[found.guard] {
-            Exit::Reversal { forward, backward } => {
-                let mode = self
-                    .phases
-                    .leave_rest(forward, backward, found.position, push);
-                let state = Start {
-                    position: found.position,
-                    velocity: 0.0,
-                };
-                Landing {
-                    state,
-                    mode,
-                    kind: CrossingKind::Reversal,
-                }
-            }
-            Exit::Forward(surface) => self.pass(surface, found.velocity.max(0.0), push, true),
-            Exit::Backward(surface) => self.pass(surface, found.velocity.min(0.0), push, false),
-        }
-    }
-
-    fn pass(&self, surface: usize, velocity: f64, push: f64, forward: bool) -> Landing {
-        let at: &Surface = &self.phases.surfaces[surface];
-        let mode = self
-            .phases
-            .at_surface(at, velocity, push, self.fed, self.hum.resolution());
-        let held = matches!(mode, Mode::Held { .. });
-        let fed = self.fed || at.above_unfed.is_none();
-        let kind = CrossingKind::Surface {
-            forward,
-            impact: forward && at.is_clearance,
-            pierces: forward && at.is_far_side && fed,
-        };
-        let velocity = if held { 0.0 } else { velocity };
-        Landing {
-            state: Start {
-                position: at.position,
-                velocity,
-            },
-            mode,
-            kind,
-        }
-    }
-
     /// Begins an arc at the present start instant.
     fn depart(&mut self, state: Start, drive: (f64, f64), mode: Mode) {
-        let released = matches!(self.mode, Mode::Held { .. }) && matches!(mode, Mode::Moving(_));
+        let acceleration =
+            (state.velocity == 0.0).then(|| self.acceleration_at_rest(state.position, drive, mode));
         let law = match mode {
             Mode::Moving(phase) => self.phases.phases[phase].law.force,
             Mode::Held { .. } => 0.0,
@@ -381,7 +321,7 @@ impl Motion {
             drive,
             constant: (law + self.force.value) / self.phases.mass,
             ramp: self.force.rate / self.phases.mass,
-            balanced: released,
+            acceleration,
         };
         self.course = match mode {
             Mode::Moving(phase) => Course::new(self.phases.phases[phase].flow, departure),
@@ -390,22 +330,4 @@ impl Motion {
         self.mode = mode;
         self.outlook = Outlook::ClearUntil(self.course.start());
     }
-
-    fn acceleration(&self, mode: Mode, position: f64, velocity: f64, push: f64) -> f64 {
-        match mode {
-            Mode::Held { .. } => 0.0,
-            Mode::Moving(phase) => {
-                let Law { force, .. } = self.phases.phases[phase].law;
-                let flow = &self.phases.phases[phase].flow;
-                flow.acceleration(position, velocity, push + force / self.phases.mass)
-            }
-        }
-    }
-}
-
-/// State, mode and kind of a crossing, right after it.
-struct Landing {
-    state: Start,
-    mode: Mode,
-    kind: CrossingKind,
 }

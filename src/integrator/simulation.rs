@@ -180,31 +180,27 @@ impl Simulation {
         let drive = self.scene.excitation;
         let push = drive.amplitude * cos + force.value;
         let push_rate = force.rate - drive.amplitude * drive.frequency * sin;
-        let phase = self.motion.kind();
-        let Some(law) = self.motion.phase() else {
-            let contact_force = push - self.scene.stiffness * position;
-            let (acceleration, jerk) = (0.0, 0.0);
-            return Sample {
-                position,
-                velocity,
-                acceleration,
-                jerk,
-                contact_force,
-                phase,
-            };
+        let (contact_force, acceleration, jerk) = match self.motion.phase() {
+            None => (push - self.scene.stiffness * position, 0.0, 0.0),
+            Some(phase) => {
+                let contact = phase.contact_force(&self.motion.phases().free, position, velocity);
+                let free = self.scene.damping * velocity + self.scene.stiffness * position;
+                let acceleration = (push - free - contact) / self.scene.mass;
+                let resisting = phase.law.damping * acceleration + phase.law.stiffness * velocity;
+                (
+                    contact,
+                    acceleration,
+                    (push_rate - resisting) / self.scene.mass,
+                )
+            }
         };
-        let contact_force = law.contact_force(&self.motion.phases().free, position, velocity);
-        let free = self.scene.damping * velocity + self.scene.stiffness * position;
-        let acceleration = (push - free - contact_force) / self.scene.mass;
-        let resisting = law.law.damping * acceleration + law.law.stiffness * velocity;
-        let jerk = (push_rate - resisting) / self.scene.mass;
         Sample {
             position,
             velocity,
             acceleration,
             jerk,
             contact_force,
-            phase,
+            phase: self.motion.kind(),
         }
     }
 
@@ -220,8 +216,8 @@ impl Simulation {
         }
         let force = Force { value, rate };
         if self.motion.force() != force {
-            let (clock, at) = (*self.motion.clock(), self.motion.now());
-            self.restart(self.motion.phases().clone(), clock, at, force);
+            self.tallies.work += self.tallies.work_under_way(&self.motion);
+            self.motion.set_force(force);
         }
         Ok(())
     }
@@ -246,6 +242,7 @@ impl Simulation {
         let (old, new) = (self.scene.excitation, scene.excitation);
         if old.frequency != new.frequency || old.phase != new.phase {
             let angle = old.frequency * at.offset + clock.phase + new.phase - old.phase;
+            let angle = angle.rem_euclid(std::f64::consts::TAU);
             clock = Clock::new(new.frequency, angle);
             at = Clock::at_cycle(0);
             if let Some((instant, _)) = &mut self.tallies.last_impact {
@@ -256,20 +253,16 @@ impl Simulation {
         }
         let force = self.motion.force();
         self.scene = *scene;
-        self.restart(scene.phases(), clock, at, force);
+        self.tallies.work += self.tallies.work_under_way(&self.motion);
+        let (state, fed) = (self.motion.state(), self.motion.is_fed());
+        let latched = self.motion.is_latched();
+        self.motion = Motion::with(scene.phases(), clock, at, state, force, latched);
+        self.motion.feed_strip(fed);
         self.tallies.mass = scene.mass;
         self.tallies.free = self.motion.phases().free;
         let mechanical = mechanical_energy(scene, self.motion.phase(), self.motion.state());
         self.tallies.work.supplied += mechanical - before;
         Ok(())
-    }
-
-    /// Ends the present arc here and begins another from the same state.
-    fn restart(&mut self, phases: crate::phases::Phases, clock: Clock, at: Instant, force: Force) {
-        self.tallies.work += self.tallies.work_under_way(&self.motion);
-        let state = self.motion.state();
-        let fed = self.motion.is_fed();
-        self.motion = Motion::with(phases, clock, at, state, force, fed);
     }
 
     /// Upward crossings of the clearance since the start.

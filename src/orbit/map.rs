@@ -141,6 +141,9 @@ impl Observer for Highest {
 /// The largest position on a course within `duration` seconds, its ends left out.
 fn highest_on(course: &Course, duration: f64) -> f64 {
     let mut highest = f64::NEG_INFINITY;
+    if course.is_held() {
+        return highest;
+    }
     let mut node = course.start();
     let mut guard = Guard::turning_back();
     loop {

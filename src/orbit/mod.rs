@@ -29,7 +29,8 @@ pub struct Orbit {
     pub max_position: f64,
     /// Jacobian of the map over the period, saltation included.
     pub monodromy: Matrix2<f64>,
-    /// Integral of damping over mass along the period: det = exp(-integral) without sticking.
+    /// Integral of damping over mass along the period: det = exp(-integral) unless the
+    /// mass turns or sticks under dry friction.
     pub damping_integral: f64,
 }
 

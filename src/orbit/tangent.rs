@@ -9,8 +9,8 @@ use crate::integrator::{Arc, Crossing, CrossingKind, Observer};
 pub struct Tangent {
     /// The product so far.
     pub matrix: Matrix2<f64>,
-    /// Integral of the damping coefficient over time and mass; without sticking,
-    /// det(matrix) = exp(-damping_integral) (Liouville).
+    /// Integral of the damping coefficient over time and mass. As long as the mass neither turns
+    /// nor sticks under dry friction, det(matrix) = exp(-damping_integral) (Liouville).
     pub damping_integral: f64,
 }
 
@@ -46,6 +46,8 @@ pub fn saltation(crossing: &Crossing) -> Matrix2<f64> {
     let (v, a) = (crossing.velocity, crossing.acceleration_before);
     let jump = (crossing.velocity_after - v, crossing.acceleration_after - a);
     match crossing.kind {
+        // The mass is held: nothing of a perturbation is left.
+        CrossingKind::Surface { .. } if crossing.velocity_after == 0.0 => Matrix2::zeros(),
         CrossingKind::Surface { .. } => Matrix2::new(1.0 + jump.0 / v, 0.0, jump.1 / v, 1.0),
         CrossingKind::Reversal => Matrix2::new(1.0, jump.0 / a, 0.0, 1.0 + jump.1 / a),
         CrossingKind::Release => Matrix2::identity(),

@@ -66,9 +66,12 @@ fn layers(scene: &Scene, free: Law, strip: Option<Piercing>) -> Vec<Plan> {
         }),
         None => {}
     }
-    if let Stop::Preloaded { stiffness, preload } = scene.stop {
-        let from = scene.stop_position();
-        plans.push(Plan {
+    let from = scene.stop_position();
+    let is_far_side = plans
+        .last()
+        .is_some_and(|below| below.kind == PhaseKind::Pierce);
+    match scene.stop {
+        Stop::Preloaded { stiffness, preload } => plans.push(Plan {
             kind: PhaseKind::Stop,
             from,
             forward: Law {
@@ -78,10 +81,17 @@ fn layers(scene: &Scene, free: Law, strip: Option<Piercing>) -> Vec<Plan> {
             },
             backward: None,
             stored: (preload, stiffness, from),
-            is_far_side: plans
-                .last()
-                .is_some_and(|below| below.kind == PhaseKind::Pierce),
-        });
+            is_far_side,
+        }),
+        Stop::None if strip.is_some() => plans.push(Plan {
+            kind: PhaseKind::Gap,
+            from,
+            forward: touching,
+            backward: None,
+            stored: (0.0, 0.0, 0.0),
+            is_far_side,
+        }),
+        Stop::None => {}
     }
     plans
 }

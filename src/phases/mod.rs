@@ -130,6 +130,18 @@ impl Scene {
     }
 }
 
+impl Phases {
+    /// True if a phase is one of those with a strip.
+    pub(crate) fn belongs_to_strip(&self, phase: usize) -> bool {
+        let within = |layers: &[Layer]| {
+            layers
+                .iter()
+                .any(|layer| layer.forward == phase || layer.backward == phase)
+        };
+        within(&self.fed)
+    }
+}
+
 impl Phase {
     /// Force of stop and strip on the mass in N, F in m x'' + b1 x' + k1 x + F = F0 cos(w t):
     /// positive where it presses the mass back.
@@ -137,6 +149,19 @@ impl Phase {
         (self.law.damping - free.damping) * velocity
             + (self.law.stiffness - free.stiffness) * position
             - self.law.force
+    }
+
+    /// The position without the rounding that would put it beyond a surface that ends the phase.
+    pub(crate) fn confine(&self, position: f64) -> f64 {
+        self.guards.iter().fold(position, |x, guard| {
+            if guard.position > 0.0 {
+                x.min(guard.level)
+            } else if guard.position < 0.0 {
+                x.max(-guard.level)
+            } else {
+                x
+            }
+        })
     }
 
     /// Energy in J stored in the stop's spring.
