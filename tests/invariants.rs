@@ -256,5 +256,11 @@ fn heavy_damping_creeps() {
         let depth = dead + 19.0 / 8.0 * -(-8.0 * time / damping).exp_m1();
         let error = machine.sample().position - 1.0 - depth;
         assert!(error.abs() < 1e-3 * depth, "{damping}: {error}");
+        let energy = machine.energy();
+        let defect = energy.supplied - energy.dissipated - energy.mechanical + 4.5;
+        assert!(
+            defect.abs() < 1e-9 * energy.supplied,
+            "{damping}: {defect:e}"
+        );
     }
 }

@@ -38,29 +38,50 @@ impl Course {
         }
     }
 
+    /// Panels as wide as a Taylor polynomial reaches, wider by a quarter from one to the next while a
+    /// fast mode dies out, up to a scan window.
     fn power_by_quadrature(&self, elapsed: f64, law: f64) -> Power {
-        let panels = (elapsed / self.flow.reach).ceil().max(1.0);
-        let width = elapsed / panels;
         let (mut supplied, mut square) = (0.0, 0.0);
-        for panel in 0..panels as u64 {
-            let node = match panel {
-                0 => self.start(),
-                _ => self.node(panel as f64 * width),
-            };
-            let taylor = self.expand(&node);
-            let half = 0.5 * width;
-            for (x, weight) in GAUSS {
-                for s in [half - half * x, half + half * x] {
-                    let (_, velocity) = taylor.state(s);
-                    supplied += weight * half * (taylor.push(s) - law) * velocity;
-                    square += weight * half * velocity * velocity;
-                }
+        let (mut start, mut width) = (0.0, self.flow.reach);
+        while start < elapsed {
+            let last = width >= elapsed - start;
+            let half = 0.5 * if last { elapsed - start } else { width };
+            let states = self.states(start, half);
+            for (index, (push, velocity)) in states.into_iter().enumerate() {
+                let weight = half * GAUSS[index / 2].1;
+                supplied += weight * (push - law) * velocity;
+                square += weight * velocity * velocity;
             }
+            start = if last { elapsed } else { start + width };
+            width = (1.25 * width).min(self.flow.window.max(self.flow.reach));
         }
         Power {
             supplied,
             lost: 2.0 * self.flow.modes.decay * square,
         }
+    }
+
+    /// Push and velocity at the Gauss nodes of a panel that begins at `start`.
+    fn states(&self, start: f64, half: f64) -> [(f64, f64); 8] {
+        let offsets: [f64; 8] = std::array::from_fn(|index| {
+            let (x, _) = GAUSS[index / 2];
+            half * if index % 2 == 0 { 1.0 - x } else { 1.0 + x }
+        });
+        let node = if start == 0.0 {
+            self.start()
+        } else {
+            self.node(start)
+        };
+        if 2.0 * half <= self.flow.reach {
+            let taylor = self.expand(&node);
+            return offsets.map(|s| (taylor.push(s), taylor.state(s).1));
+        }
+        offsets.map(|s| {
+            let node = self.node(start + s);
+            let (constant, ramp) = self.push_at(0.0);
+            let push = constant + ramp * node.elapsed + self.flow.amplitude * node.drive.0;
+            (push, node.velocity)
+        })
     }
 
     /// With v = y' + u, y the free deviation and u the rate of the particular solution: the

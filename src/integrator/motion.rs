@@ -1,6 +1,7 @@
 //! The loop: course, first crossing, next phase.
 
 use std::cmp::Ordering;
+use std::sync::Arc as Shared;
 
 use super::clock::{Clock, Instant};
 use super::hum::Hum;
@@ -49,7 +50,7 @@ pub struct Force {
 /// nothing, so results do not depend on how a run is divided.
 #[derive(Debug, Clone)]
 pub struct Motion {
-    pub(super) phases: Phases,
+    pub(super) phases: Shared<Phases>,
     clock: Clock,
     pub(super) mode: Mode,
     pub(super) fed: bool,
@@ -66,19 +67,20 @@ const MOST_AT_ONCE: u32 = 100;
 
 impl Motion {
     /// A motion of `phases` from `start` at time `at`, with a strip fed.
-    pub fn new(phases: Phases, clock: Clock, at: Instant, start: Start) -> Self {
+    pub fn new(phases: impl Into<Shared<Phases>>, clock: Clock, at: Instant, start: Start) -> Self {
         Self::with(phases, clock, at, start, Force::default(), true)
     }
 
     /// The same under an external force, with or without a strip.
     pub fn with(
-        phases: Phases,
+        phases: impl Into<Shared<Phases>>,
         clock: Clock,
         at: Instant,
         start: Start,
         force: Force,
         fed: bool,
     ) -> Self {
+        let phases = phases.into();
         let drive = clock.drive(at);
         let departure = Departure {
             position: start.position,

@@ -1,5 +1,7 @@
 //! The stroboscopic map: from drive angle to the same drive angle, whole periods later.
 
+use std::sync::Arc as Shared;
+
 use nalgebra::{Matrix2, Vector2};
 
 use super::tangent::Tangent;
@@ -13,7 +15,7 @@ use crate::scene::Scene;
 /// The map of one scene over a number of drive periods, from time 0.
 #[derive(Debug, Clone)]
 pub struct StroboscopicMap {
-    phases: Phases,
+    phases: Shared<Phases>,
     clock: Clock,
     periods: u64,
 }
@@ -40,7 +42,7 @@ impl StroboscopicMap {
         scene.validate()?;
         let clock = Clock::new(scene.excitation.frequency, scene.excitation.phase);
         Ok(Self {
-            phases: scene.phases(),
+            phases: scene.phases().into(),
             clock,
             periods,
         })

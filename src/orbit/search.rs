@@ -8,11 +8,12 @@ use super::{Orbit, OrbitError, StroboscopicMap};
 use crate::scene::Scene;
 
 /// Speeds of the starts, in units of w times the length of the motion.
-const SPEEDS: [f64; 7] = [0.3, 0.6, 0.9, 1.2, 1.6, 2.0, 3.0];
+const SPEEDS: [f64; 9] = [0.3, 0.6, 0.9, 1.0, 1.1, 1.25, 1.6, 2.0, 3.0];
 /// Directions of the starts in the plane (w x, x').
-const DIRECTIONS: usize = 12;
-/// Drive periods for which a start may settle before Newton's method takes over.
-const SETTLING: [u64; 2] = [12, 60];
+const DIRECTIONS: usize = 16;
+/// Drive periods for which a start may settle before Newton's method takes over: few, which finds
+/// motions with small basins, and more; and far more if neither finds any.
+const SETTLING: [&[u64]; 2] = [&[2, 12], &[60]];
 
 /// The stable z = 1 motion of a scene with the highest before-impact velocity, found from starts
 /// spread over the plane of states.
@@ -22,9 +23,10 @@ const SETTLING: [u64; 2] = [12, 60];
 /// invalid.
 pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
     let map = StroboscopicMap::new(scene, 1)?;
-    for periods in SETTLING {
+    for settling in SETTLING {
         let best = starts(scene)
-            .filter_map(|start| settle(scene, &map, start, periods))
+            .flat_map(|start| settling.iter().map(move |periods| (start, *periods)))
+            .filter_map(|(start, periods)| settle(scene, &map, start, periods))
             .max_by(|a, b| {
                 a.before_impact_velocity
                     .total_cmp(&b.before_impact_velocity)
