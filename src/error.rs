@@ -52,6 +52,14 @@ pub enum MotionError {
         /// The last position in m.
         position: f64,
     },
+    /// The target time lies where the drive angle is no longer resolved.
+    #[error("until = {until} s: must lie within {farthest} s of time 0")]
+    TooFar {
+        /// The requested time in s.
+        until: f64,
+        /// The farthest time in s.
+        farthest: f64,
+    },
     /// Crossings pile up at one instant.
     #[error("the motion does not get on from t = {time} s, position {position} m")]
     Stalled {

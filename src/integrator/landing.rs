@@ -66,7 +66,7 @@ impl Motion {
         let at: &Surface = &self.phases.surfaces[surface];
         let mode = self
             .phases
-            .at_surface(at, velocity, push, self.fed, self.hum.resolution());
+            .at_surface(at, velocity, push, self.fed, self.hum.threshold());
         let held = matches!(mode, Mode::Held { .. });
         let fed = self.fed || at.above_unfed.is_none();
         let kind = CrossingKind::Surface {

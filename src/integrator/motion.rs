@@ -237,6 +237,12 @@ impl Motion {
                 _ => break,
             }
         }
+        let elapsed = self.clock.elapsed(self.start, until);
+        let (position, velocity) = self.course.at(elapsed, self.clock.drive(until));
+        if !(position.is_finite() && velocity.is_finite()) {
+            let time = self.clock.time(until);
+            return Err(MotionError::Unbounded { time, position });
+        }
         self.now = until;
         Ok(())
     }
@@ -286,7 +292,7 @@ impl Motion {
         self.force.value += self.force.rate * found.elapsed;
         let push = self.push(drive);
         if let Some(surface) = self.surface_of(found.guard) {
-            self.hum.count(surface);
+            self.hum.count(surface, found.velocity);
         }
         let landing = self.land(&found, push);
         let before = self.mode;

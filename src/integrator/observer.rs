@@ -55,6 +55,12 @@ pub struct Crossing {
 }
 
 impl Crossing {
+    /// Kinetic energy in J that a mass loses when its bounce counts as rest.
+    pub(crate) fn lost_energy(&self, mass: f64) -> f64 {
+        let after = self.velocity_after * self.velocity_after;
+        0.5 * mass * (self.velocity * self.velocity - after)
+    }
+
     /// The before-impact velocity in m/s, if this is an impact.
     pub fn impact_velocity(&self) -> Option<f64> {
         match self.kind {

@@ -37,6 +37,9 @@ pub struct Sample {
     pub phase: PhaseKind,
 }
 
+/// Drive periods up to which the drive angle is resolved.
+const LAST_CYCLE: f64 = 9.0e15;
+
 /// An impact at absolute time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impact {
@@ -73,6 +76,7 @@ impl Observer for Tallies {
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
+        self.work.dissipated += crossing.lost_energy(self.mass);
         if let CrossingKind::Surface {
             impact, pierces, ..
         } = crossing.kind
@@ -158,6 +162,10 @@ impl Simulation {
                 until,
                 present: self.now,
             });
+        }
+        let farthest = LAST_CYCLE * self.motion.clock().period();
+        if (until - self.epoch).abs() > farthest {
+            return Err(MotionError::TooFar { until, farthest });
         }
         let instant = self.motion.clock().instant(until - self.epoch);
         // Equal times may be written as instants that differ in the last digit.

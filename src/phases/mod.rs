@@ -8,7 +8,7 @@ mod lower;
 mod settle;
 
 pub use settle::Mode;
-pub(crate) use settle::SPACING;
+pub(crate) use settle::Threshold;
 
 use crate::events::Guard;
 use crate::flow::Flow;

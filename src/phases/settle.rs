@@ -9,8 +9,22 @@ use crate::events::Guard;
 
 use super::{Layer, PhaseKind, Phases, Surface};
 
-/// Rounding of a position, relative to it: lower bounces are not described.
-pub(crate) const SPACING: f64 = 4.0 * f64::EPSILON;
+/// What counts as a bounce.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Threshold {
+    /// Least height, relative to the position of the surface.
+    pub height: f64,
+    /// Least speed in m/s.
+    pub slowest: f64,
+}
+
+impl Threshold {
+    /// Four units in the last place of the position: lower bounces cannot be described.
+    pub const ROUNDING: Self = Self {
+        height: 4.0 * f64::EPSILON,
+        slowest: 0.0,
+    };
+}
 
 /// What the mass does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,7 +51,7 @@ impl Phases {
         if position == layer.from {
             let mut surface = self.surfaces[layer.surface];
             surface.above = layer.forward;
-            return self.at_surface(&surface, velocity, push, fed, SPACING);
+            return self.at_surface(&surface, velocity, push, fed, Threshold::ROUNDING);
         }
         self.inside(layer, position, velocity, push)
     }
@@ -52,15 +66,15 @@ impl Phases {
         }
     }
 
-    /// The mode after reaching a surface. Where both sides press the mass onto it, a bounce lower
-    /// than `resolution` times the length of the motion counts as rest.
+    /// The mode after reaching a surface. Where both sides press the mass onto it, a bounce below
+    /// the threshold counts as rest.
     pub(crate) fn at_surface(
         &self,
         at: &Surface,
         velocity: f64,
         push: f64,
         fed: bool,
-        resolution: f64,
+        Threshold { height, slowest }: Threshold,
     ) -> Mode {
         let above = if fed {
             at.above
@@ -69,7 +83,11 @@ impl Phases {
         };
         let held = self.leave_rest(above, at.below, at.position, push);
         let rests = matches!(held, Mode::Held { .. });
-        if velocity == 0.0 || (rests && self.bounce(at, above, velocity, push) < resolution) {
+        let faint = || {
+            velocity.abs() < slowest
+                || self.bounce(at, above, velocity, push) < height * at.position.abs()
+        };
+        if velocity == 0.0 || (rests && faint()) {
             held
         } else if velocity > 0.0 {
             Mode::Moving(above)
@@ -114,18 +132,14 @@ impl Phases {
         ]
     }
 
-    /// Height v^2 / (2 a) of the bounce that would follow on the lower side, in units of the length
-    /// of the motion.
+    /// Height v^2 / (2 a) in m of the bounce that would follow, on its higher side.
     fn bounce(&self, at: &Surface, above: usize, velocity: f64, push: f64) -> f64 {
         let acceleration = |phase: usize| {
             self.phases[phase]
                 .acceleration_from_rest(at.position, push, self.mass)
                 .abs()
         };
-        let (ahead, behind) = (acceleration(above), acceleration(at.below));
-        let w = self.held.frequency;
-        let length = at.position.abs().max(behind / (w * w));
-        velocity * velocity / (2.0 * length * ahead.min(behind))
+        velocity * velocity / (2.0 * acceleration(above).min(acceleration(at.below)))
     }
 
     /// What a mode is in the machine.

@@ -162,6 +162,7 @@ impl Observer for Recorder {
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
+        self.work.dissipated += crossing.lost_energy(self.mass);
         self.crossings.push(*crossing);
     }
 }
