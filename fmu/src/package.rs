@@ -129,8 +129,8 @@ fn at(path: &Path) -> impl FnOnce(io::Error) -> PackageError {
     move |source| PackageError::File { path, source }
 }
 
-/// Finds the library that was built along with the running program: beside it or, as cargo leaves
-/// it there, in `deps`.
+/// Finds the library that was built along with the running program: in `deps`, where cargo leaves
+/// it, or beside the program.
 ///
 /// # Errors
 /// If it is in neither place.
@@ -142,7 +142,9 @@ pub fn find_library() -> Result<PathBuf, PackageError> {
         std::env::consts::DLL_PREFIX,
         std::env::consts::DLL_SUFFIX
     );
-    let places = vec![folder.join(&name), folder.join("deps").join(&name)];
+    // Cargo renews the one in `deps` with every build, the one beside the program only when it is
+    // asked for by name.
+    let places = vec![folder.join("deps").join(&name), folder.join(&name)];
     places
         .iter()
         .find(|place| place.is_file())

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use anyhow::Context;
+use anyhow::anyhow;
 use clap::Args;
+use softstop::orbit::OrbitError;
 
 use crate::arguments::{Machine, SceneSettings};
 use crate::configuration;
@@ -51,9 +52,14 @@ pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
         .ratios
         .scene()
         .map_err(|error| Failure::usage(error.to_string()))?;
-    let orbit = softstop::orbit::find(&scene).with_context(|| {
-        let (eta, rho) = (machine.ratios.frequency, machine.ratios.clearance);
-        format!("no stable z = 1 motion found at frequency = {eta}, clearance = {rho}")
+    let orbit = softstop::orbit::find(&scene).map_err(|error| match error {
+        OrbitError::NotFound {
+            frequency,
+            clearance,
+        } => anyhow!(
+            "no stable z = 1 motion found at frequency = {frequency}, clearance = {clearance}"
+        ),
+        other => other.into(),
     })?;
     let report = OrbitReport::new(&machine, &orbit);
     output::print(&match arguments.format {
