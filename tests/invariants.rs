@@ -264,3 +264,35 @@ fn heavy_damping_creeps() {
         );
     }
 }
+
+/// Without a drive its frequency has no influence: the mass bounces on, and its energy is kept.
+#[test]
+fn a_silent_drive_has_no_influence() {
+    let machine = |frequency: f64| {
+        let mut scene = Ratios {
+            frequency,
+            clearance: 0.0,
+            ..Ratios::unloaded()
+        }
+        .scene()
+        .expect("ok");
+        (scene.damping, scene.contact_damping) = (0.0, 0.0);
+        scene.excitation.amplitude = 0.0;
+        let start = Start {
+            position: -1e-9,
+            velocity: 5e-3,
+        };
+        let mut machine = Simulation::new(&scene, start).expect("valid");
+        machine.set_force(20.0, 0.0).expect("finite");
+        machine.advance(1.0).expect("bounded");
+        machine
+    };
+    let usual = machine(1.15);
+    assert!(usual.impact_count() > 1000);
+    for frequency in [1e-6, 1e-3, 50.0] {
+        let other = machine(frequency);
+        assert_eq!(usual.impact_count(), other.impact_count());
+        let gap = usual.energy().mechanical - other.energy().mechanical;
+        assert!(gap.abs() < 1e-9 * usual.energy().mechanical);
+    }
+}

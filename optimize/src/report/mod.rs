@@ -200,6 +200,9 @@ impl DesignReport {
     }
 }
 
+/// Distance in s within which a design stands at the end of the allowed window.
+const AT_MARGIN: f64 = 1e-9;
+
 fn at_limits(problem: &Problem, design: &Design) -> Vec<String> {
     let ends = [
         ("stiffness", problem.stiffness.end(design.ratios.stiffness)),
@@ -209,10 +212,10 @@ fn at_limits(problem: &Problem, design: &Design) -> Vec<String> {
         .into_iter()
         .filter_map(|(name, end)| Some(format!("{name}: {} bound", end?)))
         .collect();
-    if design.place <= problem.margin {
+    if design.place <= problem.margin + AT_MARGIN {
         limits.push("margin from g0".to_owned());
     }
-    if design.place >= 1.0 - problem.margin {
+    if design.place >= 1.0 - problem.margin - AT_MARGIN {
         limits.push("margin from s_SN".to_owned());
     } else if let Some(end) = near_end(problem, design.ratios.frequency) {
         limits.push(format!("frequency: {end} bound"));
