@@ -27,10 +27,10 @@ fn grazing_is_closed_form() {
     }
 }
 
-/// From rho = 22 on, the loaded machine's z = 1 motion at g0 ends otherwise than in a fold: the
-/// reference's last fold lies below g0.
+/// At rho = 22 the loaded machine's z = 1 motion at g0 ends otherwise than in a fold: the
+/// reference's fold lies below g0.
 fn has_no_zone(ratios: &Ratios) -> bool {
-    ratios.piercing.is_some() && ratios.clearance >= 22.0
+    ratios.piercing.is_some() && ratios.clearance == 22.0
 }
 
 #[test]
