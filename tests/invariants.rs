@@ -296,3 +296,36 @@ fn a_silent_drive_has_no_influence() {
         assert!(gap.abs() < 1e-9 * usual.energy().mechanical);
     }
 }
+
+/// A step of the external force that frees a stuck mass gives it its full acceleration at once, as if
+/// it had started from rest under that force.
+#[test]
+fn a_step_of_force_frees_a_stuck_mass() {
+    let mut scene = Ratios::loaded().scene().expect("valid");
+    scene.clearance = 0.0;
+    scene.excitation.amplitude = 0.0;
+    let rest = Start {
+        position: 0.2,
+        velocity: 0.0,
+    };
+    for force in [15.0, -3.0] {
+        let mut held = Simulation::new(&scene, rest).expect("valid");
+        held.set_force(0.2 * 20.0, 0.0).expect("finite");
+        held.advance(1.0).expect("bounded");
+        assert_eq!(held.sample().phase, PhaseKind::Stuck);
+        held.set_force(force, 0.0).expect("finite");
+        let freed = held.sample();
+        let mut fresh = Simulation::new_at(&scene, rest, 1.0).expect("valid");
+        fresh.set_force(force, 0.0).expect("finite");
+        assert_ne!(freed.phase, PhaseKind::Stuck);
+        for step in 1..=100 {
+            let time = 1.0 + 0.01 * f64::from(step);
+            held.advance(time).expect("bounded");
+            fresh.advance(time).expect("bounded");
+            let (a, b) = (held.sample(), fresh.sample());
+            let start = 0.5 * freed.acceleration * 1e-4;
+            assert!((a.position - b.position).abs() < 1e-13 && a.phase == b.phase);
+            assert!(step > 1 || ((a.position - 0.2) / start - 1.0).abs() < 0.05);
+        }
+    }
+}

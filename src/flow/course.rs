@@ -48,6 +48,8 @@ pub struct Course {
     pub(super) form: Form,
 }
 
+/// Windows counted from one origin.
+const MOST_WINDOWS: u32 = 1 << 31;
 /// Windows passed by rotation before a node is evaluated afresh.
 const ROTATIONS: u32 = 8;
 
@@ -234,7 +236,7 @@ impl Course {
         let elapsed = origin + f64::from(windows) * self.flow.window;
         let particular = match self.form {
             Form::Particular { particular, .. } if windows % ROTATIONS != 0 => particular,
-            _ if windows == u32::MAX => return self.node(elapsed),
+            _ if windows >= MOST_WINDOWS => return self.node(elapsed),
             _ => {
                 return Node {
                     origin,

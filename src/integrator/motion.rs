@@ -187,18 +187,19 @@ impl Motion {
         let drive = self.clock.drive(self.now);
         self.start = self.now;
         self.force = force;
-        let mode = match self.mode {
+        match self.mode {
+            // A step of the force lets the mass go with the acceleration that it brings.
             Mode::Held { forward, backward } => {
                 let push = self.push(drive);
-                self.phases
-                    .leave_rest(forward, backward, state.position, push)
+                self.mode = self
+                    .phases
+                    .leave_rest(forward, backward, state.position, push);
             }
             Mode::Moving(phase) => {
                 state.position = self.phases.phases[phase].confine(state.position);
-                self.mode
             }
-        };
-        self.depart(state, drive, mode);
+        }
+        self.depart(state, drive, self.mode);
     }
 
     /// Changes the feed of strips; it takes effect at the next upward crossing of the clearance.
