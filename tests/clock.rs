@@ -1,5 +1,8 @@
 //! Time does not drift: the drive angle after very many periods, and the way there and back.
 
+#[path = "common/random.rs"]
+mod random;
+
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use proptest::prelude::*;
 use softstop::{Clock, Instant};
@@ -61,6 +64,8 @@ fn whole_periods_leave_no_rest() {
 }
 
 proptest! {
+    #![proptest_config(random::cases(256))]
+
     #[test]
     fn instants_and_times_agree(
         frequency in 1e-3..1e3f64,

@@ -1,6 +1,9 @@
 //! What holds for every motion: independence of the way a run is divided, the energy balance,
 //! Liouville's theorem, dimensional similarity.
 
+#[path = "common/random.rs"]
+mod random;
+
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use softstop::integrator::{Crossing, Observer};
@@ -128,7 +131,7 @@ impl Observer for Slowest {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(256))]
+    #![proptest_config(random::cases(256))]
 
     #[test]
     fn energy_balances_in_every_machine(ratios in machines(), start in starts()) {

@@ -1,6 +1,9 @@
 //! No crossing is missed, none invented, none out of order: random motions, near-grazing ones
 //! over-represented, against dense sampling of an independent step-by-step evaluation.
 
+#[path = "common/random.rs"]
+mod random;
+
 use proptest::prelude::*;
 use softstop::integrator::{Crossing, Observer};
 use softstop::phases::PhaseKind;
@@ -13,22 +16,11 @@ struct Oracle<'a> {
 }
 
 impl Oracle<'_> {
+    /// Of the free motion: all that matters before the first touch.
     fn acceleration(&self, t: f64, x: f64, v: f64) -> f64 {
         let scene = self.scene;
-        let touching = x > scene.clearance;
-        let damping = if touching {
-            scene.contact_damping
-        } else {
-            scene.damping
-        };
-        let stop = match scene.stop {
-            softstop::Stop::Preloaded { stiffness, preload } if touching => {
-                preload + stiffness * (x - scene.clearance)
-            }
-            _ => 0.0,
-        };
         let drive = scene.excitation.amplitude * (scene.excitation.frequency * t).cos();
-        (drive - damping * v - scene.stiffness * x - stop) / scene.mass
+        (drive - scene.damping * v - scene.stiffness * x) / scene.mass
     }
 
     fn step(&self, t: f64, (x, v): (f64, f64), h: f64) -> (f64, f64) {
@@ -53,13 +45,31 @@ impl Oracle<'_> {
         for step in 0..(end / h) as u64 {
             let t = step as f64 * h;
             let next = self.step(t, state, h);
-            highest = highest.max(state.0);
-            if next.0 > self.scene.clearance {
+            let mut top = (h, next.0);
+            if state.1 > 0.0 && next.1 <= 0.0 {
+                top = self.top(t, state, h);
+            }
+            if top.1.max(next.0) > self.scene.clearance {
                 return (Some(t + h), highest);
             }
+            highest = highest.max(state.0).max(top.1);
             state = next;
         }
         (None, highest)
+    }
+
+    /// Where within a step the velocity vanishes, and the position there.
+    fn top(&self, t: f64, state: (f64, f64), h: f64) -> (f64, f64) {
+        let (mut low, mut high) = (0.0, h);
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            if self.step(t, state, middle).1 > 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        (low, self.step(t, state, low).0)
     }
 }
 
@@ -90,7 +100,7 @@ fn grazing_scene(frequency: f64, offset: f64, start: Start, periods: u64) -> Opt
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(random::cases(200))]
 
     #[test]
     fn first_touch_agrees_with_the_oracle(
@@ -123,13 +133,7 @@ proptest! {
                 prop_assert!(exact <= oracle + 1e-9 && oracle - exact < 1e-3, "{exact} {oracle}");
             }
             (None, None) => prop_assert!(highest < scene.clearance),
-            // A touch shorter than the oracle's step can fall between its samples; it is then slow,
-            // and the sample before it lies no lower than one step's way.
-            (None, Some(_)) => {
-                let speed = trajectory.crossings[0].velocity;
-                prop_assert!(speed < 0.01 && scene.clearance - highest < 1e-5);
-            }
-            (Some(oracle), None) => prop_assert!(false, "missed the touch at {oracle}"),
+            (oracle, exact) => prop_assert!(false, "{oracle:?} {exact:?} {:?}, highest {highest}, clearance {}", trajectory.crossings.first(), scene.clearance),
         }
     }
 }
@@ -245,7 +249,7 @@ fn assert_arcs_stay_in_their_layers(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(800))]
+    #![proptest_config(random::cases(800))]
 
     #[test]
     fn every_arc_stays_in_its_layer(
