@@ -23,6 +23,37 @@ pub enum SceneError {
         /// Travel from the strip to the stop in m.
         travel: f64,
     },
+    /// A piecewise linear stop without a slope.
+    #[error("stop.loading: at least one slope is needed")]
+    NoSlope,
+    /// A slope that does not follow the one before it.
+    #[error(
+        "{list}[{index}]: from = {from}, stiffness = {stiffness}: the first slope must begin at \
+         0, each further one beyond the one before it, and stiffness must be finite and >= 0"
+    )]
+    Slope {
+        /// Which of the two lists.
+        list: &'static str,
+        /// Which slope, counted from 0.
+        index: usize,
+        /// Deflection in m at which it begins.
+        from: f64,
+        /// Its stiffness in N/m.
+        stiffness: f64,
+    },
+    /// An unloading curve above the loading curve.
+    #[error(
+        "stop.unloading: at a deflection of {deflection} m its force of {given} N must not exceed \
+         that of stop.loading, {taken} N"
+    )]
+    GivesEnergy {
+        /// The deflection in m.
+        deflection: f64,
+        /// Force of the unloading curve in N.
+        given: f64,
+        /// Force of the loading curve in N.
+        taken: f64,
+    },
 }
 
 /// A motion that cannot be carried on.
@@ -59,6 +90,14 @@ pub enum MotionError {
         until: f64,
         /// The farthest time in s.
         farthest: f64,
+    },
+    /// A state beyond a rigid stop.
+    #[error("position = {position} m: must be <= {wall} m, where the rigid stop stands")]
+    BeyondStop {
+        /// The position in m.
+        position: f64,
+        /// Where the rigid stop stands, in m.
+        wall: f64,
     },
     /// Crossings pile up at one instant.
     #[error("the motion does not get on from t = {time} s, position {position} m")]

@@ -87,6 +87,7 @@ fn an_unbounded_motion_is_an_error() {
         },
         clearance: 0.0,
         contact_damping: 0.0,
+        rigid: None,
         stop: Stop::None,
         piercing: None,
     };
@@ -127,6 +128,7 @@ proptest! {
             excitation: Excitation { amplitude, frequency, phase: 0.0 },
             clearance,
             contact_damping,
+            rigid: None,
             stop: Stop::Preloaded { stiffness: k, preload: p },
             piercing: Some(Piercing { stiffness: k2, friction: k3, thickness, travel: 0.1 }),
         };

@@ -29,6 +29,7 @@ fn machines() -> impl Strategy<Value = Ratios> {
                 contact_damping,
                 stiffness,
                 preload,
+                rigid: None,
                 piercing: loaded.then_some(PiercingRatios::PAPER),
             },
         )

@@ -187,6 +187,7 @@ fn any_machine() -> impl Strategy<Value = Ratios> {
                     contact_damping: 10f64.powf(contact) * (1.0 + stiffness).sqrt(),
                     stiffness,
                     preload,
+                    rigid: None,
                     piercing: loaded.then_some(PiercingRatios::PAPER),
                 }
             },
@@ -216,7 +217,7 @@ fn layer(scene: &Scene, kind: PhaseKind) -> (f64, f64) {
         PhaseKind::Cut => (far, stop),
         PhaseKind::Gap => (near, stop),
         PhaseKind::Stop => (stop, f64::INFINITY),
-        PhaseKind::Stuck | PhaseKind::Resting => (near, stop),
+        _ => (near, stop),
     }
 }
 

@@ -66,54 +66,43 @@ impl StartValues {
     const fn loaded_machine() -> Self {
         let sample = samples::LOADED;
         let ratios = sample.ratios;
-        let piercing = match ratios.piercing {
-            Some(strip) => Some(Piercing {
-                stiffness: strip.stiffness,
-                friction: strip.friction,
-                thickness: strip.thickness,
-                travel: strip.travel,
-            }),
-            None => None,
-        };
-        let scene = Scene {
-            mass: 1.0,
-            stiffness: 1.0,
-            damping: 2.0 * ratios.damping,
-            excitation: Excitation {
-                amplitude: 1.0,
-                frequency: ratios.frequency,
-                phase: 0.0,
-            },
-            clearance: ratios.clearance,
-            contact_damping: 2.0 * ratios.contact_damping,
-            stop: Stop::Preloaded {
-                stiffness: ratios.stiffness,
-                preload: ratios.preload,
-            },
-            piercing,
-        };
-        let start = Start {
-            position: sample.position,
-            velocity: sample.velocity,
-        };
-        Self::of(&scene, start)
+        let mut values = Self([0.0; SLOTS]);
+        values.set(Slot::Mass, 1.0);
+        values.set(Slot::Stiffness, 1.0);
+        values.set(Slot::Damping, 2.0 * ratios.damping);
+        values.set(Slot::Amplitude, 1.0);
+        values.set(Slot::Frequency, ratios.frequency);
+        values.set(Slot::Clearance, ratios.clearance);
+        values.set(Slot::ContactDamping, 2.0 * ratios.contact_damping);
+        values.set(Slot::StopModel, STOP_PRELOADED as f64);
+        values.set(Slot::StopStiffness, ratios.stiffness);
+        values.set(Slot::StopPreload, ratios.preload);
+        if let Some(strip) = ratios.piercing {
+            values.set(Slot::PiercingStiffness, strip.stiffness);
+            values.set(Slot::PiercingFriction, strip.friction);
+            values.set(Slot::PiercingThickness, strip.thickness);
+            values.set(Slot::PiercingTravel, strip.travel);
+        }
+        values.set(Slot::InitialPosition, sample.position);
+        values.set(Slot::InitialVelocity, sample.velocity);
+        values
     }
 
-    const fn of(scene: &Scene, start: Start) -> Self {
-        let (model, stop_stiffness, preload) = match scene.stop {
-            Stop::None => (STOP_NONE, 7.0, 70.0),
-            Stop::Preloaded { stiffness, preload } => (STOP_PRELOADED, stiffness, preload),
-        };
-        let strip = match scene.piercing {
-            Some(strip) => strip,
-            None => Piercing {
-                stiffness: 21.0,
-                friction: 23.0,
-                thickness: 0.0,
-                travel: 0.0,
-            },
-        };
-        let mut values = Self([0.0; SLOTS]);
+    fn of(scene: &Scene, start: Start) -> Self {
+        let mut values = Self::DEFAULT;
+        match scene.stop {
+            Stop::Preloaded { stiffness, preload } => {
+                values.set(Slot::StopStiffness, stiffness);
+                values.set(Slot::StopPreload, preload);
+            }
+            _ => values.set(Slot::StopModel, f64::from(STOP_NONE)),
+        }
+        let strip = scene.piercing.unwrap_or(Piercing {
+            thickness: 0.0,
+            travel: 0.0,
+            stiffness: values.get(Slot::PiercingStiffness),
+            friction: values.get(Slot::PiercingFriction),
+        });
         values.set(Slot::Mass, scene.mass);
         values.set(Slot::Stiffness, scene.stiffness);
         values.set(Slot::Damping, scene.damping);
@@ -122,9 +111,6 @@ impl StartValues {
         values.set(Slot::DrivePhase, scene.excitation.phase);
         values.set(Slot::Clearance, scene.clearance);
         values.set(Slot::ContactDamping, scene.contact_damping);
-        values.set(Slot::StopModel, model as f64);
-        values.set(Slot::StopStiffness, stop_stiffness);
-        values.set(Slot::StopPreload, preload);
         values.set(Slot::PiercingStiffness, strip.stiffness);
         values.set(Slot::PiercingFriction, strip.friction);
         values.set(Slot::PiercingThickness, strip.thickness);
@@ -162,6 +148,7 @@ impl StartValues {
             clearance: self.get(Slot::Clearance),
             contact_damping: self.get(Slot::ContactDamping),
             stop,
+            rigid: None,
             piercing: (strip.thickness > 0.0 || strip.travel > 0.0).then_some(strip),
         }
     }

@@ -206,6 +206,8 @@ fn phase_number(phase: PhaseKind) -> i32 {
         PhaseKind::Stop => 5,
         PhaseKind::Stuck => 6,
         PhaseKind::Resting => 7,
+        PhaseKind::Released => 8,
+        PhaseKind::Chatter => 9,
     }
 }
 

@@ -69,7 +69,7 @@ fn library_and_description_agree() {
 fn start_values_and_scenes_are_the_same_thing() {
     let (scene, start) = other_design();
     for (scene, start) in [
-        (scene, start),
+        (scene.clone(), start),
         (StartValues::DEFAULT.scene(), StartValues::DEFAULT.start()),
         (
             Scene {

@@ -161,6 +161,7 @@ impl Machine {
             regime,
             preload,
             ratios: Ratios {
+                rigid: None,
                 frequency: value(|layer| layer.frequency, paper.frequency),
                 clearance: value(|layer| layer.clearance, paper.clearance),
                 damping: value(|layer| layer.damping, paper.damping),

@@ -19,7 +19,8 @@ pub struct Guard {
 }
 
 impl Guard {
-    const NONE: Self = Self {
+    /// g = 0.
+    pub(crate) const NONE: Self = Self {
         position: 0.0,
         velocity: 0.0,
         push: 0.0,
@@ -76,6 +77,21 @@ impl Guard {
             level: -level,
             ..Self::NONE
         }
+    }
+
+    /// -g.
+    pub(crate) fn reversed(&self) -> Self {
+        Self {
+            position: -self.position,
+            velocity: -self.velocity,
+            push: -self.push,
+            level: -self.level,
+        }
+    }
+
+    /// g at a state, for a guard that does not ask for the push.
+    pub(crate) fn value(&self, position: f64, velocity: f64) -> f64 {
+        self.position * position + self.velocity * velocity - self.level
     }
 
     /// True if g stays below zero for ever after `node`.

@@ -37,7 +37,13 @@ enum Verdict {
 const DEEPEST: u32 = 60;
 
 impl Candidate<'_> {
-    /// The first s in [0, span] at which g rises from <= 0 to > 0; `ends` are (g, g') there.
+    /// The first s in [from, to] at which g rises from <= 0 to > 0.
+    pub fn first_rise_between(&self, from: f64, to: f64) -> Option<f64> {
+        let (low, high) = self.isolate(self.point(from), self.point(to), 0)?;
+        Some(self.polish(low, high))
+    }
+
+    /// The same on [0, span], where `ends` are (g, g') at its ends.
     pub fn first_rise(&self, span: f64, ends: ((f64, f64), (f64, f64))) -> Option<f64> {
         let (left, right) = ends;
         let left = Point {

@@ -8,6 +8,7 @@
 mod guard;
 mod isolate;
 mod jets;
+mod step;
 
 pub use guard::Guard;
 
@@ -35,6 +36,8 @@ pub enum Outlook {
     Crossing(Found),
     /// There is none up to the node that the search has reached.
     ClearUntil(Node),
+    /// There is none up to the end of the course, this many seconds after departure.
+    Ends(f64),
     /// There is none at all.
     Never,
     /// The motion left the range of floating-point numbers.
@@ -50,6 +53,12 @@ const WINDOWS_PER_LOOK: u32 = 8;
 /// The windows are laid from the departure, so the answer does not depend on how a search is
 /// divided into calls.
 pub fn first_crossing(course: &Course, guards: &[Guard], node: Node, until: f64) -> Outlook {
+    if let Some(segment) = course.segment() {
+        return step::first_crossing(segment, guards, node);
+    }
+    if let Some(chatter) = course.chatter() {
+        return Outlook::Ends(chatter.duration);
+    }
     let scan = Scan { course, guards };
     let mut left = Jets::new(course, node);
     let mut windows = 0;

@@ -1,7 +1,9 @@
 //! One motion along a flow, from one departure.
 
+use std::sync::Arc;
+
 use super::response::Responses;
-use super::{Flow, LARGEST_LOSS, Taylor};
+use super::{Chatter, Flow, Hertz, LARGEST_LOSS, Segment, Taylor};
 
 /// Everything a motion starts from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +41,7 @@ pub struct Node {
 }
 
 /// The exact motion that follows from a departure.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Course {
     /// The flow it follows.
     pub flow: Flow,
@@ -53,8 +55,8 @@ const MOST_WINDOWS: u32 = 1 << 31;
 /// Windows passed by rotation before a node is evaluated afresh.
 const ROTATIONS: u32 = 8;
 
-/// How states beyond the reach of one Taylor polynomial are evaluated.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// How states are evaluated; those of a linear law beyond the reach of one Taylor polynomial.
+#[derive(Debug, Clone, PartialEq)]
 pub(super) enum Form {
     /// Particular solution plus the free deviation from it at departure.
     Particular {
@@ -65,6 +67,10 @@ pub(super) enum Form {
     Responses,
     /// The mass does not move.
     Held,
+    /// One Taylor step of a nonlinear law.
+    Segment(Arc<Segment>),
+    /// Bounces summed.
+    Chatter(Chatter),
 }
 
 /// The particular solution offset + slope t + cosine cos(angle) + sine sin(angle).
@@ -124,6 +130,46 @@ impl Course {
         }
     }
 
+    /// One step of `flow` together with a power law, from `deflection` m beyond its face.
+    pub(crate) fn nonlinear(
+        flow: Flow,
+        hertz: &Hertz,
+        departure: Departure,
+        deflection: f64,
+    ) -> Self {
+        let segment = Segment::new(&flow, hertz, &departure, deflection);
+        Self {
+            flow,
+            departure,
+            form: Form::Segment(Arc::new(segment)),
+        }
+    }
+
+    /// The last bounces on a rigid stop at the departure's position.
+    pub(crate) fn chattering(flow: Flow, departure: Departure, chatter: Chatter) -> Self {
+        Self {
+            flow,
+            departure,
+            form: Form::Chatter(chatter),
+        }
+    }
+
+    /// The Taylor step of a nonlinear law.
+    pub(crate) fn segment(&self) -> Option<&Segment> {
+        match &self.form {
+            Form::Segment(segment) => Some(segment),
+            _ => None,
+        }
+    }
+
+    /// The bounces summed.
+    pub(crate) fn chatter(&self) -> Option<&Chatter> {
+        match &self.form {
+            Form::Chatter(chatter) => Some(chatter),
+            _ => None,
+        }
+    }
+
     /// A mass held at the departure's position while the drive turns.
     pub fn held(flow: Flow, departure: Departure) -> Self {
         Self {
@@ -141,8 +187,14 @@ impl Course {
     /// Position in m and velocity in m/s, `elapsed` >= 0 seconds after departure, when the drive
     /// stands at `drive` = (cos, sin).
     pub fn at(&self, elapsed: f64, drive: (f64, f64)) -> (f64, f64) {
-        if self.is_held() {
-            return (self.departure.position, 0.0);
+        match &self.form {
+            Form::Held => return (self.departure.position, 0.0),
+            Form::Segment(segment) => return segment.state(elapsed),
+            Form::Chatter(chatter) => {
+                let (distance, velocity) = chatter.at(elapsed);
+                return (self.departure.position + distance, velocity);
+            }
+            Form::Particular { .. } | Form::Responses => {}
         }
         if elapsed <= 0.5 * self.flow.reach {
             return self.expand(&self.start()).state(elapsed);
@@ -156,7 +208,7 @@ impl Course {
                 let (y, rate) = self.flow.modes.at(elapsed).apply(deviation.0, deviation.1);
                 (x + y, v + rate)
             }
-            Form::Responses | Form::Held => self.by_responses(elapsed),
+            _ => self.by_responses(elapsed),
         }
     }
 
@@ -192,7 +244,7 @@ impl Course {
     pub fn start(&self) -> Node {
         let deviation = match self.form {
             Form::Particular { deviation, .. } => deviation,
-            Form::Responses | Form::Held => (0.0, 0.0),
+            _ => (0.0, 0.0),
         };
         Node {
             elapsed: 0.0,
@@ -215,7 +267,7 @@ impl Course {
                 let (x, v) = particular.at(elapsed, drive);
                 (position - x, velocity - v)
             }
-            Form::Responses | Form::Held => (0.0, 0.0),
+            _ => (0.0, 0.0),
         };
         Node {
             elapsed,

@@ -1,19 +1,26 @@
 //! The exact motion inside one phase.
 //!
-//! Every phase obeys x'' + 2 a x' + b x = c + r t + A cos(angle + w t). [`Flow`] holds a, b, A and w
+//! Every linear phase obeys x'' + 2 a x' + b x = c + r t + A cos(angle + w t). [`Flow`] holds a, b, A and w
 //! and what can be computed once; a [`Course`] is one motion along it. Three evaluations share the
 //! work, each where it is free of cancellation: a Taylor series for short times, the particular
 //! solution plus the free modes for ordinary ones, and zero-state responses by doubling
-//! where the particular solution blows up.
+//! where the particular solution blows up. A phase with a power law ([`Hertz`]) is followed in Taylor steps,
+//! each a course of its own.
 
+mod chatter;
 mod course;
+mod hertz;
 mod modes;
 mod power;
 mod response;
+mod segment;
 mod taylor;
 
+pub(crate) use chatter::Chatter;
 pub use course::{Course, Departure, Node};
+pub use hertz::Hertz;
 pub(crate) use modes::Modes;
+pub(crate) use segment::Segment;
 pub(crate) use taylor::{DEGREE, Taylor, evaluate};
 
 use nalgebra::Matrix2;

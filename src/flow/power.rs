@@ -13,6 +13,16 @@ const GAUSS: [(f64, f64); 4] = [
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
 ];
 
+/// The rule's nodes and weights on [0, `span`].
+pub(super) fn gauss_nodes(span: f64) -> [(f64, f64); 8] {
+    let half = 0.5 * span;
+    std::array::from_fn(|index| {
+        let (x, weight) = GAUSS[index / 2];
+        let place = if index % 2 == 0 { 1.0 - x } else { 1.0 + x };
+        (half * place, half * weight)
+    })
+}
+
 /// Integrals along a course, per unit of mass, in m^2/s^2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Power {
@@ -26,9 +36,13 @@ impl Course {
     /// Work from departure to `elapsed`; `law` is the part of the constant push that is the
     /// phase's own force.
     pub(crate) fn power(&self, elapsed: f64, law: f64) -> Power {
-        match self.form {
-            Form::Held => Power::default(),
-            Form::Particular {
+        match &self.form {
+            Form::Held | Form::Chatter(_) => Power::default(),
+            Form::Segment(segment) => {
+                let (supplied, lost) = segment.power(elapsed);
+                Power { supplied, lost }
+            }
+            &Form::Particular {
                 particular,
                 deviation,
             } if elapsed > self.flow.reach => {
@@ -45,10 +59,9 @@ impl Course {
         let (mut start, mut width) = (0.0, self.flow.reach);
         while start < elapsed {
             let last = width >= elapsed - start;
-            let half = 0.5 * if last { elapsed - start } else { width };
-            let states = self.states(start, half);
-            for (index, (push, velocity)) in states.into_iter().enumerate() {
-                let weight = half * GAUSS[index / 2].1;
+            let nodes = gauss_nodes(if last { elapsed - start } else { width });
+            let states = self.states(start, &nodes);
+            for ((push, velocity), (_, weight)) in states.into_iter().zip(nodes) {
                 supplied += weight * (push - law) * velocity;
                 square += weight * velocity * velocity;
             }
@@ -62,21 +75,18 @@ impl Course {
     }
 
     /// Push and velocity at the Gauss nodes of a panel that begins at `start`.
-    fn states(&self, start: f64, half: f64) -> [(f64, f64); 8] {
-        let offsets: [f64; 8] = std::array::from_fn(|index| {
-            let (x, _) = GAUSS[index / 2];
-            half * if index % 2 == 0 { 1.0 - x } else { 1.0 + x }
-        });
+    fn states(&self, start: f64, nodes: &[(f64, f64); 8]) -> [(f64, f64); 8] {
         let node = if start == 0.0 {
             self.start()
         } else {
             self.node(start)
         };
-        if 2.0 * half <= self.flow.reach {
+        let widest = nodes[6].0.max(nodes[7].0);
+        if widest <= self.flow.reach {
             let taylor = self.expand(&node);
-            return offsets.map(|s| (taylor.push(s), taylor.state(s).1));
+            return nodes.map(|(s, _)| (taylor.push(s), taylor.state(s).1));
         }
-        offsets.map(|s| {
+        nodes.map(|(s, _)| {
             let node = self.node(start + s);
             let (constant, ramp) = self.push_at(0.0);
             let push = constant + ramp * node.elapsed + self.flow.amplitude * node.drive.0;

@@ -6,7 +6,7 @@ use super::Flow;
 pub(crate) const DEGREE: usize = 19;
 
 /// Coefficients of position and drive about one instant, x(s) = sum c_n s^n.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Taylor {
     /// Position in m/s^n.
     pub position: [f64; DEGREE + 1],
@@ -32,23 +32,7 @@ impl Taylor {
         (cos, sin): (f64, f64),
         (constant, ramp): (f64, f64),
     ) -> Self {
-        let mut push = [0.0; DEGREE + 1];
-        let (mut even, mut odd) = (flow.amplitude * cos, -flow.amplitude * sin * flow.frequency);
-        let square = -flow.frequency * flow.frequency;
-        for n in (0..DEGREE).step_by(2) {
-            push[n] = even;
-            push[n + 1] = odd;
-            even *= square * RECIPROCALS[n + 1] * RECIPROCALS[n + 2];
-            odd *= square
-                * RECIPROCALS[n + 2]
-                * if n + 3 <= DEGREE {
-                    RECIPROCALS[n + 3]
-                } else {
-                    0.0
-                };
-        }
-        push[0] += constant;
-        push[1] += ramp;
+        let push = push_series(flow, (cos, sin), (constant, ramp));
         let (twice_decay, b) = (2.0 * flow.modes.decay, flow.modes.stiffness);
         let mut position = [0.0; DEGREE + 1];
         position[0] = x;
@@ -83,6 +67,32 @@ impl Taylor {
     pub fn state(&self, s: f64) -> (f64, f64) {
         evaluate(&self.position, s)
     }
+}
+
+/// Coefficients of the push `constant` + `ramp` t + A cos(angle + w t) with drive (cos, sin).
+pub(super) fn push_series(
+    flow: &Flow,
+    (cos, sin): (f64, f64),
+    (constant, ramp): (f64, f64),
+) -> [f64; DEGREE + 1] {
+    let mut push = [0.0; DEGREE + 1];
+    let (mut even, mut odd) = (flow.amplitude * cos, -flow.amplitude * sin * flow.frequency);
+    let square = -flow.frequency * flow.frequency;
+    for n in (0..DEGREE).step_by(2) {
+        push[n] = even;
+        push[n + 1] = odd;
+        even *= square * RECIPROCALS[n + 1] * RECIPROCALS[n + 2];
+        odd *= square
+            * RECIPROCALS[n + 2]
+            * if n + 3 <= DEGREE {
+                RECIPROCALS[n + 3]
+            } else {
+                0.0
+            };
+    }
+    push[0] += constant;
+    push[1] += ramp;
+    push
 }
 
 /// Value and first derivative of a polynomial: Horner on its even and its odd half, side by side.

@@ -3,85 +3,152 @@
 use super::motion::{Motion, Start};
 use super::observer::CrossingKind;
 use crate::events::Found;
-use crate::phases::{Exit, Law, Mode, Surface};
+use crate::flow::Chatter;
+use crate::phases::{Beyond, Exit, Mode, Phase, Surface};
 
 /// State, mode and kind of a crossing, right after it.
 pub(super) struct Landing {
     pub state: Start,
     pub mode: Mode,
     pub kind: CrossingKind,
+    /// The bounces that follow, if they are summed.
+    pub chatter: Option<Chatter>,
+}
+
+impl Landing {
+    fn new(position: f64, velocity: f64, mode: Mode, kind: CrossingKind) -> Self {
+        Self {
+            state: Start { position, velocity },
+            mode,
+            kind,
+            chatter: None,
+        }
+    }
 }
 
 impl Motion {
-    /// The surface that a guard watches, if it watches one.
+    /// The yielding surface that a guard watches, if it watches one.
     pub(super) fn surface_of(&self, guard: usize) -> Option<usize> {
         let Mode::Moving(phase) = self.mode else {
             return None;
         };
-        match self.phases.phases[phase].exits[guard] {
-            Exit::Forward(surface) | Exit::Backward(surface) => Some(surface),
-            Exit::Reversal { .. } => None,
-        }
+        let surface = match self.phases.phases[phase].exits[guard] {
+            Exit::Forward(surface) | Exit::Backward(surface) => surface,
+            Exit::Reversal { .. } | Exit::Switch(_) => return None,
+        };
+        let gives_way = |beyond: Beyond| matches!(beyond, Beyond::Phase(_));
+        gives_way(self.phases.surfaces[surface].above).then_some(surface)
     }
 
     /// State and mode right after a crossing.
     pub(super) fn land(&self, found: &Found, push: f64) -> Landing {
+        let position = found.position;
         let phase = match self.mode {
             Mode::Moving(phase) => phase,
             Mode::Held { forward, backward } => {
-                let phase = if found.guard == 0 { forward } else { backward };
-                let state = Start {
-                    position: found.position,
-                    velocity: 0.0,
-                };
-                let mode = Mode::Moving(phase);
-                return Landing {
-                    state,
-                    mode,
-                    kind: CrossingKind::Release,
-                };
+                let (_, phases, _) = self.phases.releases(forward, backward, position);
+                let mode = Mode::Moving(phases[found.guard]);
+                return Landing::new(position, 0.0, mode, CrossingKind::Release);
+            }
+            Mode::Chattering { .. } => {
+                return Landing::new(position, 0.0, self.mode, CrossingKind::Rest);
             }
         };
         match self.phases.phases[phase].exits[found.guard] {
             Exit::Reversal { forward, backward } => {
                 let mode = self
                     .phases
-                    .leave_rest(forward, backward, found.position, push);
-                let state = Start {
-                    position: found.position,
-                    velocity: 0.0,
-                };
-                Landing {
-                    state,
-                    mode,
-                    kind: CrossingKind::Reversal,
+                    .leave_hold(Some(forward), backward, position, push);
+                Landing::new(position, 0.0, mode, CrossingKind::Reversal)
+            }
+            Exit::Switch(to) => {
+                let mode = Mode::Moving(to);
+                Landing::new(position, found.velocity, mode, CrossingKind::Switch)
+            }
+            Exit::Forward(surface) => {
+                let at = &self.phases.surfaces[surface];
+                let velocity = found.velocity.max(0.0);
+                match self.phases.beyond(at, self.fed) {
+                    Beyond::Wall { restitution } => self.rebound(at, velocity, push, restitution),
+                    Beyond::Phase(_) => self.pass(at, velocity, push, true),
                 }
             }
-            Exit::Forward(surface) => self.pass(surface, found.velocity.max(0.0), push, true),
-            Exit::Backward(surface) => self.pass(surface, found.velocity.min(0.0), push, false),
+            Exit::Backward(surface) => {
+                let at = &self.phases.surfaces[surface];
+                self.pass(at, found.velocity.min(0.0), push, false)
+            }
         }
     }
 
-    fn pass(&self, surface: usize, velocity: f64, push: f64, forward: bool) -> Landing {
-        let at: &Surface = &self.phases.surfaces[surface];
+    fn pass(&self, at: &Surface, velocity: f64, push: f64, forward: bool) -> Landing {
         let mode = self
             .phases
             .at_surface(at, velocity, push, self.fed, self.hum.threshold());
         let held = matches!(mode, Mode::Held { .. });
-        let fed = self.fed || at.above_unfed.is_none();
         let kind = CrossingKind::Surface {
             forward,
             impact: forward && at.is_clearance,
-            pierces: forward && at.is_far_side && fed,
+            pierces: forward && self.pierces(at),
         };
         let velocity = if held { 0.0 } else { velocity };
+        Landing::new(at.position, velocity, mode, kind)
+    }
+
+    /// Newton's impact law v+ = -R v-.
+    fn rebound(&self, at: &Surface, velocity: f64, push: f64, restitution: f64) -> Landing {
+        let kind = CrossingKind::Rebound {
+            impact: at.is_clearance,
+            pierces: self.pierces(at),
+        };
+        let (position, speed) = (at.position, restitution * velocity);
+        if speed == 0.0 {
+            let mode = self.phases.leave_hold(None, at.below, position, push);
+            return Landing::new(position, 0.0, mode, kind);
+        }
+        let chatter = self.chatter(at, speed, push, restitution);
+        let mode = match chatter {
+            Some(_) => Mode::Chattering { backward: at.below },
+            None => self.phases.moving(at.below, position, -speed),
+        };
         Landing {
-            state: Start {
-                position: at.position,
-                velocity,
-            },
-            mode,
-            kind,
+            chatter,
+            ..Landing::new(position, -speed, mode, kind)
+        }
+    }
+
+    /// The bounces that follow a rebound, where they can be summed.
+    fn chatter(&self, at: &Surface, speed: f64, push: f64, restitution: f64) -> Option<Chatter> {
+        let phases = &self.phases;
+        let out = &phases.phases[at.below];
+        let back = &phases.phases[phases.forward_of(at.below)];
+        let rest = |phase: &Phase| phase.acceleration_from_rest(at.position, push, phases.mass);
+        let accelerations = (rest(out), rest(back));
+        let drive = phases.held.amplitude * phases.held.frequency;
+        let push_rate = drive + self.force.rate.abs() / phases.mass;
+        let jerk = |phase: &Phase| {
+            let (stiffness, damping) = phase.slopes(at.position, 0.0);
+            let largest = accelerations.0.abs().max(accelerations.1.abs());
+            push_rate + (damping * largest + stiffness.abs() * speed) / phases.mass
+        };
+        let jerk = 2.0 * jerk(out).max(jerk(back));
+        let period = self.clock().period();
+        let grain = f64::EPSILON * at.position.abs();
+        Chatter::from_speed(speed, restitution, accelerations, jerk, period, grain)
+    }
+
+    /// True if moving on to a surface pierces a strip that the stroke has not pierced yet.
+    fn pierces(&self, at: &Surface) -> bool {
+        let fed = self.fed || at.above_unfed.is_none();
+        at.is_far_side && fed && !self.pierced
+    }
+
+    /// Remembers whether the strip of this stroke is pierced.
+    pub(super) fn note_strip(&mut self, kind: CrossingKind) {
+        match kind {
+            CrossingKind::Surface { pierces: true, .. }
+            | CrossingKind::Rebound { pierces: true, .. } => self.pierced = true,
+            CrossingKind::Surface { impact: true, .. } => self.pierced = false,
+            _ => {}
         }
     }
 
@@ -89,7 +156,8 @@ impl Motion {
     /// mode was chosen.
     pub(super) fn acceleration_at_rest(&self, position: f64, drive: (f64, f64), mode: Mode) -> f64 {
         match (self.mode, mode) {
-            (Mode::Moving(_), Mode::Moving(phase)) => self.phases.phases[phase]
+            (Mode::Moving(_) | Mode::Chattering { .. }, Mode::Moving(phase)) => self.phases.phases
+                [phase]
                 .acceleration_from_rest(position, self.push(drive), self.phases.mass),
             // A held mass is let go in balance.
             _ => 0.0,
@@ -104,11 +172,9 @@ impl Motion {
     /// Acceleration in m/s^2 in a mode.
     pub(super) fn acceleration(&self, mode: Mode, position: f64, velocity: f64, push: f64) -> f64 {
         match mode {
-            Mode::Held { .. } => 0.0,
+            Mode::Held { .. } | Mode::Chattering { .. } => 0.0,
             Mode::Moving(phase) => {
-                let Law { force, .. } = self.phases.phases[phase].law;
-                let flow = &self.phases.phases[phase].flow;
-                flow.acceleration(position, velocity, push + force / self.phases.mass)
+                self.phases.phases[phase].acceleration(position, velocity, push, self.phases.mass)
             }
         }
     }

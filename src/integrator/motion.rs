@@ -5,11 +5,11 @@ use std::sync::Arc as Shared;
 
 use super::clock::{Clock, Instant};
 use super::hum::Hum;
-use super::observer::{Arc, Crossing, Observer};
+use super::observer::{Arc, Crossing, CrossingKind, Observer};
 use crate::error::MotionError;
 use crate::events::{Found, Outlook, first_crossing};
-use crate::flow::{Course, Departure, Node};
-use crate::phases::{Mode, Phase, PhaseKind, Phases};
+use crate::flow::{Chatter, Course, Departure, Node};
+use crate::phases::{Mode, Phase, PhaseKind, Phases, Store};
 
 /// A state to start from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,6 +54,8 @@ pub struct Motion {
     clock: Clock,
     pub(super) mode: Mode,
     pub(super) fed: bool,
+    /// The strip has been pierced since the clearance was last passed.
+    pub(super) pierced: bool,
     pub(super) force: Force,
     start: Instant,
     now: Instant,
@@ -67,11 +69,22 @@ const MOST_AT_ONCE: u32 = 100;
 
 impl Motion {
     /// A motion of `phases` from `start` at time `at`, with a strip fed.
-    pub fn new(phases: impl Into<Shared<Phases>>, clock: Clock, at: Instant, start: Start) -> Self {
+    ///
+    /// # Errors
+    /// [`MotionError::BeyondStop`] if it would start beyond a rigid stop.
+    pub fn new(
+        phases: impl Into<Shared<Phases>>,
+        clock: Clock,
+        at: Instant,
+        start: Start,
+    ) -> Result<Self, MotionError> {
         Self::with(phases, clock, at, start, Force::default(), true)
     }
 
     /// The same under an external force, with or without a strip.
+    ///
+    /// # Errors
+    /// As [`Motion::new`].
     pub fn with(
         phases: impl Into<Shared<Phases>>,
         clock: Clock,
@@ -79,8 +92,12 @@ impl Motion {
         start: Start,
         force: Force,
         fed: bool,
-    ) -> Self {
+    ) -> Result<Self, MotionError> {
         let phases = phases.into();
+        let position = start.position;
+        if let Some(wall) = phases.wall().filter(|wall| position > *wall) {
+            return Err(MotionError::BeyondStop { position, wall });
+        }
         let drive = clock.drive(at);
         let departure = Departure {
             position: start.position,
@@ -99,6 +116,7 @@ impl Motion {
             clock,
             mode,
             fed,
+            pierced: false,
             force,
             start: at,
             now: at,
@@ -107,7 +125,23 @@ impl Motion {
             hum: Hum::default(),
         };
         motion.depart(start, drive, mode);
-        motion
+        Ok(motion)
+    }
+
+    /// This motion, taken up at its present state through other phases.
+    pub(super) fn resumed(
+        &self,
+        phases: Phases,
+        clock: Clock,
+        at: Instant,
+    ) -> Result<Self, MotionError> {
+        let latched = self.is_latched();
+        let motion = Self::with(phases, clock, at, self.state(), self.force(), latched)?;
+        Ok(Self {
+            fed: self.fed,
+            pierced: self.pierced,
+            ..motion
+        })
     }
 
     /// The present time.
@@ -134,8 +168,18 @@ impl Motion {
     pub fn phase(&self) -> Option<&Phase> {
         match self.mode {
             Mode::Moving(phase) => Some(&self.phases.phases[phase]),
-            Mode::Held { .. } => None,
+            Mode::Held { .. } | Mode::Chattering { .. } => None,
         }
+    }
+
+    /// What the stop stores now.
+    pub fn store(&self) -> &Store {
+        let (Mode::Moving(phase)
+        | Mode::Held {
+            backward: phase, ..
+        }
+        | Mode::Chattering { backward: phase }) = self.mode;
+        &self.phases.phases[phase].store
     }
 
     /// External force and rate now.
@@ -156,6 +200,9 @@ impl Motion {
     pub fn state(&self) -> Start {
         let elapsed = self.clock.elapsed(self.start, self.now);
         let (position, velocity) = self.course.at(elapsed, self.clock.drive(self.now));
+        let position = self
+            .phase()
+            .map_or(position, |phase| phase.confine(position));
         Start { position, velocity }
     }
 
@@ -171,11 +218,14 @@ impl Motion {
     }
 
     /// Whether the strip's phases hold now, or would at the next crossing of the clearance.
-    pub(super) fn is_latched(&self) -> bool {
+    fn is_latched(&self) -> bool {
         match self.mode {
             Mode::Moving(0) => self.fed,
-            Mode::Moving(phase) | Mode::Held { forward: phase, .. } => {
+            Mode::Moving(phase) | Mode::Chattering { backward: phase } => {
                 self.phases.belongs_to_strip(phase)
+            }
+            Mode::Held { forward, backward } => {
+                self.phases.belongs_to_strip(forward.unwrap_or(backward))
             }
         }
     }
@@ -193,11 +243,16 @@ impl Motion {
                 let push = self.push(drive);
                 self.mode = self
                     .phases
-                    .leave_rest(forward, backward, state.position, push);
+                    .leave_hold(forward, backward, state.position, push);
             }
-            Mode::Moving(phase) => {
-                state.position = self.phases.phases[phase].confine(state.position);
+            // Of a summed tail nothing but its rest can be told.
+            Mode::Chattering { backward } => {
+                state.velocity = 0.0;
+                state.position = self.course.departure.position;
+                let push = self.push(drive);
+                self.mode = self.phases.leave_hold(None, backward, state.position, push);
             }
+            Mode::Moving(_) => {}
         }
         self.depart(state, drive, self.mode);
     }
@@ -235,6 +290,7 @@ impl Motion {
                     }
                     self.cross(found, observer);
                 }
+                Outlook::Ends(elapsed) if elapsed <= horizon => self.go_on(elapsed, observer),
                 _ => break,
             }
         }
@@ -280,10 +336,62 @@ impl Motion {
                 horizon,
             ),
             Mode::Held { forward, backward } => {
-                let guards = self.phases.release_guards(forward, backward, node.position);
-                first_crossing(&self.course, &guards, node, horizon)
+                let (guards, _, count) = self.phases.releases(forward, backward, node.position);
+                first_crossing(&self.course, &guards[..count], node, horizon)
             }
+            Mode::Chattering { .. } => first_crossing(&self.course, &[], node, horizon),
         }
+    }
+
+    /// Takes up the motion where a course ends that was not meant to go further.
+    fn go_on(&mut self, elapsed: f64, observer: &mut impl Observer) {
+        observer.arc(&self.arc(), elapsed);
+        self.force.value += self.force.rate * elapsed;
+        let at = self.clock.after(self.start, elapsed);
+        let drive = self.clock.drive(at);
+        (self.start, self.now) = (at, at);
+        match (self.mode, self.course.chatter().copied()) {
+            (Mode::Chattering { backward }, Some(chatter)) => {
+                self.come_to_rest(backward, &chatter, drive, observer);
+            }
+            _ => self.next_step(elapsed, drive),
+        }
+    }
+
+    /// The next Taylor step of a nonlinear phase, from the very deflection at which the last one ended.
+    fn next_step(&mut self, elapsed: f64, drive: (f64, f64)) {
+        let (position, velocity) = self.course.at(elapsed, drive);
+        let deflection = self.course.segment().map(|last| last.deflection(elapsed));
+        let state = Start { position, velocity };
+        let departure = self.departure(state, drive, self.mode, None);
+        self.begin(departure, self.mode, deflection, None);
+    }
+
+    /// The end of the summed bounces on a rigid stop.
+    fn come_to_rest(
+        &mut self,
+        backward: usize,
+        chatter: &Chatter,
+        drive: (f64, f64),
+        observer: &mut impl Observer,
+    ) {
+        let position = self.course.departure.position;
+        let push = self.push(drive);
+        let mode = self.phases.leave_hold(None, backward, position, push);
+        let state = Start {
+            position,
+            velocity: 0.0,
+        };
+        self.depart(state, drive, mode);
+        observer.crossing(&Crossing {
+            instant: self.start,
+            kind: CrossingKind::Rest,
+            position,
+            velocity: chatter.speed,
+            velocity_after: 0.0,
+            acceleration_before: 0.0,
+            acceleration_after: self.acceleration(mode, position, 0.0, push),
+        });
     }
 
     fn cross(&mut self, found: Found, observer: &mut impl Observer) {
@@ -297,16 +405,24 @@ impl Motion {
         }
         let landing = self.land(&found, push);
         let before = self.mode;
+        self.note_strip(landing.kind);
         self.start = at;
         self.now = at;
-        self.depart(landing.state, drive, landing.mode);
+        let acceleration_before = self.acceleration(before, found.position, found.velocity, push);
+        match landing.chatter {
+            Some(chatter) => {
+                let departure = self.departure(landing.state, drive, landing.mode, None);
+                self.begin(departure, landing.mode, None, Some(chatter));
+            }
+            None => self.depart(landing.state, drive, landing.mode),
+        }
         observer.crossing(&Crossing {
             instant: at,
             kind: landing.kind,
             position: landing.state.position,
             velocity: found.velocity,
             velocity_after: landing.state.velocity,
-            acceleration_before: self.acceleration(before, found.position, found.velocity, push),
+            acceleration_before,
             acceleration_after: self.acceleration(
                 landing.mode,
                 landing.state.position,
@@ -320,21 +436,56 @@ impl Motion {
     fn depart(&mut self, state: Start, drive: (f64, f64), mode: Mode) {
         let acceleration =
             (state.velocity == 0.0).then(|| self.acceleration_at_rest(state.position, drive, mode));
+        let departure = self.departure(state, drive, mode, acceleration);
+        self.begin(departure, mode, None, None);
+    }
+
+    fn departure(
+        &self,
+        state: Start,
+        drive: (f64, f64),
+        mode: Mode,
+        acceleration: Option<f64>,
+    ) -> Departure {
         let law = match mode {
             Mode::Moving(phase) => self.phases.phases[phase].law.force,
-            Mode::Held { .. } => 0.0,
+            Mode::Held { .. } | Mode::Chattering { .. } => 0.0,
         };
-        let departure = Departure {
+        Departure {
             position: state.position,
             velocity: state.velocity,
             drive,
             constant: (law + self.force.value) / self.phases.mass,
             ramp: self.force.rate / self.phases.mass,
             acceleration,
-        };
-        self.course = match mode {
-            Mode::Moving(phase) => Course::new(self.phases.phases[phase].flow, departure),
-            Mode::Held { .. } => Course::held(self.phases.held, departure),
+        }
+    }
+
+    /// Sets the course of an arc. In a nonlinear phase `deflection` says more sharply than the
+    /// position how far the mass is beyond the face.
+    fn begin(
+        &mut self,
+        departure: Departure,
+        mode: Mode,
+        deflection: Option<f64>,
+        chatter: Option<Chatter>,
+    ) {
+        let held = self.phases.held;
+        self.course = match (mode, chatter) {
+            (Mode::Moving(phase), _) => {
+                let phase = &self.phases.phases[phase];
+                match &phase.hertz {
+                    Some(hertz) => {
+                        let deflection = deflection.unwrap_or(departure.position - hertz.origin);
+                        Course::nonlinear(phase.flow, hertz, departure, deflection)
+                    }
+                    None => Course::new(phase.flow, departure),
+                }
+            }
+            (Mode::Chattering { .. }, Some(chatter)) => {
+                Course::chattering(held, departure, chatter)
+            }
+            (Mode::Held { .. } | Mode::Chattering { .. }, _) => Course::held(held, departure),
         };
         self.mode = mode;
         self.outlook = Outlook::ClearUntil(self.course.start());

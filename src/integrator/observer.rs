@@ -29,8 +29,20 @@ pub enum CrossingKind {
         /// A strip has been pierced through.
         pierces: bool,
     },
+    /// A rigid stop is hit.
+    Rebound {
+        /// It is an impact: the stop stands at the clearance.
+        impact: bool,
+        /// A strip has been pierced through.
+        pierces: bool,
+    },
     /// The velocity passes zero under dry friction.
     Reversal,
+    /// Contact ceases or begins to press, without a jump of the force.
+    Switch,
+    /// Ever faster bounces on a rigid stop come to their end. The velocity before is the speed with
+    /// which the last, summed ones began.
+    Rest,
     /// A held mass is let go.
     Release,
 }
@@ -61,10 +73,21 @@ impl Crossing {
         0.5 * mass * (self.velocity * self.velocity - after)
     }
 
+    /// True if a strip has been pierced through.
+    pub fn pierces(&self) -> bool {
+        match self.kind {
+            CrossingKind::Surface { pierces, .. } | CrossingKind::Rebound { pierces, .. } => {
+                pierces
+            }
+            _ => false,
+        }
+    }
+
     /// The before-impact velocity in m/s, if this is an impact.
     pub fn impact_velocity(&self) -> Option<f64> {
         match self.kind {
-            CrossingKind::Surface { impact: true, .. } => Some(self.velocity),
+            CrossingKind::Surface { impact: true, .. }
+            | CrossingKind::Rebound { impact: true, .. } => Some(self.velocity),
             _ => None,
         }
     }

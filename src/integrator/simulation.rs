@@ -2,7 +2,7 @@
 
 use super::clock::{Clock, Instant};
 use super::motion::{Force, Motion, Start};
-use super::observer::{Arc, Crossing, CrossingKind, Observer};
+use super::observer::{Arc, Crossing, Observer};
 use crate::error::MotionError;
 use crate::phases::{Law, PhaseKind};
 use crate::scene::Scene;
@@ -77,15 +77,10 @@ impl Observer for Tallies {
 
     fn crossing(&mut self, crossing: &Crossing) {
         self.work.dissipated += crossing.lost_energy(self.mass);
-        if let CrossingKind::Surface {
-            impact, pierces, ..
-        } = crossing.kind
-        {
-            self.pierced += u64::from(pierces);
-            if impact {
-                self.impacts += 1;
-                self.last_impact = Some((crossing.instant, crossing.velocity));
-            }
+        self.pierced += u64::from(crossing.pierces());
+        if let Some(velocity) = crossing.impact_velocity() {
+            self.impacts += 1;
+            self.last_impact = Some((crossing.instant, velocity));
         }
     }
 }
@@ -131,9 +126,9 @@ impl Simulation {
             last_impact: None,
             work: Work::default(),
         };
-        let motion = Motion::new(phases, clock, clock.instant(time), start);
+        let motion = Motion::new(phases, clock, clock.instant(time), start)?;
         Ok(Self {
-            scene: *scene,
+            scene: scene.clone(),
             motion,
             epoch: 0.0,
             now: time,
@@ -194,7 +189,8 @@ impl Simulation {
                 let contact = phase.contact_force(&self.motion.phases().free, position, velocity);
                 let free = self.scene.damping * velocity + self.scene.stiffness * position;
                 let acceleration = (push - free - contact) / self.scene.mass;
-                let resisting = phase.law.damping * acceleration + phase.law.stiffness * velocity;
+                let (stiffness, damping) = phase.slopes(position, velocity);
+                let resisting = damping * acceleration + stiffness * velocity;
                 (
                     contact,
                     acceleration,
@@ -239,36 +235,36 @@ impl Simulation {
     /// itself is changed; mass, suspension and geometry may change too.
     ///
     /// # Errors
-    /// [`MotionError::Scene`] if the scene is invalid; nothing is changed then.
+    /// [`MotionError::Scene`] if the scene is invalid, [`MotionError::BeyondStop`] if its rigid stop
+    /// would stand before the mass; nothing is changed then.
     pub fn tune(&mut self, scene: &Scene) -> Result<(), MotionError> {
         scene.validate()?;
         if *scene == self.scene {
             return Ok(());
         }
         let before = self.energy().mechanical;
-        let (mut clock, mut at) = (*self.motion.clock(), self.motion.now());
         let (old, new) = (self.scene.excitation, scene.excitation);
-        if old.frequency != new.frequency || old.phase != new.phase {
+        let (mut clock, mut at) = (*self.motion.clock(), self.motion.now());
+        let retimed = old.frequency != new.frequency || old.phase != new.phase;
+        if retimed {
             let angle = old.frequency * at.offset + clock.phase + new.phase - old.phase;
             let angle = angle.rem_euclid(std::f64::consts::TAU);
             clock = Clock::new(new.frequency, angle);
             at = Clock::at_cycle(0);
+        }
+        let motion = self.motion.resumed(scene.phases(), clock, at)?;
+        self.tallies.work += self.tallies.work_under_way(&self.motion);
+        if retimed {
             if let Some((instant, _)) = &mut self.tallies.last_impact {
-                *instant =
-                    clock.instant(self.motion.clock().time(*instant) + self.epoch - self.now);
+                let time = self.motion.clock().time(*instant) + self.epoch;
+                *instant = clock.instant(time - self.now);
             }
             self.epoch = self.now;
         }
-        let force = self.motion.force();
-        self.scene = *scene;
-        self.tallies.work += self.tallies.work_under_way(&self.motion);
-        let (state, fed) = (self.motion.state(), self.motion.is_fed());
-        let latched = self.motion.is_latched();
-        self.motion = Motion::with(scene.phases(), clock, at, state, force, latched);
-        self.motion.feed_strip(fed);
+        (self.motion, self.scene) = (motion, scene.clone());
         self.tallies.mass = scene.mass;
         self.tallies.free = self.motion.phases().free;
-        let mechanical = mechanical_energy(scene, self.motion.phase(), self.motion.state());
+        let mechanical = mechanical_energy(scene, &self.motion);
         self.tallies.work.supplied += mechanical - before;
         Ok(())
     }
@@ -297,7 +293,7 @@ impl Simulation {
         let mut work = self.tallies.work;
         work += self.tallies.work_under_way(&self.motion);
         Energy {
-            mechanical: mechanical_energy(&self.scene, self.motion.phase(), self.motion.state()),
+            mechanical: mechanical_energy(&self.scene, &self.motion),
             supplied: work.supplied,
             dissipated: work.dissipated,
         }

@@ -100,7 +100,7 @@ impl StroboscopicMap {
             velocity: state.y,
         };
         start.validate()?;
-        let mut motion = Motion::new(self.phases.clone(), self.clock, Clock::at_cycle(0), start);
+        let mut motion = Motion::new(self.phases.clone(), self.clock, Clock::at_cycle(0), start)?;
         let end = Clock::at_cycle(periods);
         motion.advance(end, observer)?;
         let arc = motion.arc();

@@ -94,7 +94,7 @@ impl Orbit {
             });
         };
         Ok(Self {
-            scene: *scene,
+            scene: scene.clone(),
             position: state.x,
             velocity: state.y,
             before_impact_velocity,

@@ -25,12 +25,17 @@ impl Default for Tangent {
 
 impl Observer for Tangent {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let transition = match arc.phase {
-            Some(phase) => {
+        let transition = match (arc.phase, arc.course.segment()) {
+            (Some(_), Some(segment)) => {
+                let (transition, damping) = segment.transition(elapsed);
+                self.damping_integral += damping;
+                transition
+            }
+            (Some(phase), None) => {
                 self.damping_integral += 2.0 * phase.flow.modes.decay * elapsed;
                 phase.flow.transition(elapsed)
             }
-            None => Matrix2::new(1.0, 0.0, 0.0, 0.0),
+            (None, _) => Matrix2::new(1.0, 0.0, 0.0, 0.0),
         };
         self.matrix = transition * self.matrix;
     }
@@ -40,16 +45,25 @@ impl Observer for Tangent {
     }
 }
 
-/// The saltation matrix S = I + (f+ - f-) grad h / (grad h . f-) of a crossing, f = (v, a)
-/// (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004, ch. 7).
+/// The saltation matrix S = G + (f+ - G f-) grad h / (grad h . f-) of a crossing, f = (v, a), G the
+/// derivative of the reset (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004, ch. 7).
 pub fn saltation(crossing: &Crossing) -> Matrix2<f64> {
     let (v, a) = (crossing.velocity, crossing.acceleration_before);
-    let jump = (crossing.velocity_after - v, crossing.acceleration_after - a);
+    let (v_after, a_after) = (crossing.velocity_after, crossing.acceleration_after);
     match crossing.kind {
         // The mass is held: nothing of a perturbation is left.
-        CrossingKind::Surface { .. } if crossing.velocity_after == 0.0 => Matrix2::zeros(),
-        CrossingKind::Surface { .. } => Matrix2::new(1.0 + jump.0 / v, 0.0, jump.1 / v, 1.0),
-        CrossingKind::Reversal => Matrix2::new(1.0, jump.0 / a, 0.0, 1.0 + jump.1 / a),
-        CrossingKind::Release => Matrix2::identity(),
+        CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } if v_after == 0.0 => {
+            Matrix2::zeros()
+        }
+        CrossingKind::Rest => Matrix2::zeros(),
+        CrossingKind::Surface { .. } => Matrix2::new(v_after / v, 0.0, (a_after - a) / v, 1.0),
+        CrossingKind::Rebound { .. } => {
+            let kept = v_after / v;
+            Matrix2::new(kept, 0.0, (a_after - kept * a) / v, kept)
+        }
+        CrossingKind::Reversal => {
+            Matrix2::new(1.0, (v_after - v) / a, 0.0, 1.0 + (a_after - a) / a)
+        }
+        CrossingKind::Switch | CrossingKind::Release => Matrix2::identity(),
     }
 }

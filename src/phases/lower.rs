@@ -1,19 +1,10 @@
 //! Lowering: from the scene's data to phases, layer by layer.
 
-use super::{Exit, Law, Layer, Phase, PhaseKind, Phases, Surface};
+use super::plan::{Plan, Wall, layers, wall};
+use super::{Beyond, Exit, Law, Layer, Phase, PhaseKind, Phases, Stack, Store, Surface};
 use crate::events::Guard;
-use crate::flow::Flow;
-use crate::scene::{Piercing, Scene, Stop};
-
-/// One layer before its phases are numbered.
-struct Plan {
-    kind: PhaseKind,
-    from: f64,
-    forward: Law,
-    backward: Option<Law>,
-    stored: (f64, f64, f64),
-    is_far_side: bool,
-}
+use crate::flow::{Flow, Hertz};
+use crate::scene::Scene;
 
 pub(super) fn lower(scene: &Scene) -> Phases {
     let free = Law {
@@ -21,109 +12,29 @@ pub(super) fn lower(scene: &Scene) -> Phases {
         stiffness: scene.stiffness,
         force: 0.0,
     };
-    let amplitude = scene.excitation.amplitude;
-    let frequency = scene.excitation.frequency;
+    let (drive, mass) = (scene.excitation, scene.mass);
     let mut builder = Builder {
         scene,
         phases: Vec::with_capacity(8),
         surfaces: Vec::new(),
     };
-    builder.add_phase(PhaseKind::Free, free, (0.0, 0.0, 0.0));
-    let unfed = builder.stack(&layers(scene, free, None));
-    let fed = match scene.piercing {
-        Some(strip) => builder.stack(&layers(scene, free, Some(strip))),
-        None => unfed.clone(),
+    builder.add_phase(PhaseKind::Free, free, None, Store::default());
+    let unfed = builder.stack(&layers(scene, free, false), wall(scene));
+    let fed = if scene.piercing.is_some() {
+        builder.stack(&layers(scene, free, true), wall(scene))
+    } else {
+        unfed.clone()
     };
     builder.join_to_free(&fed, &unfed);
     Phases {
         phases: builder.phases,
         surfaces: builder.surfaces,
-        held: Flow::new(scene.mass, 0.0, 0.0, amplitude, frequency),
-        mass: scene.mass,
+        held: Flow::new(mass, 0.0, 0.0, drive.amplitude, drive.frequency),
+        mass,
         free,
         fed,
         unfed,
     }
-}
-
-/// The layers beyond the clearance, with or without a strip in them.
-fn layers(scene: &Scene, free: Law, strip: Option<Piercing>) -> Vec<Plan> {
-    let mut plans = Vec::with_capacity(3);
-    let touching = Law {
-        damping: scene.contact_damping,
-        ..free
-    };
-    let near = scene.clearance;
-    match strip {
-        Some(strip) => plans.extend(strip_layers(strip, near, touching)),
-        None if scene.piercing.is_some() => plans.push(Plan {
-            kind: PhaseKind::Gap,
-            from: near,
-            forward: touching,
-            backward: None,
-            stored: (0.0, 0.0, 0.0),
-            is_far_side: false,
-        }),
-        None => {}
-    }
-    let from = scene.stop_position();
-    let is_far_side = plans
-        .last()
-        .is_some_and(|below| below.kind == PhaseKind::Pierce);
-    match scene.stop {
-        Stop::Preloaded { stiffness, preload } => plans.push(Plan {
-            kind: PhaseKind::Stop,
-            from,
-            forward: Law {
-                stiffness: free.stiffness + stiffness,
-                force: stiffness * from - preload,
-                ..touching
-            },
-            backward: None,
-            stored: (preload, stiffness, from),
-            is_far_side,
-        }),
-        Stop::None if strip.is_some() => plans.push(Plan {
-            kind: PhaseKind::Gap,
-            from,
-            forward: touching,
-            backward: None,
-            stored: (0.0, 0.0, 0.0),
-            is_far_side,
-        }),
-        Stop::None => {}
-    }
-    plans
-}
-
-/// Phases I and II (Peterka 2003, eqs. 1-4); a layer without thickness does not exist.
-fn strip_layers(strip: Piercing, near: f64, touching: Law) -> impl Iterator<Item = Plan> {
-    let elastic = |stiffness: f64| Law {
-        stiffness: touching.stiffness + stiffness,
-        force: stiffness * near,
-        ..touching
-    };
-    let pierce = (strip.thickness > 0.0).then(|| Plan {
-        kind: PhaseKind::Pierce,
-        from: near,
-        forward: elastic(strip.stiffness + strip.friction),
-        backward: Some(elastic(strip.stiffness - strip.friction)),
-        stored: (0.0, 0.0, 0.0),
-        is_far_side: false,
-    });
-    let rub = |force: f64| Law {
-        force: -force,
-        ..touching
-    };
-    let cut = (strip.travel > 0.0).then(|| Plan {
-        kind: PhaseKind::Cut,
-        from: near + strip.thickness,
-        forward: rub(strip.cut_force_forward()),
-        backward: Some(rub(strip.cut_force_backward())),
-        stored: (0.0, 0.0, 0.0),
-        is_far_side: true,
-    });
-    pierce.into_iter().chain(cut)
 }
 
 struct Builder<'a> {
@@ -133,7 +44,13 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    fn add_phase(&mut self, kind: PhaseKind, law: Law, stored: (f64, f64, f64)) -> usize {
+    fn add_phase(
+        &mut self,
+        kind: PhaseKind,
+        law: Law,
+        hertz: Option<Hertz>,
+        store: Store,
+    ) -> usize {
         let drive = self.scene.excitation;
         self.phases.push(Phase {
             kind,
@@ -145,9 +62,11 @@ impl Builder<'_> {
                 drive.amplitude,
                 drive.frequency,
             ),
+            hertz,
             guards: Vec::with_capacity(3),
             exits: Vec::with_capacity(3),
-            stored,
+            store,
+            released: None,
         });
         self.phases.len() - 1
     }
@@ -157,57 +76,106 @@ impl Builder<'_> {
         self.phases[phase].exits.push(exit);
     }
 
-    /// Adds the layers of one stack, from the clearance on.
-    fn stack(&mut self, plans: &[Plan]) -> Vec<Layer> {
+    /// Adds the layers of one stack, from the clearance on, and the wall that ends it.
+    fn stack(&mut self, plans: &[Plan], wall: Option<Wall>) -> Stack {
+        let within = |plan: &&Plan| wall.is_none_or(|wall| plan.from < wall.position);
         let mut layers: Vec<Layer> = Vec::with_capacity(plans.len());
-        for plan in plans {
-            let forward = self.add_phase(plan.kind, plan.forward, plan.stored);
-            let backward = match plan.backward {
-                Some(law) => self.add_phase(plan.kind, law, plan.stored),
-                None => forward,
-            };
-            let surface = self.surfaces.len();
-            self.surfaces.push(Surface {
-                position: plan.from,
-                below: layers.last().map_or(0, |layer| layer.backward),
-                above: forward,
-                above_unfed: None,
-                is_clearance: layers.is_empty(),
-                is_far_side: plan.is_far_side,
-            });
-            if let Some(below) = layers.last() {
-                let guard = Guard::rising_to(plan.from);
-                self.add_exit(below.forward, guard, Exit::Forward(surface));
-            }
-            let guard = Guard::falling_to(plan.from);
-            self.add_exit(backward, guard, Exit::Backward(surface));
-            if forward != backward {
-                let reversal = Exit::Reversal { forward, backward };
-                self.add_exit(forward, Guard::turning_back(), reversal);
-                self.add_exit(backward, Guard::turning_forward(), reversal);
-            }
-            layers.push(Layer {
-                from: plan.from,
-                forward,
-                backward,
-                surface,
-            });
+        for plan in plans.iter().filter(within) {
+            let layer = self.add_layer(plan, layers.last().copied());
+            layers.push(layer);
         }
-        layers
+        let wall = wall.map(|wall| {
+            let restitution = wall.restitution;
+            let beyond = Beyond::Wall { restitution };
+            let below = layers.last().copied();
+            let is_far_side = plans
+                .iter()
+                .any(|plan| plan.is_far_side && plan.from == wall.position);
+            self.add_surface(wall.position, below, beyond, is_far_side)
+        });
+        Stack { layers, wall }
+    }
+
+    fn add_layer(&mut self, plan: &Plan, below: Option<Layer>) -> Layer {
+        let store = Store {
+            spring: plan.spring,
+            hertz: plan.hertz,
+        };
+        let add = |builder: &mut Self, law| builder.add_phase(plan.kind, law, plan.hertz, store);
+        let forward = add(self, plan.forward);
+        let backward = plan.backward.map_or(forward, |law| add(self, law));
+        let beyond = Beyond::Phase(forward);
+        let surface = self.add_surface(plan.from, below, beyond, plan.is_far_side);
+        self.add_exit(
+            backward,
+            Guard::falling_to(plan.from),
+            Exit::Backward(surface),
+        );
+        if forward != backward {
+            let reversal = Exit::Reversal { forward, backward };
+            self.add_exit(forward, Guard::turning_back(), reversal);
+            self.add_exit(backward, Guard::turning_forward(), reversal);
+        }
+        if let Some((law, pulls)) = plan.released {
+            let released = self.add_phase(PhaseKind::Released, law, None, store);
+            let falling = Guard::falling_to(plan.from);
+            self.add_exit(released, falling, Exit::Backward(surface));
+            self.add_exit(released, pulls.reversed(), Exit::Switch(forward));
+            self.add_exit(forward, pulls, Exit::Switch(released));
+            self.phases[forward].released = Some((released, pulls));
+        }
+        Layer {
+            from: plan.from,
+            forward,
+            backward,
+            surface,
+        }
+    }
+
+    /// Adds a surface and lets the phases below it end there.
+    fn add_surface(
+        &mut self,
+        position: f64,
+        below: Option<Layer>,
+        above: Beyond,
+        is_far_side: bool,
+    ) -> usize {
+        let surface = self.surfaces.len();
+        self.surfaces.push(Surface {
+            position,
+            below: below.map_or(0, |layer| layer.backward),
+            above,
+            above_unfed: None,
+            is_clearance: below.is_none(),
+            is_far_side,
+        });
+        if let Some(below) = below {
+            let released = self.phases[below.forward].released;
+            let guard = Guard::rising_to(position);
+            self.add_exit(below.forward, guard, Exit::Forward(surface));
+            if let Some((released, _)) = released {
+                self.add_exit(released, guard, Exit::Forward(surface));
+            }
+        }
+        surface
     }
 
     /// Lets the free phase end at the clearance.
-    fn join_to_free(&mut self, fed: &[Layer], unfed: &[Layer]) {
-        let Some(first) = fed.first().or(unfed.first()) else {
+    fn join_to_free(&mut self, fed: &Stack, unfed: &Stack) {
+        let (Some(first), Some(empty)) = (fed.first(), unfed.first()) else {
             return;
         };
-        if let (Some(_), Some(empty)) = (fed.first(), unfed.first()) {
-            self.surfaces[first.surface].above_unfed = Some(empty.forward);
+        if first != empty {
+            self.surfaces[first].above_unfed = Some(self.surfaces[empty].above);
         }
-        self.add_exit(
-            0,
-            Guard::rising_to(first.from),
-            Exit::Forward(first.surface),
-        );
+        let guard = Guard::rising_to(self.surfaces[first].position);
+        self.add_exit(0, guard, Exit::Forward(first));
+    }
+}
+
+impl Stack {
+    /// The surface at which it begins.
+    fn first(&self) -> Option<usize> {
+        self.layers.first().map(|layer| layer.surface).or(self.wall)
     }
 }

@@ -5,13 +5,14 @@
 //! which stop it was.
 
 mod lower;
+mod plan;
 mod settle;
 
 pub use settle::Mode;
 pub(crate) use settle::Threshold;
 
 use crate::events::Guard;
-use crate::flow::Flow;
+use crate::flow::{Flow, Hertz};
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 
@@ -29,9 +30,14 @@ pub enum PhaseKind {
     Gap,
     /// Phase III: the stop is pressed.
     Stop,
+    /// Beyond the stop's face, where the stop would have to pull.
+    Released,
+    /// Ever faster bounces on a rigid stop that end in rest after a finite time.
+    Chatter,
     /// Held by dry friction.
     Stuck,
-    /// Held at the face of a stop by a force below its preload.
+    /// Held at the face of a stop: of a preloaded one by a force below its preload, of a rigid one
+    /// by any force.
     Resting,
 }
 
@@ -51,23 +57,65 @@ pub struct Law {
 pub struct Phase {
     /// What it is.
     pub kind: PhaseKind,
-    /// Its law.
+    /// Its law, or the linear part of it.
     pub law: Law,
-    /// Its exact flow.
+    /// The exact flow of the linear law.
     pub flow: Flow,
+    /// The nonlinear part of the law.
+    pub hertz: Option<Hertz>,
     /// Its guards.
     pub guards: Vec<Guard>,
     /// What each guard leads to.
     pub exits: Vec<Exit>,
-    /// Energy in J that the stop's spring stores at position x: `stored.0` u + `stored.1` u^2 / 2
-    /// with u = x - `stored.2`.
-    pub stored: (f64, f64, f64),
+    /// What the stop stores.
+    pub store: Store,
+    /// The phase that holds instead while this guard is above zero: contact does not pull.
+    pub(crate) released: Option<(usize, Guard)>,
+}
+
+/// What a stop stores: by its linear spring and by its power law. Where contact has ceased to press,
+/// the stop is still deflected; what it then loses on its way back is dissipated.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Store {
+    /// The linear spring.
+    pub spring: Spring,
+    /// The power law.
+    pub hertz: Option<Hertz>,
+}
+
+impl Store {
+    /// Energy in J stored at a position.
+    pub fn energy_at(&self, position: f64) -> f64 {
+        let hertz = self.hertz.map_or(0.0, |hertz| hertz.energy(position));
+        self.spring.energy_at(position) + hertz
+    }
+}
+
+/// A linear spring: E = `energy` + `force` u + `stiffness` u^2 / 2 with u = x - `origin`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Spring {
+    /// Position in m where it begins.
+    pub origin: f64,
+    /// Energy in J stored there.
+    pub energy: f64,
+    /// Force in N there.
+    pub force: f64,
+    /// Stiffness in N/m.
+    pub stiffness: f64,
+}
+
+impl Spring {
+    /// Energy in J stored at a position.
+    pub fn energy_at(&self, position: f64) -> f64 {
+        let depth = position - self.origin;
+        self.energy + depth * (self.force + 0.5 * self.stiffness * depth)
+    }
 }
 
 /// What a guard leads to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
-    /// The mass moves on through a surface.
+    /// The mass moves on through a surface, or hits it.
     Forward(usize),
     /// The mass moves back through a surface.
     Backward(usize),
@@ -78,6 +126,20 @@ pub enum Exit {
         /// The phase of the way back.
         backward: usize,
     },
+    /// Another phase takes over where its law gives the same force.
+    Switch(usize),
+}
+
+/// What lies beyond a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Beyond {
+    /// A phase, entered on the way forward.
+    Phase(usize),
+    /// Nothing that gives way: v+ = -restitution v-.
+    Wall {
+        /// Newton's coefficient of restitution.
+        restitution: f64,
+    },
 }
 
 /// A position at which the law changes.
@@ -87,13 +149,13 @@ pub struct Surface {
     pub position: f64,
     /// The phase below it, on the way back.
     pub below: usize,
-    /// The phase above it, on the way forward.
-    pub above: usize,
-    /// The phase above it when no strip is fed, if that differs.
-    pub above_unfed: Option<usize>,
-    /// True at the clearance: moving on through it is an impact.
+    /// What lies above it.
+    pub above: Beyond,
+    /// What lies above it when no strip is fed, if that differs.
+    pub above_unfed: Option<Beyond>,
+    /// True at the clearance: moving on to it is an impact.
     pub is_clearance: bool,
-    /// True at the far side of the strip: moving on through it pierces it.
+    /// True at the far side of the strip: moving on to it pierces it.
     pub is_far_side: bool,
 }
 
@@ -109,8 +171,16 @@ pub struct Phases {
     pub(crate) mass: f64,
     /// The suspension and its damping alone.
     pub(crate) free: Law,
-    fed: Vec<Layer>,
-    unfed: Vec<Layer>,
+    fed: Stack,
+    unfed: Stack,
+}
+
+/// The layers beyond the clearance, and the rigid stop that ends them.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct Stack {
+    layers: Vec<Layer>,
+    /// Its surface.
+    wall: Option<usize>,
 }
 
 /// A range of positions with its phases on the way forward and back.
@@ -133,12 +203,29 @@ impl Scene {
 impl Phases {
     /// True if a phase is one of those with a strip.
     pub(crate) fn belongs_to_strip(&self, phase: usize) -> bool {
-        let within = |layers: &[Layer]| {
-            layers
-                .iter()
-                .any(|layer| layer.forward == phase || layer.backward == phase)
+        let is_of = |layer: &Layer| {
+            let released = self.phases[layer.forward].released;
+            layer.forward == phase
+                || layer.backward == phase
+                || released.is_some_and(|(released, _)| released == phase)
         };
-        within(&self.fed)
+        self.fed.layers.iter().any(is_of)
+    }
+
+    /// The phase of the way forward in the layer of a phase of the way back.
+    pub(crate) fn forward_of(&self, backward: usize) -> usize {
+        let reversal = |exit: &Exit| match exit {
+            Exit::Reversal { forward, .. } => Some(*forward),
+            _ => None,
+        };
+        let exits = &self.phases[backward].exits;
+        exits.iter().find_map(reversal).unwrap_or(backward)
+    }
+
+    /// Where the mass can go no further, in m.
+    pub(crate) fn wall(&self) -> Option<f64> {
+        let wall = self.fed.wall?;
+        Some(self.surfaces[wall].position)
     }
 }
 
@@ -149,11 +236,34 @@ impl Phase {
         (self.law.damping - free.damping) * velocity
             + (self.law.stiffness - free.stiffness) * position
             - self.law.force
+            + self.hertz_force(position, velocity)
+    }
+
+    fn hertz_force(&self, position: f64, velocity: f64) -> f64 {
+        self.hertz
+            .map_or(0.0, |hertz| hertz.force(position, velocity))
+    }
+
+    /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m of spring, damper and stop
+    /// together.
+    pub fn slopes(&self, position: f64, velocity: f64) -> (f64, f64) {
+        let (stiffness, damping) = self
+            .hertz
+            .map_or((0.0, 0.0), |hertz| hertz.slopes(position, velocity));
+        (self.law.stiffness + stiffness, self.law.damping + damping)
+    }
+
+    /// Acceleration in m/s^2 of any state under the external force `push` per mass.
+    pub fn acceleration(&self, position: f64, velocity: f64, push: f64, mass: f64) -> f64 {
+        let force = self.law.force - self.hertz_force(position, velocity);
+        self.flow
+            .acceleration(position, velocity, push + force / mass)
     }
 
     /// The position without the rounding that would put it beyond a surface that ends the phase.
     pub(crate) fn confine(&self, position: f64) -> f64 {
-        self.guards.iter().fold(position, |x, guard| {
+        let surfaces = self.guards.iter().filter(|guard| guard.velocity == 0.0);
+        surfaces.fold(position, |x, guard| {
             if guard.position > 0.0 {
                 x.min(guard.level)
             } else if guard.position < 0.0 {
@@ -164,15 +274,19 @@ impl Phase {
         })
     }
 
-    /// Energy in J stored in the stop's spring.
-    pub fn stored_energy(&self, position: f64) -> f64 {
-        let (force, stiffness, origin) = self.stored;
-        let depth = position - origin;
-        depth * (force + 0.5 * stiffness * depth)
+    /// Energy in J that the mass has lost to this phase's springs on the way from one position to
+    /// another, the suspension `free` left out.
+    pub(crate) fn elastic_work(&self, free: &Law, low: f64, high: f64) -> f64 {
+        let force = 0.5 * (self.law.stiffness - free.stiffness) * (high + low) - self.law.force;
+        let hertz = self
+            .hertz
+            .map_or(0.0, |hertz| hertz.energy(high) - hertz.energy(low));
+        force * (high - low) + hertz
     }
 
     /// Acceleration in m/s^2 of a mass at rest under the external force `push` per mass.
     pub(crate) fn acceleration_from_rest(&self, position: f64, push: f64, mass: f64) -> f64 {
-        push + self.law.force / mass - self.flow.modes.stiffness * position
+        let force = self.law.force - self.hertz_force(position, 0.0);
+        push + force / mass - self.flow.modes.stiffness * position
     }
 }

@@ -7,7 +7,7 @@
 
 use crate::events::Guard;
 
-use super::{Layer, PhaseKind, Phases, Surface};
+use super::{Beyond, Layer, PhaseKind, Phases, Surface};
 
 /// What counts as a bounce.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,8 +33,13 @@ pub enum Mode {
     Moving(usize),
     /// It is held; it would leave in one of these phases.
     Held {
-        /// Phase of the way forward.
-        forward: usize,
+        /// Phase of the way forward; none before a rigid stop.
+        forward: Option<usize>,
+        /// Phase of the way back.
+        backward: usize,
+    },
+    /// It bounces on a rigid stop until it rests; from there it would leave in this phase.
+    Chattering {
         /// Phase of the way back.
         backward: usize,
     },
@@ -44,13 +49,23 @@ impl Phases {
     /// The mode at any state. `push` is the external force per mass in m/s^2, `fed` says whether a
     /// strip lies beyond the clearance.
     pub fn locate(&self, position: f64, velocity: f64, push: f64, fed: bool) -> Mode {
-        let layers = if fed { &self.fed } else { &self.unfed };
-        let Some(layer) = layers.iter().rev().find(|layer| position >= layer.from) else {
+        let stack = if fed { &self.fed } else { &self.unfed };
+        if let Some(wall) = stack.wall.map(|wall| self.surfaces[wall])
+            && position >= wall.position
+            && velocity == 0.0
+        {
+            return self.leave_rest(wall.above, wall.below, position, push);
+        }
+        let Some(layer) = stack
+            .layers
+            .iter()
+            .rev()
+            .find(|layer| position >= layer.from)
+        else {
             return Mode::Moving(0);
         };
         if position == layer.from {
-            let mut surface = self.surfaces[layer.surface];
-            surface.above = layer.forward;
+            let surface = self.surfaces[layer.surface];
             return self.at_surface(&surface, velocity, push, fed, Threshold::ROUNDING);
         }
         self.inside(layer, position, velocity, push)
@@ -58,11 +73,31 @@ impl Phases {
 
     fn inside(&self, layer: &Layer, position: f64, velocity: f64, push: f64) -> Mode {
         if layer.forward == layer.backward || velocity > 0.0 {
-            Mode::Moving(layer.forward)
+            self.moving(layer.forward, position, velocity)
         } else if velocity < 0.0 {
-            Mode::Moving(layer.backward)
+            self.moving(layer.backward, position, velocity)
         } else {
-            self.leave_rest(layer.forward, layer.backward, position, push)
+            let above = Beyond::Phase(layer.forward);
+            self.leave_rest(above, layer.backward, position, push)
+        }
+    }
+
+    /// The mode of a mass that moves in a phase, or in the one that holds where contact would pull.
+    pub(crate) fn moving(&self, phase: usize, position: f64, velocity: f64) -> Mode {
+        match self.phases[phase].released {
+            Some((released, pulls)) if pulls.value(position, velocity) > 0.0 => {
+                Mode::Moving(released)
+            }
+            _ => Mode::Moving(phase),
+        }
+    }
+
+    /// What lies above a surface.
+    pub(crate) fn beyond(&self, at: &Surface, fed: bool) -> Beyond {
+        if fed {
+            at.above
+        } else {
+            at.above_unfed.unwrap_or(at.above)
         }
     }
 
@@ -76,11 +111,7 @@ impl Phases {
         fed: bool,
         Threshold { height, slowest }: Threshold,
     ) -> Mode {
-        let above = if fed {
-            at.above
-        } else {
-            at.above_unfed.unwrap_or(at.above)
-        };
+        let above = self.beyond(at, fed);
         let held = self.leave_rest(above, at.below, at.position, push);
         let rests = matches!(held, Mode::Held { .. });
         let faint = || {
@@ -89,66 +120,92 @@ impl Phases {
         };
         if velocity == 0.0 || (rests && faint()) {
             held
-        } else if velocity > 0.0 {
-            Mode::Moving(above)
+        } else if velocity < 0.0 {
+            self.moving(at.below, at.position, velocity)
+        } else if let Beyond::Phase(above) = above {
+            self.moving(above, at.position, velocity)
         } else {
-            Mode::Moving(at.below)
+            held
         }
     }
 
     /// The mode of a mass at rest between two laws.
     pub(crate) fn leave_rest(
         &self,
-        forward: usize,
+        above: Beyond,
         backward: usize,
         position: f64,
         push: f64,
     ) -> Mode {
         let acceleration =
             |phase: usize| self.phases[phase].acceleration_from_rest(position, push, self.mass);
-        if acceleration(forward) > 0.0 {
-            Mode::Moving(forward)
-        } else if acceleration(backward) < 0.0 {
-            Mode::Moving(backward)
-        } else {
-            Mode::Held { forward, backward }
+        let forward = match above {
+            Beyond::Phase(phase) => Some(phase),
+            Beyond::Wall { .. } => None,
+        };
+        match forward {
+            Some(phase) if acceleration(phase) > 0.0 => Mode::Moving(phase),
+            _ if acceleration(backward) < 0.0 => Mode::Moving(backward),
+            _ => Mode::Held { forward, backward },
         }
     }
 
-    /// The guards that let a held mass go: forward first, then back.
-    pub(crate) fn release_guards(
+    /// The mode of a mass that was held.
+    pub(crate) fn leave_hold(
         &self,
-        forward: usize,
+        forward: Option<usize>,
         backward: usize,
         position: f64,
-    ) -> [Guard; 2] {
+        push: f64,
+    ) -> Mode {
+        // Of a wall nothing is asked but that it does not give way.
+        let above = forward.map_or(Beyond::Wall { restitution: 0.0 }, Beyond::Phase);
+        self.leave_rest(above, backward, position, push)
+    }
+
+    /// The guards that let a held mass go, each with the phase that it leads to.
+    pub(crate) fn releases(
+        &self,
+        forward: Option<usize>,
+        backward: usize,
+        position: f64,
+    ) -> ([Guard; 2], [usize; 2], usize) {
         let balance = |phase: usize| {
             let phase = &self.phases[phase];
-            phase.flow.modes.stiffness * position - phase.law.force / self.mass
+            -phase.acceleration_from_rest(position, 0.0, self.mass)
         };
-        [
-            Guard::push_above(balance(forward)),
-            Guard::push_below(balance(backward)),
-        ]
+        let back = Guard::push_below(balance(backward));
+        match forward {
+            Some(forward) => {
+                let on = Guard::push_above(balance(forward));
+                ([on, back], [forward, backward], 2)
+            }
+            None => ([back, back], [backward, backward], 1),
+        }
     }
 
     /// Height v^2 / (2 a) in m of the bounce that would follow, on its higher side.
-    fn bounce(&self, at: &Surface, above: usize, velocity: f64, push: f64) -> f64 {
+    fn bounce(&self, at: &Surface, above: Beyond, velocity: f64, push: f64) -> f64 {
         let acceleration = |phase: usize| {
             self.phases[phase]
                 .acceleration_from_rest(at.position, push, self.mass)
                 .abs()
         };
-        velocity * velocity / (2.0 * acceleration(above).min(acceleration(at.below)))
+        let ahead = match above {
+            Beyond::Phase(phase) => acceleration(phase),
+            Beyond::Wall { .. } => f64::INFINITY,
+        };
+        velocity * velocity / (2.0 * ahead.min(acceleration(at.below)))
     }
 
     /// What a mode is in the machine.
     pub fn kind(&self, mode: Mode) -> PhaseKind {
         match mode {
             Mode::Moving(phase) => self.phases[phase].kind,
+            Mode::Chattering { .. } => PhaseKind::Chatter,
             Mode::Held { forward, backward } => {
-                let same = self.phases[forward].kind == self.phases[backward].kind;
-                if same {
+                let kind = |phase: usize| self.phases[phase].kind;
+                if forward.map(kind) == Some(kind(backward)) {
                     PhaseKind::Stuck
                 } else {
                     PhaseKind::Resting

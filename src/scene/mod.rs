@@ -7,17 +7,23 @@
 //! ```
 //!
 //! (Peterka 2003, eq. 8) in SI units. [`Ratios`] holds the same in the paper's dimensionless
-//! quantities; the two agree through [`Ratios::scene`] and [`Ratios::dimensional`].
+//! quantities; the two agree through [`Ratios::scene`] and [`Ratios::dimensional`]. Any scene with m = k1
+//! = F0 = 1 is dimensionless, and [`Scene::in_units`] makes it dimensional.
 
 mod ratios;
+mod stop;
+mod units;
 mod validate;
 
-pub use ratios::{PiercingRatios, Ratios, Units};
+pub use ratios::{PiercingRatios, Ratios};
+pub(crate) use stop::stiffness_from;
+pub use stop::{Release, RigidStop, Slope, Stop, force_of};
+pub use units::Units;
 
 use serde::{Deserialize, Serialize};
 
 /// Parameters of one machine, SI units.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Mass m in kg, > 0.
@@ -38,6 +44,9 @@ pub struct Scene {
     /// The strip that is pierced ahead of the stop, if one is fed.
     #[serde(default)]
     pub piercing: Option<Piercing>,
+    /// A rigid stop behind the stop, if there is one.
+    #[serde(default)]
+    pub rigid: Option<RigidStop>,
 }
 
 /// The drive F0 cos(w t + phi).
@@ -51,22 +60,6 @@ pub struct Excitation {
     /// Drive angle phi at time 0 in rad.
     #[serde(default)]
     pub phase: f64,
-}
-
-/// The stop's law of force.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "model", rename_all = "camelCase", deny_unknown_fields)]
-pub enum Stop {
-    /// No stop: the linear oscillator (Peterka 2003, Fig. 1a).
-    None,
-    /// A pre-stressed spring: F = preload + stiffness (x - x_stop) for x > x_stop
-    /// (Peterka 2003, eq. 5).
-    Preloaded {
-        /// Stiffness k4 in N/m, >= 0.
-        stiffness: f64,
-        /// Force at first touch in N, >= 0.
-        preload: f64,
-    },
 }
 
 /// The strip met from the clearance on (Peterka 2003, eqs. 1-4).
@@ -100,6 +93,15 @@ impl Scene {
     pub fn stop_position(&self) -> f64 {
         let behind = self.piercing.map_or(0.0, |p| p.thickness + p.travel);
         self.clearance + behind
+    }
+
+    /// Where the mass can go no further, in m, if there is a rigid stop.
+    pub fn wall_position(&self) -> Option<f64> {
+        match (&self.stop, self.rigid) {
+            (Stop::Rigid { .. }, _) => Some(self.stop_position()),
+            (_, Some(rigid)) => Some(self.stop_position() + rigid.travel),
+            _ => None,
+        }
     }
 
     /// Period of the drive, 2 pi / w, in s.

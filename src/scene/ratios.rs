@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::validate::positive;
-use super::{Excitation, Piercing, Scene, Stop};
+use super::{Excitation, Piercing, RigidStop, Scene, Stop, Units};
 use crate::error::SceneError;
 
 /// Dimensionless parameters as in Peterka 2003, section 3: stiffness ratios in units of k1,
@@ -26,6 +25,9 @@ pub struct Ratios {
     /// The strip, or none for the unloaded regime.
     #[serde(default)]
     pub piercing: Option<PiercingRatios>,
+    /// The rigid stop behind (phase IV), its travel epsilon in units of the static deflection.
+    #[serde(default)]
+    pub rigid: Option<RigidStop>,
 }
 
 /// The strip in the paper's ratios.
@@ -40,26 +42,6 @@ pub struct PiercingRatios {
     pub thickness: f64,
     /// nu = v k1 / F0.
     pub travel: f64,
-}
-
-/// The three units that make the paper's ratios dimensional.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Units {
-    /// Mass m in kg.
-    pub mass: f64,
-    /// Stiffness k1 in N/m.
-    pub stiffness: f64,
-    /// Force amplitude F0 in N.
-    pub force: f64,
-}
-
-impl Units {
-    /// m = 1 kg, k1 = 1 N/m, F0 = 1 N: SI and dimensionless figures coincide.
-    pub const ONE: Self = Self {
-        mass: 1.0,
-        stiffness: 1.0,
-        force: 1.0,
-    };
 }
 
 impl PiercingRatios {
@@ -83,6 +65,7 @@ impl Ratios {
             stiffness: 7.0,
             preload: 70.0,
             piercing: None,
+            rigid: None,
         }
     }
 
@@ -98,7 +81,31 @@ impl Ratios {
     /// # Errors
     /// [`SceneError`] if a ratio is out of range.
     pub fn scene(&self) -> Result<Scene, SceneError> {
-        self.dimensional(Units::ONE)
+        let scene = Scene {
+            mass: 1.0,
+            stiffness: 1.0,
+            damping: 2.0 * self.damping,
+            excitation: Excitation {
+                amplitude: 1.0,
+                frequency: self.frequency,
+                phase: 0.0,
+            },
+            clearance: self.clearance,
+            contact_damping: 2.0 * self.contact_damping,
+            stop: Stop::Preloaded {
+                stiffness: self.stiffness,
+                preload: self.preload,
+            },
+            piercing: self.piercing.map(|strip| Piercing {
+                stiffness: strip.stiffness,
+                friction: strip.friction,
+                thickness: strip.thickness,
+                travel: strip.travel,
+            }),
+            rigid: self.rigid,
+        };
+        scene.validate()?;
+        Ok(scene)
     }
 
     /// The scene in the given units.
@@ -106,34 +113,6 @@ impl Ratios {
     /// # Errors
     /// [`SceneError`] if a unit is not positive or a ratio is out of range.
     pub fn dimensional(&self, units: Units) -> Result<Scene, SceneError> {
-        positive("mass", units.mass)?;
-        positive("stiffness", units.stiffness)?;
-        positive("excitation.amplitude", units.force)?;
-        let length = units.force / units.stiffness;
-        let critical = 2.0 * (units.mass * units.stiffness).sqrt();
-        let scene = Scene {
-            mass: units.mass,
-            stiffness: units.stiffness,
-            damping: self.damping * critical,
-            excitation: Excitation {
-                amplitude: units.force,
-                frequency: self.frequency * (units.stiffness / units.mass).sqrt(),
-                phase: 0.0,
-            },
-            clearance: self.clearance * length,
-            contact_damping: self.contact_damping * critical,
-            stop: Stop::Preloaded {
-                stiffness: self.stiffness * units.stiffness,
-                preload: self.preload * units.force,
-            },
-            piercing: self.piercing.map(|strip| Piercing {
-                stiffness: strip.stiffness * units.stiffness,
-                friction: strip.friction * units.stiffness,
-                thickness: strip.thickness * length,
-                travel: strip.travel * length,
-            }),
-        };
-        scene.validate()?;
-        Ok(scene)
+        self.scene()?.in_units(units)
     }
 }

@@ -7,7 +7,7 @@ pub use work::{Work, work};
 use crate::error::MotionError;
 use crate::flow::Course;
 use crate::integrator::{Arc, Clock, Crossing, Instant, Motion, Observer, Start};
-use crate::phases::{Law, Phase, PhaseKind};
+use crate::phases::{Law, PhaseKind};
 use crate::scene::Scene;
 
 /// One arc of a trajectory.
@@ -79,11 +79,12 @@ impl Trajectory {
     }
 }
 
-/// Mechanical energy in J: kinetic, suspension and, in a phase, the stop's spring.
-pub fn mechanical_energy(scene: &Scene, phase: Option<&Phase>, state: Start) -> f64 {
-    let kinetic = 0.5 * scene.mass * state.velocity * state.velocity;
-    let spring = 0.5 * scene.stiffness * state.position * state.position;
-    kinetic + spring + phase.map_or(0.0, |phase| phase.stored_energy(state.position))
+/// Mechanical energy in J: kinetic, suspension and what the stop stores.
+pub fn mechanical_energy(scene: &Scene, motion: &Motion) -> f64 {
+    let Start { position, velocity } = motion.state();
+    let kinetic = 0.5 * scene.mass * velocity * velocity;
+    let spring = 0.5 * scene.stiffness * position * position;
+    kinetic + spring + motion.store().energy_at(position)
 }
 
 impl Scene {
@@ -101,7 +102,7 @@ impl Scene {
     /// As [`Scene::trajectory`].
     pub fn trajectory_until(&self, start: Start, end: Instant) -> Result<Trajectory, MotionError> {
         let mut motion = self.motion(start)?;
-        let energy_before = mechanical_energy(self, motion.phase(), start);
+        let energy_before = mechanical_energy(self, &motion);
         let mut recorder = Recorder::new(self.mass, motion.phases().free);
         motion.advance(end, &mut recorder)?;
         let arc = motion.arc();
@@ -113,7 +114,7 @@ impl Scene {
             arcs: recorder.arcs,
             crossings: recorder.crossings,
             work: recorder.work,
-            stored: mechanical_energy(self, motion.phase(), state) - energy_before,
+            stored: mechanical_energy(self, &motion) - energy_before,
             end: state,
         })
     }
@@ -126,7 +127,7 @@ impl Scene {
         self.validate()?;
         start.validate()?;
         let clock = Clock::new(self.excitation.frequency, self.excitation.phase);
-        Ok(Motion::new(self.phases(), clock, Clock::at_cycle(0), start))
+        Motion::new(self.phases(), clock, Clock::at_cycle(0), start)
     }
 }
 
@@ -156,7 +157,7 @@ impl Observer for Recorder {
         self.arcs.push(KeptArc {
             start: arc.start,
             duration: elapsed,
-            course: *arc.course,
+            course: arc.course.clone(),
             kind: arc.kind,
         });
     }

@@ -25,14 +25,12 @@ pub fn work(arc: &Arc<'_>, mass: f64, free: &Law, elapsed: f64) -> Work {
     let Some(phase) = arc.phase else {
         return Work::default();
     };
-    let law = phase.law;
-    let power = arc.course.power(elapsed, law.force / mass);
+    let power = arc.course.power(elapsed, phase.law.force / mass);
     let low = arc.course.departure.position;
     let high = arc.course.node(elapsed).position;
-    let force = 0.5 * (law.stiffness - free.stiffness) * (high + low) - law.force;
-    let stored = phase.stored_energy(high) - phase.stored_energy(low);
+    let stored = phase.store.energy_at(high) - phase.store.energy_at(low);
     Work {
         supplied: mass * power.supplied,
-        dissipated: mass * power.lost + force * (high - low) - stored,
+        dissipated: mass * power.lost + phase.elastic_work(free, low, high) - stored,
     }
 }

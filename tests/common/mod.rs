@@ -39,6 +39,7 @@ pub fn ratios(parameters: &Value) -> Ratios {
         contact_damping: number(parameters, "contact_damping"),
         stiffness: number(parameters, "stiffness"),
         preload: number(parameters, "preload"),
+        rigid: None,
         piercing: (parameters["regime"] == "loaded").then(|| PiercingRatios {
             stiffness: number(parameters, "k2"),
             friction: number(parameters, "k3"),

@@ -1,0 +1,67 @@
+//! The first crossing on one Taylor step of a nonlinear phase.
+
+use super::isolate::Candidate;
+use super::{Found, Guard, Outlook};
+use crate::flow::{DEGREE, Node, Segment, evaluate};
+
+/// The first crossing from `node` to the end of the step. Bounds on the fourth derivative follow from
+/// the coefficients of the polynomial, which is the motion to round-off.
+pub(super) fn first_crossing(segment: &Segment, guards: &[Guard], node: Node) -> Outlook {
+    let (from, to) = (node.elapsed, segment.end);
+    let (position, velocity) = segment.state(to);
+    if !(to > 0.0 && position.is_finite() && velocity.is_finite()) {
+        return Outlook::Unbounded(node);
+    }
+    let (taylor, origin) = segment.polynomials();
+    let mut horizon = f64::INFINITY;
+    let mut first = None;
+    for (index, guard) in guards.iter().enumerate() {
+        // Seen from the face, a surface at the face is at zero exactly.
+        let guard = Guard {
+            level: guard.level - guard.position * origin,
+            ..*guard
+        };
+        let coefficients = guard.polynomial(taylor);
+        let candidate = Candidate {
+            coefficients: &coefficients,
+            bound: fourth_derivative(&coefficients, to),
+            rounding: rounding(&coefficients, to),
+        };
+        if let Some(rise) = candidate
+            .first_rise_between(from, to)
+            .filter(|rise| *rise < horizon)
+        {
+            horizon = rise;
+            first = Some(index);
+        }
+    }
+    match first {
+        None => Outlook::Ends(to),
+        Some(guard) => {
+            let (position, velocity) = segment.state(horizon);
+            Outlook::Crossing(Found {
+                elapsed: horizon,
+                guard,
+                position,
+                velocity,
+            })
+        }
+    }
+}
+
+/// Bound on |g''''| over [0, span].
+fn fourth_derivative(coefficients: &[f64; DEGREE + 1], span: f64) -> f64 {
+    let falling = |n: usize| (n * (n - 1) * (n - 2) * (n - 3)) as f64;
+    coefficients
+        .iter()
+        .enumerate()
+        .skip(4)
+        .rev()
+        .fold(0.0, |sum, (n, c)| sum * span + falling(n) * c.abs())
+}
+
+/// What g may carry of rounding on [0, span].
+fn rounding(coefficients: &[f64; DEGREE + 1], span: f64) -> f64 {
+    let majorant = coefficients.map(f64::abs);
+    f64::EPSILON * evaluate(&majorant, span).0 + f64::MIN_POSITIVE
+}

@@ -1,0 +1,118 @@
+//! The last bounces on a rigid stop, infinitely many in a finite time, summed.
+//!
+//! Pressed onto the stop with the acceleration A, a mass that leaves it with the speed w is back after
+//! 2 w / A and leaves with R w: the bounces end after T = 2 w / (A (1 - R)). Under dry friction the way
+//! out has another acceleration (B) than the way back (A): one bounce then takes w/B + w/sqrt(A B), and the
+//! ratio of speeds is q = R sqrt(A/B).
+//!
+//! What is left out: the accelerations change by at most J T on the way, J a bound on the jerk. Each
+//! bounce's time and speed change by a factor within 1 +- 2 J T / A, so T is wrong by at most 2 J T^2 / A
+//! and a speed by J T^2. The sum is taken only where both are below rounding. Under dry friction it is taken
+//! earlier: there the mass turns at a position that is rounded, which falsifies a bounce of height h by
+//! half a rounding over h; below 2^17 roundings the sum is the more exact one.
+
+/// A geometric series of bounces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Chatter {
+    /// Speed in m/s with which it begins.
+    pub speed: f64,
+    /// Time in s until rest.
+    pub duration: f64,
+    /// Accelerations towards the stop on the way out and back, in m/s^2.
+    accelerations: (f64, f64),
+    /// Ratio of the speeds of one bounce and the next.
+    ratio: f64,
+}
+
+/// The longest tail, in drive periods: longer ones are followed bounce by bounce.
+const LONGEST: f64 = 1.0 / (1u64 << 26) as f64;
+/// Height in roundings below which a bounce under dry friction is too rough to be followed.
+const ROUGH: f64 = (1u64 << 17) as f64;
+/// Largest relative change of the accelerations that a sum is taken over.
+const STEADY: f64 = 1.0 / (1u64 << 10) as f64;
+
+impl Chatter {
+    /// The bounces that follow once a mass has left a stop of the given restitution with `speed`, if
+    /// nothing but their sum can be told any more. `out` and `back` are the accelerations towards the
+    /// stop on both ways, `jerk` bounds their rates, `period` is that of the drive, `grain` the rounding
+    /// in m of the position at which the mass turns.
+    pub fn from_speed(
+        speed: f64,
+        restitution: f64,
+        (out, back): (f64, f64),
+        jerk: f64,
+        period: f64,
+        grain: f64,
+    ) -> Option<Self> {
+        if !(speed > 0.0 && out > 0.0 && back > 0.0) {
+            return None;
+        }
+        let ratio = restitution * (back / out).sqrt();
+        let bounce = speed * (1.0 / out + 1.0 / (out * back).sqrt());
+        let duration = bounce / (1.0 - ratio);
+        let weakest = out.min(back);
+        let close = 0.25 * f64::EPSILON * period * weakest;
+        let exact = duration <= LONGEST * period && jerk * duration * duration <= close;
+        let rough = out != back
+            && speed * speed <= 2.0 * out * ROUGH * grain
+            && jerk * duration <= STEADY * weakest;
+        (ratio < 1.0 && (exact || rough)).then_some(Self {
+            speed,
+            duration,
+            accelerations: (out, back),
+            ratio,
+        })
+    }
+
+    /// Distance from the stop in m and velocity towards it in m/s, `elapsed` seconds after the first
+    /// departure.
+    pub fn at(&self, elapsed: f64) -> (f64, f64) {
+        let left = 1.0 - elapsed / self.duration;
+        if left <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let bounces = if self.ratio > 0.0 {
+            (left.ln() / self.ratio.ln()).floor()
+        } else {
+            0.0
+        };
+        let shrunk = self.ratio.powf(bounces);
+        let since = (shrunk - left) * self.duration;
+        let (out, back) = self.accelerations;
+        let speed = shrunk * self.speed;
+        let turn = speed / out;
+        if since <= turn {
+            (since * (0.5 * out * since - speed), out * since - speed)
+        } else {
+            let since = since - turn;
+            let far = -0.5 * speed * turn;
+            ((far + 0.5 * back * since * since).min(0.0), back * since)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Chatter;
+
+    #[test]
+    fn each_bounce_is_the_one_before_shrunk() {
+        let chatter = Chatter::from_speed(1e-9, 0.6, (2.0, 1.5), 1.0, 20.0, 0.0).expect("sums");
+        let first = 1e-9 * (1.0 / 2.0 + 1.0 / 3f64.sqrt());
+        let ratio = 0.6 * (1.5f64 / 2.0).sqrt();
+        for share in [0.1, 0.3, 0.7, 0.99] {
+            let (x, v) = chatter.at(share * first);
+            let (y, u) = chatter.at(first * (1.0 + ratio * share));
+            assert!((y - ratio * ratio * x).abs() < 1e-12 * x.abs());
+            assert!((u - ratio * v).abs() < 1e-6 * 1e-9);
+        }
+        assert_eq!(chatter.at(chatter.duration), (0.0, 0.0));
+    }
+
+    #[test]
+    fn a_rising_bounce_is_not_summed() {
+        assert!(Chatter::from_speed(1e-9, 1.0, (2.0, 2.0), 1.0, 20.0, 0.0).is_none());
+        assert!(Chatter::from_speed(1e-9, 0.6, (-1e-3, 2.0), 1.0, 20.0, 0.0).is_none());
+        assert!(Chatter::from_speed(1e-3, 0.6, (2.0, 2.0), 1.0, 20.0, 0.0).is_none());
+    }
+}

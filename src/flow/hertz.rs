@@ -1,0 +1,46 @@
+//! The power law of contact, F = k d^n max(0, 1 + lambda v) (Hertz 1882; Hunt and Crossley 1975).
+
+/// A power law that presses a mass back from a face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hertz {
+    /// Stiffness k in N/m^n.
+    pub stiffness: f64,
+    /// Exponent n >= 1.
+    pub exponent: f64,
+    /// Dissipation lambda in s/m.
+    pub dissipation: f64,
+    /// Where the face stands, in m.
+    pub origin: f64,
+    /// The mass that it acts upon, in kg.
+    pub mass: f64,
+}
+
+impl Hertz {
+    /// Force in N.
+    pub fn force(&self, position: f64, velocity: f64) -> f64 {
+        let depth = (position - self.origin).max(0.0);
+        let grip = (1.0 + self.dissipation * velocity).max(0.0);
+        self.stiffness * depth.powf(self.exponent) * grip
+    }
+
+    /// Elastic energy in J, k d^(n+1) / (n+1).
+    pub fn energy(&self, position: f64) -> f64 {
+        let depth = (position - self.origin).max(0.0);
+        let raised = self.exponent + 1.0;
+        self.stiffness * depth.powf(raised) / raised
+    }
+
+    /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m while it presses.
+    pub fn slopes(&self, position: f64, velocity: f64) -> (f64, f64) {
+        let depth = (position - self.origin).max(0.0);
+        let grip = (1.0 + self.dissipation * velocity).max(0.0);
+        let steepness = self.stiffness * self.exponent * depth.powf(self.exponent - 1.0);
+        let damping = self.stiffness * depth.powf(self.exponent) * self.dissipation;
+        (steepness * grip, damping)
+    }
+
+    /// Force per mass and per d^n (1 + lambda v).
+    pub(super) fn rate(&self) -> f64 {
+        self.stiffness / self.mass
+    }
+}

@@ -1,0 +1,227 @@
+//! The layers that a scene's stop and strip make, before their phases are numbered.
+
+use super::{Law, PhaseKind, Spring};
+use crate::events::Guard;
+use crate::flow::Hertz;
+use crate::scene::{Piercing, Release, Scene, Slope, Stop, force_of, stiffness_from};
+
+/// One layer of positions.
+pub(super) struct Plan {
+    pub kind: PhaseKind,
+    pub from: f64,
+    pub forward: Law,
+    /// The law of the way back, if it is another one.
+    pub backward: Option<Law>,
+    /// The linear law that holds while the guard is above zero.
+    pub released: Option<(Law, Guard)>,
+    pub hertz: Option<Hertz>,
+    pub spring: Spring,
+    pub is_far_side: bool,
+}
+
+/// A rigid stop.
+#[derive(Clone, Copy)]
+pub(super) struct Wall {
+    pub position: f64,
+    pub restitution: f64,
+}
+
+/// The rigid stop of a scene.
+pub(super) fn wall(scene: &Scene) -> Option<Wall> {
+    let restitution = match (&scene.stop, scene.rigid) {
+        (Stop::Rigid { restitution }, _) => *restitution,
+        (_, Some(rigid)) => rigid.restitution,
+        _ => return None,
+    };
+    let position = scene.wall_position()?;
+    Some(Wall {
+        position,
+        restitution,
+    })
+}
+
+impl Plan {
+    fn new(kind: PhaseKind, from: f64, forward: Law) -> Self {
+        Self {
+            kind,
+            from,
+            forward,
+            backward: None,
+            released: None,
+            hertz: None,
+            spring: Spring {
+                origin: from,
+                ..Spring::default()
+            },
+            is_far_side: false,
+        }
+    }
+}
+
+/// The layers beyond the clearance, with or without a strip in them.
+pub(super) fn layers(scene: &Scene, free: Law, fed: bool) -> Vec<Plan> {
+    let touching = Law {
+        damping: scene.contact_damping,
+        ..free
+    };
+    let near = scene.clearance;
+    let mut plans = match scene.piercing {
+        Some(strip) if fed => strip_layers(strip, near, touching),
+        Some(_) => vec![Plan::new(PhaseKind::Gap, near, touching)],
+        None => Vec::new(),
+    };
+    let count = plans.len();
+    plans.extend(stop_layers(scene, free, touching, fed));
+    if plans[..count]
+        .last()
+        .is_some_and(|below| below.kind == PhaseKind::Pierce)
+        && let Some(stop) = plans.get_mut(count)
+    {
+        stop.is_far_side = true;
+    }
+    plans
+}
+
+/// Phases I and II (Peterka 2003, eqs. 1-4); a layer without thickness does not exist.
+fn strip_layers(strip: Piercing, near: f64, touching: Law) -> Vec<Plan> {
+    let elastic = |stiffness: f64| Law {
+        stiffness: touching.stiffness + stiffness,
+        force: stiffness * near,
+        ..touching
+    };
+    let pierce = (strip.thickness > 0.0).then(|| Plan {
+        backward: Some(elastic(strip.stiffness - strip.friction)),
+        ..Plan::new(
+            PhaseKind::Pierce,
+            near,
+            elastic(strip.stiffness + strip.friction),
+        )
+    });
+    let rub = |force: f64| Law {
+        force: -force,
+        ..touching
+    };
+    let cut = (strip.travel > 0.0).then(|| Plan {
+        backward: Some(rub(strip.cut_force_backward())),
+        is_far_side: true,
+        ..Plan::new(
+            PhaseKind::Cut,
+            near + strip.thickness,
+            rub(strip.cut_force_forward()),
+        )
+    });
+    pierce.into_iter().chain(cut).collect()
+}
+
+/// The layers of the stop itself.
+fn stop_layers(scene: &Scene, free: Law, touching: Law, fed: bool) -> Vec<Plan> {
+    let from = scene.stop_position();
+    let spring = |stiffness: f64, preload: f64| {
+        let origin = Spring {
+            origin: from,
+            energy: 0.0,
+            force: preload,
+            stiffness,
+        };
+        Plan {
+            spring: origin,
+            ..Plan::new(PhaseKind::Stop, from, sprung(touching, &origin))
+        }
+    };
+    match &scene.stop {
+        // The end of the strip, with nothing behind it.
+        Stop::None if fed && scene.piercing.is_some() => {
+            vec![Plan::new(PhaseKind::Gap, from, touching)]
+        }
+        // A rigid stop is the wall that ends the stack. Before it stands nothing but the far side
+        // of the strip.
+        Stop::Rigid { .. } => vec![Plan::new(PhaseKind::Gap, from, touching)],
+        Stop::None => Vec::new(),
+        Stop::Preloaded { stiffness, preload } => vec![spring(*stiffness, *preload)],
+        Stop::KelvinVoigt { stiffness, release } => {
+            let extra = scene.contact_damping - scene.damping;
+            let pulls = Guard {
+                position: -stiffness,
+                velocity: -extra,
+                push: 0.0,
+                level: -stiffness * from,
+            };
+            let clips = *release == Release::ZeroForce && extra != 0.0;
+            vec![Plan {
+                released: clips.then_some((free, pulls)),
+                ..spring(*stiffness, 0.0)
+            }]
+        }
+        Stop::PiecewiseLinear { loading, unloading } => {
+            slope_layers(from, touching, loading, unloading)
+        }
+        // An exponent of 1 without dissipation is a linear spring.
+        Stop::Hertz {
+            stiffness,
+            exponent: 1.0,
+            dissipation: 0.0,
+        } => vec![spring(*stiffness, 0.0)],
+        Stop::Hertz {
+            stiffness,
+            exponent,
+            dissipation,
+        } => vec![Plan {
+            hertz: Some(Hertz {
+                stiffness: *stiffness,
+                exponent: *exponent,
+                dissipation: *dissipation,
+                origin: from,
+                mass: scene.mass,
+            }),
+            released: (*dissipation > 0.0).then(|| {
+                let pulls = Guard {
+                    velocity: -dissipation,
+                    level: 1.0,
+                    ..Guard::NONE
+                };
+                (touching, pulls)
+            }),
+            ..Plan::new(PhaseKind::Stop, from, touching)
+        }],
+    }
+}
+
+/// The law under a stop's spring.
+fn sprung(touching: Law, spring: &Spring) -> Law {
+    Law {
+        stiffness: touching.stiffness + spring.stiffness,
+        force: spring.stiffness * spring.origin - spring.force,
+        ..touching
+    }
+}
+
+/// One layer from each deflection at which a slope of either way begins. What is stored is what the
+/// way back gives.
+fn slope_layers(from: f64, touching: Law, loading: &[Slope], unloading: &[Slope]) -> Vec<Plan> {
+    let same = unloading.is_empty() || unloading == loading;
+    let back = if same { loading } else { unloading };
+    let mut starts: Vec<f64> = loading.iter().chain(back).map(|slope| slope.from).collect();
+    starts.sort_by(f64::total_cmp);
+    starts.dedup();
+    let spring = |slopes: &[Slope], start: f64| Spring {
+        origin: from + start,
+        energy: 0.0,
+        force: force_of(slopes, start),
+        stiffness: stiffness_from(slopes, start),
+    };
+    let mut energy = 0.0;
+    let mut plans: Vec<Plan> = Vec::with_capacity(starts.len());
+    for start in starts {
+        let stored = spring(back, start);
+        if let Some(below) = plans.last() {
+            energy = below.spring.energy_at(stored.origin);
+        }
+        let forward = sprung(touching, &spring(loading, start));
+        plans.push(Plan {
+            backward: (!same).then(|| sprung(touching, &stored)),
+            spring: Spring { energy, ..stored },
+            ..Plan::new(PhaseKind::Stop, stored.origin, forward)
+        });
+    }
+    plans
+}

@@ -1,0 +1,207 @@
+//! Every law of a stop against independent 40-digit integrations (tests/reference/stops.py).
+
+mod common;
+
+use common::{list, number};
+use serde_json::Value;
+use softstop::scene::{Release, RigidStop, Slope};
+use softstop::{Clock, Excitation, Instant, PhaseKind, Piercing, Scene, Start, Stop, Trajectory};
+
+/// Rounding errors, in units of 2^-53 times the growth of a perturbation, that a motion may show. The
+/// most are seen where an overdamped contact is left slowly: its end then hangs on the last digit of the
+/// clearance.
+const ALLOWED: f64 = 600.0;
+
+fn slopes(value: &Value, key: &str) -> Vec<Slope> {
+    list(value, key)
+        .iter()
+        .map(|slope| Slope {
+            from: slope[0].as_f64().expect("a deflection"),
+            stiffness: slope[1].as_f64().expect("a stiffness"),
+        })
+        .collect()
+}
+
+fn stop(value: &Value) -> Stop {
+    let stiffness = || number(value, "stiffness");
+    match value["model"].as_str().expect("a model") {
+        "kelvinVoigt" => Stop::KelvinVoigt {
+            stiffness: stiffness(),
+            release: match value["release"].as_str() {
+                Some("zeroForce") => Release::ZeroForce,
+                _ => Release::Clearance,
+            },
+        },
+        "preloaded" => Stop::Preloaded {
+            stiffness: stiffness(),
+            preload: number(value, "preload"),
+        },
+        "piecewiseLinear" => Stop::PiecewiseLinear {
+            loading: slopes(value, "loading"),
+            unloading: slopes(value, "unloading"),
+        },
+        "hertz" => Stop::Hertz {
+            stiffness: stiffness(),
+            exponent: number(value, "exponent"),
+            dissipation: number(value, "dissipation"),
+        },
+        "rigid" => Stop::Rigid {
+            restitution: number(value, "restitution"),
+        },
+        other => panic!("unknown model {other}"),
+    }
+}
+
+fn scene(value: &Value) -> Scene {
+    let given = |key: &str| (!value[key].is_null()).then(|| &value[key]);
+    Scene {
+        mass: 1.0,
+        stiffness: 1.0,
+        damping: number(value, "damping"),
+        excitation: Excitation {
+            amplitude: 1.0,
+            frequency: number(value, "frequency"),
+            phase: number(value, "phase"),
+        },
+        clearance: number(value, "clearance"),
+        contact_damping: number(value, "contact_damping"),
+        stop: stop(&value["stop"]),
+        piercing: given("strip").map(|strip| Piercing {
+            stiffness: number(strip, "stiffness"),
+            friction: number(strip, "friction"),
+            thickness: number(strip, "thickness"),
+            travel: number(strip, "travel"),
+        }),
+        rigid: given("rigid").map(|rigid| RigidStop {
+            travel: number(rigid, "travel"),
+            restitution: number(rigid, "restitution"),
+        }),
+    }
+}
+
+fn instant(scene: &Scene, periods: f64) -> Instant {
+    Instant {
+        offset: periods.fract() * scene.period(),
+        ..Clock::at_cycle(periods.floor() as u64)
+    }
+}
+
+/// The worst error of the samples, in units of what is allowed.
+fn worst(case: &Value, scene: &Scene, trajectory: &Trajectory) -> f64 {
+    let mut growth: f64 = 1.0;
+    let mut worst: f64 = 0.0;
+    for sample in list(case, "samples") {
+        let (x, v) = (number(sample, "position"), number(sample, "velocity"));
+        growth = growth.max(number(sample, "growth"));
+        let periods = number(sample, "periods");
+        let state = trajectory.at(instant(scene, periods)).expect("within");
+        let error = (state.position - x).abs().max((state.velocity - v).abs());
+        let allowed = ALLOWED * 0.5 * f64::EPSILON * (1.0 + growth) * (1.0 + x.abs() + v.abs());
+        worst = worst.max(error / allowed);
+    }
+    worst
+}
+
+#[test]
+fn motions_agree_with_forty_digits() {
+    let reference: Value =
+        serde_json::from_str(include_str!("reference/stops.json")).expect("stops.json");
+    let cases = list(&reference, "cases");
+    assert!(cases.len() >= 100);
+    let mut failures = Vec::new();
+    for case in cases {
+        let name = &case["name"];
+        let scene = scene(&case["scene"]);
+        let start = Start {
+            position: number(case, "position"),
+            velocity: number(case, "velocity"),
+        };
+        let last = list(case, "samples").last().expect("samples");
+        let end = instant(&scene, number(last, "periods"));
+        let trajectory = match scene.trajectory_until(start, end) {
+            Ok(trajectory) => trajectory,
+            Err(error) => {
+                failures.push(format!("{name}: {error}"));
+                continue;
+            }
+        };
+        let error = worst(case, &scene, &trajectory);
+        if error > 1.0 || error.is_nan() {
+            failures.push(format!("{name}: {error:e} times what is allowed"));
+        }
+        failures.extend(compare_impacts(case, &trajectory));
+        failures.extend(compare_rests(case, &trajectory));
+        let balance = trajectory.energy_defect().abs()
+            / (trajectory.work.supplied.abs() + trajectory.work.dissipated + 1.0);
+        if balance > 1e-11 {
+            failures.push(format!("{name}: energy defect {balance:e}"));
+        }
+    }
+    assert!(failures.is_empty(), "\n{}", failures.join("\n"));
+}
+
+fn compare_impacts(case: &Value, trajectory: &Trajectory) -> Option<String> {
+    let name = &case["name"];
+    let found: Vec<_> = trajectory
+        .impacts()
+        .filter(|touch| touch.before_impact_velocity > 1e-6)
+        .collect();
+    let expected = list(case, "impacts");
+    if found.len() < expected.len() || (found.len() > expected.len() && expected.len() < 40) {
+        let counts = (found.len(), expected.len());
+        return Some(format!("{name}: {} impacts, not {}", counts.0, counts.1));
+    }
+    let growth = list(case, "samples")
+        .iter()
+        .map(|sample| number(sample, "growth"))
+        .fold(1.0, f64::max);
+    for (touch, impact) in found.iter().zip(expected) {
+        let (time, velocity) = (number(impact, "time"), number(impact, "velocity"));
+        let allowed = 10.0 * ALLOWED * 0.5 * f64::EPSILON * (1.0 + growth);
+        let off = (trajectory.clock.time(touch.instant) - time).abs();
+        if off * velocity.min(1.0) > allowed * (1.0 + time) {
+            return Some(format!("{name}: impact at {time} is {off:e} off"));
+        }
+        let off = (touch.before_impact_velocity - velocity).abs();
+        if off * velocity.min(1.0) > allowed * (10.0 + velocity) {
+            return Some(format!(
+                "{name}: velocity of the impact at {time} is {off:e} off"
+            ));
+        }
+    }
+    None
+}
+
+/// Rests of the reference, as (from, to), against those of the trajectory.
+fn compare_rests(case: &Value, trajectory: &Trajectory) -> Option<String> {
+    let name = &case["name"];
+    let resting = |kind: PhaseKind| matches!(kind, PhaseKind::Resting | PhaseKind::Stuck);
+    let found: Vec<(f64, f64)> = trajectory
+        .arcs
+        .iter()
+        .filter(|arc| resting(arc.kind) && arc.duration > 1e-9)
+        .map(|arc| {
+            let start = trajectory.clock.time(arc.start);
+            (start, start + arc.duration)
+        })
+        .collect();
+    for rest in list(case, "rests") {
+        let from = number(rest, "from");
+        // A rest without end lasts as long as the motion is followed.
+        let last = trajectory.arcs.last().expect("arcs");
+        let end = trajectory.clock.time(last.start) + last.duration;
+        let to = if rest["to"].is_null() {
+            end
+        } else {
+            number(rest, "to").min(end)
+        };
+        let is_this =
+            |(start, end): &&(f64, f64)| (start - from).abs() < 1e-9 && (end - to).abs() < 1e-9;
+        if to - from > 1e-6 && !found.iter().any(|rest| is_this(&rest)) {
+            return Some(format!(
+                "{name}: no rest from {from} to {to} among {found:?}"
+            ));
+        }
+    }
+    None
+}
