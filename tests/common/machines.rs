@@ -1,0 +1,111 @@
+//! Random machines with every kind of stop.
+
+use proptest::prelude::*;
+use softstop::scene::{Release, RigidStop, Slope};
+use softstop::{Excitation, Piercing, Scene, Start, Stop};
+
+fn release() -> impl Strategy<Value = Release> {
+    prop_oneof![Just(Release::Clearance), Just(Release::ZeroForce)]
+}
+
+/// Up to four slopes; on the way back, if at all, all of them half as steep.
+fn slopes() -> impl Strategy<Value = Stop> {
+    let gaps = prop::collection::vec((0.02..1.0f64, 0.0..100.0f64), 1..5);
+    (gaps, any::<bool>()).prop_map(|(gaps, returns)| {
+        let mut from = 0.0;
+        let mut loading = Vec::new();
+        for (gap, stiffness) in gaps {
+            loading.push(Slope { from, stiffness });
+            from += gap;
+        }
+        let half = |slope: &Slope| Slope {
+            stiffness: 0.5 * slope.stiffness,
+            ..*slope
+        };
+        let unloading = if returns {
+            loading.iter().map(half).collect()
+        } else {
+            Vec::new()
+        };
+        Stop::PiecewiseLinear { loading, unloading }
+    })
+}
+
+/// Every law of a stop, not too stiff for differences to be taken.
+pub fn stops() -> impl Strategy<Value = Stop> {
+    prop_oneof![
+        Just(Stop::None),
+        (1.0..300.0f64, release())
+            .prop_map(|(stiffness, release)| Stop::KelvinVoigt { stiffness, release }),
+        slopes(),
+        (1.0..300.0f64, 1.0..3.0f64, 0.0..0.5f64).prop_map(|(stiffness, exponent, dissipation)| {
+            Stop::Hertz {
+                stiffness,
+                exponent,
+                dissipation,
+            }
+        }),
+        (1.0..200.0f64, 0.0..100.0f64)
+            .prop_map(|(stiffness, preload)| Stop::Preloaded { stiffness, preload }),
+        (0.0..1.0f64).prop_map(|restitution| Stop::Rigid { restitution }),
+    ]
+}
+
+fn strips() -> impl Strategy<Value = Option<Piercing>> {
+    let strip = (0.0..30.0f64, 0.0..30.0f64, 0.05..0.5f64, 0.0..0.6f64).prop_map(
+        |(stiffness, friction, thickness, travel)| Piercing {
+            stiffness,
+            friction,
+            thickness,
+            travel,
+        },
+    );
+    prop::option::weighted(0.25, strip)
+}
+
+fn walls() -> impl Strategy<Value = Option<RigidStop>> {
+    let wall = (0.0..1.0f64, 0.0..1.0f64).prop_map(|(travel, restitution)| RigidStop {
+        travel,
+        restitution,
+    });
+    prop::option::weighted(0.25, wall)
+}
+
+/// Machines with m = k1 = F0 = 1 around the paper's, with any stop.
+pub fn machines() -> impl Strategy<Value = Scene> {
+    (
+        (0.3..2.5f64, -3.0..3.0f64),
+        -1.0..8.0f64,
+        (0.01..0.4f64, 0.02..2.0f64),
+        stops(),
+        strips(),
+        walls(),
+    )
+        .prop_map(
+            |((frequency, phase), clearance, (damping, contact_damping), stop, piercing, rigid)| {
+                Scene {
+                    mass: 1.0,
+                    stiffness: 1.0,
+                    damping,
+                    excitation: Excitation {
+                        amplitude: 1.0,
+                        frequency,
+                        phase,
+                    },
+                    clearance,
+                    contact_damping,
+                    stop,
+                    piercing,
+                    rigid,
+                }
+            },
+        )
+}
+
+/// A start below the clearance of a machine.
+pub fn start_below(scene: &Scene, depth: f64, velocity: f64) -> Start {
+    Start {
+        position: scene.clearance - depth,
+        velocity,
+    }
+}
