@@ -200,3 +200,30 @@ fn a_chatter_can_be_watched() {
     machine.advance(begin + 2.0 * chatter.duration).expect("ok");
     assert_eq!(machine.sample().phase, PhaseKind::Resting);
 }
+
+/// An elastic mass that is pressed onto a rigid stop for ever comes to rest by its damper alone, after a
+/// bounded number of impacts.
+#[test]
+fn elastic_bounces_end_in_rest() {
+    let scene = Scene {
+        stop: softstop::Stop::Rigid { restitution: 1.0 },
+        clearance: 1.0,
+        damping: 2.0,
+        ..softstop::Ratios::unloaded().scene().expect("valid")
+    };
+    let start = Start {
+        position: 0.0,
+        velocity: 0.0,
+    };
+    let mut machine = Simulation::new(&scene, start).expect("valid");
+    machine.set_force(20.0, 0.0).expect("finite");
+    let before = machine.energy().mechanical;
+    machine.advance(1000.0).expect("bounded");
+    let sample = machine.sample();
+    assert_eq!(sample.phase, PhaseKind::Resting);
+    assert_eq!((sample.position, sample.velocity), (1.0, 0.0));
+    assert!(machine.impact_count() < 2_000_000);
+    let energy = machine.energy();
+    let defect = energy.supplied - energy.dissipated - (energy.mechanical - before);
+    assert!(defect.abs() < 1e-9 * energy.supplied, "{defect:e}");
+}

@@ -205,3 +205,39 @@ fn compare_rests(case: &Value, trajectory: &Trajectory) -> Option<String> {
     }
     None
 }
+
+/// The two scenes on which general methods fail, to an absolute accuracy: a stiff stop over 200
+/// periods, and a rigid one through accumulation, rest and release.
+#[test]
+fn hard_scenes_are_exact() {
+    let reference: Value =
+        serde_json::from_str(include_str!("reference/stops.json")).expect("stops.json");
+    for (name, allowed) in [
+        ("stiff", 1e-11),
+        ("rigid zeno A", 1e-12),
+        ("rigid zeno B", 1e-12),
+    ] {
+        let cases = list(&reference, "cases");
+        let case = cases.iter().find(|case| case["name"] == name);
+        let case = case.expect("the scene");
+        let scene = scene(&case["scene"]);
+        let start = Start {
+            position: number(case, "position"),
+            velocity: number(case, "velocity"),
+        };
+        let samples = list(case, "samples");
+        let last = samples.last().expect("samples");
+        let end = instant(&scene, number(last, "periods"));
+        let trajectory = scene.trajectory_until(start, end).expect("bounded");
+        let mut worst: f64 = 0.0;
+        for sample in samples {
+            let at = instant(&scene, number(sample, "periods"));
+            let state = trajectory.at(at).expect("within");
+            worst = worst
+                .max((state.position - number(sample, "position")).abs())
+                .max((state.velocity - number(sample, "velocity")).abs());
+        }
+        println!("{name}: worst error {worst:e}");
+        assert!(worst < allowed, "{name}: {worst:e}");
+    }
+}

@@ -6,6 +6,10 @@ use crate::events::Found;
 use crate::flow::Chatter;
 use crate::phases::{Beyond, Exit, Mode, Phase, Surface};
 
+/// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
+/// to no end in finite time, as those on a preloaded face.
+const ENDLESS: f64 = 1.0 - 1.0 / (1u64 << 20) as f64;
+
 /// State, mode and kind of a crossing, right after it.
 pub(super) struct Landing {
     pub state: Start,
@@ -27,7 +31,7 @@ impl Landing {
 }
 
 impl Motion {
-    /// The yielding surface that a guard watches, if it watches one.
+    /// The surface that a guard watches, if bounces on it may go on for ever.
     pub(super) fn surface_of(&self, guard: usize) -> Option<usize> {
         let Mode::Moving(phase) = self.mode else {
             return None;
@@ -36,8 +40,11 @@ impl Motion {
             Exit::Forward(surface) | Exit::Backward(surface) => surface,
             Exit::Reversal { .. } | Exit::Switch(_) => return None,
         };
-        let gives_way = |beyond: Beyond| matches!(beyond, Beyond::Phase(_));
-        gives_way(self.phases.surfaces[surface].above).then_some(surface)
+        let endless = match self.phases.surfaces[surface].above {
+            Beyond::Phase(_) => true,
+            Beyond::Wall { restitution } => restitution > ENDLESS,
+        };
+        endless.then_some(surface)
     }
 
     /// State and mode right after a crossing.
@@ -101,9 +108,10 @@ impl Motion {
             pierces: self.pierces(at),
         };
         let (position, speed) = (at.position, restitution * velocity);
-        if speed == 0.0 {
-            let mode = self.phases.leave_hold(None, at.below, position, push);
-            return Landing::new(position, 0.0, mode, kind);
+        let held = self.phases.leave_hold(None, at.below, position, push);
+        let rests = matches!(held, Mode::Held { .. });
+        if speed == 0.0 || (rests && speed < self.hum.threshold().slowest) {
+            return Landing::new(position, 0.0, held, kind);
         }
         let chatter = self.chatter(at, speed, push, restitution);
         let mode = match chatter {
