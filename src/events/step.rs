@@ -7,21 +7,16 @@ use crate::flow::{DEGREE, Node, Segment, evaluate};
 /// The first crossing from `node` to the end of the step. Bounds on the fourth derivative follow from
 /// the coefficients of the polynomial, which is the motion to round-off.
 pub(super) fn first_crossing(segment: &Segment, guards: &[Guard], node: Node) -> Outlook {
-    let (from, to) = (node.elapsed, segment.end);
-    let (position, velocity) = segment.state(to);
+    let (from, to) = (segment.parameter_at(node.elapsed), segment.reach());
+    let (position, velocity) = segment.state_at(to);
     if !(to > 0.0 && position.is_finite() && velocity.is_finite()) {
         return Outlook::Unbounded(node);
     }
-    let (taylor, origin) = segment.polynomials();
     let mut horizon = f64::INFINITY;
     let mut first = None;
     for (index, guard) in guards.iter().enumerate() {
-        // Seen from the face, a surface at the face is at zero exactly.
-        let guard = Guard {
-            level: guard.level - guard.position * origin,
-            ..*guard
-        };
-        let coefficients = guard.polynomial(taylor);
+        let coefficients =
+            segment.combination(guard.position, guard.velocity, guard.push, guard.level);
         let candidate = Candidate {
             coefficients: &coefficients,
             bound: fourth_derivative(&coefficients, to),
@@ -36,11 +31,11 @@ pub(super) fn first_crossing(segment: &Segment, guards: &[Guard], node: Node) ->
         }
     }
     match first {
-        None => Outlook::Ends(to),
+        None => Outlook::Ends(segment.end),
         Some(guard) => {
-            let (position, velocity) = segment.state(horizon);
+            let (position, velocity) = segment.state_at(horizon);
             Outlook::Crossing(Found {
-                elapsed: horizon,
+                elapsed: segment.time_at(horizon),
                 guard,
                 position,
                 velocity,

@@ -14,6 +14,7 @@ mod modes;
 mod power;
 mod response;
 mod segment;
+mod series;
 mod taylor;
 
 pub(crate) use chatter::Chatter;

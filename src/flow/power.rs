@@ -39,7 +39,7 @@ impl Course {
         match &self.form {
             Form::Held | Form::Chatter(_) => Power::default(),
             Form::Segment(segment) => {
-                let (supplied, lost) = segment.power(elapsed);
+                let (supplied, lost) = segment.work(elapsed);
                 Power { supplied, lost }
             }
             &Form::Particular {

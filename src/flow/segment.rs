@@ -1,129 +1,178 @@
-//! One Taylor step of a nonlinear phase: the motion as a polynomial, with the time over which it is
-//! exact to round-off.
+//! One Taylor step of a nonlinear phase.
 //!
-//! The deflection d from the face obeys d'' + 2 a d' + b (d + x0) + kappa d^n (1 + lambda d') = push.
-//! Its coefficients follow one from the other (Moore 1966); those of w = d^n from d w' = n d' w. At the
-//! face d^n has a branch point, so the steps grow and shrink with the distance from it; right at the
-//! face, while the power law's part of the motion is below rounding, the motion is that of the linear
-//! law.
+//! The deflection d from the face obeys d'' + 2 a d' + b (d + x0) + kappa d^n (1 + lambda d') = push. At
+//! the face d^n has a branch point. For every n that is a multiple of 1/2 it goes away if the root
+//! s = sqrt(d) is the unknown and a stretched time sigma, dt = s dsigma, the variable (as Levi-Civita
+//! did for collisions, 1920):
+//!
+//! ```text
+//! ds/dsigma = v/2    dv/dsigma = s (push - 2 a v - b (x0 + s^2) - kappa s^(2n) (1 + lambda v))    dt/dsigma = s
+//! ```
+//!
+//! All are power series in sigma whose coefficients follow one from the other (Moore 1966). For
+//! other n the steps grow and shrink with the distance from the face; right at the face, while the
+//! power law's part of the motion is below rounding, it is left out. So it is on a start from rest at
+//! the face, where sigma is time itself.
 
 use nalgebra::Matrix2;
 
 use super::hertz::Hertz;
 use super::power::gauss_nodes;
-use super::taylor::{DEGREE, Taylor, evaluate, push_series};
+use super::series::{Power, Series, convolve, derivative, majorant, power, product, value};
+use super::taylor::{DEGREE, Taylor, evaluate};
 use super::{Departure, Flow};
 
-type Series = [f64; DEGREE + 1];
-
-/// The motion of one step.
+/// The motion of one step, as series in sigma.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Segment {
-    /// Deflection from the face in m, and the push per mass.
-    taylor: Taylor,
+    /// Root of the deflection in sqrt(m); zero on a start from rest at the face.
+    root: Series,
+    /// Deflection in m.
+    depth: Series,
+    /// Velocity in m/s.
+    velocity: Series,
+    /// Time since departure in s.
+    time: Series,
+    /// Push per mass in m/s^2.
+    push: Series,
     /// d^n.
     power: Series,
-    /// Time in s over which it holds.
+    /// How far the series hold, in sigma.
+    reach: f64,
+    /// How far the mass stays beyond the face, in sigma: further on time would run back.
+    contact: f64,
+    /// The same in time, in s.
     pub end: f64,
     hertz: Hertz,
     flow: Flow,
 }
 
-/// What the last coefficients may amount to, relative to the first: well below rounding, since a
-/// series that ends at its branch point converges slowly.
+/// What the last coefficients may amount to, relative to the first: well below rounding.
 const TRUNCATION: f64 = f64::EPSILON / 64.0;
+const ZERO: Series = [0.0; DEGREE + 1];
 
 impl Segment {
     /// The step from a departure that lies `deflection` m beyond the face.
     pub fn new(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
-        let push = push_series(flow, from.drive, (from.constant, from.ramp));
-        let mut segment = Self {
-            taylor: Taylor {
-                position: [0.0; DEGREE + 1],
-                push,
-            },
-            power: [0.0; DEGREE + 1],
+        let root = deflection.max(0.0).sqrt();
+        let mut segment = if root == 0.0 && from.velocity == 0.0 {
+            Self::from_rest(flow, hertz, from)
+        } else {
+            Self::from_root(flow, hertz, from, root)
+        };
+        segment.reach = segment.convergence();
+        if segment.power == ZERO && hertz.stiffness > 0.0 {
+            segment.reach = segment.shell(segment.reach);
+        }
+        segment.contact = segment.last_contact();
+        segment.end = value(&segment.time, segment.contact);
+        segment
+    }
+
+    fn blank(flow: &Flow, hertz: &Hertz) -> Self {
+        Self {
+            root: ZERO,
+            depth: ZERO,
+            velocity: ZERO,
+            time: ZERO,
+            push: ZERO,
+            power: ZERO,
+            reach: 0.0,
+            contact: 0.0,
             end: 0.0,
             hertz: *hertz,
             flow: *flow,
+        }
+    }
+
+    /// The linear law's motion from rest at the face, in time itself.
+    fn from_rest(flow: &Flow, hertz: &Hertz, from: &Departure) -> Self {
+        let start = (hertz.origin, 0.0);
+        let linear = Taylor::about(flow, start, from.drive, (from.constant, from.ramp));
+        let linear = match from.acceleration {
+            Some(acceleration) => linear.with_acceleration(acceleration),
+            None => linear,
         };
-        let start = (deflection, from.velocity);
-        let power = deflection.max(0.0).powf(hertz.exponent);
-        if deflection > f64::MIN_POSITIVE && power > f64::MIN_POSITIVE {
-            segment.expand(start, power, from.acceleration);
-            segment.end = segment.convergence().min(flow.reach);
-        } else {
-            segment.expand(start, 0.0, from.acceleration);
-            segment.end = segment.shell();
+        let mut segment = Self::blank(flow, hertz);
+        segment.depth = linear.position;
+        segment.depth[0] = 0.0;
+        segment.velocity = derivative(&linear.position);
+        segment.time[1] = 1.0;
+        segment.push = linear.push;
+        segment
+    }
+
+    /// The series in sigma.
+    fn from_root(flow: &Flow, hertz: &Hertz, from: &Departure, root: f64) -> Self {
+        let (twice_decay, b, w) = (2.0 * flow.modes.decay, flow.modes.stiffness, flow.frequency);
+        let (kappa, lambda) = (hertz.rate(), hertz.dissipation);
+        let mut segment = Self::blank(flow, hertz);
+        let (s, v, t) = (&mut segment.root, &mut segment.velocity, &mut segment.time);
+        (s[0], v[0]) = (root, from.velocity);
+        let (mut cos, mut sin, mut acceleration) = (ZERO, ZERO, ZERO);
+        (cos[0], sin[0]) = from.drive;
+        let mut power = Power::new(2.0 * hertz.exponent, root);
+        for k in 0..=DEGREE {
+            segment.depth[k] = convolve(s, s, k);
+            segment.power[k] = power.coefficient(s, k);
+            segment.push[k] = flow.amplitude * cos[k] + from.ramp * t[k];
+            let mut pull = b * segment.depth[k];
+            if k == 0 {
+                segment.push[0] += from.constant;
+                pull += b * hertz.origin;
+            }
+            let mut press = segment.power[k];
+            if lambda > 0.0 {
+                press += lambda * convolve(&segment.power, v, k);
+            }
+            acceleration[k] = segment.push[k] - twice_decay * v[k] - pull - kappa * press;
+            if k == DEGREE {
+                break;
+            }
+            let next = 1.0 / (k + 1) as f64;
+            s[k + 1] = 0.5 * next * v[k];
+            v[k + 1] = next * convolve(s, &acceleration, k);
+            t[k + 1] = next * s[k];
+            cos[k + 1] = -w * next * convolve(s, &sin, k);
+            sin[k + 1] = w * next * convolve(s, &cos, k);
         }
         segment
     }
 
-    /// Coefficients from the first two and d^n at the start; without d^n if that is zero.
-    fn expand(&mut self, (d, v): (f64, f64), power: f64, acceleration: Option<f64>) {
-        let (twice_decay, b) = (2.0 * self.flow.modes.decay, self.flow.modes.stiffness);
-        let Hertz {
-            exponent,
-            dissipation,
-            origin,
-            ..
-        } = self.hertz;
-        let kappa = self.hertz.rate();
-        let mut x = [0.0; DEGREE + 1];
-        let mut w = [0.0; DEGREE + 1];
-        (x[0], x[1], w[0]) = (d, v, power);
-        for k in 0..DEGREE - 1 {
-            if k > 0 && power > 0.0 {
-                w[k] = power_coefficient(&x, &w, exponent, k);
-            }
-            let pull = if k == 0 { b * origin } else { 0.0 };
-            let mut press = w[k];
-            if dissipation > 0.0 {
-                let damped: f64 = (0..=k)
-                    .map(|j| w[j] * (k - j + 1) as f64 * x[k - j + 1])
-                    .sum();
-                press += dissipation * damped;
-            }
-            let next = (k + 1) as f64;
-            let sum = self.taylor.push[k] - pull - b * x[k] - kappa * press;
-            x[k + 2] = (sum / next - twice_decay * x[k + 1]) / (next + 1.0);
-            if k == 0
-                && let Some(acceleration) = acceleration
-            {
-                x[2] = 0.5 * acceleration;
-            }
-        }
-        self.taylor.position = x;
-        self.power = w;
-    }
-
-    /// Time over which the last two coefficients stay below rounding (Jorba and Zou 2005).
+    /// Sigma up to which the last two coefficients stay below rounding (Jorba and Zou 2005), and time
+    /// within the reach of the linear law's own series.
     fn convergence(&self) -> f64 {
-        let c = &self.taylor.position;
-        let within = |last: usize| {
-            let first = |j: usize| {
-                let ratio = TRUNCATION * c[j].abs() / c[last].abs();
-                ratio.powf(1.0 / (last - j) as f64)
-            };
-            if c[last] == 0.0 {
-                f64::INFINITY
-            } else {
-                first(0).max(first(1)).max(first(2))
-            }
+        let moved = if self.is_from_rest() {
+            &self.depth
+        } else {
+            &self.root
         };
-        within(DEGREE).min(within(DEGREE - 1))
+        let limit = self.flow.reach;
+        let (root, speed) = (self.root[0], self.velocity[0].abs());
+        let within = if self.is_from_rest() {
+            limit
+        } else {
+            // t = s sigma + v sigma^2 / 4 + ...
+            (limit / root).min(2.0 * (limit / speed).sqrt())
+        };
+        converges(moved).min(converges(&self.velocity)).min(within)
     }
 
-    /// Time over which the power law's part of the motion, at most kappa d^n (1 + lambda v) t^2 / 2,
+    fn is_from_rest(&self) -> bool {
+        self.time[1] == 1.0 && self.root == ZERO
+    }
+
+    /// Sigma within which the power law's part of the motion, at most kappa d^n (1 + lambda v) t^2 / 2,
     /// stays below rounding.
-    fn shell(&self) -> f64 {
-        let majorant: Series = self.taylor.position.map(f64::abs);
-        let mut span = self.flow.reach;
-        for _ in 0..2000 {
-            let (depth, speed) = evaluate(&majorant, span);
+    fn shell(&self, reach: f64) -> f64 {
+        let bounds = [&self.depth, &self.velocity, &self.time].map(majorant);
+        let mut span = reach;
+        // Halving a finite number this often leaves nothing.
+        for _ in 0..2200 {
+            let [depth, speed, time] = [0, 1, 2].map(|index| value(&bounds[index], span));
             let grip = 1.0 + self.hertz.dissipation * speed;
             let press = self.hertz.rate() * depth.powf(self.hertz.exponent - 1.0) * grip;
-            if press * span * span <= TRUNCATION {
+            if press * time * time <= TRUNCATION {
                 break;
             }
             span *= 0.5;
@@ -131,106 +180,183 @@ impl Segment {
         span
     }
 
+    /// The last sigma within reach at which the root is not negative. Within one step it passes zero
+    /// once.
+    fn last_contact(&self) -> f64 {
+        let (mut low, mut high) = (0.0, self.reach);
+        if value(&self.root, high) >= 0.0 {
+            return high;
+        }
+        loop {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                return low;
+            }
+            if value(&self.root, middle) < 0.0 {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+    }
+
+    /// Sigma at a time: Newton's method on a function that grows, kept inside its bracket.
+    pub fn parameter_at(&self, elapsed: f64) -> f64 {
+        if elapsed >= self.end {
+            return self.contact;
+        }
+        let (mut low, mut high) = (0.0, self.contact);
+        let mut at = self.contact * (elapsed / self.end);
+        for _ in 0..100 {
+            let (time, rate) = evaluate(&self.time, at);
+            if time > elapsed {
+                high = at;
+            } else {
+                low = at;
+            }
+            let newton = at - (time - elapsed) / rate;
+            let next = if newton > low && newton < high {
+                newton
+            } else {
+                0.5 * (low + high)
+            };
+            let settled = (time - elapsed).abs() <= f64::EPSILON * elapsed;
+            if settled || next <= low || next >= high {
+                return at;
+            }
+            at = next;
+        }
+        at
+    }
+
     /// Position in m and velocity in m/s.
     pub fn state(&self, elapsed: f64) -> (f64, f64) {
-        let (depth, velocity) = self.taylor.state(elapsed);
-        (self.hertz.origin + depth, velocity)
+        self.state_at(self.parameter_at(elapsed))
+    }
+
+    /// The same at sigma.
+    pub fn state_at(&self, sigma: f64) -> (f64, f64) {
+        let depth = self.depth_at(sigma);
+        (self.hertz.origin + depth, value(&self.velocity, sigma))
+    }
+
+    fn depth_at(&self, sigma: f64) -> f64 {
+        if self.is_from_rest() {
+            value(&self.depth, sigma)
+        } else {
+            let root = value(&self.root, sigma);
+            root * root
+        }
     }
 
     /// Deflection in m.
     pub fn deflection(&self, elapsed: f64) -> f64 {
-        self.taylor.state(elapsed).0
+        self.depth_at(self.parameter_at(elapsed))
     }
 
-    /// Deflection and push as polynomials, and where the deflection is zero.
-    pub fn polynomials(&self) -> (&Taylor, f64) {
-        (&self.taylor, self.hertz.origin)
+    /// Time since departure at sigma, in s.
+    pub fn time_at(&self, sigma: f64) -> f64 {
+        value(&self.time, sigma)
+    }
+
+    /// How far the series hold, in sigma.
+    pub fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    /// `position` x + `velocity` v + `push` q - `level` as a series in sigma; where it is the distance
+    /// from the face itself, that of the root, which has the same sign.
+    pub fn combination(&self, position: f64, velocity: f64, push: f64, level: f64) -> Series {
+        // Seen from the face, a surface at the face is at zero exactly.
+        let level = level - position * self.hertz.origin;
+        let at_face = level == 0.0 && velocity == 0.0 && push == 0.0;
+        let moved = if at_face && !self.is_from_rest() {
+            &self.root
+        } else {
+            &self.depth
+        };
+        let mut sum: Series = std::array::from_fn(|k| {
+            position * moved[k] + velocity * self.velocity[k] + push * self.push[k]
+        });
+        sum[0] -= level;
+        sum
     }
 
     /// Work of the push and work lost, per unit of mass, up to `elapsed`.
-    pub fn power(&self, elapsed: f64) -> (f64, f64) {
+    pub fn work(&self, elapsed: f64) -> (f64, f64) {
         let kappa = self.hertz.rate() * self.hertz.dissipation;
-        let pressed = self.power[0] != 0.0;
         let (mut supplied, mut lost) = (0.0, 0.0);
-        for (s, weight) in gauss_nodes(elapsed) {
-            let (depth, velocity) = self.taylor.state(s);
+        for (sigma, weight) in gauss_nodes(self.parameter_at(elapsed)) {
+            let velocity = value(&self.velocity, sigma);
+            let travel = weight * evaluate(&self.time, sigma).1 * velocity;
             let mut damping = 2.0 * self.flow.modes.decay;
-            if pressed && kappa > 0.0 {
-                damping += kappa * depth.max(0.0).powf(self.hertz.exponent);
+            if kappa > 0.0 {
+                damping += kappa * value(&self.power, sigma);
             }
-            supplied += weight * self.taylor.push(s) * velocity;
-            lost += weight * damping * velocity * velocity;
+            supplied += travel * value(&self.push, sigma);
+            lost += travel * damping * velocity;
         }
         (supplied, lost)
     }
 
-    /// d(state)/d(state at the start) after `elapsed`, and the integral of damping over mass.
+    /// d(state)/d(state at the start) after `elapsed`, and the integral of damping over mass: the
+    /// equation y'' + damping y' + stiffness y = 0 along the motion, in sigma.
     pub fn transition(&self, elapsed: f64) -> (Matrix2<f64>, f64) {
-        let kappa = self.hertz.rate();
-        let damping: Series = {
-            let mut damping = self.power.map(|w| kappa * self.hertz.dissipation * w);
-            damping[0] += 2.0 * self.flow.modes.decay;
-            damping
-        };
-        let stiffness = self.stiffness_series();
+        let sigma = self.parameter_at(elapsed);
+        let rate = derivative(&self.time);
+        let mut damping = self
+            .power
+            .map(|w| self.hertz.rate() * self.hertz.dissipation * w);
+        damping[0] += 2.0 * self.flow.modes.decay;
+        let (damping, stiffness) = (product(&rate, &damping), product(&rate, &self.stiffness()));
         let column = |start: (f64, f64)| {
-            let mut y = [0.0; DEGREE + 1];
-            (y[0], y[1]) = start;
-            for k in 0..DEGREE - 1 {
-                let sum: f64 = (0..=k)
-                    .map(|j| {
-                        stiffness[j] * y[k - j] + damping[j] * (k - j + 1) as f64 * y[k - j + 1]
-                    })
-                    .sum();
-                y[k + 2] = -sum / ((k + 1) * (k + 2)) as f64;
+            let (mut y, mut u) = (ZERO, ZERO);
+            (y[0], u[0]) = start;
+            for k in 0..DEGREE {
+                let next = (k + 1) as f64;
+                y[k + 1] = convolve(&rate, &u, k) / next;
+                u[k + 1] = -(convolve(&damping, &u, k) + convolve(&stiffness, &y, k)) / next;
             }
-            evaluate(&y, elapsed)
+            (value(&y, sigma), value(&u, sigma))
         };
         let (first, second) = (column((1.0, 0.0)), column((0.0, 1.0)));
         let integral = damping
             .iter()
             .enumerate()
             .rev()
-            .fold(0.0, |sum, (k, c)| elapsed * (c / (k + 1) as f64 + sum));
-        (Matrix2::new(first.0, second.0, first.1, second.1), integral)
+            .fold(0.0, |sum, (k, c)| sigma * (c / (k + 1) as f64 + sum));
+        let matrix = Matrix2::new(first.0, second.0, first.1, second.1);
+        (matrix, integral)
     }
 
-    /// b + kappa n d^(n-1) (1 + lambda d').
-    fn stiffness_series(&self) -> Series {
-        let mut sum = [0.0; DEGREE + 1];
-        sum[0] = self.flow.modes.stiffness;
-        let x = &self.taylor.position;
-        if self.power[0] == 0.0 {
-            return sum;
+    /// b + kappa n d^(n-1) (1 + lambda v).
+    fn stiffness(&self) -> Series {
+        let mut sum = ZERO;
+        if self.power != ZERO {
+            let factor = self.hertz.rate() * self.hertz.exponent;
+            let steepness = power(&self.root, 2.0 * self.hertz.exponent - 2.0);
+            let damped = product(&steepness, &self.velocity);
+            sum = std::array::from_fn(|k| {
+                factor * (steepness[k] + self.hertz.dissipation * damped[k])
+            });
         }
-        let Hertz {
-            exponent,
-            dissipation,
-            ..
-        } = self.hertz;
-        let factor = self.hertz.rate() * exponent;
-        let mut u = [0.0; DEGREE + 1];
-        u[0] = x[0].powf(exponent - 1.0);
-        for k in 0..DEGREE - 1 {
-            if k > 0 {
-                u[k] = power_coefficient(x, &u, exponent - 1.0, k);
-            }
-            let damped: f64 = (0..=k)
-                .map(|j| u[j] * (k - j + 1) as f64 * x[k - j + 1])
-                .sum();
-            sum[k] += factor * (u[k] + dissipation * damped);
-        }
+        sum[0] += self.flow.modes.stiffness;
         sum
     }
 }
 
-/// The k-th coefficient, k >= 1, of w = x^n from those before it: x w' = n x' w.
-fn power_coefficient(x: &Series, w: &Series, n: f64, k: usize) -> f64 {
-    if n == 1.0 {
-        return x[k];
-    }
-    let sum: f64 = (1..=k)
-        .map(|j| (n * j as f64 - (k - j) as f64) * x[j] * w[k - j])
-        .sum();
-    sum / (k as f64 * x[0])
+/// Where the last two terms of a series fall below rounding of the largest of its first three.
+fn converges(series: &Series) -> f64 {
+    let within = |last: usize| {
+        let against = |first: usize| {
+            let ratio = TRUNCATION * series[first].abs() / series[last].abs();
+            ratio.powf(1.0 / (last - first) as f64)
+        };
+        if series[last] == 0.0 {
+            f64::INFINITY
+        } else {
+            against(0).max(against(1)).max(against(2))
+        }
+    };
+    within(DEGREE).min(within(DEGREE - 1))
 }

@@ -1,0 +1,98 @@
+//! Truncated power series.
+
+use super::taylor::{DEGREE, evaluate};
+
+/// Coefficients, constant first.
+pub(super) type Series = [f64; DEGREE + 1];
+
+/// The k-th coefficient of a product.
+#[inline]
+pub(super) fn convolve(a: &Series, b: &Series, k: usize) -> f64 {
+    let pairs = a[..=k].iter().zip(b[..=k].iter().rev());
+    pairs.map(|(a, b)| a * b).sum()
+}
+
+/// The sum of a series at `at`.
+pub(super) fn value(series: &Series, at: f64) -> f64 {
+    evaluate(series, at).0
+}
+
+/// A series with its coefficients made positive: a bound on it.
+pub(super) fn majorant(series: &Series) -> Series {
+    series.map(f64::abs)
+}
+
+/// A power of a series that is known coefficient by coefficient.
+#[derive(Debug, Clone)]
+pub(super) enum Power {
+    /// A whole number m: the powers 2 to m.
+    Whole(Vec<Series>),
+    /// Any exponent of a series that does not begin with zero.
+    Any { exponent: f64, series: Series },
+    /// Of a series that begins with zero: left out.
+    LeftOut,
+}
+
+/// Largest whole exponent that is built up by products.
+const MOST_PRODUCTS: f64 = 12.0;
+
+impl Power {
+    /// The power of a series that begins with `first` >= 0.
+    pub fn new(exponent: f64, first: f64) -> Self {
+        let start = first.powf(exponent);
+        if exponent.fract() == 0.0 && exponent <= MOST_PRODUCTS {
+            let products = (exponent as usize).saturating_sub(1);
+            Self::Whole(vec![[0.0; DEGREE + 1]; products])
+        } else if start > f64::MIN_POSITIVE {
+            let mut series = [0.0; DEGREE + 1];
+            series[0] = start;
+            Self::Any { exponent, series }
+        } else {
+            Self::LeftOut
+        }
+    }
+
+    /// The k-th coefficient, from those of `base` up to the k-th. To be asked for in order.
+    pub fn coefficient(&mut self, base: &Series, k: usize) -> f64 {
+        match self {
+            Self::Whole(powers) => {
+                for m in 0..powers.len() {
+                    let (lower, upper) = powers.split_at_mut(m);
+                    upper[0][k] = convolve(lower.last().unwrap_or(base), base, k);
+                }
+                powers.last().unwrap_or(base)[k]
+            }
+            Self::Any { series, .. } if k == 0 => series[0],
+            // w = x^n obeys x w' = n x' w.
+            Self::Any { exponent, series } => {
+                let sum: f64 = (1..=k)
+                    .map(|j| (*exponent * j as f64 - (k - j) as f64) * base[j] * series[k - j])
+                    .sum();
+                series[k] = sum / (k as f64 * base[0]);
+                series[k]
+            }
+            Self::LeftOut => 0.0,
+        }
+    }
+}
+
+/// All coefficients of a power.
+pub(super) fn power(base: &Series, exponent: f64) -> Series {
+    if exponent == 0.0 {
+        let mut one = [0.0; DEGREE + 1];
+        one[0] = 1.0;
+        return one;
+    }
+    let mut power = Power::new(exponent, base[0]);
+    std::array::from_fn(|k| power.coefficient(base, k))
+}
+
+/// The product of two series.
+pub(super) fn product(a: &Series, b: &Series) -> Series {
+    std::array::from_fn(|k| convolve(a, b, k))
+}
+
+/// The derivative of a series.
+pub(super) fn derivative(series: &Series) -> Series {
+    std::array::from_fn(|k| series.get(k + 1).map_or(0.0, |c| (k + 1) as f64 * c))
+}
