@@ -1,5 +1,6 @@
-//! Forcing periods per second of the exact integrator on one core: the unloaded machine at
-//! frequencies over 0.95..1.4, 200 periods each from (0, 14). Reproduce with `cargo xtask bench`.
+//! Forcing periods per second of the exact integrator on one core: the unloaded and the loaded machine at
+//! frequencies over 0.95..1.4, 200 periods each from (0, 14); and what other stops cost in the place
+//! of the preloaded one, at eta = 1.15 from (6.9, 9.5). Reproduce with `cargo xtask bench`.
 
 #![allow(
     missing_docs,
@@ -9,7 +10,8 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use softstop::{Clock, Ratios, Scene, Start};
+use softstop::scene::Release;
+use softstop::{Clock, Ratios, Scene, Start, Stop};
 
 const FREQUENCIES: u64 = 100;
 const PERIODS: u64 = 200;
@@ -26,14 +28,9 @@ fn machines(base: Ratios) -> Vec<Scene> {
         .collect()
 }
 
-fn run(scenes: &[Scene]) {
+fn run(scenes: &[Scene], position: f64, velocity: f64) {
     for scene in scenes {
-        let mut motion = scene
-            .motion(Start {
-                position: 0.0,
-                velocity: 14.0,
-            })
-            .expect("valid");
+        let mut motion = scene.motion(Start { position, velocity }).expect("valid");
         motion
             .advance(Clock::at_cycle(PERIODS), &mut ())
             .expect("bounded");
@@ -49,10 +46,52 @@ fn periods(criterion: &mut Criterion) {
         ("loaded", Ratios::loaded()),
     ] {
         let scenes = machines(base);
-        group.bench_function(name, |bencher| bencher.iter(|| run(&scenes)));
+        group.bench_function(name, |bencher| bencher.iter(|| run(&scenes, 0.0, 14.0)));
     }
     group.finish();
 }
 
-criterion_group!(benches, periods);
+/// The machine at point A with other stops; the stiff one has a contact damping ratio of 0.09.
+fn stops() -> Vec<(&'static str, f64, Stop)> {
+    let hertz = |exponent| Stop::Hertz {
+        stiffness: 100.0,
+        exponent,
+        dissipation: 0.0,
+    };
+    let kelvin_voigt = |release| Stop::KelvinVoigt {
+        stiffness: 100.0,
+        release,
+    };
+    let preloaded = |stiffness, preload| Stop::Preloaded { stiffness, preload };
+    vec![
+        ("preloaded", 0.18, preloaded(7.0, 70.0)),
+        ("stiff, k4 = 1e6", 180.0, preloaded(1e6, 0.0)),
+        ("kelvin-voigt", 0.18, kelvin_voigt(Release::Clearance)),
+        (
+            "kelvin-voigt, zero force",
+            0.18,
+            kelvin_voigt(Release::ZeroForce),
+        ),
+        ("hertz 3/2", 0.18, hertz(1.5)),
+        ("hertz 6/5", 0.18, hertz(1.2)),
+        ("rigid", 0.04, Stop::Rigid { restitution: 0.6 }),
+    ]
+}
+
+fn kinds(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("stops");
+    group.throughput(Throughput::Elements(PERIODS));
+    for (name, contact_damping, stop) in stops() {
+        let scene = Scene {
+            contact_damping,
+            stop,
+            ..Ratios::unloaded().scene().expect("valid")
+        };
+        let scenes = [scene];
+        group.bench_function(name, |bencher| bencher.iter(|| run(&scenes, 6.9, 9.5)));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, periods, kinds);
 criterion_main!(benches);

@@ -17,11 +17,18 @@ const INTRODUCTION: &[&str] = &[
      do not depend on the communication step.",
     "F is the force of strip and stop on the mass, positive in compression. Below the clearance r \
      it is zero. Up to r + s (phase I) it is the forming force k2 (x - r) with the dry friction \
-     k3 (x - r) sign x'; up to r + s + v (phase II) the dry friction of the cut strip; beyond, the \
-     stop's preload + k4 (x - r - s - v). With contact the damping b takes the place of b1; F \
-     includes the difference.",
+     k3 (x - r) sign x'; up to r + s + v (phase II) the dry friction of the cut strip; beyond, that \
+     of the stop. With contact the damping b takes the place of b1; F includes the difference.",
     "If the thickness s and the travel v are both zero, there is no strip and the stop stands at \
      the clearance.",
+    "With the deflection d = x - r - s - v the stop presses with k4 d (kelvinVoigt), with the \
+     stop.preload + k4 d (preloaded), with k4 d^n max(0, 1 + c x') (hertz; n is stop.exponent, c \
+     stop.dissipation, k4 in N/m^n), or along a chain of slopes (piecewiseLinear): each holds from \
+     its deflection on, on the way back those of stop.unloading, if there are any. A rigid stop \
+     returns the mass with -stop.restitution times its velocity. Another one stands the distance \
+     rigid.travel behind each of the yielding stops, unless rigid.present is false.",
+    "While the phase is chatter, position and velocity follow the bounces, while acceleration and \
+     contact.force are means over them.",
     "Model: F. Peterka, Behaviour of impact oscillator with soft and preloaded stop, Chaos, \
      Solitons and Fractals 18 (2003) 79-88.",
 ];
@@ -86,7 +93,7 @@ fn body(html: &mut Html, start: &StartValues) -> io::Result<()> {
 
 fn row(html: &mut Html, variable: &Variable, start: &StartValues) -> io::Result<()> {
     let (unit, items) = match &variable.kind {
-        Kind::Real(kind) => (kind.quantity.unit, String::new()),
+        Kind::Real(kind) => (kind.quantity.map_or("", |q| q.unit), String::new()),
         Kind::Enumeration(items) => {
             let items: Vec<_> = items
                 .items
@@ -95,7 +102,7 @@ fn row(html: &mut Html, variable: &Variable, start: &StartValues) -> io::Result<
                 .collect();
             ("", format!(": {}", items.join("; ")))
         }
-        Kind::Count | Kind::Boolean => ("", String::new()),
+        Kind::Count { .. } | Kind::Boolean => ("", String::new()),
     };
     cells(
         html,

@@ -94,10 +94,25 @@ pub enum Fault {
     },
     /// The parameters together do not describe a machine.
     #[error(transparent)]
-    Scene(#[from] SceneError),
+    Scene(SceneError),
+    /// A slope of a piecewise linear stop that does not follow the one before it.
+    #[error(
+        "{list}.from[{number}] = {from}, {list}.stiffness[{number}] = {stiffness}: the first slope \
+         must begin at 0, each further one up to {list}.count beyond the one before it"
+    )]
+    Slope {
+        /// Name of the list.
+        list: &'static str,
+        /// Which slope, counted from 1 as in the variables' names.
+        number: usize,
+        /// Deflection in m at which it begins.
+        from: f64,
+        /// Its stiffness in N/m.
+        stiffness: f64,
+    },
     /// The motion cannot be carried on.
     #[error(transparent)]
-    Motion(#[from] MotionError),
+    Motion(MotionError),
     /// The step does not start where the last one ended.
     #[error(
         "currentCommunicationPoint = {point} s: the last step ended at {present} s (difference allowed: {tolerance:e} s)"
@@ -147,6 +162,34 @@ pub enum Fault {
     /// A defect of this library, caught at its boundary.
     #[error("internal error: {0}")]
     Internal(String),
+}
+
+impl From<SceneError> for Fault {
+    fn from(error: SceneError) -> Self {
+        match error {
+            SceneError::Slope {
+                list,
+                index,
+                from,
+                stiffness,
+            } => Self::Slope {
+                list,
+                number: index + 1,
+                from,
+                stiffness,
+            },
+            other => Self::Scene(other),
+        }
+    }
+}
+
+impl From<MotionError> for Fault {
+    fn from(error: MotionError) -> Self {
+        match error {
+            MotionError::Scene(error) => error.into(),
+            other => Self::Motion(other),
+        }
+    }
 }
 
 /// A scalar argument out of its range.

@@ -7,7 +7,7 @@ use quick_xml::events::{BytesDecl, Event};
 
 use crate::start::StartValues;
 use crate::units::{ENUMERATIONS, Enumeration, QUANTITIES, Quantity};
-use crate::variables::{Access, Kind, RealKind, VARIABLES, Variable, by_name};
+use crate::variables::{Access, Kind, RealKind, VARIABLES, Variable, rows_of};
 
 /// Name of the model and, in file names and binaries, its identifier.
 pub const MODEL_IDENTIFIER: &str = "softstop";
@@ -127,7 +127,7 @@ fn root(guid: &str) -> Attributes {
         ("guid", guid),
         (
             "description",
-            "Impact oscillator with a soft, preloaded stop and piercing of a strip, solved exactly",
+            "Impact oscillator with soft, preloaded and rigid stops and piercing of a strip, solved exactly",
         ),
         ("version", VERSION),
         ("license", "MIT OR Apache-2.0"),
@@ -227,7 +227,7 @@ fn scalar_variable(xml: &mut Xml, variable: &Variable, start: &StartValues) -> i
     }
     let mut typed = match &variable.kind {
         Kind::Real(kind) => real_attributes(kind),
-        Kind::Count => attributes([("min", "0")]),
+        Kind::Count { min, max } => count_attributes(*min, *max),
         Kind::Boolean => vec![],
         Kind::Enumeration(items) => attributes([("declaredType", items.type_name)]),
     };
@@ -240,12 +240,13 @@ fn scalar_variable(xml: &mut Xml, variable: &Variable, start: &StartValues) -> i
 }
 
 fn real_attributes(kind: &RealKind) -> Attributes {
-    let quantity = kind.quantity;
-    let mut typed = attributes([
-        ("declaredType", quantity.type_name),
-        ("quantity", quantity.quantity),
-        ("unit", quantity.unit),
-    ]);
+    let mut typed = kind.quantity.map_or(vec![], |quantity| {
+        attributes([
+            ("declaredType", quantity.type_name),
+            ("quantity", quantity.quantity),
+            ("unit", quantity.unit),
+        ])
+    });
     if let Some(unit) = kind.display_unit {
         typed.push(("displayUnit", unit.to_owned()));
     }
@@ -262,11 +263,20 @@ fn real_attributes(kind: &RealKind) -> Attributes {
     typed
 }
 
+fn count_attributes(min: i32, max: Option<i32>) -> Attributes {
+    let limits = [("min", Some(min)), ("max", max)];
+    let texts = limits.map(|(name, limit)| Some((name, limit?.to_string())));
+    texts.into_iter().flatten().collect()
+}
+
 /// The start value as it stands in the XML; outputs have none.
 pub(crate) fn start_value(variable: &Variable, start: &StartValues) -> Option<String> {
     match (&variable.access, &variable.kind) {
         (Access::Parameter { slot, .. }, Kind::Real(_)) => Some(number(start.get(*slot))),
-        (Access::Parameter { slot, .. }, _) => Some((start.get(*slot) as i32).to_string()),
+        (Access::Parameter { slot, .. }, Kind::Boolean) => {
+            Some((start.number(*slot) != 0).to_string())
+        }
+        (Access::Parameter { slot, .. }, _) => Some(start.number(*slot).to_string()),
         (Access::Force, _) => Some(number(0.0)),
         (Access::Material, _) => Some("true".to_owned()),
         _ => None,
@@ -289,7 +299,7 @@ fn unknowns(xml: &mut Xml, initial: bool) -> io::Result<()> {
         } else {
             depends.inputs
         };
-        let mut rows: Vec<_> = names.iter().filter_map(|name| row_of(name)).collect();
+        let mut rows: Vec<_> = names.iter().flat_map(|name| rows_of(name)).collect();
         rows.sort_unstable();
         let indices: Vec<_> = rows.iter().map(|row| (row + 1).to_string()).collect();
         let kinds = vec!["dependent"; rows.len()];
@@ -302,11 +312,4 @@ fn unknowns(xml: &mut Xml, initial: bool) -> io::Result<()> {
         empty(xml, "Unknown", known)?;
     }
     Ok(())
-}
-
-fn row_of(name: &str) -> Option<usize> {
-    let wanted = by_name(name)?.reference;
-    VARIABLES
-        .iter()
-        .position(|variable| variable.reference == wanted)
 }

@@ -53,6 +53,8 @@ quantities! {
     ANGLE = "Angle", "Angle", "rad", [("rad", 1)], [("deg", 180.0 * std::f64::consts::FRAC_1_PI)];
     /// Time, s.
     TIME = "Time", "Time", "s", [("s", 1)], [("ms", 1e3)];
+    /// Hunt and Crossley's dissipation factor, s/m.
+    DISSIPATION = "Dissipation", "InverseVelocity", "s/m", [("s", 1), ("m", -1)], [];
     /// Energy, J.
     ENERGY = "Energy", "Energy", "J", [("kg", 1), ("m", 2), ("s", -2)], [];
 }
@@ -68,17 +70,15 @@ pub struct Item {
     pub description: &'static str,
 }
 
-/// An enumeration type: what is available, and what is only reserved.
+/// An enumeration type.
 #[derive(Debug, PartialEq)]
 pub struct Enumeration {
     /// Name of the type in `TypeDefinitions`.
     pub type_name: &'static str,
     /// What the type is about.
     pub description: &'static str,
-    /// The items that can be had.
+    /// Its items.
     pub items: &'static [Item],
-    /// Values kept for items to come: (value, name).
-    pub reserved: &'static [(i32, &'static str)],
 }
 
 const fn item(value: i32, name: &'static str, description: &'static str) -> Item {
@@ -91,33 +91,78 @@ const fn item(value: i32, name: &'static str, description: &'static str) -> Item
 
 /// `stop.model` without a stop.
 pub const STOP_NONE: i32 = 1;
+/// `stop.model` of the Kelvin-Voigt stop.
+pub const STOP_KELVIN_VOIGT: i32 = 2;
+/// `stop.model` of the piecewise linear stop.
+pub const STOP_PIECEWISE_LINEAR: i32 = 3;
+/// `stop.model` of the Hertz stop.
+pub const STOP_HERTZ: i32 = 4;
 /// `stop.model` of the preloaded stop.
 pub const STOP_PRELOADED: i32 = 5;
+/// `stop.model` of the rigid stop.
+pub const STOP_RIGID: i32 = 6;
 
-/// The type of `stop.model`.
+/// The type of `stop.model`; d is the deflection from the stop's face, v the velocity.
 pub static STOP_MODEL: Enumeration = Enumeration {
     type_name: "StopModel",
     description: "Force law of the stop",
     items: &[
         item(STOP_NONE, "none", "no stop"),
         item(
+            STOP_KELVIN_VOIGT,
+            "kelvinVoigt",
+            "spring stop.stiffness * d beside the damper contact.damping",
+        ),
+        item(
+            STOP_PIECEWISE_LINEAR,
+            "piecewiseLinear",
+            "chain of the slopes stop.loading, on the way back of the slopes stop.unloading",
+        ),
+        item(
+            STOP_HERTZ,
+            "hertz",
+            "stop.stiffness * d^stop.exponent * max(0, 1 + stop.dissipation * v)",
+        ),
+        item(
             STOP_PRELOADED,
             "preloaded",
             "linear spring that is preloaded against its seat: the force jumps to the preload at first touch",
         ),
+        item(
+            STOP_RIGID,
+            "rigid",
+            "gives way nowhere: the mass leaves with -stop.restitution times its velocity",
+        ),
     ],
-    reserved: &[
-        (2, "kelvinVoigt"),
-        (3, "piecewiseLinear"),
-        (4, "hertz"),
-        (6, "rigid"),
+};
+
+/// `stop.release` at the face of the stop.
+pub const RELEASE_CLEARANCE: i32 = 1;
+/// `stop.release` where contact would begin to pull.
+pub const RELEASE_ZERO_FORCE: i32 = 2;
+
+/// The type of `stop.release`.
+pub static RELEASE: Enumeration = Enumeration {
+    type_name: "StopRelease",
+    description: "Where a Kelvin-Voigt stop lets go of a mass that moves back",
+    items: &[
+        item(
+            RELEASE_CLEARANCE,
+            "clearance",
+            "at the face of the stop: before, the damper may pull",
+        ),
+        item(
+            RELEASE_ZERO_FORCE,
+            "zeroForce",
+            "where spring and damper together cease to press: contact never pulls",
+        ),
     ],
 };
 
 /// The type of `phase`.
 pub static PHASE: Enumeration = Enumeration {
     type_name: "Phase",
-    description: "Smooth law that the mass moves under",
+    description: "Law that the mass moves under",
     items: &[
         item(1, "free", "no contact"),
         item(2, "pierce", "phase I: the strip is pressed and cut into"),
@@ -129,10 +174,23 @@ pub static PHASE: Enumeration = Enumeration {
         ),
         item(5, "stop", "contact with the stop"),
         item(6, "stuck", "held at rest by dry friction"),
-        item(7, "resting", "resting on the edge of a preloaded body"),
+        item(
+            7,
+            "resting",
+            "held at rest at the face of a preloaded or rigid stop",
+        ),
+        item(
+            8,
+            "released",
+            "beyond the face of the stop, where the stop would have to pull",
+        ),
+        item(
+            9,
+            "chatter",
+            "ever faster bounces on a rigid stop that end in rest after a finite time",
+        ),
     ],
-    reserved: &[],
 };
 
 /// All enumeration types.
-pub static ENUMERATIONS: &[&Enumeration] = &[&STOP_MODEL, &PHASE];
+pub static ENUMERATIONS: &[&Enumeration] = &[&STOP_MODEL, &RELEASE, &PHASE];

@@ -1,6 +1,6 @@
 //! The one table of variables: what the unit offers, and how each value is read.
 //!
-//! To add a variable, add a row to the table in `variables/table.rs` (for a parameter also a
+//! To add a variable, add a row to the table in `variables/table` (for a parameter also a
 //! [`Slot`]); the XML, the documentation and the C functions follow. Value references are never
 //! given to another variable.
 
@@ -16,7 +16,7 @@ use crate::units::{Enumeration, Quantity};
 pub use table::VARIABLES;
 
 /// One row: one variable.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub struct Variable {
     /// Value reference, unique among all variables.
     pub reference: u32,
@@ -31,12 +31,17 @@ pub struct Variable {
 }
 
 /// The type of a variable.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub enum Kind {
     /// A real number.
     Real(RealKind),
-    /// A number of things, from 0 on.
-    Count,
+    /// A number of things.
+    Count {
+        /// Smallest allowed value.
+        min: i32,
+        /// Largest allowed value.
+        max: Option<i32>,
+    },
     /// Yes or no.
     Boolean,
     /// One of a few named items.
@@ -48,7 +53,7 @@ impl Kind {
     pub const fn type_name(&self) -> &'static str {
         match self {
             Self::Real(_) => "Real",
-            Self::Count => "Integer",
+            Self::Count { .. } => "Integer",
             Self::Boolean => "Boolean",
             Self::Enumeration(_) => "Enumeration",
         }
@@ -56,10 +61,10 @@ impl Kind {
 }
 
 /// Unit and range of a real variable.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub struct RealKind {
     /// The quantity with its unit; nothing if it is a bare number.
-    pub quantity: &'static Quantity,
+    pub quantity: Option<&'static Quantity>,
     /// Unit to show it in by default, if not its own.
     pub display_unit: Option<&'static str>,
     /// Smallest allowed value.
@@ -90,7 +95,7 @@ impl RealKind {
 }
 
 /// What a variable is, and how its value is had.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub enum Access {
     /// A parameter, held in its slot.
     Parameter {
@@ -124,7 +129,9 @@ pub enum Access {
 }
 
 /// What an output depends on, by name.
-#[derive(Debug)]
+///
+/// The name of an array stands for all of its elements.
+#[derive(Debug, Clone, Copy)]
 pub struct Dependencies {
     /// Inputs that change it at once.
     pub inputs: &'static [&'static str],
@@ -234,4 +241,13 @@ pub fn by_reference(reference: u32) -> Option<&'static Variable> {
 /// The variable of this name.
 pub fn by_name(name: &str) -> Option<&'static Variable> {
     VARIABLES.iter().find(|variable| variable.name == name)
+}
+
+/// Rows, counted from 0, of the variable of this name or of the elements of the array of this name.
+pub fn rows_of(name: &str) -> impl Iterator<Item = usize> {
+    let rows = VARIABLES.iter().enumerate();
+    rows.filter_map(move |(row, variable)| {
+        let rest = variable.name.strip_prefix(name)?;
+        (rest.is_empty() || rest.starts_with('[')).then_some(row)
+    })
 }

@@ -12,7 +12,7 @@ use std::ptr;
 
 use softstop::{Scene, Start};
 use softstop_fmu::package::{self, Library, PackageError};
-use softstop_fmu::variables::{Access, Kind, VARIABLES, by_name, by_reference};
+use softstop_fmu::variables::by_name;
 use softstop_fmu::{StartValues, guid_of, library_guid, library_start_values, model_description};
 
 fn library() -> Library {
@@ -63,61 +63,6 @@ fn library_and_description_agree() {
     let (scene, start) = other_design();
     let other = guid_of(&StartValues::from_scene(&scene, start)).expect("a GUID");
     assert_ne!(guid, other);
-}
-
-#[test]
-fn start_values_and_scenes_are_the_same_thing() {
-    let (scene, start) = other_design();
-    for (scene, start) in [
-        (scene.clone(), start),
-        (StartValues::DEFAULT.scene(), StartValues::DEFAULT.start()),
-        (
-            Scene {
-                stop: softstop::Stop::None,
-                ..scene
-            },
-            start,
-        ),
-    ] {
-        let values = StartValues::from_scene(&scene, start);
-        assert_eq!(values.scene(), scene);
-        assert_eq!(values.start(), start);
-    }
-}
-
-#[test]
-fn default_is_the_loaded_machine() {
-    let sample = softstop::samples::LOADED;
-    let scene = sample.ratios.scene().expect("a valid sample");
-    let start = Start {
-        position: sample.position,
-        velocity: sample.velocity,
-    };
-    assert_eq!(StartValues::DEFAULT, StartValues::from_scene(&scene, start));
-}
-
-#[test]
-fn the_table_is_sound() {
-    for variable in VARIABLES {
-        let name = variable.name;
-        let same = VARIABLES.iter().filter(|other| other.name == name).count();
-        assert_eq!(same, 1, "{name}");
-        let found = by_reference(variable.reference).expect("found by reference");
-        assert_eq!(found.name, name);
-        if let (Access::Parameter { slot, .. }, Kind::Real(kind)) =
-            (&variable.access, &variable.kind)
-        {
-            assert!(kind.contains(StartValues::DEFAULT.get(*slot)), "{name}");
-        }
-        for known in variable
-            .dependencies()
-            .iter()
-            .flat_map(|d| d.inputs.iter().chain(d.initial))
-        {
-            let known = by_name(known).expect("a dependency that exists");
-            assert!(!known.is_output(), "{name} depends on {}", known.name);
-        }
-    }
 }
 
 #[test]

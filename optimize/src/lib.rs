@@ -1,11 +1,11 @@
-//! The program `softstop`: periodic motions, hysteresis zones and optimal designs of
-//! machines whose mass strikes a soft, preloaded stop (F. Peterka, Chaos, Solitons &
-//! Fractals 18 (2003) 79-88).
+//! The program `softstop`: simulated motions, periodic motions, hysteresis zones and optimal
+//! designs of machines whose mass strikes a stop (F. Peterka, Chaos, Solitons & Fractals 18
+//! (2003) 79-88).
 //!
 //! One way through it: [`arguments`] and [`configuration`] turn what the user wrote into a
-//! [`arguments::Machine`]; a subcommand ([`orbit`], [`zone`], [`optimize`]) asks the core or
-//! the search in [`design`]; [`report`] and [`chart`] say and draw the answer; [`output`]
-//! puts files in place whole or not at all.
+//! [`arguments::Machine`], [`scene_file`] reads any scene; a subcommand ([`orbit`], [`zone`],
+//! [`optimize`], [`simulate`], [`stops`]) asks the core or the search in [`design`]; [`report`]
+//! and [`chart`] say and draw the answer; [`output`] puts files in place whole or not at all.
 
 pub mod arguments;
 pub mod chart;
@@ -17,6 +17,9 @@ pub mod optimize;
 pub mod orbit;
 pub mod output;
 pub mod report;
+pub mod scene_file;
+pub mod simulate;
+pub mod stops;
 pub mod zone;
 
 use std::process::ExitCode;
@@ -39,9 +42,11 @@ Examples:
   softstop optimize                                the best design beside points A and B
   softstop orbit --frequency 1.15 --clearance 10   the paper's point A
   softstop zone --regime loaded --clearance 10     where impacts and rest coexist
+  softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
+  softstop stops                                   pictures of all the stops' laws
 
 Exit codes: 0 done, 1 the run could not do it, 2 bad usage or values, 130 interrupted.
-All quantities are the paper's dimensionless ratios: m = k1 = F0 = 1.";
+optimize, orbit and zone use the paper's dimensionless ratios: m = k1 = F0 = 1.";
 
 /// The subcommands.
 #[derive(Debug, Subcommand)]
@@ -52,6 +57,10 @@ pub enum Command {
     Zone(zone::ZoneArguments),
     /// Search stiffness, clearance and frequency for the hardest impact
     Optimize(optimize::OptimizeArguments),
+    /// Run any scene: a motion as tables, a chart and a summary
+    Simulate(simulate::SimulateArguments),
+    /// Draw the laws of all stops: contact force over deflection
+    Stops(stops::StopsArguments),
 }
 
 /// Reads the command line, does what it says and turns the outcome into an exit code.
@@ -76,5 +85,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Orbit(arguments) => orbit::run(&arguments),
         Command::Zone(arguments) => zone::run(&arguments),
         Command::Optimize(arguments) => optimize::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Stops(arguments) => stops::run(&arguments),
     }
 }

@@ -1,7 +1,8 @@
 //! Output: text to stdout, and files that appear whole or not at all.
 
+use std::fmt;
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
@@ -121,6 +122,19 @@ impl Folder {
         Ok(())
     }
 
+    /// Opens one file in the staging folder, to be written piece by piece and closed with
+    /// [`Staged::close`].
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming the file.
+    pub fn create(&self, name: &str) -> Result<Staged, Failure> {
+        let place = self.place(name);
+        let file = fs::File::create(self.staged(name))
+            .with_context(|| format!("cannot write {}", place.display()))?;
+        let writer = BufWriter::new(file);
+        Ok(Staged { place, writer })
+    }
+
     /// Puts the staged files into place, replacing older ones.
     ///
     /// # Errors
@@ -135,6 +149,37 @@ impl Folder {
                 .with_context(|| format!("cannot write {}", self.place(name).display()))?;
             self.made.clear();
         }
+        Ok(())
+    }
+}
+
+/// A staged file that is being written.
+#[derive(Debug)]
+pub struct Staged {
+    place: PathBuf,
+    writer: BufWriter<fs::File>,
+}
+
+impl Staged {
+    /// Adds one line.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming the file.
+    pub fn line(&mut self, line: fmt::Arguments<'_>) -> Result<(), Failure> {
+        writeln!(self.writer, "{line}")
+            .with_context(|| format!("cannot write {}", self.place.display()))?;
+        Ok(())
+    }
+
+    /// Writes what is left through to the disk.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming the file.
+    pub fn close(mut self) -> Result<(), Failure> {
+        self.writer
+            .flush()
+            .and_then(|()| self.writer.get_ref().sync_all())
+            .with_context(|| format!("cannot write {}", self.place.display()))?;
         Ok(())
     }
 }

@@ -7,9 +7,9 @@
 //!
 //! What is left out: the accelerations change by at most J T on the way, J a bound on the jerk. Each
 //! bounce's time and speed change by a factor within 1 +- 2 J T / A, so T is wrong by at most 2 J T^2 / A
-//! and a speed by J T^2. The sum is taken only where both are below rounding. Under dry friction it is taken
-//! earlier: there the mass turns at a position that is rounded, which falsifies a bounce of height h by
-//! half a rounding over h; below 2^17 roundings the sum is the more exact one.
+//! and a speed by J T^2. The sum is taken only where both are below rounding. Where another law holds on
+//! the way back it is taken earlier: there the mass turns at a position that is rounded, which falsifies a
+//! bounce of height h by half a rounding over h; below 2^17 roundings the sum is the more exact one.
 
 /// A geometric series of bounces.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,14 +35,14 @@ impl Chatter {
     /// The bounces that follow once a mass has left a stop of the given restitution with `speed`, if
     /// nothing but their sum can be told any more. `out` and `back` are the accelerations towards the
     /// stop on both ways, `jerk` bounds their rates, `period` is that of the drive, `grain` the rounding
-    /// in m of the position at which the mass turns.
+    /// in m of the position at which another law takes over; none if one law holds on both ways.
     pub fn from_speed(
         speed: f64,
         restitution: f64,
         (out, back): (f64, f64),
         jerk: f64,
         period: f64,
-        grain: f64,
+        grain: Option<f64>,
     ) -> Option<Self> {
         if !(speed > 0.0 && out > 0.0 && back > 0.0) {
             return None;
@@ -53,8 +53,7 @@ impl Chatter {
         let weakest = out.min(back);
         let close = 0.25 * f64::EPSILON * period * weakest;
         let exact = duration <= LONGEST * period && jerk * duration * duration <= close;
-        let rough = out != back
-            && speed * speed <= 2.0 * out * ROUGH * grain
+        let rough = grain.is_some_and(|grain| speed * speed <= 2.0 * out * ROUGH * grain)
             && jerk * duration <= STEADY * weakest;
         (ratio < 1.0 && (exact || rough)).then_some(Self {
             speed,
@@ -97,7 +96,7 @@ mod tests {
 
     #[test]
     fn each_bounce_is_the_one_before_shrunk() {
-        let chatter = Chatter::from_speed(1e-9, 0.6, (2.0, 1.5), 1.0, 20.0, 0.0).expect("sums");
+        let chatter = Chatter::from_speed(1e-9, 0.6, (2.0, 1.5), 1.0, 20.0, None).expect("sums");
         let first = 1e-9 * (1.0 / 2.0 + 1.0 / 3f64.sqrt());
         let ratio = 0.6 * (1.5f64 / 2.0).sqrt();
         for share in [0.1, 0.3, 0.7, 0.99] {
@@ -111,8 +110,8 @@ mod tests {
 
     #[test]
     fn a_rising_bounce_is_not_summed() {
-        assert!(Chatter::from_speed(1e-9, 1.0, (2.0, 2.0), 1.0, 20.0, 0.0).is_none());
-        assert!(Chatter::from_speed(1e-9, 0.6, (-1e-3, 2.0), 1.0, 20.0, 0.0).is_none());
-        assert!(Chatter::from_speed(1e-3, 0.6, (2.0, 2.0), 1.0, 20.0, 0.0).is_none());
+        assert!(Chatter::from_speed(1e-9, 1.0, (2.0, 2.0), 1.0, 20.0, None).is_none());
+        assert!(Chatter::from_speed(1e-9, 0.6, (-1e-3, 2.0), 1.0, 20.0, None).is_none());
+        assert!(Chatter::from_speed(1e-3, 0.6, (2.0, 2.0), 1.0, 20.0, None).is_none());
     }
 }

@@ -58,7 +58,7 @@ impl Segment {
         let mut segment = if root == 0.0 && from.velocity == 0.0 {
             Self::from_rest(flow, hertz, from)
         } else {
-            Self::from_root(flow, hertz, from, root)
+            Self::from_root(flow, hertz, from, deflection)
         };
         segment.reach = segment.convergence();
         if segment.power == ZERO && hertz.stiffness > 0.0 {
@@ -103,7 +103,8 @@ impl Segment {
     }
 
     /// The series in sigma.
-    fn from_root(flow: &Flow, hertz: &Hertz, from: &Departure, root: f64) -> Self {
+    fn from_root(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
+        let root = deflection.max(0.0).sqrt();
         let (twice_decay, b, w) = (2.0 * flow.modes.decay, flow.modes.stiffness, flow.frequency);
         let (kappa, lambda) = (hertz.rate(), hertz.dissipation);
         let mut segment = Self::blank(flow, hertz);
@@ -113,7 +114,12 @@ impl Segment {
         (cos[0], sin[0]) = from.drive;
         let mut power = Power::new(2.0 * hertz.exponent, root);
         for k in 0..=DEGREE {
-            segment.depth[k] = convolve(s, s, k);
+            // The deflection itself, not the square of its rounded root: a surface may stand there.
+            segment.depth[k] = if k == 0 {
+                deflection
+            } else {
+                convolve(s, s, k)
+            };
             segment.power[k] = power.coefficient(s, k);
             segment.push[k] = flow.amplitude * cos[k] + from.ramp * t[k];
             let mut pull = b * segment.depth[k];
@@ -139,7 +145,7 @@ impl Segment {
         segment
     }
 
-    /// Sigma up to which the last two coefficients stay below rounding (Jorba and Zou 2005), and time
+    /// Sigma up to which the last coefficients stay below rounding (Jorba and Zou 2005), and time
     /// within the reach of the linear law's own series.
     fn convergence(&self) -> f64 {
         let moved = if self.is_from_rest() {
@@ -345,7 +351,8 @@ impl Segment {
     }
 }
 
-/// Where the last two terms of a series fall below rounding of the largest of its first three.
+/// Where the last terms of a series fall below rounding of the largest of its first three. Four are
+/// looked at, since by symmetry every second one may vanish.
 fn converges(series: &Series) -> f64 {
     let within = |last: usize| {
         let against = |first: usize| {
@@ -358,5 +365,7 @@ fn converges(series: &Series) -> f64 {
             against(0).max(against(1)).max(against(2))
         }
     };
-    within(DEGREE).min(within(DEGREE - 1))
+    (DEGREE - 3..=DEGREE)
+        .map(within)
+        .fold(f64::INFINITY, f64::min)
 }

@@ -16,7 +16,8 @@ pub(super) struct Hum {
 /// beyond all bounds as their height goes to zero.
 const PATIENCE: u32 = 10_000;
 /// Height of a bounce, relative to the highest of the row and to the position of the surface, that
-/// then counts as rest.
+/// then counts as rest. It grows with the square of the row's length, as heights shrink with it: so
+/// the row ends after some millions of crossings at the latest.
 const FAINT: f64 = 1e-11;
 
 impl Hum {
@@ -37,9 +38,11 @@ impl Hum {
         if self.crossings < PATIENCE {
             return Threshold::ROUNDING;
         }
+        let length = f64::from(self.crossings) / f64::from(PATIENCE);
+        let faint = FAINT * length * length;
         Threshold {
-            height: FAINT,
-            slowest: FAINT.sqrt() * self.fastest,
+            height: faint,
+            slowest: faint.sqrt() * self.fastest,
         }
     }
 }

@@ -140,7 +140,8 @@ impl Motion {
         };
         let jerk = 2.0 * jerk(out).max(jerk(back));
         let period = self.clock().period();
-        let grain = f64::EPSILON * at.position.abs();
+        let two_laws = phases.forward_of(at.below) != at.below || out.released.is_some();
+        let grain = two_laws.then_some(f64::EPSILON * at.position.abs());
         Chatter::from_speed(speed, restitution, accelerations, jerk, period, grain)
     }
 

@@ -67,12 +67,115 @@ def test_wrong_guid_is_refused(make):
         make(guid="{00000000-0000-0000-0000-000000000000}")
 
 
-def test_stops_that_are_not_available_yet(unit):
-    for value, name in [(2, "kelvinVoigt"), (3, "piecewiseLinear"), (4, "hertz"), (6, "rigid")]:
-        unit.refused(lambda: unit.set({"stop.model": value}), "stop.model", name, "preloaded")
-    unit.refused(lambda: unit.set({"stop.model": 9}), "stop.model = 9", "preloaded")
+@pytest.mark.parametrize("name, value, word", [
+    ("stop.restitution", 1.2, "0.0 and 1.0"),
+    ("stop.restitution", -0.1, "0.0 and 1.0"),
+    ("stop.exponent", 0.5, "1.0"),
+    ("stop.dissipation", -1.0, "0.0"),
+    ("stop.stiffness", -1.0, "0.0"),
+    ("stop.loading.from[2]", -1.0, "0.0"),
+    ("stop.unloading.stiffness[8]", math.nan, "0.0"),
+    ("stop.loading.count", 0, "1 and 8"),
+    ("stop.loading.count", 9, "1 and 8"),
+    ("stop.unloading.count", -1, "0 and 8"),
+    ("stop.release", 3, "zeroForce"),
+    ("stop.model", 7, "rigid"),
+    ("stop.model", 0, "kelvinVoigt"),
+    ("rigid.travel", -1.0, "0.0"),
+])
+def test_stop_parameters_out_of_range(unit, name, value, word):
+    before = unit.get(name)
+    unit.refused(lambda: unit.set({name: value}), f"{name} = ", word)
+    assert unit.get(name) == before
     unit.begin()
     unit.step(1.0)
+
+
+FIXED = {
+    "stop.model": 2, "stop.restitution": 0.5, "stop.release": 2, "stop.exponent": 2.0,
+    "stop.dissipation": 0.1, "stop.loading.count": 2, "stop.loading.from[2]": 0.1,
+    "stop.loading.stiffness[1]": 1.0, "stop.unloading.count": 1, "stop.unloading.from[1]": 0.1,
+    "stop.unloading.stiffness[1]": 1.0, "rigid.travel": 1.0, "rigid.present": False,
+}
+
+
+@pytest.mark.parametrize("name, value", FIXED.items())
+def test_stop_parameters_are_fixed(unit, name, value):
+    unit.begin()
+    unit.refused(lambda: unit.set({name: value}), name, "fixed")
+    unit.fmu.reset()
+    unit.set({name: value})
+    assert unit.get(name) == value
+
+
+PIECEWISE = {"stop.model": 3, "piercing.thickness": 0.0, "piercing.travel": 0.0}
+
+
+@pytest.mark.parametrize("values, words", [
+    ({"stop.loading.count": 2}, ["stop.loading.from[2] = 0", "stop.loading.stiffness[2]"]),
+    ({"stop.loading.from[1]": 0.5}, ["stop.loading.from[1] = 0.5", "begin at 0"]),
+    (
+        {"stop.loading.count": 3, "stop.loading.from[2]": 0.5, "stop.loading.from[3]": 0.4},
+        ["stop.loading.from[3] = 0.4"],
+    ),
+    (
+        {"stop.unloading.count": 2, "stop.unloading.from[2]": 0.0},
+        ["stop.unloading.from[2] = 0"],
+    ),
+    (
+        {"stop.unloading.count": 1, "stop.unloading.stiffness[1]": 8.0},
+        ["stop.unloading", "must not exceed", "stop.loading"],
+    ),
+], ids=["no start", "not from 0", "not rising", "way back not rising", "gives energy"])
+def test_slopes_that_make_no_chain(unit, values, words):
+    unit.fmu.setupExperiment()
+    unit.set(PIECEWISE | values)
+    unit.fmu.enterInitializationMode()
+    unit.refused(unit.fmu.exitInitializationMode, "fmi2ExitInitializationMode", *words)
+    unit.fmu.reset()
+    unit.begin(PIECEWISE)
+    unit.step(10.0)
+
+
+BEYOND = [
+    ({"stop.model": 6, "initial.position": 11.0}, "10.9 m"),
+    ({"stop.model": 2, "initial.position": 16.0}, "15.9 m"),
+    ({"rigid.travel": 0.25, "initial.position": 11.5}, "11.15 m"),
+]
+
+
+@pytest.mark.parametrize("values, wall", BEYOND, ids=["rigid", "kelvinVoigt", "preloaded"])
+def test_start_beyond_a_rigid_stop(unit, values, wall):
+    unit.fmu.setupExperiment()
+    unit.set(values)
+    unit.fmu.enterInitializationMode()
+    position = f"position = {values['initial.position']:g} m"
+    unit.refused(unit.fmu.exitInitializationMode, position, wall, "rigid stop")
+    unit.refused(lambda: unit.fmu.doStep(0.0, 1.0), "during initialisation")
+    unit.set({"initial.position": 3.0})
+    unit.fmu.exitInitializationMode()
+    unit.step(1.0)
+    unit.fmu.reset()
+    unit.begin()
+    unit.step(1.0)
+
+
+@pytest.mark.parametrize("model", [2, 3, 4, 5, 6])
+def test_rigid_stop_tuned_to_before_the_mass(make, model):
+    values = {"stop.model": model, "rigid.travel": 0.0}
+    untouched, unit = make().begin(values), make().begin(values)
+    unit.step(0.3)
+    untouched.step(0.3)
+    position = unit.get("position")
+    unit.refused(lambda: unit.set({"clearance": position - 1.0}), "fmi2SetReal", "rigid stop")
+    both = lambda: unit.fmu.setReal(
+        [unit.reference("excitation.amplitude"), unit.reference("clearance")], [2.0, 1.0]
+    )
+    unit.refused(both, "position", "rigid stop")
+    assert list(unit.get("clearance", "excitation.amplitude")) == [10.0, 1.0]
+    unit.step(20.0)
+    untouched.step(20.0)
+    assert (unit.state() == untouched.state()).all()
 
 
 def test_negative_mass_and_frequency_zero_then_reset(unit):

@@ -91,10 +91,15 @@ impl Unit {
     }
 
     pub fn begin(&self) {
+        assert_eq!(self.try_to_begin(), OK);
+    }
+
+    /// Leads through initialisation; returns the status of its end.
+    pub fn try_to_begin(&self) -> c_int {
         unsafe {
             assert_eq!(fmi2SetupExperiment(self.component, 0, 0.0, 0.0, 0, 0.0), OK);
             assert_eq!(fmi2EnterInitializationMode(self.component), OK);
-            assert_eq!(fmi2ExitInitializationMode(self.component), OK);
+            fmi2ExitInitializationMode(self.component)
         }
     }
 
@@ -103,10 +108,36 @@ impl Unit {
         unsafe { fmi2SetReal(self.component, &raw const reference, 1, &raw const value) }
     }
 
+    pub fn set_integer(&self, name: &str, value: c_int) -> c_int {
+        let reference = reference(name);
+        unsafe { fmi2SetInteger(self.component, &raw const reference, 1, &raw const value) }
+    }
+
+    pub fn set_boolean(&self, name: &str, value: c_int) -> c_int {
+        let reference = reference(name);
+        unsafe { fmi2SetBoolean(self.component, &raw const reference, 1, &raw const value) }
+    }
+
     pub fn get(&self, name: &str) -> f64 {
         let (reference, mut value) = (reference(name), f64::NAN);
         let status =
             unsafe { fmi2GetReal(self.component, &raw const reference, 1, &raw mut value) };
+        assert_eq!(status, OK, "{:?}", self.take_log());
+        value
+    }
+
+    pub fn get_integer(&self, name: &str) -> c_int {
+        let (reference, mut value) = (reference(name), -1);
+        let status =
+            unsafe { fmi2GetInteger(self.component, &raw const reference, 1, &raw mut value) };
+        assert_eq!(status, OK, "{:?}", self.take_log());
+        value
+    }
+
+    pub fn get_boolean(&self, name: &str) -> c_int {
+        let (reference, mut value) = (reference(name), -1);
+        let status =
+            unsafe { fmi2GetBoolean(self.component, &raw const reference, 1, &raw mut value) };
         assert_eq!(status, OK, "{:?}", self.take_log());
         value
     }

@@ -1,7 +1,13 @@
-//! The chart of a design: before-impact velocity over drive frequency, in the paper's symbols.
+//! The charts. This one is that of a design: before-impact velocity over drive frequency, in the
+//! paper's symbols. [`Loops`] draws a stop's law, [`MotionChart`] a simulated motion.
 
 mod branch;
+mod loops;
+mod motion;
 mod style;
+
+pub use loops::Loops;
+pub use motion::{Drawing, MotionChart};
 
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::scatter::MarkerShape;

@@ -17,6 +17,8 @@ pub(super) const POINT: &str = "#000000";
 pub(super) const OPTIMUM: &str = "#D55E00";
 /// Sky blue.
 pub(super) const ALLOWED: &str = "#56B4E9";
+/// Grey, of what stands beside the matter.
+pub(super) const ASIDE: &str = "#777777";
 
 /// The ranges of both axes.
 #[derive(Debug, Clone, Copy)]
@@ -65,22 +67,28 @@ pub(super) fn layout(frame: &Frame, title: &str, subtitle: &str) -> Layout {
     } else {
         (LegendPosition::OutsideRightTop, 1080.0)
     };
-    Layout::new(frame.x, frame.y)
-        .with_theme(Theme {
-            grid_color: "#e6e6e6".into(),
-            legend_border: "#bbbbbb".into(),
-            ..Theme::light()
-        })
-        .with_font_family("DejaVu Sans, Helvetica, Arial, sans-serif")
+    plain(frame.x, frame.y)
         .with_width(width)
         .with_height(620.0)
         .with_title(title)
         .with_subtitle(subtitle)
         .with_x_label("drive frequency η = ω/Ω")
         .with_y_label("before-impact velocity X′₋")
-        .with_x_axis_min(frame.x.0)
-        .with_x_axis_max(frame.x.1)
-        .with_y_axis_max(frame.y.1)
-        .with_ticks(8)
         .with_legend_position(legend)
+}
+
+/// Axes of these ranges in the style of all charts.
+pub(super) fn plain(x: (f64, f64), y: (f64, f64)) -> Layout {
+    Layout::new(x, y)
+        .with_theme(Theme {
+            grid_color: "#e6e6e6".into(),
+            legend_border: "#bbbbbb".into(),
+            ..Theme::light()
+        })
+        .with_font_family("DejaVu Sans, Helvetica, Arial, sans-serif")
+        .with_x_axis_min(x.0)
+        .with_x_axis_max(x.1)
+        .with_y_axis_min(y.0)
+        .with_y_axis_max(y.1)
+        .with_ticks(8)
 }

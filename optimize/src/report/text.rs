@@ -6,7 +6,7 @@ use super::{
 };
 
 /// A row: what it is, and a cell for each column.
-type Row = (String, Vec<String>);
+pub(crate) type Row = (String, Vec<String>);
 
 /// The orbit, one quantity a line.
 #[must_use]
@@ -169,11 +169,13 @@ fn motion(report: &MotionReport) -> Vec<Row> {
     ]
 }
 
-fn row(label: &str, cells: impl IntoIterator<Item = String>) -> Row {
+/// A row with this label.
+pub(crate) fn row(label: &str, cells: impl IntoIterator<Item = String>) -> Row {
     (label.to_owned(), cells.into_iter().collect())
 }
 
-fn heading(title: &str) -> String {
+/// An underlined title.
+pub(crate) fn heading(title: &str) -> String {
     format!("{title}\n{}\n", "-".repeat(title.chars().count()))
 }
 
@@ -182,7 +184,7 @@ fn number(value: f64) -> String {
 }
 
 /// Labels to the left, cells to the right, every column as wide as its widest cell.
-fn table(rows: &[Row]) -> String {
+pub(crate) fn table(rows: &[Row]) -> String {
     let label_width = rows.iter().map(|(label, _)| label.len()).max().unwrap_or(0);
     let columns = rows.iter().map(|(_, cells)| cells.len()).max().unwrap_or(0);
     let width = |column: usize| {

@@ -1,0 +1,140 @@
+//! Start values and scenes are the same thing, written in two ways.
+
+use softstop::scene::{Release, RigidStop, Slope};
+use softstop::{Ratios, Scene, SceneError, Start, Stop};
+use softstop_fmu::{NotServed, StartValues};
+
+const START: Start = Start {
+    position: 4.5,
+    velocity: -2.25,
+};
+
+fn scene(stop: Stop, rigid: Option<RigidStop>) -> Scene {
+    let scene = Ratios::loaded().scene().expect("a valid sample");
+    Scene {
+        clearance: 7.25,
+        stop,
+        rigid,
+        ..scene
+    }
+}
+
+fn slopes(count: usize, stiffness: f64) -> Vec<Slope> {
+    let slope = |index| Slope {
+        from: 0.1 * f64::from(index),
+        stiffness: stiffness + f64::from(index),
+    };
+    (0..u32::try_from(count).expect("a small count"))
+        .map(slope)
+        .collect()
+}
+
+fn yielding_stops() -> Vec<Stop> {
+    vec![
+        Stop::KelvinVoigt {
+            stiffness: 3.0,
+            release: Release::Clearance,
+        },
+        Stop::KelvinVoigt {
+            stiffness: 3.5,
+            release: Release::ZeroForce,
+        },
+        Stop::PiecewiseLinear {
+            loading: slopes(1, 2.0),
+            unloading: vec![],
+        },
+        Stop::PiecewiseLinear {
+            loading: slopes(8, 5.0),
+            unloading: slopes(3, 1.0),
+        },
+        Stop::Hertz {
+            stiffness: 40.0,
+            exponent: 1.75,
+            dissipation: 0.3,
+        },
+        Stop::Preloaded {
+            stiffness: 6.0,
+            preload: 11.0,
+        },
+    ]
+}
+
+#[test]
+fn every_stop_there_and_back() {
+    let behind = RigidStop {
+        travel: 0.75,
+        restitution: 0.25,
+    };
+    let mut scenes = vec![
+        scene(Stop::None, None),
+        scene(Stop::Rigid { restitution: 0.0 }, None),
+    ];
+    for stop in yielding_stops() {
+        scenes.push(scene(stop.clone(), None));
+        scenes.push(scene(stop, Some(behind)));
+    }
+    for scene in scenes {
+        for piercing in [None, scene.piercing] {
+            let scene = Scene {
+                piercing,
+                ..scene.clone()
+            };
+            let values = StartValues::try_from_scene(&scene, START).expect("a scene it serves");
+            assert_eq!(values.scene(), scene);
+            assert_eq!(values.start(), START);
+        }
+    }
+}
+
+#[test]
+fn default_is_the_loaded_machine() {
+    let sample = softstop::samples::LOADED;
+    let start = Start {
+        position: sample.position,
+        velocity: sample.velocity,
+    };
+    let behind = RigidStop {
+        travel: 5.0,
+        restitution: 0.6,
+    };
+    let scene = Scene {
+        rigid: Some(behind),
+        ..sample.ratios.scene().expect("a valid sample")
+    };
+    assert_eq!(StartValues::from_scene(&scene, start), StartValues::DEFAULT);
+}
+
+#[test]
+fn a_rigid_stop_out_of_reach_is_left_out() {
+    let behind = RigidStop {
+        travel: 0.75,
+        restitution: 0.25,
+    };
+    let rigid = Stop::Rigid { restitution: 0.5 };
+    let values = StartValues::try_from_scene(&scene(rigid.clone(), Some(behind)), START);
+    assert_eq!(values.expect("served").scene(), scene(rigid, None));
+}
+
+#[test]
+fn scenes_without_parameters_for_them() {
+    let too_many = |loading, unloading| scene(Stop::PiecewiseLinear { loading, unloading }, None);
+    for (scene, list) in [
+        (too_many(slopes(9, 5.0), vec![]), "stop.loading: 9 slopes"),
+        (
+            too_many(slopes(1, 9.0), slopes(9, 0.0)),
+            "stop.unloading: 9 slopes",
+        ),
+    ] {
+        let error = StartValues::try_from_scene(&scene, START).expect_err("too many slopes");
+        assert!(error.to_string().contains(list), "{error}");
+    }
+    let behind = RigidStop {
+        travel: 0.75,
+        restitution: 0.25,
+    };
+    let error = StartValues::try_from_scene(&scene(Stop::None, Some(behind)), START);
+    assert_eq!(error, Err(NotServed::NothingInFront));
+    let empty = too_many(vec![], vec![]);
+    let error = StartValues::try_from_scene(&empty, START);
+    assert_eq!(error, Err(NotServed::Scene(SceneError::NoSlope)));
+}

@@ -1,0 +1,115 @@
+//! The stops through the C functions: what is refused, and what is left then.
+#![allow(unsafe_code, reason = "calls the C functions as an importer does")]
+
+mod common;
+
+use std::ffi::c_int;
+
+use common::{OK, Unit};
+use softstop_fmu::ffi::*;
+
+const PIECEWISE_LINEAR: c_int = 3;
+const HERTZ: c_int = 4;
+const RIGID: c_int = 6;
+
+/// A unit without a strip, so that the stop stands at the clearance.
+fn unit(model: c_int) -> Unit {
+    let unit = Unit::new();
+    assert_eq!(unit.set_integer("stop.model", model), OK);
+    assert_eq!(unit.set("piercing.thickness", 0.0), OK);
+    assert_eq!(unit.set("piercing.travel", 0.0), OK);
+    unit
+}
+
+#[test]
+fn values_out_of_range() {
+    let unit = unit(HERTZ);
+    unit.refused(
+        unit.set("stop.restitution", 1.2),
+        &["stop.restitution = 1.2", "1.0"],
+    );
+    unit.refused(unit.set("stop.exponent", 0.5), &["stop.exponent = 0.5"]);
+    unit.refused(
+        unit.set("stop.dissipation", -1.0),
+        &["stop.dissipation = -1"],
+    );
+    unit.refused(unit.set("rigid.travel", -1.0), &["rigid.travel = -1"]);
+    unit.refused(
+        unit.set_integer("stop.loading.count", 0),
+        &["stop.loading.count = 0", "1 and 8"],
+    );
+    unit.refused(
+        unit.set_integer("stop.unloading.count", 9),
+        &["stop.unloading.count = 9"],
+    );
+    unit.refused(
+        unit.set_integer("stop.release", 3),
+        &["stop.release = 3", "zeroForce"],
+    );
+    unit.refused(
+        unit.set_integer("stop.model", 7),
+        &["stop.model = 7", "rigid"],
+    );
+    unit.begin();
+    unit.refused(
+        unit.set("stop.restitution", 0.5),
+        &["stop.restitution", "fixed"],
+    );
+    unit.refused(
+        unit.set_boolean("rigid.present", 0),
+        &["rigid.present", "fixed"],
+    );
+    assert_eq!(unit.get_boolean("rigid.present"), 1);
+}
+
+#[test]
+fn slopes_that_make_no_chain() {
+    let unit = unit(PIECEWISE_LINEAR);
+    assert_eq!(unit.set_integer("stop.loading.count", 2), OK);
+    let words = ["stop.loading.from[2] = 0", "stop.loading.count"];
+    unit.refused(unit.try_to_begin(), &words);
+    assert_eq!(unit.set("stop.loading.from[2]", 0.5), OK);
+    assert_eq!(unit.set("stop.loading.stiffness[2]", 9.0), OK);
+    assert_eq!(unit.set_integer("stop.unloading.count", 1), OK);
+    assert_eq!(unit.set("stop.unloading.stiffness[1]", 8.0), OK);
+    let exit = || unsafe { fmi2ExitInitializationMode(unit.component) };
+    unit.refused(
+        exit(),
+        &["stop.unloading", "must not exceed", "stop.loading"],
+    );
+    assert_eq!(unit.set("stop.unloading.stiffness[1]", 6.0), OK);
+    assert_eq!(exit(), OK);
+    assert_eq!(unit.step(0.0, 10.0), OK);
+}
+
+#[test]
+fn a_start_beyond_the_rigid_stop() {
+    let unit = unit(RIGID);
+    assert_eq!(unit.set("initial.position", 10.5), OK);
+    let words = [
+        "fmi2ExitInitializationMode",
+        "position = 10.5",
+        "10 m",
+        "rigid",
+    ];
+    unit.refused(unit.try_to_begin(), &words);
+    unsafe { assert_eq!(fmi2Reset(unit.component), OK) };
+    unit.begin();
+    assert_eq!(unit.step(0.0, 10.0), OK);
+}
+
+#[test]
+fn a_rigid_stop_tuned_to_before_the_mass() {
+    let unit = unit(RIGID);
+    unit.begin();
+    assert_eq!(unit.step(0.0, 0.1), OK);
+    let position = unit.get("position");
+    let words = ["fmi2SetReal", "position = ", "<= 1 m", "rigid"];
+    unit.refused(unit.set("clearance", 1.0), &words);
+    assert_eq!(unit.get("clearance"), 10.0);
+    assert_eq!(unit.get("position"), position);
+    assert_eq!(unit.set("clearance", position), OK);
+    assert_eq!(unit.step(0.1, 10.0), OK);
+    assert!(unit.get("position") <= position);
+    assert!(unit.get_integer("impact.count") > 0);
+}

@@ -1,0 +1,194 @@
+//! A stroke: the mass meets the stop at a given speed and is thrown back, with nothing but its
+//! suspension acting on it besides. What is recorded is the force of the phases that the library
+//! lowers to.
+
+use softstop::integrator::{Arc, Clock, Crossing, CrossingKind, Observer};
+use softstop::phases::Law;
+use softstop::{MotionError, PhaseKind, Scene, Start};
+
+/// Points on an arc.
+const POINTS: u32 = 120;
+/// Drive periods after which a stroke that is still under way is cut.
+const LONGEST: u64 = 100;
+
+/// A stretch of a stroke in one phase and one direction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Piece {
+    /// The phase.
+    pub kind: PhaseKind,
+    /// On the way in rather than out.
+    pub inward: bool,
+    /// Deflection x - r in m and contact force in N.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A rigid stop that was hit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rebound {
+    /// Deflection in m at which it stands.
+    pub deflection: f64,
+    /// Velocity before in m/s.
+    pub before: f64,
+    /// Velocity after in m/s.
+    pub after: f64,
+    /// Pieces of the stroke before it.
+    pub pieces_before: usize,
+}
+
+/// A full stroke in and out.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Stroke {
+    /// Its pieces in order of time.
+    pub pieces: Vec<Piece>,
+    /// The first hit on a rigid stop.
+    pub rebound: Option<Rebound>,
+    /// Speed in m/s with which the mass leaves at the clearance, if it does.
+    pub exit_speed: Option<f64>,
+}
+
+impl Stroke {
+    /// The stroke of a scene's stop, which is met at `speed` m/s, from `lead` m before the
+    /// clearance and back. The drive is taken away, and the dampers unless `damped`: then what
+    /// contact adds to the damping stays.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the scene is invalid.
+    pub fn new(scene: &Scene, speed: f64, lead: f64, damped: bool) -> Result<Self, MotionError> {
+        let scene = bare(scene, damped);
+        let mut motion = scene.motion(approach(&scene, speed, lead))?;
+        let mut recorder = Recorder {
+            clock: *motion.clock(),
+            clearance: scene.clearance,
+            lead,
+            free: motion.phases().phases[0].law,
+            stroke: Self::default(),
+        };
+        for cycle in 1..=LONGEST {
+            motion.advance(Clock::at_cycle(cycle), &mut recorder)?;
+            if recorder.stroke.exit_speed.is_some() {
+                break;
+            }
+        }
+        let arc = motion.arc();
+        let elapsed = motion.clock().elapsed(arc.start, motion.now());
+        recorder.arc(&arc, elapsed);
+        Ok(recorder.stroke)
+    }
+
+    /// Its largest deflection in m.
+    pub fn depth(&self) -> f64 {
+        self.points().map(|point| point.0).fold(0.0, f64::max)
+    }
+
+    /// All its points in order of time.
+    pub fn points(&self) -> impl Iterator<Item = (f64, f64)> + Clone + '_ {
+        self.pieces
+            .iter()
+            .flat_map(|piece| piece.points.iter().copied())
+    }
+}
+
+fn bare(scene: &Scene, damped: bool) -> Scene {
+    let mut bare = scene.clone();
+    bare.excitation.amplitude = 0.0;
+    bare.damping = 0.0;
+    bare.contact_damping = if damped {
+        scene.contact_damping - scene.damping
+    } else {
+        0.0
+    };
+    bare
+}
+
+/// The state `lead` m before the clearance from which the mass gets there with `speed`: by the
+/// energy of the suspension.
+fn approach(scene: &Scene, speed: f64, lead: f64) -> Start {
+    let position = scene.clearance - lead;
+    let climb = scene.clearance * scene.clearance - position * position;
+    let square = speed * speed + scene.stiffness * climb / scene.mass;
+    Start {
+        position,
+        velocity: square.max(0.0).sqrt(),
+    }
+}
+
+struct Recorder {
+    clock: Clock,
+    clearance: f64,
+    lead: f64,
+    free: Law,
+    stroke: Stroke,
+}
+
+impl Recorder {
+    /// Appends a point, to a new piece if phase or direction are new.
+    fn push(&mut self, kind: PhaseKind, inward: bool, fresh: bool, point: (f64, f64)) {
+        let pieces = &mut self.stroke.pieces;
+        match pieces.last_mut() {
+            Some(last) if !fresh && last.kind == kind && last.inward == inward => {
+                last.points.push(point);
+            }
+            _ => pieces.push(Piece {
+                kind,
+                inward,
+                points: vec![point],
+            }),
+        }
+    }
+
+    /// True once the flight out has been recorded.
+    fn is_complete(&self) -> bool {
+        let last = self.stroke.pieces.last();
+        last.is_some_and(|piece| piece.kind == PhaseKind::Free && !piece.inward)
+    }
+
+    /// How long an arc lasts within the picture: of the free flight out, just the lead.
+    fn shown(&self, arc: &Arc<'_>, elapsed: f64) -> f64 {
+        let speed = -arc.course.departure.velocity;
+        if arc.kind == PhaseKind::Free && speed > 0.0 {
+            elapsed.min(self.lead / speed)
+        } else {
+            elapsed
+        }
+    }
+}
+
+impl Observer for Recorder {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        let Some(phase) = arc.phase.filter(|_| !self.is_complete()) else {
+            return;
+        };
+        let elapsed = self.shown(arc, elapsed);
+        // The law of a way starts where the one before ended: with a jump, if there is one. A
+        // nonlinear phase is a chain of arcs without jumps.
+        let mut fresh = phase.hertz.is_none();
+        for step in 0..=POINTS {
+            let after = elapsed * f64::from(step) / f64::from(POINTS);
+            let drive = self.clock.drive(self.clock.after(arc.start, after));
+            let (position, velocity) = arc.course.at(after, drive);
+            let inward = if step == 0 && velocity == 0.0 {
+                false
+            } else {
+                velocity > 0.0
+            };
+            let force = phase.contact_force(&self.free, position, velocity);
+            self.push(arc.kind, inward, fresh, (position - self.clearance, force));
+            fresh = false;
+        }
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        let (before, after) = (crossing.velocity, crossing.velocity_after);
+        if matches!(crossing.kind, CrossingKind::Rebound { .. }) && self.stroke.rebound.is_none() {
+            self.stroke.rebound = Some(Rebound {
+                deflection: crossing.position - self.clearance,
+                before,
+                after,
+                pieces_before: self.stroke.pieces.len(),
+            });
+        }
+        if crossing.position == self.clearance && after < 0.0 {
+            self.stroke.exit_speed.get_or_insert(-after);
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! Slow motion under heavy damping, in steps that are long against the damped modes.
+//!
+//! Where a mode of the contact dies out within a small part of a step, nothing of it is left after its
+//! first few lifetimes, and the motion is the one that needs no such mode: the formal power series whose
+//! *last* coefficients are taken as given. Forward recurrence would multiply rounding by the fast rate at
+//! each order; instead all coefficients are solved for together, by Newton's method (as Miller's
+//! algorithm does for recurrences with a decaying solution).
+
+use nalgebra::{SMatrix, SVector};
+
+use super::hertz::Hertz;
+use super::modes::Modes;
+use super::series::{Series, convolve, derivative, power};
+use super::taylor::DEGREE;
+
+const ORDER: usize = DEGREE + 1;
+const NEWTON_STEPS: usize = 12;
+/// Lifetimes of a mode within a step after which nothing of it is left.
+const LIFETIMES: f64 = 40.0;
+/// Largest deviation of a start from the slow motion, in roundings.
+const ALLOWED: f64 = 64.0 * f64::EPSILON;
+
+/// d'' + `decay2` d' + `stiffness` d + kappa d^n (1 + lambda d') = `push`, as series in time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Equation<'a> {
+    pub twice_decay: f64,
+    pub stiffness: f64,
+    pub hertz: &'a Hertz,
+    /// The push less the pull of the suspension at the face.
+    pub push: &'a Series,
+}
+
+/// A slow motion.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Creep {
+    /// Deflection in m.
+    pub depth: Series,
+    /// d(deflection)/d(deflection at the start); zero where not even that is remembered.
+    pub memory: Series,
+    /// d(deflection)/d(velocity at the start), as a multiple of the memory, in s.
+    pub echo: f64,
+}
+
+/// Damping and stiffness of the contact along a motion.
+struct Slopes {
+    damping: Series,
+    stiffness: Series,
+    force: Series,
+}
+
+impl Equation<'_> {
+    /// The slow motion through a start (deflection, velocity), if the start lies on one and steps of
+    /// length `span` are long against the modes that die out.
+    pub fn slow_motion(&self, (d, v): (f64, f64), span: f64) -> Option<Creep> {
+        let mut start = [0.0; ORDER];
+        (start[0], start[1]) = (d, v);
+        let slopes = self.slopes(&start);
+        let modes = Modes::new(0.5 * slopes.damping[0], slopes.stiffness[0]);
+        let (slow, fast) = modes.decay_rates();
+        if fast * span < LIFETIMES {
+            return None;
+        }
+        let forgets = slow * span >= LIFETIMES;
+        let depth = self.solve(d, span, forgets)?;
+        let tolerance = |value: f64, scale: f64| ALLOWED * (value.abs() + scale);
+        let speed = tolerance(v, (self.push[0] / slopes.damping[0]).abs());
+        let near = (depth[0] - d).abs() <= tolerance(d, 0.0) && (depth[1] - v).abs() <= speed;
+        near.then(|| self.creep(depth, span, forgets))
+    }
+
+    fn slopes(&self, depth: &Series) -> Slopes {
+        let velocity = derivative(depth);
+        let (kappa, lambda, n) = (
+            self.hertz.rate(),
+            self.hertz.dissipation,
+            self.hertz.exponent,
+        );
+        let w = power(depth, n);
+        let steep = power(depth, n - 1.0);
+        let mut slopes = Slopes {
+            damping: w.map(|w| kappa * lambda * w),
+            stiffness: std::array::from_fn(|k| {
+                kappa * n * (steep[k] + lambda * convolve(&steep, &velocity, k))
+            }),
+            force: std::array::from_fn(|k| kappa * (w[k] + lambda * convolve(&w, &velocity, k))),
+        };
+        slopes.damping[0] += self.twice_decay;
+        slopes.stiffness[0] += self.stiffness;
+        slopes
+    }
+
+    /// Newton's method for all coefficients, scaled by powers of `span`. Where the start is remembered
+    /// its deflection is kept.
+    fn solve(&self, d: f64, span: f64, forgets: bool) -> Option<Series> {
+        let mut depth = [0.0; ORDER];
+        depth[0] = d;
+        let mut last = f64::INFINITY;
+        for _ in 0..NEWTON_STEPS {
+            let slopes = self.slopes(&depth);
+            let matrix = jacobian(&slopes, span, forgets);
+            let residual = self.residual(&depth, &slopes, span, forgets);
+            let step = matrix.lu().solve(&residual)?;
+            let mut size: f64 = 0.0;
+            for k in 0..ORDER {
+                let change = step[k] / span.powi(k as i32);
+                depth[k] -= change;
+                size = size.max(step[k].abs());
+            }
+            if !(size.is_finite() && depth[0] > 0.0) {
+                return None;
+            }
+            if size <= f64::EPSILON * depth[0] || (size >= last && size <= 1e-12 * depth[0]) {
+                return Some(depth);
+            }
+            last = size;
+        }
+        None
+    }
+
+    fn residual(
+        &self,
+        depth: &Series,
+        slopes: &Slopes,
+        span: f64,
+        forgets: bool,
+    ) -> SVector<f64, ORDER> {
+        let at = |k: usize| depth.get(k).copied().unwrap_or(0.0);
+        let row = |k: usize| {
+            let (first, second) = ((k + 1) as f64, (k + 2) as f64);
+            let inertia = second * first * at(k + 2) + self.twice_decay * first * at(k + 1);
+            inertia + self.stiffness * depth[k] + slopes.force[k] - self.push[k]
+        };
+        SVector::from_fn(|index, _| match (forgets, index) {
+            (true, k) => row(k) * span.powi(k as i32),
+            (false, 0) => 0.0,
+            (false, k) => row(k - 1) * span.powi(k as i32 - 1),
+        })
+    }
+
+    /// The motion with what it remembers of its start.
+    fn creep(&self, depth: Series, span: f64, forgets: bool) -> Creep {
+        let mut memory = [0.0; ORDER];
+        let slopes = self.slopes(&depth);
+        if !forgets {
+            let mut unit = SVector::<f64, ORDER>::zeros();
+            unit[0] = 1.0;
+            if let Some(solution) = jacobian(&slopes, span, false).lu().solve(&unit) {
+                memory = std::array::from_fn(|k| solution[k] / span.powi(k as i32));
+            }
+        }
+        // The slow part of (0, 1) is (1, s) / (s - f), with f + s = -damping.
+        let echo = 1.0 / (slopes.damping[0] + 2.0 * memory[1]);
+        Creep {
+            depth,
+            memory,
+            echo,
+        }
+    }
+}
+
+/// Of the residual by the scaled coefficients; its first row keeps the deflection at the start if that
+/// is remembered.
+fn jacobian(slopes: &Slopes, span: f64, forgets: bool) -> SMatrix<f64, ORDER, ORDER> {
+    let entry = |k: usize, j: usize| {
+        let mut entry = 0.0;
+        if j == k + 2 {
+            entry += (j * (j - 1)) as f64;
+        }
+        if j >= 1 && j <= k + 1 {
+            entry += slopes.damping[k + 1 - j] * j as f64;
+        }
+        if j <= k {
+            entry += slopes.stiffness[k - j];
+        }
+        entry * span.powi(k as i32 - j as i32)
+    };
+    SMatrix::from_fn(|index, j| match (forgets, index) {
+        (true, k) => entry(k, j),
+        (false, 0) => f64::from(u8::from(j == 0)),
+        (false, k) => entry(k - 1, j),
+    })
+}

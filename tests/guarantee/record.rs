@@ -1,0 +1,115 @@
+//! What the library says: a motion as legs between crossings.
+
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+
+use softstop::integrator::{Arc, Crossing, Observer};
+use softstop::{Clock, PhaseKind, Scene, Start};
+
+/// The motion from one crossing to the next.
+#[derive(Debug, Clone)]
+pub struct Leg {
+    /// Whole periods and seconds at its start.
+    pub start: (f64, f64),
+    /// Drive angle at its start.
+    pub angle: f64,
+    pub duration: f64,
+    pub position: f64,
+    pub velocity: f64,
+    pub kind: PhaseKind,
+    /// Where the library joined stretches of one motion: elapsed time, position, velocity, kind.
+    pub joints: Vec<(f64, f64, f64, PhaseKind)>,
+    /// What ends it; nothing does at the end of the record.
+    pub end: Option<Crossing>,
+}
+
+/// Keeps legs.
+struct Recorder<'a> {
+    scene: &'a Scene,
+    legs: Vec<Leg>,
+    open: Option<Leg>,
+    /// Arcs since the last pause.
+    arcs: u32,
+    most: usize,
+}
+
+/// Arcs in a sixteenth of a period that are no motion any more. Bounces in a row that the library
+/// follows one by one (10,000 of them) are far fewer.
+const RUNAWAY: u32 = 100_000;
+/// Left through the observer, which can but watch.
+struct Runaway;
+
+impl Observer for Recorder<'_> {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.arcs += 1;
+        if self.arcs > RUNAWAY {
+            resume_unwind(Box::new(Runaway));
+        }
+        let departure = &arc.course.departure;
+        let (position, velocity) = (departure.position, departure.velocity);
+        if let Some(leg) = &mut self.open {
+            leg.joints
+                .push((leg.duration, position, velocity, arc.kind));
+            leg.duration += elapsed;
+            return;
+        }
+        let drive = &self.scene.excitation;
+        self.open = Some(Leg {
+            start: (arc.start.cycles, arc.start.offset),
+            angle: drive.frequency * arc.start.offset + drive.phase,
+            duration: elapsed,
+            position,
+            velocity,
+            kind: arc.kind,
+            joints: Vec::new(),
+            end: None,
+        });
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        if let Some(leg) = self.open.take() {
+            let end = Some(*crossing);
+            if self.legs.len() < self.most || self.arcs + 8 > RUNAWAY {
+                self.legs.push(Leg { end, ..leg });
+            }
+        }
+    }
+}
+
+/// The legs of the motion over some periods, or up to `most` crossings.
+///
+/// # Errors
+/// What the library refuses, or that it runs away, with the last legs.
+pub fn record(scene: &Scene, start: Start, periods: f64, most: usize) -> Result<Vec<Leg>, String> {
+    let clock = Clock::new(scene.excitation.frequency, scene.excitation.phase);
+    let mut motion = scene.motion(start).map_err(|error| error.to_string())?;
+    let mut recorder = Recorder {
+        scene,
+        legs: Vec::new(),
+        open: None,
+        arcs: 0,
+        most,
+    };
+    let slices = (16.0 * periods).ceil() as u32;
+    for slice in 1..=slices {
+        let until = clock.instant(scene.period() * f64::from(slice) / 16.0);
+        recorder.arcs = 0;
+        let run = || motion.advance(until, &mut recorder);
+        match catch_unwind(AssertUnwindSafe(run)) {
+            Ok(advanced) => advanced.map_err(|error| error.to_string())?,
+            Err(_) => return Err(format!("runs away: {:?}", recorder.last())),
+        }
+        if recorder.legs.len() >= most {
+            return Ok(recorder.legs);
+        }
+    }
+    let elapsed = clock.elapsed(motion.arc().start, motion.now());
+    recorder.arc(&motion.arc(), elapsed);
+    recorder.legs.extend(recorder.open.take());
+    Ok(recorder.legs)
+}
+
+impl Recorder<'_> {
+    fn last(&self) -> &[Leg] {
+        &self.legs[self.legs.len().saturating_sub(2)..]
+    }
+}
