@@ -6,8 +6,10 @@ use softstop::integrator::{Arc, Clock, Crossing, CrossingKind, Observer};
 use softstop::phases::Law;
 use softstop::{MotionError, PhaseKind, Scene, Start};
 
-/// Points on an arc.
+/// Points on an arc of a linear law.
 const POINTS: u32 = 120;
+/// Points on an arc of a nonlinear law, one of many that make up a contact.
+const FEW: u32 = 30;
 /// Drive periods after which a stroke that is still under way is cut.
 const LONGEST: u64 = 100;
 
@@ -162,8 +164,9 @@ impl Observer for Recorder {
         // The law of a way starts where the one before ended: with a jump, if there is one. A
         // nonlinear phase is a chain of arcs without jumps.
         let mut fresh = phase.hertz.is_none();
-        for step in 0..=POINTS {
-            let after = elapsed * f64::from(step) / f64::from(POINTS);
+        let points = if fresh { POINTS } else { FEW };
+        for step in 0..=points {
+            let after = elapsed * f64::from(step) / f64::from(points);
             let drive = self.clock.drive(self.clock.after(arc.start, after));
             let (position, velocity) = arc.course.at(after, drive);
             let inward = if step == 0 && velocity == 0.0 {
