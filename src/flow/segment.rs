@@ -48,7 +48,9 @@ pub(crate) struct Segment {
 }
 
 /// What the last coefficients may amount to, relative to the first: well below rounding.
-const TRUNCATION: f64 = f64::EPSILON / 64.0;
+const SMALLEST: f64 = f64::EPSILON / 64.0;
+/// Its binary logarithm.
+const TRUNCATION: f64 = -58.0;
 const ZERO: Series = [0.0; DEGREE + 1];
 
 impl Segment {
@@ -178,7 +180,7 @@ impl Segment {
             let [depth, speed, time] = [0, 1, 2].map(|index| value(&bounds[index], span));
             let grip = 1.0 + self.hertz.dissipation * speed;
             let press = self.hertz.rate() * depth.powf(self.hertz.exponent - 1.0) * grip;
-            if press * time * time <= TRUNCATION {
+            if press * time * time <= SMALLEST {
                 break;
             }
             span *= 0.5;
@@ -351,21 +353,22 @@ impl Segment {
     }
 }
 
-/// Where the last terms of a series fall below rounding of the largest of its first three. Four are
-/// looked at, since by symmetry every second one may vanish.
+/// Where a series is below rounding of its first coefficients from its last one on, if the whole upper
+/// half falls as a geometric series does. All of that half is looked at, since by symmetry many
+/// coefficients may vanish.
 fn converges(series: &Series) -> f64 {
-    let within = |last: usize| {
-        let against = |first: usize| {
-            let ratio = TRUNCATION * series[first].abs() / series[last].abs();
-            ratio.powf(1.0 / (last - first) as f64)
+    let [zeroth, first, second] = [0, 1, 2].map(|j| series[j].abs().log2());
+    let mut reach = f64::INFINITY;
+    for (last, coefficient) in series.iter().enumerate().skip(DEGREE.div_ceil(2)) {
+        let size = coefficient.abs().log2();
+        // Comparisons pass over what is not a number: zero against zero.
+        let against = |size_first: f64, j: usize| {
+            (size_first - size) / (last - j) as f64 + TRUNCATION / (DEGREE - j) as f64
         };
-        if series[last] == 0.0 {
-            f64::INFINITY
-        } else {
-            against(0).max(against(1)).max(against(2))
-        }
-    };
-    (DEGREE - 3..=DEGREE)
-        .map(within)
-        .fold(f64::INFINITY, f64::min)
+        let within = against(zeroth, 0)
+            .max(against(first, 1))
+            .max(against(second, 2));
+        reach = reach.min(within);
+    }
+    reach.exp2()
 }

@@ -74,7 +74,10 @@ impl Motion {
             }
             Exit::Forward(surface) => {
                 let at = &self.phases.surfaces[surface];
-                let velocity = found.velocity.max(0.0);
+                // A mass that leaves rest and is back at once has not moved.
+                let moved =
+                    self.course.departure.velocity != 0.0 || !self.is_instant(found.elapsed);
+                let velocity = if moved { found.velocity.max(0.0) } else { 0.0 };
                 match self.phases.beyond(at, self.fed) {
                     Beyond::Wall { restitution } => self.rebound(at, velocity, push, restitution),
                     Beyond::Phase(_) => self.pass(at, velocity, push, true),

@@ -59,13 +59,14 @@ pub struct Motion {
     pub(super) force: Force,
     start: Instant,
     now: Instant,
-    course: Course,
+    pub(super) course: Course,
     outlook: Outlook,
     pub(super) hum: Hum,
 }
 
-/// Crossings at one and the same instant that a motion may make.
-const MOST_AT_ONCE: u32 = 100;
+/// Crossings at one and the same instant that a motion may make: more than any row of bounces that
+/// is shorter than the resolution of time.
+const MOST_AT_ONCE: u32 = 1_000_000;
 
 impl Motion {
     /// A motion of `phases` from `start` at time `at`, with a strip fed.
@@ -283,7 +284,7 @@ impl Motion {
             self.look_ahead(horizon)?;
             match self.outlook {
                 Outlook::Crossing(found) if found.elapsed <= horizon => {
-                    let instantly = found.elapsed == 0.0;
+                    let instantly = self.is_instant(found.elapsed);
                     crossings_at_once = if instantly { crossings_at_once + 1 } else { 0 };
                     if crossings_at_once > MOST_AT_ONCE {
                         return Err(self.stalled());
@@ -302,6 +303,11 @@ impl Motion {
         }
         self.now = until;
         Ok(())
+    }
+
+    /// True if a stretch of the present arc is too short for the clock to tell.
+    pub(super) fn is_instant(&self, elapsed: f64) -> bool {
+        self.clock.after(self.start, elapsed) == self.start
     }
 
     fn stalled(&self) -> MotionError {
