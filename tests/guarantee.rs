@@ -42,6 +42,8 @@ mod record;
 mod rules;
 #[path = "guarantee/run.rs"]
 mod run;
+#[path = "guarantee/scales.rs"]
+mod scales;
 #[path = "guarantee/tally.rs"]
 mod tally;
 
@@ -59,7 +61,7 @@ fn setting(name: &str, default: u64) -> u64 {
 fn no_crossing_is_missed_invented_or_out_of_order() {
     let seeds = setting("GUARANTEE_SEEDS", SEEDS);
     let tally = run::many(setting("GUARANTEE_FIRST", 0), seeds);
-    for failure in tally.failures.iter().take(setting("SHOWN", 20) as usize) {
+    for failure in tally.failures.iter().take(SHOWN) {
         println!("{failure}\n");
     }
     println!("{tally}");
@@ -79,7 +81,7 @@ fn lies_are_seen() {
         doctor::Lie::Moved(-1e-6),
         doctor::Lie::Invented,
     ] {
-        let (told, seen) = doctor::told_and_seen(lie, 400);
+        let (told, seen) = doctor::told_and_seen(lie, 800);
         println!("{lie:?}: {seen} of {told} seen");
         assert!(told > 30 && seen == told, "{lie:?}: {seen} of {told}");
     }

@@ -75,7 +75,13 @@ pub fn first_crossing(course: &Course, guards: &[Guard], node: Node, until: f64)
         if !(right.node.position.is_finite() && right.node.velocity.is_finite()) {
             return Outlook::Unbounded(left.node);
         }
-        if !scan.is_clear(&left, &right, course.flow.window_bounds)
+        let span = right.node.elapsed - left.node.elapsed;
+        let bounds = if span < 2.0 * course.flow.window {
+            course.flow.window_bounds
+        } else {
+            course.flow.modes.bounds(span)
+        };
+        if !scan.is_clear(&left, &right, bounds)
             && let Some(found) = scan.search(&left, &right)
         {
             return Outlook::Crossing(found);

@@ -55,6 +55,11 @@ const MOST_WINDOWS: u32 = 1 << 31;
 /// Windows passed by rotation before a node is evaluated afresh.
 const ROTATIONS: u32 = 8;
 
+/// Ratio of the long window to the usual one from which it is worth asking whether it can be used.
+const LONG: f64 = 4.0;
+/// Free motion, relative to the whole, that counts as none.
+const SETTLED: f64 = 16.0 * f64::EPSILON;
+
 /// How states are evaluated; those of a linear law beyond the reach of one Taylor polynomial.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Form {
@@ -208,7 +213,12 @@ impl Course {
                 let (y, rate) = self.flow.modes.at(elapsed).apply(deviation.0, deviation.1);
                 (x + y, v + rate)
             }
-            _ => self.by_responses(elapsed),
+            _ => match self.flow.late {
+                Some((steady, settled)) if elapsed >= settled => {
+                    Particular::new(&self.flow, &self.departure, steady).at(elapsed, drive)
+                }
+                _ => self.by_responses(elapsed),
+            },
         }
     }
 
@@ -284,6 +294,9 @@ impl Course {
     /// windows, so that neither times nor states drift.
     #[inline]
     pub(crate) fn next(&self, node: &Node) -> Node {
+        if self.flow.long_window > LONG * self.flow.window && self.is_settled(node) {
+            return self.node(node.elapsed + self.flow.long_window);
+        }
         let (origin, windows) = (node.origin, node.windows + 1);
         let elapsed = origin + f64::from(windows) * self.flow.window;
         let particular = match self.form {
@@ -310,6 +323,22 @@ impl Course {
             deviation,
             origin,
             windows,
+        }
+    }
+
+    /// True if nothing is left of the free motion.
+    fn is_settled(&self, node: &Node) -> bool {
+        match self.form {
+            Form::Particular { particular, .. } => {
+                let (y, rate) = node.deviation;
+                let size = node.position.abs() + particular.offset.abs();
+                self.flow.modes.envelope(y, rate) <= SETTLED * size
+            }
+            Form::Responses => {
+                let late = self.flow.late;
+                late.is_some_and(|(_, settled)| node.elapsed >= settled)
+            }
+            _ => false,
         }
     }
 

@@ -6,12 +6,12 @@
 //! each order; instead all coefficients are solved for together, by Newton's method (as Miller's
 //! algorithm does for recurrences with a decaying solution).
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{Matrix2, SMatrix, SVector};
 
 use super::hertz::Hertz;
 use super::modes::Modes;
 use super::series::{Series, convolve, derivative, power};
-use super::taylor::DEGREE;
+use super::taylor::{DEGREE, evaluate};
 
 const ORDER: usize = DEGREE + 1;
 const NEWTON_STEPS: usize = 12;
@@ -31,14 +31,23 @@ pub(super) struct Equation<'a> {
 }
 
 /// A slow motion.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Creep {
     /// Deflection in m.
     pub depth: Series,
     /// d(deflection)/d(deflection at the start); zero where not even that is remembered.
     pub memory: Series,
-    /// d(deflection)/d(velocity at the start), as a multiple of the memory, in s.
+    /// d(deflection)/d(velocity at the start), as a multiple of the memory, in s; to first order in the
+    /// ratio of the slow rate to the fast one.
     pub echo: f64,
+}
+
+impl Creep {
+    /// d(state)/d(state at the start) after `elapsed`.
+    pub fn transition(&self, elapsed: f64) -> Matrix2<f64> {
+        let (depth, velocity) = evaluate(&self.memory, elapsed);
+        Matrix2::new(depth, self.echo * depth, velocity, self.echo * velocity)
+    }
 }
 
 /// Damping and stiffness of the contact along a motion.

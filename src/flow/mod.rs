@@ -9,6 +9,7 @@
 
 mod chatter;
 mod course;
+mod creep;
 mod hertz;
 mod modes;
 mod power;
@@ -39,8 +40,12 @@ pub struct Flow {
     pub(crate) frequency: f64,
     /// Steady state per drive, x = .0 cos(angle) + .1 sin(angle), where it is well conditioned.
     steady: Option<(f64, f64)>,
+    /// The same wherever it exists, and the time in s after which nothing else is left.
+    late: Option<((f64, f64), f64)>,
     /// Time in s that one scan step spans.
     pub(crate) window: f64,
+    /// The same once the free motion has died out.
+    pub(crate) long_window: f64,
     /// Bounds on the fundamental solutions over one window.
     pub(crate) window_bounds: (f64, f64),
     /// Time in s over which a Taylor polynomial is exact to round-off.
@@ -63,7 +68,9 @@ impl Flow {
             amplitude,
             frequency,
             steady: steady_state(&modes, amplitude, frequency),
+            late: late_state(&modes, amplitude, frequency),
             window,
+            long_window: 1.0 / frequency,
             window_bounds: modes.bounds(window),
             reach,
             window_modes: modes.at(window).rows(),
@@ -87,14 +94,34 @@ impl Flow {
 /// dwarfs the motion it has to describe.
 fn steady_state(modes: &Modes, amplitude: f64, w: f64) -> Option<(f64, f64)> {
     let (a, b) = (modes.decay, modes.stiffness);
-    let real = (-w).mul_add(w, b);
-    let imaginary = 2.0 * a * w;
-    let size = real.hypot(imaginary);
-    let resonant = size * LARGEST_LOSS < b.abs().max(w * w);
+    let (real, imaginary) = impedance(modes, w);
+    let resonant = real.hypot(imaginary) * LARGEST_LOSS < b.abs().max(w * w);
     let limp = b.abs() * LARGEST_LOSS < 4.0 * a * a || b == 0.0;
-    if resonant || limp {
-        return None;
-    }
+    (!resonant && !limp).then(|| response_to(amplitude, (real, imaginary)))
+}
+
+/// The steady state in the end, where the free motion dies out: after [`LIFETIMES`] of its slower mode.
+fn late_state(modes: &Modes, amplitude: f64, w: f64) -> Option<((f64, f64), f64)> {
+    let (slow, _) = modes.decay_rates();
+    let dies = modes.stiffness > 0.0 && slow > 0.0;
+    dies.then(|| {
+        (
+            response_to(amplitude, impedance(modes, w)),
+            LIFETIMES / slow,
+        )
+    })
+}
+
+/// Lifetimes of a mode after which nothing of it is left beside a motion 10^10 times smaller.
+const LIFETIMES: f64 = 60.0;
+
+/// b - w^2 and 2 a w.
+fn impedance(modes: &Modes, w: f64) -> (f64, f64) {
+    ((-w).mul_add(w, modes.stiffness), 2.0 * modes.decay * w)
+}
+
+fn response_to(amplitude: f64, (real, imaginary): (f64, f64)) -> (f64, f64) {
+    let size = real.hypot(imaginary);
     let scale = amplitude / size;
-    Some((scale * (real / size), scale * (imaginary / size)))
+    (scale * (real / size), scale * (imaginary / size))
 }

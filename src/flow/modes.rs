@@ -129,6 +129,14 @@ impl Modes {
         }
     }
 
+    /// Rates in 1/s at which the two modes die out, the slower first; 0 for one that does not.
+    pub fn decay_rates(&self) -> (f64, f64) {
+        match self.kind {
+            Kind::Oscillating { .. } => (self.decay, self.decay),
+            Kind::Aperiodic { slow, fast, .. } => ((-slow).max(0.0), -fast),
+        }
+    }
+
     /// Bounds (max |C|, max |S|) over 0 <= t <= `span`.
     ///
     /// For b >= 0 the energy b x^2 + v^2 never grows, hence |C| <= 1, |S| <= t and |S| <= 1/sqrt(b);

@@ -12,20 +12,22 @@
 //! All are power series in sigma whose coefficients follow one from the other (Moore 1966). For
 //! other n the steps grow and shrink with the distance from the face; right at the face, while the
 //! power law's part of the motion is below rounding, it is left out. So it is on a start from rest at
-//! the face, where sigma is time itself.
+//! the face, where sigma is time itself; and so it is in slow motion under heavy damping
+//! ([`super::creep`]).
 
 use nalgebra::Matrix2;
 
+use super::creep::{Creep, Equation};
 use super::hertz::Hertz;
 use super::power::gauss_nodes;
 use super::series::{Power, Series, convolve, derivative, majorant, power, product, value};
-use super::taylor::{DEGREE, Taylor, evaluate};
+use super::taylor::{DEGREE, Taylor, evaluate, push_series};
 use super::{Departure, Flow};
 
 /// The motion of one step, as series in sigma.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Segment {
-    /// Root of the deflection in sqrt(m); zero on a start from rest at the face.
+    /// Root of the deflection in sqrt(m); zero where sigma is time itself.
     root: Series,
     /// Deflection in m.
     depth: Series,
@@ -45,12 +47,18 @@ pub(crate) struct Segment {
     pub end: f64,
     hertz: Hertz,
     flow: Flow,
+    /// What a slow motion remembers of its start.
+    creep: Option<Box<Creep>>,
 }
 
 /// What the last coefficients may amount to, relative to the first: well below rounding.
 const SMALLEST: f64 = f64::EPSILON / 64.0;
 /// Its binary logarithm.
 const TRUNCATION: f64 = -58.0;
+/// Share of the way to the face that a slow step covers at most.
+const NEAR: f64 = 0.15;
+/// How much longer than a usual step a slow one must be to be worth its price.
+const LONGER: f64 = 30.0;
 const ZERO: Series = [0.0; DEGREE + 1];
 
 impl Segment {
@@ -68,7 +76,47 @@ impl Segment {
         }
         segment.contact = segment.last_contact();
         segment.end = value(&segment.time, segment.contact);
-        segment
+        match Self::creeping(flow, hertz, from, deflection, segment.end) {
+            Some(slow) => slow,
+            None => segment,
+        }
+    }
+
+    /// A step of slow motion, where one is possible and much longer than `usual`.
+    fn creeping(
+        flow: &Flow,
+        hertz: &Hertz,
+        from: &Departure,
+        deflection: f64,
+        usual: f64,
+    ) -> Option<Self> {
+        let rate = flow.frequency.max(flow.modes.stiffness.abs().sqrt());
+        let span = (1.0 / rate).min(NEAR * deflection / from.velocity.abs());
+        // Comparisons with what is not a number fail.
+        if !(span > LONGER * usual) {
+            return None;
+        }
+        let push = push_series(flow, from.drive, (from.constant, from.ramp));
+        let mut load = push;
+        load[0] -= flow.modes.stiffness * hertz.origin;
+        let equation = Equation {
+            twice_decay: 2.0 * flow.modes.decay,
+            stiffness: flow.modes.stiffness,
+            hertz,
+            push: &load,
+        };
+        let creep = equation.slow_motion((deflection, from.velocity), span)?;
+        let mut segment = Self::blank(flow, hertz);
+        segment.depth = creep.depth;
+        segment.velocity = derivative(&creep.depth);
+        segment.time[1] = 1.0;
+        segment.push = push;
+        segment.power = power(&creep.depth, hertz.exponent);
+        segment.creep = Some(Box::new(creep));
+        let holds = converges(&segment.depth).min(converges(&segment.velocity));
+        segment.reach = holds.min(span);
+        (segment.contact, segment.end) = (segment.reach, segment.reach);
+        (segment.end > LONGER * usual).then_some(segment)
     }
 
     fn blank(flow: &Flow, hertz: &Hertz) -> Self {
@@ -84,6 +132,7 @@ impl Segment {
             end: 0.0,
             hertz: *hertz,
             flow: *flow,
+            creep: None,
         }
     }
 
@@ -150,14 +199,14 @@ impl Segment {
     /// Sigma up to which the last coefficients stay below rounding (Jorba and Zou 2005), and time
     /// within the reach of the linear law's own series.
     fn convergence(&self) -> f64 {
-        let moved = if self.is_from_rest() {
+        let moved = if self.is_in_time() {
             &self.depth
         } else {
             &self.root
         };
         let limit = self.flow.reach;
         let (root, speed) = (self.root[0], self.velocity[0].abs());
-        let within = if self.is_from_rest() {
+        let within = if self.is_in_time() {
             limit
         } else {
             // t = s sigma + v sigma^2 / 4 + ...
@@ -166,7 +215,8 @@ impl Segment {
         converges(moved).min(converges(&self.velocity)).min(within)
     }
 
-    fn is_from_rest(&self) -> bool {
+    /// True if sigma is time itself.
+    fn is_in_time(&self) -> bool {
         self.time[1] == 1.0 && self.root == ZERO
     }
 
@@ -249,7 +299,7 @@ impl Segment {
     }
 
     fn depth_at(&self, sigma: f64) -> f64 {
-        if self.is_from_rest() {
+        if self.is_in_time() {
             value(&self.depth, sigma)
         } else {
             let root = value(&self.root, sigma);
@@ -278,7 +328,7 @@ impl Segment {
         // Seen from the face, a surface at the face is at zero exactly.
         let level = level - position * self.hertz.origin;
         let at_face = level == 0.0 && velocity == 0.0 && push == 0.0;
-        let moved = if at_face && !self.is_from_rest() {
+        let moved = if at_face && !self.is_in_time() {
             &self.root
         } else {
             &self.depth
@@ -311,12 +361,12 @@ impl Segment {
     /// equation y'' + damping y' + stiffness y = 0 along the motion, in sigma.
     pub fn transition(&self, elapsed: f64) -> (Matrix2<f64>, f64) {
         let sigma = self.parameter_at(elapsed);
+        if let Some(creep) = &self.creep {
+            return (creep.transition(sigma), self.damping_integral(sigma));
+        }
         let rate = derivative(&self.time);
-        let mut damping = self
-            .power
-            .map(|w| self.hertz.rate() * self.hertz.dissipation * w);
-        damping[0] += 2.0 * self.flow.modes.decay;
-        let (damping, stiffness) = (product(&rate, &damping), product(&rate, &self.stiffness()));
+        let damping = product(&rate, &self.damping());
+        let stiffness = product(&rate, &self.stiffness());
         let column = |start: (f64, f64)| {
             let (mut y, mut u) = (ZERO, ZERO);
             (y[0], u[0]) = start;
@@ -328,13 +378,25 @@ impl Segment {
             (value(&y, sigma), value(&u, sigma))
         };
         let (first, second) = (column((1.0, 0.0)), column((0.0, 1.0)));
-        let integral = damping
+        let matrix = Matrix2::new(first.0, second.0, first.1, second.1);
+        (matrix, self.damping_integral(sigma))
+    }
+
+    /// 2 a + kappa lambda d^n.
+    fn damping(&self) -> Series {
+        let factor = self.hertz.rate() * self.hertz.dissipation;
+        let mut damping = self.power.map(|w| factor * w);
+        damping[0] += 2.0 * self.flow.modes.decay;
+        damping
+    }
+
+    /// Its integral over time.
+    fn damping_integral(&self, sigma: f64) -> f64 {
+        product(&derivative(&self.time), &self.damping())
             .iter()
             .enumerate()
             .rev()
-            .fold(0.0, |sum, (k, c)| sigma * (c / (k + 1) as f64 + sum));
-        let matrix = Matrix2::new(first.0, second.0, first.1, second.1);
-        (matrix, integral)
+            .fold(0.0, |sum, (k, c)| sigma * (c / (k + 1) as f64 + sum))
     }
 
     /// b + kappa n d^(n-1) (1 + lambda v).

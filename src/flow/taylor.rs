@@ -70,7 +70,7 @@ impl Taylor {
 }
 
 /// Coefficients of the push `constant` + `ramp` t + A cos(angle + w t) with drive (cos, sin).
-fn push_series(
+pub(super) fn push_series(
     flow: &Flow,
     (cos, sin): (f64, f64),
     (constant, ramp): (f64, f64),

@@ -53,7 +53,7 @@ impl Motion {
         let phase = match self.mode {
             Mode::Moving(phase) => phase,
             Mode::Held { forward, backward } => {
-                let (_, phases, _) = self.phases.releases(forward, backward, position);
+                let (_, phases, _) = self.phases.releases(forward, backward, position, push);
                 let mode = Mode::Moving(phases[found.guard]);
                 return Landing::new(position, 0.0, mode, CrossingKind::Release);
             }
@@ -63,9 +63,7 @@ impl Motion {
         };
         match self.phases.phases[phase].exits[found.guard] {
             Exit::Reversal { forward, backward } => {
-                let mode = self
-                    .phases
-                    .leave_hold(Some(forward), backward, position, push);
+                let mode = self.phases.turn(forward, backward, position, push);
                 Landing::new(position, 0.0, mode, CrossingKind::Reversal)
             }
             Exit::Switch(to) => {

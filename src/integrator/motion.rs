@@ -342,7 +342,11 @@ impl Motion {
                 horizon,
             ),
             Mode::Held { forward, backward } => {
-                let (guards, _, count) = self.phases.releases(forward, backward, node.position);
+                let since = &self.course.departure;
+                let push = since.constant + self.phases.held.amplitude * since.drive.0;
+                let (guards, _, count) =
+                    self.phases
+                        .releases(forward, backward, since.position, push);
                 first_crossing(&self.course, &guards[..count], node, horizon)
             }
             Mode::Chattering { .. } => first_crossing(&self.course, &[], node, horizon),

@@ -163,21 +163,43 @@ impl Phases {
         self.leave_rest(above, backward, position, push)
     }
 
-    /// The guards that let a held mass go, each with the phase that it leads to.
+    /// The mode of a mass that has come to rest under dry friction. Within rounding of a balance it is
+    /// held: a creep that ends there would else turn back and forth for ever.
+    pub(crate) fn turn(&self, forward: usize, backward: usize, position: f64, push: f64) -> Mode {
+        let balanced = |phase: usize| {
+            let law = &self.phases[phase];
+            let pull = law.flow.modes.stiffness * position;
+            let size = push.abs() + (law.law.force / self.mass).abs() + pull.abs();
+            let acceleration = law.acceleration_from_rest(position, push, self.mass);
+            acceleration.abs() <= 4.0 * f64::EPSILON * size
+        };
+        if balanced(forward) || balanced(backward) {
+            return Mode::Held {
+                forward: Some(forward),
+                backward,
+            };
+        }
+        self.leave_rest(Beyond::Phase(forward), backward, position, push)
+    }
+
+    /// The guards that let a mass go that is held since the push was `push`, each with the phase that it
+    /// leads to.
     pub(crate) fn releases(
         &self,
         forward: Option<usize>,
         backward: usize,
         position: f64,
+        push: f64,
     ) -> ([Guard; 2], [usize; 2], usize) {
         let balance = |phase: usize| {
             let phase = &self.phases[phase];
             -phase.acceleration_from_rest(position, 0.0, self.mass)
         };
-        let back = Guard::push_below(balance(backward));
+        // A hold may begin within rounding of a balance; the guard then begins at zero.
+        let back = Guard::push_below(balance(backward).min(push));
         match forward {
             Some(forward) => {
-                let on = Guard::push_above(balance(forward));
+                let on = Guard::push_above(balance(forward).max(push));
                 ([on, back], [forward, backward], 2)
             }
             None => ([back, back], [backward, backward], 1),

@@ -2,10 +2,11 @@
 
 use softstop::integrator::{Crossing, CrossingKind};
 
-use super::check::{Check, GRAIN, Scales, Stop, wrong};
+use super::check::{Check, Stop, wrong};
 use super::motion::Departure;
 use super::piece::State;
 use super::rules::Mode;
+use super::scales::{GRAIN, Scales};
 
 impl Check<'_> {
     /// A surface is reached where it stands, in the right direction, and passed.

@@ -230,8 +230,8 @@ fn slopes(s: f64, b: f64, loading: &[Slope], unloading: &[Slope]) -> Vec<Layer> 
     starts.sort_by(f64::total_cmp);
     starts.dedup();
     let slope_at = |slopes: &[Slope], d: f64| {
-        let held = slopes.iter().filter(|slope| slope.from <= d);
-        held.last().map_or(0.0, |slope| slope.stiffness)
+        let mut held = slopes.iter().filter(|slope| slope.from <= d);
+        held.next_back().map_or(0.0, |slope| slope.stiffness)
     };
     let layer = |d: f64| {
         let force = force_of(loading, d);

@@ -59,13 +59,13 @@ impl Linear {
         }
     }
 
-    /// How much a deviation grows over a time.
+    /// How much an error of rounding grows over a time.
     pub fn growth(&self, time: f64) -> f64 {
         let (b, k) = (self.at.damping, self.at.stiffness);
         if k < 0.0 {
             (self.roots(b, k).1 * time).exp()
         } else {
-            1.0
+            1.0 + k.sqrt() * time / 100.0
         }
     }
 

@@ -87,11 +87,12 @@ impl Motion {
         }
     }
 
-    /// How much a deviation grows until the end.
+    /// How much an error of rounding grows until the end: with the instability of the law, and with
+    /// the number of oscillations or steps.
     pub fn growth(&self) -> f64 {
         match self {
             Self::Linear(linear, time) => linear.growth(*time),
-            Self::Steps(_) => 1.0,
+            Self::Steps(steps) => 1.0 + steps.steps.len() as f64 / 100.0,
         }
     }
 

@@ -147,7 +147,8 @@ impl Power {
         let wave = self.frequency * self.amplitude;
         let brisk = self.damping + self.frequency + self.suspension.sqrt();
         let rising = v > 0.0;
-        if !rising && !(v == 0.0 && a > 1e-9 * (self.amplitude + self.offset.abs())) {
+        let freed = v == 0.0 && a > 1e-9 * (self.amplitude + self.offset.abs());
+        if !rising && !freed {
             return None;
         }
         let (h, power) = if rising {

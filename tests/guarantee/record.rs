@@ -32,9 +32,9 @@ struct Recorder<'a> {
     most: usize,
 }
 
-/// Arcs in a sixteenth of a period that are no motion any more. Bounces in a row that the library
-/// follows one by one (10,000 of them) are far fewer.
-const RUNAWAY: u32 = 100_000;
+/// Arcs in a sixteenth of a period that are no motion any more. Bounces that damping alone makes
+/// shrink are hundreds of thousands at most.
+const RUNAWAY: u32 = 3_000_000;
 /// Left through the observer, which can but watch.
 struct Runaway;
 
