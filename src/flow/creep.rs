@@ -16,7 +16,7 @@ use super::taylor::{DEGREE, evaluate};
 const ORDER: usize = DEGREE + 1;
 const NEWTON_STEPS: usize = 12;
 /// Lifetimes of a mode within a step after which nothing of it is left.
-const LIFETIMES: f64 = 40.0;
+const LIFETIMES: f64 = 30.0;
 /// Largest deviation of a start from the slow motion, in roundings.
 const ALLOWED: f64 = 64.0 * f64::EPSILON;
 
@@ -66,10 +66,12 @@ impl Equation<'_> {
         let slopes = self.slopes(&start);
         let modes = Modes::new(0.5 * slopes.damping[0], slopes.stiffness[0]);
         let (slow, fast) = modes.decay_rates();
+        let forgets = slow * span >= LIFETIMES;
+        // A mode that is remembered must be resolved.
+        let span = if forgets { span } else { span.min(1.0 / slow) };
         if fast * span < LIFETIMES {
             return None;
         }
-        let forgets = slow * span >= LIFETIMES;
         let depth = self.solve(d, span, forgets)?;
         let tolerance = |value: f64, scale: f64| ALLOWED * (value.abs() + scale);
         let speed = tolerance(v, (self.push[0] / slopes.damping[0]).abs());

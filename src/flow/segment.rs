@@ -58,7 +58,7 @@ const TRUNCATION: f64 = -58.0;
 /// Share of the way to the face that a slow step covers at most.
 const NEAR: f64 = 0.15;
 /// How much longer than a usual step a slow one must be to be worth its price.
-const LONGER: f64 = 30.0;
+const LONGER: f64 = 20.0;
 const ZERO: Series = [0.0; DEGREE + 1];
 
 impl Segment {
@@ -92,8 +92,7 @@ impl Segment {
     ) -> Option<Self> {
         let rate = flow.frequency.max(flow.modes.stiffness.abs().sqrt());
         let span = (1.0 / rate).min(NEAR * deflection / from.velocity.abs());
-        // Comparisons with what is not a number fail.
-        if !(span > LONGER * usual) {
+        if span.is_nan() || span <= LONGER * usual {
             return None;
         }
         let push = push_series(flow, from.drive, (from.constant, from.ramp));
