@@ -5,11 +5,12 @@
 //! out has another acceleration (B) than the way back (A): one bounce then takes w/B + w/sqrt(A B), and the
 //! ratio of speeds is q = R sqrt(A/B).
 //!
-//! What is left out: the accelerations change by at most J T on the way, J a bound on the jerk. Each
-//! bounce's time and speed change by a factor within 1 +- 2 J T / A, so T is wrong by at most 2 J T^2 / A
-//! and a speed by J T^2. The sum is taken only where both are below rounding. Where another law holds on
-//! the way back it is taken earlier: there the mass turns at a position that is rounded, which falsifies a
-//! bounce of height h by half a rounding over h; below 2^17 roundings the sum is the more exact one.
+//! What is left out: on the way the accelerations change by at most D = 2 (r T + c w + k h), with r the
+//! rate of the push, c and k damping and stiffness per mass, h the height of the first bounce. Each
+//! bounce's time and speed change by a factor within 1 +- D / A, so T is wrong by at most D T / A and a
+//! speed by D T. The sum is taken only where both are below rounding. Where another law holds on the way
+//! back it is taken earlier: there the mass turns at a position that is rounded, which falsifies a bounce
+//! of height h by half a rounding over h; below 2^17 roundings the sum is the more exact one.
 
 /// A geometric series of bounces.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,33 +29,48 @@ pub(crate) struct Chatter {
 const LONGEST: f64 = 1.0 / (1u64 << 26) as f64;
 /// Height in roundings below which a bounce under dry friction is too rough to be followed.
 const ROUGH: f64 = (1u64 << 17) as f64;
+/// Height in roundings below which it cannot be followed at all.
+const FINEST: f64 = 4.0;
 /// Largest relative change of the accelerations that a sum is taken over.
 const STEADY: f64 = 1.0 / (1u64 << 10) as f64;
 
+/// What presses a mass onto a rigid stop, per unit of mass.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pressing {
+    /// Accelerations towards the stop on the way out and back, in m/s^2.
+    pub accelerations: (f64, f64),
+    /// Bound on the rate of the push in m/s^3.
+    pub push_rate: f64,
+    /// Damping in 1/s.
+    pub damping: f64,
+    /// Stiffness in 1/s^2.
+    pub stiffness: f64,
+    /// Drive period in s.
+    pub period: f64,
+    /// Rounding in m of the position at which another law takes over; none if one law holds on both
+    /// ways.
+    pub grain: Option<f64>,
+}
+
 impl Chatter {
     /// The bounces that follow once a mass has left a stop of the given restitution with `speed`, if
-    /// nothing but their sum can be told any more. `out` and `back` are the accelerations towards the
-    /// stop on both ways, `jerk` bounds their rates, `period` is that of the drive, `grain` the rounding
-    /// in m of the position at which another law takes over; none if one law holds on both ways.
-    pub fn from_speed(
-        speed: f64,
-        restitution: f64,
-        (out, back): (f64, f64),
-        jerk: f64,
-        period: f64,
-        grain: Option<f64>,
-    ) -> Option<Self> {
+    /// nothing but their sum can be told any more.
+    pub fn from_speed(speed: f64, restitution: f64, by: &Pressing) -> Option<Self> {
+        let (out, back) = by.accelerations;
         if !(speed > 0.0 && out > 0.0 && back > 0.0) {
             return None;
         }
         let ratio = restitution * (back / out).sqrt();
         let bounce = speed * (1.0 / out + 1.0 / (out * back).sqrt());
         let duration = bounce / (1.0 - ratio);
+        let height = 0.5 * speed * speed / out;
         let weakest = out.min(back);
-        let close = 0.25 * f64::EPSILON * period * weakest;
-        let exact = duration <= LONGEST * period && jerk * duration * duration <= close;
-        let rough = grain.is_some_and(|grain| speed * speed <= 2.0 * out * ROUGH * grain)
-            && jerk * duration <= STEADY * weakest;
+        let change = 2.0 * (by.push_rate * duration + by.damping * speed + by.stiffness * height);
+        let close = 0.25 * f64::EPSILON * by.period * weakest;
+        let exact = duration <= LONGEST * by.period && change * duration <= close;
+        let rough = by.grain.is_some_and(|grain| {
+            height <= FINEST * grain || (height <= ROUGH * grain && change <= STEADY * weakest)
+        });
         (ratio < 1.0 && (exact || rough)).then_some(Self {
             speed,
             duration,
@@ -92,11 +108,22 @@ impl Chatter {
 
 #[cfg(test)]
 mod tests {
-    use super::Chatter;
+    use super::{Chatter, Pressing};
+
+    fn pressed(out: f64, back: f64) -> Pressing {
+        Pressing {
+            accelerations: (out, back),
+            push_rate: 0.5,
+            damping: 0.0,
+            stiffness: 0.0,
+            period: 20.0,
+            grain: None,
+        }
+    }
 
     #[test]
     fn each_bounce_is_the_one_before_shrunk() {
-        let chatter = Chatter::from_speed(1e-9, 0.6, (2.0, 1.5), 1.0, 20.0, None).expect("sums");
+        let chatter = Chatter::from_speed(1e-9, 0.6, &pressed(2.0, 1.5)).expect("sums");
         let first = 1e-9 * (1.0 / 2.0 + 1.0 / 3f64.sqrt());
         let ratio = 0.6 * (1.5f64 / 2.0).sqrt();
         for share in [0.1, 0.3, 0.7, 0.99] {
@@ -110,8 +137,8 @@ mod tests {
 
     #[test]
     fn a_rising_bounce_is_not_summed() {
-        assert!(Chatter::from_speed(1e-9, 1.0, (2.0, 2.0), 1.0, 20.0, None).is_none());
-        assert!(Chatter::from_speed(1e-9, 0.6, (-1e-3, 2.0), 1.0, 20.0, None).is_none());
-        assert!(Chatter::from_speed(1e-3, 0.6, (2.0, 2.0), 1.0, 20.0, None).is_none());
+        assert!(Chatter::from_speed(1e-9, 1.0, &pressed(2.0, 2.0)).is_none());
+        assert!(Chatter::from_speed(1e-9, 0.6, &pressed(-1e-3, 2.0)).is_none());
+        assert!(Chatter::from_speed(1e-3, 0.6, &pressed(2.0, 2.0)).is_none());
     }
 }

@@ -18,7 +18,7 @@ mod segment;
 mod series;
 mod taylor;
 
-pub(crate) use chatter::Chatter;
+pub(crate) use chatter::{Chatter, Pressing};
 pub use course::{Course, Departure, Node};
 pub use hertz::Hertz;
 pub(crate) use modes::Modes;

@@ -3,7 +3,7 @@
 use super::motion::{Motion, Start};
 use super::observer::CrossingKind;
 use crate::events::Found;
-use crate::flow::Chatter;
+use crate::flow::{Chatter, Pressing};
 use crate::phases::{Beyond, Exit, Mode, Phase, Surface};
 
 /// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
@@ -131,19 +131,19 @@ impl Motion {
         let out = &phases.phases[at.below];
         let back = &phases.phases[phases.forward_of(at.below)];
         let rest = |phase: &Phase| phase.acceleration_from_rest(at.position, push, phases.mass);
-        let accelerations = (rest(out), rest(back));
+        let slopes = [out, back].map(|phase| phase.slopes(at.position, 0.0));
+        let largest = |values: [f64; 2]| values[0].abs().max(values[1].abs()) / phases.mass;
         let drive = phases.held.amplitude * phases.held.frequency;
-        let push_rate = drive + self.force.rate.abs() / phases.mass;
-        let jerk = |phase: &Phase| {
-            let (stiffness, damping) = phase.slopes(at.position, 0.0);
-            let largest = accelerations.0.abs().max(accelerations.1.abs());
-            push_rate + (damping * largest + stiffness.abs() * speed) / phases.mass
-        };
-        let jerk = 2.0 * jerk(out).max(jerk(back));
-        let period = self.clock().period();
         let two_laws = phases.forward_of(at.below) != at.below || out.released.is_some();
-        let grain = two_laws.then_some(f64::EPSILON * at.position.abs());
-        Chatter::from_speed(speed, restitution, accelerations, jerk, period, grain)
+        let pressing = Pressing {
+            accelerations: (rest(out), rest(back)),
+            push_rate: drive + self.force.rate.abs() / phases.mass,
+            damping: largest(slopes.map(|slope| slope.1)),
+            stiffness: largest(slopes.map(|slope| slope.0)),
+            period: self.clock().period(),
+            grain: two_laws.then_some(f64::EPSILON * at.position.abs()),
+        };
+        Chatter::from_speed(speed, restitution, &pressing)
     }
 
     /// True if moving on to a surface pierces a strip that the stroke has not pierced yet.

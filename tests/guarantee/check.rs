@@ -240,7 +240,9 @@ impl Check<'_> {
                     return wrong("no wall here".into());
                 };
                 self.reaches(end, wall, true, state.a, scales)?;
-                if (end.velocity_after + restitution * end.velocity).abs() > 1e-15 * end.velocity {
+                let newton = (end.velocity_after + restitution * end.velocity).abs();
+                let rests = end.velocity_after == 0.0 && m.faint(at.layer, end.velocity, angle);
+                if newton > 1e-15 * end.velocity && !rests {
                     return wrong("not Newton's impact law".into());
                 }
                 Ok(m.on_wall(at.layer, end.velocity_after, angle))

@@ -100,6 +100,8 @@ impl Power {
 
     /// The motion from a deflection over a time; none if it takes more than `budget` steps.
     pub fn run(&self, start: (f64, f64), angle: f64, time: f64, budget: &mut u64) -> Option<Steps> {
+        // Shorter times move nothing and would underflow.
+        let time = if time < 1e-200 { 0.0 } else { time };
         let (d0, v0) = start;
         let (mut d, mut v, mut t) = (d0, v0, 0.0);
         let mut out = Steps {

@@ -141,6 +141,13 @@ impl Machine {
         modes
     }
 
+    /// Whether a bounce off the wall is lower than the rounding of its position.
+    pub fn faint(&self, layer: usize, velocity: f64, angle: f64) -> bool {
+        let position = self.wall.map_or(f64::NAN, |wall| wall.0);
+        let [_, behind] = self.pushes(position, None, layer, angle);
+        velocity * velocity < 2.0 * behind.0 / self.mass * FAINT * position.abs()
+    }
+
     /// The modes right after a hit on the wall above a layer.
     pub fn on_wall(&self, layer: usize, velocity: f64, angle: f64) -> Vec<Mode> {
         let Some((position, _)) = self.wall else {

@@ -5,7 +5,7 @@ use super::motion::{Departure, Motion};
 use super::piece::Guard;
 
 /// What rounding may leave, relative to the natural sizes of an arc.
-pub const GRAIN: f64 = 2e-13;
+pub const GRAIN: f64 = 1e-12;
 /// What rounding may leave of position and velocity, and the sizes it refers to.
 pub struct Scales {
     pub x: f64,
