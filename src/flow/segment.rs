@@ -198,20 +198,15 @@ impl Segment {
     /// Sigma up to which the last coefficients stay below rounding (Jorba and Zou 2005), and time
     /// within the reach of the linear law's own series.
     fn convergence(&self) -> f64 {
-        let moved = if self.is_in_time() {
-            &self.depth
-        } else {
-            &self.root
-        };
         let limit = self.flow.reach;
-        let (root, speed) = (self.root[0], self.velocity[0].abs());
-        let within = if self.is_in_time() {
-            limit
-        } else {
-            // t = s sigma + v sigma^2 / 4 + ...
-            (limit / root).min(2.0 * (limit / speed).sqrt())
-        };
-        converges(moved).min(converges(&self.velocity)).min(within)
+        if self.is_in_time() {
+            return limit;
+        }
+        // t = s sigma + v sigma^2 / 4 + ...
+        let within = (limit / self.root[0]).min(2.0 * (limit / self.velocity[0].abs()).sqrt());
+        converges(&self.root)
+            .min(converges(&self.velocity))
+            .min(within)
     }
 
     /// True if sigma is time itself.
