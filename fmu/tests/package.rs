@@ -61,7 +61,8 @@ fn library_and_description_agree() {
     let guid = guid_of(&StartValues::DEFAULT).expect("a GUID");
     assert_eq!(library_guid(), Some(guid.as_str()));
     let (scene, start) = other_design();
-    let other = guid_of(&StartValues::from_scene(&scene, start)).expect("a GUID");
+    let other = guid_of(&StartValues::from_scene(&scene, start).expect("a scene it serves"))
+        .expect("a GUID");
     assert_ne!(guid, other);
 }
 
@@ -88,7 +89,7 @@ type GetReal = unsafe extern "C" fn(*mut c_void, *const c_uint, usize, *mut f64)
 #[test]
 fn packed_library_starts_with_its_own_values() {
     let (scene, start) = other_design();
-    let values = StartValues::from_scene(&scene, start);
+    let values = StartValues::from_scene(&scene, start).expect("a scene it serves");
     let archive = package::archive(&values, &[library()]).expect("an archive");
     let guid = guid_of(&values).expect("a GUID");
     let xml = String::from_utf8(entry(&archive, "modelDescription.xml")).expect("UTF-8");

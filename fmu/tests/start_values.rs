@@ -79,7 +79,7 @@ fn every_stop_there_and_back() {
                 piercing,
                 ..scene.clone()
             };
-            let values = StartValues::try_from_scene(&scene, START).expect("a scene it serves");
+            let values = StartValues::from_scene(&scene, START).expect("a scene it serves");
             assert_eq!(values.scene(), scene);
             assert_eq!(values.start(), START);
         }
@@ -101,7 +101,10 @@ fn default_is_the_loaded_machine() {
         rigid: Some(behind),
         ..sample.ratios.scene().expect("a valid sample")
     };
-    assert_eq!(StartValues::from_scene(&scene, start), StartValues::DEFAULT);
+    assert_eq!(
+        StartValues::from_scene(&scene, start).expect("a scene it serves"),
+        StartValues::DEFAULT
+    );
 }
 
 #[test]
@@ -111,7 +114,7 @@ fn a_rigid_stop_out_of_reach_is_left_out() {
         restitution: 0.25,
     };
     let rigid = Stop::Rigid { restitution: 0.5 };
-    let values = StartValues::try_from_scene(&scene(rigid.clone(), Some(behind)), START);
+    let values = StartValues::from_scene(&scene(rigid.clone(), Some(behind)), START);
     assert_eq!(values.expect("served").scene(), scene(rigid, None));
 }
 
@@ -125,16 +128,16 @@ fn scenes_without_parameters_for_them() {
             "stop.unloading: 9 slopes",
         ),
     ] {
-        let error = StartValues::try_from_scene(&scene, START).expect_err("too many slopes");
+        let error = StartValues::from_scene(&scene, START).expect_err("too many slopes");
         assert!(error.to_string().contains(list), "{error}");
     }
     let behind = RigidStop {
         travel: 0.75,
         restitution: 0.25,
     };
-    let error = StartValues::try_from_scene(&scene(Stop::None, Some(behind)), START);
+    let error = StartValues::from_scene(&scene(Stop::None, Some(behind)), START);
     assert_eq!(error, Err(NotServed::NothingInFront));
     let empty = too_many(vec![], vec![]);
-    let error = StartValues::try_from_scene(&empty, START);
+    let error = StartValues::from_scene(&empty, START);
     assert_eq!(error, Err(NotServed::Scene(SceneError::NoSlope)));
 }

@@ -52,15 +52,6 @@ const UNLOADING: Chain = Chain {
 };
 
 impl StartValues {
-    /// The start values that make the unit run `scene` from `start`, if its stop is preloaded or
-    /// `None`.
-    ///
-    /// # Panics
-    /// For a scene that [`StartValues::try_from_scene`] refuses.
-    pub fn from_scene(scene: &Scene, start: Start) -> Self {
-        Self::try_from_scene(scene, start).expect("a scene that the unit serves")
-    }
-
     /// The start values that make the unit run `scene` from `start`.
     ///
     /// What the scene does not have (a stop, a strip) keeps the defaults of its parameters. A rigid
@@ -68,7 +59,7 @@ impl StartValues {
     ///
     /// # Errors
     /// If the scene is not valid, or one that the unit has no parameters for.
-    pub fn try_from_scene(scene: &Scene, start: Start) -> Result<Self, NotServed> {
+    pub fn from_scene(scene: &Scene, start: Start) -> Result<Self, NotServed> {
         scene.validate()?;
         let mut values = Self::DEFAULT;
         values.set_machine(scene);

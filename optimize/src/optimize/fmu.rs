@@ -17,7 +17,7 @@ pub(super) fn archive(library: &Library, design: &Design) -> Result<Vec<u8>> {
         position: design.orbit.position,
         velocity: design.orbit.velocity,
     };
-    let values = StartValues::from_scene(&scene, start);
+    let values = StartValues::from_scene(&scene, start)?;
     package::archive(&values, slice::from_ref(library)).context("cannot make the FMU")
 }
 
