@@ -1,8 +1,7 @@
 //! Output: text to stdout, and files that appear whole or not at all.
 
-use std::fmt;
 use std::fs;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
@@ -122,7 +121,7 @@ impl Folder {
         Ok(())
     }
 
-    /// Opens one file in the staging folder, to be written piece by piece and closed with
+    /// Opens one table in the staging folder, to be written row by row and closed with
     /// [`Staged::close`].
     ///
     /// # Errors
@@ -131,8 +130,10 @@ impl Folder {
         let place = self.place(name);
         let file = fs::File::create(self.staged(name))
             .with_context(|| format!("cannot write {}", place.display()))?;
-        let writer = BufWriter::new(file);
-        Ok(Staged { place, writer })
+        let table = csv::WriterBuilder::new()
+            .has_headers(false)
+            .from_writer(file);
+        Ok(Staged { place, table })
     }
 
     /// Puts the staged files into place, replacing older ones.
@@ -153,20 +154,32 @@ impl Folder {
     }
 }
 
-/// A staged file that is being written.
+/// A staged CSV table that is being written.
 #[derive(Debug)]
 pub struct Staged {
     place: PathBuf,
-    writer: BufWriter<fs::File>,
+    table: csv::Writer<fs::File>,
 }
 
 impl Staged {
-    /// Adds one line.
+    /// Adds one row.
     ///
     /// # Errors
     /// [`Failure::Run`] naming the file.
-    pub fn line(&mut self, line: fmt::Arguments<'_>) -> Result<(), Failure> {
-        writeln!(self.writer, "{line}")
+    pub fn row(&mut self, row: &impl Serialize) -> Result<(), Failure> {
+        self.table
+            .serialize(row)
+            .with_context(|| format!("cannot write {}", self.place.display()))?;
+        Ok(())
+    }
+
+    /// Adds the names of the columns.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming the file.
+    pub fn header(&mut self, names: &[&str]) -> Result<(), Failure> {
+        self.table
+            .write_record(names)
             .with_context(|| format!("cannot write {}", self.place.display()))?;
         Ok(())
     }
@@ -176,9 +189,9 @@ impl Staged {
     /// # Errors
     /// [`Failure::Run`] naming the file.
     pub fn close(mut self) -> Result<(), Failure> {
-        self.writer
+        self.table
             .flush()
-            .and_then(|()| self.writer.get_ref().sync_all())
+            .and_then(|()| self.table.get_ref().sync_all())
             .with_context(|| format!("cannot write {}", self.place.display()))?;
         Ok(())
     }

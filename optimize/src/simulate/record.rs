@@ -43,10 +43,18 @@ impl<'a> Recorder<'a> {
         mut crossings: Staged,
         drawn_from: f64,
     ) -> Result<Self, Failure> {
-        crossings.line(format_args!(
-            "time,kind,phase_before,position,velocity_before,velocity_after,\
-             acceleration_before,acceleration_after,impact,pierces"
-        ))?;
+        crossings.header(&[
+            "time",
+            "kind",
+            "phase_before",
+            "position",
+            "velocity_before",
+            "velocity_after",
+            "acceleration_before",
+            "acceleration_after",
+            "impact",
+            "pierces",
+        ])?;
         Ok(Self {
             scene,
             clock: *motion.clock(),
@@ -129,8 +137,8 @@ impl Observer for Recorder<'_> {
     fn crossing(&mut self, crossing: &Crossing) {
         let time = self.clock.time(crossing.instant);
         self.tally.crossing(crossing, time, self.scene.mass);
-        let line = self.crossings.line(format_args!(
-            "{time:?},{},{},{:?},{:?},{:?},{:?},{:?},{},{}",
+        let line = self.crossings.row(&(
+            time,
             kind(crossing),
             name(self.before),
             crossing.position,

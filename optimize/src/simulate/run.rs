@@ -47,7 +47,7 @@ impl Plan<'_> {
         let drawn_from = self.periods.saturating_sub(DRAWN) as f64 * period;
         let before = mechanical_energy(self.scene, &motion);
         let mut recorder = Recorder::new(self.scene, &motion, crossings, drawn_from)?;
-        table.line(format_args!("time,position,velocity,contact_force,phase"))?;
+        table.header(&["time", "position", "velocity", "contact_force", "phase"])?;
         let mut progress = Progress::new(self.periods);
         for sample in 0..=self.periods * self.samples {
             let (cycle, part) = (sample / self.samples, sample % self.samples);
@@ -86,9 +86,7 @@ impl Plan<'_> {
         let force = force(self.scene, free, motion.phase(), state, drive);
         let time = motion.clock().time(motion.now());
         let phase = name(motion.kind());
-        table.line(format_args!(
-            "{time:?},{position:?},{velocity:?},{force:?},{phase}"
-        ))
+        table.row(&(time, position, velocity, force, phase))
     }
 }
 
