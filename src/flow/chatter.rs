@@ -29,8 +29,8 @@ pub(crate) struct Chatter {
 const LONGEST: f64 = 1.0 / (1u64 << 26) as f64;
 /// Height in roundings below which a bounce under dry friction is too rough to be followed.
 const ROUGH: f64 = (1u64 << 17) as f64;
-/// Height in roundings below which it cannot be followed at all.
-const FINEST: f64 = 4.0;
+/// Height in roundings below which what a bounce loses is itself lost in them.
+const FINEST: f64 = (1u64 << 8) as f64;
 /// Largest relative change of the accelerations that a sum is taken over.
 const STEADY: f64 = 1.0 / (1u64 << 10) as f64;
 
@@ -60,23 +60,31 @@ impl Chatter {
         if !(speed > 0.0 && out > 0.0 && back > 0.0) {
             return None;
         }
-        let ratio = restitution * (back / out).sqrt();
         let bounce = speed * (1.0 / out + 1.0 / (out * back).sqrt());
-        let duration = bounce / (1.0 - ratio);
         let height = 0.5 * speed * speed / out;
         let weakest = out.min(back);
-        let change = 2.0 * (by.push_rate * duration + by.damping * speed + by.stiffness * height);
-        let close = 0.25 * f64::EPSILON * by.period * weakest;
-        let exact = duration <= LONGEST * by.period && change * duration <= close;
-        let rough = by.grain.is_some_and(|grain| {
-            height <= FINEST * grain || (height <= ROUGH * grain && change <= STEADY * weakest)
-        });
-        (ratio < 1.0 && (exact || rough)).then_some(Self {
+        let series = |ratio: f64| Self {
             speed,
-            duration,
+            duration: bounce / (1.0 - ratio),
             accelerations: (out, back),
             ratio,
-        })
+        };
+        let change = |sum: &Self| {
+            2.0 * (by.push_rate * sum.duration + by.damping * speed + by.stiffness * height)
+        };
+        let ratio = restitution * (back / out).sqrt();
+        let sum = Some(series(ratio)).filter(|_| ratio < 1.0);
+        let exact = |sum: &Self| {
+            let close = 0.25 * f64::EPSILON * by.period * weakest;
+            sum.duration <= LONGEST * by.period && change(sum) * sum.duration <= close
+        };
+        let low = |roundings: f64| by.grain.is_some_and(|grain| height <= roundings * grain);
+        let rough = |sum: &Self| low(ROUGH) && change(sum) <= STEADY * weakest;
+        match sum {
+            Some(sum) if exact(&sum) || rough(&sum) => Some(sum),
+            // Lost in rounding, and no series: this bounce is the last.
+            _ => low(FINEST).then(|| series(0.0)),
+        }
     }
 
     /// Distance from the stop in m and velocity towards it in m/s, `elapsed` seconds after the first

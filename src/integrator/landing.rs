@@ -2,7 +2,7 @@
 
 use super::motion::{Motion, Start};
 use super::observer::CrossingKind;
-use crate::events::Found;
+use crate::events::{Found, Guard};
 use crate::flow::{Chatter, Pressing};
 use crate::phases::{Beyond, Exit, Mode, Phase, Surface};
 
@@ -134,7 +134,8 @@ impl Motion {
         let slopes = [out, back].map(|phase| phase.slopes(at.position, 0.0));
         let largest = |values: [f64; 2]| values[0].abs().max(values[1].abs()) / phases.mass;
         let drive = phases.held.amplitude * phases.held.frequency;
-        let two_laws = phases.forward_of(at.below) != at.below || out.released.is_some();
+        let lets_go = |(_, pulls): (usize, Guard)| pulls.value(at.position, -speed) > 0.0;
+        let two_laws = phases.forward_of(at.below) != at.below || out.released.is_some_and(lets_go);
         let pressing = Pressing {
             accelerations: (rest(out), rest(back)),
             push_rate: drive + self.force.rate.abs() / phases.mass,

@@ -180,11 +180,13 @@ impl Power {
     fn step(&self, d: f64, v: f64, angle: f64, left: f64) -> Option<(Step, (f64, f64))> {
         let power = self.stiffness * d.powf(self.exponent);
         let factor = 1.0 + self.dissipation * v;
-        let leaves = v < 0.0 && -v * left < 2.0 * d;
-        if leaves && power * (1.0 + factor.abs()) * left < 1e-13 * v.abs() {
-            let step = self.expand(d, v, angle, left, 0.0, power * factor);
-            let end = step.at(left);
-            return Some((Step { end: left, ..step }, (end.u, end.v)));
+        let brisk = self.damping + self.frequency + self.suspension.sqrt();
+        let h = left.min(0.5 / brisk);
+        let leaves = v < 0.0 && -v * h < 2.0 * d;
+        if leaves && power * (1.0 + factor.abs()) * h < 1e-13 * v.abs() {
+            let step = self.expand(d, v, angle, h, 0.0, power * factor);
+            let end = step.at(h);
+            return Some((Step { end: h, ..step }, (end.u, end.v)));
         }
         let a = self.smooth(d, v, angle) - power * factor;
         let local = (power * self.exponent / d * factor.abs() + self.suspension).sqrt();

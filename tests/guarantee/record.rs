@@ -33,8 +33,8 @@ struct Recorder<'a> {
 }
 
 /// Arcs in a sixteenth of a period that are no motion any more. Bounces that damping alone makes
-/// shrink are hundreds of thousands at most.
-const RUNAWAY: u32 = 3_000_000;
+/// shrink are some millions at most.
+const RUNAWAY: u32 = 30_000_000;
 /// Left through the observer, which can but watch.
 struct Runaway;
 
