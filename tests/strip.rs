@@ -1,0 +1,93 @@
+//! The strip: half pierced it is met again, pierced it counts once per stroke.
+
+use softstop::integrator::{Crossing, CrossingKind};
+use softstop::{PhaseKind, PiercingRatios, Ratios, Scene, Simulation, Start, Trajectory};
+
+fn machine(frequency: f64, clearance: f64, strip: PiercingRatios) -> Scene {
+    let ratios = Ratios {
+        frequency,
+        clearance,
+        piercing: Some(strip),
+        ..Ratios::unloaded()
+    };
+    ratios.scene().expect("valid")
+}
+
+fn passes(trajectory: &Trajectory, position: f64) -> Vec<&Crossing> {
+    let rises = |crossing: &&Crossing| {
+        matches!(crossing.kind, CrossingKind::Surface { forward: true, .. })
+            && crossing.position == position
+    };
+    trajectory.crossings.iter().filter(rises).collect()
+}
+
+/// A weak stroke turns back in phase I; the next one meets the same force from the clearance on.
+#[test]
+fn a_half_pierced_strip_is_met_again() {
+    let scene = machine(0.3, 0.8, PiercingRatios::PAPER);
+    let start = Start {
+        position: 0.0,
+        velocity: 0.5,
+    };
+    let trajectory = scene.trajectory(start, 6).expect("bounded");
+    let strokes = passes(&trajectory, scene.clearance);
+    assert!(strokes.len() >= 2, "only {} strokes", strokes.len());
+    assert!(
+        trajectory
+            .crossings
+            .iter()
+            .all(|crossing| !crossing.pierces())
+    );
+    let mut machine = Simulation::new(&scene, start).expect("valid");
+    for stroke in strokes {
+        let time = trajectory.clock.time(stroke.instant) + 1e-3;
+        machine.advance(time).expect("bounded");
+        let sample = machine.sample();
+        assert_eq!(sample.phase, PhaseKind::Pierce);
+        let deflection = sample.position - scene.clearance;
+        let damper = (scene.contact_damping - scene.damping) * sample.velocity;
+        // Peterka 2003, eq. 1, with sign x' = 1.
+        let expected = (21.0 + 23.0) * deflection + damper;
+        assert!((sample.contact_force - expected).abs() < 1e-12);
+    }
+    assert_eq!(machine.pierce_count(), 0);
+}
+
+/// A mass that stays beyond the clearance passes the far side of its strip again and again: one strip.
+#[test]
+fn a_strip_is_pierced_once_per_stroke() {
+    let soft = PiercingRatios {
+        stiffness: 0.01,
+        friction: 0.01,
+        thickness: 2.5,
+        travel: 5.0,
+    };
+    let scene = machine(0.7, -3.0, soft);
+    let start = Start {
+        position: -3.2,
+        velocity: 0.0,
+    };
+    let trajectory = scene.trajectory(start, 12).expect("bounded");
+    let met = passes(&trajectory, scene.clearance).len();
+    let far_side = passes(&trajectory, scene.clearance + 2.5);
+    let pierced = far_side
+        .iter()
+        .filter(|crossing| crossing.pierces())
+        .count();
+    assert!(far_side.len() > met + 1, "{} of {met}", far_side.len());
+    assert!(pierced <= met && pierced >= 1);
+}
+
+/// Every strong stroke of point B pierces one strip.
+#[test]
+fn a_strong_stroke_pierces() {
+    let scene = Ratios::loaded().scene().expect("valid");
+    let start = Start {
+        position: softstop::samples::LOADED.position,
+        velocity: softstop::samples::LOADED.velocity,
+    };
+    let mut machine = Simulation::new(&scene, start).expect("valid");
+    machine.advance(50.0 * scene.period()).expect("bounded");
+    assert_eq!(machine.pierce_count(), 50);
+    assert_eq!(machine.impact_count(), 50);
+}
