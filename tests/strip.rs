@@ -91,3 +91,19 @@ fn a_strong_stroke_pierces() {
     assert_eq!(machine.pierce_count(), 50);
     assert_eq!(machine.impact_count(), 50);
 }
+
+/// Without material a machine that starts beyond the clearance meets nothing there.
+#[test]
+fn a_start_without_material_meets_no_strip() {
+    let scene = Ratios::loaded().scene().expect("valid");
+    let start = Start {
+        position: scene.clearance + 0.2,
+        velocity: 0.5,
+    };
+    for (fed, phase) in [(true, PhaseKind::Pierce), (false, PhaseKind::Gap)] {
+        let mut machine = Simulation::new_fed(&scene, start, 0.0, fed).expect("valid");
+        assert_eq!(machine.sample().phase, phase);
+        machine.advance(20.0 * scene.period()).expect("bounded");
+        assert_eq!(machine.pierce_count() > 0, fed);
+    }
+}

@@ -223,8 +223,8 @@ impl Instance {
     fn begin(&mut self) -> Result<Simulation, Fault> {
         let start = self.time();
         let scene = self.parameters.scene();
-        let mut simulation = Simulation::new_at(&scene, self.parameters.start(), start)?;
-        simulation.feed_strip(self.material);
+        let simulation =
+            Simulation::new_fed(&scene, self.parameters.start(), start, self.material)?;
         self.force.since = start;
         self.pending = Pending {
             tuning: false,

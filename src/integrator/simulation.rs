@@ -106,8 +106,18 @@ impl Simulation {
     /// The machine at absolute time `time` in s; the drive is F0 cos(w t + phi) in absolute time.
     ///
     /// # Errors
-    /// [`MotionError`] if the scene is invalid, or the start or the time not finite.
+    /// [`MotionError`] if the scene is invalid, the start or the time not finite, or the start beyond
+    /// a rigid stop.
     pub fn new_at(scene: &Scene, start: Start, time: f64) -> Result<Self, MotionError> {
+        Self::new_fed(scene, start, time, true)
+    }
+
+    /// The same, with or without a strip: also in the stroke in which it starts, if it starts beyond
+    /// the clearance.
+    ///
+    /// # Errors
+    /// As [`Simulation::new_at`].
+    pub fn new_fed(scene: &Scene, start: Start, time: f64, fed: bool) -> Result<Self, MotionError> {
         scene.validate()?;
         start.validate()?;
         if !time.is_finite() {
@@ -126,7 +136,8 @@ impl Simulation {
             last_impact: None,
             work: Work::default(),
         };
-        let motion = Motion::new(phases, clock, clock.instant(time), start)?;
+        let at = clock.instant(time);
+        let motion = Motion::with(phases, clock, at, start, Force::default(), fed)?;
         Ok(Self {
             scene: scene.clone(),
             motion,
