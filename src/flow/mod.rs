@@ -10,8 +10,11 @@
 mod chatter;
 mod course;
 mod creep;
+mod expansion;
 mod hertz;
 mod modes;
+mod node;
+mod particular;
 mod power;
 mod response;
 mod segment;
@@ -19,9 +22,10 @@ mod series;
 mod taylor;
 
 pub(crate) use chatter::{Chatter, Pressing};
-pub use course::{Course, Departure, Node};
+pub use course::{Course, Departure};
 pub use hertz::Hertz;
 pub(crate) use modes::Modes;
+pub use node::Node;
 pub(crate) use segment::Segment;
 pub(crate) use taylor::{DEGREE, Taylor, evaluate};
 

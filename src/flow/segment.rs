@@ -17,239 +17,44 @@
 
 use nalgebra::Matrix2;
 
-use super::creep::{Creep, Equation};
+use super::Flow;
+use super::creep::Creep;
 use super::hertz::Hertz;
 use super::power::gauss_nodes;
-use super::series::{Power, Series, convolve, derivative, majorant, power, product, value};
-use super::taylor::{DEGREE, Taylor, evaluate, push_series};
-use super::{Departure, Flow};
+use super::series::{Series, ZERO, convolve, derivative, power, product, value};
+use super::taylor::{DEGREE, evaluate};
 
 /// The motion of one step, as series in sigma.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Segment {
     /// Root of the deflection in sqrt(m); zero where sigma is time itself.
-    root: Series,
+    pub(super) root: Series,
     /// Deflection in m.
-    depth: Series,
+    pub(super) depth: Series,
     /// Velocity in m/s.
-    velocity: Series,
+    pub(super) velocity: Series,
     /// Time since departure in s.
-    time: Series,
+    pub(super) time: Series,
     /// Push per mass in m/s^2.
-    push: Series,
+    pub(super) push: Series,
     /// d^n.
-    power: Series,
+    pub(super) power: Series,
     /// How far the series hold, in sigma.
-    reach: f64,
+    pub(super) reach: f64,
     /// How far the mass stays beyond the face, in sigma: further on time would run back.
-    contact: f64,
+    pub(super) contact: f64,
     /// The same in time, in s.
     pub end: f64,
-    hertz: Hertz,
-    flow: Flow,
+    pub(super) hertz: Hertz,
+    pub(super) flow: Flow,
     /// What a slow motion remembers of its start.
-    creep: Option<Box<Creep>>,
+    pub(super) creep: Option<Box<Creep>>,
 }
 
-/// What the last coefficients may amount to, relative to the first: well below rounding.
-const SMALLEST: f64 = f64::EPSILON / 64.0;
-/// Its binary logarithm.
-const TRUNCATION: f64 = -58.0;
-/// Share of the way to the face that a slow step covers at most.
-const NEAR: f64 = 0.15;
-/// How much longer than a usual step a slow one must be to be worth its price.
-const LONGER: f64 = 20.0;
-const ZERO: Series = [0.0; DEGREE + 1];
-
 impl Segment {
-    /// The step from a departure that lies `deflection` m beyond the face.
-    pub fn new(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
-        let root = deflection.max(0.0).sqrt();
-        let mut segment = if root == 0.0 && from.velocity == 0.0 {
-            Self::from_rest(flow, hertz, from)
-        } else {
-            Self::from_root(flow, hertz, from, deflection)
-        };
-        segment.reach = segment.convergence();
-        if segment.power == ZERO && hertz.stiffness > 0.0 {
-            segment.reach = segment.shell(segment.reach);
-        }
-        segment.contact = segment.last_contact();
-        segment.end = value(&segment.time, segment.contact);
-        match Self::creeping(flow, hertz, from, deflection, segment.end) {
-            Some(slow) => slow,
-            None => segment,
-        }
-    }
-
-    /// A step of slow motion, where one is possible and much longer than `usual`.
-    fn creeping(
-        flow: &Flow,
-        hertz: &Hertz,
-        from: &Departure,
-        deflection: f64,
-        usual: f64,
-    ) -> Option<Self> {
-        let rate = flow.frequency.max(flow.modes.stiffness.abs().sqrt());
-        let span = (1.0 / rate).min(NEAR * deflection / from.velocity.abs());
-        if span.is_nan() || span <= LONGER * usual {
-            return None;
-        }
-        let push = push_series(flow, from.drive, (from.constant, from.ramp));
-        let mut load = push;
-        load[0] -= flow.modes.stiffness * hertz.origin;
-        let equation = Equation {
-            twice_decay: 2.0 * flow.modes.decay,
-            stiffness: flow.modes.stiffness,
-            hertz,
-            push: &load,
-        };
-        let creep = equation.slow_motion((deflection, from.velocity), span)?;
-        let mut segment = Self::blank(flow, hertz);
-        segment.depth = creep.depth;
-        segment.velocity = derivative(&creep.depth);
-        segment.time[1] = 1.0;
-        segment.push = push;
-        segment.power = power(&creep.depth, hertz.exponent);
-        segment.creep = Some(Box::new(creep));
-        let holds = converges(&segment.depth).min(converges(&segment.velocity));
-        segment.reach = holds.min(span);
-        (segment.contact, segment.end) = (segment.reach, segment.reach);
-        (segment.end > LONGER * usual).then_some(segment)
-    }
-
-    fn blank(flow: &Flow, hertz: &Hertz) -> Self {
-        Self {
-            root: ZERO,
-            depth: ZERO,
-            velocity: ZERO,
-            time: ZERO,
-            push: ZERO,
-            power: ZERO,
-            reach: 0.0,
-            contact: 0.0,
-            end: 0.0,
-            hertz: *hertz,
-            flow: *flow,
-            creep: None,
-        }
-    }
-
-    /// The linear law's motion from rest at the face, in time itself.
-    fn from_rest(flow: &Flow, hertz: &Hertz, from: &Departure) -> Self {
-        let start = (hertz.origin, 0.0);
-        let linear = Taylor::about(flow, start, from.drive, (from.constant, from.ramp));
-        let linear = match from.acceleration {
-            Some(acceleration) => linear.with_acceleration(acceleration),
-            None => linear,
-        };
-        let mut segment = Self::blank(flow, hertz);
-        segment.depth = linear.position;
-        segment.depth[0] = 0.0;
-        segment.velocity = derivative(&linear.position);
-        segment.time[1] = 1.0;
-        segment.push = linear.push;
-        segment
-    }
-
-    /// The series in sigma.
-    fn from_root(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
-        let root = deflection.max(0.0).sqrt();
-        let (twice_decay, b, w) = (2.0 * flow.modes.decay, flow.modes.stiffness, flow.frequency);
-        let (kappa, lambda) = (hertz.rate(), hertz.dissipation);
-        let mut segment = Self::blank(flow, hertz);
-        let (s, v, t) = (&mut segment.root, &mut segment.velocity, &mut segment.time);
-        (s[0], v[0]) = (root, from.velocity);
-        let (mut cos, mut sin, mut acceleration) = (ZERO, ZERO, ZERO);
-        (cos[0], sin[0]) = from.drive;
-        let mut power = Power::new(2.0 * hertz.exponent, root);
-        for k in 0..=DEGREE {
-            // The deflection itself, not the square of its rounded root: a surface may stand there.
-            segment.depth[k] = if k == 0 {
-                deflection
-            } else {
-                convolve(s, s, k)
-            };
-            segment.power[k] = power.coefficient(s, k);
-            segment.push[k] = flow.amplitude * cos[k] + from.ramp * t[k];
-            let mut pull = b * segment.depth[k];
-            if k == 0 {
-                segment.push[0] += from.constant;
-                pull += b * hertz.origin;
-            }
-            let mut press = segment.power[k];
-            if lambda > 0.0 {
-                press += lambda * convolve(&segment.power, v, k);
-            }
-            acceleration[k] = segment.push[k] - twice_decay * v[k] - pull - kappa * press;
-            if k == DEGREE {
-                break;
-            }
-            let next = 1.0 / (k + 1) as f64;
-            s[k + 1] = 0.5 * next * v[k];
-            v[k + 1] = next * convolve(s, &acceleration, k);
-            t[k + 1] = next * s[k];
-            cos[k + 1] = -w * next * convolve(s, &sin, k);
-            sin[k + 1] = w * next * convolve(s, &cos, k);
-        }
-        segment
-    }
-
-    /// Sigma up to which the last coefficients stay below rounding (Jorba and Zou 2005), and time
-    /// within the reach of the linear law's own series.
-    fn convergence(&self) -> f64 {
-        let limit = self.flow.reach;
-        if self.is_in_time() {
-            return limit;
-        }
-        // t = s sigma + v sigma^2 / 4 + ...
-        let within = (limit / self.root[0]).min(2.0 * (limit / self.velocity[0].abs()).sqrt());
-        converges(&self.root)
-            .min(converges(&self.velocity))
-            .min(within)
-    }
-
     /// True if sigma is time itself.
-    fn is_in_time(&self) -> bool {
+    pub(super) fn is_in_time(&self) -> bool {
         self.time[1] == 1.0 && self.root == ZERO
-    }
-
-    /// Sigma within which the power law's part of the motion, at most kappa d^n (1 + lambda v) t^2 / 2,
-    /// stays below rounding.
-    fn shell(&self, reach: f64) -> f64 {
-        let bounds = [&self.depth, &self.velocity, &self.time].map(majorant);
-        let mut span = reach;
-        // Halving a finite number this often leaves nothing.
-        for _ in 0..2200 {
-            let [depth, speed, time] = [0, 1, 2].map(|index| value(&bounds[index], span));
-            let grip = 1.0 + self.hertz.dissipation * speed;
-            let press = self.hertz.rate() * depth.powf(self.hertz.exponent - 1.0) * grip;
-            if press * time * time <= SMALLEST {
-                break;
-            }
-            span *= 0.5;
-        }
-        span
-    }
-
-    /// The last sigma within reach at which the root is not negative. Within one step it passes zero
-    /// once.
-    fn last_contact(&self) -> f64 {
-        let (mut low, mut high) = (0.0, self.reach);
-        if value(&self.root, high) >= 0.0 {
-            return high;
-        }
-        loop {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                return low;
-            }
-            if value(&self.root, middle) < 0.0 {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
     }
 
     /// Sigma at a time: Newton's method on a function that grows, kept inside its bracket.
@@ -407,24 +212,4 @@ impl Segment {
         sum[0] += self.flow.modes.stiffness;
         sum
     }
-}
-
-/// Where a series is below rounding of its first coefficients from its last one on, if the whole upper
-/// half falls as a geometric series does. All of that half is looked at, since by symmetry many
-/// coefficients may vanish.
-fn converges(series: &Series) -> f64 {
-    let [zeroth, first, second] = [0, 1, 2].map(|j| series[j].abs().log2());
-    let mut reach = f64::INFINITY;
-    for (last, coefficient) in series.iter().enumerate().skip(DEGREE.div_ceil(2)) {
-        let size = coefficient.abs().log2();
-        // Comparisons pass over what is not a number: zero against zero.
-        let against = |size_first: f64, j: usize| {
-            (size_first - size) / (last - j) as f64 + TRUNCATION / (DEGREE - j) as f64
-        };
-        let within = against(zeroth, 0)
-            .max(against(first, 1))
-            .max(against(second, 2));
-        reach = reach.min(within);
-    }
-    reach.exp2()
 }

@@ -5,6 +5,9 @@ use super::taylor::{DEGREE, evaluate};
 /// Coefficients, constant first.
 pub(super) type Series = [f64; DEGREE + 1];
 
+/// The series that vanishes.
+pub(super) const ZERO: Series = [0.0; DEGREE + 1];
+
 /// The k-th coefficient of a product.
 #[inline]
 pub(super) fn convolve(a: &Series, b: &Series, k: usize) -> f64 {
@@ -42,9 +45,9 @@ impl Power {
         let start = first.powf(exponent);
         if exponent.fract() == 0.0 && exponent <= MOST_PRODUCTS {
             let products = (exponent as usize).saturating_sub(1);
-            Self::Whole(vec![[0.0; DEGREE + 1]; products])
+            Self::Whole(vec![ZERO; products])
         } else if start > f64::MIN_POSITIVE {
-            let mut series = [0.0; DEGREE + 1];
+            let mut series = ZERO;
             series[0] = start;
             Self::Any { exponent, series }
         } else {
@@ -79,7 +82,7 @@ impl Power {
 /// All coefficients of a power.
 pub(super) fn power(base: &Series, exponent: f64) -> Series {
     if exponent == 0.0 {
-        let mut one = [0.0; DEGREE + 1];
+        let mut one = ZERO;
         one[0] = 1.0;
         return one;
     }

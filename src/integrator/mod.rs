@@ -1,5 +1,6 @@
 //! The exact integrator: from crossing to crossing.
 
+mod advance;
 mod clock;
 mod hum;
 mod landing;

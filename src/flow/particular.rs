@@ -1,0 +1,38 @@
+//! The particular solution of a linear law.
+
+use super::{Departure, Flow};
+
+/// The particular solution offset + slope t + cosine cos(angle) + sine sin(angle).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Particular {
+    pub offset: f64,
+    pub slope: f64,
+    pub cosine: f64,
+    pub sine: f64,
+    frequency: f64,
+}
+
+impl Particular {
+    /// With offset + slope t = (c + r t)/b - 2 a r/b^2.
+    pub fn new(flow: &Flow, from: &Departure, (cosine, sine): (f64, f64)) -> Self {
+        let b = flow.modes.stiffness;
+        let slope = from.ramp / b;
+        let offset = (from.constant - 2.0 * flow.modes.decay * slope) / b;
+        Self {
+            offset,
+            slope,
+            cosine,
+            sine,
+            frequency: flow.frequency,
+        }
+    }
+
+    /// Position and velocity.
+    #[inline]
+    pub fn at(&self, elapsed: f64, (cos, sin): (f64, f64)) -> (f64, f64) {
+        (
+            self.offset + self.slope * elapsed + self.cosine * cos + self.sine * sin,
+            self.slope + self.frequency * (self.sine * cos - self.cosine * sin),
+        )
+    }
+}

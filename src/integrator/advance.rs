@@ -1,0 +1,196 @@
+//! The loop: from crossing to crossing, up to a time.
+
+use std::cmp::Ordering;
+
+use super::clock::Instant;
+use super::motion::{Motion, Start};
+use super::observer::{Crossing, CrossingKind, Observer};
+use crate::error::MotionError;
+use crate::events::{Found, Outlook, first_crossing};
+use crate::flow::{Chatter, Node};
+use crate::phases::Mode;
+
+/// Crossings at one and the same instant that a motion may make: more than any row of bounces that
+/// is shorter than the resolution of time.
+const MOST_AT_ONCE: u32 = 1_000_000;
+
+impl Motion {
+    /// Advances to `until`, telling `observer` of every finished arc and every crossing.
+    ///
+    /// # Errors
+    /// [`MotionError::TimeBackwards`] if `until` lies in the past, [`MotionError::Unbounded`] if the
+    /// motion grows beyond all bounds; the motion then stays where it was.
+    pub fn advance(
+        &mut self,
+        until: Instant,
+        observer: &mut impl Observer,
+    ) -> Result<(), MotionError> {
+        let finite = until.cycles.is_finite() && until.offset.is_finite();
+        if !finite || until.partial_cmp(&self.now).is_none_or(Ordering::is_lt) {
+            let (until, present) = (self.clock.time(until), self.clock.time(self.now));
+            return Err(MotionError::TimeBackwards { until, present });
+        }
+        let mut crossings_at_once = 0;
+        loop {
+            let horizon = self.clock.elapsed(self.start, until);
+            self.look_ahead(horizon)?;
+            match self.outlook {
+                Outlook::Crossing(found) if found.elapsed <= horizon => {
+                    let instantly = self.is_instant(found.elapsed);
+                    crossings_at_once = if instantly { crossings_at_once + 1 } else { 0 };
+                    if crossings_at_once > MOST_AT_ONCE {
+                        return Err(self.stalled());
+                    }
+                    self.cross(found, observer);
+                }
+                Outlook::Ends(elapsed) if elapsed <= horizon => self.go_on(elapsed, observer),
+                _ => break,
+            }
+        }
+        let elapsed = self.clock.elapsed(self.start, until);
+        let (position, velocity) = self.course.at(elapsed, self.clock.drive(until));
+        if !(position.is_finite() && velocity.is_finite()) {
+            let time = self.clock.time(until);
+            return Err(MotionError::Unbounded { time, position });
+        }
+        self.now = until;
+        Ok(())
+    }
+
+    /// True if a stretch of the present arc is too short for the clock to tell.
+    pub(super) fn is_instant(&self, elapsed: f64) -> bool {
+        self.clock.after(self.start, elapsed) == self.start
+    }
+
+    fn stalled(&self) -> MotionError {
+        let (time, position) = (self.clock.time(self.start), self.course.departure.position);
+        MotionError::Stalled { time, position }
+    }
+
+    fn look_ahead(&mut self, horizon: f64) -> Result<(), MotionError> {
+        if let Outlook::ClearUntil(node) = self.outlook
+            && node.elapsed < horizon
+        {
+            self.outlook = self.search(node, horizon);
+        }
+        if let Outlook::Unbounded(node) = self.outlook
+            && node.elapsed < horizon
+        {
+            let time = self.clock.time(self.clock.after(self.start, node.elapsed));
+            return Err(MotionError::Unbounded {
+                time,
+                position: node.position,
+            });
+        }
+        Ok(())
+    }
+
+    fn search(&self, node: Node, horizon: f64) -> Outlook {
+        match self.mode {
+            Mode::Moving(phase) => first_crossing(
+                &self.course,
+                &self.phases.phases[phase].guards,
+                node,
+                horizon,
+            ),
+            Mode::Held { forward, backward } => {
+                let since = &self.course.departure;
+                let push = since.constant + self.phases.held.amplitude * since.drive.0;
+                let (guards, _, count) =
+                    self.phases
+                        .releases(forward, backward, since.position, push);
+                first_crossing(&self.course, &guards[..count], node, horizon)
+            }
+            Mode::Chattering { .. } => first_crossing(&self.course, &[], node, horizon),
+        }
+    }
+
+    /// Takes up the motion where a course ends that was not meant to go further.
+    fn go_on(&mut self, elapsed: f64, observer: &mut impl Observer) {
+        observer.arc(&self.arc(), elapsed);
+        self.force.value += self.force.rate * elapsed;
+        let at = self.clock.after(self.start, elapsed);
+        let drive = self.clock.drive(at);
+        (self.start, self.now) = (at, at);
+        match (self.mode, self.course.chatter().copied()) {
+            (Mode::Chattering { backward }, Some(chatter)) => {
+                self.come_to_rest(backward, &chatter, drive, observer);
+            }
+            _ => self.next_step(elapsed, drive),
+        }
+    }
+
+    /// The next Taylor step of a nonlinear phase, from the very deflection at which the last one ended.
+    fn next_step(&mut self, elapsed: f64, drive: (f64, f64)) {
+        let (position, velocity) = self.course.at(elapsed, drive);
+        let deflection = self.course.segment().map(|last| last.deflection(elapsed));
+        let state = Start { position, velocity };
+        let departure = self.departure(state, drive, self.mode, None);
+        self.begin(departure, self.mode, deflection, None);
+    }
+
+    /// The end of the summed bounces on a rigid stop.
+    fn come_to_rest(
+        &mut self,
+        backward: usize,
+        chatter: &Chatter,
+        drive: (f64, f64),
+        observer: &mut impl Observer,
+    ) {
+        let position = self.course.departure.position;
+        let push = self.push(drive);
+        let mode = self.phases.leave_hold(None, backward, position, push);
+        let state = Start {
+            position,
+            velocity: 0.0,
+        };
+        self.depart(state, drive, mode);
+        observer.crossing(&Crossing {
+            instant: self.start,
+            kind: CrossingKind::Rest,
+            position,
+            velocity: chatter.speed,
+            velocity_after: 0.0,
+            acceleration_before: 0.0,
+            acceleration_after: self.acceleration(mode, position, 0.0, push),
+        });
+    }
+
+    fn cross(&mut self, found: Found, observer: &mut impl Observer) {
+        observer.arc(&self.arc(), found.elapsed);
+        let at = self.clock.after(self.start, found.elapsed);
+        let drive = self.clock.drive(at);
+        self.force.value += self.force.rate * found.elapsed;
+        let push = self.push(drive);
+        if let Some(surface) = self.surface_of(found.guard) {
+            self.hum.count(surface, found.velocity);
+        }
+        let landing = self.land(&found, push);
+        let before = self.mode;
+        self.note_strip(landing.kind);
+        self.start = at;
+        self.now = at;
+        let acceleration_before = self.acceleration(before, found.position, found.velocity, push);
+        match landing.chatter {
+            Some(chatter) => {
+                let departure = self.departure(landing.state, drive, landing.mode, None);
+                self.begin(departure, landing.mode, None, Some(chatter));
+            }
+            None => self.depart(landing.state, drive, landing.mode),
+        }
+        observer.crossing(&Crossing {
+            instant: at,
+            kind: landing.kind,
+            position: landing.state.position,
+            velocity: found.velocity,
+            velocity_after: landing.state.velocity,
+            acceleration_before,
+            acceleration_after: self.acceleration(
+                landing.mode,
+                landing.state.position,
+                landing.state.velocity,
+                push,
+            ),
+        });
+    }
+}
