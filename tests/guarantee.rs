@@ -50,7 +50,7 @@ mod tally;
 /// Seeds that every run of the tests checks.
 const SEEDS: u64 = 4000;
 /// Failures that are shown in full.
-const SHOWN: usize = 20;
+const SHOWN: usize = 60;
 
 fn setting(name: &str, default: u64) -> u64 {
     let given = std::env::var(name).ok();

@@ -80,11 +80,12 @@ impl Chatter {
         };
         let low = |roundings: f64| by.grain.is_some_and(|grain| height <= roundings * grain);
         let rough = |sum: &Self| low(ROUGH) && change(sum) <= STEADY * weakest;
-        match sum {
-            Some(sum) if exact(&sum) || rough(&sum) => Some(sum),
-            // Lost in rounding, and no series: this bounce is the last.
-            _ => low(FINEST).then(|| series(0.0)),
-        }
+        // What is lost in rounding: a series that the push outlasts, or else a last bounce.
+        let lost = || {
+            let steady = |sum: &Self| by.push_rate * sum.duration <= STEADY * weakest;
+            low(FINEST).then(|| sum.filter(steady).unwrap_or(series(0.0)))
+        };
+        sum.filter(|sum| exact(sum) || rough(sum)).or_else(lost)
     }
 
     /// Distance from the stop in m and velocity towards it in m/s, `elapsed` seconds after the first
