@@ -70,6 +70,23 @@ fn no_crossing_is_missed_invented_or_out_of_order() {
         "{} failures",
         tally.failures.len()
     );
+    if seeds >= SEEDS {
+        assert_worth(&tally);
+    }
+}
+
+/// A run that leaves its cases proves nothing, nor does one that meets no grazes.
+fn assert_worth(tally: &tally::Tally) {
+    assert!(100 * (tally.cut + tally.left) <= tally.cases);
+    assert!(100 * tally.undecidable <= tally.crossings.iter().sum());
+    assert!(tally.arcs >= 5 * tally.cases);
+    assert!(
+        tally
+            .crossings
+            .iter()
+            .all(|count| 100 * count >= tally.cases)
+    );
+    assert!(50 * tally.near_hits >= tally.cases && 10 * tally.near_misses >= tally.cases);
 }
 
 /// A record with a crossing left out, moved by a millionth of a period or invented is refused.

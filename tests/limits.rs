@@ -2,7 +2,7 @@
 //! stop's periodic motion in closed form.
 
 use nalgebra::{Matrix2, Vector2};
-use softstop::orbit::Orbit;
+use softstop::orbit::{self, Orbit};
 use softstop::scene::{Release, RigidStop, Slope};
 use softstop::{Clock, Ratios, Scene, Start, Stop};
 
@@ -308,42 +308,91 @@ fn rigid_orbits(frequency: f64, clearance: f64, restitution: f64) -> Vec<RigidOr
 
 #[test]
 fn rigid_orbits_are_those_of_the_closed_form() {
-    let mut compared = 0;
+    // Frequency, clearance, restitution: all with a stable z = 1 motion.
     for (frequency, clearance, restitution) in [
         (2.0, 0.0, 0.6),
         (2.2, 0.0, 0.8),
         (1.8, 0.1, 0.5),
         (2.5, -0.05, 0.7),
         (1.2, 1.0, 0.6),
-        (1.1, 3.0, 0.9),
-        (3.7, 0.0, 0.3),
-        (0.93, 8.0, 0.75),
+        (1.9, 0.3, 0.4),
     ] {
-        for expected in rigid_orbits(frequency, clearance, restitution) {
-            let scene = machine(frequency, clearance, 0.0, Stop::Rigid { restitution });
-            let settled = end(
-                &scene,
-                Start {
-                    position: clearance - 0.5,
-                    velocity: 0.0,
-                },
-                400.0,
-            );
-            let Ok(orbit) = Orbit::near(&scene, settled) else {
-                continue;
-            };
-            let off = orbit.before_impact_velocity - expected.before_impact_velocity;
-            if off.abs() > 1e-3 {
-                continue;
-            }
-            compared += 1;
-            assert!(off.abs() < 1e-12, "velocity off by {off:e}");
-            let trace = orbit.trace() - expected.trace;
-            assert!(trace.abs() < 1e-11, "trace off by {trace:e}");
-            let fade = (-2.0 * DAMPING * scene.period()).exp();
-            let determinant = restitution * restitution * fade;
-            assert!((orbit.determinant() - determinant).abs() < 1e-13);
+        let scene = machine(frequency, clearance, 0.0, Stop::Rigid { restitution });
+        let orbit = orbit::find(&scene).expect("a stable z = 1 motion");
+        let expected = rigid_orbits(frequency, clearance, restitution);
+        let gap = |candidate: &&RigidOrbit| {
+            (orbit.before_impact_velocity - candidate.before_impact_velocity).abs()
+        };
+        let nearest = expected
+            .iter()
+            .min_by(|a, b| gap(a).total_cmp(&gap(b)))
+            .expect("a solution");
+        assert!(gap(&nearest) < 1e-12, "velocity off by {:e}", gap(&nearest));
+        let trace = orbit.trace() - nearest.trace;
+        assert!(trace.abs() < 1e-11, "trace off by {trace:e}");
+        let fade = (-2.0 * DAMPING * scene.period()).exp();
+        let determinant = restitution * restitution * fade;
+        assert!((orbit.determinant() - determinant).abs() < 1e-13);
+        // From a state near it Newton's method finds it again, even where its first step leads beyond
+        // the stop.
+        for (dx, dv) in [(-1e-2, -1e-2), (-1e-2, 1e-2), (-3e-2, 0.0)] {
+            let state = Vector2::new(orbit.position + dx, orbit.velocity + dv);
+            let again = Orbit::near(&scene, state).expect("Newton's method settles");
+            let off = again.before_impact_velocity - orbit.before_impact_velocity;
+            assert!(off.abs() < 1e-11, "{off:e}");
         }
     }
-    assert!(compared >= 5, "only {compared} orbits were met");
+}
+
+/// Under heavy damping a nonlinear contact is followed in long steps; with an exponent next to 1 and a
+/// faint dissipation it must be where the linear one is.
+#[test]
+fn slow_contacts_creep_alike() {
+    for (stiffness, contact_damping) in [(1e4, 1e4), (1e6, 1e5), (1e8, 3e4)] {
+        let law = |exponent, dissipation| Stop::Hertz {
+            stiffness,
+            exponent,
+            dissipation,
+        };
+        for clearance in [0.0, -0.5] {
+            let linear = machine(0.3, clearance, contact_damping, law(1.0, 0.0));
+            let expected = linear.trajectory(START, 2).expect("bounded");
+            for (exponent, dissipation) in [(1.0, 1e-9), (1.0 + 1e-10, 0.0)] {
+                let scene = machine(0.3, clearance, contact_damping, law(exponent, dissipation));
+                let found = scene.trajectory(START, 2).expect("bounded");
+                let off = (found.end.position - expected.end.position).abs();
+                assert!(off < 1e-8, "{stiffness:e} {contact_damping:e}: {off:e}");
+                assert!(found.energy_defect().abs() < 1e-12 * (1.0 + found.work.dissipated));
+                // Not one step for each lifetime of the damped mode.
+                assert!(found.arcs.len() < 20_000, "{} arcs", found.arcs.len());
+            }
+        }
+    }
+}
+
+/// A wall behind nothing is a wall behind a stop of no stiffness: the contact's damping holds from the
+/// clearance on.
+#[test]
+fn a_wall_behind_nothing_is_one_behind_a_vanishing_stop() {
+    let wall = Some(RigidStop {
+        travel: 1.0,
+        restitution: 0.5,
+    });
+    let none = Scene {
+        rigid: wall,
+        ..machine(1.15, 0.5, 5.0, Stop::None)
+    };
+    let limp = Scene {
+        rigid: wall,
+        ..machine(
+            1.15,
+            0.5,
+            5.0,
+            Stop::Preloaded {
+                stiffness: 0.0,
+                preload: 0.0,
+            },
+        )
+    };
+    assert_eq!(end(&none, START, 4.0), end(&limp, START, 4.0));
 }

@@ -20,7 +20,7 @@ const LIFETIMES: f64 = 30.0;
 /// Largest deviation of a start from the slow motion, in roundings.
 const ALLOWED: f64 = 64.0 * f64::EPSILON;
 
-/// d'' + `decay2` d' + `stiffness` d + kappa d^n (1 + lambda d') = `push`, as series in time.
+/// d'' + `twice_decay` d' + `stiffness` d + kappa d^n (1 + lambda d') = `push`, as series in time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Equation<'a> {
     pub twice_decay: f64,

@@ -2,13 +2,26 @@
 
 use crate::phases::Threshold;
 
-/// Crossings of one and the same surface in a row, reversals left out.
-#[derive(Debug, Clone, Copy, Default)]
+/// A row of bounces: crossings of one and the same surface, reversals left out, none of them twice as fast
+/// as one before it.
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Hum {
     surface: usize,
     crossings: u32,
-    /// Highest speed in the row, in m/s.
+    /// Highest and lowest speed in the row, in m/s.
     fastest: f64,
+    slowest: f64,
+}
+
+impl Default for Hum {
+    fn default() -> Self {
+        Self {
+            surface: 0,
+            crossings: 0,
+            fastest: 0.0,
+            slowest: f64::INFINITY,
+        }
+    }
 }
 
 /// Crossings in a row after which faint bounces are no longer followed. At a preloaded stop that is
@@ -23,14 +36,16 @@ const FAINT: f64 = 1e-11;
 impl Hum {
     /// Counts a crossing.
     pub fn count(&mut self, surface: usize, velocity: f64) {
-        if surface != self.surface {
+        let speed = velocity.abs();
+        if surface != self.surface || speed > 2.0 * self.slowest {
             *self = Self {
                 surface,
                 ..Self::default()
             };
         }
         self.crossings = self.crossings.saturating_add(1);
-        self.fastest = self.fastest.max(velocity.abs());
+        self.fastest = self.fastest.max(speed);
+        self.slowest = self.slowest.min(speed);
     }
 
     /// What counts as rest after this row.

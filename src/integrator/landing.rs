@@ -8,7 +8,7 @@ use crate::phases::{Beyond, Exit, Mode, Phase, Surface};
 
 /// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
 /// to no end in finite time, as those on a preloaded face.
-const ENDLESS: f64 = 1.0 - 1.0 / (1u64 << 20) as f64;
+const ENDLESS: f64 = 1.0 - 1.0 / (1u64 << 16) as f64;
 
 /// State, mode and kind of a crossing, right after it.
 pub(super) struct Landing {
@@ -50,17 +50,19 @@ impl Motion {
     /// State and mode right after a crossing.
     pub(super) fn land(&self, found: &Found, push: f64) -> Landing {
         let position = found.position;
-        let phase = match self.mode {
-            Mode::Moving(phase) => phase,
-            Mode::Held { forward, backward } => {
-                let (_, phases, _) = self.phases.releases(forward, backward, position, push);
-                let mode = Mode::Moving(phases[found.guard]);
-                return Landing::new(position, 0.0, mode, CrossingKind::Release);
-            }
-            Mode::Chattering { .. } => {
-                return Landing::new(position, 0.0, self.mode, CrossingKind::Rest);
-            }
+        let (forward, backward) = match self.mode {
+            Mode::Moving(phase) => return self.leave(phase, found, push),
+            Mode::Held { forward, backward } => (forward, backward),
+            Mode::Chattering { backward } => (None, backward),
         };
+        let (_, phases, _) = self.phases.releases(forward, backward, position, push);
+        let mode = Mode::Moving(phases[found.guard]);
+        Landing::new(position, 0.0, mode, CrossingKind::Release)
+    }
+
+    /// The same out of a phase.
+    fn leave(&self, phase: usize, found: &Found, push: f64) -> Landing {
+        let position = found.position;
         match self.phases.phases[phase].exits[found.guard] {
             Exit::Reversal { forward, backward } => {
                 let mode = self.phases.turn(forward, backward, position, push);

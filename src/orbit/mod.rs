@@ -29,8 +29,8 @@ pub struct Orbit {
     pub max_position: f64,
     /// Jacobian of the map over the period, saltation included.
     pub monodromy: Matrix2<f64>,
-    /// Integral of damping over mass along the period: det = exp(-integral) unless the
-    /// mass turns or sticks under dry friction.
+    /// Integral of damping over mass along the period: det = exp(-integral), times R^2 for a rebound
+    /// from a rigid stop, unless the mass turns or sticks under dry friction.
     pub damping_integral: f64,
 }
 
@@ -172,8 +172,7 @@ pub fn fixed_point(
         let Some(step) = matrix.lu().solve(&residual) else {
             break;
         };
-        let next = state + step;
-        let next_passage = map.apply(next)?;
+        let (next, next_passage) = within_walls(map, state, step)?;
         let next_residual = next_passage.end - next;
         let shrinks = next_residual.norm() < residual.norm();
         if !shrinks && residual.norm() <= round_off(&state, &passage) {
@@ -187,6 +186,29 @@ pub fn fixed_point(
     Err(OrbitError::Diverged {
         residual: residual.norm(),
     })
+}
+
+/// Halvings of a step that leads beyond a rigid stop.
+const HALVINGS: i32 = 40;
+
+/// The state after a step and its image; the step is shortened where it leads beyond a rigid stop.
+fn within_walls(
+    map: &StroboscopicMap,
+    state: Vector2<f64>,
+    step: Vector2<f64>,
+) -> Result<(Vector2<f64>, Passage), MotionError> {
+    let mut last = None;
+    for halvings in 0..HALVINGS {
+        let next = state + step * 0.5f64.powi(halvings);
+        match map.apply(next) {
+            Err(error @ MotionError::BeyondStop { .. }) => last = Some(error),
+            passage => return Ok((next, passage?)),
+        }
+    }
+    Err(last.unwrap_or(MotionError::NotFinite {
+        name: "Newton step",
+        value: step.norm(),
+    }))
 }
 
 /// The residual that rounding alone may leave: that of the state, as the map stretches it.

@@ -10,7 +10,8 @@ pub struct Tangent {
     /// The product so far.
     pub matrix: Matrix2<f64>,
     /// Integral of the damping coefficient over time and mass. As long as the mass neither turns
-    /// nor sticks under dry friction, det(matrix) = exp(-damping_integral) (Liouville).
+    /// nor sticks under dry friction, det(matrix) = exp(-damping_integral) times R^2 for each rebound
+    /// from a rigid stop (Liouville).
     pub damping_integral: f64,
 }
 
@@ -52,9 +53,8 @@ pub fn saltation(crossing: &Crossing) -> Matrix2<f64> {
     let (v_after, a_after) = (crossing.velocity_after, crossing.acceleration_after);
     match crossing.kind {
         // The mass is held: nothing of a perturbation is left.
-        CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } if v_after == 0.0 => {
-            Matrix2::zeros()
-        }
+        CrossingKind::Surface { .. } if v_after == 0.0 => Matrix2::zeros(),
+        CrossingKind::Rebound { .. } if v == 0.0 => Matrix2::zeros(),
         CrossingKind::Rest => Matrix2::zeros(),
         CrossingKind::Surface { .. } => Matrix2::new(v_after / v, 0.0, (a_after - a) / v, 1.0),
         CrossingKind::Rebound { .. } => {

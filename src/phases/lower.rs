@@ -1,6 +1,6 @@
 //! Lowering: from the scene's data to phases, layer by layer.
 
-use super::plan::{Plan, Wall, layers, wall};
+use super::plan::{Plan, layers};
 use super::{Beyond, Exit, Law, Layer, Phase, PhaseKind, Phases, Stack, Store, Surface};
 use crate::events::Guard;
 use crate::flow::{Flow, Hertz};
@@ -19,9 +19,9 @@ pub(super) fn lower(scene: &Scene) -> Phases {
         surfaces: Vec::new(),
     };
     builder.add_phase(PhaseKind::Free, free, None, Store::default());
-    let unfed = builder.stack(&layers(scene, free, false), wall(scene));
+    let unfed = builder.stack(&layers(scene, free, false));
     let fed = if scene.piercing.is_some() {
-        builder.stack(&layers(scene, free, true), wall(scene))
+        builder.stack(&layers(scene, free, true))
     } else {
         unfed.clone()
     };
@@ -77,21 +77,21 @@ impl Builder<'_> {
     }
 
     /// Adds the layers of one stack, from the clearance on, and the wall that ends it.
-    fn stack(&mut self, plans: &[Plan], wall: Option<Wall>) -> Stack {
-        let within = |plan: &&Plan| wall.is_none_or(|wall| plan.from < wall.position);
+    fn stack(&mut self, plans: &[Plan]) -> Stack {
+        let wall = self.scene.wall();
+        let within = |plan: &&Plan| wall.is_none_or(|(position, _)| plan.from < position);
         let mut layers: Vec<Layer> = Vec::with_capacity(plans.len());
         for plan in plans.iter().filter(within) {
             let layer = self.add_layer(plan, layers.last().copied());
             layers.push(layer);
         }
-        let wall = wall.map(|wall| {
-            let restitution = wall.restitution;
+        let wall = wall.map(|(position, restitution)| {
             let beyond = Beyond::Wall { restitution };
             let below = layers.last().copied();
             let is_far_side = plans
                 .iter()
-                .any(|plan| plan.is_far_side && plan.from == wall.position);
-            self.add_surface(wall.position, below, beyond, is_far_side)
+                .any(|plan| plan.is_far_side && plan.from == position);
+            self.add_surface(position, below, beyond, is_far_side)
         });
         Stack { layers, wall }
     }

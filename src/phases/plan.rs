@@ -19,27 +19,6 @@ pub(super) struct Plan {
     pub is_far_side: bool,
 }
 
-/// A rigid stop.
-#[derive(Clone, Copy)]
-pub(super) struct Wall {
-    pub position: f64,
-    pub restitution: f64,
-}
-
-/// The rigid stop of a scene.
-pub(super) fn wall(scene: &Scene) -> Option<Wall> {
-    let restitution = match (&scene.stop, scene.rigid) {
-        (Stop::Rigid { restitution }, _) => *restitution,
-        (_, Some(rigid)) => rigid.restitution,
-        _ => return None,
-    };
-    let position = scene.wall_position()?;
-    Some(Wall {
-        position,
-        restitution,
-    })
-}
-
 impl Plan {
     fn new(kind: PhaseKind, from: f64, forward: Law) -> Self {
         Self {
@@ -116,6 +95,7 @@ fn strip_layers(strip: Piercing, near: f64, touching: Law) -> Vec<Plan> {
 /// The layers of the stop itself.
 fn stop_layers(scene: &Scene, free: Law, touching: Law, fed: bool) -> Vec<Plan> {
     let from = scene.stop_position();
+    let bare_wall = scene.piercing.is_none() && scene.rigid.is_some();
     let spring = |stiffness: f64, preload: f64| {
         let origin = Spring {
             origin: from,
@@ -129,8 +109,8 @@ fn stop_layers(scene: &Scene, free: Law, touching: Law, fed: bool) -> Vec<Plan> 
         }
     };
     match &scene.stop {
-        // The end of the strip, with nothing behind it.
-        Stop::None if fed && scene.piercing.is_some() => {
+        // The end of the strip, or the way to a rigid stop, with nothing else there.
+        Stop::None if (fed && scene.piercing.is_some()) || bare_wall => {
             vec![Plan::new(PhaseKind::Gap, from, touching)]
         }
         // A rigid stop is the wall that ends the stack. Before it stands nothing but the far side

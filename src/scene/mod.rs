@@ -95,11 +95,12 @@ impl Scene {
         self.clearance + behind
     }
 
-    /// Where the mass can go no further, in m, if there is a rigid stop.
-    pub fn wall_position(&self) -> Option<f64> {
+    /// Where the mass can go no further, in m, and the restitution there, if there is a rigid stop.
+    /// Another one behind it is out of reach.
+    pub fn wall(&self) -> Option<(f64, f64)> {
         match (&self.stop, self.rigid) {
-            (Stop::Rigid { .. }, _) => Some(self.stop_position()),
-            (_, Some(rigid)) => Some(self.stop_position() + rigid.travel),
+            (Stop::Rigid { restitution }, _) => Some((self.stop_position(), *restitution)),
+            (_, Some(rigid)) => Some((self.stop_position() + rigid.travel, rigid.restitution)),
             _ => None,
         }
     }

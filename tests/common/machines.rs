@@ -47,7 +47,7 @@ pub fn stops() -> impl Strategy<Value = Stop> {
         }),
         (1.0..200.0f64, 0.0..100.0f64)
             .prop_map(|(stiffness, preload)| Stop::Preloaded { stiffness, preload }),
-        (0.0..1.0f64).prop_map(|restitution| Stop::Rigid { restitution }),
+        prop_oneof![Just(0.0), 0.0..1.0f64].prop_map(|restitution| Stop::Rigid { restitution }),
     ]
 }
 

@@ -6,6 +6,7 @@ use softstop::scene::{Release, RigidStop, Slope, Stop};
 use softstop::{Excitation, Piercing, Scene, Start};
 
 use super::graze;
+use super::law::wall;
 
 /// A scene, a start and a span.
 #[derive(Debug, Clone)]
@@ -60,7 +61,7 @@ pub fn case(seed: u64) -> Case {
         if case.scene.validate().is_err() {
             case = plain;
         }
-        let most = case.scene.wall_position().unwrap_or(f64::INFINITY);
+        let most = wall(&case.scene).unwrap_or(f64::INFINITY);
         case.start.position = case.start.position.min(most);
     }
     case
@@ -239,7 +240,7 @@ fn any_strip(dice: &mut Dice) -> Piercing {
 
 fn any_start(dice: &mut Dice, scene: &Scene, fast: bool) -> Start {
     let reach = if fast { 10.0 } else { 1.0 };
-    let most = scene.wall_position().unwrap_or(f64::INFINITY);
+    let most = wall(scene).unwrap_or(f64::INFINITY);
     let position = match dice.below(16) {
         0 => scene.clearance,
         1 => scene.stop_position(),

@@ -64,7 +64,7 @@ impl Machine {
         let mut layers = vec![free];
         layers.extend(strip_layers(scene));
         layers.extend(stop_layers(scene));
-        let wall = scene.wall_position().map(|wall| (wall, restitution(scene)));
+        let wall = wall(scene).map(|wall| (wall, restitution(scene)));
         if let Some((wall, _)) = wall {
             layers.retain(|layer| layer.from < wall);
         }
@@ -152,6 +152,19 @@ impl Layer {
     }
 }
 
+/// Where a rigid stop stands.
+pub fn wall(scene: &Scene) -> Option<f64> {
+    let strip = scene
+        .piercing
+        .map_or(0.0, |strip| strip.thickness + strip.travel);
+    let stop = scene.clearance + strip;
+    match (&scene.stop, scene.rigid) {
+        (Stop::Rigid { .. }, _) => Some(stop),
+        (_, Some(rigid)) => Some(stop + rigid.travel),
+        _ => None,
+    }
+}
+
 fn restitution(scene: &Scene) -> f64 {
     match (&scene.stop, scene.rigid) {
         (Stop::Rigid { restitution }, _) => *restitution,
@@ -188,7 +201,7 @@ fn stop_layers(scene: &Scene) -> Vec<Layer> {
     let (s, b) = (scene.stop_position(), scene.contact_damping);
     let stop = |k: f64, preload: f64| Layer::plain(PhaseKind::Stop, s, b, k, preload);
     match &scene.stop {
-        Stop::None if scene.piercing.is_none() => Vec::new(),
+        Stop::None if scene.piercing.is_none() && scene.rigid.is_none() => Vec::new(),
         Stop::None | Stop::Rigid { .. } => vec![Layer::plain(PhaseKind::Gap, s, b, 0.0, 0.0)],
         Stop::Preloaded { stiffness, preload } => vec![stop(*stiffness, *preload)],
         Stop::KelvinVoigt { stiffness, release } => {
