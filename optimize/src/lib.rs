@@ -28,7 +28,7 @@ use clap::{Parser, Subcommand};
 
 use failure::Failure;
 
-/// Exact dynamics and optimal design of machines with a soft, preloaded stop.
+/// Exact dynamics and optimal design of impact oscillators with soft, preloaded and rigid stops.
 #[derive(Debug, Parser)]
 #[command(name = "softstop", version, arg_required_else_help = true, after_help = EXAMPLES)]
 pub struct CommandLine {
