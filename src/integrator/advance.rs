@@ -59,7 +59,8 @@ impl Motion {
 
     /// True if a stretch of the present arc is too short for the clock to tell.
     pub(super) fn is_instant(&self, elapsed: f64) -> bool {
-        self.clock.after(self.start, elapsed) == self.start
+        elapsed < 0.25 * f64::EPSILON * self.clock.period()
+            || self.clock.after(self.start, elapsed) == self.start
     }
 
     fn stalled(&self) -> MotionError {

@@ -62,7 +62,7 @@ impl Motion {
 
     /// The same out of a phase.
     fn leave(&self, phase: usize, found: &Found, push: f64) -> Landing {
-        let position = found.position;
+        let position = self.phases.phases[phase].confine(found.position);
         match self.phases.phases[phase].exits[found.guard] {
             Exit::Reversal { forward, backward } => {
                 let mode = self.phases.turn(forward, backward, position, push);
@@ -113,7 +113,12 @@ impl Motion {
         let (position, speed) = (at.position, restitution * velocity);
         let held = self.phases.leave_hold(None, at.below, position, push);
         let rests = matches!(held, Mode::Held { .. });
-        if speed == 0.0 || (rests && speed < self.hum.threshold().slowest) {
+        let faint = || {
+            let counts = self.hum.threshold();
+            let endless = restitution > ENDLESS && self.phases.is_faint(at, speed, push, self.fed);
+            speed < counts.slowest || endless
+        };
+        if speed == 0.0 || (rests && faint()) {
             return Landing::new(position, 0.0, held, kind);
         }
         let chatter = self.chatter(at, speed, push, restitution);

@@ -248,6 +248,12 @@ impl Motion {
                 let push = self.push(drive);
                 self.mode = self.phases.leave_hold(None, backward, state.position, push);
             }
+            // At rest on a face the force decides which way it goes, if any.
+            Mode::Moving(_) if state.velocity == 0.0 => {
+                let push = self.push(drive);
+                let latched = self.is_latched();
+                self.mode = self.phases.locate(state.position, 0.0, push, latched);
+            }
             Mode::Moving(_) => {}
         }
         self.depart(state, drive, self.mode);

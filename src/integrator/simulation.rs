@@ -232,7 +232,10 @@ impl Simulation {
         let force = Force { value, rate };
         if self.motion.force() != force {
             self.tallies.work += self.tallies.work_under_way(&self.motion);
+            let before = mechanical_energy(&self.scene, &self.motion);
             self.motion.set_force(force);
+            // Of summed bounces nothing goes on under another force.
+            self.tallies.work.dissipated += before - mechanical_energy(&self.scene, &self.motion);
         }
         Ok(())
     }

@@ -117,6 +117,7 @@ impl Phases {
         let faint = || {
             velocity.abs() < slowest
                 || self.bounce(at, above, velocity, push) < height * at.position.abs()
+                || self.is_faint(at, velocity, push, fed)
         };
         if velocity == 0.0 || (rests && faint()) {
             held
@@ -204,6 +205,18 @@ impl Phases {
             }
             None => ([back, back], [backward, backward], 1),
         }
+    }
+
+    /// True if a bounce cannot be told from none: lower than four units in the last place of the
+    /// position, or as slow as what the force brings about within the resolution of time.
+    pub(crate) fn is_faint(&self, at: &Surface, velocity: f64, push: f64, fed: bool) -> bool {
+        let above = self.beyond(at, fed);
+        let height = self.bounce(at, above, velocity, push);
+        let period = std::f64::consts::TAU / self.held.frequency;
+        let resolution = 4.0 * f64::EPSILON * period;
+        // A bounce of height h under the acceleration a takes v / a each way.
+        2.0 * height < resolution * velocity.abs()
+            || height < Threshold::ROUNDING.height * at.position.abs()
     }
 
     /// Height v^2 / (2 a) in m of the bounce that would follow, on its higher side.

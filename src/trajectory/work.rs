@@ -22,6 +22,14 @@ impl std::ops::AddAssign for Work {
 /// Work from the start of an arc to `elapsed` seconds later, for a machine with mass `mass` and
 /// suspension `free`.
 pub fn work(arc: &Arc<'_>, mass: f64, free: &Law, elapsed: f64) -> Work {
+    if let Some(chatter) = arc.course.chatter() {
+        let (_, velocity) = chatter.at(elapsed);
+        let lost = (chatter.speed - velocity) * (chatter.speed + velocity);
+        return Work {
+            supplied: 0.0,
+            dissipated: 0.5 * mass * lost,
+        };
+    }
     let Some(phase) = arc.phase else {
         return Work::default();
     };
