@@ -38,8 +38,17 @@ impl Jets {
         let mut position = [node.position, node.velocity, 0.0, 0.0, 0.0, 0.0, 0.0];
         if !course.is_held() {
             let (twice_decay, b) = (2.0 * flow.modes.decay, flow.modes.stiffness);
+            // From rest the arc starts with the acceleration that its phase was chosen by.
+            let chosen = course
+                .departure
+                .acceleration
+                .filter(|_| node.elapsed == 0.0);
             for n in 0..5 {
-                position[n + 2] = push[n] - twice_decay * position[n + 1] - b * position[n];
+                let derivative = push[n] - twice_decay * position[n + 1] - b * position[n];
+                position[n + 2] = match chosen {
+                    Some(acceleration) if n == 0 => acceleration,
+                    _ => derivative,
+                };
             }
         }
         let drive = if course.is_held() { 0.0 } else { a };

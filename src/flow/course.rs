@@ -208,7 +208,9 @@ impl Course {
             taylor.at_rest(node.position)
         } else {
             match self.departure.acceleration {
-                Some(acceleration) if node.elapsed == 0.0 => taylor.with_acceleration(acceleration),
+                Some(acceleration) if node.elapsed == 0.0 => {
+                    taylor.with_acceleration(&self.flow, acceleration)
+                }
                 _ => taylor,
             }
         }

@@ -95,7 +95,7 @@ impl Segment {
         let start = (hertz.origin, 0.0);
         let linear = Taylor::about(flow, start, from.drive, (from.constant, from.ramp));
         let linear = match from.acceleration {
-            Some(acceleration) => linear.with_acceleration(acceleration),
+            Some(acceleration) => linear.with_acceleration(flow, acceleration),
             None => linear,
         };
         let mut segment = Self::blank(flow, hertz);

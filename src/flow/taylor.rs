@@ -33,16 +33,23 @@ impl Taylor {
         (constant, ramp): (f64, f64),
     ) -> Self {
         let push = push_series(flow, (cos, sin), (constant, ramp));
-        let (twice_decay, b) = (2.0 * flow.modes.decay, flow.modes.stiffness);
         let mut position = [0.0; DEGREE + 1];
         position[0] = x;
         position[1] = v;
-        for n in 0..DEGREE - 1 {
-            let sum = push[n] - b * position[n];
+        let mut taylor = Self { position, push };
+        taylor.follow(flow, 0);
+        taylor
+    }
+
+    /// Coefficients of the position from the `first` + 2 before them.
+    fn follow(&mut self, flow: &Flow, first: usize) {
+        let (twice_decay, b) = (2.0 * flow.modes.decay, flow.modes.stiffness);
+        let position = &mut self.position;
+        for n in first..DEGREE - 1 {
+            let sum = self.push[n] - b * position[n];
             let damped = twice_decay * position[n + 1];
             position[n + 2] = (sum * RECIPROCALS[n + 1] - damped) * RECIPROCALS[n + 2];
         }
-        Self { position, push }
     }
 
     /// The same drive, with the mass at rest at `position`.
@@ -53,8 +60,9 @@ impl Taylor {
     }
 
     /// The same motion where the initial acceleration is known.
-    pub fn with_acceleration(mut self, acceleration: f64) -> Self {
+    pub fn with_acceleration(mut self, flow: &Flow, acceleration: f64) -> Self {
         self.position[2] = 0.5 * acceleration;
+        self.follow(flow, 1);
         self
     }
 

@@ -6,6 +6,8 @@ use super::piece::Guard;
 
 /// What rounding may leave, relative to the natural sizes of an arc.
 pub const GRAIN: f64 = 1e-12;
+/// Size of what a motion has died down to in the end.
+const NOTHING: f64 = 1e-30;
 /// What rounding may leave of position and velocity, and the sizes it refers to.
 pub struct Scales {
     pub x: f64,
@@ -20,7 +22,10 @@ impl Scales {
     pub fn new(machine: &Machine, at: &Departure, motion: &Motion, time: f64) -> Self {
         let (length, speed) = motion.sizes();
         let growth = motion.growth();
-        let (length, speed) = (length * growth, speed * growth);
+        let (length, speed) = (
+            (length * growth).max(NOTHING),
+            (speed * growth).max(NOTHING),
+        );
         let law = machine.layers[at.layer].up;
         let frequency = ((machine.stiffness + law.stiffness) / machine.mass).sqrt();
         let face = machine.layers[at.layer.max(1).min(machine.layers.len() - 1)].from;
