@@ -55,6 +55,7 @@ const EVERYTHING: &[&str] = &[
     "initial.position",
     "initial.velocity",
     "force",
+    "material",
 ];
 
 /// What the energy stored at the start depends on.
