@@ -3,6 +3,8 @@
 
 #[path = "common/random.rs"]
 mod random;
+#[path = "common/tangent.rs"]
+mod tangent;
 
 use nalgebra::Vector2;
 use proptest::prelude::*;
@@ -167,14 +169,10 @@ proptest! {
         let map = StroboscopicMap::new(&scene, 2).expect("valid");
         let state = Vector2::new(start.position, start.velocity);
         let passage = map.apply(state).expect("bounded");
-        let width = 1e-6;
-        for (column, direction) in [(0, Vector2::x()), (1, Vector2::y())] {
-            let plus = map.image(state + width * direction).expect("bounded");
-            let minus = map.image(state - width * direction).expect("bounded");
-            let difference = (plus - minus) / (2.0 * width);
-            let exact = passage.monodromy.column(column);
-            let size = 1.0 + passage.monodromy.norm();
-            prop_assert!((difference - exact).norm() < 1e-3 * size * size, "{difference} {exact}");
+        let differences = tangent::differences(&map, state);
+        let size = 1.0 + passage.monodromy.norm();
+        for (found, exact) in differences.column_iter().zip(passage.monodromy.column_iter()) {
+            prop_assert!((found - exact).norm() < 1e-3 * size * size, "{found} {exact}");
         }
     }
 

@@ -5,6 +5,8 @@
 mod machines;
 #[path = "common/random.rs"]
 mod random;
+#[path = "common/tangent.rs"]
+mod tangent;
 
 use machines::{machines, start_below};
 use nalgebra::Vector2;
@@ -119,14 +121,10 @@ proptest! {
         let map = StroboscopicMap::new(&scene, 1).expect("valid");
         let state = Vector2::new(start.position, start.velocity);
         let passage = map.apply(state).expect("bounded");
-        let width = 1e-6;
-        for (column, direction) in [(0, Vector2::x()), (1, Vector2::y())] {
-            let plus = map.image(state + width * direction).expect("bounded");
-            let minus = map.image(state - width * direction).expect("bounded");
-            let difference = (plus - minus) / (2.0 * width);
-            let exact = passage.monodromy.column(column);
-            let size = 1.0 + passage.monodromy.norm();
-            prop_assert!((difference - exact).norm() < 1e-5 * size * size, "{difference} {exact}");
+        let differences = tangent::differences(&map, state);
+        let size = 1.0 + passage.monodromy.norm();
+        for (found, exact) in differences.column_iter().zip(passage.monodromy.column_iter()) {
+            prop_assert!((found - exact).norm() < 1e-5 * size * size, "{found} {exact}");
         }
     }
 
@@ -274,13 +272,12 @@ fn the_tangent_of_a_plastic_impact() {
     let state = Vector2::new(-1.0, 0.0);
     let passage = map.apply(state).expect("bounded");
     assert_eq!(passage.impacts.len(), 1);
-    let width = 1e-6;
-    for (column, direction) in [(0, Vector2::x()), (1, Vector2::y())] {
-        let plus = map.image(state + width * direction).expect("bounded");
-        let minus = map.image(state - width * direction).expect("bounded");
-        let difference = (plus - minus) / (2.0 * width);
-        let exact = passage.monodromy.column(column);
-        assert!(difference.norm() > 1e-2);
-        assert!((difference - exact).norm() < 1e-7, "{difference} {exact}");
+    let differences = tangent::differences(&map, state);
+    for (found, exact) in differences
+        .column_iter()
+        .zip(passage.monodromy.column_iter())
+    {
+        assert!(found.norm() > 1e-2);
+        assert!((found - exact).norm() < 1e-7, "{found} {exact}");
     }
 }
