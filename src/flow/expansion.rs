@@ -31,10 +31,7 @@ impl Segment {
         }
         segment.contact = segment.last_contact();
         segment.end = value(&segment.time, segment.contact);
-        match Self::creeping(flow, hertz, from, deflection, segment.end) {
-            Some(slow) => slow,
-            None => segment,
-        }
+        Self::creeping(flow, hertz, from, deflection, segment.end).unwrap_or(segment)
     }
 
     /// A step of slow motion, where one is possible and much longer than `usual`.
