@@ -107,6 +107,12 @@ pub enum MotionError {
         /// The position in m.
         position: f64,
     },
+    /// A snapshot that no machine left behind.
+    #[error("the snapshot cannot be taken up: {what}")]
+    Snapshot {
+        /// What is wrong with it.
+        what: &'static str,
+    },
     /// The parameters are not those of a machine.
     #[error(transparent)]
     Scene(#[from] SceneError),

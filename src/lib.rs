@@ -37,7 +37,7 @@ pub mod trajectory;
 pub mod zone;
 
 pub use error::{MotionError, SceneError};
-pub use integrator::{Clock, Energy, Impact, Instant, Motion, Sample, Simulation, Start};
+pub use integrator::{Clock, Energy, Impact, Instant, Motion, Sample, Simulation, Snapshot, Start};
 pub use phases::PhaseKind;
 pub use scene::{Excitation, Piercing, PiercingRatios, Ratios, Scene, Stop, Units};
 pub use trajectory::Trajectory;

@@ -12,12 +12,14 @@ mod step;
 
 pub use guard::Guard;
 
+use serde::{Deserialize, Serialize};
+
 use crate::flow::{Course, Node};
 use isolate::Candidate;
 use jets::{Ends, Jets};
 
 /// A crossing found on a course.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Found {
     /// Time since departure in s.
     pub elapsed: f64,
@@ -30,7 +32,7 @@ pub struct Found {
 }
 
 /// What is known of a course's first crossing.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Outlook {
     /// It is this one.
     Crossing(Found),

@@ -12,8 +12,10 @@
 //! back it is taken earlier: there the mass turns at a position that is rounded, which falsifies a bounce
 //! of height h by half a rounding over h; below 2^17 roundings the sum is the more exact one.
 
+use serde::{Deserialize, Serialize};
+
 /// A geometric series of bounces.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Chatter {
     /// Speed in m/s with which it begins.
     pub speed: f64,

@@ -2,13 +2,15 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use super::node::Node;
 use super::particular::Particular;
 use super::response::Responses;
 use super::{Chatter, Flow, Hertz, LARGEST_LOSS, Segment, Taylor};
 
 /// Everything a motion starts from.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Departure {
     /// Position in m.
     pub position: f64,
@@ -213,6 +215,17 @@ impl Course {
                 }
                 _ => taylor,
             }
+        }
+    }
+
+    /// True if it is sure never to leave the range of floating-point numbers.
+    pub(crate) fn is_bounded(&self) -> bool {
+        match self.form {
+            Form::Particular { particular, .. } => {
+                particular.slope == 0.0 && self.flow.modes.stiffness > 0.0
+            }
+            Form::Held | Form::Chatter(_) => true,
+            Form::Responses | Form::Segment(_) => false,
         }
     }
 

@@ -31,7 +31,11 @@ impl Segment {
         }
         segment.contact = segment.last_contact();
         segment.end = value(&segment.time, segment.contact);
-        Self::creeping(flow, hertz, from, deflection, segment.end).unwrap_or(segment)
+        let creeping = Self::creeping(flow, hertz, from, deflection, segment.end);
+        Self {
+            departed: deflection,
+            ..creeping.unwrap_or(segment)
+        }
     }
 
     /// A step of slow motion, where one is possible and much longer than `usual`.
@@ -72,6 +76,7 @@ impl Segment {
 
     fn blank(flow: &Flow, hertz: &Hertz) -> Self {
         Self {
+            departed: 0.0,
             root: ZERO,
             depth: ZERO,
             velocity: ZERO,

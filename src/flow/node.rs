@@ -1,9 +1,11 @@
 //! Nodes: states on a course from which it is scanned window by window.
 
+use serde::{Deserialize, Serialize};
+
 use super::course::{Course, Form};
 
 /// A motion's state at one time after departure.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Node {
     /// Time since departure in s.
     pub elapsed: f64,

@@ -27,6 +27,8 @@ use super::taylor::{DEGREE, evaluate};
 /// The motion of one step, as series in sigma.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Segment {
+    /// Deflection in m at departure.
+    pub(crate) departed: f64,
     /// Root of the deflection in sqrt(m); zero where sigma is time itself.
     pub(super) root: Series,
     /// Deflection in m.

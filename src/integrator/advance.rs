@@ -3,10 +3,11 @@
 use std::cmp::Ordering;
 
 use super::clock::Instant;
+use super::effort::{self, Effort};
 use super::motion::{Motion, Start};
 use super::observer::{Crossing, CrossingKind, Observer};
 use crate::error::MotionError;
-use crate::events::{Found, Outlook, first_crossing};
+use crate::events::{Found, Guard, Outlook, first_crossing};
 use crate::flow::{Chatter, Node};
 use crate::phases::Mode;
 
@@ -19,42 +20,89 @@ impl Motion {
     ///
     /// # Errors
     /// [`MotionError::TimeBackwards`] if `until` lies in the past, [`MotionError::Unbounded`] if the
-    /// motion grows beyond all bounds; the motion then stays where it was.
+    /// motion grows beyond all bounds, [`MotionError::Stalled`] if crossings pile up; the motion is
+    /// then known no further than its present time.
     pub fn advance(
         &mut self,
         until: Instant,
         observer: &mut impl Observer,
     ) -> Result<(), MotionError> {
-        let finite = until.cycles.is_finite() && until.offset.is_finite();
-        if !finite || until.partial_cmp(&self.now).is_none_or(Ordering::is_lt) {
-            let (until, present) = (self.clock.time(until), self.clock.time(self.now));
-            return Err(MotionError::TimeBackwards { until, present });
-        }
+        self.advance_within(until, observer, Effort::ENDLESS)
+            .map(drop)
+    }
+
+    /// The same as far as `effort` suffices; true if that is all the way. Otherwise the present time is
+    /// that of a crossing, or lies on a long arc.
+    ///
+    /// # Errors
+    /// As [`Motion::advance`].
+    pub fn advance_within(
+        &mut self,
+        until: Instant,
+        observer: &mut impl Observer,
+        mut effort: Effort,
+    ) -> Result<bool, MotionError> {
         let mut crossings_at_once = 0;
-        loop {
-            let horizon = self.clock.elapsed(self.start, until);
-            self.look_ahead(horizon)?;
+        while !self.glide(until)? {
             match self.outlook {
-                Outlook::Crossing(found) if found.elapsed <= horizon => {
+                Outlook::Crossing(found) => {
                     let instantly = self.is_instant(found.elapsed);
                     crossings_at_once = if instantly { crossings_at_once + 1 } else { 0 };
                     if crossings_at_once > MOST_AT_ONCE {
                         return Err(self.stalled());
                     }
                     self.cross(found, observer);
+                    effort.spend(effort::CROSSING);
                 }
-                Outlook::Ends(elapsed) if elapsed <= horizon => self.go_on(elapsed, observer),
-                _ => break,
+                Outlook::Ends(elapsed) => {
+                    self.go_on(elapsed, observer);
+                    effort.spend(effort::TAYLOR_STEP);
+                }
+                Outlook::ClearUntil(node) => {
+                    self.now = self.clock.after(self.start, node.elapsed);
+                    effort.spend(effort::CHUNK.into());
+                }
+                Outlook::Never | Outlook::Unbounded(_) => {}
+            }
+            if effort.is_spent() {
+                return Ok(false);
             }
         }
-        let elapsed = self.clock.elapsed(self.start, until);
-        let (position, velocity) = self.course.at(elapsed, self.clock.drive(until));
-        if !(position.is_finite() && velocity.is_finite()) {
-            let time = self.clock.time(until);
-            return Err(MotionError::Unbounded { time, position });
+        Ok(true)
+    }
+
+    /// Moves on along the present arc if it reaches to `until`; false if something happens before, or
+    /// may happen for all that is known.
+    ///
+    /// # Errors
+    /// As [`Motion::advance`].
+    pub(super) fn glide(&mut self, until: Instant) -> Result<bool, MotionError> {
+        let finite = until.cycles.is_finite() && until.offset.is_finite();
+        if !finite || until.partial_cmp(&self.now).is_none_or(Ordering::is_lt) {
+            let (until, present) = (self.clock.time(until), self.clock.time(self.now));
+            return Err(MotionError::TimeBackwards { until, present });
+        }
+        let horizon = self.clock.elapsed(self.start, until);
+        self.look_ahead(horizon)?;
+        // Written such that a time that is not a number stops nothing.
+        let ends = match self.outlook {
+            Outlook::Crossing(found) => found.elapsed <= horizon,
+            Outlook::Ends(elapsed) => elapsed <= horizon,
+            Outlook::ClearUntil(node) => node.elapsed < horizon,
+            Outlook::Never | Outlook::Unbounded(_) => false,
+        };
+        if ends {
+            return Ok(false);
+        }
+        if !self.course.is_bounded() {
+            let (position, velocity) = self.course.at(horizon, self.clock.drive(until));
+            if !(position.is_finite() && velocity.is_finite()) {
+                let time = self.clock.time(until);
+                return Err(MotionError::Unbounded { time, position });
+            }
         }
         self.now = until;
-        Ok(())
+        Ok(true)
     }
 
     /// True if a stretch of the present arc is too short for the clock to tell.
@@ -72,7 +120,16 @@ impl Motion {
         if let Outlook::ClearUntil(node) = self.outlook
             && node.elapsed < horizon
         {
-            self.outlook = self.search(node, horizon);
+            let sight = node.elapsed + f64::from(effort::CHUNK) * self.course.flow.window;
+            let resolved = sight > node.elapsed;
+            self.outlook = self.search(
+                node,
+                if resolved {
+                    horizon.min(sight)
+                } else {
+                    horizon
+                },
+            );
         }
         if let Outlook::Unbounded(node) = self.outlook
             && node.elapsed < horizon
@@ -95,14 +152,28 @@ impl Motion {
                 horizon,
             ),
             Mode::Held { forward, backward } => {
-                let since = &self.course.departure;
-                let push = since.constant + self.phases.held.amplitude * since.drive.0;
-                let (guards, _, count) =
-                    self.phases
-                        .releases(forward, backward, since.position, push);
+                let (guards, count) = self.release_guards(forward, backward);
                 first_crossing(&self.course, &guards[..count], node, horizon)
             }
             Mode::Chattering { .. } => first_crossing(&self.course, &[], node, horizon),
+        }
+    }
+
+    fn release_guards(&self, forward: Option<usize>, backward: usize) -> ([Guard; 2], usize) {
+        let since = &self.course.departure;
+        let push = since.constant + self.phases.held.amplitude * since.drive.0;
+        let (guards, _, count) = self
+            .phases
+            .releases(forward, backward, since.position, push);
+        (guards, count)
+    }
+
+    /// How many guards watch the present arc.
+    pub(super) fn guard_count(&self) -> usize {
+        match self.mode {
+            Mode::Moving(phase) => self.phases.phases[phase].guards.len(),
+            Mode::Held { forward, backward } => self.release_guards(forward, backward).1,
+            Mode::Chattering { .. } => 0,
         }
     }
 

@@ -2,11 +2,13 @@
 
 use std::f64::consts::TAU;
 
+use serde::{Deserialize, Serialize};
+
 /// 2 pi - TAU: the part of 2 pi that the double lacks.
 const TAU_LOW: f64 = 2.449_293_598_294_706_4e-16;
 
 /// A time: `cycles` whole drive periods and `offset` seconds, 0 <= offset < period.
-#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Serialize, Deserialize)]
 pub struct Instant {
     /// Whole periods since time 0 (an integer; exact up to 2^53).
     pub cycles: f64,

@@ -1,10 +1,12 @@
 //! Bounces without end: when they count as rest.
 
+use serde::{Deserialize, Serialize};
+
 use crate::phases::Threshold;
 
 /// A row of bounces: crossings of one and the same surface, reversals left out, none of them twice as fast
 /// as one before it.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Hum {
     surface: usize,
     crossings: u32,

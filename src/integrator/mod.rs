@@ -2,13 +2,18 @@
 
 mod advance;
 mod clock;
+mod effort;
 mod hum;
 mod landing;
 mod motion;
 mod observer;
 mod simulation;
+mod snapshot;
+mod tallies;
 
 pub use clock::{Clock, Instant};
+pub use effort::Effort;
 pub use motion::{Force, Motion, Start};
 pub use observer::{Arc, Crossing, CrossingKind, Observer};
 pub use simulation::{Energy, Impact, Sample, Simulation};
+pub use snapshot::Snapshot;

@@ -2,6 +2,8 @@
 
 use std::sync::Arc as Shared;
 
+use serde::{Deserialize, Serialize};
+
 use super::clock::{Clock, Instant};
 use super::hum::Hum;
 use super::observer::Arc;
@@ -35,7 +37,7 @@ impl Start {
 }
 
 /// External force f = `value` + `rate` (t - start of the arc).
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Force {
     /// Force in N.
     pub value: f64,

@@ -1,22 +1,35 @@
 //! A machine that runs on: the motion with its tallies, its inputs and its tunable parameters.
 
 use super::clock::{Clock, Instant};
+use super::effort::Effort;
 use super::motion::{Force, Motion, Start};
-use super::observer::{Arc, Crossing, Observer};
+use super::tallies::{Counts, Tallies};
 use crate::error::MotionError;
-use crate::phases::{Law, PhaseKind};
+use crate::phases::PhaseKind;
 use crate::scene::Scene;
-use crate::trajectory::{Work, mechanical_energy, work};
+use crate::trajectory::mechanical_energy;
 
 /// A running machine, SI units, absolute time in s.
 #[derive(Debug, Clone)]
 pub struct Simulation {
-    scene: Scene,
-    motion: Motion,
+    pub(super) scene: Scene,
+    pub(super) motion: Motion,
     /// Absolute time of the clock's time 0.
-    epoch: f64,
-    now: f64,
-    tallies: Tallies,
+    pub(super) epoch: f64,
+    pub(super) now: f64,
+    pub(super) tallies: Tallies,
+    /// Absolute time at which the machine started.
+    pub(super) begin: f64,
+    pub(super) mark: Mark,
+}
+
+/// Where the last advance began.
+#[derive(Debug, Clone)]
+pub(super) enum Mark {
+    /// On the arc that is under way.
+    OnArc(Instant),
+    /// Some crossings ago: the motion as it was.
+    Before(Box<Motion>),
 }
 
 /// Outputs at the present time.
@@ -60,40 +73,6 @@ pub struct Energy {
     pub dissipated: f64,
 }
 
-#[derive(Debug, Clone)]
-struct Tallies {
-    mass: f64,
-    free: Law,
-    impacts: u64,
-    pierced: u64,
-    last_impact: Option<(Instant, f64)>,
-    work: Work,
-}
-
-impl Observer for Tallies {
-    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.work += work(arc, self.mass, &self.free, elapsed);
-    }
-
-    fn crossing(&mut self, crossing: &Crossing) {
-        self.work.dissipated += crossing.lost_energy(self.mass);
-        self.pierced += u64::from(crossing.pierces());
-        if let Some(velocity) = crossing.impact_velocity() {
-            self.impacts += 1;
-            self.last_impact = Some((crossing.instant, velocity));
-        }
-    }
-}
-
-impl Tallies {
-    /// Work of the arc that is under way.
-    fn work_under_way(&self, motion: &Motion) -> Work {
-        let arc = motion.arc();
-        let elapsed = motion.clock().elapsed(arc.start, motion.now());
-        work(&arc, self.mass, &self.free, elapsed)
-    }
-}
-
 impl Simulation {
     /// The machine at time 0 s.
     ///
@@ -131,10 +110,7 @@ impl Simulation {
         let tallies = Tallies {
             mass: scene.mass,
             free: phases.free,
-            impacts: 0,
-            pierced: 0,
-            last_impact: None,
-            work: Work::default(),
+            counts: Counts::default(),
         };
         let at = clock.instant(time);
         let motion = Motion::with(phases, clock, at, start, Force::default(), fed)?;
@@ -144,6 +120,8 @@ impl Simulation {
             epoch: 0.0,
             now: time,
             tallies,
+            begin: time,
+            mark: Mark::OnArc(at),
         })
     }
 
@@ -163,6 +141,47 @@ impl Simulation {
     /// [`MotionError`] if `until` is not finite or in the past, or the motion grows beyond all
     /// bounds; the machine then stays where it was.
     pub fn advance(&mut self, until: f64) -> Result<(), MotionError> {
+        self.advance_within(until, Effort::ENDLESS).map(drop)
+    }
+
+    /// The same as far as `effort` suffices; true if that is all the way. The present time then tells
+    /// how far it is.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance`].
+    pub fn advance_within(&mut self, until: f64, effort: Effort) -> Result<bool, MotionError> {
+        let instant = self.instant_of(until)?;
+        let before = self.motion.now();
+        // Equal times may be written as instants that differ in the last digit.
+        if instant <= before || self.motion.glide(instant)? {
+            self.mark = Mark::OnArc(before);
+            self.now = until;
+            return Ok(true);
+        }
+        let (motion, counts) = (self.motion.clone(), self.tallies.counts);
+        match self
+            .motion
+            .advance_within(instant, &mut self.tallies, effort)
+        {
+            Ok(arrived) => {
+                self.mark = Mark::Before(Box::new(motion));
+                self.now = if arrived {
+                    until
+                } else {
+                    let reached = self.epoch + self.motion.clock().time(self.motion.now());
+                    reached.clamp(self.now, until)
+                };
+                Ok(arrived)
+            }
+            Err(error) => {
+                (self.motion, self.tallies.counts) = (motion, counts);
+                Err(error)
+            }
+        }
+    }
+
+    /// Where an absolute time lies on the clock, unless it is out of range.
+    fn instant_of(&self, until: f64) -> Result<Instant, MotionError> {
         if !(until.is_finite() && until >= self.now) {
             return Err(MotionError::TimeBackwards {
                 until,
@@ -173,17 +192,7 @@ impl Simulation {
         if (until - self.epoch).abs() > farthest {
             return Err(MotionError::TooFar { until, farthest });
         }
-        let instant = self.motion.clock().instant(until - self.epoch);
-        // Equal times may be written as instants that differ in the last digit.
-        if instant > self.motion.now() {
-            let (motion, tallies) = (self.motion.clone(), self.tallies.clone());
-            if let Err(error) = self.motion.advance(instant, &mut self.tallies) {
-                (self.motion, self.tallies) = (motion, tallies);
-                return Err(error);
-            }
-        }
-        self.now = until;
-        Ok(())
+        Ok(self.motion.clock().instant(until - self.epoch))
     }
 
     /// Outputs at the present time.
@@ -231,11 +240,13 @@ impl Simulation {
         }
         let force = Force { value, rate };
         if self.motion.force() != force {
-            self.tallies.work += self.tallies.work_under_way(&self.motion);
+            self.tallies.counts.work += self.tallies.work_under_way(&self.motion);
             let before = mechanical_energy(&self.scene, &self.motion);
             self.motion.set_force(force);
+            self.mark = Mark::OnArc(self.motion.now());
             // Of summed bounces nothing goes on under another force.
-            self.tallies.work.dissipated += before - mechanical_energy(&self.scene, &self.motion);
+            self.tallies.counts.work.dissipated +=
+                before - mechanical_energy(&self.scene, &self.motion);
         }
         Ok(())
     }
@@ -267,35 +278,36 @@ impl Simulation {
             at = Clock::at_cycle(0);
         }
         let motion = self.motion.resumed(scene.phases(), clock, at)?;
-        self.tallies.work += self.tallies.work_under_way(&self.motion);
+        self.tallies.counts.work += self.tallies.work_under_way(&self.motion);
         if retimed {
-            if let Some((instant, _)) = &mut self.tallies.last_impact {
+            if let Some((instant, _)) = &mut self.tallies.counts.last_impact {
                 let time = self.motion.clock().time(*instant) + self.epoch;
                 *instant = clock.instant(time - self.now);
             }
             self.epoch = self.now;
         }
         (self.motion, self.scene) = (motion, scene.clone());
+        self.mark = Mark::OnArc(self.motion.now());
         self.tallies.mass = scene.mass;
         self.tallies.free = self.motion.phases().free;
         let mechanical = mechanical_energy(scene, &self.motion);
-        self.tallies.work.supplied += mechanical - before;
+        self.tallies.counts.work.supplied += mechanical - before;
         Ok(())
     }
 
     /// Upward crossings of the clearance since the start.
     pub fn impact_count(&self) -> u64 {
-        self.tallies.impacts
+        self.tallies.counts.impacts
     }
 
     /// Strips pierced through since the start.
     pub fn pierce_count(&self) -> u64 {
-        self.tallies.pierced
+        self.tallies.counts.pierced
     }
 
     /// The last impact, if there was one.
     pub fn last_impact(&self) -> Option<Impact> {
-        let (instant, velocity) = self.tallies.last_impact?;
+        let (instant, velocity) = self.tallies.counts.last_impact?;
         Some(Impact {
             time: self.epoch + self.motion.clock().time(instant),
             velocity,
@@ -304,7 +316,7 @@ impl Simulation {
 
     /// Energies since the start.
     pub fn energy(&self) -> Energy {
-        let mut work = self.tallies.work;
+        let mut work = self.tallies.counts.work;
         work += self.tallies.work_under_way(&self.motion);
         Energy {
             mechanical: mechanical_energy(&self.scene, &self.motion),

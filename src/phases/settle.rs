@@ -5,6 +5,8 @@
 //! back, and is held otherwise. A held mass leaves at the first time at which one of the two
 //! accelerations becomes favourable, so jerk and all higher derivatives decide by themselves.
 
+use serde::{Deserialize, Serialize};
+
 use crate::events::Guard;
 
 use super::{Beyond, Layer, PhaseKind, Phases, Surface};
@@ -27,7 +29,7 @@ impl Threshold {
 }
 
 /// What the mass does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Mode {
     /// It moves in this phase.
     Moving(usize),

@@ -1,10 +1,12 @@
 //! Work done along an arc: what the drive supplies and what is dissipated.
 
+use serde::{Deserialize, Serialize};
+
 use crate::integrator::Arc;
 use crate::phases::Law;
 
 /// Energies in J that crossed the machine's boundary.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Work {
     /// Work of the drive and the external force.
     pub supplied: f64,

@@ -1,0 +1,181 @@
+//! Snapshots: all that a machine has to remember, as plain data.
+//!
+//! Whatever follows from the scene (phases, flows) and from a departure (the course) is left out and
+//! computed anew, which gives the same numbers bit for bit.
+
+use std::sync::Arc as Shared;
+
+use serde::{Deserialize, Serialize};
+
+use super::clock::{Clock, Instant};
+use super::hum::Hum;
+use super::motion::{Force, Motion, Start};
+use super::simulation::{Mark, Simulation};
+use super::tallies::{Counts, Tallies};
+use crate::error::MotionError;
+use crate::events::Outlook;
+use crate::flow::{Chatter, Departure};
+use crate::phases::{Mode, Phases};
+use crate::scene::Scene;
+
+/// A running machine at one time. Written to bytes and read back, in this process or another, it goes
+/// on bit for bit (on the same kind of machine).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Snapshot {
+    scene: Scene,
+    epoch: f64,
+    now: f64,
+    begin: f64,
+    counts: Counts,
+    motion: Moving,
+    mark: Marked,
+}
+
+/// [`Mark`] as data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+enum Marked {
+    OnArc(Instant),
+    Before(Box<Moving>),
+}
+
+/// [`Motion`] as data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Moving {
+    /// Drive angle in rad at the clock's time 0.
+    angle: f64,
+    mode: Mode,
+    fed: bool,
+    pierced: bool,
+    force: Force,
+    start: Instant,
+    now: Instant,
+    departure: Departure,
+    /// Deflection in m at departure, in a nonlinear phase.
+    deflection: Option<f64>,
+    chatter: Option<Chatter>,
+    outlook: Outlook,
+    hum: Hum,
+}
+
+impl Moving {
+    fn of(motion: &Motion) -> Self {
+        Self {
+            angle: motion.clock.phase,
+            mode: motion.mode,
+            fed: motion.fed,
+            pierced: motion.pierced,
+            force: motion.force,
+            start: motion.start,
+            now: motion.now,
+            departure: motion.course.departure,
+            deflection: motion.course.segment().map(|segment| segment.departed),
+            chatter: motion.course.chatter().copied(),
+            outlook: motion.outlook,
+            hum: motion.hum,
+        }
+    }
+
+    fn motion(&self, scene: &Scene, phases: &Shared<Phases>) -> Result<Motion, MotionError> {
+        self.validate(phases)?;
+        let Departure {
+            position, velocity, ..
+        } = self.departure;
+        let clock = Clock::new(scene.excitation.frequency, self.angle);
+        let start = Start { position, velocity };
+        let fresh = Motion::with(
+            phases.clone(),
+            clock,
+            self.start,
+            start,
+            self.force,
+            self.fed,
+        )?;
+        let mut motion = Motion {
+            pierced: self.pierced,
+            now: self.now,
+            hum: self.hum,
+            ..fresh
+        };
+        motion.begin(self.departure, self.mode, self.deflection, self.chatter);
+        motion.outlook = self.outlook;
+        let guards = motion.guard_count();
+        if matches!(self.outlook, Outlook::Crossing(found) if found.guard >= guards) {
+            return Err(broken("a crossing of a surface that does not exist"));
+        }
+        Ok(motion)
+    }
+
+    fn validate(&self, phases: &Phases) -> Result<(), MotionError> {
+        let known = match self.mode {
+            Mode::Moving(phase) | Mode::Chattering { backward: phase } => phase,
+            Mode::Held { forward, backward } => backward.max(forward.unwrap_or(backward)),
+        };
+        if known >= phases.phases.len() {
+            return Err(broken("a phase that does not exist"));
+        }
+        let Departure {
+            position, velocity, ..
+        } = self.departure;
+        let (start, now) = (self.start, self.now);
+        let times = [start.cycles, start.offset, now.cycles, now.offset];
+        let numbers = [self.angle, position, velocity, self.force.value];
+        if times.iter().chain(&numbers).any(|n| !n.is_finite()) || now < start {
+            return Err(broken("numbers that no motion has"));
+        }
+        Ok(())
+    }
+}
+
+fn broken(what: &'static str) -> MotionError {
+    MotionError::Snapshot { what }
+}
+
+impl Simulation {
+    /// All that is needed to go on from here.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            scene: self.scene.clone(),
+            epoch: self.epoch,
+            now: self.now,
+            begin: self.begin,
+            counts: self.tallies.counts,
+            motion: Moving::of(&self.motion),
+            mark: match &self.mark {
+                Mark::OnArc(instant) => Marked::OnArc(*instant),
+                Mark::Before(motion) => Marked::Before(Box::new(Moving::of(motion))),
+            },
+        }
+    }
+
+    /// The machine that a snapshot was taken of.
+    ///
+    /// # Errors
+    /// [`MotionError::Scene`] or [`MotionError::Snapshot`] if no machine can have left it behind.
+    pub fn restored(snapshot: &Snapshot) -> Result<Self, MotionError> {
+        let scene = &snapshot.scene;
+        scene.validate()?;
+        let times = [snapshot.epoch, snapshot.now, snapshot.begin];
+        if times.iter().any(|time| !time.is_finite()) {
+            return Err(broken("times that are not finite"));
+        }
+        let phases: Shared<Phases> = scene.phases().into();
+        let motion = snapshot.motion.motion(scene, &phases)?;
+        let mark = match &snapshot.mark {
+            Marked::OnArc(instant) => Mark::OnArc(*instant),
+            Marked::Before(moving) => Mark::Before(Box::new(moving.motion(scene, &phases)?)),
+        };
+        Ok(Self {
+            scene: scene.clone(),
+            motion,
+            epoch: snapshot.epoch,
+            now: snapshot.now,
+            tallies: Tallies {
+                mass: scene.mass,
+                free: phases.free,
+                counts: snapshot.counts,
+            },
+            begin: snapshot.begin,
+            mark,
+        })
+    }
+}

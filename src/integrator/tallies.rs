@@ -1,0 +1,51 @@
+//! What is counted and added up while a machine runs.
+
+use serde::{Deserialize, Serialize};
+
+use super::clock::Instant;
+use super::motion::Motion;
+use super::observer::{Arc, Crossing, Observer};
+use crate::phases::Law;
+use crate::trajectory::{Work, work};
+
+/// Impacts, pierced strips and energies since the start.
+#[derive(Debug, Clone)]
+pub(super) struct Tallies {
+    pub mass: f64,
+    pub free: Law,
+    pub counts: Counts,
+}
+
+/// The part of the tallies that the scene does not decide.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub(super) struct Counts {
+    pub impacts: u64,
+    pub pierced: u64,
+    /// When the last impact was, and its before-impact velocity in m/s.
+    pub last_impact: Option<(Instant, f64)>,
+    pub work: Work,
+}
+
+impl Observer for Tallies {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.counts.work += work(arc, self.mass, &self.free, elapsed);
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.counts.work.dissipated += crossing.lost_energy(self.mass);
+        self.counts.pierced += u64::from(crossing.pierces());
+        if let Some(velocity) = crossing.impact_velocity() {
+            self.counts.impacts += 1;
+            self.counts.last_impact = Some((crossing.instant, velocity));
+        }
+    }
+}
+
+impl Tallies {
+    /// Work of the arc that is under way.
+    pub fn work_under_way(&self, motion: &Motion) -> Work {
+        let arc = motion.arc();
+        let elapsed = motion.clock().elapsed(arc.start, motion.now());
+        work(&arc, self.mass, &self.free, elapsed)
+    }
+}
