@@ -6,12 +6,12 @@
 //! each order; instead all coefficients are solved for together, by Newton's method (as Miller's
 //! algorithm does for recurrences with a decaying solution).
 
-use nalgebra::{Matrix2, SMatrix, SVector};
+use nalgebra::{SMatrix, SVector};
 
 use super::hertz::Hertz;
 use super::modes::Modes;
 use super::series::{Series, convolve, derivative, power};
-use super::taylor::{DEGREE, evaluate};
+use super::taylor::DEGREE;
 
 const ORDER: usize = DEGREE + 1;
 const NEWTON_STEPS: usize = 12;
@@ -40,14 +40,8 @@ pub(super) struct Creep {
     /// d(deflection)/d(velocity at the start), as a multiple of the memory, in s; to first order in the
     /// ratio of the slow rate to the fast one.
     pub echo: f64,
-}
-
-impl Creep {
-    /// d(state)/d(state at the start) after `elapsed`.
-    pub fn transition(&self, elapsed: f64) -> Matrix2<f64> {
-        let (depth, velocity) = evaluate(&self.memory, elapsed);
-        Matrix2::new(depth, self.echo * depth, velocity, self.echo * velocity)
-    }
+    /// d(deflection)/d(constant push per mass), in s^2.
+    pub answer: Series,
 }
 
 /// Damping and stiffness of the contact along a motion.
@@ -150,21 +144,32 @@ impl Equation<'_> {
 
     /// The motion with what it remembers of its start.
     fn creep(&self, depth: Series, span: f64, forgets: bool) -> Creep {
-        let mut memory = [0.0; ORDER];
         let slopes = self.slopes(&depth);
-        if !forgets {
+        let matrix = jacobian(&slopes, span, forgets).lu();
+        let solve = |row: usize| -> Series {
             let mut unit = SVector::<f64, ORDER>::zeros();
-            unit[0] = 1.0;
-            if let Some(solution) = jacobian(&slopes, span, false).lu().solve(&unit) {
-                memory = std::array::from_fn(|k| solution[k] / span.powi(k as i32));
-            }
-        }
+            unit[row] = 1.0;
+            matrix.solve(&unit).map_or([0.0; ORDER], |solution| {
+                std::array::from_fn(|k| solution[k] / span.powi(k as i32))
+            })
+        };
+        let (memory, mut answer) = if forgets {
+            ([0.0; ORDER], solve(0))
+        } else {
+            (solve(0), solve(1))
+        };
         // The slow part of (0, 1) is (1, s) / (s - f), with f + s = -damping.
         let echo = 1.0 / (slopes.damping[0] + 2.0 * memory[1]);
+        // An answer from rest lacks the velocity that the slow one begins with.
+        let lacks = echo * answer[1];
+        for (answer, memory) in answer.iter_mut().zip(memory) {
+            *answer -= lacks * memory;
+        }
         Creep {
             depth,
             memory,
             echo,
+            answer,
         }
     }
 }

@@ -7,6 +7,7 @@
 //! where the particular solution blows up. A phase with a power law ([`Hertz`]) is followed in Taylor steps,
 //! each a course of its own.
 
+mod change;
 mod chatter;
 mod course;
 mod creep;
@@ -21,6 +22,7 @@ mod segment;
 mod series;
 mod taylor;
 
+pub(crate) use change::Change;
 pub(crate) use chatter::{Chatter, Pressing};
 pub use course::{Course, Departure};
 pub use hertz::Hertz;

@@ -18,11 +18,12 @@
 use nalgebra::Matrix2;
 
 use super::Flow;
+use super::change::Change;
 use super::creep::Creep;
 use super::hertz::Hertz;
 use super::power::gauss_nodes;
-use super::series::{Series, ZERO, convolve, derivative, power, product, value};
-use super::taylor::{DEGREE, evaluate};
+use super::series::{Series, ZERO, derivative, power, product, value};
+use super::taylor::evaluate;
 
 /// The motion of one step, as series in sigma.
 #[derive(Debug, Clone, PartialEq)]
@@ -162,29 +163,22 @@ impl Segment {
     /// equation y'' + damping y' + stiffness y = 0 along the motion, in sigma.
     pub fn transition(&self, elapsed: f64) -> (Matrix2<f64>, f64) {
         let sigma = self.parameter_at(elapsed);
-        if let Some(creep) = &self.creep {
-            return (creep.transition(sigma), self.damping_integral(sigma));
-        }
-        let rate = derivative(&self.time);
-        let damping = product(&rate, &self.damping());
-        let stiffness = product(&rate, &self.stiffness());
-        let column = |start: (f64, f64)| {
-            let (mut y, mut u) = (ZERO, ZERO);
-            (y[0], u[0]) = start;
-            for k in 0..DEGREE {
-                let next = (k + 1) as f64;
-                y[k + 1] = convolve(&rate, &u, k) / next;
-                u[k + 1] = -(convolve(&damping, &u, k) + convolve(&stiffness, &y, k)) / next;
-            }
+        let column = |position: f64, velocity: f64| {
+            let by = Change {
+                position,
+                velocity,
+                push: 0.0,
+            };
+            let (y, u) = self.changed(by);
             (value(&y, sigma), value(&u, sigma))
         };
-        let (first, second) = (column((1.0, 0.0)), column((0.0, 1.0)));
+        let (first, second) = (column(1.0, 0.0), column(0.0, 1.0));
         let matrix = Matrix2::new(first.0, second.0, first.1, second.1);
         (matrix, self.damping_integral(sigma))
     }
 
     /// 2 a + kappa lambda d^n.
-    fn damping(&self) -> Series {
+    pub(super) fn damping(&self) -> Series {
         let factor = self.hertz.rate() * self.hertz.dissipation;
         let mut damping = self.power.map(|w| factor * w);
         damping[0] += 2.0 * self.flow.modes.decay;
@@ -201,7 +195,7 @@ impl Segment {
     }
 
     /// b + kappa n d^(n-1) (1 + lambda v).
-    fn stiffness(&self) -> Series {
+    pub(super) fn stiffness(&self) -> Series {
         let mut sum = ZERO;
         if self.power != ZERO {
             let factor = self.hertz.rate() * self.hertz.exponent;

@@ -266,6 +266,27 @@ impl Motion {
         self.fed = fed;
     }
 
+    /// The same motion at a time on its present arc, with an arc of its own from there on.
+    pub(crate) fn departed_at(&self, now: Instant) -> Self {
+        let mut motion = Self {
+            now,
+            ..self.clone()
+        };
+        let elapsed = self.clock.elapsed(self.start, now);
+        if elapsed > 0.0 && self.phase().is_some() {
+            let state = motion.state();
+            let deflection = self
+                .course
+                .segment()
+                .map(|segment| segment.deflection(elapsed));
+            motion.force = motion.force();
+            motion.start = now;
+            let departure = motion.departure(state, self.clock.drive(now), self.mode, None);
+            motion.begin(departure, self.mode, deflection, None);
+        }
+        motion
+    }
+
     /// Begins an arc at the present start instant.
     pub(super) fn depart(&mut self, state: Start, drive: (f64, f64), mode: Mode) {
         let acceleration =

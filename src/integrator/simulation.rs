@@ -195,6 +195,33 @@ impl Simulation {
         Ok(self.motion.clock().instant(until - self.epoch))
     }
 
+    /// Lets the stretch of [`Simulation::sensitivity`] begin at the present time.
+    pub fn mark(&mut self) {
+        self.mark = Mark::OnArc(self.motion.now());
+    }
+
+    /// True if that stretch reaches back to the start.
+    pub fn is_marked_at_start(&self) -> bool {
+        let at = match &self.mark {
+            Mark::OnArc(instant) => *instant,
+            Mark::Before(motion) => motion.now(),
+        };
+        self.epoch == 0.0 && at == self.motion.clock().instant(self.begin)
+    }
+
+    /// The motion as it was at the mark, on an arc of its own from there on.
+    pub(crate) fn motion_at_mark(&self) -> Motion {
+        match &self.mark {
+            Mark::OnArc(instant) => self.motion.departed_at(*instant),
+            Mark::Before(motion) => motion.departed_at(motion.now()),
+        }
+    }
+
+    /// The motion now.
+    pub(crate) fn motion(&self) -> &Motion {
+        &self.motion
+    }
+
     /// Outputs at the present time.
     pub fn sample(&self) -> Sample {
         let Start { position, velocity } = self.motion.state();

@@ -2,10 +2,12 @@
 
 mod map;
 mod search;
+mod sensitivity;
 mod tangent;
 
 pub use map::{Passage, StroboscopicMap};
 pub use search::find;
+pub use sensitivity::{Perturbation, Sensitivity};
 pub use tangent::{Tangent, saltation};
 
 use nalgebra::{Complex, Matrix2, Vector2};

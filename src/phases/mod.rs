@@ -89,6 +89,13 @@ impl Store {
         let hertz = self.hertz.map_or(0.0, |hertz| hertz.energy(position));
         self.spring.energy_at(position) + hertz
     }
+
+    /// Its derivative: the elastic force in N.
+    pub fn force_at(&self, position: f64) -> f64 {
+        let hertz = self.hertz.map_or(0.0, |hertz| hertz.force(position, 0.0));
+        let spring = &self.spring;
+        spring.force + spring.stiffness * (position - spring.origin) + hertz
+    }
 }
 
 /// A linear spring: E = `energy` + `force` u + `stiffness` u^2 / 2 with u = x - `origin`.

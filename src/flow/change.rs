@@ -1,0 +1,120 @@
+//! How a course changes with its start and with the push: variational equations, exact.
+
+use super::course::{Course, Form};
+use super::power::gauss_nodes;
+use super::response::Responses;
+use super::segment::Segment;
+use super::series::{Series, ZERO, convolve, derivative, product, value};
+use super::taylor::{DEGREE, evaluate};
+
+/// A small change of a motion: of position and velocity at departure, and of the constant push per
+/// mass from there on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Change {
+    pub position: f64,
+    pub velocity: f64,
+    pub push: f64,
+}
+
+impl Course {
+    /// The change of position and velocity, `elapsed` seconds after departure, that a change there
+    /// brings. A held mass stays where it is.
+    pub(crate) fn changed(&self, elapsed: f64, by: Change) -> (f64, f64) {
+        match &self.form {
+            Form::Held | Form::Chatter(_) => (by.position, 0.0),
+            Form::Segment(segment) => {
+                let sigma = segment.parameter_at(elapsed);
+                let (position, velocity) = segment.changed(by);
+                (value(&position, sigma), value(&velocity, sigma))
+            }
+            Form::Particular { .. } | Form::Responses => {
+                let modes = &self.flow.modes;
+                let (x, v) = modes.at(elapsed).apply(by.position, by.velocity);
+                if by.push == 0.0 {
+                    return (x, v);
+                }
+                let (y, u) = Responses::at(modes, self.flow.frequency, elapsed).constant;
+                (x + by.push * y, v + by.push * u)
+            }
+        }
+    }
+
+    /// The change of the work of the push per mass up to `elapsed`; `law` is the part of the constant
+    /// push that is the phase's own force.
+    pub(crate) fn changed_supply(&self, elapsed: f64, by: Change, law: f64) -> f64 {
+        match &self.form {
+            Form::Held | Form::Chatter(_) => 0.0,
+            Form::Segment(segment) => segment.changed_supply(elapsed, by, law),
+            Form::Particular { .. } | Form::Responses => {
+                self.changed_supply_of_linear(elapsed, by, law)
+            }
+        }
+    }
+
+    /// The push per mass in m/s^2, `elapsed` seconds after departure.
+    pub(crate) fn push(&self, elapsed: f64) -> f64 {
+        if let Form::Segment(segment) = &self.form {
+            return value(&segment.push, segment.parameter_at(elapsed));
+        }
+        let ((cos, sin), angle) = (self.departure.drive, self.flow.frequency * elapsed);
+        let turned = cos * angle.cos() - sin * angle.sin();
+        self.push_at(elapsed).0 + self.flow.amplitude * turned
+    }
+
+    /// The work of a linear course is a quadratic form of its departure: a central difference of any
+    /// width is its derivative.
+    fn changed_supply_of_linear(&self, elapsed: f64, by: Change, law: f64) -> f64 {
+        let (from, w) = (self.departure, self.flow.frequency);
+        let norm = |x: f64, v: f64, c: f64| x.abs() + v.abs() / w + c.abs() / (w * w);
+        let size = norm(by.position, by.velocity, by.push);
+        if size == 0.0 {
+            return 0.0;
+        }
+        let motion = norm(from.position, from.velocity, self.flow.amplitude);
+        let width = if motion > 0.0 { motion / size } else { 1.0 };
+        let work = |width: f64| {
+            let mut moved = from;
+            moved.position += width * by.position;
+            moved.velocity += width * by.velocity;
+            moved.constant += width * by.push;
+            moved.acceleration = None;
+            Self::new(self.flow, moved).power(elapsed, law).supplied
+        };
+        (work(width) - work(-width)) / (2.0 * width)
+    }
+}
+
+impl Segment {
+    /// Changes of position and velocity as series in sigma: y'' + damping y' + stiffness y = push along
+    /// the motion.
+    pub(super) fn changed(&self, by: Change) -> (Series, Series) {
+        if let Some(creep) = &self.creep {
+            let start = by.position + creep.echo * by.velocity;
+            let position: Series =
+                std::array::from_fn(|k| start * creep.memory[k] + by.push * creep.answer[k]);
+            return (position, derivative(&position));
+        }
+        let rate = derivative(&self.time);
+        let damping = product(&rate, &self.damping());
+        let stiffness = product(&rate, &self.stiffness());
+        let (mut y, mut u) = (ZERO, ZERO);
+        (y[0], u[0]) = (by.position, by.velocity);
+        for k in 0..DEGREE {
+            let next = (k + 1) as f64;
+            y[k + 1] = convolve(&rate, &u, k) / next;
+            let resisting = convolve(&damping, &u, k) + convolve(&stiffness, &y, k);
+            u[k + 1] = (by.push * rate[k] - resisting) / next;
+        }
+        (y, u)
+    }
+
+    fn changed_supply(&self, elapsed: f64, by: Change, law: f64) -> f64 {
+        let (_, changed) = self.changed(by);
+        let nodes = gauss_nodes(self.parameter_at(elapsed));
+        nodes.iter().fold(0.0, |sum, &(sigma, weight)| {
+            let (push, velocity) = (value(&self.push, sigma), value(&self.velocity, sigma));
+            let power = (push - law) * value(&changed, sigma) + by.push * velocity;
+            sum + weight * evaluate(&self.time, sigma).1 * power
+        })
+    }
+}

@@ -1,0 +1,132 @@
+//! Derivatives of the outputs, across impacts, against differences of the motion itself.
+
+#[path = "common/machines.rs"]
+mod machines;
+#[path = "common/random.rs"]
+mod random;
+
+use machines::{machines, start_below};
+use proptest::prelude::*;
+use softstop::integrator::{Crossing, CrossingKind, Observer};
+use softstop::orbit::{Perturbation, Sensitivity};
+use softstop::{Clock, Scene, Simulation, Start};
+
+/// Position, velocity, acceleration, contact force, energies, and time and velocity of the last impact.
+fn outputs(machine: &Simulation) -> [f64; 9] {
+    let (sample, energy) = (machine.sample(), machine.energy());
+    let impact = machine.last_impact();
+    [
+        sample.position,
+        sample.velocity,
+        sample.acceleration,
+        sample.contact_force,
+        energy.mechanical,
+        energy.supplied,
+        energy.dissipated,
+        impact.map_or(0.0, |impact| impact.time),
+        impact.map_or(0.0, |impact| impact.velocity),
+    ]
+}
+
+fn derivatives(of: &Sensitivity) -> [f64; 9] {
+    [
+        of.position,
+        of.velocity,
+        of.acceleration,
+        of.contact_force,
+        of.mechanical,
+        of.supplied,
+        of.dissipated,
+        of.impact_time,
+        of.impact_velocity,
+    ]
+}
+
+/// The slowest passage on the way, and the number of crossings: differences need a clear motion.
+#[derive(Default)]
+struct Meets {
+    crossings: Vec<CrossingKind>,
+    slowest: f64,
+}
+
+impl Observer for Meets {
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.crossings.push(crossing.kind);
+        if let CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } = crossing.kind {
+            self.slowest = self.slowest.min(crossing.velocity.abs());
+        }
+    }
+}
+
+fn meets(scene: &Scene, start: Start, end: f64) -> Meets {
+    let mut meets = Meets {
+        slowest: f64::INFINITY,
+        ..Meets::default()
+    };
+    let mut motion = scene.motion(start).expect("valid");
+    let end = motion.clock().after(Clock::at_cycle(0), end);
+    motion.advance(end, &mut meets).expect("bounded");
+    meets
+}
+
+/// Richardson's extrapolation of central differences, with its error.
+fn differences(run: impl Fn(f64) -> [f64; 9], width: f64) -> ([f64; 9], [f64; 9]) {
+    let central = |width: f64| -> [f64; 9] {
+        let (high, low) = (run(width), run(-width));
+        std::array::from_fn(|n| (high[n] - low[n]) / (2.0 * width))
+    };
+    let (wide, narrow) = (central(2.0 * width), central(width));
+    (
+        std::array::from_fn(|n| (4.0 * narrow[n] - wide[n]) / 3.0),
+        std::array::from_fn(|n| (wide[n] - narrow[n]).abs()),
+    )
+}
+
+proptest! {
+    #![proptest_config(random::cases(1500))]
+
+    #[test]
+    fn sensitivities_are_derivatives(
+        scene in machines(),
+        depth in -0.5..6.0f64,
+        velocity in -6.0..6.0f64,
+        force in -0.3..0.3f64,
+        rate in -0.1..0.1f64,
+        span in 0.05..1.2f64,
+        towards in (-1.0..1.0f64, -1.0..1.0f64, -1.0..1.0f64),
+    ) {
+        let start = start_below(&scene, depth, velocity);
+        let end = span * scene.period();
+        prop_assume!(Simulation::new(&scene, start).is_ok());
+        let run = |width: f64| {
+            let start = Start {
+                position: start.position + width * towards.0,
+                velocity: start.velocity + width * towards.1,
+            };
+            let mut machine = Simulation::new(&scene, start).expect("valid");
+            machine.set_force(force + width * towards.2, rate).expect("finite");
+            machine.advance(end).expect("bounded");
+            machine
+        };
+        prop_assume!(Simulation::new(&scene, Start { position: start.position + 1e-3, ..start }).is_ok());
+        let meets = meets(&scene, start, end);
+        prop_assume!(meets.slowest > 0.2 && meets.crossings.len() < 12);
+        let machine = run(0.0);
+        let same = |width: f64| {
+            let other = run(width);
+            other.sample().phase == machine.sample().phase
+                && other.impact_count() == machine.impact_count()
+        };
+        prop_assume!([-2e-4, -1e-4, 1e-4, 2e-4].iter().all(|width| same(*width)));
+        let by = Perturbation { position: towards.0, velocity: towards.1, force: towards.2 };
+        let exact = derivatives(&machine.sensitivity(&by).expect("known"));
+        let (found, error) = differences(|width| outputs(&run(width)), 1e-4);
+        for n in 0..9 {
+            let size = 1.0 + exact[n].abs();
+            prop_assume!(error[n] < 1e-2 * size);
+            // Of Richardson's error only the order is known: that of the difference squared.
+            let allowed = 1e-6 * size + 3.0 * error[n];
+            prop_assert!((found[n] - exact[n]).abs() < allowed, "{n}: {} {} {:?}", found[n], exact[n], meets.crossings);
+        }
+    }
+}
