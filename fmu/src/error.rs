@@ -4,6 +4,7 @@ use softstop::{MotionError, SceneError};
 use thiserror::Error;
 
 use crate::instance::Lifecycle;
+use crate::status::Status;
 
 /// Why a call was refused. The text names the thing; the caller puts the function's name before it.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -133,11 +134,47 @@ pub enum Fault {
         /// The stop time in s.
         stop: f64,
     },
-    /// The function is not served; the capability flag says so.
-    #[error("not available: the modelDescription says {flag}")]
-    Unavailable {
-        /// The capability flag with its value.
-        flag: &'static str,
+    /// The step could be carried out in part only.
+    #[error(
+        "the step to {end} s was carried out up to {reached} s only ({reason}): go on from there, or \
+         repeat a shorter one"
+    )]
+    Discarded {
+        /// End of the step in s.
+        end: f64,
+        /// The last successful time in s: where the instance is now.
+        reached: f64,
+        /// Why it was not carried on.
+        reason: String,
+    },
+    /// The variable is none that derivatives are taken of.
+    #[error("{name} is no real output: it has no derivative")]
+    NoUnknown {
+        /// Name of the variable.
+        name: &'static str,
+    },
+    /// The variable is none that derivatives are taken by, at this time.
+    #[error(
+        "no derivative by {name} is available: after initialisation there are those by force, over the \
+         first step also those by initial.position and initial.velocity"
+    )]
+    NoKnown {
+        /// Name of the variable.
+        name: &'static str,
+    },
+    /// There is less room than the bytes of a snapshot need.
+    #[error("size = {size}: the serialized FMU state needs {needed} bytes")]
+    Room {
+        /// The size that was given.
+        size: usize,
+        /// The size that is needed.
+        needed: usize,
+    },
+    /// Bytes that are no snapshot of this unit.
+    #[error("the serialized FMU state {what}")]
+    Blob {
+        /// What is wrong with them.
+        what: &'static str,
     },
     /// The value asked for exists in no call of this kind.
     #[error("kind {kind} has no {wanted} value")]
@@ -162,6 +199,16 @@ pub enum Fault {
     /// A defect of this library, caught at its boundary.
     #[error("internal error: {0}")]
     Internal(String),
+}
+
+impl Fault {
+    /// The status that the call returns.
+    pub const fn status(&self) -> Status {
+        match self {
+            Self::Discarded { .. } => Status::Discard,
+            _ => Status::Error,
+        }
+    }
 }
 
 impl From<SceneError> for Fault {

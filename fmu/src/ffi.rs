@@ -18,14 +18,14 @@ mod pointers;
 
 use std::ffi::{c_char, c_int, c_uint, c_void};
 
+pub use crate::status::Status;
 pub use component::{CallbackFunctions, Logger};
 use component::{Component, instantiate};
-pub use guard::Status;
 use guard::{guarded, silent};
 use pointers::{read, string, write, write_one};
 
 use crate::error::Fault;
-use crate::instance::{Instance, Lifecycle};
+use crate::instance::Instance;
 
 /// `fmi2CoSimulation` of `fmi2Type`.
 pub const CO_SIMULATION: c_int = 1;
@@ -58,6 +58,17 @@ macro_rules! export {
             }
         )*
     };
+}
+
+/// What a snapshot's handle points to.
+///
+/// # Safety
+/// NULL, or what `fmi2GetFMUstate` or `fmi2DeSerializeFMUstate` gave and nobody has freed.
+unsafe fn kept<'a>(state: *mut c_void) -> Result<&'a Instance, Fault> {
+    // SAFETY: by this function's contract.
+    unsafe { state.cast::<Instance>().as_ref() }.ok_or(Fault::Null {
+        argument: "FMUstate",
+    })
 }
 
 /// The platform types this library was built with.
@@ -214,9 +225,7 @@ export! {
 
     /// Goes back to a snapshot.
     fn fmi2SetFMUstate(component, state: *mut c_void) {
-        let kept = state.cast::<Instance>().as_ref();
-        let kept = kept.ok_or(Fault::Null { argument: "FMUstate" })?;
-        component.instance.clone_from(kept);
+        component.instance.clone_from(kept(state)?);
         Ok(())
     }
 
@@ -232,31 +241,51 @@ export! {
         Ok(())
     }
 
-    /// Not available yet.
-    fn fmi2SerializedFMUstateSize(component, _state: *mut c_void, _size: *mut usize) {
-        component.unavailable("canSerializeFMUstate=\"false\"")
+    /// How many bytes a snapshot takes.
+    fn fmi2SerializedFMUstateSize(component, state: *mut c_void, size: *mut usize) {
+        let _ = &component;
+        *write_one("size", size)? = kept(state)?.to_bytes()?.len();
+        Ok(())
     }
 
-    /// Not available yet.
+    /// Writes a snapshot as bytes; what is left of them becomes zero.
     fn fmi2SerializeFMUstate(
-        component, _state: *mut c_void, _bytes: *mut c_char, _size: usize
+        component, state: *mut c_void, bytes: *mut c_char, size: usize
     ) {
-        component.unavailable("canSerializeFMUstate=\"false\"")
+        let _ = &component;
+        let written = kept(state)?.to_bytes()?;
+        let needed = written.len();
+        if size < needed {
+            return Err(Fault::Room { size, needed });
+        }
+        let bytes = write("serializedState", bytes.cast::<u8>(), size)?;
+        let (room, beyond) = bytes.split_at_mut(needed);
+        room.copy_from_slice(&written);
+        beyond.fill(0);
+        Ok(())
     }
 
-    /// Not available yet.
+    /// Makes a snapshot of bytes. The pointer's old content is not looked at.
     fn fmi2DeSerializeFMUstate(
-        component, _bytes: *const c_char, _size: usize, _state: *mut *mut c_void
+        component, bytes: *const c_char, size: usize, state: *mut *mut c_void
     ) {
-        component.unavailable("canSerializeFMUstate=\"false\"")
+        let _ = &component;
+        let state = write_one("FMUstate", state)?;
+        let kept = Instance::from_bytes(read("serializedState", bytes.cast::<u8>(), size)?)?;
+        *state = Box::into_raw(Box::new(kept)).cast();
+        Ok(())
     }
 
-    /// Not available yet.
+    /// Derivatives of outputs along a direction of inputs.
     fn fmi2GetDirectionalDerivative(
-        component, _unknowns: *const c_uint, _unknown_count: usize, _knowns: *const c_uint,
-        _known_count: usize, _seed: *const f64, _sensitivity: *mut f64
+        component, unknowns: *const c_uint, unknown_count: usize, knowns: *const c_uint,
+        known_count: usize, seed: *const f64, sensitivity: *mut f64
     ) {
-        component.unavailable("providesDirectionalDerivative=\"false\"")
+        let unknowns = read("vUnknown_ref", unknowns, unknown_count)?;
+        let knowns = read("vKnown_ref", knowns, known_count)?;
+        let seed = read("dvKnown", seed, known_count)?;
+        let sensitivity = write("dvUnknown", sensitivity, unknown_count)?;
+        component.instance.directional_derivative(unknowns, knowns, seed, sensitivity)
     }
 
     /// Sets time derivatives of inputs.
@@ -283,9 +312,9 @@ export! {
 
     /// Carries the motion on by one communication step.
     fn fmi2DoStep(component, point: f64, step: f64, _no_set_state_prior: c_int) {
-        let report = component.instance.do_step(point, step)?;
+        let (report, outcome) = component.instance.do_step(point, step)?;
         component.tell(&report);
-        Ok(())
+        outcome
     }
 
     /// There is never a step to cancel.
@@ -300,8 +329,7 @@ export! {
         if kind != DO_STEP_STATUS {
             return Err(Fault::StatusKind { kind, wanted: "status" });
         }
-        let failed = component.instance.lifecycle() == Lifecycle::Failed;
-        *value = if failed { Status::Error } else { Status::Ok } as c_int;
+        *value = component.instance.last_status() as c_int;
         Ok(())
     }
 

@@ -19,11 +19,13 @@ impl Braced {
     }
 }
 
-fn fingerprint(xml: &str) -> Braced {
-    let mut text = [0; 38];
+fn fingerprint(xml: &str) -> Uuid {
     Uuid::new_v5(&NAMESPACE, xml.as_bytes())
-        .braced()
-        .encode_lower(&mut text);
+}
+
+fn braced(uuid: Uuid) -> Braced {
+    let mut text = [0; 38];
+    uuid.braced().encode_lower(&mut text);
     Braced(text)
 }
 
@@ -34,16 +36,25 @@ fn fingerprint(xml: &str) -> Braced {
 /// If the XML cannot be written.
 pub fn guid_of(start: &StartValues) -> Result<String, std::io::Error> {
     let xml = model_description::write(start, "")?;
-    Ok(fingerprint(&xml).as_str().to_owned())
+    Ok(braced(fingerprint(&xml)).as_str().to_owned())
+}
+
+fn library() -> Option<&'static (Uuid, Braced)> {
+    static GUID: OnceLock<Option<(Uuid, Braced)>> = OnceLock::new();
+    GUID.get_or_init(|| {
+        let xml = model_description::write(&library_start_values(), "").ok()?;
+        let uuid = fingerprint(&xml);
+        Some((uuid, braced(uuid)))
+    })
+    .as_ref()
 }
 
 /// The GUID of this very library, or nothing if its description cannot be written.
 pub fn library_guid() -> Option<&'static str> {
-    static GUID: OnceLock<Option<Braced>> = OnceLock::new();
-    GUID.get_or_init(|| {
-        let xml = model_description::write(&library_start_values(), "").ok()?;
-        Some(fingerprint(&xml))
-    })
-    .as_ref()
-    .map(Braced::as_str)
+    library().map(|(_, text)| text.as_str())
+}
+
+/// The same as a number.
+pub(crate) fn library_uuid() -> Option<Uuid> {
+    library().map(|(uuid, _)| *uuid)
 }

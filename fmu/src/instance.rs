@@ -2,13 +2,15 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
 use softstop::Simulation;
 
 use crate::error::{Fault, argument};
 use crate::start::StartValues;
+use crate::status::Status;
 
 /// Where an instance stands between instantiation and its end (FMI 2.0, 4.2.4).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Lifecycle {
     /// Made or reset.
     Instantiated,
@@ -16,7 +18,7 @@ pub enum Lifecycle {
     Initializing,
     /// Ready for the next step.
     Running,
-    /// A step could not be carried out.
+    /// A defect of this library showed.
     Failed,
     /// Ended by the importer.
     Terminated,
@@ -35,7 +37,7 @@ impl fmt::Display for Lifecycle {
 }
 
 /// The input `force`: a value at a time, and how it goes on from there.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Force {
     pub(crate) value: f64,
     pub(crate) rate: f64,
@@ -53,7 +55,7 @@ impl Force {
 }
 
 /// What was set and has not reached the motion yet.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(crate) struct Pending {
     pub(crate) tuning: bool,
     pub(crate) force: bool,
@@ -70,10 +72,12 @@ pub struct Instance {
     pub(crate) experiment: Option<Experiment>,
     pub(crate) simulation: Option<Simulation>,
     pub(crate) pending: Pending,
+    /// Where the last step began, in s, if it was discarded.
+    pub(crate) retry_from: Option<f64>,
 }
 
 /// What `fmi2SetupExperiment` said.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct Experiment {
     pub(crate) start: f64,
     pub(crate) stop: Option<f64>,
@@ -91,6 +95,7 @@ impl Instance {
             experiment: None,
             simulation: None,
             pending: Pending::default(),
+            retry_from: None,
         }
     }
 
@@ -102,6 +107,20 @@ impl Instance {
     /// Back to the fresh unit.
     pub fn reset(&mut self) {
         *self = Self::new(self.initial);
+    }
+
+    /// Takes up another's place in life.
+    pub(crate) fn take_up(&mut self, lifecycle: Lifecycle) {
+        self.lifecycle = lifecycle;
+    }
+
+    /// How the last step ended.
+    pub fn last_status(&self) -> Status {
+        match (self.lifecycle, self.retry_from) {
+            (Lifecycle::Failed, _) => Status::Error,
+            (_, Some(_)) => Status::Discard,
+            (_, None) => Status::Ok,
+        }
     }
 
     /// Marks the unit as unable to go on: only reading, resetting and freeing are left.

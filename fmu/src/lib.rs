@@ -6,6 +6,7 @@
 //! functions of the standard around it and is, with the block of start values, the only unsafe
 //! code.
 
+mod blob;
 mod derivatives;
 mod document;
 mod error;
@@ -15,8 +16,10 @@ mod instance;
 mod log;
 pub mod model_description;
 pub mod package;
+mod sensitivity;
 mod settings;
 pub mod start;
+mod status;
 mod step;
 pub mod units;
 mod values;
@@ -26,4 +29,5 @@ pub use error::Fault;
 pub use guid::{guid_of, library_guid};
 pub use instance::{Instance, Lifecycle};
 pub use start::{NotServed, Slot, StartValues, library_start_values};
+pub use status::Status;
 pub use step::StepReport;

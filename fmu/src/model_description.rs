@@ -148,8 +148,8 @@ fn capabilities() -> Attributes {
         ("canBeInstantiatedOnlyOncePerProcess", "false"),
         ("canNotUseMemoryManagementFunctions", "true"),
         ("canGetAndSetFMUstate", "true"),
-        ("canSerializeFMUstate", "false"),
-        ("providesDirectionalDerivative", "false"),
+        ("canSerializeFMUstate", "true"),
+        ("providesDirectionalDerivative", "true"),
     ])
 }
 

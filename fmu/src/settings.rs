@@ -39,6 +39,9 @@ impl Instance {
         self.adopt(parameters)?;
         if let Some(value) = force {
             self.push(value, 0.0);
+            if let Some(simulation) = &mut self.simulation {
+                simulation.mark();
+            }
         }
         Ok(())
     }

@@ -80,6 +80,15 @@ impl StartValues {
         self.set(Slot::RIGID_TRAVEL, 5.0);
     }
 
+    /// The values in the order of their slots.
+    pub(crate) const fn values(&self) -> &[f64; SLOTS] {
+        &self.0
+    }
+
+    pub(crate) const fn from_values(values: [f64; SLOTS]) -> Self {
+        Self(values)
+    }
+
     /// The bytes that stand behind the marker.
     pub(crate) fn to_bytes(self) -> Vec<u8> {
         self.0

@@ -1,5 +1,8 @@
 //! The communication step.
 
+use softstop::integrator::Effort;
+use softstop::{MotionError, Simulation};
+
 use crate::error::{Fault, argument};
 use crate::instance::{Instance, Lifecycle};
 
@@ -26,31 +29,75 @@ fn drift_tolerance(present: f64, step: f64) -> f64 {
     counting.min(0.5 * step).max(rounding)
 }
 
+/// Work that one step may cost: some ten seconds. A step that would take longer is carried out in
+/// part, so that no importer waits for ever.
+const EFFORT: Effort = Effort::windows(1 << 28);
+
 impl Instance {
-    /// Carries the motion on to `point + step`, whatever happens on the way.
+    /// Carries the motion on to `point + step`, whatever happens on the way. Next to the report stands
+    /// [`Fault::Discarded`] if it did not get that far: [`Instance::time`] is then where it is, and the
+    /// next step may begin there, or where this one began.
     ///
     /// # Errors
-    /// If it is not initialised, if a number is not usable, if `point` is not where the last step
-    /// ended, or if the motion grows beyond all bounds; after the last the unit must be reset.
-    pub fn do_step(&mut self, point: f64, step: f64) -> Result<StepReport, Fault> {
+    /// If it is not initialised, if a number is not usable, or if `point` is not where the last step
+    /// ended; nothing has happened then.
+    pub fn do_step(
+        &mut self,
+        point: f64,
+        step: f64,
+    ) -> Result<(StepReport, Result<(), Fault>), Fault> {
         self.require(
             &[Lifecycle::Running],
             "a step needs an initialised unit that has not failed or ended",
         )?;
-        if !point.is_finite() {
-            return Err(argument("currentCommunicationPoint", point, "finite"));
+        let end = end_of_step(point, step)?;
+        self.retry(point, step);
+        self.check_communication_point(point, step)?;
+        let stop = self.experiment.and_then(|experiment| experiment.stop);
+        if let Some(stop) = stop.filter(|stop| end > stop + 1e-9 * stop.abs().max(1.0)) {
+            return Err(Fault::BeyondStop { end, stop });
         }
-        if !(step.is_finite() && step > 0.0) {
-            return Err(argument("communicationStepSize", step, "finite and > 0"));
+        let present = self.time();
+        let simulation = self.settle()?;
+        let before = (simulation.impact_count(), simulation.pierce_count());
+        // A step below the last digit of the time ends where it began.
+        let outcome = simulation.advance_within(end.max(present), EFFORT);
+        let report = StepReport::since(before, simulation);
+        let reached = simulation.time();
+        let reason = match outcome {
+            Ok(true) => {
+                self.retry_from = None;
+                return Ok((report, Ok(())));
+            }
+            Ok(false) => format!("{} impacts so far", report.impacts),
+            Err(error @ (MotionError::Unbounded { .. } | MotionError::Stalled { .. })) => {
+                error.to_string()
+            }
+            Err(error) => return Err(error.into()),
+        };
+        self.retry_from = Some(present);
+        let discarded = Fault::Discarded {
+            end,
+            reached,
+            reason,
+        };
+        Ok((report, Err(discarded)))
+    }
+
+    /// Takes a discarded step back if this one begins where it began.
+    fn retry(&mut self, point: f64, step: f64) {
+        let tolerance = |time: f64| drift_tolerance(time, step);
+        let repeats = |start: f64| (point - start).abs() <= tolerance(start);
+        let goes_on = (point - self.time()).abs() <= tolerance(self.time());
+        if self.retry_from.is_some_and(repeats)
+            && !goes_on
+            && let Some(simulation) = &mut self.simulation
+        {
+            simulation.take_back();
         }
-        let end = point + step;
-        if !end.is_finite() {
-            return Err(argument(
-                "communicationStepSize",
-                step,
-                "such that its end is finite",
-            ));
-        }
+    }
+
+    fn check_communication_point(&self, point: f64, step: f64) -> Result<(), Fault> {
         let present = self.time();
         let tolerance = drift_tolerance(present, step);
         if (point - present).abs() > tolerance {
@@ -60,27 +107,39 @@ impl Instance {
                 tolerance,
             });
         }
-        let stop = self.experiment.and_then(|experiment| experiment.stop);
-        if let Some(stop) = stop.filter(|stop| end > stop + 1e-9 * stop.abs().max(1.0)) {
-            return Err(Fault::BeyondStop { end, stop });
-        }
-        let simulation = self.settle()?;
-        let (impacts, pierced) = (simulation.impact_count(), simulation.pierce_count());
-        // A step below the last digit of the time ends where it began.
-        if end > present
-            && let Err(error) = simulation.advance(end)
-        {
-            self.fail();
-            return Err(error.into());
-        }
+        Ok(())
+    }
+}
+
+fn end_of_step(point: f64, step: f64) -> Result<f64, Fault> {
+    if !point.is_finite() {
+        return Err(argument("currentCommunicationPoint", point, "finite"));
+    }
+    if !(step.is_finite() && step > 0.0) {
+        return Err(argument("communicationStepSize", step, "finite and > 0"));
+    }
+    let end = point + step;
+    if !end.is_finite() {
+        return Err(argument(
+            "communicationStepSize",
+            step,
+            "such that its end is finite",
+        ));
+    }
+    Ok(end)
+}
+
+impl StepReport {
+    /// What has happened since impacts and strips were counted.
+    fn since((impacts, pierced): (u64, u64), simulation: &Simulation) -> Self {
         let impacts = simulation.impact_count() - impacts;
-        Ok(StepReport {
+        Self {
             impacts,
             pierced: simulation.pierce_count() - pierced,
             last: simulation
                 .last_impact()
                 .filter(|_| impacts > 0)
                 .map(|impact| (impact.time, impact.velocity)),
-        })
+        }
     }
 }

@@ -66,7 +66,9 @@ impl Instance {
             |instance, variable, view| match &variable.access {
                 Access::Parameter { slot, .. } => Some(instance.parameters.get(*slot)),
                 Access::Force => Some(instance.force.at(instance.time())),
-                Access::Continuous { value, .. } | Access::Discrete(value) => view.map(value),
+                Access::Continuous { value, .. } | Access::Discrete { value, .. } => {
+                    view.map(value)
+                }
                 _ => None,
             },
         )

@@ -8,6 +8,7 @@ mod table;
 
 use std::cell::OnceCell;
 
+use softstop::orbit::Sensitivity;
 use softstop::{Energy, PhaseKind, Sample, Simulation};
 
 use crate::start::Slot;
@@ -114,11 +115,18 @@ pub enum Access {
         value: fn(&View) -> f64,
         /// Its time derivatives, of order 1, 2, ...
         derivatives: &'static [fn(&View) -> f64],
+        /// Its derivative along a direction.
+        sensitivity: fn(&Sensitivity) -> f64,
         /// What it depends on.
         depends: Dependencies,
     },
     /// A real output that changes at events only.
-    Discrete(fn(&View) -> f64),
+    Discrete {
+        /// Its value.
+        value: fn(&View) -> f64,
+        /// Its derivative along a direction.
+        sensitivity: fn(&Sensitivity) -> f64,
+    },
     /// An integer or enumeration output; it changes at events only.
     Integer {
         /// Its value.
@@ -155,7 +163,7 @@ impl Variable {
             Access::Parameter { tunable: true, .. } => "tunable",
             Access::Parameter { tunable: false, .. } => "fixed",
             Access::Force | Access::Continuous { .. } => "continuous",
-            Access::Material | Access::Discrete(_) | Access::Integer { .. } => "discrete",
+            Access::Material | Access::Discrete { .. } | Access::Integer { .. } => "discrete",
         }
     }
 
@@ -168,7 +176,7 @@ impl Variable {
     pub const fn dependencies(&self) -> Option<&Dependencies> {
         match &self.access {
             Access::Continuous { depends, .. } | Access::Integer { depends, .. } => Some(depends),
-            Access::Discrete(_) => Some(&Dependencies {
+            Access::Discrete { .. } => Some(&Dependencies {
                 inputs: &[],
                 initial: &[],
             }),
@@ -194,7 +202,7 @@ impl<'a> View<'a> {
         }
     }
 
-    fn sample(&self) -> &Sample {
+    pub(crate) fn sample(&self) -> &Sample {
         self.sample.get_or_init(|| self.simulation.sample())
     }
 

@@ -9,6 +9,7 @@ mod motion;
 mod observer;
 mod simulation;
 mod snapshot;
+mod stretch;
 mod tallies;
 
 pub use clock::{Clock, Instant};

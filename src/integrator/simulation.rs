@@ -3,6 +3,7 @@
 use super::clock::{Clock, Instant};
 use super::effort::Effort;
 use super::motion::{Force, Motion, Start};
+use super::stretch::{Mark, Origin};
 use super::tallies::{Counts, Tallies};
 use crate::error::MotionError;
 use crate::phases::PhaseKind;
@@ -21,15 +22,6 @@ pub struct Simulation {
     /// Absolute time at which the machine started.
     pub(super) begin: f64,
     pub(super) mark: Mark,
-}
-
-/// Where the last advance began.
-#[derive(Debug, Clone)]
-pub(super) enum Mark {
-    /// On the arc that is under way.
-    OnArc(Instant),
-    /// Some crossings ago: the motion as it was.
-    Before(Box<Motion>),
 }
 
 /// Outputs at the present time.
@@ -158,13 +150,17 @@ impl Simulation {
             self.now = until;
             return Ok(true);
         }
-        let (motion, counts) = (self.motion.clone(), self.tallies.counts);
+        let origin = Origin {
+            motion: self.motion.clone(),
+            counts: self.tallies.counts,
+            now: self.now,
+        };
         match self
             .motion
             .advance_within(instant, &mut self.tallies, effort)
         {
             Ok(arrived) => {
-                self.mark = Mark::Before(Box::new(motion));
+                self.mark = Mark::Before(Box::new(origin));
                 self.now = if arrived {
                     until
                 } else {
@@ -174,7 +170,7 @@ impl Simulation {
                 Ok(arrived)
             }
             Err(error) => {
-                (self.motion, self.tallies.counts) = (motion, counts);
+                (self.motion, self.tallies.counts) = (origin.motion, origin.counts);
                 Err(error)
             }
         }
@@ -193,28 +189,6 @@ impl Simulation {
             return Err(MotionError::TooFar { until, farthest });
         }
         Ok(self.motion.clock().instant(until - self.epoch))
-    }
-
-    /// Lets the stretch of [`Simulation::sensitivity`] begin at the present time.
-    pub fn mark(&mut self) {
-        self.mark = Mark::OnArc(self.motion.now());
-    }
-
-    /// True if that stretch reaches back to the start.
-    pub fn is_marked_at_start(&self) -> bool {
-        let at = match &self.mark {
-            Mark::OnArc(instant) => *instant,
-            Mark::Before(motion) => motion.now(),
-        };
-        self.epoch == 0.0 && at == self.motion.clock().instant(self.begin)
-    }
-
-    /// The motion as it was at the mark, on an arc of its own from there on.
-    pub(crate) fn motion_at_mark(&self) -> Motion {
-        match &self.mark {
-            Mark::OnArc(instant) => self.motion.departed_at(*instant),
-            Mark::Before(motion) => motion.departed_at(motion.now()),
-        }
     }
 
     /// The motion now.

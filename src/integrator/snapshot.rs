@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 use super::clock::{Clock, Instant};
 use super::hum::Hum;
 use super::motion::{Force, Motion, Start};
-use super::simulation::{Mark, Simulation};
+use super::simulation::Simulation;
+use super::stretch::{Mark, Origin};
 use super::tallies::{Counts, Tallies};
 use crate::error::MotionError;
 use crate::events::Outlook;
@@ -35,7 +36,11 @@ pub struct Snapshot {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 enum Marked {
     OnArc(Instant),
-    Before(Box<Moving>),
+    Before {
+        motion: Box<Moving>,
+        counts: Counts,
+        now: f64,
+    },
 }
 
 /// [`Motion`] as data.
@@ -142,7 +147,11 @@ impl Simulation {
             motion: Moving::of(&self.motion),
             mark: match &self.mark {
                 Mark::OnArc(instant) => Marked::OnArc(*instant),
-                Mark::Before(motion) => Marked::Before(Box::new(Moving::of(motion))),
+                Mark::Before(origin) => Marked::Before {
+                    motion: Box::new(Moving::of(&origin.motion)),
+                    counts: origin.counts,
+                    now: origin.now,
+                },
             },
         }
     }
@@ -162,7 +171,15 @@ impl Simulation {
         let motion = snapshot.motion.motion(scene, &phases)?;
         let mark = match &snapshot.mark {
             Marked::OnArc(instant) => Mark::OnArc(*instant),
-            Marked::Before(moving) => Mark::Before(Box::new(moving.motion(scene, &phases)?)),
+            Marked::Before {
+                motion,
+                counts,
+                now,
+            } => Mark::Before(Box::new(Origin {
+                motion: motion.motion(scene, &phases)?,
+                counts: *counts,
+                now: *now,
+            })),
         };
         Ok(Self {
             scene: scene.clone(),

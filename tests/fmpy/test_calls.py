@@ -190,19 +190,6 @@ def test_outputs_cannot_be_set(unit):
     unit.refused(lambda: unit.set({"position": 1.0}), "position", "output")
 
 
-def test_what_the_flags_rule_out(unit):
-    unit.begin()
-    state = unit.fmu.getFMUstate()
-    unit.refused(lambda: unit.fmu.serializeFMUstate(state), "canSerializeFMUstate")
-    unit.fmu.freeFMUstate(state)
-    unit.refused(
-        lambda: unit.fmu.getDirectionalDerivative(
-            [unit.reference("acceleration")], [unit.reference("force")], [1.0]
-        ),
-        "providesDirectionalDerivative",
-    )
-
-
 def run(unit):
     values = []
     for _ in range(40):

@@ -4,13 +4,13 @@ use std::borrow::Cow;
 use std::ffi::{CString, c_char, c_int, c_void};
 
 use super::CO_SIMULATION;
-use super::guard::Status;
 use super::pointers::string;
 use crate::error::Fault;
 use crate::guid::library_guid;
 use crate::instance::Instance;
 use crate::log::{Category, Wanted};
 use crate::start::library_start_values;
+use crate::status::Status;
 use crate::step::StepReport;
 
 /// `fmi2CallbackLogger`: environment, instance name, status, category, format, arguments.
@@ -94,11 +94,6 @@ impl Component {
     pub(super) fn reset(&mut self) {
         self.instance.reset();
         self.wanted = Wanted::all(self.logging_on);
-    }
-
-    /// A function that a capability flag rules out.
-    pub(super) fn unavailable(&self, flag: &'static str) -> Result<(), Fault> {
-        Err(Fault::Unavailable { flag })
     }
 }
 

@@ -15,20 +15,7 @@ use std::sync::Once;
 use super::component::Component;
 use crate::error::Fault;
 use crate::log::Category;
-
-/// `fmi2Status`: what a call returns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(i32)]
-pub enum Status {
-    /// All well.
-    Ok = 0,
-    /// Done, but hardly as meant.
-    Warning = 1,
-    /// Not done; it can be tried in another way.
-    Discard = 2,
-    /// Refused.
-    Error = 3,
-}
+use crate::status::Status;
 
 thread_local! {
     // A constant without a destructor: nothing keeps the library from being unloaded.
@@ -81,8 +68,9 @@ pub(super) fn guarded(
     match outcome {
         Ok(()) => Status::Ok as c_int,
         Err(fault) => {
-            component.log(Status::Error, Category::Errors, &format!("{call}: {fault}"));
-            Status::Error as c_int
+            let status = fault.status();
+            component.log(status, Category::Errors, &format!("{call}: {fault}"));
+            status as c_int
         }
     }
 }

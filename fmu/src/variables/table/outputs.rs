@@ -85,7 +85,7 @@ pub(super) const OUTPUTS: &[Variable] = &[
         203,
         "contact.force",
         nominal(real(&units::FORCE), 10.0),
-        |view| view.sample().contact_force,
+        (|view| view.sample().contact_force, |of| of.contact_force),
         &[],
         at_once(EVERYTHING),
         "Force of stop and strip on the mass: F in m x'' + b1 x' + k1 x + F = F0 cos(w t + phi) + force. Positive in compression (against positive x); it includes the additional damping in contact. While the phase is resting it is what holds the mass, while it is chatter the mean over the bounces",
@@ -94,7 +94,7 @@ pub(super) const OUTPUTS: &[Variable] = &[
         200,
         "position",
         nominal(real(&units::LENGTH), 10.0),
-        position,
+        (position, |of| of.position),
         &[velocity, acceleration],
         after(&["initial.position"]),
         "Position of the mass",
@@ -103,7 +103,7 @@ pub(super) const OUTPUTS: &[Variable] = &[
         201,
         "velocity",
         nominal(real(&units::VELOCITY), 10.0),
-        velocity,
+        (velocity, |of| of.velocity),
         &[acceleration, jerk],
         after(&["initial.velocity"]),
         "Velocity of the mass",
@@ -112,7 +112,7 @@ pub(super) const OUTPUTS: &[Variable] = &[
         202,
         "acceleration",
         nominal(real(&units::ACCELERATION), 10.0),
-        acceleration,
+        (acceleration, |of| of.acceleration),
         &[jerk],
         at_once(EVERYTHING),
         "Acceleration of the mass; while the phase is chatter the mean over the bounces, 0",
@@ -137,22 +137,28 @@ pub(super) const OUTPUTS: &[Variable] = &[
         207,
         "impact.time",
         real(&units::TIME),
-        |view| {
-            view.simulation
-                .last_impact()
-                .map_or(0.0, |impact| impact.time)
-        },
+        (
+            |view| {
+                view.simulation
+                    .last_impact()
+                    .map_or(0.0, |impact| impact.time)
+            },
+            |of| of.impact_time,
+        ),
         "Time of the last impact, exact whatever the communication step; 0 before the first one",
     ),
     discrete(
         208,
         "impact.velocity",
         nominal(real(&units::VELOCITY), 10.0),
-        |view| {
-            view.simulation
-                .last_impact()
-                .map_or(0.0, |impact| impact.velocity)
-        },
+        (
+            |view| {
+                view.simulation
+                    .last_impact()
+                    .map_or(0.0, |impact| impact.velocity)
+            },
+            |of| of.impact_velocity,
+        ),
         "Velocity just before the last impact; 0 before the first one",
     ),
     count(
@@ -165,7 +171,7 @@ pub(super) const OUTPUTS: &[Variable] = &[
         209,
         "energy.mechanical",
         nominal(real(&units::ENERGY), 100.0),
-        |view| view.energy().mechanical,
+        (|view| view.energy().mechanical, |of| of.mechanical),
         &[],
         after(STORES),
         "Kinetic energy and energy of the springs, that of a loaded stop included",
@@ -174,7 +180,7 @@ pub(super) const OUTPUTS: &[Variable] = &[
         210,
         "energy.supplied",
         nominal(real(&units::ENERGY), 100.0),
-        |view| view.energy().supplied,
+        (|view| view.energy().supplied, |of| of.supplied),
         &[],
         after(&[]),
         "Work of the drive, of the external force and of tuning since the start",
@@ -183,7 +189,7 @@ pub(super) const OUTPUTS: &[Variable] = &[
         211,
         "energy.dissipated",
         nominal(real(&units::ENERGY), 100.0),
-        |view| view.energy().dissipated,
+        (|view| view.energy().dissipated, |of| of.dissipated),
         &[],
         after(&[]),
         "Energy lost to damping, friction, forming and impacts on rigid stops since the start",

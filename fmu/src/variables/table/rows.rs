@@ -1,5 +1,7 @@
 //! What the rows of the table are made of.
 
+use softstop::orbit::Sensitivity;
+
 use crate::start::{SLOPES, Slot};
 use crate::units::{Enumeration, Quantity};
 use crate::variables::{Access, Dependencies, Kind, RealKind, Variable, View};
@@ -142,11 +144,14 @@ macro_rules! slopes {
 }
 pub(super) use slopes;
 
+/// How a real output and its derivative along a direction are read.
+type Reading = (fn(&View) -> f64, fn(&Sensitivity) -> f64);
+
 pub(super) const fn continuous(
     reference: u32,
     name: &'static str,
     kind: RealKind,
-    value: fn(&View) -> f64,
+    (value, sensitivity): Reading,
     derivatives: &'static [fn(&View) -> f64],
     depends: Dependencies,
     description: &'static str,
@@ -159,6 +164,7 @@ pub(super) const fn continuous(
         access: Access::Continuous {
             value,
             derivatives,
+            sensitivity,
             depends,
         },
     }
@@ -168,7 +174,7 @@ pub(super) const fn discrete(
     reference: u32,
     name: &'static str,
     kind: RealKind,
-    value: fn(&View) -> f64,
+    (value, sensitivity): Reading,
     description: &'static str,
 ) -> Variable {
     Variable {
@@ -176,7 +182,7 @@ pub(super) const fn discrete(
         name,
         description,
         kind: Kind::Real(kind),
-        access: Access::Discrete(value),
+        access: Access::Discrete { value, sensitivity },
     }
 }
 
