@@ -29,9 +29,9 @@ fn drift_tolerance(present: f64, step: f64) -> f64 {
     counting.min(0.5 * step).max(rounding)
 }
 
-/// Work that one step may cost: some ten seconds. A step that would take longer is carried out in
-/// part, so that no importer waits for ever.
-const EFFORT: Effort = Effort::windows(1 << 28);
+/// Work that one step may cost: eight million crossings, some seconds. A step that would take longer
+/// is carried out in part, so that no importer waits for ever.
+const EFFORT: Effort = Effort::windows(1 << 27);
 
 impl Instance {
     /// Carries the motion on to `point + step`, whatever happens on the way. Next to the report stands

@@ -10,6 +10,7 @@ use softstop_fmu::library_guid;
 use softstop_fmu::variables::by_name;
 
 pub const OK: c_int = 0;
+pub const DISCARD: c_int = 2;
 pub const ERROR: c_int = 3;
 
 /// The log of one instance: its environment pointer leads here.
@@ -140,6 +141,34 @@ impl Unit {
             unsafe { fmi2GetBoolean(self.component, &raw const reference, 1, &raw mut value) };
         assert_eq!(status, OK, "{:?}", self.take_log());
         value
+    }
+
+    /// The derivatives of real outputs along a direction.
+    pub fn derivatives(
+        &self,
+        unknowns: &[&str],
+        knowns: &[(&str, f64)],
+    ) -> Result<Vec<f64>, c_int> {
+        let of: Vec<_> = unknowns.iter().map(|name| reference(name)).collect();
+        let by: Vec<_> = knowns.iter().map(|(name, _)| reference(name)).collect();
+        let seed: Vec<_> = knowns.iter().map(|(_, seed)| *seed).collect();
+        let mut values = vec![f64::NAN; of.len()];
+        let status = unsafe {
+            fmi2GetDirectionalDerivative(
+                self.component,
+                of.as_ptr(),
+                of.len(),
+                by.as_ptr(),
+                by.len(),
+                seed.as_ptr(),
+                values.as_mut_ptr(),
+            )
+        };
+        if status == OK {
+            Ok(values)
+        } else {
+            Err(status)
+        }
     }
 
     pub fn step(&self, point: f64, step: f64) -> c_int {

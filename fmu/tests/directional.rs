@@ -1,0 +1,200 @@
+//! Directional derivatives against differences, through the C functions.
+#![allow(unsafe_code, reason = "calls the C functions as an importer does")]
+
+mod common;
+
+use common::{OK, Unit};
+use softstop_fmu::ffi::*;
+
+const OUTPUTS: [&str; 9] = [
+    "position",
+    "velocity",
+    "acceleration",
+    "contact.force",
+    "energy.mechanical",
+    "energy.supplied",
+    "energy.dissipated",
+    "impact.time",
+    "impact.velocity",
+];
+
+fn outputs(unit: &Unit) -> [f64; 9] {
+    OUTPUTS.map(|name| unit.get(name))
+}
+
+/// Central difference of `run` about 0.
+fn difference(run: impl Fn(f64) -> [f64; 9], width: f64) -> [f64; 9] {
+    let (high, low) = (run(width), run(-width));
+    std::array::from_fn(|n| (high[n] - low[n]) / (2.0 * width))
+}
+
+fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    for (n, name) in OUTPUTS.iter().enumerate() {
+        let (found, expected) = (found[n], expected[n]);
+        let off = (found - expected).abs();
+        assert!(
+            off < tolerance * (1.0 + expected.abs()),
+            "{what}: {name} {found} {expected}"
+        );
+    }
+}
+
+/// Steps of 3 s through flight, strip, stop and back: the force of the last one.
+#[test]
+fn force_across_the_impacts_of_the_last_step() {
+    for model in 2..=6 {
+        let run = |steps: u32, change: f64| {
+            let unit = Unit::new();
+            assert_eq!(unit.set_integer("stop.model", model), OK);
+            unit.begin();
+            for number in 0..steps {
+                let last = number + 1 == steps;
+                assert_eq!(unit.set("force", if last { 0.2 + change } else { 0.2 }), OK);
+                assert_eq!(unit.step(3.0 * f64::from(number), 3.0), OK);
+            }
+            unit
+        };
+        for steps in 1..=8 {
+            let found = run(steps, 0.0)
+                .derivatives(&OUTPUTS, &[("force", 1.0)])
+                .expect("available");
+            let expected = difference(|change| outputs(&run(steps, change)), 1e-5);
+            assert_close(&found, &expected, 1e-5, &format!("{model} {steps}"));
+        }
+    }
+}
+
+#[test]
+fn start_and_force_over_the_first_step() {
+    let run = |position: f64, velocity: f64, force: f64| {
+        let unit = Unit::new();
+        let start = ["initial.position", "initial.velocity"].map(|name| unit.get(name));
+        assert_eq!(unit.set("initial.position", start[0] + position), OK);
+        assert_eq!(unit.set("initial.velocity", start[1] + velocity), OK);
+        assert_eq!(unit.set("force", force), OK);
+        unit.begin();
+        assert_eq!(unit.step(0.0, 11.0), OK);
+        unit
+    };
+    let unit = run(0.0, 0.0, 0.0);
+    assert!(unit.get_integer("impact.count") >= 2);
+    let direction = [
+        ("initial.position", 0.5),
+        ("initial.velocity", -1.25),
+        ("force", 0.75),
+    ];
+    let found = unit.derivatives(&OUTPUTS, &direction).expect("available");
+    let along = |width: f64| outputs(&run(0.5 * width, -1.25 * width, 0.75 * width));
+    assert_close(&found, &difference(along, 1e-6), 1e-5, "first step");
+
+    assert_eq!(unit.step(11.0, 1.0), OK);
+    let refused = unit
+        .derivatives(&OUTPUTS, &direction)
+        .expect_err("too late");
+    unit.refused(refused, &["initial.position", "first step"]);
+}
+
+/// Right after the force was set, only what it feeds through at once is left.
+#[test]
+fn feedthrough_after_setting_the_force() {
+    let unit = Unit::new();
+    assert_eq!(unit.set("mass", 2.0), OK);
+    unit.begin();
+    assert_eq!(unit.step(0.0, 7.0), OK);
+    let across = unit
+        .derivatives(&["position"], &[("force", 1.0)])
+        .expect("available");
+    assert!(across[0].abs() > 0.1);
+    let same = unit.get("force");
+    assert_eq!(unit.set("force", same), OK);
+    let found = unit
+        .derivatives(&["position", "velocity", "acceleration"], &[("force", 3.0)])
+        .expect("available");
+    assert_eq!(found, [0.0, 0.0, 1.5]);
+}
+
+/// In initialisation outputs are functions of all parameters.
+#[test]
+fn parameters_in_initialisation() {
+    let unit = Unit::new();
+    let begin = |unit: &Unit| unsafe {
+        // Beyond the stop, where every parameter counts.
+        assert_eq!(unit.set("initial.position", 11.3), OK);
+        assert_eq!(unit.set("initial.velocity", 2.0), OK);
+        assert_eq!(fmi2SetupExperiment(unit.component, 0, 0.0, 0.0, 0, 0.0), OK);
+        assert_eq!(fmi2EnterInitializationMode(unit.component), OK);
+    };
+    begin(&unit);
+    let mut felt = 0;
+    for name in [
+        "mass",
+        "stiffness",
+        "damping",
+        "excitation.amplitude",
+        "excitation.phase",
+        "excitation.frequency",
+        "clearance",
+        "contact.damping",
+        "stop.stiffness",
+        "stop.preload",
+        "piercing.thickness",
+        "piercing.travel",
+        "initial.position",
+        "initial.velocity",
+        "force",
+    ] {
+        let found = unit
+            .derivatives(&OUTPUTS, &[(name, 2.0)])
+            .expect("available");
+        let value = unit.get(name);
+        let moved = |change: f64| {
+            let unit = Unit::new();
+            begin(&unit);
+            assert_eq!(unit.set(name, value + 2.0 * change), OK);
+            outputs(&unit)
+        };
+        let signed = ["excitation.phase", "force"].contains(&name);
+        let low = if value == 0.0 && !signed { 0.0 } else { -1e-6 };
+        let (high, low, width) = (moved(1e-6), moved(low), 1e-6 - low);
+        let expected: Vec<_> = (0..9).map(|n| (high[n] - low[n]) / width).collect();
+        assert_close(&found, &expected, 1e-6, name);
+        felt += u32::from(found.iter().any(|derivative| *derivative != 0.0));
+    }
+    // At drive angle 0 neither frequency nor phase counts.
+    assert_eq!(felt, 13);
+    // k (x - r - s - v) - k x + ... is linear in the preload.
+    let found = unit.derivatives(&["contact.force"], &[("stop.preload", 1.0)]);
+    assert!((found.expect("available")[0] - 1.0).abs() < 1e-10);
+}
+
+#[test]
+fn what_has_no_derivative() {
+    let unit = Unit::new();
+    let refuse = |unknown: &str, known: &str, seed: f64, words: &[&str]| {
+        let status = unit.derivatives(&[unknown], &[(known, seed)]);
+        unit.refused(status.expect_err("refused"), words);
+    };
+    refuse("position", "force", 1.0, &["before initialisation"]);
+    unit.begin();
+    assert_eq!(unit.step(0.0, 4.0), OK);
+    refuse("phase", "force", 1.0, &["phase", "Enumeration"]);
+    refuse("mass", "force", 1.0, &["mass", "no real output"]);
+    refuse("position", "material", 1.0, &["material", "Boolean"]);
+    refuse("position", "velocity", 1.0, &["velocity"]);
+    refuse("position", "mass", 1.0, &["mass", "force"]);
+    refuse("position", "force", f64::NAN, &["dvKnown = NaN"]);
+    assert_eq!(unit.derivatives(&[], &[]), Ok(vec![]));
+    assert_eq!(unit.derivatives(&["position"], &[]), Ok(vec![0.0]));
+    let status = unsafe {
+        fmi2GetDirectionalDerivative(
+            unit.component,
+            std::ptr::null(),
+            1,
+            std::ptr::null(),
+            0,
+            std::ptr::null(),
+            std::ptr::null_mut(),
+        )
+    };
+    unit.refused(status, &["vUnknown_ref is NULL"]);
+}

@@ -1,0 +1,125 @@
+//! Steps that cannot be carried out as a whole.
+#![allow(unsafe_code, reason = "calls the C functions as an importer does")]
+
+mod common;
+
+use std::ffi::c_int;
+use std::ptr;
+
+use common::{DISCARD, ERROR, OK, Unit};
+use softstop_fmu::ffi::*;
+
+fn last_successful_time(unit: &Unit) -> f64 {
+    let mut time = f64::NAN;
+    assert_eq!(
+        unsafe { fmi2GetRealStatus(unit.component, 2, &raw mut time) },
+        OK
+    );
+    time
+}
+
+fn step_status(unit: &Unit) -> c_int {
+    let mut status = -1;
+    assert_eq!(
+        unsafe { fmi2GetStatus(unit.component, 0, &raw mut status) },
+        OK
+    );
+    status
+}
+
+fn assert_discarded(unit: &Unit, status: c_int) {
+    let lines = unit.take_log();
+    assert_eq!(status, DISCARD, "{lines:?}");
+    assert_eq!(lines.len(), 1, "{lines:?}");
+    assert!(lines[0].starts_with("2 errors fmi2DoStep"), "{lines:?}");
+    assert_eq!(step_status(unit), DISCARD);
+}
+
+/// Elastic bounces on a rigid stop under a fast drive: more impacts than a step may cost.
+fn busy() -> Unit {
+    let unit = Unit::new();
+    assert_eq!(unit.set_integer("stop.model", 6), OK);
+    for (name, value) in [
+        ("piercing.thickness", 0.0),
+        ("piercing.travel", 0.0),
+        ("clearance", 0.0),
+        ("stop.restitution", 1.0),
+        ("damping", 0.0),
+        ("contact.damping", 0.0),
+        ("stiffness", 1e8),
+        ("initial.position", -1.0),
+        ("initial.velocity", 0.0),
+    ] {
+        assert_eq!(unit.set(name, value), OK, "{name}");
+    }
+    unit.begin();
+    unit
+}
+
+#[test]
+fn a_step_of_too_many_impacts_is_carried_out_in_part() {
+    let unit = busy();
+    assert_discarded(&unit, unit.step(0.0, 1e9));
+    let reached = last_successful_time(&unit);
+    assert!(reached > 1e3 && reached < 1e9, "{reached}");
+    let impacts = unit.get_integer("impact.count");
+    assert!(f64::from(impacts) > 0.9 * reached * 1e4 / std::f64::consts::PI);
+    assert!(unit.get("impact.time") <= reached);
+
+    let mut kept = ptr::null_mut();
+    assert_eq!(
+        unsafe { fmi2GetFMUstate(unit.component, &raw mut kept) },
+        OK
+    );
+
+    // It goes on from there ...
+    assert_eq!(unit.step(reached, 1e-3), OK);
+    assert_eq!(step_status(&unit), OK);
+    assert_eq!(last_successful_time(&unit), reached + 1e-3);
+    // ... but, that done, not from the old start.
+    let status = unit.step(0.0, 1.0);
+    unit.refused(status, &["currentCommunicationPoint"]);
+
+    // Or a shorter step from the old start, as if nothing had been.
+    unsafe {
+        assert_eq!(fmi2SetFMUstate(unit.component, kept), OK);
+        assert_eq!(fmi2FreeFMUstate(unit.component, &raw mut kept), OK);
+    }
+    assert_eq!(step_status(&unit), DISCARD);
+    assert_eq!(unit.step(0.0, 1.0), OK, "{:?}", unit.take_log());
+    let direct = busy();
+    assert_eq!(direct.step(0.0, 1.0), OK);
+    for name in ["position", "energy.supplied", "impact.time"] {
+        assert_eq!(unit.get(name).to_bits(), direct.get(name).to_bits());
+    }
+    let count = |unit: &Unit| unit.get_integer("impact.count");
+    assert_eq!(count(&unit), count(&direct));
+}
+
+#[test]
+fn an_unbounded_motion_is_known_as_far_as_it_goes() {
+    let unit = Unit::new();
+    assert_eq!(unit.set_integer("stop.model", 1), OK);
+    for (name, value) in [
+        ("piercing.thickness", 0.0),
+        ("piercing.travel", 0.0),
+        ("stiffness", 0.0),
+        ("damping", 0.0),
+        ("contact.damping", 0.0),
+        ("mass", 1e-12),
+        ("initial.position", 0.0),
+        ("initial.velocity", -1e12),
+    ] {
+        assert_eq!(unit.set(name, value), OK, "{name}");
+    }
+    unit.begin();
+    assert_eq!(unit.set("force", -1e12), OK);
+    assert_eq!(unit.step(0.0, 1.0), OK);
+    let before = (unit.get("position"), unit.get("velocity"));
+    let status = unit.step(1.0, 1e200);
+    assert!(status == DISCARD || status == ERROR);
+    unit.take_log();
+    assert_eq!((unit.get("position"), unit.get("velocity")), before);
+    assert_eq!(last_successful_time(&unit), 1.0);
+    assert_eq!(unit.step(1.0, 1.0), OK, "{:?}", unit.take_log());
+}
