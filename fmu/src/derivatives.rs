@@ -81,7 +81,7 @@ impl Instance {
                 .ok_or(Fault::DerivativeOrder {
                     name: variable.name,
                     order,
-                    available: "orders 1 and 2 of position and velocity and order 1 of acceleration are",
+                    available: "orders 1 and 2 of continuous outputs are",
                 })?;
         }
         Ok(())

@@ -151,8 +151,8 @@ impl Instance {
             &[Lifecycle::Instantiated],
             "call it between fmi2Instantiate and fmi2EnterInitializationMode",
         )?;
-        if let Some(tolerance) = tolerance.filter(|t| !(t.is_finite() && *t > 0.0)) {
-            return Err(argument("tolerance", tolerance, "finite and > 0"));
+        if let Some(tolerance) = tolerance.filter(|t| !(t.is_finite() && *t >= 0.0)) {
+            return Err(argument("tolerance", tolerance, "finite and >= 0"));
         }
         if !start.is_finite() {
             return Err(argument("startTime", start, "finite"));

@@ -8,6 +8,7 @@ mod table;
 
 use std::cell::OnceCell;
 
+use softstop::integrator::Rates;
 use softstop::orbit::Sensitivity;
 use softstop::{Energy, PhaseKind, Sample, Simulation};
 
@@ -190,6 +191,7 @@ pub struct View<'a> {
     simulation: &'a Simulation,
     sample: OnceCell<Sample>,
     energy: OnceCell<Energy>,
+    rates: OnceCell<Rates>,
 }
 
 impl<'a> View<'a> {
@@ -199,11 +201,16 @@ impl<'a> View<'a> {
             simulation,
             sample: OnceCell::new(),
             energy: OnceCell::new(),
+            rates: OnceCell::new(),
         }
     }
 
     pub(crate) fn sample(&self) -> &Sample {
         self.sample.get_or_init(|| self.simulation.sample())
+    }
+
+    fn rates(&self) -> &Rates {
+        self.rates.get_or_init(|| self.simulation.rates())
     }
 
     fn energy(&self) -> &Energy {

@@ -39,6 +39,19 @@ impl Hertz {
         (steepness * grip, damping)
     }
 
+    /// d2(force)/d(position)2 in N/m^2 and d2(force)/d(position)d(velocity) in N s/m^2 while it presses;
+    /// zero at the face, where they may not exist.
+    pub fn curvatures(&self, position: f64, velocity: f64) -> (f64, f64) {
+        let (depth, n) = (position - self.origin, self.exponent);
+        let grip = 1.0 + self.dissipation * velocity;
+        if depth <= 0.0 || grip <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let stiffness = self.stiffness * n * (n - 1.0) * depth.powf(n - 2.0) * grip;
+        let coupling = self.stiffness * n * depth.powf(n - 1.0) * self.dissipation;
+        (stiffness, coupling)
+    }
+
     /// Force per mass and per d^n (1 + lambda v).
     pub(super) fn rate(&self) -> f64 {
         self.stiffness / self.mass

@@ -199,11 +199,7 @@ impl Simulation {
     /// Outputs at the present time.
     pub fn sample(&self) -> Sample {
         let Start { position, velocity } = self.motion.state();
-        let force = self.motion.force();
-        let (cos, sin) = self.motion.clock().drive(self.motion.now());
-        let drive = self.scene.excitation;
-        let push = drive.amplitude * cos + force.value;
-        let push_rate = force.rate - drive.amplitude * drive.frequency * sin;
+        let (push, push_rate, _) = self.push();
         let (contact_force, acceleration, jerk) = match self.motion.phase() {
             None => (push - self.scene.stiffness * position, 0.0, 0.0),
             Some(phase) => {
@@ -227,6 +223,21 @@ impl Simulation {
             contact_force,
             phase: self.motion.kind(),
         }
+    }
+
+    /// Drive and external force now, in N, with their first and second derivative.
+    pub(super) fn push(&self) -> (f64, f64, f64) {
+        let force = self.motion.force();
+        let (cos, sin) = self.motion.clock().drive(self.motion.now());
+        let (amplitude, w) = {
+            let drive = self.scene.excitation;
+            (drive.amplitude, drive.frequency)
+        };
+        (
+            amplitude * cos + force.value,
+            force.rate - amplitude * w * sin,
+            -amplitude * w * w * cos,
+        )
     }
 
     /// Sets the external force from now on: `value` + `rate` (t - now), in N and N/s.

@@ -96,6 +96,14 @@ impl Store {
         let spring = &self.spring;
         spring.force + spring.stiffness * (position - spring.origin) + hertz
     }
+
+    /// The elastic stiffness in N/m.
+    pub fn stiffness_at(&self, position: f64) -> f64 {
+        let hertz = self
+            .hertz
+            .map_or(0.0, |hertz| hertz.slopes(position, 0.0).0);
+        self.spring.stiffness + hertz
+    }
 }
 
 /// A linear spring: E = `energy` + `force` u + `stiffness` u^2 / 2 with u = x - `origin`.

@@ -83,7 +83,7 @@ def test_names_stand_depth_first(description):
         assert elements == [f"stop.{name}[{number}]" for number in range(1, 9)]
 
 
-CHANGES = {"Real": lambda old: 0.9 * old + 0.05, "Boolean": lambda old: not old}
+CHANGES = {"Real": lambda old: 0.9 * old + 0.07, "Boolean": lambda old: not old}
 CHAIN = {
     "stop.loading.count": 2, "stop.loading.from[2]": 0.3, "stop.loading.stiffness[2]": 20.0,
     "stop.unloading.count": 2, "stop.unloading.from[2]": 0.4, "stop.unloading.stiffness[1]": 5.0,
