@@ -143,8 +143,8 @@ def test_output_derivatives(unit):
     assert jerk[0] == jerk[1]
     outputs = ["acceleration", "contact.force", "energy.mechanical", "energy.supplied",
                "energy.dissipated"]
-    unit.step(3.0)  # into contact
-    assert unit.get("contact.force") != 0.0
+    while unit.get("contact.force") == 0.0:
+        unit.step(0.1)
     references = [unit.reference(name) for name in outputs]
     rates = np.array([get(references, [order] * 5) for order in (1, 2)])
     here = unit.get(*outputs)
