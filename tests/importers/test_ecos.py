@@ -15,7 +15,7 @@ def load_tbb():
 
 
 load_tbb()
-pytest.importorskip("ecospy", reason="ecospy is not installed")
+ecospy = pytest.importorskip("ecospy", reason="ecospy is not installed")
 
 from ecospy import EcosSimulation, EcosSimulationStructure  # noqa: E402
 from ecospy.EcosSimulationRunner import EcosSimulationRunner  # noqa: E402
@@ -29,6 +29,8 @@ def uri(request, path, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # proxyfmu writes its logs where it stands
     if request.param == "in process":
         return path
+    # The package installs its server as a file that may not be run.
+    (pathlib.Path(ecospy.__file__).parent / "binaries" / "proxyfmu").chmod(0o755)
     # The server is a process of its own, which cannot be helped by loading tbb here.
     monkeypatch.setenv("LD_LIBRARY_PATH", str(pathlib.Path(sys.prefix) / "lib"))
     return f"proxyfmu://localhost?file={path}"
