@@ -72,7 +72,8 @@ def library(folder, description):
 
 @pytest.mark.parametrize("place", [
     None, b"", b"file:/tmp/r", b"file:///tmp/r", b"file:////tmp/r", b"file://localhost/tmp/r",
-    b"file:///C:/r", b"/tmp/r", b"resources", b"http://nowhere/r", b"file:///tmp/%zz%C3%A4", b"\xff\xfe",
+    b"file:///C:/r", b"/tmp/r", b"resources", b"http://nowhere/r", b"file:///tmp/%zz%C3%A4",
+    b"\xff\xfe",
 ])
 def test_any_resource_location(library, place):
     unit = library.instantiate(place=place)
@@ -90,7 +91,8 @@ def test_version_and_platform_come_first(library):
 def test_errors_without_a_logger(library):
     unit = library.instantiate()
     assert library.step(unit, 0.0, 1.0) == 3
-    assert library.c.fmi2SetReal(unit, (ctypes.c_uint * 1)(4711), 1, (ctypes.c_double * 1)(1.0)) == 3
+    unknown, value = (ctypes.c_uint * 1)(4711), (ctypes.c_double * 1)(1.0)
+    assert library.c.fmi2SetReal(unit, unknown, 1, value) == 3
     library.begin(unit)
     assert library.step(unit, 0.0, -1.0) == 3
     assert library.run(unit, 10)[:2] == pytest.approx(START, abs=1e-9)
@@ -178,7 +180,8 @@ ENDS = {
     "neither Terminate nor FreeInstance": "",
     "Terminate only": "assert c.fmi2Terminate(unit) == 0",
     "FreeInstance without Terminate": "c.fmi2FreeInstance(unit)",
-    "error, then FreeInstance": "assert c.fmi2DoStep(unit, d(-5), d(1), 1) == 3\nc.fmi2FreeInstance(unit)",
+    "error, then FreeInstance": "assert c.fmi2DoStep(unit, d(-5), d(1), 1) == 3\n"
+                                "c.fmi2FreeInstance(unit)",
     "unloaded while alive": "import _ctypes; _ctypes.dlclose(c._handle)",
     "ended from another thread": "import threading; threading.Thread(target=c.fmi2FreeInstance, "
                                  "args=(unit,)).start()",

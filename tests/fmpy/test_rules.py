@@ -123,7 +123,8 @@ def test_ranges_and_types(root, variables):
             assert next(e.tag for e in types[declared]) == own.tag, variable.get("name")
             attributes = dict(next(iter(types[declared])).attrib) | attributes
         if own.tag in ("Real", "Integer"):
-            low, high = (float(attributes.get(k, d)) for k, d in (("min", -math.inf), ("max", math.inf)))
+            low = float(attributes.get("min", -math.inf))
+            high = float(attributes.get("max", math.inf))
             assert low < high, variable.get("name")
             start = float(attributes.get("start", low if low > -math.inf else high))
             assert low <= start <= high, variable.get("name")

@@ -127,7 +127,7 @@ def test_libcosim(path, system):
 
 
 def test_fmpy(path, system):
-    """FMPy connects the units from the first step on, not initially, and reads no inner bindings."""
+    """FMPy connects from the first step on, not initially, and reads no bindings in the file."""
     from fmpy.ssp.simulation import simulate_ssp
 
     result = simulate_ssp(system(), start_time=0.0, stop_time=STEP * STEPS, step_size=STEP)
