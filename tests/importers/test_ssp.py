@@ -67,9 +67,10 @@ def system(path, tmp_path):
     return write
 
 
-def by_hand(path, velocity=None, connected_initially=True):
-    """Both positions at the end."""
-    description, folder = fmpy.read_model_description(path), fmpy.extract(path)
+def by_hand(path, folder, velocity=None, connected_initially=True):
+    """Both positions at the end; the unit is unpacked in the folder."""
+    description = fmpy.read_model_description(path)
+    folder = fmpy.extract(path, unzipdir=str(folder))
     references = {v.name: v.valueReference for v in description.modelVariables}
     position, force = [references["position"]], [references["force"]]
     units = []
@@ -101,17 +102,17 @@ def by_hand(path, velocity=None, connected_initially=True):
     return ends
 
 
-def test_ecos(path, system):
+def test_ecos(path, system, tmp_path):
     from test_ecos import EcosSimulation
 
     with EcosSimulation(STEP, ssp_path=system(VELOCITY)) as simulation:
         assert simulation.init(parameter_set="run")
         simulation.step(STEPS)
         ends = [simulation.get_real(f"{name}::position") for name in ("first", "second")]
-    np.testing.assert_allclose(ends, by_hand(path, VELOCITY), atol=1e-9)
+    np.testing.assert_allclose(ends, by_hand(path, tmp_path, VELOCITY), atol=1e-9)
 
 
-def test_libcosim(path, system):
+def test_libcosim(path, system, tmp_path):
     from test_libcosim import CosimExecution, CosimObserver
 
     execution = CosimExecution.from_ssp_file(system(VELOCITY), round(STEP * 1e9))
@@ -123,14 +124,14 @@ def test_libcosim(path, system):
         v.reference for v in execution.slave_variables(units[0]) if v.name == b"position"
     }
     ends = [observer.last_real_values(unit, [reference])[0] for unit in units]
-    np.testing.assert_allclose(ends, by_hand(path, VELOCITY), atol=1e-9)
+    np.testing.assert_allclose(ends, by_hand(path, tmp_path, VELOCITY), atol=1e-9)
 
 
-def test_fmpy(path, system):
+def test_fmpy(path, system, tmp_path):
     """FMPy connects from the first step on, not initially, and reads no bindings in the file."""
     from fmpy.ssp.simulation import simulate_ssp
 
     result = simulate_ssp(system(), start_time=0.0, stop_time=STEP * STEPS, step_size=STEP)
     assert len(result) == STEPS
     ends = [result[-1]["first.position"], result[-1]["second.position"]]
-    np.testing.assert_allclose(ends, by_hand(path, connected_initially=False), atol=1e-9)
+    np.testing.assert_allclose(ends, by_hand(path, tmp_path, connected_initially=False), atol=1e-9)
