@@ -7,6 +7,7 @@ The tests use what it leaves in the target folder.
 import importlib.util
 import os
 import pathlib
+import shutil
 import subprocess
 
 from machine import TOP
@@ -39,6 +40,7 @@ def build():
         ["--path", TOP / "tests" / "importers" / "fmu-runner"],
     ):
         subprocess.run([*install, *what], check=True, env=environment())
+    shutil.rmtree(TARGET / "release")  # a gigabyte that is of no further use
 
 
 if __name__ == "__main__":
