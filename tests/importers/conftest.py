@@ -1,0 +1,16 @@
+"""The FMU that the importers load, and where they may unpack it."""
+
+import os
+
+import pytest
+from machine import TOP
+
+
+@pytest.fixture(scope="session")
+def path():
+    return os.environ.get("SOFTSTOP_FMU", str(TOP / "softstop.fmu"))
+
+
+@pytest.fixture(params=["loaded", "unloaded"])
+def orbit(request):
+    return request.param
