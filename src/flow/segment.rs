@@ -1,4 +1,4 @@
-//! One Taylor step of a nonlinear phase.
+//! One Taylor step.
 //!
 //! The deflection d from the face obeys d'' + 2 a d' + b (d + x0) + kappa d^n (1 + lambda d') = push. At
 //! the face d^n has a branch point. For every n that is a multiple of 1/2 it goes away if the root
@@ -13,7 +13,7 @@
 //! other n the steps grow and shrink with the distance from the face; right at the face, while the
 //! power law's part of the motion is below rounding, it is left out. So it is on a start from rest at
 //! the face, where sigma is time itself; and so it is in slow motion under heavy damping
-//! ([`super::creep`]).
+//! ([`super::creep`]) and where there is no power law ([`super::pushed`]).
 
 use nalgebra::Matrix2;
 
@@ -21,7 +21,9 @@ use super::Flow;
 use super::creep::Creep;
 use super::hertz::Hertz;
 use super::power::gauss_nodes;
-use super::series::{Series, ZERO, convolve, derivative, power, product, value};
+use super::series::{
+    Series, ZERO, convolve, derivative, integral_of_product, power, product, value,
+};
 use super::taylor::{DEGREE, evaluate};
 
 /// The motion of one step, as series in sigma.
@@ -29,7 +31,7 @@ use super::taylor::{DEGREE, evaluate};
 pub(crate) struct Segment {
     /// Root of the deflection in sqrt(m); zero where sigma is time itself.
     pub(super) root: Series,
-    /// Deflection in m.
+    /// Deflection in m: of a linear law, from position zero.
     pub(super) depth: Series,
     /// Velocity in m/s.
     pub(super) velocity: Series,
@@ -57,10 +59,18 @@ impl Segment {
         self.time[1] == 1.0 && self.root == ZERO
     }
 
+    /// True if nothing moves.
+    pub fn is_still(&self) -> bool {
+        self.velocity == ZERO
+    }
+
     /// Sigma at a time: Newton's method on a function that grows, kept inside its bracket.
     pub fn parameter_at(&self, elapsed: f64) -> f64 {
         if elapsed >= self.end {
             return self.contact;
+        }
+        if self.is_in_time() {
+            return elapsed;
         }
         let (mut low, mut high) = (0.0, self.contact);
         let mut at = self.contact * (elapsed / self.end);
@@ -106,6 +116,11 @@ impl Segment {
         }
     }
 
+    /// Push per mass in m/s^2 at sigma.
+    pub fn push_at(&self, sigma: f64) -> f64 {
+        value(&self.push, sigma)
+    }
+
     /// Deflection in m.
     pub fn deflection(&self, elapsed: f64) -> f64 {
         self.depth_at(self.parameter_at(elapsed))
@@ -139,8 +154,12 @@ impl Segment {
         sum
     }
 
-    /// Work of the push and work lost, per unit of mass, up to `elapsed`.
-    pub fn work(&self, elapsed: f64) -> (f64, f64) {
+    /// Work of the push, without the `law`'s own constant force, and work lost, per unit of mass, up to
+    /// `elapsed`.
+    pub fn work(&self, elapsed: f64, law: f64) -> (f64, f64) {
+        if self.is_in_time() && self.power == ZERO {
+            return self.work_in_time(elapsed, law);
+        }
         let kappa = self.hertz.rate() * self.hertz.dissipation;
         let (mut supplied, mut lost) = (0.0, 0.0);
         for (sigma, weight) in gauss_nodes(self.parameter_at(elapsed)) {
@@ -150,10 +169,19 @@ impl Segment {
             if kappa > 0.0 {
                 damping += kappa * value(&self.power, sigma);
             }
-            supplied += travel * value(&self.push, sigma);
+            supplied += travel * (value(&self.push, sigma) - law);
             lost += travel * damping * velocity;
         }
         (supplied, lost)
+    }
+
+    /// The same of a linear law: the integrals of the very polynomials, whatever their degree.
+    fn work_in_time(&self, elapsed: f64, law: f64) -> (f64, f64) {
+        let mut force = self.push;
+        force[0] -= law;
+        let supplied = integral_of_product(&force, &self.velocity, elapsed);
+        let square = integral_of_product(&self.velocity, &self.velocity, elapsed);
+        (supplied, 2.0 * self.flow.modes.decay * square)
     }
 
     /// d(state)/d(state at the start) after `elapsed`, and the integral of damping over mass: the

@@ -10,7 +10,7 @@ use crate::events::{Found, Outlook, first_crossing};
 use crate::flow::{Chatter, Node};
 use crate::phases::Mode;
 
-/// Crossings at one and the same instant that a motion may make: more than any row of bounces that
+/// Crossings and steps at one and the same instant that a motion may make: more than any row of bounces that
 /// is shorter than the resolution of time.
 const MOST_AT_ONCE: u32 = 1_000_000;
 
@@ -30,21 +30,28 @@ impl Motion {
             let (until, present) = (self.clock.time(until), self.clock.time(self.now));
             return Err(MotionError::TimeBackwards { until, present });
         }
-        let mut crossings_at_once = 0;
+        let mut at_once = 0;
         loop {
             let horizon = self.clock.elapsed(self.start, until);
             self.look_ahead(horizon)?;
+            let (Outlook::Crossing(Found { elapsed, .. }) | Outlook::Ends(elapsed)) = self.outlook
+            else {
+                break;
+            };
+            if elapsed > horizon {
+                break;
+            }
+            at_once = if self.is_instant(elapsed) {
+                at_once + 1
+            } else {
+                0
+            };
+            if at_once > MOST_AT_ONCE {
+                return Err(self.stalled());
+            }
             match self.outlook {
-                Outlook::Crossing(found) if found.elapsed <= horizon => {
-                    let instantly = self.is_instant(found.elapsed);
-                    crossings_at_once = if instantly { crossings_at_once + 1 } else { 0 };
-                    if crossings_at_once > MOST_AT_ONCE {
-                        return Err(self.stalled());
-                    }
-                    self.cross(found, observer);
-                }
-                Outlook::Ends(elapsed) if elapsed <= horizon => self.go_on(elapsed, observer),
-                _ => break,
+                Outlook::Crossing(found) => self.cross(found, observer),
+                _ => self.go_on(elapsed, observer),
             }
         }
         let elapsed = self.clock.elapsed(self.start, until);
@@ -96,7 +103,7 @@ impl Motion {
             ),
             Mode::Held { forward, backward } => {
                 let since = &self.course.departure;
-                let push = since.constant + self.phases.held.amplitude * since.drive.0;
+                let push = since.push.value() + self.phases.held.amplitude * since.drive.0;
                 let (guards, _, count) =
                     self.phases
                         .releases(forward, backward, since.position, push);
@@ -109,8 +116,8 @@ impl Motion {
     /// Takes up the motion where a course ends that was not meant to go further.
     fn go_on(&mut self, elapsed: f64, observer: &mut impl Observer) {
         observer.arc(&self.arc(), elapsed);
-        self.force.value += self.force.rate * elapsed;
         let at = self.clock.after(self.start, elapsed);
+        self.force.go_on(&self.clock, at, elapsed);
         let drive = self.clock.drive(at);
         (self.start, self.now) = (at, at);
         match (self.mode, self.course.chatter().copied()) {
@@ -121,9 +128,14 @@ impl Motion {
         }
     }
 
-    /// The next Taylor step of a nonlinear phase, from the very deflection at which the last one ended.
+    /// The next Taylor step, in a nonlinear phase from the very deflection at which the last one ended. In a
+    /// linear one no surface is passed unseen between two steps by rounding.
     fn next_step(&mut self, elapsed: f64, drive: (f64, f64)) {
         let (position, velocity) = self.course.at(elapsed, drive);
+        let position = match self.phase() {
+            Some(phase) if phase.hertz.is_none() => phase.confine(position),
+            _ => position,
+        };
         let deflection = self.course.segment().map(|last| last.deflection(elapsed));
         let state = Start { position, velocity };
         let departure = self.departure(state, drive, self.mode, None);
@@ -161,7 +173,7 @@ impl Motion {
         observer.arc(&self.arc(), found.elapsed);
         let at = self.clock.after(self.start, found.elapsed);
         let drive = self.clock.drive(at);
-        self.force.value += self.force.rate * found.elapsed;
+        self.force.go_on(&self.clock, at, found.elapsed);
         let push = self.push(drive);
         if let Some(surface) = self.surface_of(found.guard) {
             self.hum.count(surface, found.velocity);

@@ -2,6 +2,7 @@
 
 mod advance;
 mod clock;
+mod force;
 mod hum;
 mod landing;
 mod motion;
@@ -9,6 +10,6 @@ mod observer;
 mod simulation;
 
 pub use clock::{Clock, Instant};
-pub use motion::{Force, Motion, Start};
+pub use motion::{Motion, Start};
 pub use observer::{Arc, Crossing, CrossingKind, Observer};
 pub use simulation::{Energy, Impact, Sample, Simulation};

@@ -1,9 +1,10 @@
 //! A machine that runs on: the motion with its tallies, its inputs and its tunable parameters.
 
 use super::clock::{Clock, Instant};
-use super::motion::{Force, Motion, Start};
+use super::motion::{Motion, Start};
 use super::observer::{Arc, Crossing, Observer};
 use crate::error::MotionError;
+use crate::flow::{HIGHEST_ORDER, Polynomial};
 use crate::phases::{Law, PhaseKind};
 use crate::scene::Scene;
 use crate::trajectory::{Work, mechanical_energy, work};
@@ -137,7 +138,7 @@ impl Simulation {
             work: Work::default(),
         };
         let at = clock.instant(time);
-        let motion = Motion::with(phases, clock, at, start, Force::default(), fed)?;
+        let motion = Motion::with(phases, clock, at, start, Polynomial::default(), fed)?;
         Ok(Self {
             scene: scene.clone(),
             motion,
@@ -192,8 +193,8 @@ impl Simulation {
         let force = self.motion.force();
         let (cos, sin) = self.motion.clock().drive(self.motion.now());
         let drive = self.scene.excitation;
-        let push = drive.amplitude * cos + force.value;
-        let push_rate = force.rate - drive.amplitude * drive.frequency * sin;
+        let push = drive.amplitude * cos + force.value();
+        let push_rate = force.rate() - drive.amplitude * drive.frequency * sin;
         let (contact_force, acceleration, jerk) = match self.motion.phase() {
             None => (push - self.scene.stiffness * position, 0.0, 0.0),
             Some(phase) => {
@@ -219,17 +220,14 @@ impl Simulation {
         }
     }
 
-    /// Sets the external force from now on: `value` + `rate` (t - now), in N and N/s.
+    /// Sets the external force from now on by its derivatives now: value in N, rate in N/s, and so on
+    /// in N/s^k up to [`HIGHEST_ORDER`]; those that are not given are zero.
     ///
     /// # Errors
-    /// [`MotionError::NotFinite`] if one of them is not finite.
-    pub fn set_force(&mut self, value: f64, rate: f64) -> Result<(), MotionError> {
-        for (name, value) in [("force", value), ("force rate", rate)] {
-            if !value.is_finite() {
-                return Err(MotionError::NotFinite { name, value });
-            }
-        }
-        let force = Force { value, rate };
+    /// [`MotionError::ForceNotFinite`] if one of them is not finite, [`MotionError::ForceOrder`] if one
+    /// beyond the highest order is not zero; nothing is changed then.
+    pub fn set_force(&mut self, derivatives: &[f64]) -> Result<(), MotionError> {
+        let force = polynomial(derivatives)?;
         if self.motion.force() != force {
             self.tallies.work += self.tallies.work_under_way(&self.motion);
             let before = mechanical_energy(&self.scene, &self.motion);
@@ -312,4 +310,25 @@ impl Simulation {
             dissipated: work.dissipated,
         }
     }
+}
+
+/// The force with these derivatives.
+fn polynomial(derivatives: &[f64]) -> Result<Polynomial, MotionError> {
+    let mut force = Polynomial::default();
+    for (order, &value) in derivatives.iter().enumerate() {
+        if !value.is_finite() {
+            return Err(MotionError::ForceNotFinite { order, value });
+        }
+        if order <= HIGHEST_ORDER {
+            force = force.with(order, value);
+        } else if value != 0.0 {
+            let highest = HIGHEST_ORDER;
+            return Err(MotionError::ForceOrder {
+                order,
+                value,
+                highest,
+            });
+        }
+    }
+    Ok(force)
 }
