@@ -56,9 +56,7 @@ impl Course {
     /// The motion of `flow` from `departure`; under a push of degree 2 or higher, one step of it.
     pub fn new(flow: Flow, departure: Departure) -> Self {
         let form = match flow.steady {
-            _ if !departure.push.is_linear() => {
-                Form::Segment(Arc::new(Segment::pushed(&flow, &departure)))
-            }
+            _ if !departure.push.is_linear() => return Self::resumed(flow, departure, 0.0),
             Some(steady) if is_well_conditioned(&flow, &departure) => {
                 let particular = Particular::new(&flow, &departure, steady);
                 let (x, v) = particular.at(0.0, departure.drive);
@@ -74,6 +72,16 @@ impl Course {
             flow,
             departure,
             form,
+        }
+    }
+
+    /// The next step of `flow`, where rounding took `low` from the position.
+    pub(crate) fn resumed(flow: Flow, departure: Departure, low: f64) -> Self {
+        let segment = Segment::pushed(&flow, &departure, low);
+        Self {
+            flow,
+            departure,
+            form: Form::Segment(Arc::new(segment)),
         }
     }
 

@@ -80,6 +80,7 @@ impl Segment {
         Self {
             root: ZERO,
             depth: ZERO,
+            low: 0.0,
             velocity: ZERO,
             time: ZERO,
             push: ZERO,

@@ -31,7 +31,7 @@ pub use hertz::Hertz;
 pub(crate) use modes::Modes;
 pub use node::Node;
 pub use polynomial::{HIGHEST_ORDER, Polynomial};
-pub(crate) use segment::Segment;
+pub(crate) use segment::{Finer, Segment};
 pub(crate) use taylor::{DEGREE, Taylor, evaluate};
 
 use nalgebra::Matrix2;

@@ -14,9 +14,10 @@ use super::taylor::{DEGREE, Taylor, push_series};
 use super::{Departure, Flow};
 
 impl Segment {
-    /// The step of a linear law.
-    pub fn pushed(flow: &Flow, from: &Departure) -> Self {
+    /// The step of a linear law; `low` is what rounding took from the position before.
+    pub fn pushed(flow: &Flow, from: &Departure, low: f64) -> Self {
         let mut segment = Self::in_time(flow, &Hertz::ABSENT, from, (from.position, from.velocity));
+        segment.low = low;
         segment.ends_at(segment.reach_in_time(from));
         segment
     }

@@ -33,6 +33,8 @@ pub(crate) struct Segment {
     pub(super) root: Series,
     /// Deflection in m: of a linear law, from position zero.
     pub(super) depth: Series,
+    /// What rounding took from the deflection at the start, in m: a linear law's alone carries it.
+    pub(super) low: f64,
     /// Velocity in m/s.
     pub(super) velocity: Series,
     /// Time since departure in s.
@@ -51,6 +53,16 @@ pub(crate) struct Segment {
     pub(super) flow: Flow,
     /// What a slow motion remembers of its start.
     pub(super) creep: Option<Box<Creep>>,
+}
+
+/// A position more sharply than by its rounded value: where it counts from a nonlinear face, by the
+/// deflection; else by what rounding took from it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Finer {
+    /// Deflection in m.
+    pub deflection: f64,
+    /// Rest in m.
+    pub low: f64,
 }
 
 impl Segment {
@@ -109,21 +121,37 @@ impl Segment {
 
     fn depth_at(&self, sigma: f64) -> f64 {
         if self.is_in_time() {
-            value(&self.depth, sigma)
+            self.split_at(sigma).0
         } else {
             let root = value(&self.root, sigma);
             root * root
         }
     }
 
+    /// The deflection in time, rounded, and what rounding took from it.
+    fn split_at(&self, sigma: f64) -> (f64, f64) {
+        let start = self.depth[0];
+        let mut way = self.depth;
+        way[0] = self.low;
+        let way = value(&way, sigma);
+        // The sum without error of Knuth (1969, 4.2.2, theorem B).
+        let sum = start + way;
+        let taken = sum - start;
+        (sum, (start - (sum - taken)) + (way - taken))
+    }
+
+    /// What the step knows of its end beyond the rounded position.
+    pub fn finer(&self, elapsed: f64) -> Finer {
+        let sigma = self.parameter_at(elapsed);
+        Finer {
+            deflection: self.depth_at(sigma),
+            low: self.split_at(sigma).1,
+        }
+    }
+
     /// Push per mass in m/s^2 at sigma.
     pub fn push_at(&self, sigma: f64) -> f64 {
         value(&self.push, sigma)
-    }
-
-    /// Deflection in m.
-    pub fn deflection(&self, elapsed: f64) -> f64 {
-        self.depth_at(self.parameter_at(elapsed))
     }
 
     /// Time since departure at sigma, in s.
@@ -151,6 +179,7 @@ impl Segment {
             position * moved[k] + velocity * self.velocity[k] + push * self.push[k]
         });
         sum[0] -= level;
+        sum[0] += position * self.low;
         sum
     }
 

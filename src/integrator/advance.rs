@@ -7,8 +7,8 @@ use super::motion::{Motion, Start};
 use super::observer::{Crossing, CrossingKind, Observer};
 use crate::error::MotionError;
 use crate::events::{Found, Outlook, first_crossing};
-use crate::flow::{Chatter, Node};
-use crate::phases::Mode;
+use crate::flow::{Chatter, Finer, Node};
+use crate::phases::{Mode, Phase};
 
 /// Crossings and steps at one and the same instant that a motion may make: more than any row of bounces that
 /// is shorter than the resolution of time.
@@ -128,18 +128,17 @@ impl Motion {
         }
     }
 
-    /// The next Taylor step, in a nonlinear phase from the very deflection at which the last one ended. In a
-    /// linear one no surface is passed unseen between two steps by rounding.
+    /// The next Taylor step, from the very place at which the last one ended.
     fn next_step(&mut self, elapsed: f64, drive: (f64, f64)) {
         let (position, velocity) = self.course.at(elapsed, drive);
-        let position = match self.phase() {
-            Some(phase) if phase.hertz.is_none() => phase.confine(position),
-            _ => position,
+        let finer = self.course.segment().map(|last| last.finer(elapsed));
+        let (position, finer) = match (self.phase(), finer) {
+            (Some(phase), Some(finer)) if phase.hertz.is_none() => within(phase, position, finer),
+            _ => (position, finer),
         };
-        let deflection = self.course.segment().map(|last| last.deflection(elapsed));
         let state = Start { position, velocity };
         let departure = self.departure(state, drive, self.mode, None);
-        self.begin(departure, self.mode, deflection, None);
+        self.begin(departure, self.mode, finer, None);
     }
 
     /// The end of the summed bounces on a rigid stop.
@@ -206,4 +205,18 @@ impl Motion {
             ),
         });
     }
+}
+
+/// The place between two steps of a linear phase: within its surfaces, so that none is passed unseen by
+/// rounding.
+fn within(phase: &Phase, position: f64, finer: Finer) -> (f64, Option<Finer>) {
+    let beside = if finer.low > 0.0 {
+        position.next_up()
+    } else if finer.low < 0.0 {
+        position.next_down()
+    } else {
+        position
+    };
+    let inside = phase.confine(beside) == beside;
+    (phase.confine(position), inside.then_some(finer))
 }

@@ -1,7 +1,8 @@
 //! The external force as a motion carries it on from arc to arc.
 
 use super::clock::{Clock, Instant};
-use crate::flow::Polynomial;
+use crate::error::MotionError;
+use crate::flow::{HIGHEST_ORDER, Polynomial};
 
 /// A force in N from the instant on at which it was set.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,4 +42,25 @@ impl Force {
     pub fn go_on(&mut self, clock: &Clock, at: Instant, elapsed: f64) {
         self.on_arc = self.seen_from(clock, at, elapsed);
     }
+}
+
+/// The force with these derivatives.
+pub(super) fn polynomial(derivatives: &[f64]) -> Result<Polynomial, MotionError> {
+    let mut force = Polynomial::default();
+    for (order, &value) in derivatives.iter().enumerate() {
+        if !value.is_finite() {
+            return Err(MotionError::ForceNotFinite { order, value });
+        }
+        if order <= HIGHEST_ORDER {
+            force = force.with(order, value);
+        } else if value != 0.0 {
+            let highest = HIGHEST_ORDER;
+            return Err(MotionError::ForceOrder {
+                order,
+                value,
+                highest,
+            });
+        }
+    }
+    Ok(force)
 }

@@ -8,7 +8,7 @@ use super::hum::Hum;
 use super::observer::Arc;
 use crate::error::MotionError;
 use crate::events::Outlook;
-use crate::flow::{Chatter, Course, Departure, Polynomial};
+use crate::flow::{Chatter, Course, Departure, Finer, Polynomial};
 use crate::phases::{Mode, Phase, PhaseKind, Phases, Store};
 
 /// A state to start from.
@@ -280,25 +280,27 @@ impl Motion {
         }
     }
 
-    /// Sets the course of an arc. In a nonlinear phase `deflection` says more sharply than the
-    /// position how far the mass is beyond the face.
+    /// Sets the course of an arc; between two steps `finer` says more sharply than the departure where the
+    /// mass is.
     pub(super) fn begin(
         &mut self,
         departure: Departure,
         mode: Mode,
-        deflection: Option<f64>,
+        finer: Option<Finer>,
         chatter: Option<Chatter>,
     ) {
         let held = self.phases.held;
         self.course = match (mode, chatter) {
             (Mode::Moving(phase), _) => {
                 let phase = &self.phases.phases[phase];
-                match &phase.hertz {
-                    Some(hertz) => {
-                        let deflection = deflection.unwrap_or(departure.position - hertz.origin);
+                match (&phase.hertz, finer) {
+                    (Some(hertz), finer) => {
+                        let rounded = departure.position - hertz.origin;
+                        let deflection = finer.map_or(rounded, |finer| finer.deflection);
                         Course::nonlinear(phase.flow, hertz, departure, deflection)
                     }
-                    None => Course::new(phase.flow, departure),
+                    (None, Some(Finer { low, .. })) => Course::resumed(phase.flow, departure, low),
+                    (None, None) => Course::new(phase.flow, departure),
                 }
             }
             (Mode::Chattering { .. }, Some(chatter)) => {

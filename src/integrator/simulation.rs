@@ -1,10 +1,11 @@
 //! A machine that runs on: the motion with its tallies, its inputs and its tunable parameters.
 
 use super::clock::{Clock, Instant};
+use super::force::polynomial;
 use super::motion::{Motion, Start};
 use super::observer::{Arc, Crossing, Observer};
 use crate::error::MotionError;
-use crate::flow::{HIGHEST_ORDER, Polynomial};
+use crate::flow::Polynomial;
 use crate::phases::{Law, PhaseKind};
 use crate::scene::Scene;
 use crate::trajectory::{Work, mechanical_energy, work};
@@ -221,7 +222,7 @@ impl Simulation {
     }
 
     /// Sets the external force from now on by its derivatives now: value in N, rate in N/s, and so on
-    /// in N/s^k up to [`HIGHEST_ORDER`]; those that are not given are zero.
+    /// in N/s^k up to [`HIGHEST_ORDER`](crate::flow::HIGHEST_ORDER); those that are not given are zero.
     ///
     /// # Errors
     /// [`MotionError::ForceNotFinite`] if one of them is not finite, [`MotionError::ForceOrder`] if one
@@ -310,25 +311,4 @@ impl Simulation {
             dissipated: work.dissipated,
         }
     }
-}
-
-/// The force with these derivatives.
-fn polynomial(derivatives: &[f64]) -> Result<Polynomial, MotionError> {
-    let mut force = Polynomial::default();
-    for (order, &value) in derivatives.iter().enumerate() {
-        if !value.is_finite() {
-            return Err(MotionError::ForceNotFinite { order, value });
-        }
-        if order <= HIGHEST_ORDER {
-            force = force.with(order, value);
-        } else if value != 0.0 {
-            let highest = HIGHEST_ORDER;
-            return Err(MotionError::ForceOrder {
-                order,
-                value,
-                highest,
-            });
-        }
-    }
-    Ok(force)
 }

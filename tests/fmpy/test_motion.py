@@ -170,8 +170,8 @@ def test_force_derivatives_of_order_one_to_three(make):
     np.testing.assert_allclose(one.state(), expected, rtol=1e-12)
     np.testing.assert_allclose(many.state(), expected, rtol=1e-11)
     assert one.get("force") == pytest.approx(series(derivatives, 12.0), rel=1e-14)
-    reference = one.reference("force")
-    one.refused(lambda: one.fmu.setRealInputDerivatives([reference], [8], [1.0]), "force", "order 8")
+    reference = many.reference("force")
+    many.refused(lambda: many.fmu.setRealInputDerivatives([reference], [8], [1.0]), "force", "order 8")
     one.set({"force": 0.25})
     one.step(5.0)
     assert one.get("force") == 0.25
