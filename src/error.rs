@@ -75,6 +75,24 @@ pub enum MotionError {
         /// The value that was given.
         value: f64,
     },
+    /// A derivative of the external force is not finite.
+    #[error("force: derivative of order {order} = {value}: must be finite")]
+    ForceNotFinite {
+        /// Its order; 0 is the force itself.
+        order: usize,
+        /// The value that was given.
+        value: f64,
+    },
+    /// A derivative of the external force beyond the highest order.
+    #[error("force: derivative of order {order} = {value}: must be 0 beyond order {highest}")]
+    ForceOrder {
+        /// Its order.
+        order: usize,
+        /// The value that was given.
+        value: f64,
+        /// The highest order that is honoured.
+        highest: usize,
+    },
     /// The motion left the range of floating-point numbers.
     #[error("the motion grew beyond all bounds near t = {time} s (position {position} m)")]
     Unbounded {

@@ -61,7 +61,7 @@ fn time_does_not_run_backwards() {
         assert_eq!(machine.time(), 3.0);
     }
     machine.advance(3.0).expect("no step is no error");
-    assert!(machine.set_force(f64::NAN, 0.0).is_err());
+    assert!(machine.set_force(&[f64::NAN, 0.0]).is_err());
     assert!(
         Simulation::new(
             machine.scene(),
@@ -178,7 +178,7 @@ fn exact_balance_does_not_hang() {
                 };
                 let mut machine = Simulation::new(&scene, start).expect("valid");
                 machine
-                    .set_force(suspension * clearance, 0.0)
+                    .set_force(&[suspension * clearance, 0.0])
                     .expect("finite");
                 machine.advance(5.0 * scene.period()).expect("gets on");
                 assert!(machine.sample().position.is_finite());
@@ -206,7 +206,7 @@ fn the_strip_stays_until_the_stroke_is_over() {
         without.advance(time).expect("bounded");
     }
     without.feed_strip(false);
-    without.set_force(1e-300, 0.0).expect("finite");
+    without.set_force(&[1e-300, 0.0]).expect("finite");
     while with.sample().phase != softstop::PhaseKind::Free {
         time += 0.01;
         with.advance(time).expect("bounded");

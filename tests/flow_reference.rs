@@ -2,7 +2,7 @@
 //! tiny stiffness, exact and near resonance, short and long times.
 
 use serde_json::Value;
-use softstop::flow::{Course, Departure, Flow};
+use softstop::flow::{Course, Departure, Flow, Polynomial};
 
 fn number(case: &Value, key: &str) -> f64 {
     match &case[key] {
@@ -36,8 +36,7 @@ fn flow_agrees_with_forty_digits() {
             position: get("position"),
             velocity: get("velocity"),
             drive: (cos, sin),
-            constant: get("constant"),
-            ramp: get("ramp"),
+            push: Polynomial::linear(get("constant"), get("ramp")),
             acceleration: None,
         };
         let elapsed = get("elapsed");

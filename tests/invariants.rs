@@ -102,7 +102,7 @@ fn energy_balances_in_a_running_machine_that_is_pushed_and_tuned() {
     for step in 1..=400 {
         machine.advance(0.37 * f64::from(step)).expect("bounded");
         machine
-            .set_force(0.3 * f64::from(step % 5), -0.1)
+            .set_force(&[0.3 * f64::from(step % 5), -0.1])
             .expect("finite");
         if step % 50 == 0 {
             scene.excitation.frequency = 1.1 + 0.001 * f64::from(step % 7);
@@ -218,7 +218,7 @@ fn endless_bounces_end_in_rest() {
         },
     )
     .expect("valid");
-    machine.set_force(20.0, 0.0).expect("finite");
+    machine.set_force(&[20.0, 0.0]).expect("finite");
     machine.advance(60.0).expect("bounded");
     let sample = machine.sample();
     assert_eq!(sample.phase, PhaseKind::Resting);
@@ -248,7 +248,7 @@ fn heavy_damping_creeps() {
             },
         )
         .expect("valid");
-        machine.set_force(90.0, 0.0).expect("finite");
+        machine.set_force(&[90.0, 0.0]).expect("finite");
         machine.advance(10.0).expect("bounded");
         let touched = machine.last_impact().expect("an impact");
         // Slow mode: damping x' + 8 x = 90 - 70 + 7, so x' = 19 / damping at x = 1; the speed of
@@ -285,7 +285,7 @@ fn a_silent_drive_has_no_influence() {
             velocity: 5e-3,
         };
         let mut machine = Simulation::new(&scene, start).expect("valid");
-        machine.set_force(20.0, 0.0).expect("finite");
+        machine.set_force(&[20.0, 0.0]).expect("finite");
         machine.advance(1.0).expect("bounded");
         machine
     };
@@ -312,13 +312,13 @@ fn a_step_of_force_frees_a_stuck_mass() {
     };
     for force in [15.0, -3.0] {
         let mut held = Simulation::new(&scene, rest).expect("valid");
-        held.set_force(0.2 * 20.0, 0.0).expect("finite");
+        held.set_force(&[0.2 * 20.0, 0.0]).expect("finite");
         held.advance(1.0).expect("bounded");
         assert_eq!(held.sample().phase, PhaseKind::Stuck);
-        held.set_force(force, 0.0).expect("finite");
+        held.set_force(&[force, 0.0]).expect("finite");
         let freed = held.sample();
         let mut fresh = Simulation::new_at(&scene, rest, 1.0).expect("valid");
-        fresh.set_force(force, 0.0).expect("finite");
+        fresh.set_force(&[force, 0.0]).expect("finite");
         assert_ne!(freed.phase, PhaseKind::Stuck);
         for step in 1..=100 {
             let time = 1.0 + 0.01 * f64::from(step);

@@ -36,7 +36,7 @@ proptest! {
         let Ok(mut machine) = Simulation::new(&scene, start_below(&scene, depth, velocity)) else {
             return Ok(());
         };
-        machine.set_force(force, rate).expect("finite");
+        machine.set_force(&[force, rate]).expect("finite");
         machine.advance(span * scene.period()).expect("bounded");
         let here = machine.rates();
         let kind = machine.sample().phase;

@@ -107,7 +107,7 @@ proptest! {
                 velocity: start.velocity + width * towards.1,
             };
             let mut machine = Simulation::new(&scene, start).expect("valid");
-            machine.set_force(force + width * towards.2, rate).expect("finite");
+            machine.set_force(&[force + width * towards.2, rate]).expect("finite");
             machine.advance(end).expect("bounded");
             machine
         };

@@ -47,7 +47,7 @@ proptest! {
         for number in 1..=steps {
             let end = machine.time() + step;
             if number == steps / 2 {
-                machine.set_force(force, rate).expect("finite");
+                machine.set_force(&[force, rate]).expect("finite");
                 machine.tune(&tuned).expect("valid");
             }
             machine.advance(end).expect("bounded");

@@ -214,7 +214,7 @@ fn elastic_bounces_end_in_rest() {
         velocity: 0.0,
     };
     let mut machine = Simulation::new(&scene, start).expect("valid");
-    machine.set_force(20.0, 0.0).expect("finite");
+    machine.set_force(&[20.0, 0.0]).expect("finite");
     let before = machine.energy().mechanical;
     machine.advance(1000.0).expect("bounded");
     let sample = machine.sample();

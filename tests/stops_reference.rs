@@ -1,90 +1,18 @@
 //! Every law of a stop against independent 40-digit integrations (tests/reference/stops.py).
 
 mod common;
+#[path = "common/scenes.rs"]
+mod scenes;
 
 use common::{list, number};
+use scenes::{instant, scene};
 use serde_json::Value;
-use softstop::scene::{Release, RigidStop, Slope};
-use softstop::{Clock, Excitation, Instant, PhaseKind, Piercing, Scene, Start, Stop, Trajectory};
+use softstop::{PhaseKind, Scene, Start, Trajectory};
 
 /// Rounding errors, in units of 2^-53 times the growth of a perturbation, that a motion may show. The
 /// most are seen where an overdamped contact is left slowly: its end then hangs on the last digit of the
 /// clearance.
 const ALLOWED: f64 = 600.0;
-
-fn slopes(value: &Value, key: &str) -> Vec<Slope> {
-    list(value, key)
-        .iter()
-        .map(|slope| Slope {
-            from: slope[0].as_f64().expect("a deflection"),
-            stiffness: slope[1].as_f64().expect("a stiffness"),
-        })
-        .collect()
-}
-
-fn stop(value: &Value) -> Stop {
-    let stiffness = || number(value, "stiffness");
-    match value["model"].as_str().expect("a model") {
-        "kelvinVoigt" => Stop::KelvinVoigt {
-            stiffness: stiffness(),
-            release: match value["release"].as_str() {
-                Some("zeroForce") => Release::ZeroForce,
-                _ => Release::Clearance,
-            },
-        },
-        "preloaded" => Stop::Preloaded {
-            stiffness: stiffness(),
-            preload: number(value, "preload"),
-        },
-        "piecewiseLinear" => Stop::PiecewiseLinear {
-            loading: slopes(value, "loading"),
-            unloading: slopes(value, "unloading"),
-        },
-        "hertz" => Stop::Hertz {
-            stiffness: stiffness(),
-            exponent: number(value, "exponent"),
-            dissipation: number(value, "dissipation"),
-        },
-        "rigid" => Stop::Rigid {
-            restitution: number(value, "restitution"),
-        },
-        other => panic!("unknown model {other}"),
-    }
-}
-
-fn scene(value: &Value) -> Scene {
-    let given = |key: &str| (!value[key].is_null()).then(|| &value[key]);
-    Scene {
-        mass: 1.0,
-        stiffness: 1.0,
-        damping: number(value, "damping"),
-        excitation: Excitation {
-            amplitude: 1.0,
-            frequency: number(value, "frequency"),
-            phase: number(value, "phase"),
-        },
-        clearance: number(value, "clearance"),
-        contact_damping: number(value, "contact_damping"),
-        stop: stop(&value["stop"]),
-        piercing: given("strip").map(|strip| Piercing {
-            stiffness: number(strip, "stiffness"),
-            friction: number(strip, "friction"),
-            thickness: number(strip, "thickness"),
-            travel: number(strip, "travel"),
-        }),
-        rigid: given("rigid").map(|rigid| RigidStop {
-            travel: number(rigid, "travel"),
-            restitution: number(rigid, "restitution"),
-        }),
-    }
-}
-
-fn instant(scene: &Scene, periods: f64) -> Instant {
-    Instant {
-        offset: periods.fract() * scene.period(),
-        ..Clock::at_cycle(periods.floor() as u64)
-    }
-}
 
 /// The worst error of the samples, in units of what is allowed.
 fn worst(case: &Value, scene: &Scene, trajectory: &Trajectory) -> f64 {

@@ -1,16 +1,28 @@
 //! Time derivatives of inputs and outputs.
 
+use softstop::flow::HIGHEST_ORDER;
+
 use crate::error::Fault;
 use crate::instance::{Instance, Lifecycle};
 use crate::values::{Type, find};
 use crate::variables::{Access, View};
 
+/// The orders that can be set of the input `force`.
+const AVAILABLE: &str = "orders 1 to 7 are (and zeros of any higher order)";
+const _: () = assert!(HIGHEST_ORDER == 7);
+
+/// An order that the force can have.
+fn order_of(order: i32) -> Option<usize> {
+    let order = usize::try_from(order).ok()?;
+    (1..=HIGHEST_ORDER).contains(&order).then_some(order)
+}
+
 impl Instance {
-    /// Sets time derivatives of the input `force`.
+    /// Sets time derivatives of the input `force` at the present time; those of other orders go on.
     ///
     /// # Errors
-    /// For another variable, a value that is not finite, or an order other than 1 (a derivative of
-    /// higher order may be set to zero).
+    /// For another variable, a value that is not finite, an order below 1, or one above
+    /// [`HIGHEST_ORDER`] (a derivative of such an order may be set to zero).
     pub fn set_input_derivatives(
         &mut self,
         references: &[u32],
@@ -36,15 +48,17 @@ impl Instance {
                     allowed: format!("finite (derivative of order {order})"),
                 });
             }
-            if order < 1 || (order > 1 && value != 0.0) {
-                return Err(fault("order 1 is (and zeros of any higher order)"));
+            if order < 1 || (value != 0.0 && order_of(order).is_none()) {
+                return Err(fault(AVAILABLE));
             }
         }
+        let mut force = self.force.seen_from(self.time());
         for ((_, &order), &value) in all() {
-            if order == 1 {
-                self.push(self.force.at(self.time()), value);
+            if let Some(order) = order_of(order) {
+                force = force.with(order, value);
             }
         }
+        self.push(force);
         Ok(())
     }
 

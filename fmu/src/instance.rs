@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 use softstop::Simulation;
+use softstop::flow::Polynomial;
 
 use crate::error::{Fault, argument};
 use crate::start::StartValues;
@@ -36,21 +37,20 @@ impl fmt::Display for Lifecycle {
     }
 }
 
-/// The input `force`: a value at a time, and how it goes on from there.
+/// The input `force`: its value and derivatives at a time, from which it goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Force {
-    pub(crate) value: f64,
-    pub(crate) rate: f64,
+    pub(crate) polynomial: Polynomial,
     pub(crate) since: f64,
 }
 
 impl Force {
     pub(crate) fn at(&self, time: f64) -> f64 {
-        if self.rate == 0.0 {
-            self.value
-        } else {
-            self.value + self.rate * (time - self.since)
-        }
+        self.polynomial.at(time - self.since)
+    }
+
+    pub(crate) fn seen_from(&self, time: f64) -> Polynomial {
+        self.polynomial.shifted(time - self.since)
     }
 }
 
@@ -247,7 +247,7 @@ impl Instance {
         self.force.since = start;
         self.pending = Pending {
             tuning: false,
-            force: self.force.value != 0.0 || self.force.rate != 0.0,
+            force: self.force.polynomial != Polynomial::default(),
         };
         Ok(simulation)
     }
@@ -258,7 +258,7 @@ impl Instance {
             self.pending.tuning = false;
         }
         if self.pending.force {
-            simulation.set_force(self.force.value, self.force.rate)?;
+            simulation.set_force(self.force.polynomial.derivatives())?;
             self.pending.force = false;
         }
         Ok(())

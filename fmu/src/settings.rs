@@ -1,5 +1,7 @@
 //! Setting the values of an instance.
 
+use softstop::flow::Polynomial;
+
 use crate::error::Fault;
 use crate::instance::{Force, Instance, Lifecycle, Pending};
 use crate::start::StartValues;
@@ -38,7 +40,7 @@ impl Instance {
         }
         self.adopt(parameters)?;
         if let Some(value) = force {
-            self.push(value, 0.0);
+            self.push(Polynomial::linear(value, 0.0));
             if let Some(simulation) = &mut self.simulation {
                 simulation.mark();
             }
@@ -143,14 +145,13 @@ impl Instance {
     }
 
     /// The force from now on; setting what holds anyway changes nothing.
-    pub(crate) fn push(&mut self, value: f64, rate: f64) {
+    pub(crate) fn push(&mut self, polynomial: Polynomial) {
         let now = self.time();
-        if self.force.at(now) == value && self.force.rate == rate {
+        if self.force.seen_from(now) == polynomial {
             return;
         }
         self.force = Force {
-            value,
-            rate,
+            polynomial,
             since: now,
         };
         self.changed().force = true;

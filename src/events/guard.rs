@@ -4,7 +4,7 @@ use crate::flow::{Course, DEGREE, Node, Taylor};
 
 /// g = `position` x + `velocity` v + `push` q - `level`; the event is g rising through zero.
 ///
-/// q is the push per mass, c + r t + A cos(angle): the force that is not the phase's own spring or
+/// q is the push per mass, p(t) + A cos(angle): the force that is not the phase's own spring or
 /// damper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guard {

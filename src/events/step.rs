@@ -1,4 +1,4 @@
-//! The first crossing on one Taylor step of a nonlinear phase.
+//! The first crossing on one Taylor step.
 
 use super::isolate::Candidate;
 use super::{Found, Guard, Outlook};
@@ -9,7 +9,12 @@ use crate::flow::{DEGREE, Node, Segment, evaluate};
 pub(super) fn first_crossing(segment: &Segment, guards: &[Guard], node: Node) -> Outlook {
     let (from, to) = (segment.parameter_at(node.elapsed), segment.reach());
     let (position, velocity) = segment.state_at(to);
-    if !(to > 0.0 && position.is_finite() && velocity.is_finite()) {
+    let push = segment.push_at(to);
+    if !(to > 0.0
+        && [position, velocity, push]
+            .iter()
+            .all(|number| number.is_finite()))
+    {
         return Outlook::Unbounded(node);
     }
     let mut horizon = f64::INFINITY;

@@ -1,11 +1,10 @@
 //! How a course changes with its start and with the push: variational equations, exact.
 
 use super::course::{Course, Form};
-use super::power::gauss_nodes;
 use super::response::Responses;
 use super::segment::Segment;
-use super::series::{Series, ZERO, convolve, derivative, product, value};
-use super::taylor::{DEGREE, evaluate};
+use super::series::{Series, ZERO, convolve, derivative, integral_of_product, product, value};
+use super::taylor::DEGREE;
 
 /// A small change of a motion: of position and velocity at departure, and of the constant push per
 /// mass from there on.
@@ -22,6 +21,7 @@ impl Course {
     pub(crate) fn changed(&self, elapsed: f64, by: Change) -> (f64, f64) {
         match &self.form {
             Form::Held | Form::Chatter(_) => (by.position, 0.0),
+            Form::Segment(segment) if segment.is_still() => (by.position, 0.0),
             Form::Segment(segment) => {
                 let sigma = segment.parameter_at(elapsed);
                 let (position, velocity) = segment.changed(by);
@@ -44,6 +44,7 @@ impl Course {
     pub(crate) fn changed_supply(&self, elapsed: f64, by: Change, law: f64) -> f64 {
         match &self.form {
             Form::Held | Form::Chatter(_) => 0.0,
+            Form::Segment(segment) if segment.is_still() => 0.0,
             Form::Segment(segment) => segment.changed_supply(elapsed, by, law),
             Form::Particular { .. } | Form::Responses => {
                 self.changed_supply_of_linear(elapsed, by, law)
@@ -76,7 +77,7 @@ impl Course {
             let mut moved = from;
             moved.position += width * by.position;
             moved.velocity += width * by.velocity;
-            moved.constant += width * by.push;
+            moved.push = from.push.with(0, from.push.value() + width * by.push);
             moved.acceleration = None;
             Self::new(self.flow, moved).power(elapsed, law).supplied
         };
@@ -110,11 +111,11 @@ impl Segment {
 
     fn changed_supply(&self, elapsed: f64, by: Change, law: f64) -> f64 {
         let (_, changed) = self.changed(by);
-        let nodes = gauss_nodes(self.parameter_at(elapsed));
-        nodes.iter().fold(0.0, |sum, &(sigma, weight)| {
-            let (push, velocity) = (value(&self.push, sigma), value(&self.velocity, sigma));
-            let power = (push - law) * value(&changed, sigma) + by.push * velocity;
-            sum + weight * evaluate(&self.time, sigma).1 * power
-        })
+        let rate = derivative(&self.time);
+        let mut push = self.push;
+        push[0] -= law;
+        let to = self.parameter_at(elapsed);
+        let travel = integral_of_product(&rate, &self.velocity, to);
+        integral_of_product(&product(&rate, &push), &changed, to) + by.push * travel
     }
 }

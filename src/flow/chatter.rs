@@ -6,13 +6,15 @@
 //! ratio of speeds is q = R sqrt(A/B).
 //!
 //! What is left out: on the way the accelerations change by at most D = 2 (r T + c w + k h), with r the
-//! rate of the push, c and k damping and stiffness per mass, h the height of the first bounce. Each
+//! largest rate of the push meanwhile, c and k damping and stiffness per mass, h the height of the first bounce. Each
 //! bounce's time and speed change by a factor within 1 +- D / A, so T is wrong by at most D T / A and a
 //! speed by D T. The sum is taken only where both are below rounding. Where another law holds on the way
 //! back it is taken earlier: there the mass turns at a position that is rounded, which falsifies a bounce
 //! of height h by half a rounding over h; below 2^17 roundings the sum is the more exact one.
 
 use serde::{Deserialize, Serialize};
+
+use super::Polynomial;
 
 /// A geometric series of bounces.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -41,8 +43,10 @@ const STEADY: f64 = 1.0 / (1u64 << 10) as f64;
 pub(crate) struct Pressing {
     /// Accelerations towards the stop on the way out and back, in m/s^2.
     pub accelerations: (f64, f64),
-    /// Bound on the rate of the push in m/s^3.
-    pub push_rate: f64,
+    /// Bound on the rate of the drive in m/s^3.
+    pub drive_rate: f64,
+    /// External force per mass from now on, in m/s^2.
+    pub push: Polynomial,
     /// Damping in 1/s.
     pub damping: f64,
     /// Stiffness in 1/s^2.
@@ -52,6 +56,13 @@ pub(crate) struct Pressing {
     /// Rounding in m of the position at which another law takes over; none if one law holds on both
     /// ways.
     pub grain: Option<f64>,
+}
+
+impl Pressing {
+    /// Bound in m/s^2 on what the push changes by within `duration`.
+    fn drift(&self, duration: f64) -> f64 {
+        (self.drive_rate + self.push.largest_rate(duration)) * duration
+    }
 }
 
 impl Chatter {
@@ -72,7 +83,7 @@ impl Chatter {
             ratio,
         };
         let change = |sum: &Self| {
-            2.0 * (by.push_rate * sum.duration + by.damping * speed + by.stiffness * height)
+            2.0 * (by.drift(sum.duration) + by.damping * speed + by.stiffness * height)
         };
         let ratio = restitution * (back / out).sqrt();
         let sum = Some(series(ratio)).filter(|_| ratio < 1.0);
@@ -84,7 +95,7 @@ impl Chatter {
         let rough = |sum: &Self| low(ROUGH) && change(sum) <= STEADY * weakest;
         // What is lost in rounding: a series that the push outlasts, or else a last bounce.
         let lost = || {
-            let steady = |sum: &Self| by.push_rate * sum.duration <= STEADY * weakest;
+            let steady = |sum: &Self| by.drift(sum.duration) <= STEADY * weakest;
             low(FINEST).then(|| sum.filter(steady).unwrap_or(series(0.0)))
         };
         sum.filter(|sum| exact(sum) || rough(sum)).or_else(lost)
@@ -119,12 +130,13 @@ impl Chatter {
 
 #[cfg(test)]
 mod tests {
-    use super::{Chatter, Pressing};
+    use super::{Chatter, Polynomial, Pressing};
 
     fn pressed(out: f64, back: f64) -> Pressing {
         Pressing {
             accelerations: (out, back),
-            push_rate: 0.5,
+            drive_rate: 0.3,
+            push: Polynomial::linear(7.0, -0.2),
             damping: 0.0,
             stiffness: 0.0,
             period: 20.0,

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::node::Node;
 use super::particular::Particular;
 use super::response::Responses;
-use super::{Chatter, Flow, Hertz, LARGEST_LOSS, Segment, Taylor};
+use super::{Chatter, Flow, Hertz, LARGEST_LOSS, Polynomial, Segment, Taylor};
 
 /// Everything a motion starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -18,10 +18,9 @@ pub struct Departure {
     pub velocity: f64,
     /// cos and sin of the drive angle.
     pub drive: (f64, f64),
-    /// Constant force per mass c in m/s^2: the law's own and the external one.
-    pub constant: f64,
-    /// Rate r of the external force per mass in m/s^3.
-    pub ramp: f64,
+    /// Force per mass in m/s^2, as it changes from the departure on: the external one and the law's own
+    /// constant one.
+    pub push: Polynomial,
     /// Acceleration in m/s^2 from rest, where the phase was chosen by it: the arc then starts with
     /// this very number.
     pub acceleration: Option<f64>,
@@ -49,16 +48,17 @@ pub(super) enum Form {
     Responses,
     /// The mass does not move.
     Held,
-    /// One Taylor step of a nonlinear law.
+    /// One Taylor step: of a nonlinear law, or under a force that is not linear in time.
     Segment(Arc<Segment>),
     /// Bounces summed.
     Chatter(Chatter),
 }
 
 impl Course {
-    /// The motion of `flow` from `departure`.
+    /// The motion of `flow` from `departure`; under a push of degree 2 or higher, one step of it.
     pub fn new(flow: Flow, departure: Departure) -> Self {
         let form = match flow.steady {
+            _ if !departure.push.is_linear() => return Self::resumed(flow, departure, 0.0),
             Some(steady) if is_well_conditioned(&flow, &departure) => {
                 let particular = Particular::new(&flow, &departure, steady);
                 let (x, v) = particular.at(0.0, departure.drive);
@@ -74,6 +74,16 @@ impl Course {
             flow,
             departure,
             form,
+        }
+    }
+
+    /// The next step of `flow`, where rounding took `low` from the position.
+    pub(crate) fn resumed(flow: Flow, departure: Departure, low: f64) -> Self {
+        let segment = Segment::pushed(&flow, &departure, low);
+        Self {
+            flow,
+            departure,
+            form: Form::Segment(Arc::new(segment)),
         }
     }
 
@@ -101,7 +111,7 @@ impl Course {
         }
     }
 
-    /// The Taylor step of a nonlinear law.
+    /// The Taylor step that the motion is followed in, if it is.
     pub(crate) fn segment(&self) -> Option<&Segment> {
         match &self.form {
             Form::Segment(segment) => Some(segment),
@@ -117,18 +127,28 @@ impl Course {
         }
     }
 
-    /// A mass held at the departure's position while the drive turns.
+    /// A mass held at the departure's position while the drive turns; under a push of degree 2 or
+    /// higher, for one step.
     pub fn held(flow: Flow, departure: Departure) -> Self {
+        let form = if departure.push.is_linear() {
+            Form::Held
+        } else {
+            Form::Segment(Arc::new(Segment::held(&flow, &departure)))
+        };
         Self {
             flow,
             departure,
-            form: Form::Held,
+            form,
         }
     }
 
     /// True if nothing moves.
     pub fn is_held(&self) -> bool {
-        self.form == Form::Held
+        match &self.form {
+            Form::Held => true,
+            Form::Segment(segment) => segment.is_still(),
+            _ => false,
+        }
     }
 
     /// Position in m and velocity in m/s, `elapsed` >= 0 seconds after departure, when the drive
@@ -174,7 +194,7 @@ impl Course {
         let answers = Responses::at(&self.flow.modes, self.flow.frequency, elapsed);
         let (a, (cos, sin)) = (self.flow.amplitude, from.drive);
         let sum = |c: f64, r: f64, p: f64, q: f64| {
-            from.constant * c + from.ramp * r + a * (cos * p - sin * q)
+            from.push.value() * c + from.push.rate() * r + a * (cos * p - sin * q)
         };
         (
             x + sum(
@@ -192,10 +212,10 @@ impl Course {
         )
     }
 
-    /// Constant and ramp of the push per mass, seen from a node.
+    /// Value and rate of a linear push per mass, seen from a node.
     pub(crate) fn push_at(&self, elapsed: f64) -> (f64, f64) {
-        let from = &self.departure;
-        (from.constant + from.ramp * elapsed, from.ramp)
+        let push = &self.departure.push;
+        (push.value() + push.rate() * elapsed, push.rate())
     }
 
     /// Taylor polynomials about a node.
@@ -221,8 +241,12 @@ impl Course {
     /// True if it is sure never to leave the range of floating-point numbers.
     pub(crate) fn is_bounded(&self) -> bool {
         match self.form {
-            Form::Particular { particular, .. } => {
-                particular.slope == 0.0 && self.flow.modes.stiffness > 0.0
+            Form::Particular {
+                particular: of,
+                deviation: (x, v),
+            } => {
+                let size = of.offset.abs() + of.cosine.abs() + of.sine.abs() + x.abs() + v.abs();
+                of.slope == 0.0 && self.flow.modes.stiffness > 0.0 && size < MODEST
             }
             Form::Held | Form::Chatter(_) => true,
             Form::Responses | Form::Segment(_) => false,
@@ -245,15 +269,19 @@ impl Course {
         }
     }
 
-    /// Bounds on the push per mass to the end of time.
+    /// Bounds on a linear push per mass to the end of time.
     pub(crate) fn push_range(&self) -> (f64, f64) {
-        if self.departure.ramp == 0.0 {
-            around(self.departure.constant, self.flow.amplitude)
+        let push = &self.departure.push;
+        if push.rate() == 0.0 {
+            around(push.value(), self.flow.amplitude)
         } else {
             (f64::NEG_INFINITY, f64::INFINITY)
         }
     }
 }
+
+/// A size that is far from the range of floating-point numbers, whatever it is multiplied with.
+const MODEST: f64 = 1e100;
 
 /// An interval, widened by more than the rounding of its ends.
 fn around(centre: f64, radius: f64) -> (f64, f64) {
@@ -265,7 +293,8 @@ fn around(centre: f64, radius: f64) -> (f64, f64) {
 fn is_well_conditioned(flow: &Flow, from: &Departure) -> bool {
     let (b, w) = (flow.modes.stiffness.abs(), flow.frequency);
     let stiff = w * w <= LARGEST_LOSS * b;
-    let at_rest = from.constant == 0.0 && from.ramp == 0.0;
+    let (constant, ramp) = (from.push.value(), from.push.rate());
+    let at_rest = constant == 0.0 && ramp == 0.0;
     let small = from.position.abs().max(from.velocity.abs() / w) * LARGEST_LOSS;
-    at_rest || stiff || (from.ramp == 0.0 && from.constant.abs() <= small * b)
+    at_rest || stiff || (ramp == 0.0 && constant.abs() <= small * b)
 }

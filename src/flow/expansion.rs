@@ -2,15 +2,16 @@
 
 use super::creep::Equation;
 use super::hertz::Hertz;
+use super::rungs::Rungs;
 use super::segment::Segment;
 use super::series::{Power, Series, ZERO, convolve, derivative, majorant, power, value};
-use super::taylor::{DEGREE, Taylor, push_series};
+use super::taylor::{DEGREE, push_series};
 use super::{Departure, Flow};
 
 /// What the last coefficients may amount to, relative to the first: well below rounding.
 const SMALLEST: f64 = f64::EPSILON / 64.0;
 /// Its binary logarithm.
-const TRUNCATION: f64 = -58.0;
+pub(super) const TRUNCATION: f64 = -58.0;
 /// Share of the way to the face that a slow step covers at most.
 const NEAR: f64 = 0.15;
 /// How much longer than a usual step a slow one must be to be worth its price.
@@ -25,7 +26,7 @@ impl Segment {
         } else {
             Self::from_root(flow, hertz, from, deflection)
         };
-        segment.reach = segment.convergence();
+        segment.reach = segment.convergence(from);
         if segment.power == ZERO && hertz.stiffness > 0.0 {
             segment.reach = segment.shell(segment.reach);
         }
@@ -51,7 +52,12 @@ impl Segment {
         if span.is_nan() || span <= LONGER * usual {
             return None;
         }
-        let push = push_series(flow, from.drive, (from.constant, from.ramp));
+        let push = push_series(flow, from);
+        let span = if from.push.is_linear() {
+            span
+        } else {
+            span.min(outgrown(&push))
+        };
         let mut load = push;
         load[0] -= flow.modes.stiffness * hertz.origin;
         let equation = Equation {
@@ -74,11 +80,12 @@ impl Segment {
         (segment.end > LONGER * usual).then_some(segment)
     }
 
-    fn blank(flow: &Flow, hertz: &Hertz) -> Self {
+    pub(super) fn blank(flow: &Flow, hertz: &Hertz) -> Self {
         Self {
             departed: 0.0,
             root: ZERO,
             depth: ZERO,
+            low: 0.0,
             velocity: ZERO,
             time: ZERO,
             push: ZERO,
@@ -95,17 +102,8 @@ impl Segment {
     /// The linear law's motion from rest at the face, in time itself.
     fn from_rest(flow: &Flow, hertz: &Hertz, from: &Departure) -> Self {
         let start = (hertz.origin, 0.0);
-        let linear = Taylor::about(flow, start, from.drive, (from.constant, from.ramp));
-        let linear = match from.acceleration {
-            Some(acceleration) => linear.with_acceleration(flow, acceleration),
-            None => linear,
-        };
-        let mut segment = Self::blank(flow, hertz);
-        segment.depth = linear.position;
+        let mut segment = Self::in_time(flow, hertz, from, start);
         segment.depth[0] = 0.0;
-        segment.velocity = derivative(&linear.position);
-        segment.time[1] = 1.0;
-        segment.push = linear.push;
         segment
     }
 
@@ -120,6 +118,7 @@ impl Segment {
         let (mut cos, mut sin, mut acceleration) = (ZERO, ZERO, ZERO);
         (cos[0], sin[0]) = from.drive;
         let mut power = Power::new(2.0 * hertz.exponent, root);
+        let mut rungs = Rungs::new(&from.push);
         for k in 0..=DEGREE {
             // The deflection itself, not the square of its rounded root: a surface may stand there.
             segment.depth[k] = if k == 0 {
@@ -128,10 +127,13 @@ impl Segment {
                 convolve(s, s, k)
             };
             segment.power[k] = power.coefficient(s, k);
-            segment.push[k] = flow.amplitude * cos[k] + from.ramp * t[k];
+            segment.push[k] = flow.amplitude * cos[k] + from.push.rate() * t[k];
+            if let Some(rungs) = &mut rungs {
+                segment.push[k] += rungs.coefficient(s, k);
+            }
             let mut pull = b * segment.depth[k];
             if k == 0 {
-                segment.push[0] += from.constant;
+                segment.push[0] += from.push.value();
                 pull += b * hertz.origin;
             }
             let mut press = segment.power[k];
@@ -154,16 +156,22 @@ impl Segment {
 
     /// Sigma up to which the last coefficients stay below rounding (Jorba and Zou 2005), and time
     /// within the reach of the linear law's own series.
-    fn convergence(&self) -> f64 {
-        let limit = self.flow.reach;
+    fn convergence(&self, from: &Departure) -> f64 {
         if self.is_in_time() {
-            return limit;
+            return self.reach_in_time(from);
         }
+        let limit = self.flow.reach;
         // t = s sigma + v sigma^2 / 4 + ...
         let within = (limit / self.root[0]).min(2.0 * (limit / self.velocity[0].abs()).sqrt());
-        converges(&self.root)
+        let holds = converges(&self.root)
             .min(converges(&self.velocity))
-            .min(within)
+            .min(within);
+        if from.push.is_linear() {
+            return holds;
+        }
+        holds
+            .min(outgrown(&self.root))
+            .min(outgrown(&self.velocity))
     }
 
     /// Sigma within which the power law's part of the motion, at most kappa d^n (1 + lambda v) t^2 / 2,
@@ -209,17 +217,40 @@ impl Segment {
 /// half falls as a geometric series does. All of that half is looked at, since by symmetry many
 /// coefficients may vanish.
 fn converges(series: &Series) -> f64 {
-    let [zeroth, first, second] = [0, 1, 2].map(|j| series[j].abs().log2());
+    falls_off(series, DEGREE.div_ceil(2), |j| {
+        TRUNCATION / (DEGREE - j) as f64
+    })
+}
+
+/// Where one of the higher coefficients' terms outgrows all of the first ones.
+pub(super) fn outgrown(series: &Series) -> f64 {
+    falls_off(series, leading(series) + FIRST, |_| 0.0)
+}
+
+/// How many of the first coefficients the others are measured against.
+const FIRST: usize = 3;
+
+/// The first coefficient to measure against: the very first one, unless the series begins with so many
+/// zeros that nothing could be told from them.
+fn leading(series: &Series) -> usize {
+    let zeros = series.iter().take_while(|c| **c == 0.0).count();
+    if zeros < FIRST { 0 } else { zeros }
+}
+
+/// Where the coefficients from `lower` on are still below one of the first, the `j`-th, times the binary
+/// power `margin`(j) for each further order.
+fn falls_off(series: &Series, lower: usize, margin: impl Fn(usize) -> f64) -> f64 {
+    let leading = leading(series);
+    let first = [0, 1, 2].map(|offset| {
+        let j = leading + offset;
+        (j, series.get(j).map_or(f64::NAN, |c| c.abs().log2()))
+    });
     let mut reach = f64::INFINITY;
-    for (last, coefficient) in series.iter().enumerate().skip(DEGREE.div_ceil(2)) {
+    for (last, coefficient) in series.iter().enumerate().skip(lower.max(leading + FIRST)) {
         let size = coefficient.abs().log2();
         // Comparisons pass over what is not a number: zero against zero.
-        let against = |size_first: f64, j: usize| {
-            (size_first - size) / (last - j) as f64 + TRUNCATION / (DEGREE - j) as f64
-        };
-        let within = against(zeroth, 0)
-            .max(against(first, 1))
-            .max(against(second, 2));
+        let against = |(j, first): (usize, f64)| (first - size) / (last - j) as f64 + margin(j);
+        let within = first.map(against).into_iter().fold(f64::NAN, f64::max);
         reach = reach.min(within);
     }
     reach.exp2()

@@ -16,6 +16,15 @@ pub struct Hertz {
 }
 
 impl Hertz {
+    /// No power law at all.
+    pub(super) const ABSENT: Self = Self {
+        stiffness: 0.0,
+        exponent: 1.0,
+        dissipation: 0.0,
+        origin: 0.0,
+        mass: 1.0,
+    };
+
     /// Force in N.
     pub fn force(&self, position: f64, velocity: f64) -> f64 {
         let depth = (position - self.origin).max(0.0);

@@ -1,11 +1,12 @@
 //! The exact motion inside one phase.
 //!
-//! Every linear phase obeys x'' + 2 a x' + b x = c + r t + A cos(angle + w t). [`Flow`] holds a, b, A and w
+//! Every linear phase obeys x'' + 2 a x' + b x = p(t) + A cos(angle + w t). [`Flow`] holds a, b, A and w
 //! and what can be computed once; a [`Course`] is one motion along it. Three evaluations share the
 //! work, each where it is free of cancellation: a Taylor series for short times, the particular
 //! solution plus the free modes for ordinary ones, and zero-state responses by doubling
-//! where the particular solution blows up. A phase with a power law ([`Hertz`]) is followed in Taylor steps,
-//! each a course of its own.
+//! where the particular solution blows up. They answer a push p = c + r t. Under a [`Polynomial`] of higher
+//! degree, and in a phase with a power law ([`Hertz`]), the motion is followed in Taylor steps, each a course
+//! of its own.
 
 mod change;
 mod chatter;
@@ -16,8 +17,11 @@ mod hertz;
 mod modes;
 mod node;
 mod particular;
+mod polynomial;
 mod power;
+mod pushed;
 mod response;
+mod rungs;
 mod segment;
 mod series;
 mod taylor;
@@ -28,7 +32,8 @@ pub use course::{Course, Departure};
 pub use hertz::Hertz;
 pub(crate) use modes::Modes;
 pub use node::Node;
-pub(crate) use segment::Segment;
+pub use polynomial::{HIGHEST_ORDER, Polynomial};
+pub(crate) use segment::{Finer, Segment};
 pub(crate) use taylor::{DEGREE, Taylor, evaluate};
 
 use nalgebra::Matrix2;

@@ -16,8 +16,8 @@ impl Particular {
     /// With offset + slope t = (c + r t)/b - 2 a r/b^2.
     pub fn new(flow: &Flow, from: &Departure, (cosine, sine): (f64, f64)) -> Self {
         let b = flow.modes.stiffness;
-        let slope = from.ramp / b;
-        let offset = (from.constant - 2.0 * flow.modes.decay * slope) / b;
+        let slope = from.push.rate() / b;
+        let offset = (from.push.value() - 2.0 * flow.modes.decay * slope) / b;
         Self {
             offset,
             slope,

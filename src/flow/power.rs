@@ -41,7 +41,7 @@ impl Course {
         match &self.form {
             Form::Held | Form::Chatter(_) => Power::default(),
             Form::Segment(segment) => {
-                let (supplied, lost) = segment.work(elapsed);
+                let (supplied, lost) = segment.work(elapsed, law);
                 Power { supplied, lost }
             }
             &Form::Particular {

@@ -1,4 +1,4 @@
-//! One Taylor step of a nonlinear phase.
+//! One Taylor step.
 //!
 //! The deflection d from the face obeys d'' + 2 a d' + b (d + x0) + kappa d^n (1 + lambda d') = push. At
 //! the face d^n has a branch point. For every n that is a multiple of 1/2 it goes away if the root
@@ -13,27 +13,30 @@
 //! other n the steps grow and shrink with the distance from the face; right at the face, while the
 //! power law's part of the motion is below rounding, it is left out. So it is on a start from rest at
 //! the face, where sigma is time itself; and so it is in slow motion under heavy damping
-//! ([`super::creep`]).
+//! ([`super::creep`]) and where there is no power law ([`super::pushed`]).
 
 use nalgebra::Matrix2;
+use serde::{Deserialize, Serialize};
 
 use super::Flow;
 use super::change::Change;
 use super::creep::Creep;
 use super::hertz::Hertz;
 use super::power::gauss_nodes;
-use super::series::{Series, ZERO, derivative, power, product, value};
+use super::series::{Series, ZERO, derivative, integral_of_product, power, product, value};
 use super::taylor::evaluate;
 
 /// The motion of one step, as series in sigma.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Segment {
     /// Deflection in m at departure.
-    pub(crate) departed: f64,
+    pub(super) departed: f64,
     /// Root of the deflection in sqrt(m); zero where sigma is time itself.
     pub(super) root: Series,
-    /// Deflection in m.
+    /// Deflection in m: of a linear law, from position zero.
     pub(super) depth: Series,
+    /// What rounding took from the deflection at the start, in m: a linear law's alone carries it.
+    pub(super) low: f64,
     /// Velocity in m/s.
     pub(super) velocity: Series,
     /// Time since departure in s.
@@ -54,16 +57,34 @@ pub(crate) struct Segment {
     pub(super) creep: Option<Box<Creep>>,
 }
 
+/// A position more sharply than by its rounded value: where it counts from a nonlinear face, by the
+/// deflection; else by what rounding took from it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Finer {
+    /// Deflection in m.
+    pub deflection: f64,
+    /// Rest in m.
+    pub low: f64,
+}
+
 impl Segment {
     /// True if sigma is time itself.
     pub(super) fn is_in_time(&self) -> bool {
         self.time[1] == 1.0 && self.root == ZERO
     }
 
+    /// True if nothing moves.
+    pub fn is_still(&self) -> bool {
+        self.velocity == ZERO
+    }
+
     /// Sigma at a time: Newton's method on a function that grows, kept inside its bracket.
     pub fn parameter_at(&self, elapsed: f64) -> f64 {
         if elapsed >= self.end {
             return self.contact;
+        }
+        if self.is_in_time() {
+            return elapsed;
         }
         let (mut low, mut high) = (0.0, self.contact);
         let mut at = self.contact * (elapsed / self.end);
@@ -102,16 +123,45 @@ impl Segment {
 
     fn depth_at(&self, sigma: f64) -> f64 {
         if self.is_in_time() {
-            value(&self.depth, sigma)
+            self.split_at(sigma).0
         } else {
             let root = value(&self.root, sigma);
             root * root
         }
     }
 
-    /// Deflection in m.
-    pub fn deflection(&self, elapsed: f64) -> f64 {
-        self.depth_at(self.parameter_at(elapsed))
+    /// The deflection in time, rounded, and what rounding took from it.
+    fn split_at(&self, sigma: f64) -> (f64, f64) {
+        let start = self.depth[0];
+        let mut way = self.depth;
+        way[0] = self.low;
+        let way = value(&way, sigma);
+        // The sum without error of Knuth (1969, 4.2.2, theorem B).
+        let sum = start + way;
+        let taken = sum - start;
+        (sum, (start - (sum - taken)) + (way - taken))
+    }
+
+    /// What it was told of its start beyond the rounded position.
+    pub fn finer_start(&self) -> Finer {
+        Finer {
+            deflection: self.departed,
+            low: self.low,
+        }
+    }
+
+    /// What the step knows of its end beyond the rounded position.
+    pub fn finer(&self, elapsed: f64) -> Finer {
+        let sigma = self.parameter_at(elapsed);
+        Finer {
+            deflection: self.depth_at(sigma),
+            low: self.split_at(sigma).1,
+        }
+    }
+
+    /// Push per mass in m/s^2 at sigma.
+    pub fn push_at(&self, sigma: f64) -> f64 {
+        value(&self.push, sigma)
     }
 
     /// Time since departure at sigma, in s.
@@ -139,11 +189,16 @@ impl Segment {
             position * moved[k] + velocity * self.velocity[k] + push * self.push[k]
         });
         sum[0] -= level;
+        sum[0] += position * self.low;
         sum
     }
 
-    /// Work of the push and work lost, per unit of mass, up to `elapsed`.
-    pub fn work(&self, elapsed: f64) -> (f64, f64) {
+    /// Work of the push, without the `law`'s own constant force, and work lost, per unit of mass, up to
+    /// `elapsed`.
+    pub fn work(&self, elapsed: f64, law: f64) -> (f64, f64) {
+        if self.is_in_time() && self.power == ZERO {
+            return self.work_in_time(elapsed, law);
+        }
         let kappa = self.hertz.rate() * self.hertz.dissipation;
         let (mut supplied, mut lost) = (0.0, 0.0);
         for (sigma, weight) in gauss_nodes(self.parameter_at(elapsed)) {
@@ -153,10 +208,19 @@ impl Segment {
             if kappa > 0.0 {
                 damping += kappa * value(&self.power, sigma);
             }
-            supplied += travel * value(&self.push, sigma);
+            supplied += travel * (value(&self.push, sigma) - law);
             lost += travel * damping * velocity;
         }
         (supplied, lost)
+    }
+
+    /// The same of a linear law: the integrals of the very polynomials, whatever their degree.
+    fn work_in_time(&self, elapsed: f64, law: f64) -> (f64, f64) {
+        let mut force = self.push;
+        force[0] -= law;
+        let supplied = integral_of_product(&force, &self.velocity, elapsed);
+        let square = integral_of_product(&self.velocity, &self.velocity, elapsed);
+        (supplied, 2.0 * self.flow.modes.decay * square)
     }
 
     /// d(state)/d(state at the start) after `elapsed`, and the integral of damping over mass: the

@@ -95,6 +95,16 @@ pub(super) fn product(a: &Series, b: &Series) -> Series {
     std::array::from_fn(|k| convolve(a, b, k))
 }
 
+/// Integral of the whole product of two series from 0 to `to`.
+pub(super) fn integral_of_product(a: &Series, b: &Series, to: f64) -> f64 {
+    let against = |i: usize| {
+        let terms = b.iter().enumerate().rev();
+        terms.fold(0.0, |sum, (j, b)| b / (i + j + 1) as f64 + to * sum)
+    };
+    let terms = a.iter().enumerate().rev();
+    to * terms.fold(0.0, |sum, (i, a)| a * against(i) + to * sum)
+}
+
 /// The derivative of a series.
 pub(super) fn derivative(series: &Series) -> Series {
     std::array::from_fn(|k| series.get(k + 1).map_or(0.0, |c| (k + 1) as f64 * c))

@@ -1,6 +1,6 @@
 //! Local Taylor polynomials of the exact motion: they locate crossings without cancellation.
 
-use super::Flow;
+use super::{Departure, Flow};
 
 /// Degree of the polynomials (odd): over one [`reach`](Flow::reach) the remainder is below 1/20!.
 pub(crate) const DEGREE: usize = 19;
@@ -10,7 +10,7 @@ pub(crate) const DEGREE: usize = 19;
 pub(crate) struct Taylor {
     /// Position in m/s^n.
     pub position: [f64; DEGREE + 1],
-    /// Push c + r t + A cos(angle + w t) in m/s^2/s^n.
+    /// Push p(t) + A cos(angle + w t) in m/s^2/s^n.
     pub push: [f64; DEGREE + 1],
 }
 
@@ -26,13 +26,12 @@ const RECIPROCALS: [f64; DEGREE + 2] = {
 
 impl Taylor {
     /// Expands the motion from (x, v) with drive (cos, sin) and push `constant` + `ramp` t.
-    pub fn about(
-        flow: &Flow,
-        (x, v): (f64, f64),
-        (cos, sin): (f64, f64),
-        (constant, ramp): (f64, f64),
-    ) -> Self {
-        let push = push_series(flow, (cos, sin), (constant, ramp));
+    pub fn about(flow: &Flow, state: (f64, f64), drive: (f64, f64), push: (f64, f64)) -> Self {
+        Self::under(flow, state, linear_push_series(flow, drive, push))
+    }
+
+    /// Expands the motion from (x, v) under a push.
+    pub fn under(flow: &Flow, (x, v): (f64, f64), push: [f64; DEGREE + 1]) -> Self {
         let mut position = [0.0; DEGREE + 1];
         position[0] = x;
         position[1] = v;
@@ -77,8 +76,21 @@ impl Taylor {
     }
 }
 
+/// Coefficients of the push p(t) + A cos(angle + w t) at a departure.
+pub(super) fn push_series(flow: &Flow, from: &Departure) -> [f64; DEGREE + 1] {
+    let (value, rate) = (from.push.value(), from.push.rate());
+    let mut push = linear_push_series(flow, from.drive, (value, rate));
+    if !from.push.is_linear() {
+        let higher = from.push.coefficients();
+        for (sum, coefficient) in push.iter_mut().zip(higher).skip(2) {
+            *sum += coefficient;
+        }
+    }
+    push
+}
+
 /// Coefficients of the push `constant` + `ramp` t + A cos(angle + w t) with drive (cos, sin).
-pub(super) fn push_series(
+fn linear_push_series(
     flow: &Flow,
     (cos, sin): (f64, f64),
     (constant, ramp): (f64, f64),

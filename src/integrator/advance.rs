@@ -8,10 +8,10 @@ use super::motion::{Motion, Start};
 use super::observer::{Crossing, CrossingKind, Observer};
 use crate::error::MotionError;
 use crate::events::{Found, Guard, Outlook, first_crossing};
-use crate::flow::{Chatter, Node};
-use crate::phases::Mode;
+use crate::flow::{Chatter, Finer, Node};
+use crate::phases::{Mode, Phase};
 
-/// Crossings at one and the same instant that a motion may make: more than any row of bounces that
+/// Crossings and steps at one and the same instant that a motion may make: more than any row of bounces that
 /// is shorter than the resolution of time.
 const MOST_AT_ONCE: u32 = 1_000_000;
 
@@ -42,15 +42,18 @@ impl Motion {
         observer: &mut impl Observer,
         mut effort: Effort,
     ) -> Result<bool, MotionError> {
-        let mut crossings_at_once = 0;
+        let mut at_once = 0;
         while !self.glide(until)? {
+            if let Outlook::Crossing(Found { elapsed, .. }) | Outlook::Ends(elapsed) = self.outlook
+            {
+                let instantly = self.is_instant(elapsed);
+                at_once = if instantly { at_once + 1 } else { 0 };
+                if at_once > MOST_AT_ONCE {
+                    return Err(self.stalled());
+                }
+            }
             match self.outlook {
                 Outlook::Crossing(found) => {
-                    let instantly = self.is_instant(found.elapsed);
-                    crossings_at_once = if instantly { crossings_at_once + 1 } else { 0 };
-                    if crossings_at_once > MOST_AT_ONCE {
-                        return Err(self.stalled());
-                    }
                     self.cross(found, observer);
                     effort.spend(effort::CROSSING);
                 }
@@ -161,7 +164,7 @@ impl Motion {
 
     fn release_guards(&self, forward: Option<usize>, backward: usize) -> ([Guard; 2], usize) {
         let since = &self.course.departure;
-        let push = since.constant + self.phases.held.amplitude * since.drive.0;
+        let push = since.push.value() + self.phases.held.amplitude * since.drive.0;
         let (guards, _, count) = self
             .phases
             .releases(forward, backward, since.position, push);
@@ -180,8 +183,8 @@ impl Motion {
     /// Takes up the motion where a course ends that was not meant to go further.
     fn go_on(&mut self, elapsed: f64, observer: &mut impl Observer) {
         observer.arc(&self.arc(), elapsed);
-        self.force.value += self.force.rate * elapsed;
         let at = self.clock.after(self.start, elapsed);
+        self.force.go_on(&self.clock, at, elapsed);
         let drive = self.clock.drive(at);
         (self.start, self.now) = (at, at);
         match (self.mode, self.course.chatter().copied()) {
@@ -192,13 +195,17 @@ impl Motion {
         }
     }
 
-    /// The next Taylor step of a nonlinear phase, from the very deflection at which the last one ended.
+    /// The next Taylor step, from the very place at which the last one ended.
     fn next_step(&mut self, elapsed: f64, drive: (f64, f64)) {
         let (position, velocity) = self.course.at(elapsed, drive);
-        let deflection = self.course.segment().map(|last| last.deflection(elapsed));
+        let finer = self.course.segment().map(|last| last.finer(elapsed));
+        let (position, finer) = match (self.phase(), finer) {
+            (Some(phase), Some(finer)) if phase.hertz.is_none() => within(phase, position, finer),
+            _ => (position, finer),
+        };
         let state = Start { position, velocity };
         let departure = self.departure(state, drive, self.mode, None);
-        self.begin(departure, self.mode, deflection, None);
+        self.begin(departure, self.mode, finer, None);
     }
 
     /// The end of the summed bounces on a rigid stop.
@@ -232,7 +239,7 @@ impl Motion {
         observer.arc(&self.arc(), found.elapsed);
         let at = self.clock.after(self.start, found.elapsed);
         let drive = self.clock.drive(at);
-        self.force.value += self.force.rate * found.elapsed;
+        self.force.go_on(&self.clock, at, found.elapsed);
         let push = self.push(drive);
         if let Some(surface) = self.surface_of(found.guard) {
             self.hum.count(surface, found.velocity);
@@ -265,4 +272,18 @@ impl Motion {
             ),
         });
     }
+}
+
+/// The place between two steps of a linear phase: within its surfaces, so that none is passed unseen by
+/// rounding.
+fn within(phase: &Phase, position: f64, finer: Finer) -> (f64, Option<Finer>) {
+    let beside = if finer.low > 0.0 {
+        position.next_up()
+    } else if finer.low < 0.0 {
+        position.next_down()
+    } else {
+        position
+    };
+    let inside = phase.confine(beside) == beside;
+    (phase.confine(position), inside.then_some(finer))
 }

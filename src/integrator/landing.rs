@@ -145,7 +145,8 @@ impl Motion {
         let two_laws = phases.forward_of(at.below) != at.below || out.released.is_some_and(lets_go);
         let pressing = Pressing {
             accelerations: (rest(out), rest(back)),
-            push_rate: drive + self.force.rate.abs() / phases.mass,
+            drive_rate: drive,
+            push: self.force.on_arc().per_mass(0.0, phases.mass),
             damping: largest(slopes.map(|slope| slope.1)),
             stiffness: largest(slopes.map(|slope| slope.0)),
             period: self.clock().period(),
@@ -184,7 +185,7 @@ impl Motion {
 
     /// Push of drive and external force per mass, in m/s^2, at the start of the present arc.
     pub(super) fn push(&self, drive: (f64, f64)) -> f64 {
-        self.phases.held.amplitude * drive.0 + self.force.value / self.phases.mass
+        self.phases.held.amplitude * drive.0 + self.force.on_arc().value() / self.phases.mass
     }
 
     /// Acceleration in m/s^2 in a mode.

@@ -3,6 +3,7 @@
 mod advance;
 mod clock;
 mod effort;
+mod force;
 mod hum;
 mod landing;
 mod motion;
@@ -15,7 +16,7 @@ mod tallies;
 
 pub use clock::{Clock, Instant};
 pub use effort::Effort;
-pub use motion::{Force, Motion, Start};
+pub use motion::{Motion, Start};
 pub use observer::{Arc, Crossing, CrossingKind, Observer};
 pub use rates::{Rate, Rates};
 pub use simulation::{Energy, Impact, Sample, Simulation};

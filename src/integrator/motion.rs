@@ -2,14 +2,13 @@
 
 use std::sync::Arc as Shared;
 
-use serde::{Deserialize, Serialize};
-
 use super::clock::{Clock, Instant};
+use super::force::Force;
 use super::hum::Hum;
 use super::observer::Arc;
 use crate::error::MotionError;
 use crate::events::Outlook;
-use crate::flow::{Chatter, Course, Departure};
+use crate::flow::{Chatter, Course, Departure, Finer, Polynomial};
 use crate::phases::{Mode, Phase, PhaseKind, Phases, Store};
 
 /// A state to start from.
@@ -34,15 +33,6 @@ impl Start {
         }
         Ok(())
     }
-}
-
-/// External force f = `value` + `rate` (t - start of the arc).
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Force {
-    /// Force in N.
-    pub value: f64,
-    /// Rate in N/s.
-    pub rate: f64,
 }
 
 /// The exact motion of a scene, arc by arc.
@@ -76,10 +66,10 @@ impl Motion {
         at: Instant,
         start: Start,
     ) -> Result<Self, MotionError> {
-        Self::with(phases, clock, at, start, Force::default(), true)
+        Self::with(phases, clock, at, start, Polynomial::default(), true)
     }
 
-    /// The same under an external force, with or without a strip.
+    /// The same under an external force in N that begins with the motion, with or without a strip.
     ///
     /// # Errors
     /// As [`Motion::new`].
@@ -88,7 +78,7 @@ impl Motion {
         clock: Clock,
         at: Instant,
         start: Start,
-        force: Force,
+        force: Polynomial,
         fed: bool,
     ) -> Result<Self, MotionError> {
         let phases = phases.into();
@@ -101,12 +91,11 @@ impl Motion {
             position: start.position,
             velocity: start.velocity,
             drive,
-            constant: 0.0,
-            ramp: 0.0,
+            push: Polynomial::default(),
             acceleration: None,
         };
         let course = Course::held(phases.held, departure);
-        let push = phases.held.amplitude * drive.0 + force.value / phases.mass;
+        let push = phases.held.amplitude * drive.0 + force.value() / phases.mass;
         let mode = phases.locate(start.position, start.velocity, push, fed);
         let outlook = Outlook::Never;
         let mut motion = Self {
@@ -115,7 +104,7 @@ impl Motion {
             mode,
             fed,
             pierced: false,
-            force,
+            force: Force::new(force, at),
             start: at,
             now: at,
             course,
@@ -180,13 +169,10 @@ impl Motion {
         &self.phases.phases[phase].store
     }
 
-    /// External force and rate now.
-    pub fn force(&self) -> Force {
+    /// External force in N from now on.
+    pub fn force(&self) -> Polynomial {
         let elapsed = self.clock.elapsed(self.start, self.now);
-        Force {
-            value: self.force.value + self.force.rate * elapsed,
-            rate: self.force.rate,
-        }
+        self.force.seen_from(&self.clock, self.now, elapsed)
     }
 
     /// Whether a strip will be met at the next crossing of the clearance.
@@ -230,11 +216,11 @@ impl Motion {
 
     /// Goes on from here under another external force. Phase, latched strip and bounces in a row
     /// stay as they are; only a held mass may be let go at once.
-    pub(super) fn set_force(&mut self, force: Force) {
+    pub(super) fn set_force(&mut self, force: Polynomial) {
         let mut state = self.state();
         let drive = self.clock.drive(self.now);
         self.start = self.now;
-        self.force = force;
+        self.force = Force::new(force, self.now);
         match self.mode {
             // A step of the force lets the mass go with the acceleration that it brings.
             Mode::Held { forward, backward } => {
@@ -275,14 +261,11 @@ impl Motion {
         let elapsed = self.clock.elapsed(self.start, now);
         if elapsed > 0.0 && self.phase().is_some() {
             let state = motion.state();
-            let deflection = self
-                .course
-                .segment()
-                .map(|segment| segment.deflection(elapsed));
-            motion.force = motion.force();
+            let finer = self.course.segment().map(|segment| segment.finer(elapsed));
+            motion.force.go_on(&self.clock, now, elapsed);
             motion.start = now;
             let departure = motion.departure(state, self.clock.drive(now), self.mode, None);
-            motion.begin(departure, self.mode, deflection, None);
+            motion.begin(departure, self.mode, finer, None);
         }
         motion
     }
@@ -310,31 +293,32 @@ impl Motion {
             position: state.position,
             velocity: state.velocity,
             drive,
-            constant: (law + self.force.value) / self.phases.mass,
-            ramp: self.force.rate / self.phases.mass,
+            push: self.force.on_arc().per_mass(law, self.phases.mass),
             acceleration,
         }
     }
 
-    /// Sets the course of an arc. In a nonlinear phase `deflection` says more sharply than the
-    /// position how far the mass is beyond the face.
+    /// Sets the course of an arc; between two steps `finer` says more sharply than the departure where the
+    /// mass is.
     pub(super) fn begin(
         &mut self,
         departure: Departure,
         mode: Mode,
-        deflection: Option<f64>,
+        finer: Option<Finer>,
         chatter: Option<Chatter>,
     ) {
         let held = self.phases.held;
         self.course = match (mode, chatter) {
             (Mode::Moving(phase), _) => {
                 let phase = &self.phases.phases[phase];
-                match &phase.hertz {
-                    Some(hertz) => {
-                        let deflection = deflection.unwrap_or(departure.position - hertz.origin);
+                match (&phase.hertz, finer) {
+                    (Some(hertz), finer) => {
+                        let rounded = departure.position - hertz.origin;
+                        let deflection = finer.map_or(rounded, |finer| finer.deflection);
                         Course::nonlinear(phase.flow, hertz, departure, deflection)
                     }
-                    None => Course::new(phase.flow, departure),
+                    (None, Some(Finer { low, .. })) => Course::resumed(phase.flow, departure, low),
+                    (None, None) => Course::new(phase.flow, departure),
                 }
             }
             (Mode::Chattering { .. }, Some(chatter)) => {

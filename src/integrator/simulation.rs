@@ -2,10 +2,12 @@
 
 use super::clock::{Clock, Instant};
 use super::effort::Effort;
-use super::motion::{Force, Motion, Start};
+use super::force::polynomial;
+use super::motion::{Motion, Start};
 use super::stretch::{Mark, Origin};
 use super::tallies::{Counts, Tallies};
 use crate::error::MotionError;
+use crate::flow::Polynomial;
 use crate::phases::PhaseKind;
 use crate::scene::Scene;
 use crate::trajectory::mechanical_energy;
@@ -105,7 +107,7 @@ impl Simulation {
             counts: Counts::default(),
         };
         let at = clock.instant(time);
-        let motion = Motion::with(phases, clock, at, start, Force::default(), fed)?;
+        let motion = Motion::with(phases, clock, at, start, Polynomial::default(), fed)?;
         Ok(Self {
             scene: scene.clone(),
             motion,
@@ -234,23 +236,20 @@ impl Simulation {
             (drive.amplitude, drive.frequency)
         };
         (
-            amplitude * cos + force.value,
-            force.rate - amplitude * w * sin,
-            -amplitude * w * w * cos,
+            amplitude * cos + force.value(),
+            force.rate() - amplitude * w * sin,
+            force.derivatives()[2] - amplitude * w * w * cos,
         )
     }
 
-    /// Sets the external force from now on: `value` + `rate` (t - now), in N and N/s.
+    /// Sets the external force from now on by its derivatives now: value in N, rate in N/s, and so on
+    /// in N/s^k up to [`HIGHEST_ORDER`](crate::flow::HIGHEST_ORDER); those that are not given are zero.
     ///
     /// # Errors
-    /// [`MotionError::NotFinite`] if one of them is not finite.
-    pub fn set_force(&mut self, value: f64, rate: f64) -> Result<(), MotionError> {
-        for (name, value) in [("force", value), ("force rate", rate)] {
-            if !value.is_finite() {
-                return Err(MotionError::NotFinite { name, value });
-            }
-        }
-        let force = Force { value, rate };
+    /// [`MotionError::ForceNotFinite`] if one of them is not finite, [`MotionError::ForceOrder`] if one
+    /// beyond the highest order is not zero; nothing is changed then.
+    pub fn set_force(&mut self, derivatives: &[f64]) -> Result<(), MotionError> {
+        let force = polynomial(derivatives)?;
         if self.motion.force() != force {
             self.tallies.counts.work += self.tallies.work_under_way(&self.motion);
             let before = mechanical_energy(&self.scene, &self.motion);

@@ -8,14 +8,15 @@ use std::sync::Arc as Shared;
 use serde::{Deserialize, Serialize};
 
 use super::clock::{Clock, Instant};
+use super::force::Force;
 use super::hum::Hum;
-use super::motion::{Force, Motion, Start};
+use super::motion::{Motion, Start};
 use super::simulation::Simulation;
 use super::stretch::{Mark, Origin};
 use super::tallies::{Counts, Tallies};
 use crate::error::MotionError;
 use crate::events::Outlook;
-use crate::flow::{Chatter, Departure};
+use crate::flow::{Chatter, Departure, Finer, Polynomial, Segment};
 use crate::phases::{Mode, Phases};
 use crate::scene::Scene;
 
@@ -55,8 +56,8 @@ struct Moving {
     start: Instant,
     now: Instant,
     departure: Departure,
-    /// Deflection in m at departure, in a nonlinear phase.
-    deflection: Option<f64>,
+    /// What is known of the departure beyond its rounded position.
+    finer: Option<Finer>,
     chatter: Option<Chatter>,
     outlook: Outlook,
     hum: Hum,
@@ -73,7 +74,7 @@ impl Moving {
             start: motion.start,
             now: motion.now,
             departure: motion.course.departure,
-            deflection: motion.course.segment().map(|segment| segment.departed),
+            finer: motion.course.segment().map(Segment::finer_start),
             chatter: motion.course.chatter().copied(),
             outlook: motion.outlook,
             hum: motion.hum,
@@ -87,21 +88,16 @@ impl Moving {
         } = self.departure;
         let clock = Clock::new(scene.excitation.frequency, self.angle);
         let start = Start { position, velocity };
-        let fresh = Motion::with(
-            phases.clone(),
-            clock,
-            self.start,
-            start,
-            self.force,
-            self.fed,
-        )?;
+        let force = Polynomial::default();
+        let fresh = Motion::with(phases.clone(), clock, self.start, start, force, self.fed)?;
         let mut motion = Motion {
             pierced: self.pierced,
+            force: self.force,
             now: self.now,
             hum: self.hum,
             ..fresh
         };
-        motion.begin(self.departure, self.mode, self.deflection, self.chatter);
+        motion.begin(self.departure, self.mode, self.finer, self.chatter);
         motion.outlook = self.outlook;
         let guards = motion.guard_count();
         if matches!(self.outlook, Outlook::Crossing(found) if found.guard >= guards) {
@@ -123,7 +119,7 @@ impl Moving {
         } = self.departure;
         let (start, now) = (self.start, self.now);
         let times = [start.cycles, start.offset, now.cycles, now.offset];
-        let numbers = [self.angle, position, velocity, self.force.value];
+        let numbers = [self.angle, position, velocity];
         if times.iter().chain(&numbers).any(|n| !n.is_finite()) || now < start {
             return Err(broken("numbers that no motion has"));
         }

@@ -1,5 +1,7 @@
 """The motion against the paper, closed forms and an independent integrator."""
 
+import math
+
 import fmpy
 import numpy as np
 import pytest
@@ -129,6 +131,50 @@ def test_force_ramp_is_honoured_however_divided(make):
         again.fmu.setRealInputDerivatives([again.reference("force")], [1], [0.02])
         again.step(0.04)
     np.testing.assert_allclose(again.state(), one.state(), atol=1e-9)
+
+
+def test_force_derivatives_of_order_one_to_three(make):
+    m, k, b = 2.0, 3.0, 0.5
+    derivatives = [0.3, -0.2, 0.15, -0.04]
+    values = {
+        **FREE, "mass": m, "stiffness": k, "damping": b, "clearance": 1e3,
+        "excitation.amplitude": 0.0, "initial.position": 0.2, "initial.velocity": -0.1,
+    }
+
+    def push(unit, derivatives):
+        unit.set({"force": derivatives[0]})
+        reference = unit.reference("force")
+        unit.fmu.setRealInputDerivatives([reference] * 3, [1, 2, 3], derivatives[1:])
+
+    # The polynomial q with m q'' + b q' + k q = f by its derivatives at 0, from the highest on.
+    answer = [0.0] * 6
+    for order in (3, 2, 1, 0):
+        inertia = m * answer[order + 2] + b * answer[order + 1]
+        answer[order] = (derivatives[order] - inertia) / k
+    series = lambda d, t: sum(c * t**n / math.factorial(n) for n, c in enumerate(d))
+    root = complex(-b / (2 * m), math.sqrt(k / m - (b / (2 * m)) ** 2))
+    gap, drift = 0.2 - answer[0], -0.1 - answer[1]
+    own = complex(gap, (gap * root.real - drift) / root.imag)
+
+    one, many = make().begin(values), make().begin(values)
+    push(one, derivatives)
+    one.step(12.0)
+    for _ in range(300):  # as importers with an input table do
+        push(many, [series(derivatives[n:], many.time) for n in range(4)])
+        many.step(0.04)
+    free = own * np.exp(root * 12.0)
+    expected = [
+        series(answer, 12.0) + free.real,
+        series(answer[1:], 12.0) + (root * free).real,
+    ]
+    np.testing.assert_allclose(one.state(), expected, rtol=1e-12)
+    np.testing.assert_allclose(many.state(), expected, rtol=1e-11)
+    assert one.get("force") == pytest.approx(series(derivatives, 12.0), rel=1e-14)
+    reference = many.reference("force")
+    many.refused(lambda: many.fmu.setRealInputDerivatives([reference], [8], [1.0]), "force", "order 8")
+    one.set({"force": 0.25})
+    one.step(5.0)
+    assert one.get("force") == 0.25
 
 
 def test_output_derivatives(unit):

@@ -1,6 +1,6 @@
 """Reference motions of impact oscillators with many kinds of stops, in mpmath.
 
-Equation:  x'' + b x' + x + F = cos(w t + phase)
+Equation:  x'' + b x' + x + F = cos(w t + phase) + p(t),  p = 0 here (force.py has others)
 x < clearance: b = damping, F = 0;  beyond: b = contact_damping and
     strip, if any   r < x < r+s:     F = (x - r)(k2 + k3 sign v)          (phase I)
                     r+s < x < x_stop = r+s+travel: F = s (k2+k3)/40 (1 + 3 sign v)
@@ -113,15 +113,55 @@ def newton(G, D, lo, hi):
     raise ArithmeticError("no convergence")
 
 
+class Push:
+    """cos(w t + phase) + p(t), p = sum of force[k] t^k / k!, t = (th - phase) / w"""
+
+    def __init__(self, w, phase, force):
+        self.w, self.phase, self.force = w, phase, force
+
+    def series(self, th, size, way=1):
+        """coefficients by s at th + way w s"""
+        w, f = way * self.w, [cos(th), -way * self.w * sin(th)]
+        for k in range(2, size):
+            f.append(-w * w * f[k - 2] / (k * (k - 1)))
+        if self.force:
+            t, c = (th - self.phase) / self.w, mpf(1)
+            for k in range(min(size, len(self.force))):
+                p, q = mpf(0), mpf(1)
+                for j, d in enumerate(self.force[k:]):
+                    p, q = p + d * q, q * t / (j + 1)
+                f[k] += c * p
+                c *= mpf(way) / (k + 1)
+        return f[:size]
+
+    def at(self, th):
+        return self.series(th, 1)[0]
+
+    def crossing(self, th, level, way, end):
+        """time from th until the push minus level, way times, turns positive; inf if not before end"""
+        g = lambda s: way * (self.at(th + self.w * s) - level)
+        left, ds = mpf(0), min(1 / self.w, mpf(1)) / 50
+        while left < end:
+            if g(left + ds) > 0:
+                lo, hi = left, left + ds
+                while hi - lo > mpf(10) ** (4 - mp.dps) * hi:
+                    m = (lo + hi) / 2
+                    lo, hi = (lo, m) if g(m) > 0 else (m, hi)
+                return hi
+            left += ds
+        return inf
+
+
 class Linear:
-    """x'' = cos(th + w s) - b x' - kappa x - c; still: at rest, the forces in balance;
+    """x'' = push - b x' - kappa x - c; still: at rest, the forces in balance;
     ahead: a level (short steps towards it out of a near turn)"""
     end = None
 
-    def __init__(self, law, w, th, x, v, still, ahead):
+    def __init__(self, law, push, th, x, v, still, ahead):
         self.b, self.kappa, c = law
+        w = push.w
         rate = max(w, self.b + sqrt(abs(self.kappa)))
-        a = mpf(0) if still else cos(th) - self.b * v - self.kappa * x - c
+        a = mpf(0) if still else push.at(th) - self.b * v - self.kappa * x - c
         h = mpf("2.5") / rate
         if v * a < 0:
             h = min(h, -8 * v / a)
@@ -131,11 +171,10 @@ class Linear:
         while n < 9 or q > mpf(10) ** -(mp.dps + 3):
             n += 1
             q *= h * rate / n
-        f = [cos(th), -w * sin(th)]
+        n += 12 if push.force else 0
+        f = push.series(th, n)
         C = [x, v, a / 2]
         for k in range(1, n):
-            if k > 1:
-                f.append(-w * w * f[k - 2] / (k * (k - 1)))
             C.append((f[k] - self.b * (k + 1) * C[k + 1] - self.kappa * C[k]) / ((k + 1) * (k + 2)))
         self.C, self.h = C, h
         self.V = [k * z for k, z in enumerate(C)][1:]
@@ -159,9 +198,8 @@ class Linear:
 class Hertz:
     """what the two series of a Hertz contact share"""
 
-    def __init__(self, law, w):
+    def __init__(self, law):
         self.b, self.k, self.n, self.lam, self.xs = law
-        self.w = w
 
     def flow(self, s, state, sub=8):
         """fundamental matrix after s, classical Runge-Kutta in floats, state(s) -> d, v"""
@@ -190,11 +228,11 @@ class Inside(Hertz):
     """Taylor series at d > 0, in units of d and of a guessed step"""
     end = None
 
-    def __init__(self, law, w, th, x, v):
-        super().__init__(law, w)
+    def __init__(self, law, push, th, x, v):
+        super().__init__(law)
         b, k, n, lam, xs = law
-        d = x - xs
-        a = cos(th) - b * v - x - k * d ** n * (1 + lam * v)
+        w, d = push.w, x - xs
+        a = push.at(th) - b * v - x - k * d ** n * (1 + lam * v)
         h = min(d / abs(v) if v else mpf(1), sqrt(d / abs(a)) if a else mpf(1),
                 1 / sqrt(1 + k * n * d ** (n - 1) * abs(1 + lam * v)), 1 / w,
                 1 / (1 + b + lam * k * d ** n), 1 / (1 + lam * abs(a))) / 5
@@ -203,19 +241,16 @@ class Inside(Hertz):
         Q = [fix(1 + lam * v)]
         bh, hh, K, n1, ld = fix(b * h), fix(h * h), fix(h * h * k * d ** (n - 1)), fix(n + 1), fix(lam * d / h)
         q = h * h / d
-        f = [q * cos(th), -q * w * h * sin(th)]
-        w2 = (w * h) ** 2
-        push = fix(q * xs)
+        f = [q * h ** j * z for j, z in enumerate(push.series(th, ORDER))]
+        pull = fix(q * xs)
         for j in range(ORDER - 1):
-            if j > 1:
-                f.append(-w2 * f[j - 2] / (j * (j - 1)))
             if j:
                 back = W[::-1]
                 W.append((n1 * sum(map(mul, m[1:j + 1], back)) // j >> 2 * P)
                          - (sum(map(mul, D[1:j + 1], back)) >> P))
                 Q.append(ld * (j + 1) * D[j + 1] >> P)
             g = sum(map(mul, W, Q[::-1])) >> P
-            y = fix(f[j]) - (push if not j else 0) \
+            y = fix(f[j]) - (pull if not j else 0) \
                 - ((bh * (j + 1) * D[j + 1] + hh * D[j] + K * g) >> P)
             D.append(y // ((j + 1) * (j + 2)))
             m.append((j + 2) * D[-1])
@@ -246,13 +281,13 @@ class Touch(Hertz):
     rest, acceleration s^2 / 2 (p = 2); way = -1: backwards in time (speed = -v)"""
     end = None
 
-    def __init__(self, law, w, th, speed, way=1):
-        super().__init__(law, w)
+    def __init__(self, law, push, th, speed, way=1):
+        super().__init__(law)
         b, k, n, lam, xs = law
         self.way, self.th = way, th
-        w, b, lam = way * w, way * b, way * lam
+        w, b, lam = push.w, way * b, way * lam
         p = self.p = 1 if speed else 2
-        f = cos(th) - xs
+        f = push.at(th) - xs
         if p == 1:
             T = min((1 / (k * speed ** (n - 1))) ** (1 / (n + 1)), speed / max(abs(f), TINY))
         else:
@@ -264,19 +299,15 @@ class Touch(Hertz):
         rows = int(REACH / q) + 1
         bT, T2, K, lY = fix(b * T), fix(T * T), fix(T * T * k * Y ** (n - 1)), fix(lam * Y / T)
         self.T, self.Y, self.U, self.E = T, Y, [], []
-        W, Q, g = [], [], None
-        fn, fq = fix(n), []
+        W, Q, g, fn = [], [], None, fix(n)
         for j in range(rows):
             size = int(REACH - q * j) + 1
             e = [fix(p + i + q * j) for i in range(size)]
             ee = [fix((p + i + q * j) * (p + i + q * j - 1)) for i in range(size)]
             if not j:
                 c = T * T / Y
-                fq = [c * (cos(th) - xs), -c * w * T * sin(th)]
-                full = [c * cos(th), fq[1]]
-                for i in range(2, size):
-                    full.append(-(w * T) ** 2 * full[i - 2] / (i * (i - 1)))
-                src = [fix(z) for z in fq + full[2:]]
+                full = [c * T ** i * z for i, z in enumerate(push.series(th, size, way))]
+                src = [fix(z) for z in [full[0] - c * xs] + full[1:]]
             else:
                 src = [-(K * z >> P) for z in g]
             U, yd = [], []
@@ -363,23 +394,24 @@ class Touch(Hertz):
         return self.flow(s, state)
 
 
-def leave(law, w, th, x, v):
+def leave(law, push, th, x, v):
     """the backward series of the release that the state with v < 0 is heading for, or None"""
     d, u, s = x - law[4], -v, (x - law[4]) / -v
     b, k, n, lam = law[:4]
+    w = push.w
     if k * u ** (n - 1) * s ** (n + 1) > .02 or s * max(w, 1, b) > .2:
         return None
     J = B = None
     for turn in range(30):
         if u <= 0 or s <= 0:
             return None
-        L = Touch(law, w, th + w * s, u, -1)
+        L = Touch(law, push, th + w * s, u, -1)
         if s > L.h:
             return None
         y, yv = L.y(s)
         r = [y - d, yv + v]
         if B is None:       # inverse of the approximate Jacobian [[s, u], [1, a]]
-            a = cos(th) - law[4]
+            a = push.at(th) - law[4]
             det = s * a - yv
             B = [[a / det, -yv / det], [-1 / det, s / det]]
         else:               # Broyden's good update of the inverse
@@ -394,7 +426,7 @@ def leave(law, w, th, x, v):
         if abs(step[0]) < TOL * u and abs(step[1]) < TOL * s:
             if lam and 1 - lam * max(u, -v) <= 0:
                 return None
-            L = Touch(law, w, th + w * s, u, -1)
+            L = Touch(law, push, th + w * s, u, -1)
             L.end = L.h = s
             return L
     return None
@@ -402,9 +434,10 @@ def leave(law, w, th, x, v):
 
 class Scene:
     def __init__(self, frequency, damping, contact_damping, clearance, stop, rigid=None,
-                 strip=None, phase=0.0, force=1):
+                 strip=None, phase=0.0, force=()):
         self.w, b1, b, r = mpf(frequency), mpf(damping), mpf(contact_damping), mpf(clearance)
         self.phase, self.r = mpf(phase), r
+        self.push = Push(self.w, self.phase, [mpf(d) for d in force])
         kind, q = stop["model"], {k: mpf(v) for k, v in stop.items() if isinstance(v, (int, float))}
         free = (b1, mpf(1), mpf(0))
         self.regions = [dict(lo=-inf, up=free, down=free)]
@@ -474,7 +507,7 @@ class Scene:
         return z["up"] if self.g > 0 else z["down"]
 
     def acc(self):
-        law, f = self.law(), cos(self.w * self.t + self.phase)
+        law, f = self.law(), self.push.at(self.w * self.t + self.phase)
         if len(law) == 5:
             b, k, n, lam, xs = law
             return f - b * self.v - self.x - k * (self.x - xs) ** n * max(0, 1 + lam * self.v)
@@ -502,7 +535,7 @@ class Scene:
         if self.v:
             self.g = 1 if self.v > 0 else -1
 
-    def decide(self):
+    def decide(self, end):
         """at v = 0: which way the mass goes; None and the time at which it does if it is stuck"""
         z = self.regions[self.i]
         upper = self.i + 1 if self.x == z["hi"] else self.i
@@ -513,14 +546,17 @@ class Scene:
         most = inf if wall else self.static(upper, 1) + self.x
         least = self.static(lower, -1) + self.x
         th = self.w * self.t + self.phase
-        f = cos(th)
+        f = self.push.at(th)
         if f > most:
             return 1, upper, None
         if f < least:
             return -1, lower, None
         out = [(inf, 0, None)]
         for level, g, i in ((most, 1, upper), (least, -1, lower)):
-            if abs(level) < 1:
+            if self.push.force:
+                if abs(level) < inf:
+                    out.append((self.push.crossing(th, level, g, end), g, i))
+            elif abs(level) < 1:
                 out.append(((-g * acos(level) - th) % (2 * pi) / self.w, g, i))
         wait, g, i = min(out, key=lambda o: o[0])
         return g, i, wait
@@ -555,7 +591,7 @@ class Scene:
         while self.t < end:
             still = False
             if not self.v:
-                g, i, wait = self.decide()
+                g, i, wait = self.decide(end - self.t)
                 if wait is not None:
                     to = self.t + wait
                     rests.append((self.t, to, self.x))
@@ -579,13 +615,13 @@ class Scene:
             if inside:
                 if self.x == lo:
                     assert not still
-                    arc = Touch(law, self.w, th, self.v)
+                    arc = Touch(law, self.push, th, self.v)
                 else:
                     if self.v < 0:
-                        arc = leave(law, self.w, th, self.x, self.v)
-                    arc = arc or Inside(law, self.w, th, self.x, self.v)
+                        arc = leave(law, self.push, th, self.x, self.v)
+                    arc = arc or Inside(law, self.push, th, self.x, self.v)
             else:
-                arc = Linear(law, self.w, th, self.x, self.v, still, hi)
+                arc = Linear(law, self.push, th, self.x, self.v, still, hi)
             s, kind = min(arc.h, end - self.t), None
             if isinstance(arc, Touch):
                 if arc.end and s == arc.end:
@@ -892,10 +928,9 @@ def check():
         E = lambda d: xs * d + d * d / 2 + k * d ** (n + 1) / (n + 1)
         law, out, steps = s.regions[1]["hertz"], None, 0
         x, v, t = xs, u, mpf(0)
-        w = mpf("1e-9")
         while True:
-            arc = Touch(law, w, 0, u) if x == xs else (leave(law, w, 0, x, v) if v < 0 else None) \
-                or Inside(law, w, 0, x, v)
+            arc = Touch(law, s.push, 0, u) if x == xs else (leave(law, s.push, 0, x, v) if v < 0 else None) \
+                or Inside(law, s.push, 0, x, v)
             steps += 1
             t += arc.h
             if arc.end:

@@ -10,7 +10,7 @@ pub(super) const INPUTS: &[Variable] = &[
     Variable {
         reference: 100,
         name: "force",
-        description: "Further external force on the mass; with its derivative of order 1 it goes on linearly until it is set anew",
+        description: "Further external force on the mass; with its derivatives of order 1 to 7 it goes on as a polynomial until it is set anew, which sets them to zero",
         kind: Kind::Real(within(&units::FORCE, -LARGE, LARGE)),
         access: Access::Force,
     },

@@ -1,0 +1,33 @@
+//! A polynomial force along a stretched time.
+
+use super::Polynomial;
+use super::polynomial::HIGHEST_ORDER;
+use super::series::{Series, ZERO, convolve};
+
+/// The part of a force beyond its ramp, and its derivatives, as series in sigma with dt = s dsigma: from
+/// rung to rung, d p^(j) / dsigma = s p^(j+1).
+pub(super) struct Rungs([Series; HIGHEST_ORDER + 1]);
+
+impl Rungs {
+    /// None if there is no such part.
+    pub fn new(force: &Polynomial) -> Option<Self> {
+        (!force.is_linear()).then(|| {
+            let curved = force.with(0, 0.0).with(1, 0.0);
+            Self(curved.derivatives().map(|derivative| {
+                let mut series = ZERO;
+                series[0] = derivative;
+                series
+            }))
+        })
+    }
+
+    /// The force's k-th coefficient, from those of s before the k-th. To be asked for in order.
+    pub fn coefficient(&mut self, s: &Series, k: usize) -> f64 {
+        if let Some(before) = k.checked_sub(1) {
+            for j in 0..HIGHEST_ORDER {
+                self.0[j][k] = convolve(s, &self.0[j + 1], before) / k as f64;
+            }
+        }
+        self.0[0][k]
+    }
+}
