@@ -43,6 +43,8 @@ pub fn build(triple: &str, kit: &Path) -> Build {
         "-Clink-arg=-install_name",
         "-Clink-arg=@rpath/softstop.dylib",
         "-Clink-arg=-dead_strip_dylibs",
+        // Without paths of object files, which would enter the fingerprint of the library.
+        "-Clink-arg=-S",
     ];
     Build {
         command,

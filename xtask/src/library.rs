@@ -33,6 +33,8 @@ impl Build {
                 .args(["--crate-type", "cdylib"])
                 .args(["--target", &self.target])
                 .arg("--message-format=json-render-diagnostics")
+                // The linker for Windows writes the time of the build into the library.
+                .env("SOURCE_DATE_EPOCH", "0")
                 .env_remove("RUSTFLAGS")
                 .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}")),
         )?;
