@@ -37,9 +37,11 @@ pub fn write_package_for_all() -> Result<()> {
     let mut lines = Vec::new();
     for target in &TARGETS {
         stage(target.platform);
+        let mut note = String::new();
         let built = target.build(&tools).or_else(|error| {
-            // Without the tools there is still the compiler of this machine.
+            // Without the tools there is still the linker of this machine.
             if target.platform == HOST_PLATFORM {
+                note = format!(", for this machine's C library or a later one: {error:#}");
                 host_library()
             } else {
                 Err(error)
@@ -48,7 +50,7 @@ pub fn write_package_for_all() -> Result<()> {
         match built {
             Ok(library) => {
                 let size = library.bytes.len().div_ceil(1024);
-                lines.push(format!("{:14} packed, {size} KiB", target.platform));
+                lines.push(format!("{:14} packed, {size} KiB{note}", target.platform));
                 libraries.push(library);
             }
             Err(error) => lines.push(format!("{:14} skipped: {error:#}", target.platform)),
