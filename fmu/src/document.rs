@@ -1,79 +1,107 @@
-//! The documentation page inside the package, written from the table of variables.
+//! The documentation page inside the package: a page written by hand, with tables of variables and
+//! capabilities that follow from the model description.
 
 use std::io;
 
-use quick_xml::Writer;
-use quick_xml::events::BytesText;
+use quick_xml::events::{BytesText, Event};
+use quick_xml::{Reader, Writer};
 
-use crate::model_description::start_value;
+use crate::model_description::{self, start_value};
 use crate::start::StartValues;
 use crate::variables::{Kind, VARIABLES, Variable};
 
 type Html = Writer<Vec<u8>>;
 
-const INTRODUCTION: &[&str] = &[
-    "A mass on a spring, driven by a harmonic force, meets a strip of material at the clearance and \
-     a stop behind it. The unit solves the motion exactly, event by event: impact times and states \
-     do not depend on the communication step.",
-    "F is the force of strip and stop on the mass, positive in compression. Below the clearance r \
-     it is zero. Up to r + s (phase I) it is the forming force k2 (x - r) with the dry friction \
-     k3 (x - r) sign x'; up to r + s + v (phase II) the dry friction of the cut strip; beyond, that \
-     of the stop. With contact the damping b takes the place of b1; F includes the difference.",
-    "If the thickness s and the travel v are both zero, there is no strip and the stop stands at \
-     the clearance.",
-    "With the deflection d = x - r - s - v the stop presses with k4 d (kelvinVoigt), with the \
-     stop.preload + k4 d (preloaded), with k4 d^n max(0, 1 + c x') (hertz; n is stop.exponent, c \
-     stop.dissipation, k4 in N/m^n), or along a chain of slopes (piecewiseLinear): each holds from \
-     its deflection on, on the way back those of stop.unloading, if there are any. A rigid stop \
-     returns the mass with -stop.restitution times its velocity. Another one stands the distance \
-     rigid.travel behind each of the yielding stops, unless rigid.present is false.",
-    "While the phase is chatter, position and velocity follow the bounces, while acceleration and \
-     contact.force are means over them.",
-    "Model: F. Peterka, Behaviour of impact oscillator with soft and preloaded stop, Chaos, \
-     Solitons and Fractals 18 (2003) 79-88.",
+const PAGE: &str = include_str!("../assets/page.html");
+
+/// What a flag of the model description says about this unit.
+const CAPABILITIES: [(&str, &str); 9] = [
+    (
+        "canHandleVariableCommunicationStepSize",
+        "Steps of any length, each as exact as the next; a step costs by the events in it",
+    ),
+    (
+        "canInterpolateInputs",
+        "Derivatives of the input force are taken as a polynomial over the step, without error",
+    ),
+    (
+        "maxOutputDerivativeOrder",
+        "Time derivatives of the continuous outputs up to this order",
+    ),
+    (
+        "canGetAndSetFMUstate",
+        "The whole state can be kept and taken up again, bit for bit",
+    ),
+    (
+        "canSerializeFMUstate",
+        "A kept state can be written as bytes and taken up by another instance",
+    ),
+    (
+        "providesDirectionalDerivative",
+        "Derivatives of the outputs with respect to parameters and inputs",
+    ),
+    (
+        "canBeInstantiatedOnlyOncePerProcess",
+        "How many instances: any number if false, also on several threads",
+    ),
+    (
+        "canNotUseMemoryManagementFunctions",
+        "The importer's functions for memory are not called and may be NULL",
+    ),
+    (
+        "needsExecutionTool",
+        "Whether another program must be there besides the library",
+    ),
 ];
 
-const STYLE: &str = "body{font-family:sans-serif;max-width:60em;margin:2em auto;padding:0 1em}\
-    table{border-collapse:collapse}td,th{border:1px solid #aaa;padding:.3em .5em;text-align:left;\
-    vertical-align:top}.equation{font-style:italic;text-align:center}";
-
-const EQUATION: &str = "m x'' + b1 x' + k1 x + F = F0 cos(w t + phi) + force";
-
-/// The page with the equation and the table of variables.
+/// The page.
 ///
 /// # Errors
 /// If writing to memory fails.
 pub(crate) fn html(start: &StartValues) -> io::Result<String> {
-    let mut html = Writer::new_with_indent(b"<!DOCTYPE html>\n".to_vec(), b' ', 1);
-    html.create_element("html")
-        .with_attribute(("lang", "en"))
-        .write_inner_content(|html| {
-            html.create_element("head").write_inner_content(|html| {
-                html.create_element("meta")
-                    .with_attribute(("charset", "utf-8"))
-                    .write_empty()?;
-                text(html, "title", "softstop")?;
-                text(html, "style", STYLE)
-            })?;
-            html.create_element("body")
-                .write_inner_content(|html| body(html, start))?;
-            Ok(())
-        })?;
-    let mut bytes = html.into_inner();
-    bytes.push(b'\n');
-    String::from_utf8(bytes).map_err(io::Error::other)
+    let page = PAGE.replace("<!--version-->", env!("CARGO_PKG_VERSION"));
+    let page = page.replace("<!--capabilities-->", &capabilities(start)?);
+    Ok(page.replace("<!--variables-->", &variables(start)?))
 }
 
-fn body(html: &mut Html, start: &StartValues) -> io::Result<()> {
-    text(html, "h1", concat!("softstop ", env!("CARGO_PKG_VERSION")))?;
-    html.create_element("p")
-        .with_attribute(("class", "equation"))
-        .write_text_content(BytesText::new(EQUATION))?;
-    INTRODUCTION
-        .iter()
-        .try_for_each(|paragraph| text(html, "p", paragraph))?;
-    text(html, "h2", "Variables")?;
-    html.create_element("table").write_inner_content(|html| {
+/// The flags, with the values that the model description gives them.
+fn capabilities(start: &StartValues) -> io::Result<String> {
+    let flags = flags(&model_description::write(start, "")?)?;
+    rows(|html| {
+        CAPABILITIES.iter().try_for_each(|(name, meaning)| {
+            let value = flags.iter().find(|(flag, _)| flag == name);
+            // A flag that is not given is false by the standard.
+            let value = value.map_or("false", |(_, value)| value);
+            cells(html, "td", &[name, value, meaning])
+        })
+    })
+}
+
+/// Names and values of the attributes of the element `CoSimulation`.
+fn flags(description: &str) -> io::Result<Vec<(String, String)>> {
+    let mut reader = Reader::from_str(description);
+    loop {
+        match reader.read_event().map_err(io::Error::other)? {
+            Event::Start(element) | Event::Empty(element)
+                if element.name().as_ref() == "CoSimulation" =>
+            {
+                return element
+                    .attributes()
+                    .map(|attribute| {
+                        let attribute = attribute.map_err(io::Error::other)?;
+                        let name = attribute.key.as_ref().to_owned();
+                        Ok((name, attribute.value.into_owned()))
+                    })
+                    .collect();
+            }
+            Event::Eof => return Err(io::Error::other("no element CoSimulation")),
+            _ => {}
+        }
+    }
+}
+
+fn variables(start: &StartValues) -> io::Result<String> {
+    rows(|html| {
         let head = [
             "Name",
             "Reference",
@@ -87,8 +115,14 @@ fn body(html: &mut Html, start: &StartValues) -> io::Result<()> {
         VARIABLES
             .iter()
             .try_for_each(|variable| row(html, variable, start))
-    })?;
-    Ok(())
+    })
+}
+
+/// Rows of a table as text.
+fn rows(write: impl FnOnce(&mut Html) -> io::Result<()>) -> io::Result<String> {
+    let mut html = Writer::new_with_indent(Vec::new(), b' ', 1);
+    write(&mut html)?;
+    String::from_utf8(html.into_inner()).map_err(io::Error::other)
 }
 
 fn row(html: &mut Html, variable: &Variable, start: &StartValues) -> io::Result<()> {

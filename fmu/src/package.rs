@@ -54,13 +54,15 @@ pub enum PackageError {
     Content(#[from] io::Error),
     /// The library is not one of this version.
     #[error(
-        "the library for {platform} holds {found} blocks of start values, not one: it is not of this version"
+        "the library for {platform} holds {found} blocks of start values, not {wanted}: it is not of this version"
     )]
     Foreign {
         /// The library's platform.
         platform: String,
         /// How many blocks were found.
         found: usize,
+        /// How many it should hold: one for each processor.
+        wanted: usize,
     },
     /// There is no library to pack.
     #[error("no library given: an FMU needs one at least")]
@@ -101,6 +103,14 @@ impl Library {
         format!("binaries/{}/{MODEL_IDENTIFIER}.{extension}", self.platform)
     }
 
+    /// How many libraries are in the file: a universal one of macOS holds one for each processor.
+    fn slices(&self) -> usize {
+        match self.bytes[..] {
+            [0xca, 0xfe, 0xba, 0xbe, a, b, c, d, ..] => u32::from_be_bytes([a, b, c, d]) as usize,
+            _ => 1,
+        }
+    }
+
     /// The library's bytes with other start values in its block.
     fn with_start_values(&self, start: &StartValues) -> Result<Vec<u8>, PackageError> {
         let marker = marker();
@@ -112,14 +122,18 @@ impl Library {
             .filter(|(_, window)| window.starts_with(&marker))
             .map(|(position, _)| position + marker.len())
             .collect();
-        let [position] = found[..] else {
+        let wanted = self.slices();
+        if found.len() != wanted {
             return Err(PackageError::Foreign {
                 platform: self.platform.clone(),
                 found: found.len(),
+                wanted,
             });
-        };
+        }
         let mut bytes = self.bytes.clone();
-        bytes[position..position + values.len()].copy_from_slice(&values);
+        for position in found {
+            bytes[position..position + values.len()].copy_from_slice(&values);
+        }
         Ok(bytes)
     }
 }
@@ -197,7 +211,7 @@ pub fn archive(start: &StartValues, libraries: &[Library]) -> Result<Vec<u8>, Pa
             document::html(start)?.into_bytes(),
         ),
     ];
-    entries.extend(LICENCES.map(|(name, text)| (name.to_owned(), text.as_bytes().to_vec())));
+    entries.extend(FILES.map(|(name, bytes)| (name.to_owned(), bytes.to_vec())));
     for library in libraries {
         entries.push((library.path_in_archive(), library.with_start_values(start)?));
     }
@@ -219,18 +233,29 @@ pub fn archive(start: &StartValues, libraries: &[Library]) -> Result<Vec<u8>, Pa
     Ok(archive.finish()?.into_inner())
 }
 
-const LICENCES: [(&str, &str); 3] = [
+/// What is the same in every FMU.
+const FILES: [(&str, &[u8]); 6] = [
+    ("model.png", include_bytes!("../assets/model.png")),
+    (
+        "documentation/machine.svg",
+        include_bytes!("../assets/machine.svg"),
+    ),
     (
         "documentation/licenses/license.txt",
-        "softstop is licensed under either of the MIT licence (LICENSE-MIT.txt) or the Apache\n\
-         licence, version 2.0 (LICENSE-APACHE.txt), at your option.\n",
+        b"softstop is licensed under either of the MIT licence (LICENSE-MIT.txt) or the Apache\n\
+          licence, version 2.0 (LICENSE-APACHE.txt), at your option. Its libraries hold parts of\n\
+          others: see third-party.txt.\n",
     ),
     (
         "documentation/licenses/LICENSE-MIT.txt",
-        include_str!("../../LICENSE-MIT"),
+        include_bytes!("../../LICENSE-MIT"),
     ),
     (
         "documentation/licenses/LICENSE-APACHE.txt",
-        include_str!("../../LICENSE-APACHE"),
+        include_bytes!("../../LICENSE-APACHE"),
+    ),
+    (
+        "documentation/licenses/third-party.txt",
+        include_bytes!("../assets/third-party.txt"),
     ),
 ];

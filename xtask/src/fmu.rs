@@ -1,15 +1,15 @@
 //! Building the FMU.
 
 use std::fs;
-use std::path::PathBuf;
-use std::process::Stdio;
+use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
-use serde_json::Value;
-use softstop_fmu::package::{self, Library};
+use anyhow::{Context, Result};
+use softstop_fmu::package::{self, HOST_PLATFORM, Library};
 use softstop_fmu::{StartValues, guid_of, model_description};
 
-use crate::run::{cargo_command, top};
+use crate::library::{Build, host};
+use crate::run::{cargo_command, stage, top};
+use crate::targets::{TARGETS, Tools};
 
 /// Writes the model description of the default FMU at the top level, if it has changed.
 pub fn write_description() -> Result<()> {
@@ -25,40 +25,59 @@ pub fn write_description() -> Result<()> {
     Ok(())
 }
 
-/// Builds the library in release mode and packs it; returns the FMU's path.
+/// Builds the library for this machine in release mode and packs it; returns the FMU's path.
 pub fn write_package() -> Result<PathBuf> {
-    let library = Library::read(&build_library()?)?;
+    write(&[host_library()?])
+}
+
+/// Builds the library for every platform that can be had here and packs them all.
+pub fn write_package_for_all() -> Result<()> {
+    let tools = Tools::new();
+    let mut libraries = Vec::new();
+    let mut lines = Vec::new();
+    for target in &TARGETS {
+        stage(target.platform);
+        let mut note = String::new();
+        let built = target.build(&tools).or_else(|error| {
+            // Without the tools there is still the linker of this machine.
+            if target.platform == HOST_PLATFORM {
+                note = format!(", for this machine's C library or a later one: {error:#}");
+                host_library()
+            } else {
+                Err(error)
+            }
+        });
+        match built {
+            Ok(library) => {
+                let size = library.bytes.len().div_ceil(1024);
+                lines.push(format!("{:14} packed, {size} KiB{note}", target.platform));
+                libraries.push(library);
+            }
+            Err(error) => lines.push(format!("{:14} skipped: {error:#}", target.platform)),
+        }
+    }
+    stage("package");
+    write(&libraries)?;
+    lines.iter().for_each(|line| println!("{line}"));
+    Ok(())
+}
+
+fn host_library() -> Result<Library> {
+    let build = Build {
+        command: cargo_command(),
+        target: host()?,
+        flags: Vec::new(),
+    };
+    Ok(Library::read(&build.run()?)?)
+}
+
+fn write(libraries: &[Library]) -> Result<PathBuf> {
     let path = top().join("softstop.fmu");
-    package::write(&path, &StartValues::DEFAULT, &[library])?;
-    let size = fs::metadata(&path)?.len();
-    println!("{} ({} KiB)", path.display(), size.div_ceil(1024));
+    package::write(&path, &StartValues::DEFAULT, libraries)?;
+    println!("{} ({} KiB)", path.display(), kilobytes(&path)?);
     Ok(path)
 }
 
-/// Builds the library and returns where cargo says it is.
-fn build_library() -> Result<PathBuf> {
-    let output = cargo_command()
-        .args(["build", "--release", "--package", "softstop-fmu", "--lib"])
-        .arg("--message-format=json-render-diagnostics")
-        .stderr(Stdio::inherit())
-        .output()
-        .context("cannot run cargo")?;
-    ensure!(
-        output.status.success(),
-        "building the library ended with {}",
-        output.status
-    );
-    String::from_utf8(output.stdout)?
-        .lines()
-        .filter_map(|line| serde_json::from_str::<Value>(line).ok())
-        .filter(|message| message["target"]["name"] == "softstop_fmu")
-        .filter_map(|message| message["filenames"].as_array().cloned())
-        .flatten()
-        .filter_map(|name| name.as_str().map(PathBuf::from))
-        .find(|path| {
-            let suffix = std::env::consts::DLL_EXTENSION;
-            path.extension()
-                .is_some_and(|extension| extension == suffix)
-        })
-        .context("cargo names no library of softstop-fmu")
+fn kilobytes(path: &Path) -> Result<u64> {
+    Ok(fs::metadata(path)?.len().div_ceil(1024))
 }

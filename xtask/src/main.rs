@@ -1,8 +1,13 @@
 //! Tasks of the workspace, run as `cargo xtask <task>`.
 
+mod darwin;
 mod fmu;
+mod library;
+mod notices;
+mod portable;
 mod python;
 mod run;
+mod targets;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -10,7 +15,7 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::{Parser, Subcommand};
 
-use run::{cargo, stage};
+use run::{cargo, cargo_command, run, stage};
 
 /// Tasks of the workspace.
 #[derive(Parser)]
@@ -23,9 +28,17 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Task {
     /// Build the FMU and write softstop.fmu and modelDescription.xml at the top level
-    Fmu,
+    Fmu {
+        /// With a library for every platform: Linux (x86-64, AArch64), Windows and macOS
+        #[arg(long)]
+        all_targets: bool,
+    },
     /// Write modelDescription.xml at the top level
     Xml,
+    /// Write the notices of the crates in the library to fmu/assets/third-party.txt
+    Notices,
+    /// Run one C program on the libraries for Linux and for Windows (under Wine) and compare
+    Wine,
     /// Build the FMU and run all tests, those in Rust and those with FMPy
     Test,
     /// Build the FMU and run the tests with FMPy only
@@ -46,15 +59,23 @@ fn main() -> ExitCode {
 
 fn run_task(task: &Task) -> Result<()> {
     match task {
-        Task::Fmu => {
+        Task::Fmu { all_targets } => {
             fmu::write_description()?;
-            fmu::write_package().map(drop)
+            if *all_targets {
+                fmu::write_package_for_all()
+            } else {
+                fmu::write_package().map(drop)
+            }
         }
         Task::Xml => fmu::write_description(),
+        Task::Notices => notices::write(),
+        Task::Wine => portable::compare_under_wine(),
         Task::Test => {
             let package = build()?;
             stage("Rust tests");
-            cargo(&["test", "--workspace"])?;
+            run(cargo_command()
+                .args(["test", "--workspace"])
+                .env("SOFTSTOP_FMU", &package))?;
             test_with_fmpy(&package)
         }
         Task::Fmpy => test_with_fmpy(&build()?),

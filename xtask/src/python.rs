@@ -1,30 +1,25 @@
-//! The tests with FMPy, in a Python environment of their own.
+//! Python environments under the target folder: one for the tests with FMPy, one for tools.
 
-use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result};
 
-use crate::run::{run, top};
+use crate::run::{run, target, top};
 
 /// Runs the tests on this FMU.
 pub fn test(package: &Path) -> Result<()> {
-    let python = environment()?;
+    let python = environment("python", "tests/fmpy/requirements.txt")?;
     run(Command::new(python)
         .args(["-m", "pytest", "-p", "no:cacheprovider", "-q", "tests/fmpy"])
         .env("SOFTSTOP_FMU", package))
 }
 
-fn target() -> PathBuf {
-    env::var_os("CARGO_TARGET_DIR").map_or_else(|| top().join("target"), PathBuf::from)
-}
-
-/// The interpreter of the environment, made anew when the requirements have changed.
-fn environment() -> Result<PathBuf> {
-    let folder = target().join("python");
-    let requirements = top().join("tests/fmpy/requirements.txt");
+/// The interpreter of an environment, made anew when the requirements have changed.
+pub fn environment(name: &str, requirements: &str) -> Result<PathBuf> {
+    let folder = target().join(name);
+    let requirements = top().join(requirements);
     let wanted =
         fs::read_to_string(&requirements).with_context(|| requirements.display().to_string())?;
     let python = if cfg!(windows) {

@@ -1,0 +1,108 @@
+//! Building the library for one target, with the same bytes wherever the build happens.
+
+use std::env;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result};
+use serde_json::Value;
+
+use crate::run::{output, target, top};
+
+/// One way to call cargo.
+pub struct Build {
+    /// Cargo, or a program that stands in for it.
+    pub command: Command,
+    /// The target, as the command wants it.
+    pub target: String,
+    /// Further flags for rustc.
+    pub flags: Vec<String>,
+}
+
+impl Build {
+    /// Builds the library; returns where cargo says it is.
+    pub fn run(mut self) -> Result<PathBuf> {
+        let mut flags = remaps()?;
+        flags.append(&mut self.flags);
+        let messages = output(
+            self.command
+                .args(["rustc", "--release", "--package", "softstop-fmu", "--lib"])
+                // Not also as a Rust library: only so is it optimized as a whole and left without
+                // what it does not use.
+                .args(["--crate-type", "cdylib"])
+                .args(["--target", &self.target])
+                .arg("--message-format=json-render-diagnostics")
+                // The linker for Windows writes the time of the build into the library.
+                .env("SOURCE_DATE_EPOCH", "0")
+                .env_remove("RUSTFLAGS")
+                .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}")),
+        )?;
+        library_in(&messages).context("cargo names no library of softstop-fmu")
+    }
+}
+
+/// The shared library among the files that cargo says it made.
+fn library_in(messages: &str) -> Option<PathBuf> {
+    let is_library = |path: &Path| {
+        path.extension()
+            .and_then(OsStr::to_str)
+            .is_some_and(|extension| ["so", "dll", "dylib"].contains(&extension))
+    };
+    messages
+        .lines()
+        .filter_map(|line| serde_json::from_str::<Value>(line).ok())
+        .filter(|message| message["target"]["name"] == "softstop_fmu")
+        .filter_map(|message| message["filenames"].as_array().cloned())
+        .flatten()
+        .filter_map(|name| name.as_str().map(PathBuf::from))
+        .find(|path| is_library(path))
+}
+
+/// Flags that keep the folders of this machine out of the library: panic messages name source
+/// files.
+fn remaps() -> Result<Vec<String>> {
+    let sources = sysroot()?.join("lib/rustlib/src/rust");
+    let commit = rustc_says("commit-hash")?;
+    // Of several that fit the last one holds, so the more special ones follow.
+    let mut folders = vec![(top(), "/softstop".to_owned())];
+    if let Some(home) = cargo_home() {
+        folders.push((home, "/cargo".to_owned()));
+    }
+    folders.push((target(), "/target".to_owned()));
+    folders.push((sources, format!("/rustc/{commit}")));
+    Ok(folders
+        .into_iter()
+        .map(|(from, to)| format!("--remap-path-prefix={}={to}", from.display()))
+        .collect())
+}
+
+fn cargo_home() -> Option<PathBuf> {
+    env::var_os("CARGO_HOME")
+        .map(PathBuf::from)
+        .or_else(|| env::home_dir().map(|home| home.join(".cargo")))
+}
+
+fn rustc() -> Command {
+    Command::new(env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
+}
+
+/// The folder of the compiler.
+pub fn sysroot() -> Result<PathBuf> {
+    let text = output(rustc().args(["--print", "sysroot"]))?;
+    Ok(PathBuf::from(text.trim()))
+}
+
+/// One line of what the compiler says about itself.
+fn rustc_says(key: &str) -> Result<String> {
+    output(rustc().arg("-vV"))?
+        .lines()
+        .find_map(|line| line.strip_prefix(key)?.strip_prefix(": "))
+        .map(str::to_owned)
+        .with_context(|| format!("rustc does not say its {key}"))
+}
+
+/// The target of this machine.
+pub fn host() -> Result<String> {
+    rustc_says("host")
+}

@@ -1,0 +1,160 @@
+//! The notices of the crates in the library, which their licences ask for.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use serde_json::Value;
+
+use crate::run::{cargo_command, output, top};
+use crate::targets;
+
+const HEAD: &str = "Third-party notices
+
+The libraries of this FMU are built from softstop and the parts below.
+
+Runtime
+  Rust's standard library, MIT OR Apache-2.0, https://www.rust-lang.org
+  Linux, Windows: unwinder and compiler runtime of LLVM, Apache-2.0 WITH LLVM-exception,
+    https://llvm.org; a library linked by GCC for its own machine holds GCC's unwinder instead,
+    GPL-3.0-or-later WITH GCC-exception-3.1, https://gcc.gnu.org
+  Windows: runtime of mingw-w64, ZPL-2.1 and public domain, https://www.mingw-w64.org
+
+Crates
+";
+
+/// Writes the notices to where the packager finds them.
+pub fn write() -> Result<()> {
+    let path = path();
+    fs::write(&path, notices()?).with_context(|| path.display().to_string())?;
+    println!("{} written", path.display());
+    Ok(())
+}
+
+fn path() -> PathBuf {
+    top().join("fmu/assets/third-party.txt")
+}
+
+/// The text: a list of the crates, then each text of a licence once.
+fn notices() -> Result<String> {
+    let mut text = HEAD.to_owned();
+    let mut licences = BTreeMap::<String, Vec<String>>::new();
+    for package in linked_packages(&metadata()?)? {
+        let [licence, home] = ["license", "repository"].map(|key| field(package, key));
+        writeln!(text, "  {}, {licence}, {home}", name(package))?;
+        let manifest = Path::new(field(package, "manifest_path"));
+        for licence in licence_texts(manifest.parent().unwrap_or(manifest))? {
+            licences.entry(licence).or_default().push(name(package));
+        }
+    }
+    for (licence, names) in licences {
+        write!(
+            text,
+            "\n{}\n{}\n\n{licence}\n",
+            "-".repeat(80),
+            names.join(", ")
+        )?;
+    }
+    Ok(text)
+}
+
+/// What cargo knows about all packages.
+fn metadata() -> Result<Value> {
+    let arguments = ["metadata", "--format-version=1", "--locked"];
+    Ok(serde_json::from_str(&output(
+        cargo_command().args(arguments),
+    )?)?)
+}
+
+/// Names and versions of the crates in the library, whatever the target.
+fn linked() -> Result<BTreeSet<String>> {
+    let mut crates = BTreeSet::new();
+    for triple in targets::triples() {
+        let arguments = [
+            "tree",
+            "--locked",
+            "--package=softstop-fmu",
+            "--prefix=none",
+        ];
+        let tree = output(
+            cargo_command()
+                .args(arguments)
+                .args(["--edges=normal,no-proc-macro", "--format={p}"])
+                .args(["--target", triple]),
+        )?;
+        crates.extend(tree.lines().filter_map(|line| {
+            let (name, rest) = line.split_once(" v")?;
+            Some(format!("{name} {}", rest.split(' ').next()?))
+        }));
+    }
+    Ok(crates)
+}
+
+/// The packages of others that the library is built from.
+fn linked_packages(metadata: &Value) -> Result<Vec<&Value>> {
+    let linked = linked()?;
+    let mut packages: Vec<_> = list(&metadata["packages"])
+        .iter()
+        .filter(|package| !package["source"].is_null() && linked.contains(&name(package)))
+        .collect();
+    packages.sort_by_key(|package| name(package));
+    Ok(packages)
+}
+
+fn field<'a>(package: &'a Value, name: &str) -> &'a str {
+    package[name].as_str().unwrap_or_default()
+}
+
+fn name(package: &Value) -> String {
+    format!("{} {}", field(package, "name"), field(package, "version"))
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().map_or(&[], Vec::as_slice)
+}
+
+/// The texts of the licence in a package's folder: that of MIT if it may be chosen, for it holds
+/// the copyright; otherwise all.
+fn licence_texts(folder: &Path) -> Result<Vec<String>> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).with_context(|| folder.display().to_string())? {
+        let path = entry?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let name = name.to_ascii_uppercase();
+        if path.is_file()
+            && ["LICENSE", "LICENCE", "COPYING"]
+                .iter()
+                .any(|p| name.starts_with(p))
+        {
+            files.push((name, path));
+        }
+    }
+    files.sort();
+    if files.iter().any(|(name, _)| name.contains("MIT")) {
+        files.retain(|(name, _)| name.contains("MIT"));
+    }
+    let mut texts = files
+        .iter()
+        .map(|(_, path)| {
+            let text = fs::read_to_string(path).with_context(|| path.display().to_string())?;
+            let lines: Vec<_> = text.lines().map(str::trim_end).collect();
+            Ok(lines.join("\n").trim_matches('\n').to_owned())
+        })
+        .collect::<Result<Vec<_>>>()?;
+    texts.retain(|text| !text.is_empty());
+    Ok(texts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kept_notices_are_up_to_date() {
+        let kept = fs::read_to_string(path()).expect("notices beside the packager");
+        let current = notices().expect("notices");
+        assert!(kept == current, "run cargo xtask notices");
+    }
+}
