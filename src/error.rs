@@ -102,7 +102,7 @@ pub enum MotionError {
         position: f64,
     },
     /// The target time lies where the drive angle is no longer resolved.
-    #[error("until = {until} s: must lie within {farthest} s of time 0")]
+    #[error("time = {until:?} s: must lie within {farthest:?} s of time 0")]
     TooFar {
         /// The requested time in s.
         until: f64,

@@ -32,7 +32,7 @@ struct Kept {
     experiment: Option<Experiment>,
     simulation: Option<Snapshot>,
     pending: Pending,
-    retry_from: Option<f64>,
+    discarded: Option<(Snapshot, Force)>,
 }
 
 impl Instance {
@@ -49,7 +49,10 @@ impl Instance {
             experiment: self.experiment,
             simulation: self.simulation.as_ref().map(Simulation::snapshot),
             pending: self.pending,
-            retry_from: self.retry_from,
+            discarded: self
+                .discarded
+                .as_ref()
+                .map(|kept| (kept.0.snapshot(), kept.1)),
         };
         let data =
             rmp_serde::to_vec_named(&kept).map_err(|error| Fault::Internal(error.to_string()))?;
@@ -84,7 +87,9 @@ impl Instance {
         instance.experiment = kept.experiment;
         instance.simulation = simulation.transpose()?;
         instance.pending = kept.pending;
-        instance.retry_from = kept.retry_from;
+        if let Some((snapshot, force)) = &kept.discarded {
+            instance.discarded = Some(Box::new((Simulation::restored(snapshot)?, *force)));
+        }
         Ok(instance)
     }
 }

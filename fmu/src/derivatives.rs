@@ -5,7 +5,7 @@ use softstop::flow::HIGHEST_ORDER;
 use crate::error::Fault;
 use crate::instance::{Instance, Lifecycle};
 use crate::values::{Type, find};
-use crate::variables::{Access, View};
+use crate::variables::{Access, Kind, View};
 
 /// The orders that can be set of the input `force`.
 const AVAILABLE: &str = "orders 1 to 7 are (and zeros of any higher order)";
@@ -21,7 +21,7 @@ impl Instance {
     /// Sets time derivatives of the input `force` at the present time; those of other orders go on.
     ///
     /// # Errors
-    /// For another variable, a value that is not finite, an order below 1, or one above
+    /// For another variable, a value out of the range of the force, an order below 1, or one above
     /// [`HIGHEST_ORDER`] (a derivative of such an order may be set to zero).
     pub fn set_input_derivatives(
         &mut self,
@@ -41,11 +41,13 @@ impl Instance {
             if !matches!(variable.access, Access::Force) {
                 return Err(fault("derivatives can be set of the input force only"));
             }
-            if !value.is_finite() {
+            if let Kind::Real(kind) = &variable.kind
+                && !kind.contains(value)
+            {
                 return Err(Fault::OutOfRange {
                     name: variable.name,
                     value,
-                    allowed: format!("finite (derivative of order {order})"),
+                    allowed: format!("{} (derivative of order {order})", kind.range()),
                 });
             }
             if order < 1 || (value != 0.0 && order_of(order).is_none()) {

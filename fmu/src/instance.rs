@@ -72,8 +72,8 @@ pub struct Instance {
     pub(crate) experiment: Option<Experiment>,
     pub(crate) simulation: Option<Simulation>,
     pub(crate) pending: Pending,
-    /// Where the last step began, in s, if it was discarded.
-    pub(crate) retry_from: Option<f64>,
+    /// The motion and the force with which the last step began, if it was discarded.
+    pub(crate) discarded: Option<Box<(Simulation, Force)>>,
 }
 
 /// What `fmi2SetupExperiment` said.
@@ -95,7 +95,7 @@ impl Instance {
             experiment: None,
             simulation: None,
             pending: Pending::default(),
-            retry_from: None,
+            discarded: None,
         }
     }
 
@@ -116,7 +116,7 @@ impl Instance {
 
     /// How the last step ended.
     pub fn last_status(&self) -> Status {
-        match (self.lifecycle, self.retry_from) {
+        match (self.lifecycle, &self.discarded) {
             (Lifecycle::Failed, _) => Status::Error,
             (_, Some(_)) => Status::Discard,
             (_, None) => Status::Ok,
@@ -165,6 +165,7 @@ impl Instance {
             ));
         }
         self.experiment = Some(Experiment { start, stop });
+        self.force.since = start;
         self.simulation = None;
         Ok(())
     }
@@ -212,6 +213,9 @@ impl Instance {
             &[Lifecycle::Running, Lifecycle::Failed],
             "only an initialised unit can be terminated",
         )?;
+        if self.lifecycle == Lifecycle::Running {
+            self.settle()?;
+        }
         self.lifecycle = Lifecycle::Terminated;
         Ok(())
     }

@@ -41,9 +41,6 @@ impl Instance {
         self.adopt(parameters)?;
         if let Some(value) = force {
             self.push(Polynomial::linear(value, 0.0));
-            if let Some(simulation) = &mut self.simulation {
-                simulation.mark();
-            }
         }
         Ok(())
     }
@@ -92,7 +89,10 @@ impl Instance {
             }
         }
         self.adopt(parameters)?;
-        self.material = material;
+        if material != self.material {
+            self.material = material;
+            self.changed();
+        }
         if let Some(simulation) = &mut self.simulation {
             simulation.feed_strip(material);
         }
@@ -146,6 +146,9 @@ impl Instance {
 
     /// The force from now on; setting what holds anyway changes nothing.
     pub(crate) fn push(&mut self, polynomial: Polynomial) {
+        if let Some(simulation) = &mut self.simulation {
+            simulation.mark();
+        }
         let now = self.time();
         if self.force.seen_from(now) == polynomial {
             return;

@@ -4,7 +4,7 @@ use softstop::integrator::Effort;
 use softstop::{MotionError, Simulation};
 
 use crate::error::{Fault, argument};
-use crate::instance::{Instance, Lifecycle};
+use crate::instance::{Force, Instance, Lifecycle};
 
 /// What happened in a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,12 +51,15 @@ impl Instance {
             "a step needs an initialised unit that has not failed or ended",
         )?;
         let end = end_of_step(point, step)?;
-        self.retry(point, step);
-        self.check_communication_point(point, step)?;
         let stop = self.experiment.and_then(|experiment| experiment.stop);
         if let Some(stop) = stop.filter(|stop| end > stop + 1e-9 * stop.abs().max(1.0)) {
             return Err(Fault::BeyondStop { end, stop });
         }
+        if let Some(simulation) = &self.simulation {
+            simulation.check_reach(end.max(simulation.time()))?;
+        }
+        self.retry(point, step);
+        self.check_communication_point(point, step)?;
         let present = self.time();
         let simulation = self.settle()?;
         let before = (simulation.impact_count(), simulation.pierce_count());
@@ -66,7 +69,7 @@ impl Instance {
         let reached = simulation.time();
         let reason = match outcome {
             Ok(true) => {
-                self.retry_from = None;
+                self.discarded = None;
                 return Ok((report, Ok(())));
             }
             Ok(false) => format!("{} impacts so far", report.impacts),
@@ -75,7 +78,9 @@ impl Instance {
             }
             Err(error) => return Err(error.into()),
         };
-        self.retry_from = Some(present);
+        let origin = simulation.before_advance();
+        let origin = origin.unwrap_or_else(|| simulation.clone());
+        self.discarded = Some(Box::new((origin, self.force)));
         let discarded = Fault::Discarded {
             end,
             reached,
@@ -84,17 +89,25 @@ impl Instance {
         Ok((report, Err(discarded)))
     }
 
-    /// Takes a discarded step back if this one begins where it began.
+    /// Takes a discarded step back if this one begins where it began. What was set since holds from
+    /// there on.
     fn retry(&mut self, point: f64, step: f64) {
-        let tolerance = |time: f64| drift_tolerance(time, step);
-        let repeats = |start: f64| (point - start).abs() <= tolerance(start);
-        let goes_on = (point - self.time()).abs() <= tolerance(self.time());
-        if self.retry_from.is_some_and(repeats)
-            && !goes_on
-            && let Some(simulation) = &mut self.simulation
-        {
-            simulation.take_back();
+        let begins_at = |time: f64| (point - time).abs() <= drift_tolerance(time, step);
+        let repeats = |kept: &mut Box<(Simulation, Force)>| begins_at(kept.0.time());
+        if begins_at(self.time()) {
+            return;
         }
+        let Some((mut simulation, force)) = self.discarded.take_if(repeats).map(|kept| *kept)
+        else {
+            return;
+        };
+        simulation.feed_strip(self.material);
+        self.pending.tuning = true;
+        if self.force != force {
+            self.force.since = simulation.time();
+            self.pending.force = true;
+        }
+        self.simulation = Some(simulation);
     }
 
     fn check_communication_point(&self, point: f64, step: f64) -> Result<(), Fault> {

@@ -86,8 +86,12 @@ fn a_step_of_too_many_impacts_is_carried_out_in_part() {
         assert_eq!(fmi2FreeFMUstate(unit.component, &raw mut kept), OK);
     }
     assert_eq!(step_status(&unit), DISCARD);
-    assert_eq!(unit.step(0.0, 1.0), OK, "{:?}", unit.take_log());
+    // An importer sets its inputs again before it repeats a step.
+    assert_eq!(unit.set("force", 1e4), OK);
+    assert!(unit.get("acceleration").is_finite());
     let direct = busy();
+    assert_eq!(direct.set("force", 1e4), OK);
+    assert_eq!(unit.step(0.0, 1.0), OK, "{:?}", unit.take_log());
     assert_eq!(direct.step(0.0, 1.0), OK);
     for name in ["position", "energy.supplied", "impact.time"] {
         assert_eq!(unit.get(name).to_bits(), direct.get(name).to_bits());

@@ -156,6 +156,9 @@ impl Course {
     pub fn at(&self, elapsed: f64, drive: (f64, f64)) -> (f64, f64) {
         match &self.form {
             Form::Held => return (self.departure.position, 0.0),
+            Form::Segment(_) if elapsed <= 0.0 => {
+                return (self.departure.position, self.departure.velocity);
+            }
             Form::Segment(segment) => return segment.state(elapsed),
             Form::Chatter(chatter) => {
                 let (distance, velocity) = chatter.at(elapsed);

@@ -214,10 +214,15 @@ impl Motion {
         }
     }
 
-    /// Goes on from here under another external force. Phase, latched strip and bounces in a row
-    /// stay as they are; only a held mass may be let go at once.
-    pub(super) fn set_force(&mut self, force: Polynomial) {
-        let mut state = self.state();
+    /// Goes on from here under another external force; true if a new arc begins. Phase, latched strip and
+    /// bounces in a row stay as they are; only a held mass may be let go at once.
+    pub(super) fn set_force(&mut self, force: Polynomial) -> bool {
+        if self.keeps_bouncing(&force) {
+            let elapsed = self.clock.elapsed(self.start, self.now);
+            self.force = Force::new(force.shifted(-elapsed), self.start);
+            return false;
+        }
+        let state = self.state();
         let drive = self.clock.drive(self.now);
         self.start = self.now;
         self.force = Force::new(force, self.now);
@@ -229,12 +234,13 @@ impl Motion {
                     .phases
                     .leave_hold(forward, backward, state.position, push);
             }
-            // Of a summed tail nothing but its rest can be told.
             Mode::Chattering { backward } => {
-                state.velocity = 0.0;
-                state.position = self.course.departure.position;
-                let push = self.push(drive);
-                self.mode = self.phases.leave_hold(None, backward, state.position, push);
+                let phases = &self.phases;
+                self.mode = Mode::Moving(if state.velocity > 0.0 {
+                    phases.forward_of(backward)
+                } else {
+                    backward
+                });
             }
             // At rest on a face the force decides which way it goes, if any.
             Mode::Moving(_) if state.velocity == 0.0 => {
@@ -245,6 +251,20 @@ impl Motion {
             Mode::Moving(_) => {}
         }
         self.depart(state, drive, self.mode);
+        true
+    }
+
+    /// True if the mass bounces on a rigid stop towards its rest, and another force would not keep it
+    /// from that: what is left of the bounces is too short for it to tell.
+    fn keeps_bouncing(&self, force: &Polynomial) -> bool {
+        let Mode::Chattering { backward } = self.mode else {
+            return false;
+        };
+        let (phases, position) = (&self.phases, self.course.departure.position);
+        let drive = self.clock.drive(self.now);
+        let push = phases.held.amplitude * drive.0 + force.value() / phases.mass;
+        let mode = phases.leave_hold(None, backward, position, push);
+        matches!(mode, Mode::Held { .. })
     }
 
     /// Changes the feed of strips; it takes effect at the next upward crossing of the clearance.

@@ -100,6 +100,7 @@ impl Simulation {
             });
         }
         let clock = Clock::new(scene.excitation.frequency, scene.excitation.phase);
+        within_reach(&clock, time, 0.0)?;
         let phases = scene.phases();
         let tallies = Tallies {
             mass: scene.mass,
@@ -178,6 +179,14 @@ impl Simulation {
         }
     }
 
+    /// Whether a time can be advanced to at all.
+    ///
+    /// # Errors
+    /// [`MotionError::TimeBackwards`] and [`MotionError::TooFar`].
+    pub fn check_reach(&self, until: f64) -> Result<(), MotionError> {
+        self.instant_of(until).map(drop)
+    }
+
     /// Where an absolute time lies on the clock, unless it is out of range.
     fn instant_of(&self, until: f64) -> Result<Instant, MotionError> {
         if !(until.is_finite() && until >= self.now) {
@@ -186,10 +195,7 @@ impl Simulation {
                 present: self.now,
             });
         }
-        let farthest = LAST_CYCLE * self.motion.clock().period();
-        if (until - self.epoch).abs() > farthest {
-            return Err(MotionError::TooFar { until, farthest });
-        }
+        within_reach(self.motion.clock(), until, self.epoch)?;
         Ok(self.motion.clock().instant(until - self.epoch))
     }
 
@@ -251,13 +257,11 @@ impl Simulation {
     pub fn set_force(&mut self, derivatives: &[f64]) -> Result<(), MotionError> {
         let force = polynomial(derivatives)?;
         if self.motion.force() != force {
-            self.tallies.counts.work += self.tallies.work_under_way(&self.motion);
-            let before = mechanical_energy(&self.scene, &self.motion);
-            self.motion.set_force(force);
+            let work = self.tallies.work_under_way(&self.motion);
+            if self.motion.set_force(force) {
+                self.tallies.counts.work += work;
+            }
             self.mark = Mark::OnArc(self.motion.now());
-            // Of summed bounces nothing goes on under another force.
-            self.tallies.counts.work.dissipated +=
-                before - mechanical_energy(&self.scene, &self.motion);
         }
         Ok(())
     }
@@ -335,4 +339,13 @@ impl Simulation {
             dissipated: work.dissipated,
         }
     }
+}
+
+/// Refuses a time at which the drive angle is not resolved any more.
+fn within_reach(clock: &Clock, until: f64, epoch: f64) -> Result<(), MotionError> {
+    let farthest = LAST_CYCLE * clock.period();
+    if (until - epoch).abs() > farthest {
+        return Err(MotionError::TooFar { until, farthest });
+    }
+    Ok(())
 }

@@ -23,18 +23,17 @@ pub(super) struct Origin {
 }
 
 impl Simulation {
-    /// Takes back the last advance, if it met a crossing and nothing was set since; true if so.
-    pub fn take_back(&mut self) -> bool {
-        let start = Mark::OnArc(self.motion.now());
-        match std::mem::replace(&mut self.mark, start) {
-            Mark::OnArc(_) => false,
-            Mark::Before(origin) => {
-                self.mark = Mark::OnArc(origin.motion.now());
-                (self.motion, self.tallies.counts) = (origin.motion, origin.counts);
-                self.now = origin.now;
-                true
-            }
-        }
+    /// The machine as it was before the last advance, if that met a crossing or stopped on its way and
+    /// nothing was set since.
+    pub fn before_advance(&self) -> Option<Self> {
+        let Mark::Before(origin) = &self.mark else {
+            return None;
+        };
+        let mut machine = self.clone();
+        machine.mark = Mark::OnArc(origin.motion.now());
+        (machine.motion, machine.tallies.counts) = (origin.motion.clone(), origin.counts);
+        machine.now = origin.now;
+        Some(machine)
     }
 
     /// Lets the stretch of [`Simulation::sensitivity`] begin at the present time.
