@@ -36,11 +36,8 @@ struct Kept {
 }
 
 impl Instance {
-    /// This instance as bytes.
-    ///
-    /// # Errors
-    /// If the library's own GUID cannot be computed.
-    pub fn to_bytes(&self) -> Result<Vec<u8>, Fault> {
+    fn data(&self) -> Result<Vec<u8>, Fault> {
+        let discarded = self.discarded.as_deref();
         let kept = Kept {
             parameters: self.parameters.values().to_vec(),
             lifecycle: self.lifecycle(),
@@ -49,13 +46,25 @@ impl Instance {
             experiment: self.experiment,
             simulation: self.simulation.as_ref().map(Simulation::snapshot),
             pending: self.pending,
-            discarded: self
-                .discarded
-                .as_ref()
-                .map(|kept| (kept.0.snapshot(), kept.1)),
+            discarded: discarded.map(|(simulation, force)| (simulation.snapshot(), *force)),
         };
-        let data =
-            rmp_serde::to_vec_named(&kept).map_err(|error| Fault::Internal(error.to_string()))?;
+        rmp_serde::to_vec_named(&kept).map_err(|error| Fault::Internal(error.to_string()))
+    }
+
+    /// How many bytes this instance takes.
+    ///
+    /// # Errors
+    /// If its data cannot be written to memory.
+    pub fn size_in_bytes(&self) -> Result<usize, Fault> {
+        Ok(HEADER + self.data()?.len())
+    }
+
+    /// This instance as bytes.
+    ///
+    /// # Errors
+    /// If its data cannot be written to memory, or the library's own GUID cannot be computed.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, Fault> {
+        let data = self.data()?;
         let guid = own_uuid()?;
         let mut bytes = Vec::with_capacity(HEADER + data.len());
         bytes.extend(MAGIC);

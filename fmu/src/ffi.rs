@@ -244,7 +244,7 @@ export! {
     /// How many bytes a snapshot takes.
     fn fmi2SerializedFMUstateSize(component, state: *mut c_void, size: *mut usize) {
         let _ = &component;
-        *write_one("size", size)? = kept(state)?.to_bytes()?.len();
+        *write_one("size", size)? = kept(state)?.size_in_bytes()?;
         Ok(())
     }
 

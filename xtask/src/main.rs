@@ -39,10 +39,12 @@ enum Task {
     Notices,
     /// Run one C program on the libraries for Linux and for Windows (under Wine) and compare
     Wine,
-    /// Build the FMU and run all tests, those in Rust and those with FMPy
+    /// Build the FMU and run all tests: in Rust, with FMPy and with other importers
     Test,
     /// Build the FMU and run the tests with FMPy only
     Fmpy,
+    /// Build the FMU and run the tests with other importers only
+    Importers,
     /// Run the benchmarks
     Bench,
 }
@@ -76,9 +78,11 @@ fn run_task(task: &Task) -> Result<()> {
             run(cargo_command()
                 .args(["test", "--workspace"])
                 .env("SOFTSTOP_FMU", &package))?;
-            test_with_fmpy(&package)
+            test_with_fmpy(&package)?;
+            test_with_importers(&package)
         }
         Task::Fmpy => test_with_fmpy(&build()?),
+        Task::Importers => test_with_importers(&build()?),
         Task::Bench => cargo(&["bench", "--workspace", "--benches"]),
     }
 }
@@ -90,7 +94,12 @@ fn build() -> Result<PathBuf> {
 
 fn test_with_fmpy(package: &Path) -> Result<()> {
     stage("FMPy tests");
-    python::test(package)?;
+    python::test(package)
+}
+
+fn test_with_importers(package: &Path) -> Result<()> {
+    stage("tests with other importers");
+    python::test_importers(package)?;
     stage("all passed");
     Ok(())
 }

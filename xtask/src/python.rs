@@ -8,11 +8,27 @@ use anyhow::{Context, Result};
 
 use crate::run::{run, target, top};
 
-/// Runs the tests on this FMU.
+/// Runs the tests with FMPy on this FMU.
 pub fn test(package: &Path) -> Result<()> {
     let python = environment("python", "tests/fmpy/requirements.txt")?;
+    pytest(&python, "tests/fmpy", package)
+}
+
+/// Runs the tests with other importers on this FMU. Not every one of them installs on every machine:
+/// if they do not, the tests are left out with a message.
+pub fn test_importers(package: &Path) -> Result<()> {
+    match environment("importers", "tests/importers/requirements.txt") {
+        Ok(python) => pytest(&python, "tests/importers", package),
+        Err(error) => {
+            println!("left out, the importers do not install here: {error:#}");
+            Ok(())
+        }
+    }
+}
+
+fn pytest(python: &Path, folder: &str, package: &Path) -> Result<()> {
     run(Command::new(python)
-        .args(["-m", "pytest", "-p", "no:cacheprovider", "-q", "tests/fmpy"])
+        .args(["-m", "pytest", "-p", "no:cacheprovider", "-q", folder])
         .env("SOFTSTOP_FMU", package))
 }
 
