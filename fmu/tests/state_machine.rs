@@ -10,6 +10,8 @@ mod random;
 
 #[path = "state_machine/calls.rs"]
 mod calls;
+#[path = "state_machine/draw.rs"]
+mod draw;
 #[path = "state_machine/model.rs"]
 mod model;
 #[path = "state_machine/perform.rs"]
@@ -86,7 +88,7 @@ proptest! {
     #![proptest_config(random::cases(2000))]
 
     #[test]
-    fn all_calls_in_any_order(calls in calls::sequence()) {
+    fn all_calls_in_any_order(calls in draw::sequence()) {
         let mut world = World::new();
         for index in 0..UNITS {
             world.run(index, &Call::Instantiate(calls::Birth::Plain));
