@@ -26,6 +26,7 @@ use pointers::{read, string, write, write_one};
 
 use crate::error::Fault;
 use crate::instance::Instance;
+use crate::log::Category;
 
 /// `fmi2CoSimulation` of `fmi2Type`.
 pub const CO_SIMULATION: c_int = 1;
@@ -135,7 +136,12 @@ export! {
             (tolerance_defined != 0).then_some(tolerance),
             start_time,
             (stop_time_defined != 0).then_some(stop_time),
-        )
+        )?;
+        if tolerance_defined != 0 {
+            let text = format!("tolerance = {tolerance:e} has no effect: the motion is exact");
+            component.log(Status::Ok, Category::Warnings, &text);
+        }
+        Ok(())
     }
 
     /// Enters initialisation.

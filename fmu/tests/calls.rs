@@ -180,6 +180,27 @@ fn an_experiment_that_makes_no_sense() {
     unit.begin();
 }
 
+/// A tolerance is of no use to an exact solution: it is taken, with a warning for those who listen.
+#[test]
+fn a_tolerance_has_no_effect() {
+    let unit = Unit::new();
+    let setup = || unsafe { fmi2SetupExperiment(unit.component, 1, 1e-4, 0.0, 0, 0.0) };
+    assert_eq!(setup(), OK);
+    assert!(unit.take_log().is_empty());
+    let category = c"warnings".as_ptr();
+    assert_eq!(
+        unsafe { fmi2SetDebugLogging(unit.component, 1, 1, &raw const category) },
+        OK
+    );
+    assert_eq!(setup(), OK);
+    let lines = unit.take_log();
+    assert_eq!(lines.len(), 1);
+    assert!(
+        lines[0].starts_with("0 warnings tolerance = 1e-4"),
+        "{lines:?}"
+    );
+}
+
 #[test]
 fn values_are_set_all_or_none() {
     let unit = Unit::new();

@@ -37,6 +37,19 @@ unsafe extern "C" fn logger(
     }
 }
 
+/// Callbacks that keep the log there.
+pub fn callbacks(log: *mut Log) -> CallbackFunctions {
+    CallbackFunctions {
+        // On the platforms these tests run on, a variadic call with one pointer more looks
+        // like a call with that pointer as the last argument.
+        logger: Some(unsafe { std::mem::transmute::<*const (), Logger>(logger as *const ()) }),
+        allocate_memory: None,
+        free_memory: None,
+        step_finished: None,
+        environment: log.cast(),
+    }
+}
+
 /// An instance of the unit, made and freed through the C functions.
 pub struct Unit {
     pub component: *mut c_void,
@@ -56,15 +69,7 @@ impl Unit {
         let [name, guid] = strings
             .each_ref()
             .map(|s| s.as_ref().map_or(ptr::null(), |s| s.as_ptr()));
-        let functions = CallbackFunctions {
-            // On the platforms these tests run on, a variadic call with one pointer more looks
-            // like a call with that pointer as the last argument.
-            logger: Some(unsafe { std::mem::transmute::<*const (), Logger>(logger as *const ()) }),
-            allocate_memory: None,
-            free_memory: None,
-            step_finished: None,
-            environment: log.cast(),
-        };
+        let functions = callbacks(log);
         let component =
             unsafe { fmi2Instantiate(name, kind, guid, ptr::null(), &raw const functions, 0, 0) };
         let unit = Self { component, log };

@@ -1,0 +1,16 @@
+//! What calls cost from C. The figures are for reading, nothing is asserted about them:
+//! `cargo test --release --package softstop-fmu --test c_speed -- --ignored --nocapture`
+#![cfg(unix)]
+
+#[path = "common/c_program.rs"]
+mod c_program;
+
+use c_program::{Program, succeeded};
+
+#[test]
+#[ignore = "a measurement, to be run alone and in release mode"]
+fn what_calls_cost() {
+    if let Some(program) = Program::compile("bench") {
+        succeeded(&program.command().output().expect("a program that runs"));
+    }
+}
