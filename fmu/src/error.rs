@@ -32,7 +32,7 @@ pub enum Fault {
         length: usize,
     },
     /// A scalar argument is out of its range.
-    #[error("{argument} = {value}: must be {allowed}")]
+    #[error("{argument} = {value:?}: must be {allowed}")]
     Argument {
         /// Name of the argument.
         argument: &'static str,
@@ -74,7 +74,7 @@ pub enum Fault {
         name: &'static str,
     },
     /// A value lies outside the variable's range.
-    #[error("{name} = {value}: must be {allowed}")]
+    #[error("{name} = {value:?}: must be {allowed}")]
     OutOfRange {
         /// Name of the variable.
         name: &'static str,
@@ -110,6 +110,17 @@ pub enum Fault {
         from: f64,
         /// Its stiffness in N/m.
         stiffness: f64,
+    },
+    /// The motion would start beyond a rigid stop.
+    #[error(
+        "initial.position = {position} m: must be <= {wall} m, where clearance, strip and rigid.travel put \
+         the rigid stop"
+    )]
+    StartBeyondStop {
+        /// The position in m.
+        position: f64,
+        /// Where the rigid stop stands, in m.
+        wall: f64,
     },
     /// The motion cannot be carried on.
     #[error(transparent)]

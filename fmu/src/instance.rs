@@ -3,8 +3,8 @@
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
-use softstop::Simulation;
 use softstop::flow::Polynomial;
+use softstop::{MotionError, Simulation};
 
 use crate::error::{Fault, argument};
 use crate::start::StartValues;
@@ -177,7 +177,7 @@ impl Instance {
     pub fn enter_initialization(&mut self) -> Result<(), Fault> {
         self.require(
             &[Lifecycle::Instantiated],
-            "initialisation follows fmi2SetupExperiment",
+            "it is entered once, after fmi2SetupExperiment",
         )?;
         if self.experiment.is_none() {
             return Err(Fault::WrongState {
@@ -246,8 +246,8 @@ impl Instance {
     fn begin(&mut self) -> Result<Simulation, Fault> {
         let start = self.time();
         let scene = self.parameters.scene();
-        let simulation =
-            Simulation::new_fed(&scene, self.parameters.start(), start, self.material)?;
+        let simulation = Simulation::new_fed(&scene, self.parameters.start(), start, self.material)
+            .map_err(at_start)?;
         self.force.since = start;
         self.pending = Pending {
             tuning: false,
@@ -266,5 +266,13 @@ impl Instance {
             self.pending.force = false;
         }
         Ok(())
+    }
+}
+
+/// What keeps a motion from beginning, in the names of the variables.
+fn at_start(error: MotionError) -> Fault {
+    match error {
+        MotionError::BeyondStop { position, wall } => Fault::StartBeyondStop { position, wall },
+        other => other.into(),
     }
 }

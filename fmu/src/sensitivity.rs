@@ -39,9 +39,9 @@ impl Instance {
         for (row, value) in rows.iter().zip(sensitivity.iter_mut()) {
             *value = (row.derivative)(&along);
         }
-        for (slot, seed) in parameters {
+        for (parameter, seed) in parameters {
             for (row, value) in rows.iter().zip(sensitivity.iter_mut()) {
-                *value += seed * self.by_parameter(slot, row.value)?;
+                *value += seed * self.by_parameter(parameter, row.value)?;
             }
         }
         Ok(())
@@ -52,7 +52,7 @@ impl Instance {
         &self,
         knowns: &[u32],
         seed: &[f64],
-    ) -> Result<(Perturbation, Vec<(Slot, f64)>), Fault> {
+    ) -> Result<(Perturbation, Vec<Seeded>), Fault> {
         let mut by = Perturbation::default();
         let mut parameters = Vec::new();
         let at_start = self
@@ -72,8 +72,8 @@ impl Instance {
                 Access::Parameter { slot, .. } if slot == Slot::INITIAL_VELOCITY && at_start => {
                     by.velocity += seed;
                 }
-                Access::Parameter { slot, .. } if self.lifecycle() == Lifecycle::Initializing => {
-                    parameters.push((slot, seed));
+                Access::Parameter { .. } if self.lifecycle() == Lifecycle::Initializing => {
+                    parameters.push((variable, seed));
                 }
                 _ => return Err(no_known(variable)),
             }
@@ -83,17 +83,24 @@ impl Instance {
 
     /// The derivative of an output at the start by a parameter: outputs at the start are elementary
     /// functions of the parameters, so differences extrapolated to width zero (Richardson 1911) come
-    /// within some 1e-11 of it. They keep to one side where the law of the motion, or the range of the
+    /// within some 1e-10 of it. They keep to one side where the law of the motion, or the range of the
     /// parameter, ends.
-    fn by_parameter(&self, slot: Slot, output: fn(&View) -> f64) -> Result<f64, Fault> {
+    fn by_parameter(&self, parameter: &Variable, output: fn(&View) -> f64) -> Result<f64, Fault> {
+        let (Access::Parameter { slot, .. }, Kind::Real(kind)) = (parameter.access, parameter.kind)
+        else {
+            return Err(no_known(parameter));
+        };
         let value = self.parameters.get(slot);
         let here = self.at_start_with(slot, value, output)?;
-        let mut width = 0.01 * value.abs().max(1e-3);
+        let mut width = if value == 0.0 {
+            1e-3
+        } else {
+            0.01 * value.abs()
+        };
         for _ in 0..WIDTHS {
             let at = |step: f64| {
-                let moved = self
-                    .at_start_with(slot, value + step * width, output)
-                    .ok()?;
+                let moved = Some(value + step * width).filter(|moved| kind.contains(*moved))?;
+                let moved = self.at_start_with(slot, moved, output).ok()?;
                 (moved.1 == here.1).then_some(moved.0)
             };
             let central = |n: f64| Some((at(n)? - at(-n)?) / (2.0 * n * width));
@@ -142,6 +149,9 @@ impl Instance {
 /// Widths that a difference is tried with.
 const WIDTHS: u32 = 8;
 
+/// A parameter and how fast it changes along the direction.
+type Seeded = (&'static Variable, f64);
+
 /// How an unknown and its derivative are read.
 struct Row {
     value: fn(&View) -> f64,
@@ -165,7 +175,6 @@ fn unknown(reference: u32) -> Result<Row, Fault> {
 }
 
 fn no_known(variable: &Variable) -> Fault {
-    debug_assert!(matches!(variable.kind, Kind::Real(_)));
     Fault::NoKnown {
         name: variable.name,
     }

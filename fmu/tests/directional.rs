@@ -167,6 +167,39 @@ fn parameters_in_initialisation() {
     assert!((found.expect("available")[0] - 1.0).abs() < 1e-10);
 }
 
+/// At the end of its range a parameter can be changed to one side only.
+#[test]
+fn parameters_at_the_end_of_their_range() {
+    let begin = |thickness: f64| {
+        let unit = Unit::new();
+        for (name, value) in [
+            ("piercing.thickness", thickness),
+            ("piercing.travel", 0.0),
+            ("piercing.friction", 0.0),
+            ("piercing.stiffness", 0.0),
+            ("clearance", 1.0),
+            ("initial.position", 1.2),
+            ("initial.velocity", 3.0),
+        ] {
+            assert_eq!(unit.set(name, value), OK, "{name}");
+        }
+        assert_eq!(unit.set_integer("stop.model", 2), OK);
+        unsafe {
+            assert_eq!(fmi2SetupExperiment(unit.component, 0, 0.0, 0.0, 0, 0.0), OK);
+            assert_eq!(fmi2EnterInitializationMode(unit.component), OK);
+        }
+        unit
+    };
+    let found = begin(0.0)
+        .derivatives(&OUTPUTS, &[("piercing.thickness", 1.0)])
+        .expect("available");
+    let (here, there) = (outputs(&begin(0.0)), outputs(&begin(1e-6)));
+    let expected: Vec<_> = (0..9).map(|n| (there[n] - here[n]) / 1e-6).collect();
+    assert_close(&found, &expected, 1e-5, "thickness");
+    // Pressed with k4 (x - r - s), k4 = 7.
+    assert!((found[3] + 7.0).abs() < 1e-9, "{}", found[3]);
+}
+
 #[test]
 fn what_has_no_derivative() {
     let unit = Unit::new();

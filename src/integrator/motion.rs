@@ -115,22 +115,6 @@ impl Motion {
         Ok(motion)
     }
 
-    /// This motion, taken up at its present state through other phases.
-    pub(super) fn resumed(
-        &self,
-        phases: Phases,
-        clock: Clock,
-        at: Instant,
-    ) -> Result<Self, MotionError> {
-        let latched = self.is_latched();
-        let motion = Self::with(phases, clock, at, self.state(), self.force(), latched)?;
-        Ok(Self {
-            fed: self.fed,
-            pierced: self.pierced,
-            ..motion
-        })
-    }
-
     /// The present time.
     pub fn now(&self) -> Instant {
         self.now
@@ -202,7 +186,7 @@ impl Motion {
     }
 
     /// Whether the strip's phases hold now, or would at the next crossing of the clearance.
-    fn is_latched(&self) -> bool {
+    pub(super) fn is_latched(&self) -> bool {
         match self.mode {
             Mode::Moving(0) => self.fed,
             Mode::Moving(phase) | Mode::Chattering { backward: phase } => {
@@ -214,80 +198,9 @@ impl Motion {
         }
     }
 
-    /// Goes on from here under another external force; true if a new arc begins. Phase, latched strip and
-    /// bounces in a row stay as they are; only a held mass may be let go at once.
-    pub(super) fn set_force(&mut self, force: Polynomial) -> bool {
-        if self.keeps_bouncing(&force) {
-            let elapsed = self.clock.elapsed(self.start, self.now);
-            self.force = Force::new(force.shifted(-elapsed), self.start);
-            return false;
-        }
-        let state = self.state();
-        let drive = self.clock.drive(self.now);
-        self.start = self.now;
-        self.force = Force::new(force, self.now);
-        match self.mode {
-            // A step of the force lets the mass go with the acceleration that it brings.
-            Mode::Held { forward, backward } => {
-                let push = self.push(drive);
-                self.mode = self
-                    .phases
-                    .leave_hold(forward, backward, state.position, push);
-            }
-            Mode::Chattering { backward } => {
-                let phases = &self.phases;
-                self.mode = Mode::Moving(if state.velocity > 0.0 {
-                    phases.forward_of(backward)
-                } else {
-                    backward
-                });
-            }
-            // At rest on a face the force decides which way it goes, if any.
-            Mode::Moving(_) if state.velocity == 0.0 => {
-                let push = self.push(drive);
-                let latched = self.is_latched();
-                self.mode = self.phases.locate(state.position, 0.0, push, latched);
-            }
-            Mode::Moving(_) => {}
-        }
-        self.depart(state, drive, self.mode);
-        true
-    }
-
-    /// True if the mass bounces on a rigid stop towards its rest, and another force would not keep it
-    /// from that: what is left of the bounces is too short for it to tell.
-    fn keeps_bouncing(&self, force: &Polynomial) -> bool {
-        let Mode::Chattering { backward } = self.mode else {
-            return false;
-        };
-        let (phases, position) = (&self.phases, self.course.departure.position);
-        let drive = self.clock.drive(self.now);
-        let push = phases.held.amplitude * drive.0 + force.value() / phases.mass;
-        let mode = phases.leave_hold(None, backward, position, push);
-        matches!(mode, Mode::Held { .. })
-    }
-
     /// Changes the feed of strips; it takes effect at the next upward crossing of the clearance.
     pub fn feed_strip(&mut self, fed: bool) {
         self.fed = fed;
-    }
-
-    /// The same motion at a time on its present arc, with an arc of its own from there on.
-    pub(crate) fn departed_at(&self, now: Instant) -> Self {
-        let mut motion = Self {
-            now,
-            ..self.clone()
-        };
-        let elapsed = self.clock.elapsed(self.start, now);
-        if elapsed > 0.0 && self.phase().is_some() {
-            let state = motion.state();
-            let finer = self.course.segment().map(|segment| segment.finer(elapsed));
-            motion.force.go_on(&self.clock, now, elapsed);
-            motion.start = now;
-            let departure = motion.departure(state, self.clock.drive(now), self.mode, None);
-            motion.begin(departure, self.mode, finer, None);
-        }
-        motion
     }
 
     /// Begins an arc at the present start instant.

@@ -1,7 +1,8 @@
 //! Rates of the outputs: how they go on from the present time.
 
 use super::motion::Start;
-use super::simulation::{Sample, Simulation};
+use super::outputs::Sample;
+use super::simulation::Simulation;
 
 /// First and second time derivative of an output.
 pub type Rate = (f64, f64);

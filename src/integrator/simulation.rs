@@ -8,7 +8,6 @@ use super::stretch::{Mark, Origin};
 use super::tallies::{Counts, Tallies};
 use crate::error::MotionError;
 use crate::flow::Polynomial;
-use crate::phases::PhaseKind;
 use crate::scene::Scene;
 use crate::trajectory::mechanical_energy;
 
@@ -26,46 +25,8 @@ pub struct Simulation {
     pub(super) mark: Mark,
 }
 
-/// Outputs at the present time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
-    /// Position in m.
-    pub position: f64,
-    /// Velocity in m/s.
-    pub velocity: f64,
-    /// Acceleration in m/s^2.
-    pub acceleration: f64,
-    /// Jerk in m/s^3.
-    pub jerk: f64,
-    /// F in m x'' + b1 x' + k1 x + F = F0 cos(w t + phi) + f, in N: positive where stop or strip
-    /// press the mass back; what contact adds to the damping b1 is part of it.
-    pub contact_force: f64,
-    /// What the mass does.
-    pub phase: PhaseKind,
-}
-
 /// Drive periods up to which the drive angle is resolved.
 const LAST_CYCLE: f64 = 9.0e15;
-
-/// An impact at absolute time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Impact {
-    /// Time in s.
-    pub time: f64,
-    /// Before-impact velocity in m/s.
-    pub velocity: f64,
-}
-
-/// Energies in J since the start; supplied = dissipated + change of mechanical.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Energy {
-    /// Kinetic, suspension and loaded stop.
-    pub mechanical: f64,
-    /// Work of drive, external force and tuning.
-    pub supplied: f64,
-    /// Work lost in dampers, strip and friction.
-    pub dissipated: f64,
-}
 
 impl Simulation {
     /// The machine at time 0 s.
@@ -204,50 +165,6 @@ impl Simulation {
         &self.motion
     }
 
-    /// Outputs at the present time.
-    pub fn sample(&self) -> Sample {
-        let Start { position, velocity } = self.motion.state();
-        let (push, push_rate, _) = self.push();
-        let (contact_force, acceleration, jerk) = match self.motion.phase() {
-            None => (push - self.scene.stiffness * position, 0.0, 0.0),
-            Some(phase) => {
-                let contact = phase.contact_force(&self.motion.phases().free, position, velocity);
-                let free = self.scene.damping * velocity + self.scene.stiffness * position;
-                let acceleration = (push - free - contact) / self.scene.mass;
-                let (stiffness, damping) = phase.slopes(position, velocity);
-                let resisting = damping * acceleration + stiffness * velocity;
-                (
-                    contact,
-                    acceleration,
-                    (push_rate - resisting) / self.scene.mass,
-                )
-            }
-        };
-        Sample {
-            position,
-            velocity,
-            acceleration,
-            jerk,
-            contact_force,
-            phase: self.motion.kind(),
-        }
-    }
-
-    /// Drive and external force now, in N, with their first and second derivative.
-    pub(super) fn push(&self) -> (f64, f64, f64) {
-        let force = self.motion.force();
-        let (cos, sin) = self.motion.clock().drive(self.motion.now());
-        let (amplitude, w) = {
-            let drive = self.scene.excitation;
-            (drive.amplitude, drive.frequency)
-        };
-        (
-            amplitude * cos + force.value(),
-            force.rate() - amplitude * w * sin,
-            force.derivatives()[2] - amplitude * w * w * cos,
-        )
-    }
-
     /// Sets the external force from now on by its derivatives now: value in N, rate in N/s, and so on
     /// in N/s^k up to [`HIGHEST_ORDER`](crate::flow::HIGHEST_ORDER); those that are not given are zero.
     ///
@@ -308,36 +225,6 @@ impl Simulation {
         let mechanical = mechanical_energy(scene, &self.motion);
         self.tallies.counts.work.supplied += mechanical - before;
         Ok(())
-    }
-
-    /// Upward crossings of the clearance since the start.
-    pub fn impact_count(&self) -> u64 {
-        self.tallies.counts.impacts
-    }
-
-    /// Strips pierced through since the start.
-    pub fn pierce_count(&self) -> u64 {
-        self.tallies.counts.pierced
-    }
-
-    /// The last impact, if there was one.
-    pub fn last_impact(&self) -> Option<Impact> {
-        let (instant, velocity) = self.tallies.counts.last_impact?;
-        Some(Impact {
-            time: self.epoch + self.motion.clock().time(instant),
-            velocity,
-        })
-    }
-
-    /// Energies since the start.
-    pub fn energy(&self) -> Energy {
-        let mut work = self.tallies.counts.work;
-        work += self.tallies.work_under_way(&self.motion);
-        Energy {
-            mechanical: mechanical_energy(&self.scene, &self.motion),
-            supplied: work.supplied,
-            dissipated: work.dissipated,
-        }
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Zig links for Linux and Windows: it brings the C libraries of both, for Linux in any version,
 //! and an unwinder. It comes from PyPI into an environment under the target folder. For macOS the
-//! linker of Rust itself is taken ([`darwin`](crate::darwin)).
+//! linker of Rust itself is taken ([`crate::darwin`]).
 
 use std::env;
 use std::fs;

@@ -1,0 +1,120 @@
+//! What a running machine shows.
+
+use super::motion::Start;
+use super::simulation::Simulation;
+use crate::phases::PhaseKind;
+use crate::trajectory::mechanical_energy;
+
+/// Outputs at the present time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Position in m.
+    pub position: f64,
+    /// Velocity in m/s.
+    pub velocity: f64,
+    /// Acceleration in m/s^2.
+    pub acceleration: f64,
+    /// Jerk in m/s^3.
+    pub jerk: f64,
+    /// F in m x'' + b1 x' + k1 x + F = F0 cos(w t + phi) + f, in N: positive where stop or strip
+    /// press the mass back; what contact adds to the damping b1 is part of it.
+    pub contact_force: f64,
+    /// What the mass does.
+    pub phase: PhaseKind,
+}
+
+/// An impact at absolute time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impact {
+    /// Time in s.
+    pub time: f64,
+    /// Before-impact velocity in m/s.
+    pub velocity: f64,
+}
+
+/// Energies in J since the start; supplied = dissipated + change of mechanical.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Energy {
+    /// Kinetic, suspension and loaded stop.
+    pub mechanical: f64,
+    /// Work of drive, external force and tuning.
+    pub supplied: f64,
+    /// Work lost in dampers, strip and friction.
+    pub dissipated: f64,
+}
+
+impl Simulation {
+    /// Outputs at the present time.
+    pub fn sample(&self) -> Sample {
+        let Start { position, velocity } = self.motion.state();
+        let (push, push_rate, _) = self.push();
+        let (contact_force, acceleration, jerk) = match self.motion.phase() {
+            None => (push - self.scene.stiffness * position, 0.0, 0.0),
+            Some(phase) => {
+                let contact = phase.contact_force(&self.motion.phases().free, position, velocity);
+                let free = self.scene.damping * velocity + self.scene.stiffness * position;
+                let acceleration = (push - free - contact) / self.scene.mass;
+                let (stiffness, damping) = phase.slopes(position, velocity);
+                let resisting = damping * acceleration + stiffness * velocity;
+                (
+                    contact,
+                    acceleration,
+                    (push_rate - resisting) / self.scene.mass,
+                )
+            }
+        };
+        Sample {
+            position,
+            velocity,
+            acceleration,
+            jerk,
+            contact_force,
+            phase: self.motion.kind(),
+        }
+    }
+
+    /// Drive and external force now, in N, with their first and second derivative.
+    pub(super) fn push(&self) -> (f64, f64, f64) {
+        let force = self.motion.force();
+        let (cos, sin) = self.motion.clock().drive(self.motion.now());
+        let (amplitude, w) = {
+            let drive = self.scene.excitation;
+            (drive.amplitude, drive.frequency)
+        };
+        (
+            amplitude * cos + force.value(),
+            force.rate() - amplitude * w * sin,
+            force.derivatives()[2] - amplitude * w * w * cos,
+        )
+    }
+
+    /// Upward crossings of the clearance since the start.
+    pub fn impact_count(&self) -> u64 {
+        self.tallies.counts.impacts
+    }
+
+    /// Strips pierced through since the start.
+    pub fn pierce_count(&self) -> u64 {
+        self.tallies.counts.pierced
+    }
+
+    /// The last impact, if there was one.
+    pub fn last_impact(&self) -> Option<Impact> {
+        let (instant, velocity) = self.tallies.counts.last_impact?;
+        Some(Impact {
+            time: self.epoch + self.motion.clock().time(instant),
+            velocity,
+        })
+    }
+
+    /// Energies since the start.
+    pub fn energy(&self) -> Energy {
+        let mut work = self.tallies.counts.work;
+        work += self.tallies.work_under_way(&self.motion);
+        Energy {
+            mechanical: mechanical_energy(&self.scene, &self.motion),
+            supplied: work.supplied,
+            dissipated: work.dissipated,
+        }
+    }
+}
