@@ -83,7 +83,12 @@ fn run_task(task: &Task) -> Result<()> {
         }
         Task::Fmpy => test_with_fmpy(&build()?),
         Task::Importers => test_with_importers(&build()?),
-        Task::Bench => cargo(&["bench", "--workspace", "--benches"]),
+        Task::Bench => {
+            cargo(&["bench", "--workspace", "--benches"])?;
+            let calls =
+                "test --release --package softstop-fmu --test c_speed -- --ignored --nocapture";
+            cargo(&calls.split(' ').collect::<Vec<_>>())
+        }
     }
 }
 
