@@ -79,7 +79,11 @@ fn run_task(task: &Task) -> Result<()> {
                 .args(["test", "--workspace"])
                 .env("SOFTSTOP_FMU", &package))?;
             test_with_fmpy(&package)?;
-            test_with_importers(&package)
+            test_with_importers(&package)?;
+            stage("the library for Windows under Wine");
+            portable::compare_under_wine()?;
+            stage("all passed");
+            Ok(())
         }
         Task::Fmpy => test_with_fmpy(&build()?),
         Task::Importers => test_with_importers(&build()?),
@@ -104,7 +108,5 @@ fn test_with_fmpy(package: &Path) -> Result<()> {
 
 fn test_with_importers(package: &Path) -> Result<()> {
     stage("tests with other importers");
-    python::test_importers(package)?;
-    stage("all passed");
-    Ok(())
+    python::test_importers(package)
 }

@@ -25,15 +25,31 @@ const STEP: &str = "0.25";
 /// The two machines differ in their sine and exponential functions alone.
 const TOLERANCE: f64 = 1e-12;
 
-/// Runs the default machine on both libraries and fails if they differ.
+/// Runs the default machine on both libraries and fails if they differ. Where Wine or the tools that
+/// build for Windows are missing it says so.
 pub fn compare_under_wine() -> Result<()> {
     let Some(wine) = wine() else {
-        println!("skipped: neither wine64 nor wine is here");
+        println!("left out: neither wine64 nor wine is here");
         return Ok(());
     };
     let tools = Tools::new();
-    let linux = results("linux64", "x86_64-linux-gnu", None, &tools)?;
-    let windows = results("win64", "x86_64-windows-gnu", Some(&wine), &tools)?;
+    let programs = Program::build("linux64", "x86_64-linux-gnu", &tools).and_then(|linux| {
+        Ok((
+            linux,
+            Program::build("win64", "x86_64-windows-gnu", &tools)?,
+        ))
+    });
+    let (linux, windows) = match programs {
+        Ok(programs) => programs,
+        Err(error) => {
+            println!("left out: {error:#}");
+            return Ok(());
+        }
+    };
+    let linux = linux.results(Command::new(&linux.program))?;
+    let mut under_wine = Command::new(wine);
+    under_wine.arg(&windows.program).env("WINEDEBUG", "-all");
+    let windows = windows.results(under_wine)?;
     stage("outputs on Linux and on Windows");
     for ((name, linux), (_, windows)) in linux.iter().zip(&windows) {
         println!("{name:18} {linux:.17e} {windows:.17e}");
@@ -56,41 +72,40 @@ fn wine() -> Option<PathBuf> {
     })
 }
 
-/// Builds library and program for one platform and runs them.
-fn results(
-    platform: &str,
-    zig_target: &str,
-    runner: Option<&Path>,
-    tools: &Tools,
-) -> Result<Vec<(String, f64)>> {
-    stage(platform);
-    let folder = target().join("portable").join(platform);
-    fs::create_dir_all(&folder)?;
-    let library = folder.join("softstop.library");
-    fs::write(&library, Target::of(platform)?.build(tools)?.bytes)?;
-    let program = folder.join("portable.exe");
-    run(tools
-        .zig_cc()?
-        .args(["-target", zig_target, "-O2", "-Wall", "-Wextra", "-Werror"])
-        .arg("-o")
-        .args([&program, Path::new(SOURCE)]))?;
-    let mut command = match runner {
-        Some(runner) => {
-            let mut command = Command::new(runner);
-            command.arg(&program).env("WINEDEBUG", "-all");
-            command
-        }
-        None => Command::new(&program),
-    };
-    command
-        .arg(&library)
-        .arg(guid_of(&StartValues::DEFAULT)?)
-        .args([STOP_TIME, STEP]);
-    for name in OUTPUTS {
-        let variable = by_name(name).with_context(|| format!("no variable {name}"))?;
-        command.args([name, &variable.reference.to_string()]);
+/// The C program and the library for one platform.
+struct Program {
+    library: PathBuf,
+    program: PathBuf,
+}
+
+impl Program {
+    fn build(platform: &str, zig_target: &str, tools: &Tools) -> Result<Self> {
+        stage(platform);
+        let folder = target().join("portable").join(platform);
+        fs::create_dir_all(&folder)?;
+        let library = folder.join("softstop.library");
+        fs::write(&library, Target::of(platform)?.build(tools)?.bytes)?;
+        let program = folder.join("portable.exe");
+        run(tools
+            .zig_cc()?
+            .args(["-target", zig_target, "-O2", "-Wall", "-Wextra", "-Werror"])
+            .arg("-o")
+            .args([&program, Path::new(SOURCE)]))?;
+        Ok(Self { library, program })
     }
-    output(&mut command)?.lines().map(parse).collect()
+
+    /// What the program prints of the outputs, started by `command`.
+    fn results(&self, mut command: Command) -> Result<Vec<(String, f64)>> {
+        command
+            .arg(&self.library)
+            .arg(guid_of(&StartValues::DEFAULT)?)
+            .args([STOP_TIME, STEP]);
+        for name in OUTPUTS {
+            let variable = by_name(name).with_context(|| format!("no variable {name}"))?;
+            command.args([name, &variable.reference.to_string()]);
+        }
+        output(&mut command)?.lines().map(parse).collect()
+    }
 }
 
 fn parse(line: &str) -> Result<(String, f64)> {
