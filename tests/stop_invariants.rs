@@ -90,6 +90,34 @@ proptest! {
         prop_assert_eq!(whole.last_impact(), divided.last_impact());
     }
 
+    /// Communication points may fall on crossings, or beside them by one rounding.
+    #[test]
+    fn advances_may_end_at_crossings(
+        scene in machines(),
+        depth in 0.0..6.0f64,
+        velocity in -6.0..6.0f64,
+    ) {
+        let start = start_below(&scene, depth, velocity);
+        let end = 3.7 * scene.period();
+        let until = scene.motion(start).expect("valid").clock().instant(end);
+        let trajectory = scene.trajectory_until(start, until).expect("bounded");
+        let mut stopping = Simulation::new(&scene, start).expect("valid");
+        for crossing in &trajectory.crossings {
+            let at = trajectory.clock.time(crossing.instant);
+            for time in [at.next_down(), at, at.next_up()] {
+                if time > stopping.time() && time < end {
+                    stopping.advance(time).expect("bounded");
+                    stopping.sample();
+                }
+            }
+        }
+        stopping.advance(end).expect("bounded");
+        let mut whole = Simulation::new(&scene, start).expect("valid");
+        whole.advance(end).expect("bounded");
+        prop_assert_eq!(whole.sample(), stopping.sample());
+        prop_assert_eq!(whole.impact_count(), stopping.impact_count());
+    }
+
     #[test]
     fn determinant_follows_liouville(
         scene in machines(),

@@ -22,7 +22,7 @@ const CAPABILITIES: [(&str, &str); 9] = [
     ),
     (
         "canInterpolateInputs",
-        "Derivatives of the input force are taken as a polynomial over the step, without error",
+        "Derivatives of the input force, of orders 1 to 7, make it a polynomial in time until it is set anew, without error",
     ),
     (
         "maxOutputDerivativeOrder",
@@ -38,7 +38,7 @@ const CAPABILITIES: [(&str, &str); 9] = [
     ),
     (
         "providesDirectionalDerivative",
-        "Derivatives of the outputs with respect to parameters and inputs",
+        "Derivatives of the outputs over the last step by force, over the first one also by the initial state; in initialisation by every real parameter",
     ),
     (
         "canBeInstantiatedOnlyOncePerProcess",

@@ -21,7 +21,10 @@ pub const LOG_CATEGORIES: [(&str, &str); 3] = [
         "warnings",
         "calls that are carried out, but hardly as meant",
     ),
-    ("errors", "calls that are refused, always logged"),
+    (
+        "errors",
+        "calls that are refused and steps that are discarded, always logged",
+    ),
 ];
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -15,6 +15,9 @@ pub struct StepReport {
     pub pierced: u64,
     /// Time in s and before-impact velocity in m/s of the last impact, if there was one.
     pub last: Option<(f64, f64)>,
+    /// How far the communication point lay from the end of the last step, in s, if further than by
+    /// rounding.
+    pub gap: Option<f64>,
 }
 
 /// How far a communication point may lie from the end of the last step.
@@ -24,9 +27,14 @@ pub struct StepReport {
 /// the last place would do. A billionth of the time leaves room for importers that count in
 /// nanoseconds. Half a step is the limit in any case: a step that is called twice is refused.
 fn drift_tolerance(present: f64, step: f64) -> f64 {
-    let rounding = 16.0 * f64::EPSILON * present.abs();
+    let rounding = rounding_of(present);
     let counting = 1e-9 * present.abs().max(1.0);
     counting.min(0.5 * step).max(rounding)
+}
+
+/// What adding up a time may bring.
+fn rounding_of(time: f64) -> f64 {
+    16.0 * f64::EPSILON * time.abs()
 }
 
 /// Work that one step may cost: eight million crossings, some seconds. A step that would take longer
@@ -65,7 +73,11 @@ impl Instance {
         let before = (simulation.impact_count(), simulation.pierce_count());
         // A step below the last digit of the time ends where it began.
         let outcome = simulation.advance_within(end.max(present), EFFORT);
-        let report = StepReport::since(before, simulation);
+        let gap = Some(point - present).filter(|gap| gap.abs() > rounding_of(present));
+        let report = StepReport {
+            gap,
+            ..StepReport::since(before, simulation)
+        };
         let reached = simulation.time();
         let reason = match outcome {
             Ok(true) => {
@@ -153,6 +165,7 @@ impl StepReport {
                 .last_impact()
                 .filter(|_| impacts > 0)
                 .map(|impact| (impact.time, impact.velocity)),
+            gap: None,
         }
     }
 }

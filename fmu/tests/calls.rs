@@ -201,6 +201,25 @@ fn a_tolerance_has_no_effect() {
     );
 }
 
+/// Importers that count in nanoseconds come close to the end of the last step, not onto it.
+#[test]
+fn a_gap_between_steps_is_told() {
+    let unit = Unit::new();
+    unit.begin();
+    let category = c"warnings".as_ptr();
+    assert_eq!(
+        unsafe { fmi2SetDebugLogging(unit.component, 1, 1, &raw const category) },
+        OK
+    );
+    assert_eq!(unit.step(0.0, 1.0), OK);
+    assert_eq!(unit.step(1.0 + 4.0 * f64::EPSILON, 1.0), OK);
+    assert!(unit.take_log().is_empty());
+    assert_eq!(unit.step(2.0 + 1e-10, 1.0), OK);
+    let lines = unit.take_log();
+    assert_eq!(lines.len(), 1);
+    assert!(lines[0].contains("currentCommunicationPoint"), "{lines:?}");
+}
+
 #[test]
 fn values_are_set_all_or_none() {
     let unit = Unit::new();

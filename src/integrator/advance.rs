@@ -42,6 +42,11 @@ impl Motion {
         observer: &mut impl Observer,
         mut effort: Effort,
     ) -> Result<bool, MotionError> {
+        let finite = until.cycles.is_finite() && until.offset.is_finite();
+        if !finite || until.partial_cmp(&self.now).is_none_or(Ordering::is_lt) {
+            let (until, present) = (self.clock.time(until), self.clock.time(self.now));
+            return Err(MotionError::TimeBackwards { until, present });
+        }
         let mut at_once = 0;
         while !self.glide(until)? {
             if let Outlook::Crossing(Found { elapsed, .. }) | Outlook::Ends(elapsed) = self.outlook
@@ -75,16 +80,12 @@ impl Motion {
     }
 
     /// Moves on along the present arc if it reaches to `until`; false if something happens before, or
-    /// may happen for all that is known.
+    /// may happen for all that is known. `until` does not lie in the past, unless by the rounding of a
+    /// crossing.
     ///
     /// # Errors
-    /// As [`Motion::advance`].
+    /// [`MotionError::Unbounded`].
     pub(super) fn glide(&mut self, until: Instant) -> Result<bool, MotionError> {
-        let finite = until.cycles.is_finite() && until.offset.is_finite();
-        if !finite || until.partial_cmp(&self.now).is_none_or(Ordering::is_lt) {
-            let (until, present) = (self.clock.time(until), self.clock.time(self.now));
-            return Err(MotionError::TimeBackwards { until, present });
-        }
         let horizon = self.clock.elapsed(self.start, until);
         self.look_ahead(horizon)?;
         // Written such that a time that is not a number stops nothing.

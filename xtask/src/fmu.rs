@@ -9,7 +9,7 @@ use softstop_fmu::{StartValues, guid_of, model_description};
 
 use crate::library::{Build, host};
 use crate::run::{cargo_command, stage, top};
-use crate::targets::{TARGETS, Tools};
+use crate::targets::{TARGETS, Target, Tools};
 
 /// Writes the model description of the default FMU at the top level, if it has changed.
 pub fn write_description() -> Result<()> {
@@ -27,7 +27,30 @@ pub fn write_description() -> Result<()> {
 
 /// Builds the library for this machine in release mode and packs it; returns the FMU's path.
 pub fn write_package() -> Result<PathBuf> {
-    write(&[host_library()?])
+    let target = TARGETS
+        .iter()
+        .find(|target| target.platform == HOST_PLATFORM);
+    let (library, note) = match target {
+        Some(target) => built_or_host(target, &Tools::new())?,
+        None => (host_library()?, String::new()),
+    };
+    println!("{}{note}", library.platform);
+    write(&[library])
+}
+
+/// The library for a platform, and what there is to say of it. Without the tools there is still the
+/// linker of this machine.
+fn built_or_host(target: &Target, tools: &Tools) -> Result<(Library, String)> {
+    target
+        .build(tools)
+        .map(|library| (library, String::new()))
+        .or_else(|error| {
+            if target.platform != HOST_PLATFORM {
+                return Err(error);
+            }
+            let note = format!(", for this machine's C library or a later one: {error:#}");
+            Ok((host_library()?, note))
+        })
 }
 
 /// Builds the library for every platform that can be had here and packs them all.
@@ -37,18 +60,8 @@ pub fn write_package_for_all() -> Result<()> {
     let mut lines = Vec::new();
     for target in &TARGETS {
         stage(target.platform);
-        let mut note = String::new();
-        let built = target.build(&tools).or_else(|error| {
-            // Without the tools there is still the linker of this machine.
-            if target.platform == HOST_PLATFORM {
-                note = format!(", for this machine's C library or a later one: {error:#}");
-                host_library()
-            } else {
-                Err(error)
-            }
-        });
-        match built {
-            Ok(library) => {
+        match built_or_host(target, &tools) {
+            Ok((library, note)) => {
                 let size = library.bytes.len().div_ceil(1024);
                 lines.push(format!("{:14} packed, {size} KiB{note}", target.platform));
                 libraries.push(library);

@@ -76,8 +76,17 @@ impl Component {
         }
     }
 
-    /// Tells of the impacts in a step.
+    /// Tells of the impacts in a step, and of a gap before it.
     pub(super) fn tell(&self, report: &StepReport) {
+        if let Some(gap) = report.gap
+            && self.wanted.has(Category::Warnings)
+        {
+            let text = format!(
+                "currentCommunicationPoint lies {gap:e} s from the end of the last step: the motion goes on \
+                 without a gap"
+            );
+            self.sink.send(Status::Ok, Category::Warnings, &text);
+        }
         let Some((time, velocity)) = report.last else {
             return;
         };
