@@ -3,20 +3,8 @@
 
 mod common;
 
-use common::{OK, Unit};
+use common::{OK, OUTPUTS, Unit};
 use softstop_fmu::ffi::*;
-
-const OUTPUTS: [&str; 9] = [
-    "position",
-    "velocity",
-    "acceleration",
-    "contact.force",
-    "energy.mechanical",
-    "energy.supplied",
-    "energy.dissipated",
-    "impact.time",
-    "impact.velocity",
-];
 
 fn outputs(unit: &Unit) -> [f64; 9] {
     OUTPUTS.map(|name| unit.get(name))

@@ -6,7 +6,7 @@ mod common;
 use std::ffi::{c_char, c_int, c_void};
 use std::ptr;
 
-use common::{OK, Unit};
+use common::{OK, OUTPUTS, Unit};
 use softstop_fmu::ffi::*;
 
 fn keep(unit: &Unit) -> *mut c_void {
@@ -56,18 +56,6 @@ fn take_up(unit: &Unit, bytes: &[u8]) -> c_int {
         status
     }
 }
-
-const OUTPUTS: [&str; 9] = [
-    "position",
-    "velocity",
-    "acceleration",
-    "contact.force",
-    "energy.mechanical",
-    "energy.supplied",
-    "energy.dissipated",
-    "impact.time",
-    "impact.velocity",
-];
 
 fn outputs(unit: &Unit) -> [u64; 9] {
     OUTPUTS.map(|name| unit.get(name).to_bits())

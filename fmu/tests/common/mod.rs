@@ -13,6 +13,19 @@ pub const OK: c_int = 0;
 pub const DISCARD: c_int = 2;
 pub const ERROR: c_int = 3;
 
+/// All real outputs.
+pub const OUTPUTS: [&str; 9] = [
+    "position",
+    "velocity",
+    "acceleration",
+    "contact.force",
+    "energy.mechanical",
+    "energy.supplied",
+    "energy.dissipated",
+    "impact.time",
+    "impact.velocity",
+];
+
 /// The log of one instance: its environment pointer leads here.
 #[derive(Default)]
 pub struct Log {
