@@ -27,14 +27,14 @@ pub struct StepReport {
 /// the last place would do. A billionth of the time leaves room for importers that count in
 /// nanoseconds. Half a step is the limit in any case: a step that is called twice is refused.
 fn drift_tolerance(present: f64, step: f64) -> f64 {
-    let rounding = rounding_of(present);
+    let rounding = rounding_of(present, 0.0);
     let counting = 1e-9 * present.abs().max(1.0);
     counting.min(0.5 * step).max(rounding)
 }
 
-/// What adding up a time may bring.
-fn rounding_of(time: f64) -> f64 {
-    16.0 * f64::EPSILON * time.abs()
+/// What adding up a time in such steps may bring.
+fn rounding_of(time: f64, step: f64) -> f64 {
+    16.0 * f64::EPSILON * time.abs().max(step)
 }
 
 /// Work that one step may cost: eight million crossings, some seconds. A step that would take longer
@@ -73,7 +73,7 @@ impl Instance {
         let before = (simulation.impact_count(), simulation.pierce_count());
         // A step below the last digit of the time ends where it began.
         let outcome = simulation.advance_within(end.max(present), EFFORT);
-        let gap = Some(point - present).filter(|gap| gap.abs() > rounding_of(present));
+        let gap = Some(point - present).filter(|gap| gap.abs() > rounding_of(present, step));
         let report = StepReport {
             gap,
             ..StepReport::since(before, simulation)
