@@ -90,7 +90,7 @@ impl Instance {
         let simulation = kept.simulation.as_ref().map(Simulation::restored);
         let mut instance = Self::new(library_start_values());
         instance.parameters = StartValues::from_values(values);
-        instance.take_up(kept.lifecycle);
+        instance.lifecycle = kept.lifecycle;
         instance.force = kept.force;
         instance.material = kept.material;
         instance.experiment = kept.experiment;

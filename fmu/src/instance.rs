@@ -31,7 +31,7 @@ impl fmt::Display for Lifecycle {
             Self::Instantiated => "before initialisation",
             Self::Initializing => "during initialisation",
             Self::Running => "after initialisation",
-            Self::Failed => "after a failed step",
+            Self::Failed => "after an internal error",
             Self::Terminated => "after fmi2Terminate",
         })
     }
@@ -66,7 +66,7 @@ pub(crate) struct Pending {
 pub struct Instance {
     initial: StartValues,
     pub(crate) parameters: StartValues,
-    lifecycle: Lifecycle,
+    pub(crate) lifecycle: Lifecycle,
     pub(crate) force: Force,
     pub(crate) material: bool,
     pub(crate) experiment: Option<Experiment>,
@@ -107,11 +107,6 @@ impl Instance {
     /// Back to the fresh unit.
     pub fn reset(&mut self) {
         *self = Self::new(self.initial);
-    }
-
-    /// Takes up another's place in life.
-    pub(crate) fn take_up(&mut self, lifecycle: Lifecycle) {
-        self.lifecycle = lifecycle;
     }
 
     /// How the last step ended.

@@ -84,7 +84,7 @@ impl Instance {
     /// The derivative of an output at the start by a parameter: outputs at the start are elementary
     /// functions of the parameters, so differences extrapolated to width zero (Richardson 1911) come
     /// within some 1e-10 of it. They keep to one side where the law of the motion, or the range of the
-    /// parameter, ends.
+    /// parameter, ends; of one that cannot be changed at all the derivative is zero.
     fn by_parameter(&self, parameter: &Variable, output: fn(&View) -> f64) -> Result<f64, Fault> {
         let (Access::Parameter { slot, .. }, Kind::Real(kind)) = (parameter.access, parameter.kind)
         else {

@@ -79,20 +79,22 @@ impl Instance {
             ..StepReport::since(before, simulation)
         };
         let reached = simulation.time();
-        let reason = match outcome {
+        let (reason, origin) = match outcome {
             Ok(true) => {
                 self.discarded = None;
                 return Ok((report, Ok(())));
             }
-            Ok(false) => format!("{} impacts so far", report.impacts),
+            Ok(false) => (
+                format!("{} impacts so far", report.impacts),
+                simulation.before_advance(),
+            ),
+            // The motion has not left the point at which the step begins.
             Err(error @ (MotionError::Unbounded { .. } | MotionError::Stalled { .. })) => {
-                error.to_string()
+                (error.to_string(), Some(simulation.clone()))
             }
             Err(error) => return Err(error.into()),
         };
-        let origin = simulation.before_advance();
-        let origin = origin.unwrap_or_else(|| simulation.clone());
-        self.discarded = Some(Box::new((origin, self.force)));
+        self.discarded = origin.map(|origin| Box::new((origin, self.force)));
         let discarded = Fault::Discarded {
             end,
             reached,

@@ -126,14 +126,12 @@ impl Motion {
         {
             let sight = node.elapsed + f64::from(effort::CHUNK) * self.course.flow.window;
             let resolved = sight > node.elapsed;
-            self.outlook = self.search(
-                node,
-                if resolved {
-                    horizon.min(sight)
-                } else {
-                    horizon
-                },
-            );
+            let until = if resolved {
+                horizon.min(sight)
+            } else {
+                horizon
+            };
+            self.outlook = self.search(node, until);
         }
         if let Outlook::Unbounded(node) = self.outlook
             && node.elapsed < horizon
