@@ -29,6 +29,7 @@ pub mod error;
 pub mod events;
 pub mod flow;
 pub mod integrator;
+pub mod methods;
 pub mod orbit;
 pub mod phases;
 pub mod samples;

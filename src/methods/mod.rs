@@ -1,0 +1,100 @@
+//! Ways to compute a motion, all behind one trait: the exact one and those it is measured against.
+//!
+//! Everything outside this module asks the exact method alone; the others are here to chart speed
+//! against accuracy and to show where they fail.
+
+mod exact;
+
+pub use exact::Exact;
+
+use thiserror::Error;
+
+use crate::error::MotionError;
+use crate::integrator::{Impact, Start};
+use crate::scene::Scene;
+
+/// A motion to be computed, from time 0 on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Task {
+    /// The machine.
+    pub scene: Scene,
+    /// State at time 0.
+    pub start: Start,
+    /// Drive periods to cover, >= 0.
+    pub periods: f64,
+    /// Steps after which a method gives up.
+    pub most_steps: u64,
+}
+
+impl Task {
+    /// Time to cover, in s.
+    pub fn duration(&self) -> f64 {
+        self.periods * self.scene.period()
+    }
+}
+
+/// What a method found.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Solution {
+    /// Position in m and velocity in m/s at the end.
+    pub end: (f64, f64),
+    /// The impacts in order of time: the clearance is passed onwards, or the rigid stop at it is hit.
+    pub impacts: Vec<Impact>,
+    /// What it took.
+    pub work: Work,
+}
+
+/// What a computation took.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Work {
+    /// Steps in time.
+    pub steps: u64,
+    /// Evaluations of the law of force. One state of a closed form counts as one, one Taylor polynomial as
+    /// its degree.
+    pub evaluations: u64,
+}
+
+/// Why a method has no answer.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MethodError {
+    /// It is not made for this machine.
+    #[error("{method} cannot do this: {reason}")]
+    Unsuited {
+        /// The method.
+        method: String,
+        /// What it cannot do.
+        reason: String,
+    },
+    /// The numbers left all bounds.
+    #[error("blown up near t = {time} s")]
+    BlownUp {
+        /// Time in s up to which they were finite.
+        time: f64,
+    },
+    /// It does not get on.
+    #[error("stuck at t = {time} s after {steps} steps: {reason}")]
+    Stuck {
+        /// Time in s that it reached.
+        time: f64,
+        /// Steps it had made.
+        steps: u64,
+        /// What holds it up.
+        reason: String,
+    },
+    /// The task makes no sense.
+    #[error(transparent)]
+    Task(#[from] MotionError),
+}
+
+/// A way to compute motions, with all its settings. To add one, implement the two methods: `integrate` asks
+/// [`Scene::phases`] for the laws, ends at the task's duration exactly, and counts its work honestly.
+pub trait Integrator: Sync {
+    /// What it is, with its settings, for a table or a legend.
+    fn name(&self) -> String;
+
+    /// The motion of a task.
+    ///
+    /// # Errors
+    /// [`MethodError`] if the method is not made for the task, or fails.
+    fn integrate(&self, task: &Task) -> Result<Solution, MethodError>;
+}
