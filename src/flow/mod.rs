@@ -89,6 +89,12 @@ impl Flow {
         }
     }
 
+    /// The steady state under the drive alone, x = .0 cos(angle) + .1 sin(angle), where it is well
+    /// conditioned.
+    pub(crate) fn steady(&self) -> Option<(f64, f64)> {
+        self.steady
+    }
+
     /// State transition d(x, v)(elapsed) / d(x, v)(0).
     pub fn transition(&self, elapsed: f64) -> Matrix2<f64> {
         let [[c, s], [dc, ds]] = self.modes.at(elapsed).rows();

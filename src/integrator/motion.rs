@@ -125,6 +125,11 @@ impl Motion {
         &self.clock
     }
 
+    /// Which phase holds, or what holds the mass.
+    pub(crate) fn mode(&self) -> Mode {
+        self.mode
+    }
+
     /// The phases it moves through.
     pub fn phases(&self) -> &Phases {
         &self.phases

@@ -1,0 +1,243 @@
+//! The lock-step loop over the lanes.
+
+use pulp::{Simd, WithSimd};
+
+use super::lanes::Lanes;
+use super::law::Law;
+use super::machine::Machine;
+use super::scalar::{self, Place, Resumed};
+use super::state::State;
+use super::{Instructions, Job, Outcome, Watch};
+
+/// Follows all jobs with the instruction set asked for, or the widest below it.
+pub(super) fn run<W: Watch>(
+    machines: &[Machine],
+    jobs: &[Job],
+    watch: &mut W,
+    instructions: Instructions,
+) -> Vec<Outcome> {
+    let guarded = machines.iter().any(Machine::is_guarded);
+    let task = Task {
+        machines,
+        jobs,
+        watch,
+    };
+    if guarded {
+        dispatch(Guarded(task), instructions)
+    } else {
+        dispatch(Plain(task), instructions)
+    }
+}
+
+fn dispatch<T: WithSimd<Output = Vec<Outcome>>>(
+    task: T,
+    instructions: Instructions,
+) -> Vec<Outcome> {
+    match instructions {
+        Instructions::Widest => pulp::Arch::new().dispatch(task),
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        Instructions::Avx2 => match pulp::x86::V3::try_new() {
+            Some(simd) => Simd::vectorize(simd, task),
+            None => Simd::vectorize(pulp::Scalar, task),
+        },
+        _ => Simd::vectorize(pulp::Scalar, task),
+    }
+}
+
+pub(super) struct Task<'a, W> {
+    machines: &'a [Machine],
+    jobs: &'a [Job],
+    pub watch: &'a mut W,
+}
+
+/// Phases end at positions only.
+struct Plain<'a, W>(Task<'a, W>);
+/// Phases may end by further guards.
+struct Guarded<'a, W>(Task<'a, W>);
+
+impl<W: Watch> WithSimd for Plain<'_, W> {
+    type Output = Vec<Outcome>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        Engine::<S, W, false>::new(simd, self.0).run()
+    }
+}
+
+impl<W: Watch> WithSimd for Guarded<'_, W> {
+    type Output = Vec<Outcome>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        Engine::<S, W, true>::new(simd, self.0).run()
+    }
+}
+
+/// All lanes and what they work at. `GUARDED`: phases may end by more than positions.
+pub(super) struct Engine<'a, S: Simd, W: Watch, const GUARDED: bool> {
+    pub task: Task<'a, W>,
+    laws: Vec<Law<S>>,
+    pub state: State<S>,
+    /// The job of each lane.
+    lanes: Vec<Option<usize>>,
+    next: usize,
+    outcomes: Vec<Outcome>,
+}
+
+impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
+    #[inline(always)]
+    fn new(simd: S, task: Task<'a, W>) -> Self {
+        let laws = task.machines.iter().flat_map(|machine| &machine.laws);
+        let most = laws.map(Vec::len).max().unwrap_or(1);
+        let outcomes = task.jobs.iter().map(|job| Outcome {
+            end: job.start,
+            impacts: 0,
+            handed_over: 0,
+            error: None,
+        });
+        Self {
+            laws: vec![Law::new(simd); most],
+            state: State::idle(simd),
+            lanes: vec![None; Lanes::<S>::COUNT],
+            next: 0,
+            outcomes: outcomes.collect(),
+            task,
+        }
+    }
+
+    #[inline(always)]
+    fn run(mut self) -> Vec<Outcome> {
+        for lane in 0..Lanes::<S>::COUNT {
+            self.take_next(lane);
+        }
+        while self.lanes.iter().any(Option::is_some) {
+            let law = self.law();
+            let ended = self.scan(&law);
+            let (arrived, doubtful) = self.look(&law);
+            if (ended | arrived | doubtful).any() {
+                for lane in 0..Lanes::<S>::COUNT {
+                    if doubtful.get(lane) {
+                        self.hand_over(lane);
+                    } else if self.lanes[lane].is_some() && self.state.left.get(lane) <= 0.0 {
+                        self.finish(lane);
+                    }
+                }
+            }
+        }
+        self.outcomes
+    }
+
+    /// The law of each lane's phase.
+    #[inline(always)]
+    pub fn law(&self) -> Law<S> {
+        let mut law = self.laws[0];
+        for (index, other) in self.laws.iter().enumerate().skip(1) {
+            let here = self.state.phase.equals(self.state.phase.like(index as f64));
+            law = Law::choose(here, other, &law);
+        }
+        law
+    }
+
+    /// The job of a lane and how many of its periods are complete.
+    pub fn progress(&self, lane: usize) -> Option<(usize, u64)> {
+        let job = self.lanes[lane]?;
+        let left = self.state.left.get(lane) as u64;
+        Some((job, self.task.jobs[job].periods - left))
+    }
+
+    /// Puts the next job into a lane.
+    fn take_next(&mut self, lane: usize) {
+        self.lanes[lane] = None;
+        self.state.stop(lane);
+        while self.next < self.task.jobs.len() {
+            let job = self.next;
+            self.next += 1;
+            let Job { machine, start, .. } = self.task.jobs[job];
+            let place = Place {
+                job,
+                cycle: 0,
+                offset: 0.0,
+                state: start,
+            };
+            if self.task.jobs[job].periods == 0 {
+                continue;
+            }
+            let begun = scalar::begin(&self.task.machines[machine], start);
+            let resumed = match begun {
+                Ok(Some(phase)) => Some(Resumed {
+                    cycle: 0,
+                    state: start,
+                    phase,
+                }),
+                Ok(None) => self.follow(place),
+                Err(error) => {
+                    self.outcomes[job].error = Some(error);
+                    None
+                }
+            };
+            if let Some(resumed) = resumed {
+                self.install(lane, job);
+                self.resume(lane, job, &resumed);
+                return;
+            }
+        }
+    }
+
+    /// Gives a lane the laws of a job's machine.
+    fn install(&mut self, lane: usize, job: usize) {
+        let machine = &self.task.machines[self.task.jobs[job].machine];
+        let constants = machine.laws.iter().flatten();
+        for (law, constants) in self.laws.iter_mut().zip(constants) {
+            law.set(lane, constants);
+        }
+        self.state.install(lane, machine);
+        self.lanes[lane] = Some(job);
+    }
+
+    fn resume(&mut self, lane: usize, job: usize, resumed: &Resumed) {
+        let left = self.task.jobs[job].periods - resumed.cycle;
+        self.state.resume(lane, resumed.state, resumed.phase, left);
+    }
+
+    /// Lets the scalar engine follow a job; where it can go on in a lane, unless it has come to its end.
+    fn follow(&mut self, place: Place) -> Option<Resumed> {
+        let Job {
+            machine, periods, ..
+        } = self.task.jobs[place.job];
+        let outcome = &mut self.outcomes[place.job];
+        let machine = &self.task.machines[machine];
+        match scalar::follow(machine, place, periods, self.task.watch, outcome) {
+            Ok(resumed) => resumed,
+            Err(error) => {
+                outcome.error = Some(error);
+                None
+            }
+        }
+    }
+
+    /// Hands a lane to the scalar engine for the rest of the period.
+    fn hand_over(&mut self, lane: usize) {
+        let Some((job, cycle)) = self.progress(lane) else {
+            return;
+        };
+        let place = Place {
+            job,
+            cycle,
+            offset: self.state.offset(lane, &self.law()),
+            state: self.state.state(lane),
+        };
+        self.outcomes[job].impacts += self.state.take_impacts(lane);
+        match self.follow(place) {
+            Some(resumed) => self.resume(lane, job, &resumed),
+            None => self.take_next(lane),
+        }
+    }
+
+    fn finish(&mut self, lane: usize) {
+        if let Some(job) = self.lanes[lane] {
+            self.outcomes[job].end = self.state.state(lane);
+            self.outcomes[job].impacts += self.state.take_impacts(lane);
+        }
+        self.take_next(lane);
+    }
+}

@@ -1,0 +1,74 @@
+//! What is proven of a guard function over a stretch of time, lane by lane.
+//!
+//! The same certificates as those of the scalar engine: the cubic Hermite interpolant with the bound on
+//! the fourth derivative encloses the function, its slope and its curvature.
+
+use pulp::Simd;
+
+use super::lanes::{Lanes, Mask};
+
+/// A guard function g on [0, span]: values and rates at both ends, and slack = |g''''| span^4 / 384.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stretch<S: Simd> {
+    pub left: (Lanes<S>, Lanes<S>),
+    pub right: (Lanes<S>, Lanes<S>),
+    pub span: Lanes<S>,
+    pub slack: Lanes<S>,
+}
+
+/// What a stretch is; a lane in which nothing is true has to be looked at more closely.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Verdict<S: Simd> {
+    /// g rises through zero nowhere.
+    pub clear: Mask<S>,
+    /// g rises through zero once, and is above it at the end.
+    pub rises: Mask<S>,
+    /// g has one maximum inside and is not above zero at the ends.
+    pub hump: Mask<S>,
+    /// g begins within the grain of zero.
+    pub touches: Mask<S>,
+    /// g begins there and falls.
+    pub leaves: Mask<S>,
+}
+
+impl<S: Simd> Stretch<S> {
+    /// Judges all lanes. A guard within `grain` of zero at the beginning has to fall there faster
+    /// than `slow`.
+    #[inline(always)]
+    pub fn judge(&self, grain: Lanes<S>, slow: Lanes<S>) -> Verdict<S> {
+        let ((g0, d0), (g1, d1)) = (self.left, self.right);
+        let zero = g0.like(0.0);
+        let third = self.span * g0.like(1.0 / 3.0);
+        let (b1, b2) = (third.mul_add(d0, g0), g1 - third * d1);
+        let inverse = g0.like(1.0) / self.span;
+        let high = g0.max(g1).max(b1.max(b2));
+        let stays_below = (high + self.slack).below(zero);
+        let slopes = [d0, (b2 - b1) * inverse * g0.like(3.0), d1];
+        // sqrt(3)/216 |g''''| span^3 (Birkhoff and Priver 1967), and |g''''| span^2 / 12.
+        let slope_slack = self.slack * inverse * g0.like(384.0 * 0.00802);
+        let falls = (slopes[0].max(slopes[1]).max(slopes[2]) + slope_slack).below(zero);
+        let climbs = zero.below(slopes[0].min(slopes[1]).min(slopes[2]) - slope_slack);
+        let curvatures = [slopes[1] - slopes[0], slopes[2] - slopes[1]];
+        let slack = self.slack * inverse * g0.like(16.0);
+        let convex = zero.below(curvatures[0].min(curvatures[1]) - slack);
+        let concave = (curvatures[0].max(curvatures[1]) + slack).below(zero);
+
+        let touches = (-grain).below(g0);
+        let apart = touches.not();
+        let leaves = touches & d0.below(-slow) & g0.at_most(grain);
+        let sound = apart | leaves;
+        let above = zero.below(g1);
+        let turns = zero.below(d0) & d1.below(zero);
+        let rises = above & ((apart & (climbs | convex | concave)) | (leaves & convex));
+        let quiet = falls | convex | (apart & climbs) | concave.and_not(turns);
+        let clear = stays_below | (sound & quiet).and_not(above);
+        let hump = (concave & turns & apart).and_not(above);
+        Verdict {
+            clear,
+            rises,
+            hump: hump.and_not(clear),
+            touches,
+            leaves,
+        }
+    }
+}

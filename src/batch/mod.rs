@@ -1,0 +1,100 @@
+//! Many motions at once, one per lane of the processor's vector registers.
+//!
+//! The lanes go in lock-step through the same work: they scan windows of time until each has met one
+//! that may hold a crossing, then all expand their motion about the instant before it, decide, and find the
+//! crossing. What a lane concludes it concludes by the certificates of the scalar engine; what lies within
+//! rounding of two answers, or is not a plain crossing (rest, sticking, chatter), is handed to the scalar
+//! engine up to the end of the drive period. Machines with power laws go there altogether.
+//!
+//! Windows divide the drive period evenly, so the drive angle at their ends never drifts.
+
+mod engine;
+mod judge;
+mod lanes;
+mod law;
+mod look;
+mod machine;
+mod root;
+mod scalar;
+mod scan;
+mod state;
+mod taylor;
+
+pub use machine::Machine;
+
+use crate::error::MotionError;
+use crate::integrator::Start;
+
+/// One motion to follow, from drive period 0 on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Job {
+    /// Which of the machines.
+    pub machine: usize,
+    /// State at time 0.
+    pub start: Start,
+    /// Drive periods to follow it.
+    pub periods: u64,
+}
+
+/// What became of a job.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// State at the end.
+    pub end: Start,
+    /// Impacts on the way.
+    pub impacts: u64,
+    /// Drive periods that the scalar engine followed, in part or whole.
+    pub handed_over: u64,
+    /// Why it ended early, if it did.
+    pub error: Option<MotionError>,
+}
+
+/// The instruction set that the lanes use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Instructions {
+    /// The widest that the processor has.
+    Widest,
+    /// At most 256-bit registers.
+    Avx2,
+    /// No vector instructions but those that every processor of its kind has.
+    Portable,
+}
+
+/// Watches the motions of a batch. To add one, implement what it needs and say so in the constants.
+pub trait Watch {
+    /// True if it wants to know of impacts.
+    const IMPACTS: bool = false;
+    /// True if it wants to know of the ends of drive periods.
+    const PERIODS: bool = false;
+
+    /// A mass touches, `offset` seconds into the drive period `cycle`.
+    fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
+        let _ = (job, cycle, offset, velocity);
+    }
+
+    /// Drive period `cycle` has begun.
+    fn period(&mut self, job: usize, cycle: u64, state: Start) {
+        let _ = (job, cycle, state);
+    }
+}
+
+/// Watches nothing.
+impl Watch for () {}
+
+/// Follows all jobs on this thread.
+///
+/// # Panics
+/// If a job names a machine that is not there.
+pub fn run(machines: &[Machine], jobs: &[Job], watch: &mut impl Watch) -> Vec<Outcome> {
+    engine::run(machines, jobs, watch, Instructions::Widest)
+}
+
+/// The same with the instruction set chosen.
+pub fn run_with(
+    instructions: Instructions,
+    machines: &[Machine],
+    jobs: &[Job],
+    watch: &mut impl Watch,
+) -> Vec<Outcome> {
+    engine::run(machines, jobs, watch, instructions)
+}

@@ -1,0 +1,251 @@
+//! The lanes against the scalar engine: the same impacts, the same states, whatever the instruction set.
+
+use std::collections::HashMap;
+
+use softstop::batch::{Instructions, Job, Machine, Watch, run, run_with};
+use softstop::integrator::{Crossing, Observer};
+use softstop::scene::{Release, RigidStop, Slope};
+use softstop::{Clock, Ratios, Scene, Start, Stop};
+
+const PERIODS: u64 = 20;
+
+/// Numbers in 0..1 without a pattern of their own (Weyl sequences of independent irrationals).
+fn spread(index: usize, which: u32) -> f64 {
+    let step = f64::from(2 + which * which).sqrt() * 1.618_033_988_749_895;
+    (0.5 + step * index as f64).fract()
+}
+
+fn between(low: f64, high: f64, share: f64) -> f64 {
+    low + (high - low) * share
+}
+
+/// Machines of all kinds that have linear laws, by turns.
+fn scene(index: usize) -> Scene {
+    let mut ratios = if index.is_multiple_of(3) {
+        Ratios::loaded()
+    } else {
+        Ratios::unloaded()
+    };
+    ratios.frequency = between(0.5, 2.0, spread(index, 1));
+    ratios.clearance = between(0.5, 20.0, spread(index, 2));
+    let mut scene = ratios.scene().expect("valid");
+    let stiffness = 10f64.powf(between(0.5, 4.0, spread(index, 3)));
+    let slope = |from, stiffness| Slope { from, stiffness };
+    if index % 3 == 1 {
+        scene.stop = match index % 5 {
+            0 => Stop::Rigid { restitution: 0.8 },
+            1 => Stop::KelvinVoigt {
+                stiffness,
+                release: Release::Clearance,
+            },
+            2 => Stop::KelvinVoigt {
+                stiffness,
+                release: Release::ZeroForce,
+            },
+            3 => Stop::PiecewiseLinear {
+                loading: vec![slope(0.0, stiffness), slope(0.3, 2.0 * stiffness)],
+                unloading: vec![slope(0.0, 0.5 * stiffness)],
+            },
+            _ => Stop::Preloaded {
+                stiffness,
+                preload: 10.0,
+            },
+        };
+    }
+    if index % 7 == 1 && !matches!(scene.stop, Stop::Rigid { .. }) {
+        scene.rigid = Some(RigidStop {
+            travel: 0.5,
+            restitution: 0.5,
+        });
+    }
+    scene
+}
+
+fn start(index: usize, scene: &Scene) -> Start {
+    let wall = scene.wall().map_or(f64::INFINITY, |(wall, _)| wall);
+    Start {
+        position: between(-12.0, 12.0, spread(index, 4)).min(wall),
+        velocity: between(-15.0, 15.0, spread(index, 5)),
+    }
+}
+
+#[derive(Default)]
+struct Impacts(u64);
+
+impl Observer for Impacts {
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.0 += u64::from(crossing.impact_velocity().is_some());
+    }
+}
+
+fn scalar(scene: &Scene, start: Start) -> (Start, u64) {
+    let mut motion = scene.motion(start).expect("valid");
+    let mut impacts = Impacts::default();
+    motion
+        .advance(Clock::at_cycle(PERIODS), &mut impacts)
+        .expect("bounded");
+    (motion.state(), impacts.0)
+}
+
+fn distance(a: Start, b: Start) -> f64 {
+    (a.position - b.position)
+        .abs()
+        .max((a.velocity - b.velocity).abs())
+}
+
+/// How much a difference of the start grows: chaos cannot be compared.
+fn growth(scene: &Scene, from: Start, end: Start) -> f64 {
+    let small = 1e-9;
+    let beside = Start {
+        position: from.position - small,
+        ..from
+    };
+    distance(scalar(scene, beside).0, end) / small
+}
+
+struct Batch {
+    machines: Vec<Machine>,
+    jobs: Vec<Job>,
+    scenes: Vec<Scene>,
+}
+
+fn batch(count: usize) -> Batch {
+    let scenes: Vec<Scene> = (0..count).map(scene).collect();
+    let machines = scenes.iter().map(|scene| Machine::new(scene).expect("valid"));
+    let jobs = scenes.iter().enumerate().map(|(machine, scene)| Job {
+        machine,
+        start: start(machine, scene),
+        periods: PERIODS,
+    });
+    Batch {
+        machines: machines.collect(),
+        jobs: jobs.collect(),
+        scenes: scenes.clone(),
+    }
+}
+
+#[test]
+fn lanes_find_the_impacts_and_states_of_the_scalar_engine() {
+    let Batch {
+        machines,
+        jobs,
+        scenes,
+    } = batch(6000);
+    let outcomes = run(&machines, &jobs, &mut ());
+    let (mut compared, mut handed) = (0, 0);
+    for (index, (outcome, job)) in outcomes.iter().zip(&jobs).enumerate() {
+        assert_eq!(outcome.error, None, "{index}");
+        let (end, impacts) = scalar(&scenes[index], job.start);
+        handed += outcome.handed_over;
+        let off = distance(outcome.end, end);
+        if outcome.impacts != impacts || off > 1e-9 {
+            let growth = growth(&scenes[index], job.start, end);
+            assert!(
+                growth > 1e3 && off < 1e-10 * growth,
+                "{index}: {} impacts for {impacts}, off by {off:e}, growth {growth:e}",
+                outcome.impacts,
+            );
+        } else {
+            compared += 1;
+        }
+    }
+    assert!(compared > 5500, "{compared} compared");
+    assert!(handed < 6000 * PERIODS / 10, "{handed} periods handed over");
+}
+
+#[test]
+fn every_instruction_set_gives_the_same_motions() {
+    let Batch { machines, jobs, .. } = batch(600);
+    let widest = run(&machines, &jobs, &mut ());
+    for instructions in [Instructions::Avx2, Instructions::Portable] {
+        let others = run_with(instructions, &machines, &jobs, &mut ());
+        let agree = widest
+            .iter()
+            .zip(&others)
+            .filter(|(a, b)| a.impacts == b.impacts && distance(a.end, b.end) < 1e-8)
+            .count();
+        assert!(agree > 570, "{instructions:?}: {agree}");
+    }
+}
+
+#[test]
+fn the_watcher_hears_of_every_impact_and_period() {
+    #[derive(Default)]
+    struct Heard {
+        impacts: HashMap<usize, Vec<(f64, f64)>>,
+        periods: HashMap<usize, Vec<(u64, Start)>>,
+        period: f64,
+    }
+    impl Watch for Heard {
+        const IMPACTS: bool = true;
+        const PERIODS: bool = true;
+        fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
+            let time = cycle as f64 * self.period + offset;
+            self.impacts.entry(job).or_default().push((time, velocity));
+        }
+        fn period(&mut self, job: usize, cycle: u64, state: Start) {
+            self.periods.entry(job).or_default().push((cycle, state));
+        }
+    }
+    let scene = Ratios::unloaded().scene().expect("valid");
+    let machines = [Machine::new(&scene).expect("valid")];
+    let jobs: Vec<Job> = (0..40)
+        .map(|index| Job {
+            machine: 0,
+            start: start(index, &scene),
+            periods: PERIODS,
+        })
+        .collect();
+    let mut heard = Heard {
+        period: scene.period(),
+        ..Heard::default()
+    };
+    run(&machines, &jobs, &mut heard);
+    for (index, job) in jobs.iter().enumerate() {
+        let motion = scene.trajectory(job.start, PERIODS).expect("bounded");
+        let expected: Vec<_> = motion.impacts().collect();
+        let found = heard.impacts.remove(&index).unwrap_or_default();
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!((found.0 - motion.clock.time(expected.instant)).abs() < 1e-9);
+            assert!((found.1 - expected.before_impact_velocity).abs() < 1e-8);
+        }
+        let periods = &heard.periods[&index];
+        assert_eq!(periods.len() as u64, PERIODS);
+        for (place, (cycle, state)) in periods.iter().enumerate() {
+            assert_eq!(*cycle, place as u64 + 1);
+            let exact = motion.at(Clock::at_cycle(*cycle)).unwrap_or(motion.end);
+            assert!(distance(*state, exact) < 1e-8);
+        }
+    }
+}
+
+#[test]
+fn what_lanes_cannot_follow_the_scalar_engine_does() {
+    let mut scene = Ratios::unloaded().scene().expect("valid");
+    scene.stop = Stop::Hertz {
+        stiffness: 100.0,
+        exponent: 1.5,
+        dissipation: 0.1,
+    };
+    let machine = Machine::new(&scene).expect("valid");
+    assert!(!machine.is_for_lanes());
+    let from = Start {
+        position: 0.0,
+        velocity: 14.0,
+    };
+    let job = |start, periods| Job {
+        machine: 0,
+        start,
+        periods,
+    };
+    let bad = Start {
+        position: f64::NAN,
+        velocity: 0.0,
+    };
+    let jobs = [job(from, PERIODS), job(bad, 1), job(from, 0)];
+    let outcomes = run(&[machine], &jobs, &mut ());
+    assert_eq!((outcomes[0].end, outcomes[0].impacts), scalar(&scene, from));
+    assert!(outcomes[1].error.is_some());
+    assert_eq!((outcomes[2].end, outcomes[2].impacts), (from, 0));
+}
