@@ -12,7 +12,9 @@ mod random;
 use machines::{machines, start_below};
 use proptest::prelude::*;
 use softstop::integrator::{Crossing, CrossingKind, Observer};
-use softstop::methods::{Events, Exact, FixedStep, Integrator, Moreau, Scheme, Solution, Task};
+use softstop::methods::{
+    Events, Exact, FixedStep, Integrator, MethodError, Moreau, Scheme, Solution, Task,
+};
 use softstop::scene::Release;
 use softstop::{Ratios, Scene, Start, Stop};
 
@@ -236,6 +238,39 @@ proptest! {
             let found = method.integrate(&task).expect("bounded");
             prop_assert_eq!(found.impacts.len(), exact.impacts.len(), "{:?}", scheme);
             prop_assert!(error(&found, &exact) < tolerance, "{:?}", scheme);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(random::cases(300))]
+
+    /// Grazes, friction, chatter and rest included: an end, or a reason why not.
+    #[test]
+    fn every_method_comes_to_an_end(
+        scene in machines(),
+        depth in 0.0..6.0f64,
+        velocity in -6.0..6.0f64,
+        division in 5.0..500.0f64,
+    ) {
+        let start = start_below(&scene, depth, velocity);
+        let step = scene.period() / division;
+        let task = Task { scene, start, periods: 4.0, most_steps: 100_000 };
+        for method in FixedStep::all(step) {
+            match method.integrate(&task) {
+                Ok(found) => {
+                    prop_assert!(found.end.0.is_finite() && found.end.1.is_finite());
+                    prop_assert!(found.work.steps <= task.most_steps);
+                    prop_assert!(found.impacts.is_sorted_by_key(|impact| impact.time));
+                }
+                Err(error) => {
+                    let own = matches!(
+                        error,
+                        MethodError::BlownUp { .. } | MethodError::Stuck { .. }
+                    );
+                    prop_assert!(own && method.scheme != Scheme::RungeKutta4, "{}", error);
+                }
+            }
         }
     }
 }
