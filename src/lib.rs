@@ -27,6 +27,7 @@
 pub mod continuation;
 pub mod error;
 pub mod events;
+pub mod fidelity;
 pub mod flow;
 pub mod integrator;
 pub mod methods;
