@@ -50,7 +50,7 @@ with --structure, structure.csv and structure.svg.";
 
 /// Arguments of `softstop fidelity`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub struct FidelityArguments {
     /// Machine in a TOML file, SI units; or A or B, the paper's points
     #[arg(value_name = "SCENE")]

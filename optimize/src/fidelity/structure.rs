@@ -190,7 +190,10 @@ impl Structure {
         self.tracks
             .iter()
             .map(|track| RegimeRow {
-                name: track.name.clone(),
+                name: match track.is_truth {
+                    true => format!("{} = the scene", track.name),
+                    false => track.name.clone(),
+                },
                 from_rest: strip(track, Origin::Rest),
                 flung: strip(track, Origin::Flung),
             })
