@@ -31,6 +31,9 @@ pub struct RegimeRow {
     pub flung: Strip,
 }
 
+/// One of the strips of a model.
+type Pick = fn(&RegimeRow) -> &Strip;
+
 /// The chart of regimes.
 #[derive(Debug, Clone)]
 pub struct RegimeChart {
@@ -78,7 +81,7 @@ impl RegimeChart {
     /// The chart as an SVG document.
     #[must_use]
     pub fn svg(&self) -> String {
-        let starts: [(&str, fn(&RegimeRow) -> &Strip); 2] = [
+        let starts: [(&str, Pick); 2] = [
             ("from rest", |row| &row.from_rest),
             ("flung towards the stop", |row| &row.flung),
         ];
@@ -100,7 +103,7 @@ impl RegimeChart {
     }
 
     /// One plot for each class, so that each has one colour.
-    fn plots(&self, strip: fn(&RegimeRow) -> &Strip) -> Vec<Plot> {
+    fn plots(&self, strip: Pick) -> Vec<Plot> {
         let plot = |wanted: usize| {
             let marks = self.rows.iter().enumerate().flat_map(move |(place, row)| {
                 let strip = strip(row);
@@ -129,7 +132,7 @@ impl RegimeChart {
         (0..CLASSES.len()).filter_map(plot).collect()
     }
 
-    fn layout(&self, start: &str, strip: fn(&RegimeRow) -> &Strip) -> Layout {
+    fn layout(&self, start: &str, strip: Pick) -> Layout {
         let ends = self
             .rows
             .first()
