@@ -28,6 +28,7 @@ pub mod batch;
 pub mod continuation;
 pub mod error;
 pub mod events;
+pub mod fidelity;
 pub mod flow;
 pub mod integrator;
 pub mod methods;

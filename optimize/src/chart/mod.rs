@@ -1,13 +1,18 @@
 //! The charts. This one is that of a design: before-impact velocity over drive frequency, in the
-//! paper's symbols. [`Loops`] draws a stop's law, [`MotionChart`] a simulated motion.
+//! paper's symbols. [`Loops`] draws a stop's law, [`MotionChart`] a simulated motion,
+//! [`FidelityChart`] and [`RegimeChart`] the models of a scene.
 
 mod branch;
+mod fidelity;
 mod loops;
 mod motion;
+mod regimes;
 mod style;
 
+pub use fidelity::{Candidate, FidelityChart, FidelityPicture};
 pub use loops::Loops;
 pub use motion::{Drawing, MotionChart};
+pub use regimes::{RegimeChart, RegimeRow, Strip};
 
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::scatter::MarkerShape;

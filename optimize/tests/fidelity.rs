@@ -1,0 +1,240 @@
+//! `softstop fidelity` as users and scripts meet it.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+fn softstop(arguments: &[&str]) -> std::io::Result<Output> {
+    Command::new(env!("CARGO_BIN_EXE_softstop"))
+        .args(arguments)
+        .output()
+}
+
+/// Timed once only: the times are not looked at.
+fn fidelity(
+    scene: &str,
+    folder: &Path,
+    more: &[&str],
+) -> Result<Value, Box<dyn std::error::Error>> {
+    let output = folder.to_str().ok_or("path")?;
+    let basic = ["fidelity", scene, "--format", "json", "--output", output];
+    let quick = ["--periods", "50", "--repeats", "1"];
+    let output = softstop(&[&basic[..], &quick[..], more].concat())?;
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{scene}: {message}");
+    Ok(serde_json::from_slice(&output.stdout)?)
+}
+
+fn scene(name: &str) -> String {
+    format!("{}/../docs/scenes/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn model<'a>(report: &'a Value, rung: &str, matched: Option<&str>) -> Option<&'a Value> {
+    report["models"]
+        .as_array()?
+        .iter()
+        .find(|model| model["rung"] == rung && model["matched"].as_str() == matched)
+}
+
+#[test]
+fn the_answer_follows_the_tolerance() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let named = |tolerance: &str| -> Result<Value, Box<dyn std::error::Error>> {
+        fidelity("B", folder.path(), &["--tolerance", tolerance])
+    };
+    let strict = named("1e-6")?;
+    assert_eq!(strict["cheapest"]["rung"], "full");
+    assert_eq!(strict["cheapest_is_scene"], true);
+    assert!((strict["value"].as_f64().ok_or("value")? - 8.398_675_591_86).abs() < 1e-9);
+    let fair = named("0.02")?;
+    assert_eq!(fair["cheapest"]["rung"], "kelvin-voigt");
+    assert_eq!(fair["cheapest"]["matched"], "duration");
+    assert_eq!(fair["cheapest_is_scene"], false);
+    assert_eq!(named("0.5")?["cheapest"]["rung"], "rigid");
+    let linear = model(&fair, "linear", None).ok_or("linear")?;
+    assert_eq!(linear["error"], Value::Null);
+    assert_eq!(linear["regime"], "0");
+    Ok(())
+}
+
+#[test]
+fn grazing_needs_no_stop_at_all() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let more = ["--quantity", "grazing-frequency", "--tolerance", "0"];
+    let report = fidelity("B", folder.path(), &more)?;
+    assert_eq!(report["cheapest"]["rung"], "linear");
+    Ok(())
+}
+
+#[test]
+fn a_spring_stop_is_a_spring_stop() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let report = fidelity(
+        &scene("kelvin-voigt.toml"),
+        folder.path(),
+        &["--tolerance", "0"],
+    )?;
+    assert_eq!(report["cheapest"]["rung"], "kelvin-voigt");
+    assert_eq!(report["cheapest_is_scene"], true);
+    assert!(model(&report, "preloaded", None).is_none());
+    assert!(model(&report, "full", None).is_none());
+    Ok(())
+}
+
+#[test]
+fn a_stiff_stop_may_be_taken_as_rigid() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let report = fidelity(
+        &scene("stiff.toml"),
+        folder.path(),
+        &["--tolerance", "0.01"],
+    )?;
+    assert_eq!(report["cheapest"]["rung"], "rigid");
+    let rigid = model(&report, "rigid", None).ok_or("rigid")?;
+    let restitution = rigid["stop"]["restitution"].as_f64().ok_or("R")?;
+    let zeta: f64 = 0.09;
+    let expected = (-std::f64::consts::PI * zeta / (1.0 - zeta * zeta).sqrt()).exp();
+    assert!((restitution - expected).abs() < 1e-9, "{restitution}");
+    Ok(())
+}
+
+#[test]
+fn a_rigid_scene_says_why_it_has_no_soft_models() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let report = fidelity(&scene("rigid.toml"), folder.path(), &[])?;
+    let unmatched = report["unmatched"].as_array().ok_or("unmatched")?;
+    assert_eq!(unmatched.len(), 4, "two models of two rungs");
+    for missing in unmatched {
+        let reason = missing["reason"].as_str().ok_or("reason")?;
+        assert!(reason.contains("takes no way and no time"), "{reason}");
+    }
+    Ok(())
+}
+
+#[test]
+fn structure_compares_the_regimes() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let more = ["--structure", "--points", "7", "--match", "duration"];
+    let report = fidelity("A", folder.path(), &more)?;
+    let tracks = report["structure"].as_array().ok_or("structure")?;
+    let track = |rung: &str| tracks.iter().find(|track| track["rung"] == rung);
+    let own = track("preloaded").ok_or("preloaded")?;
+    assert_eq!(own["same_regime"], 1.0);
+    assert!((own["fold_frequency"].as_f64().ok_or("fold")? - 1.369_036).abs() < 1e-6);
+    let linear = track("linear").ok_or("linear")?;
+    assert!(linear["same_regime"].as_f64().ok_or("share")? < 0.7);
+    assert_eq!(linear["sequence_flung"], serde_json::json!(["0"]));
+    let table = fs::read_to_string(folder.path().join("structure.csv"))?;
+    assert!(table.starts_with("rung,matched,start,frequency,impacts,periods\n"));
+    assert_eq!(table.lines().count(), 1 + tracks.len() * 2 * 7);
+    let chart = fs::read_to_string(folder.path().join("structure.svg"))?;
+    for words in ["kelvin-voigt (duration)", "from rest", "irregular"] {
+        assert!(chart.contains(words), "{words}");
+    }
+    Ok(())
+}
+
+#[test]
+fn files_are_whole_and_text_names_the_model() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let place = folder.path().join("new");
+    let output = place.to_str().ok_or("path")?;
+    let line = [
+        "fidelity",
+        "B",
+        "--tolerance",
+        "0.02",
+        "--output",
+        output,
+        "--periods",
+        "10",
+    ];
+    let text = String::from_utf8(softstop(&line)?.stdout)?;
+    assert!(
+        text.contains("The cheapest model within 0.02: kelvin-voigt (duration)."),
+        "{text}"
+    );
+    let table = fs::read_to_string(place.join("fidelity.csv"))?;
+    assert_eq!(
+        table.lines().count(),
+        1 + 9 * 11,
+        "every quantity of every model"
+    );
+    let chart = fs::read_to_string(place.join("fidelity.svg"))?;
+    assert!(chart.trim_end().ends_with("</svg>"));
+    assert!(chart.contains("tolerance 0.02"));
+    assert_eq!(fs::read_dir(&place)?.count(), 2);
+    Ok(())
+}
+
+#[test]
+fn predictive_models_know_nothing_of_the_motion() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let informed = fidelity("B", folder.path(), &[])?;
+    let predicted = fidelity("B", folder.path(), &["--predictive"])?;
+    let restitution = |report: &Value| {
+        let rigid = model(report, "rigid", None).expect("rigid");
+        rigid["stop"]["restitution"].as_f64().expect("R")
+    };
+    assert!(restitution(&predicted) < restitution(&informed) - 0.05);
+    Ok(())
+}
+
+#[track_caller]
+fn refuses(arguments: &[&str], code: i32, words: &[&str]) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = folder.path().join("never");
+    let line = [
+        &["fidelity"],
+        arguments,
+        &["--output", place.to_str().expect("path")],
+    ]
+    .concat();
+    let output = softstop(&line).expect("the program starts");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
+    assert!(output.stdout.is_empty(), "{arguments:?} wrote to stdout");
+    assert!(!place.exists(), "{arguments:?} left a folder");
+    for word in words {
+        assert!(
+            message.contains(word),
+            "{arguments:?}: {word:?} is not in {message:?}"
+        );
+    }
+}
+
+#[test]
+fn what_cannot_be_is_refused() {
+    refuses(&["C"], 2, &["C: cannot be read"]);
+    refuses(&["A", "--tolerance", "-1"], 2, &["tolerance"]);
+    refuses(
+        &["A", "--tolerance", "nan"],
+        2,
+        &["tolerance", "finite and >= 0"],
+    );
+    refuses(
+        &["A", "--quantity", "speed"],
+        2,
+        &["quantity", "before-impact-velocity"],
+    );
+    refuses(
+        &["A", "--structure", "--points", "1"],
+        2,
+        &["points = 1", "2 to 10000"],
+    );
+    refuses(
+        &["A", "--sweep", "2:1", "--structure"],
+        2,
+        &["0 < LOW < HIGH"],
+    );
+    refuses(&["A", "--repeats", "0"], 2, &["repeats = 0"]);
+    refuses(
+        &[&scene("none.toml")],
+        1,
+        &["before-impact-velocity", "the scene itself has none"],
+    );
+}

@@ -1,0 +1,145 @@
+//! What is asked of a model, and how far its answer is from the scene's own.
+
+use std::f64::consts::TAU;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Bounds, Observation, Regime};
+
+/// A quantity that a model should give.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Quantity {
+    /// Mean velocity in m/s at which the clearance is passed.
+    BeforeImpactVelocity,
+    /// Drive angle in rad at impact; its error is a share of the drive period.
+    ImpactPhase,
+    /// Largest position in m.
+    MaxPosition,
+    /// Largest contact force in N.
+    PeakForce,
+    /// Time in s in contact per impact.
+    ContactTime,
+    /// Energy in J lost per impact.
+    EnergyPerImpact,
+    /// Mean power in W that the drive supplies.
+    MeanPower,
+    /// Impacts per drive period; its error is 0 for the same z = p/n and infinite for another.
+    Regime,
+    /// Frequency g0 in rad/s at which the motion without impacts grazes.
+    GrazingFrequency,
+    /// Frequency s_PD in rad/s at which the z = 1 motion doubles its period.
+    FlipFrequency,
+    /// Frequency s_SN in rad/s at which the z = 1 motion ends.
+    FoldFrequency,
+}
+
+/// All that is known of a model's motion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Answers {
+    /// Of its settled motion.
+    pub observed: Observation,
+    /// Bounds of its z = 1 motion, if they were asked for.
+    pub bounds: Option<Bounds>,
+}
+
+impl Quantity {
+    /// All quantities.
+    pub const ALL: [Self; 11] = [
+        Self::BeforeImpactVelocity,
+        Self::ImpactPhase,
+        Self::MaxPosition,
+        Self::PeakForce,
+        Self::ContactTime,
+        Self::EnergyPerImpact,
+        Self::MeanPower,
+        Self::Regime,
+        Self::GrazingFrequency,
+        Self::FlipFrequency,
+        Self::FoldFrequency,
+    ];
+
+    /// Its name, as on the command line and in JSON.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::BeforeImpactVelocity => "before-impact-velocity",
+            Self::ImpactPhase => "impact-phase",
+            Self::MaxPosition => "max-position",
+            Self::PeakForce => "peak-force",
+            Self::ContactTime => "contact-time",
+            Self::EnergyPerImpact => "energy-per-impact",
+            Self::MeanPower => "mean-power",
+            Self::Regime => "regime",
+            Self::GrazingFrequency => "grazing-frequency",
+            Self::FlipFrequency => "flip-frequency",
+            Self::FoldFrequency => "fold-frequency",
+        }
+    }
+
+    /// Its unit.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::BeforeImpactVelocity => "m/s",
+            Self::ImpactPhase => "rad",
+            Self::MaxPosition => "m",
+            Self::PeakForce => "N",
+            Self::ContactTime => "s",
+            Self::EnergyPerImpact => "J",
+            Self::MeanPower => "W",
+            Self::Regime => "impacts per period",
+            Self::GrazingFrequency | Self::FlipFrequency | Self::FoldFrequency => "rad/s",
+        }
+    }
+
+    /// Whether it is one of the [`Bounds`].
+    pub const fn is_bound(self) -> bool {
+        matches!(
+            self,
+            Self::GrazingFrequency | Self::FlipFrequency | Self::FoldFrequency
+        )
+    }
+
+    /// Its value; none if the motion has none.
+    pub fn value(self, answers: &Answers) -> Option<f64> {
+        let Answers { observed, bounds } = answers;
+        match self {
+            Self::BeforeImpactVelocity => observed.before_impact_velocity,
+            Self::ImpactPhase => observed.impact_phase,
+            Self::MaxPosition => Some(observed.max_position),
+            Self::PeakForce => observed.peak_force,
+            Self::ContactTime => observed.contact_time,
+            Self::EnergyPerImpact => observed.energy_per_impact,
+            Self::MeanPower => Some(observed.mean_power),
+            Self::Regime => observed
+                .regime
+                .map(|Regime { impacts, periods }| impacts as f64 / periods as f64),
+            Self::GrazingFrequency => bounds.and_then(|bounds| bounds.grazing),
+            Self::FlipFrequency => bounds.and_then(|bounds| bounds.flip),
+            Self::FoldFrequency => bounds.and_then(|bounds| bounds.fold),
+        }
+    }
+
+    /// How far a model is from the truth: relative to the truth, for a drive angle as a share of a turn,
+    /// for a regime 0 or infinite. None if one of the two has no value.
+    pub fn error(self, truth: &Answers, model: &Answers) -> Option<f64> {
+        let (truth_value, value) = (self.value(truth)?, self.value(model)?);
+        let gap = (value - truth_value).abs();
+        Some(match self {
+            Self::ImpactPhase => gap.min(TAU - gap) / TAU,
+            Self::Regime if truth.observed.regime != model.observed.regime => f64::INFINITY,
+            _ if gap == 0.0 => 0.0,
+            _ => gap / truth_value.abs(),
+        })
+    }
+}
+
+/// The place of the cheapest among models, given as error and cost, whose error is within `tolerance`;
+/// of two that cost the same, the first.
+pub fn cheapest(models: &[(Option<f64>, f64)], tolerance: f64) -> Option<usize> {
+    models
+        .iter()
+        .enumerate()
+        .filter(|(_, (error, _))| error.is_some_and(|error| error <= tolerance))
+        .min_by(|(_, a), (_, b)| a.1.total_cmp(&b.1))
+        .map(|(place, _)| place)
+}

@@ -1,0 +1,81 @@
+//! What a motion settles on: z = p/n, or nothing that repeats.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::MotionError;
+use crate::integrator::{Clock, Crossing, Observer, Start};
+use crate::scene::Scene;
+
+/// The regime z = p/n: p impacts in n drive periods, after which the state returns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Regime {
+    /// Impacts p.
+    pub impacts: u64,
+    /// Drive periods n.
+    pub periods: u64,
+}
+
+/// Most periods after which a state is looked for again.
+const LONGEST: usize = 64;
+/// Distance within which it has returned, in units of the motion's size.
+const RETURN: f64 = 1e-4;
+
+impl Regime {
+    /// The regime that a motion from `start` shows after `transient` drive periods; none if its state
+    /// does not return within 64 periods, as in chaos.
+    ///
+    /// The state has returned after n periods if each of the next 64 states lies within 1e-4 of the one n
+    /// periods before it.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the motion cannot be computed.
+    pub fn after(
+        scene: &Scene,
+        start: Start,
+        transient: u64,
+    ) -> Result<(Option<Self>, Start), MotionError> {
+        let mut motion = scene.motion(start)?;
+        motion.advance(Clock::at_cycle(transient), &mut ())?;
+        let settled = motion.state();
+        let mut counter = Counter(0);
+        let mut seen = vec![(settled, 0)];
+        for period in 1..=2 * LONGEST as u64 {
+            motion.advance(Clock::at_cycle(transient + period), &mut counter)?;
+            seen.push((motion.state(), counter.0));
+        }
+        let w = scene.excitation.frequency;
+        let size = seen
+            .iter()
+            .map(|(state, _)| (w * state.position).hypot(state.velocity))
+            .fold(0.0, f64::max);
+        let near = |a: &Start, b: &Start| {
+            let gap = (w * (a.position - b.position)).hypot(a.velocity - b.velocity);
+            gap <= RETURN * size
+        };
+        let returns = |n: &usize| (0..=LONGEST).all(|j| near(&seen[j].0, &seen[j + n].0));
+        let regime = (1..=LONGEST).find(returns).map(|n| Self {
+            impacts: seen[n].1,
+            periods: n as u64,
+        });
+        Ok((regime, settled))
+    }
+}
+
+impl fmt::Display for Regime {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.impacts, self.periods) {
+            (impacts, 1) => write!(formatter, "{impacts}"),
+            (impacts, periods) => write!(formatter, "{impacts}/{periods}"),
+        }
+    }
+}
+
+struct Counter(u64);
+
+impl Observer for Counter {
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.0 += u64::from(crossing.impact_velocity().is_some());
+    }
+}
