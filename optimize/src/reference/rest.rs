@@ -137,6 +137,6 @@ impl Walk {
 
     /// A bounce shorter than twice this time, in s, is none: 2^-64 of a drive period.
     pub(super) fn briefest(&self) -> Real {
-        self.digits.turn() / &self.machine.drive.frequency >> 64isize
+        (self.digits.turn() / &self.machine.drive.frequency) >> 64isize
     }
 }
