@@ -17,6 +17,7 @@ pub mod interrupt;
 pub mod optimize;
 pub mod orbit;
 pub mod output;
+pub mod reference;
 pub mod report;
 pub mod scene_file;
 pub mod simulate;
