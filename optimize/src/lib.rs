@@ -19,6 +19,7 @@ pub mod output;
 pub mod report;
 pub mod scene_file;
 pub mod simulate;
+pub mod solvers;
 pub mod stops;
 pub mod zone;
 

@@ -12,10 +12,13 @@ mod machine;
 mod rise;
 mod scheme;
 mod step;
+mod walk;
 
 pub use exact::Exact;
 pub use fixed::{Events, FixedStep};
+pub use rise::{Fineness, Probe, rise};
 pub use scheme::Scheme;
+pub use walk::Walk;
 
 use thiserror::Error;
 
