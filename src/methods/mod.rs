@@ -9,13 +9,16 @@ mod fixed;
 mod ignored;
 mod located;
 mod machine;
+mod moreau;
 mod rise;
 mod scheme;
+mod stability;
 mod step;
 mod walk;
 
 pub use exact::Exact;
 pub use fixed::{Events, FixedStep};
+pub use moreau::Moreau;
 pub use rise::{Fineness, Probe, rise};
 pub use scheme::Scheme;
 pub use walk::Walk;

@@ -46,7 +46,7 @@ pub fn rise<T: Copy, E>(
         let slow = width > 0.5 * widths[0];
         let middle = low.at + 0.5 * width;
         let secant = low.at + width * (below / (below - above));
-        let inside = secant > low.at && secant < high.at;
+        let inside = low.at < secant && secant < high.at;
         let at = if slow || !inside { middle } else { secant };
         widths = if slow {
             [f64::INFINITY; 2]
