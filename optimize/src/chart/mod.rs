@@ -1,13 +1,16 @@
 //! The charts. This one is that of a design: before-impact velocity over drive frequency, in the
-//! paper's symbols. [`Loops`] draws a stop's law, [`MotionChart`] a simulated motion.
+//! paper's symbols. [`Loops`] draws a stop's law, [`MotionChart`] a simulated motion,
+//! [`PrecisionChart`] what accuracy costs.
 
 mod branch;
 mod loops;
 mod motion;
+mod precision;
 mod style;
 
 pub use loops::Loops;
 pub use motion::{Drawing, MotionChart};
+pub use precision::PrecisionChart;
 
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::scatter::MarkerShape;

@@ -212,9 +212,9 @@ mod tests {
         ];
         let leads = leads(&rows, "exact");
         let at = |quantity| {
-            let found = leads.iter().find(|lead| {
-                lead.quantity == quantity && lead.target == 1e-9
-            });
+            let found = leads
+                .iter()
+                .find(|lead| lead.quantity == quantity && lead.target == 1e-9);
             found.and_then(|lead| lead.next.clone()).unwrap()
         };
         assert_eq!(at(Quantity::End).method, "lucky");

@@ -56,6 +56,8 @@ pub struct Row {
 
 /// Time in s that a step is taken to last before any has been measured.
 const STEP: f64 = 1e-6;
+/// Steps that are always allowed.
+const FEW_STEPS: u64 = 100_000;
 
 /// A method at work on a task.
 pub struct Bench<'a> {
@@ -101,6 +103,7 @@ impl Bench<'_> {
             ));
         }
         let most_steps = (2.0 * longest / pace.step.unwrap_or(STEP)) as u64;
+        let most_steps = most_steps.max(FEW_STEPS);
         let task = Task {
             most_steps,
             ..self.task.clone()

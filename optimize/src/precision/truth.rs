@@ -1,7 +1,6 @@
 //! The motion that all are measured against.
 
 use anyhow::Context;
-use serde::Serialize;
 use softstop::methods::{Exact, Integrator, Solution, Task};
 
 use crate::failure::Failure;
