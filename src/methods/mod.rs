@@ -9,12 +9,15 @@ mod fixed;
 mod ignored;
 mod located;
 mod machine;
+mod moreau;
 mod rise;
 mod scheme;
+mod stability;
 mod step;
 
 pub use exact::Exact;
 pub use fixed::{Events, FixedStep};
+pub use moreau::Moreau;
 pub use scheme::Scheme;
 
 use thiserror::Error;
