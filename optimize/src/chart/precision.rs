@@ -241,8 +241,7 @@ fn decades(powers: impl Iterator<Item = f64> + Clone, empty: (f64, f64)) -> (f64
     if low > high {
         return empty;
     }
-    let (low, high) = (low.floor(), high.ceil());
-    (low, high.max(low + 1.0))
+    ((low - 0.2).floor(), (high + 0.2).ceil())
 }
 
 /// 10 with the tick as a raised exponent.

@@ -1,6 +1,7 @@
 //! The methods to be measured, each with its one knob turned from coarse to fine.
 
-use softstop::methods::{Events, Exact, FixedStep, Integrator, Scheme, Task};
+use softstop::Scene;
+use softstop::methods::{Events, Exact, FixedStep, Integrator, Moreau, Scheme};
 
 /// A method and the settings of its knob.
 pub struct Family {
@@ -34,12 +35,13 @@ const FINEST: i32 = 22;
 /// Coarsest step is a drive period over 2 to this.
 const COARSEST: i32 = 4;
 
-/// All methods, the exact one first; every other setting of the others if it has to be quick.
+/// All methods that are made for a scene, the exact one first; every other setting of the others if it has to be quick.
 #[must_use]
-pub fn all(task: &Task, quick: bool) -> Vec<Family> {
+pub fn all(scene: &Scene, quick: bool) -> Vec<Family> {
     let every = if quick { 2 } else { 1 };
     let mut families = vec![Family::exact()];
-    families.extend(fixed_steps(task.scene.period(), every));
+    families.extend(fixed_steps(scene.period(), every));
+    families.extend(scene.wall().map(|_| moreau(scene.period(), every)));
     families
 }
 
@@ -69,6 +71,18 @@ fn fixed_steps(period: f64, every: usize) -> Vec<Family> {
         }
     }
     families
+}
+
+/// Moreau's method, for a rigid stop.
+fn moreau(period: f64, every: usize) -> Family {
+    let look = Look {
+        scheme: 1 + Scheme::ALL.len(),
+        blind: false,
+    };
+    Family::new("Moreau", look, steps(every), |knob| Moreau {
+        step: knob * period,
+        theta: 0.5,
+    })
 }
 
 impl Family {

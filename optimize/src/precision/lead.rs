@@ -13,7 +13,7 @@ pub const HOW: &str = "Accuracy is the larger of the target and the exact method
     impacts is wrong.";
 
 /// Accuracies at which methods are compared.
-pub const TARGETS: [f64; 3] = [1e-3, 1e-6, 1e-9];
+pub const TARGETS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 /// An error of zero counts as this.
 const FLOOR: f64 = 1e-17;
 

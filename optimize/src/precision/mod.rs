@@ -16,13 +16,13 @@ pub mod truth;
 
 use std::path::PathBuf;
 
-use anyhow::Context;
 use clap::Args;
 
 use crate::arguments::require;
 use crate::chart::PrecisionChart;
 use crate::failure::Failure;
 use crate::output::{self, Folder, Format};
+use crate::simulate;
 use case::Case;
 use errors::Scale;
 use family::Family;
@@ -125,7 +125,7 @@ fn check(arguments: &PrecisionArguments) -> Result<(), Failure> {
 
 /// The methods that the user wants, the exact one first.
 fn chosen(case: &Case, arguments: &PrecisionArguments) -> Result<Vec<Family>, Failure> {
-    let all = family::all(&case.task, arguments.quick);
+    let all = family::all(&case.task.scene, arguments.quick);
     let wanted: Vec<String> = arguments
         .methods
         .iter()
@@ -142,13 +142,11 @@ fn chosen(case: &Case, arguments: &PrecisionArguments) -> Result<Vec<Family>, Fa
             names.join("; ")
         )));
     }
-    let mut index = 0..;
-    let is_chosen = |family: &Family| {
-        let is_exact = index.next() == Some(0);
-        is_exact || wanted.is_empty() || wanted.iter().any(|part| fits(family, part))
-    };
-    let mut is_chosen = is_chosen;
-    Ok(all.into_iter().filter(|family| is_chosen(family)).collect())
+    let is_wanted = |family: &Family| wanted.iter().any(|part| fits(family, part));
+    let is_chosen =
+        |(index, family): &(usize, Family)| *index == 0 || wanted.is_empty() || is_wanted(family);
+    let chosen = all.into_iter().enumerate().filter(is_chosen);
+    Ok(chosen.map(|(_, family)| family).collect())
 }
 
 /// The files of a scene.
@@ -180,9 +178,10 @@ fn measured(
     progress: &Progress,
 ) -> Result<SceneReport, Failure> {
     let name = &case.name;
-    progress.on(&format!("{name}: reference"));
-    let scale = Scale::of(&case.task).with_context(|| format!("{name}: cannot be run"))?;
-    let truth = Truth::of(&case.task)?;
+    let scale = Scale::of(&case.task).map_err(simulate::failure)?;
+    let truth = Truth::of(&case.task, &|share| {
+        progress.on(&format!("{name}: reference, {:.0} %", 100.0 * share));
+    })?;
     progress.one();
     let bench = Bench {
         task: &case.task,

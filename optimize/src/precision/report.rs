@@ -10,7 +10,7 @@ use super::errors::Scale;
 use super::lead::{self, Lead};
 use super::machine::Machine;
 use super::measure::{Outcome, Row};
-use super::truth::Truth;
+use super::truth::{METHOD, Truth};
 
 /// All charts of a run.
 #[derive(Debug, Clone, Serialize)]
@@ -48,7 +48,10 @@ pub struct SceneReport {
 #[derive(Debug, Clone, Serialize)]
 pub struct ReferenceReport {
     /// How it was found.
-    pub method: String,
+    pub method: &'static str,
+    /// Decimal digits of the motion's size that two computations of it agree in, chaos included; the doubles
+    /// below have 16 of them.
+    pub digits: u32,
     /// Position in m and velocity in m/s at the end.
     pub end: (f64, f64),
     /// Impacts that are compared.
@@ -108,7 +111,8 @@ impl SceneReport {
             periods: case.task.periods,
             machine: machine.clone(),
             reference: ReferenceReport {
-                method: truth.method.clone(),
+                method: METHOD,
+                digits: truth.digits(&scale),
                 end: truth.solution.end,
                 impacts: scale.told(&truth.solution.impacts).len(),
                 slowest: scale.slowest(),

@@ -23,11 +23,14 @@ fn scene(chart: &SceneReport) -> String {
         "Precision on {}: {}, {} drive periods, {} impacts",
         chart.scene, chart.title, chart.periods, chart.reference.impacts
     ));
-    text += &format!("Reference: {}\n", chart.reference.method);
+    text += &format!(
+        "Reference: {}, {} digits certain\n",
+        chart.reference.method, chart.reference.digits
+    );
     text += "\nMost accurate setting of each method; errors relative to the motion\n";
     text += &table(&methods(&chart.rows));
     text += "\nTime of the next best over that of the exact method\n";
-    text += &table(&leads(&chart.lead.at));
+    text += &leads(&chart.lead.at);
     text += &failures(&chart.rows);
     text.push('\n');
     for (kind, path) in &chart.files {
@@ -87,21 +90,16 @@ fn cells(row: &RowReport) -> Vec<String> {
     cells
 }
 
-fn leads(leads: &[Lead]) -> Vec<Row> {
-    let head = ["accuracy", "ratio", "next best"].map(String::from);
+fn leads(leads: &[Lead]) -> String {
     let line = |lead: &Lead| {
         let what = match lead.quantity {
-            Quantity::End => "  error at the end",
-            Quantity::Worst => "  worst of all errors",
+            Quantity::End => "error at the end",
+            Quantity::Worst => "worst of all errors",
         };
-        row(
-            what,
-            [format!("{:.0e}", lead.accuracy), ratio(lead), next(lead)],
-        )
+        let (accuracy, ratio, next) = (lead.accuracy, ratio(lead), next(lead));
+        format!("  {what:19}   {accuracy:>5.0e}   {ratio:>7}   {next}\n")
     };
-    std::iter::once(row("  by", head))
-        .chain(leads.iter().map(line))
-        .collect()
+    leads.iter().map(line).collect()
 }
 
 /// The lead as a factor.
