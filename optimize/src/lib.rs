@@ -22,6 +22,7 @@ pub mod reference;
 pub mod report;
 pub mod scene_file;
 pub mod simulate;
+pub mod solvers;
 pub mod stops;
 pub mod zone;
 

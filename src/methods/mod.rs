@@ -14,11 +14,14 @@ mod rise;
 mod scheme;
 mod stability;
 mod step;
+mod walk;
 
 pub use exact::Exact;
 pub use fixed::{Events, FixedStep};
 pub use moreau::Moreau;
+pub use rise::{Fineness, Probe, rise};
 pub use scheme::Scheme;
+pub use walk::Walk;
 
 use thiserror::Error;
 

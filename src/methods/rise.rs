@@ -2,7 +2,8 @@
 
 /// A tried place.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Probe<T> {
+pub struct Probe<T> {
+    /// The place.
     pub at: f64,
     /// The function there.
     pub value: f64,
@@ -12,7 +13,7 @@ pub(super) struct Probe<T> {
 
 /// How closely a zero is to be found.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Fineness {
+pub struct Fineness {
     /// Width of the bracket.
     pub width: f64,
     /// Size of the function that counts as zero.
@@ -25,7 +26,7 @@ pub(super) struct Fineness {
 ///
 /// # Errors
 /// Those of the function.
-pub(super) fn rise<T: Copy, E>(
+pub fn rise<T: Copy, E>(
     mut low: Probe<T>,
     mut high: Probe<T>,
     fine: Fineness,
@@ -102,6 +103,9 @@ mod tests {
         );
         let (at, tries) = zero(-0.3, 2.0, |x| x.powi(9));
         assert!(at.abs() < 2e-15 && tries < 170, "{at} {tries}");
+        // So close below the zero that the secant cannot be told from that end.
+        let (at, tries) = zero(5.0, 6.0, |x| if x < 5.5 { -1e-30 } else { x });
+        assert!((at - 5.5).abs() < 2e-15 && tries < 170, "{at} {tries}");
         let (at, tries) = zero(0.0, 1.0, |x| if x < 0.3 { -1e-9 } else { 1e9 });
         assert!((at - 0.3).abs() < 2e-15 && tries < 170, "{at} {tries}");
     }

@@ -3,6 +3,8 @@
 use softstop::Scene;
 use softstop::methods::{Events, Exact, FixedStep, Integrator, Moreau, Scheme};
 
+use crate::solvers::{Adaptive, AdaptiveScheme};
+
 /// A method and the settings of its knob.
 pub struct Family {
     /// The method's name, without settings.
@@ -42,6 +44,7 @@ pub fn all(scene: &Scene, quick: bool) -> Vec<Family> {
     let mut families = vec![Family::exact()];
     families.extend(fixed_steps(scene.period(), every));
     families.extend(scene.wall().map(|_| moreau(scene.period(), every)));
+    families.extend(adaptive(every));
     families
 }
 
@@ -83,6 +86,24 @@ fn moreau(period: f64, every: usize) -> Family {
         step: knob * period,
         theta: 0.5,
     })
+}
+
+/// Tolerances of the adaptive solvers, from coarse to fine; absolute ones are the same in m and m/s.
+fn adaptive(every: usize) -> Vec<Family> {
+    let family = |(index, scheme): (usize, AdaptiveScheme)| {
+        let look = Look {
+            scheme: 2 + Scheme::ALL.len() + index,
+            blind: false,
+        };
+        let tolerances = (3..=13).step_by(every).map(|k| 10.0_f64.powi(-k));
+        Family::new(scheme.name(), look, tolerances, |tolerance| Adaptive {
+            scheme,
+            relative: tolerance,
+            absolute: tolerance,
+        })
+    };
+    let schemes = AdaptiveScheme::ALL.into_iter().enumerate();
+    schemes.map(family).collect()
 }
 
 impl Family {

@@ -1,0 +1,122 @@
+//! One stretch of smooth motion as a crate's solver sees it: y' = f(t, y) and the roots that end it.
+
+use std::cell::Cell;
+
+use softstop::events::Guard;
+use softstop::phases::Phase;
+use softstop::scene::Scene;
+
+/// Two numbers that a solver follows: position in m and velocity in m/s or, of a mass that is held, the
+/// drive per mass in m/s^2 and its rate.
+pub(super) type State = [f64; 2];
+
+/// What a solver is to follow.
+#[derive(Clone, Copy)]
+enum Course<'a> {
+    /// A phase's law under the drive.
+    Moving(&'a Phase),
+    /// A mass that is held: q'' = -w^2 q, q the drive per mass. So the solver has something to resolve
+    /// until the push lets the mass go.
+    Held,
+}
+
+/// A smooth law and its guards. Counts how often it is asked.
+pub(super) struct Leg<'a> {
+    scene: &'a Scene,
+    course: Course<'a>,
+    guards: &'a [Guard],
+    evaluations: Cell<u64>,
+}
+
+impl<'a> Leg<'a> {
+    /// The motion in a phase; without one, that of the drive while the mass is held.
+    pub fn new(scene: &'a Scene, phase: Option<&'a Phase>, guards: &'a [Guard]) -> Self {
+        Self {
+            scene,
+            course: phase.map_or(Course::Held, Course::Moving),
+            guards,
+            evaluations: Cell::new(0),
+        }
+    }
+
+    /// How often the law was asked.
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations.get()
+    }
+
+    /// How many guards watch it.
+    pub fn guard_count(&self) -> usize {
+        self.guards.len()
+    }
+
+    /// dy/dt.
+    pub fn rate(&self, time: f64, [position, velocity]: State) -> State {
+        self.count();
+        match self.course {
+            Course::Moving(phase) => {
+                let (push, _) = drive(self.scene, time);
+                [
+                    velocity,
+                    phase.acceleration(position, velocity, push, self.scene.mass),
+                ]
+            }
+            Course::Held => [
+                velocity,
+                -self.scene.excitation.frequency.powi(2) * position,
+            ],
+        }
+    }
+
+    /// The Jacobian of the rate times a vector.
+    pub fn rate_along(&self, [position, velocity]: State, along: State) -> State {
+        self.count();
+        let (stiffness, damping) = match self.course {
+            Course::Moving(phase) => {
+                let (stiffness, damping) = phase.slopes(position, velocity);
+                (stiffness / self.scene.mass, damping / self.scene.mass)
+            }
+            Course::Held => (self.scene.excitation.frequency.powi(2), 0.0),
+        };
+        [along[1], -stiffness * along[0] - damping * along[1]]
+    }
+
+    /// The value of a guard; it ends the leg where it rises through zero.
+    pub fn guard(&self, index: usize, [first, second]: State) -> f64 {
+        let guard = &self.guards[index];
+        let weighted = match self.course {
+            Course::Moving(_) => guard.position * first + guard.velocity * second,
+            Course::Held => guard.push * first,
+        };
+        weighted - guard.level
+    }
+
+    /// The guard that stands highest, and its value.
+    pub fn highest(&self, state: State) -> Option<(usize, f64)> {
+        (0..self.guards.len())
+            .map(|index| (index, self.guard(index, state)))
+            .max_by(|one, other| one.1.total_cmp(&other.1))
+    }
+
+    /// How high the highest guard stands; below zero if there is none.
+    pub fn height(&self, state: State) -> f64 {
+        self.highest(state).map_or(-1.0, |(_, value)| value)
+    }
+
+    /// The largest level of a guard: its rounding is relative to this.
+    pub fn size(&self) -> f64 {
+        let levels = self.guards.iter().map(|guard| guard.level.abs());
+        levels.fold(0.0, f64::max)
+    }
+
+    fn count(&self) {
+        self.evaluations.set(self.evaluations.get() + 1);
+    }
+}
+
+/// The drive per mass in m/s^2 and its rate in m/s^3.
+pub(super) fn drive(scene: &Scene, time: f64) -> (f64, f64) {
+    let drive = scene.excitation;
+    let (sine, cosine) = (drive.frequency * time + drive.phase).sin_cos();
+    let amplitude = drive.amplitude / scene.mass;
+    (amplitude * cosine, -amplitude * drive.frequency * sine)
+}
