@@ -77,7 +77,12 @@ pub const BUILT_IN: [BuiltIn; 8] = [
         20.0,
         "preloaded stop, first touched by a hair"
     ),
-    built_in!("sticking", "sticking", 20.0, "dry friction holds the mass"),
+    built_in!(
+        "sticking",
+        "sticking",
+        5.0,
+        "dry friction holds the mass half-way through a strip"
+    ),
     built_in!(
         "loaded",
         "loaded",

@@ -130,7 +130,7 @@ impl Bench<'_> {
         solution: &Solution,
         first: Duration,
     ) -> Outcome {
-        let errors = Errors::between(solution, &self.truth.solution, &self.scale);
+        let errors = self.truth.errors_of(solution, &self.scale);
         if !errors.end.is_finite() {
             return Outcome::Failed("ends in numbers that are none".into());
         }

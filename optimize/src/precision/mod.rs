@@ -179,7 +179,7 @@ fn measured(
 ) -> Result<SceneReport, Failure> {
     let name = &case.name;
     let scale = Scale::of(&case.task).map_err(simulate::failure)?;
-    let truth = Truth::of(&case.task, &|share| {
+    let truth = Truth::of(&case.task, &scale, &|share| {
         progress.on(&format!("{name}: reference, {:.0} %", 100.0 * share));
     })?;
     progress.one();

@@ -10,7 +10,7 @@ use super::errors::Scale;
 use super::lead::{self, Lead};
 use super::machine::Machine;
 use super::measure::{Outcome, Row};
-use super::truth::{METHOD, Truth};
+use super::truth::Truth;
 
 /// All charts of a run.
 #[derive(Debug, Clone, Serialize)]
@@ -111,8 +111,8 @@ impl SceneReport {
             periods: case.task.periods,
             machine: machine.clone(),
             reference: ReferenceReport {
-                method: METHOD,
-                digits: truth.digits(&scale),
+                method: truth.method,
+                digits: truth.digits(),
                 end: truth.solution.end,
                 impacts: scale.told(&truth.solution.impacts).len(),
                 slowest: scale.slowest(),

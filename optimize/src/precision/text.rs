@@ -24,7 +24,7 @@ fn scene(chart: &SceneReport) -> String {
         chart.scene, chart.title, chart.periods, chart.reference.impacts
     ));
     text += &format!(
-        "Reference: {}, {} digits certain\n",
+        "Reference: {}; certain to {} digits\n",
         chart.reference.method, chart.reference.digits
     );
     text += "\nMost accurate setting of each method; errors relative to the motion\n";

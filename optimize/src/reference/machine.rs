@@ -5,6 +5,7 @@ use softstop::Scene;
 use softstop::Stop;
 use softstop::scene::{Release, Slope};
 
+use super::ReferenceError;
 use super::number::{Digits, Real};
 
 /// x'' = push - `damping` x' - `stiffness` x + `force`, all per mass.
@@ -32,19 +33,6 @@ pub enum Grip {
         /// The law without contact.
         free: Law,
     },
-    /// A power law presses besides.
-    Power(Power),
-}
-
-/// `rate` d^`exponent` max(0, 1 + `dissipation` v) per mass, d from the layer's lower end on.
-#[derive(Debug, Clone)]
-pub struct Power {
-    /// Stiffness per mass.
-    pub rate: Real,
-    /// Exponent.
-    pub exponent: Real,
-    /// Hunt and Crossley's factor in s/m.
-    pub dissipation: Real,
 }
 
 /// A range of positions with one law for the way forward and one for the way back.
@@ -93,7 +81,10 @@ pub struct Machine {
 
 impl Machine {
     /// The layers of a valid scene.
-    pub fn new(scene: &Scene, digits: Digits) -> Self {
+    ///
+    /// # Errors
+    /// [`ReferenceError::PowerLaw`] if a law is not linear.
+    pub fn new(scene: &Scene, digits: Digits) -> Result<Self, ReferenceError> {
         let real = |value: f64| digits.real(value);
         let mass = real(scene.mass);
         let free = Law {
@@ -118,7 +109,7 @@ impl Machine {
             }],
         };
         let face = builder.strip(scene);
-        let wall = builder.stop(scene, &face);
+        let wall = builder.stop(scene, &face)?;
         let drive = Drive {
             amplitude: real(scene.excitation.amplitude) / &builder.mass,
             frequency: real(scene.excitation.frequency),
@@ -137,11 +128,11 @@ impl Machine {
         for (layer, end) in layers.iter_mut().zip(ends.into_iter().chain([last])) {
             layer.to = end;
         }
-        Self {
+        Ok(Self {
             layers,
             restitution: wall.map(|(_, restitution)| restitution),
             drive,
-        }
+        })
     }
 }
 
@@ -201,14 +192,16 @@ impl Builder {
     }
 
     /// The stop's own layers, and the rigid stop at the end of all.
-    fn stop(&mut self, scene: &Scene, face: &Real) -> Option<(Real, Real)> {
+    fn stop(&mut self, scene: &Scene, face: &Real) -> Result<Option<(Real, Real)>, ReferenceError> {
         let zero = self.real(0.0);
         let wall = scene.rigid.map(|rigid| {
             let position = face + self.real(rigid.travel);
             (position, self.real(rigid.restitution))
         });
         match &scene.stop {
-            Stop::Rigid { restitution } => return Some((face.clone(), self.real(*restitution))),
+            Stop::Rigid { restitution } => {
+                return Ok(Some((face.clone(), self.real(*restitution))));
+            }
             Stop::None if scene.piercing.is_none() && wall.is_none() => {}
             Stop::None => self.spring(face, &zero, &zero, Grip::Firm),
             Stop::Preloaded { stiffness, preload } => {
@@ -228,20 +221,24 @@ impl Builder {
                 };
                 self.slopes(face, loading, back);
             }
+            // A linear spring.
             Stop::Hertz {
                 stiffness,
+                exponent: 1.0,
+                dissipation: 0.0,
+            } => self.spring(face, &self.real(*stiffness), &zero, Grip::Firm),
+            Stop::Hertz {
                 exponent,
                 dissipation,
+                ..
             } => {
-                let power = Power {
-                    rate: self.real(*stiffness) / &self.mass,
-                    exponent: self.real(*exponent),
-                    dissipation: self.real(*dissipation),
-                };
-                self.spring(face, &zero, &zero, Grip::Power(power));
+                return Err(ReferenceError::PowerLaw {
+                    exponent: *exponent,
+                    dissipation: *dissipation,
+                });
             }
         }
-        wall
+        Ok(wall)
     }
 
     fn spring(&mut self, face: &Real, stiffness: &Real, force: &Real, grip: Grip) {

@@ -1,4 +1,4 @@
-//! Reference motions in 48 digits and more, for the charts that measure errors.
+//! Reference motions of piecewise linear machines in 48 digits and more, for the charts that measure errors.
 //!
 //! Nothing of the core's flows, events or lowering is used. A scene becomes layers of positions with their laws
 //! ([`machine`]); every arc is the Taylor series of its equation of motion ([`arc`]); the first root of each
@@ -55,6 +55,17 @@ pub enum ReferenceError {
     /// The task makes no sense.
     #[error(transparent)]
     Task(#[from] MotionError),
+    /// A power law is not analytic at the face of its stop, which needs arcs of another kind.
+    #[error(
+        "no reference for a Hertz stop with exponent = {exponent} and dissipation = {dissipation} s/m: only the linear \
+         one, exponent = 1 and dissipation = 0, has one"
+    )]
+    PowerLaw {
+        /// Its exponent.
+        exponent: f64,
+        /// Hunt and Crossley's factor in s/m.
+        dissipation: f64,
+    },
     /// Too much to do.
     #[error("no reference: {steps} Taylor steps and {crossings} crossings cover only {time} s")]
     Endless {

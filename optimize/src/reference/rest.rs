@@ -1,6 +1,6 @@
 //! A mass without velocity: Filippov's rules for dry friction and for faces where the force jumps.
 
-use super::machine::{Grip, Law};
+use super::machine::Law;
 use super::number::{Real, is_negative, size};
 use super::walk::Walk;
 
@@ -122,14 +122,7 @@ impl Walk {
         } else {
             &layer.backward
         };
-        let linear = &law.stiffness * &self.state.position - &law.force;
-        match (&layer.grip, &layer.from) {
-            (Grip::Power(power), Some(from)) if self.state.position > *from => {
-                let depth = &self.state.position - from;
-                linear + &power.rate * depth.powf(&power.exponent)
-            }
-            _ => linear,
-        }
+        &law.stiffness * &self.state.position - &law.force
     }
 
     /// The least acceleration with which both sides press the mass onto its place; none if one does not.
@@ -144,6 +137,6 @@ impl Walk {
 
     /// A bounce shorter than twice this time, in s, is none: 2^-64 of a drive period.
     pub(super) fn briefest(&self) -> Real {
-        self.digits.turn() / &self.machine.drive.frequency >> 64isize
+        (self.digits.turn() / &self.machine.drive.frequency) >> 64isize
     }
 }

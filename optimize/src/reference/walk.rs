@@ -62,9 +62,9 @@ impl Walk {
     /// A motion from a task's start.
     ///
     /// # Errors
-    /// [`ReferenceError`] if the start cannot be decided.
+    /// [`ReferenceError`] if a law is not linear or the start cannot be decided.
     pub fn new(task: &Task, digits: Digits) -> Result<Self, ReferenceError> {
-        let machine = Machine::new(&task.scene, digits);
+        let machine = Machine::new(&task.scene, digits)?;
         let position = digits.real(task.start.position);
         let below = |layer: &Layer| layer.from.as_ref().is_none_or(|from| *from <= position);
         let layer = machine.layers.iter().rposition(below).unwrap_or(0);
@@ -246,13 +246,6 @@ impl Walk {
         let layer = &self.machine.layers[self.layer];
         match &layer.grip {
             Grip::Firm => None,
-            Grip::Power(power) if is_zero(&power.dissipation) => None,
-            Grip::Power(power) => {
-                let scaled = arc.velocity.iter().map(|term| term * &power.dissipation);
-                let mut press: Vec<Real> = scaled.collect();
-                press[0] += Real::ONE;
-                Some(press)
-            }
             Grip::Pressing {
                 position, velocity, ..
             } => {
@@ -275,10 +268,8 @@ impl Walk {
     /// Into a layer with the present state.
     pub(super) fn enter(&mut self, layer: usize) {
         self.layer = layer;
-        let velocity = &self.state.velocity;
         self.presses = match &self.machine.layers[layer].grip {
             Grip::Firm => true,
-            Grip::Power(power) => !is_negative(&(Real::ONE + &power.dissipation * velocity)),
             Grip::Pressing {
                 position, velocity, ..
             } => {
