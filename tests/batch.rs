@@ -111,7 +111,9 @@ struct Batch {
 
 fn batch(count: usize) -> Batch {
     let scenes: Vec<Scene> = (0..count).map(scene).collect();
-    let machines = scenes.iter().map(|scene| Machine::new(scene).expect("valid"));
+    let machines = scenes
+        .iter()
+        .map(|scene| Machine::new(scene).expect("valid"));
     let jobs = scenes.iter().enumerate().map(|(machine, scene)| Job {
         machine,
         start: start(machine, scene),

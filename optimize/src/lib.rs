@@ -4,11 +4,13 @@
 //!
 //! One way through it: [`arguments`] and [`configuration`] turn what the user wrote into a
 //! [`arguments::Machine`], [`scene_file`] reads any scene; a subcommand ([`orbit`], [`zone`],
-//! [`optimize`], [`simulate`], [`stops`], [`fidelity`]) asks the core or the search in [`design`]; [`report`]
+//! [`optimize`], [`simulate`], [`stops`], [`fidelity`], [`charts`]) asks the core or the search in
+//! [`design`]; [`report`]
 //! and [`chart`] say and draw the answer; [`output`] puts files in place whole or not at all.
 
 pub mod arguments;
 pub mod chart;
+pub mod charts;
 pub mod configuration;
 pub mod design;
 pub mod failure;
@@ -17,6 +19,7 @@ pub mod interrupt;
 pub mod optimize;
 pub mod orbit;
 pub mod output;
+pub mod precision;
 pub mod reference;
 pub mod report;
 pub mod scene_file;
@@ -48,6 +51,7 @@ Examples:
   softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
   softstop stops                                   pictures of all the stops' laws
   softstop fidelity B --tolerance 0.02             the simplest model that will do
+  softstop chart precision periodic                speed against accuracy of all methods
 
 Exit codes: 0 done, 1 the run could not do it, 2 bad usage or values, 130 interrupted.
 optimize, orbit and zone use the paper's dimensionless ratios: m = k1 = F0 = 1.";
@@ -67,6 +71,8 @@ pub enum Command {
     Stops(stops::StopsArguments),
     /// How simple a model of a scene may be: error and cost of ever simpler stops
     Fidelity(fidelity::FidelityArguments),
+    /// Chart methods of computing a motion: speed against accuracy
+    Chart(charts::ChartsArguments),
 }
 
 /// Reads the command line, does what it says and turns the outcome into an exit code.
@@ -94,5 +100,6 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Stops(arguments) => stops::run(&arguments),
         Command::Fidelity(arguments) => fidelity::run(&arguments),
+        Command::Chart(arguments) => charts::run(&arguments),
     }
 }

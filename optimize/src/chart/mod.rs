@@ -1,17 +1,19 @@
 //! The charts. This one is that of a design: before-impact velocity over drive frequency, in the
 //! paper's symbols. [`Loops`] draws a stop's law, [`MotionChart`] a simulated motion,
-//! [`FidelityChart`] and [`RegimeChart`] the models of a scene.
+//! [`FidelityChart`] and [`RegimeChart`] the models of a scene, [`PrecisionChart`] what accuracy costs.
 
 mod branch;
 mod fidelity;
 mod loops;
 mod motion;
+mod precision;
 mod regimes;
 mod style;
 
 pub use fidelity::{Candidate, FidelityChart, FidelityPicture};
 pub use loops::Loops;
 pub use motion::{Drawing, MotionChart};
+pub use precision::PrecisionChart;
 pub use regimes::{RegimeChart, RegimeRow, Strip};
 
 use kuva::backend::svg::SvgBackend;

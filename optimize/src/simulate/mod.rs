@@ -17,6 +17,7 @@ use crate::failure::Failure;
 use crate::output::{self, Folder, Format};
 use crate::scene_file::{self, SceneFile};
 use report::SimulateReport;
+pub(crate) use run::failure;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -91,7 +91,7 @@ impl Plan<'_> {
 }
 
 /// Values that cannot be are the user's, the rest is the run's.
-pub(super) fn failure(error: MotionError) -> Failure {
+pub(crate) fn failure(error: MotionError) -> Failure {
     match error {
         MotionError::Scene(_) | MotionError::NotFinite { .. } | MotionError::BeyondStop { .. } => {
             Failure::usage(error.to_string())
