@@ -4,8 +4,10 @@
 //! against accuracy and to show where they fail.
 
 mod exact;
+mod verdict;
 
 pub use exact::Exact;
+pub use verdict::{Judge, Verdict};
 
 use thiserror::Error;
 
