@@ -7,7 +7,7 @@ use crate::phases::Threshold;
 /// A row of bounces: crossings of one and the same surface, reversals left out, none of them twice as fast
 /// as one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct Hum {
+pub(crate) struct Hum {
     surface: usize,
     crossings: u32,
     /// Highest and lowest speed in the row, in m/s.

@@ -3,15 +3,15 @@
 use super::motion::{Motion, Start};
 use super::observer::CrossingKind;
 use crate::events::{Found, Guard};
-use crate::flow::{Chatter, Pressing};
-use crate::phases::{Beyond, Exit, Mode, Phase, Surface};
+use crate::flow::{Chatter, Polynomial, Pressing};
+use crate::phases::{Beyond, Exit, Mode, Phase, Phases, Surface, Threshold};
 
 /// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
 /// to no end in finite time, as those on a preloaded face.
 const ENDLESS: f64 = 1.0 - 1.0 / (1u64 << 16) as f64;
 
 /// State, mode and kind of a crossing, right after it.
-pub(super) struct Landing {
+pub(crate) struct Landing {
     pub state: Start,
     pub mode: Mode,
     pub kind: CrossingKind,
@@ -30,28 +30,40 @@ impl Landing {
     }
 }
 
-impl Motion {
-    /// The surface that a guard watches, if bounces on it may go on for ever.
-    pub(super) fn surface_of(&self, guard: usize) -> Option<usize> {
-        let Mode::Moving(phase) = self.mode else {
-            return None;
-        };
-        let surface = match self.phases.phases[phase].exits[guard] {
+impl Phases {
+    /// The surface that a guard of a phase watches, if bounces on it may go on for ever.
+    pub(crate) fn endless_surface(&self, phase: usize, guard: usize) -> Option<usize> {
+        let surface = match self.phases[phase].exits[guard] {
             Exit::Forward(surface) | Exit::Backward(surface) => surface,
             Exit::Reversal { .. } | Exit::Switch(_) => return None,
         };
-        let endless = match self.phases.surfaces[surface].above {
+        let endless = match self.surfaces[surface].above {
             Beyond::Phase(_) => true,
             Beyond::Wall { restitution } => restitution > ENDLESS,
         };
         endless.then_some(surface)
+    }
+}
+
+impl Motion {
+    /// The surface that a guard watches, if bounces on it may go on for ever.
+    pub(super) fn surface_of(&self, guard: usize) -> Option<usize> {
+        match self.mode {
+            Mode::Moving(phase) => self.phases.endless_surface(phase, guard),
+            Mode::Held { .. } | Mode::Chattering { .. } => None,
+        }
     }
 
     /// State and mode right after a crossing.
     pub(super) fn land(&self, found: &Found, push: f64) -> Landing {
         let position = found.position;
         let (forward, backward) = match self.mode {
-            Mode::Moving(phase) => return self.leave(phase, found, push),
+            Mode::Moving(phase) => {
+                // A mass that leaves rest and is back at once has not moved.
+                let moved =
+                    self.course.departure.velocity != 0.0 || !self.is_instant(found.elapsed);
+                return self.ground().leave(phase, found, push, moved);
+            }
             Mode::Held { forward, backward } => (forward, backward),
             Mode::Chattering { backward } => (None, backward),
         };
@@ -60,105 +72,15 @@ impl Motion {
         Landing::new(position, 0.0, mode, CrossingKind::Release)
     }
 
-    /// The same out of a phase.
-    fn leave(&self, phase: usize, found: &Found, push: f64) -> Landing {
-        let position = self.phases.phases[phase].confine(found.position);
-        match self.phases.phases[phase].exits[found.guard] {
-            Exit::Reversal { forward, backward } => {
-                let mode = self.phases.turn(forward, backward, position, push);
-                Landing::new(position, 0.0, mode, CrossingKind::Reversal)
-            }
-            Exit::Switch(to) => {
-                let mode = Mode::Moving(to);
-                Landing::new(position, found.velocity, mode, CrossingKind::Switch)
-            }
-            Exit::Forward(surface) => {
-                let at = &self.phases.surfaces[surface];
-                // A mass that leaves rest and is back at once has not moved.
-                let moved =
-                    self.course.departure.velocity != 0.0 || !self.is_instant(found.elapsed);
-                let velocity = if moved { found.velocity.max(0.0) } else { 0.0 };
-                match self.phases.beyond(at, self.fed) {
-                    Beyond::Wall { restitution } => self.rebound(at, velocity, push, restitution),
-                    Beyond::Phase(_) => self.pass(at, velocity, push, true),
-                }
-            }
-            Exit::Backward(surface) => {
-                let at = &self.phases.surfaces[surface];
-                self.pass(at, found.velocity.min(0.0), push, false)
-            }
-        }
-    }
-
-    fn pass(&self, at: &Surface, velocity: f64, push: f64, forward: bool) -> Landing {
-        let mode = self
-            .phases
-            .at_surface(at, velocity, push, self.fed, self.hum.threshold());
-        let held = matches!(mode, Mode::Held { .. });
-        let kind = CrossingKind::Surface {
-            forward,
-            impact: forward && at.is_clearance,
-            pierces: forward && self.pierces(at),
-        };
-        let velocity = if held { 0.0 } else { velocity };
-        Landing::new(at.position, velocity, mode, kind)
-    }
-
-    /// Newton's impact law v+ = -R v-.
-    fn rebound(&self, at: &Surface, velocity: f64, push: f64, restitution: f64) -> Landing {
-        let kind = CrossingKind::Rebound {
-            impact: at.is_clearance,
-            pierces: self.pierces(at),
-        };
-        let (position, speed) = (at.position, restitution * velocity);
-        let held = self.phases.leave_hold(None, at.below, position, push);
-        let rests = matches!(held, Mode::Held { .. });
-        let faint = || {
-            let counts = self.hum.threshold();
-            let endless = restitution > ENDLESS && self.phases.is_faint(at, speed, push, self.fed);
-            speed < counts.slowest || endless
-        };
-        if speed == 0.0 || (rests && faint()) {
-            return Landing::new(position, 0.0, held, kind);
-        }
-        let chatter = self.chatter(at, speed, push, restitution);
-        let mode = match chatter {
-            Some(_) => Mode::Chattering { backward: at.below },
-            None => self.phases.moving(at.below, position, -speed),
-        };
-        Landing {
-            chatter,
-            ..Landing::new(position, -speed, mode, kind)
-        }
-    }
-
-    /// The bounces that follow a rebound, where they can be summed.
-    fn chatter(&self, at: &Surface, speed: f64, push: f64, restitution: f64) -> Option<Chatter> {
-        let phases = &self.phases;
-        let out = &phases.phases[at.below];
-        let back = &phases.phases[phases.forward_of(at.below)];
-        let rest = |phase: &Phase| phase.acceleration_from_rest(at.position, push, phases.mass);
-        let slopes = [out, back].map(|phase| phase.slopes(at.position, 0.0));
-        let largest = |values: [f64; 2]| values[0].abs().max(values[1].abs()) / phases.mass;
-        let drive = phases.held.amplitude * phases.held.frequency;
-        let lets_go = |(_, pulls): (usize, Guard)| pulls.value(at.position, -speed) > 0.0;
-        let two_laws = phases.forward_of(at.below) != at.below || out.released.is_some_and(lets_go);
-        let pressing = Pressing {
-            accelerations: (rest(out), rest(back)),
-            drive_rate: drive,
-            push: self.force.on_arc().per_mass(0.0, phases.mass),
-            damping: largest(slopes.map(|slope| slope.1)),
-            stiffness: largest(slopes.map(|slope| slope.0)),
+    fn ground(&self) -> Ground<'_> {
+        Ground {
+            phases: &self.phases,
+            fed: self.fed,
+            pierced: self.pierced,
+            threshold: self.hum.threshold(),
+            force: self.force.on_arc(),
             period: self.clock().period(),
-            grain: two_laws.then_some(f64::EPSILON * at.position.abs()),
-        };
-        Chatter::from_speed(speed, restitution, &pressing)
-    }
-
-    /// True if moving on to a surface pierces a strip that the stroke has not pierced yet.
-    fn pierces(&self, at: &Surface) -> bool {
-        let fed = self.fed || at.above_unfed.is_none();
-        at.is_far_side && fed && !self.pierced
+        }
     }
 
     /// Remembers whether the strip of this stroke is pierced.
@@ -196,5 +118,120 @@ impl Motion {
                 self.phases.phases[phase].acceleration(position, velocity, push, self.phases.mass)
             }
         }
+    }
+}
+
+/// What the rules of a landing ask for.
+pub(crate) struct Ground<'a> {
+    pub phases: &'a Phases,
+    /// A strip lies beyond the clearance.
+    pub fed: bool,
+    /// The strip of this stroke is pierced.
+    pub pierced: bool,
+    /// What counts as a bounce.
+    pub threshold: Threshold,
+    /// The external force in N from now on.
+    pub force: &'a Polynomial,
+    /// Drive period in s.
+    pub period: f64,
+}
+
+impl Ground<'_> {
+    /// State and mode right after a crossing out of a phase; `moved` is false for a mass that is back at
+    /// once where it left rest.
+    pub(crate) fn leave(&self, phase: usize, found: &Found, push: f64, moved: bool) -> Landing {
+        let position = self.phases.phases[phase].confine(found.position);
+        match self.phases.phases[phase].exits[found.guard] {
+            Exit::Reversal { forward, backward } => {
+                let mode = self.phases.turn(forward, backward, position, push);
+                Landing::new(position, 0.0, mode, CrossingKind::Reversal)
+            }
+            Exit::Switch(to) => {
+                let mode = Mode::Moving(to);
+                Landing::new(position, found.velocity, mode, CrossingKind::Switch)
+            }
+            Exit::Forward(surface) => {
+                let at = &self.phases.surfaces[surface];
+                let velocity = if moved { found.velocity.max(0.0) } else { 0.0 };
+                match self.phases.beyond(at, self.fed) {
+                    Beyond::Wall { restitution } => self.rebound(at, velocity, push, restitution),
+                    Beyond::Phase(_) => self.pass(at, velocity, push, true),
+                }
+            }
+            Exit::Backward(surface) => {
+                let at = &self.phases.surfaces[surface];
+                self.pass(at, found.velocity.min(0.0), push, false)
+            }
+        }
+    }
+
+    fn pass(&self, at: &Surface, velocity: f64, push: f64, forward: bool) -> Landing {
+        let mode = self
+            .phases
+            .at_surface(at, velocity, push, self.fed, self.threshold);
+        let held = matches!(mode, Mode::Held { .. });
+        let kind = CrossingKind::Surface {
+            forward,
+            impact: forward && at.is_clearance,
+            pierces: forward && self.pierces(at),
+        };
+        let velocity = if held { 0.0 } else { velocity };
+        Landing::new(at.position, velocity, mode, kind)
+    }
+
+    /// Newton's impact law v+ = -R v-.
+    fn rebound(&self, at: &Surface, velocity: f64, push: f64, restitution: f64) -> Landing {
+        let kind = CrossingKind::Rebound {
+            impact: at.is_clearance,
+            pierces: self.pierces(at),
+        };
+        let (position, speed) = (at.position, restitution * velocity);
+        let held = self.phases.leave_hold(None, at.below, position, push);
+        let rests = matches!(held, Mode::Held { .. });
+        let faint = || {
+            let endless = restitution > ENDLESS && self.phases.is_faint(at, speed, push, self.fed);
+            speed < self.threshold.slowest || endless
+        };
+        if speed == 0.0 || (rests && faint()) {
+            return Landing::new(position, 0.0, held, kind);
+        }
+        let chatter = self.chatter(at, speed, push, restitution);
+        let mode = match chatter {
+            Some(_) => Mode::Chattering { backward: at.below },
+            None => self.phases.moving(at.below, position, -speed),
+        };
+        Landing {
+            chatter,
+            ..Landing::new(position, -speed, mode, kind)
+        }
+    }
+
+    /// The bounces that follow a rebound, where they can be summed.
+    fn chatter(&self, at: &Surface, speed: f64, push: f64, restitution: f64) -> Option<Chatter> {
+        let phases = self.phases;
+        let out = &phases.phases[at.below];
+        let back = &phases.phases[phases.forward_of(at.below)];
+        let rest = |phase: &Phase| phase.acceleration_from_rest(at.position, push, phases.mass);
+        let slopes = [out, back].map(|phase| phase.slopes(at.position, 0.0));
+        let largest = |values: [f64; 2]| values[0].abs().max(values[1].abs()) / phases.mass;
+        let drive = phases.held.amplitude * phases.held.frequency;
+        let lets_go = |(_, pulls): (usize, Guard)| pulls.value(at.position, -speed) > 0.0;
+        let two_laws = phases.forward_of(at.below) != at.below || out.released.is_some_and(lets_go);
+        let pressing = Pressing {
+            accelerations: (rest(out), rest(back)),
+            drive_rate: drive,
+            push: self.force.per_mass(0.0, phases.mass),
+            damping: largest(slopes.map(|slope| slope.1)),
+            stiffness: largest(slopes.map(|slope| slope.0)),
+            period: self.period,
+            grain: two_laws.then_some(f64::EPSILON * at.position.abs()),
+        };
+        Chatter::from_speed(speed, restitution, &pressing)
+    }
+
+    /// True if moving on to a surface pierces a strip that the stroke has not pierced yet.
+    fn pierces(&self, at: &Surface) -> bool {
+        let fed = self.fed || at.above_unfed.is_none();
+        at.is_far_side && fed && !self.pierced
     }
 }

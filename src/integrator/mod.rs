@@ -18,6 +18,8 @@ mod tallies;
 
 pub use clock::{Clock, Instant};
 pub use effort::Effort;
+pub(crate) use hum::Hum;
+pub(crate) use landing::Ground;
 pub use motion::{Motion, Start};
 pub use observer::{Arc, Crossing, CrossingKind, Observer};
 pub use outputs::{Energy, Impact, Sample};

@@ -3,10 +3,20 @@
 //! Everything outside this module asks the exact method alone; the others are here to chart speed
 //! against accuracy and to show where they fail.
 
+mod balance;
 mod exact;
+mod fixed;
+mod ignored;
+mod located;
+mod machine;
+mod rise;
+mod scheme;
+mod step;
 mod verdict;
 
 pub use exact::Exact;
+pub use fixed::{Events, FixedStep};
+pub use scheme::Scheme;
 pub use verdict::{Judge, Verdict};
 
 use thiserror::Error;

@@ -84,13 +84,33 @@ impl Phases {
         }
     }
 
+    /// The phases whose laws hold at a state, wherever it is: of the way forward and of the way back under
+    /// dry friction at rest, twice the same one else.
+    pub(crate) fn laws_at(&self, position: f64, velocity: f64, fed: bool) -> [usize; 2] {
+        let stack = if fed { &self.fed } else { &self.unfed };
+        let mut below = stack.layers.iter().rev();
+        let Some(layer) = below.find(|layer| position >= layer.from) else {
+            return [0; 2];
+        };
+        let pressing = |phase: usize| self.pressing(phase, position, velocity);
+        if layer.forward == layer.backward || velocity > 0.0 {
+            [pressing(layer.forward); 2]
+        } else if velocity < 0.0 {
+            [pressing(layer.backward); 2]
+        } else {
+            [layer.forward, layer.backward]
+        }
+    }
+
     /// The mode of a mass that moves in a phase, or in the one that holds where contact would pull.
     pub(crate) fn moving(&self, phase: usize, position: f64, velocity: f64) -> Mode {
+        Mode::Moving(self.pressing(phase, position, velocity))
+    }
+
+    fn pressing(&self, phase: usize, position: f64, velocity: f64) -> usize {
         match self.phases[phase].released {
-            Some((released, pulls)) if pulls.value(position, velocity) > 0.0 => {
-                Mode::Moving(released)
-            }
-            _ => Mode::Moving(phase),
+            Some((released, pulls)) if pulls.value(position, velocity) > 0.0 => released,
+            _ => phase,
         }
     }
 

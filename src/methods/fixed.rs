@@ -1,0 +1,102 @@
+//! Fixed steps, with and without location of events.
+
+use super::ignored::{self, Places};
+use super::located::Located;
+use super::machine::{Laws, Machine, State, in_range, prepare};
+use super::scheme::Scheme;
+use super::step::Step;
+use super::{Integrator, MethodError, Solution, Task};
+
+/// What a method does about places at which the law changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Events {
+    /// Nothing: the law is taken as it is wherever the state is evaluated. Dry friction goes by sign(v) with
+    /// sign(0) = 0; a mass beyond a rigid stop at the end of a step is put on it and sent back.
+    Ignored,
+    /// Each phase's law is followed smoothly to the end of a step; if a guard of the phase is above zero
+    /// there, its crossing is located by shorter steps from the same start. What crosses and comes back
+    /// within one step is not seen.
+    Located,
+}
+
+impl Events {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Ignored, Self::Located];
+
+    /// What is done about them, in a word.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Ignored => "events ignored",
+            Self::Located => "events located",
+        }
+    }
+}
+
+/// Steps of equal length by a classical scheme.
+///
+/// The duration is divided into the least number of equal steps that are no longer than `step`, so that the
+/// last one ends at its end. Located events divide single steps further.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FixedStep {
+    /// The scheme.
+    pub scheme: Scheme,
+    /// Longest step in s, > 0.
+    pub step: f64,
+    /// What it does about events.
+    pub events: Events,
+}
+
+impl FixedStep {
+    /// Every scheme of [`Scheme::ALL`], each with events ignored and located.
+    pub fn all(step: f64) -> Vec<Self> {
+        let both = |scheme| {
+            Events::ALL.map(|events| Self {
+                scheme,
+                step,
+                events,
+            })
+        };
+        Scheme::ALL.into_iter().flat_map(both).collect()
+    }
+
+    fn check(&self) -> Result<(), MethodError> {
+        match self.scheme.out_of_range() {
+            Some((name, value)) => in_range(name, value, false, "in [0, 1]"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Integrator for FixedStep {
+    fn name(&self) -> String {
+        let (scheme, events) = (self.scheme.name(), self.events.name());
+        format!("{scheme}, h = {} s, {events}", self.step)
+    }
+
+    fn integrate(&self, task: &Task) -> Result<Solution, MethodError> {
+        self.check()?;
+        let prepared = prepare(task, self.step)?;
+        let mut machine = Machine::new(task, &prepared.phases);
+        let start = Step {
+            scheme: self.scheme,
+            laws: Laws::All,
+            time: 0.0,
+            from: State {
+                position: task.start.position,
+                velocity: task.start.velocity,
+                acceleration: 0.0,
+            },
+        };
+        let end = match self.events {
+            Events::Ignored => {
+                let places = Places::of(task, &machine);
+                ignored::run(&mut machine, places, prepared.steps, start)?
+            }
+            Events::Located => {
+                let period = task.scene.period();
+                Located::new(&mut machine, start, period).run(prepared.steps)?
+            }
+        };
+        Ok(machine.finish(end))
+    }
+}
