@@ -4,11 +4,12 @@
 //!
 //! One way through it: [`arguments`] and [`configuration`] turn what the user wrote into a
 //! [`arguments::Machine`], [`scene_file`] reads any scene; a subcommand ([`orbit`], [`zone`],
-//! [`optimize`], [`simulate`], [`stops`]) asks the core or the search in [`design`]; [`report`]
+//! [`optimize`], [`simulate`], [`stops`], [`charts`]) asks the core or the search in [`design`]; [`report`]
 //! and [`chart`] say and draw the answer; [`output`] puts files in place whole or not at all.
 
 pub mod arguments;
 pub mod chart;
+pub mod charts;
 pub mod configuration;
 pub mod design;
 pub mod failure;
@@ -16,6 +17,7 @@ pub mod interrupt;
 pub mod optimize;
 pub mod orbit;
 pub mod output;
+pub mod precision;
 pub mod report;
 pub mod scene_file;
 pub mod simulate;
@@ -44,6 +46,7 @@ Examples:
   softstop zone --regime loaded --clearance 10     where impacts and rest coexist
   softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
   softstop stops                                   pictures of all the stops' laws
+  softstop chart precision periodic                speed against accuracy of all methods
 
 Exit codes: 0 done, 1 the run could not do it, 2 bad usage or values, 130 interrupted.
 optimize, orbit and zone use the paper's dimensionless ratios: m = k1 = F0 = 1.";
@@ -61,6 +64,8 @@ pub enum Command {
     Simulate(simulate::SimulateArguments),
     /// Draw the laws of all stops: contact force over deflection
     Stops(stops::StopsArguments),
+    /// Chart methods of computing a motion: speed against accuracy
+    Chart(charts::ChartsArguments),
 }
 
 /// Reads the command line, does what it says and turns the outcome into an exit code.
@@ -87,5 +92,6 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Optimize(arguments) => optimize::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Stops(arguments) => stops::run(&arguments),
+        Command::Chart(arguments) => charts::run(&arguments),
     }
 }
