@@ -1,11 +1,16 @@
 //! The charts. This one is that of a design: before-impact velocity over drive frequency, in the
-//! paper's symbols. [`Loops`] draws a stop's law, [`MotionChart`] a simulated motion.
+//! paper's symbols. [`Loops`] draws a stop's law, [`MotionChart`] a simulated motion, [`page`] a page of the
+//! failures atlas.
 
+mod atlas;
 mod branch;
+mod heat;
 mod loops;
 mod motion;
+mod pen;
 mod style;
 
+pub use atlas::page;
 pub use loops::Loops;
 pub use motion::{Drawing, MotionChart};
 
