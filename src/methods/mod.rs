@@ -9,13 +9,16 @@ mod fixed;
 mod ignored;
 mod located;
 mod machine;
+mod moreau;
 mod rise;
 mod scheme;
+mod stability;
 mod step;
 mod verdict;
 
 pub use exact::Exact;
 pub use fixed::{Events, FixedStep};
+pub use moreau::Moreau;
 pub use scheme::Scheme;
 pub use verdict::{Judge, Verdict};
 

@@ -45,7 +45,8 @@ pub(super) fn rise<T: Copy, E>(
         let slow = width > 0.5 * widths[0];
         let middle = low.at + 0.5 * width;
         let secant = low.at + width * (below / (below - above));
-        let at = if slow { middle } else { secant };
+        let inside = low.at < secant && secant < high.at;
+        let at = if slow || !inside { middle } else { secant };
         widths = if slow {
             [f64::INFINITY; 2]
         } else {
