@@ -19,6 +19,7 @@ pub mod optimize;
 pub mod orbit;
 pub mod output;
 pub mod precision;
+pub mod reference;
 pub mod report;
 pub mod scene_file;
 pub mod simulate;

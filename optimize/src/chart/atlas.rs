@@ -21,7 +21,7 @@ const TOP: f64 = 96.0;
 /// Between rows: numbers of one and headings of the next.
 const BETWEEN: f64 = 56.0;
 /// Below the last row of maps: the exact method and the legend.
-const BELOW: f64 = 142.0;
+const BELOW: f64 = 74.0;
 /// Height of the strip of the exact method.
 const STRIP: f64 = 18.0;
 /// Fewest maps that a page is made wide for, so that the legend fits.

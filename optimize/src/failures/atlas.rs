@@ -10,8 +10,8 @@ use super::view::{View, contact_mode, shortest_contact};
 use crate::failure::Failure;
 use crate::interrupt;
 
-/// Steps that a run may take beyond those that its duration needs.
-const SPARE_STEPS: u64 = 1000;
+/// Steps that events may cost a run beyond those that its duration needs.
+const SPARE_STEPS: u64 = 100;
 
 /// Where the atlas looks: both axes are logarithmic and in rising order.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,7 +94,7 @@ fn logarithmic(low: f64, high: f64, points: usize) -> Vec<f64> {
 }
 
 impl Atlas {
-    /// Runs everything. An error at the end of up to `tolerance` times the motion's size counts as none.
+    /// Runs everything; a method that is unsuited for all of it has no map. An error at the end of up to `tolerance` times the motion's size counts as none.
     ///
     /// # Errors
     /// [`Failure::Run`] if the true motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
@@ -108,22 +108,24 @@ impl Atlas {
         let columns = axes
             .stiffness
             .par_iter()
-            .map(|&stiffness| Column::new(&view, stiffness, &axes.step, tolerance))
+            .map(|&stiffness| Column::new(&view, stiffness, tolerance))
             .collect::<Result<Vec<_>, _>>()?;
-        let maps = families
-            .iter()
-            .map(|family| {
-                let cells = columns
-                    .par_iter()
-                    .map(|column| column.judge(*family, &axes.step, tolerance, progress))
-                    .collect::<Result<_, _>>()?;
-                Ok(Map {
-                    family: *family,
-                    columns: cells,
-                    limit: columns.iter().map(|column| column.limit(*family)).collect(),
-                })
+        let map = |family: &Family| {
+            let cells = columns
+                .par_iter()
+                .map(|column| column.judge(*family, &axes.step, tolerance, progress))
+                .collect::<Result<_, _>>()?;
+            Ok(Map {
+                family: *family,
+                columns: cells,
+                limit: columns.iter().map(|column| column.limit(*family)).collect(),
             })
-            .collect::<Result<_, Failure>>()?;
+        };
+        let mut maps = families
+            .iter()
+            .map(map)
+            .collect::<Result<Vec<Map>, Failure>>()?;
+        maps.retain(Map::says_something);
         Ok(Self {
             view,
             axes,
@@ -131,6 +133,14 @@ impl Atlas {
             tolerance,
             maps,
         })
+    }
+}
+
+impl Map {
+    /// Whether the method is made for one of the machines at least.
+    fn says_something(&self) -> bool {
+        let mut cells = self.columns.iter().flatten();
+        cells.any(|cell| cell.verdict != Verdict::Unsuited)
     }
 }
 
@@ -149,9 +159,7 @@ impl Cell {
 
 impl Column {
     fn new(view: &View, stiffness: f64, steps: &[f64], tolerance: f64) -> Result<Self, Failure> {
-        let smallest = steps.iter().copied().fold(f64::INFINITY, f64::min);
-        let most_steps = (view.periods / smallest).ceil() as u64 + SPARE_STEPS;
-        let task = view.task(stiffness, most_steps);
+        let task = view.task(stiffness);
         let lost = || format!("no true motion at a stiffness of {stiffness} N/m");
         let truth = Exact.integrate(&task).with_context(lost)?;
         let exact = Cell::new(
@@ -182,7 +190,11 @@ impl Column {
             if interrupt::requested() {
                 return Err(Failure::Interrupted);
             }
-            let outcome = family.method(step * period).integrate(&self.task);
+            let task = Task {
+                most_steps: (self.task.periods / step).ceil() as u64 + SPARE_STEPS,
+                ..self.task.clone()
+            };
+            let outcome = family.method(step * period).integrate(&task);
             progress.advance();
             Ok(Cell::new(&judge, outcome))
         };

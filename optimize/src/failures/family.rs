@@ -1,60 +1,74 @@
 //! The methods of the atlas: each with its step left open.
 
-use softstop::methods::{Events, FixedStep, Integrator, Scheme};
+use softstop::methods::{Events, FixedStep, Integrator, Moreau, Scheme};
+
+/// Weight of the step's end in Moreau's time stepping: of second order between impacts.
+const THETA: f64 = 0.5;
 
 /// A method for any step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Family {
-    /// The scheme within a smooth law.
-    pub scheme: Scheme,
-    /// What it does about events.
-    pub events: Events,
+pub enum Family {
+    /// A scheme for smooth laws, and what it does about events.
+    FixedStep(Scheme, Events),
+    /// Moreau's time stepping for rigid stops.
+    Moreau,
 }
 
 impl Family {
     /// All of them: those that ignore events first.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        let with = |events| Scheme::ALL.map(|scheme| Self { scheme, events });
-        [with(Events::Ignored), with(Events::Located)].concat()
+        let with = |events| Scheme::ALL.map(|scheme| Self::FixedStep(scheme, events));
+        let mut all = with(Events::Ignored).to_vec();
+        all.push(Self::Moreau);
+        all.extend(with(Events::Located));
+        all
     }
 
     /// Its name: scheme and treatment of events.
     #[must_use]
     pub fn name(&self) -> String {
-        format!("{}, {}", self.scheme.name(), self.row())
+        format!("{}, {}", self.title(), self.row())
     }
 
     /// The row of the atlas in which it stands.
     #[must_use]
     pub fn row(&self) -> &'static str {
-        self.events.name()
+        match self {
+            Self::FixedStep(_, events) => events.name(),
+            Self::Moreau => Events::Ignored.name(),
+        }
     }
 
     /// Its name within the row.
     #[must_use]
     pub fn title(&self) -> &'static str {
-        self.scheme.name()
-    }
-
-    /// Longest stable step times the frequency of an oscillator of this damping ratio; none if there is no limit.
-    #[must_use]
-    pub fn limit(&self, ratio: f64) -> Option<f64> {
-        match self.scheme {
-            Scheme::ExplicitEuler => Some(2.0 * ratio),
-            Scheme::SemiImplicitEuler => Some(2.0),
-            Scheme::RungeKutta4 => Some(8.0_f64.sqrt()),
-            _ => None,
+        match self {
+            Self::FixedStep(scheme, _) => scheme.name(),
+            Self::Moreau => "Moreau",
         }
     }
 
     /// The method with a step in s.
     #[must_use]
-    pub fn method(&self, step: f64) -> impl Integrator {
-        FixedStep {
-            scheme: self.scheme,
-            step,
-            events: self.events,
+    pub fn method(&self, step: f64) -> Box<dyn Integrator> {
+        match *self {
+            Self::FixedStep(scheme, events) => Box::new(FixedStep {
+                scheme,
+                step,
+                events,
+            }),
+            Self::Moreau => Box::new(Moreau { step, theta: THETA }),
+        }
+    }
+
+    /// Longest stable step times the frequency of an oscillator of this damping ratio; none if there is no
+    /// limit.
+    #[must_use]
+    pub fn limit(&self, ratio: f64) -> Option<f64> {
+        match self {
+            Self::FixedStep(scheme, _) => scheme.stability_limit(ratio),
+            Self::Moreau => None,
         }
     }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use softstop::methods::Task;
 use softstop::scene::Slope;
-use softstop::{MotionError, PhaseKind, Scene, Stop};
+use softstop::{MotionError, PhaseKind, Scene, Start, Stop};
 
 use crate::failure::Failure;
 use crate::scene_file::{self, SceneFile};
@@ -18,6 +18,8 @@ pub struct View {
     pub title: String,
     /// Machine and start; the stop's stiffness is swept.
     pub file: SceneFile,
+    /// Whether it starts in contact, halfway to the position where the stop carries the suspension's load.
+    pub settling: bool,
     /// Drive periods to run.
     pub periods: f64,
 }
@@ -48,6 +50,9 @@ const BUILT_IN: [BuiltIn; 5] = [
     built_in!("chatter", 1.0, "Bounces to rest: endlessly many events"),
     built_in!("driven", 3.0, "The driven machine: everything at once"),
 ];
+
+/// The one whose start depends on the stiffness: a start at a fixed depth would throw the mass off a stiff stop.
+const PRESSED: &str = "pressed";
 
 /// Drive periods that a user's scene runs unless the user says otherwise.
 const PERIODS: f64 = 3.0;
@@ -96,13 +101,14 @@ impl View {
             title: name.clone(),
             name,
             file,
+            settling: false,
             periods: PERIODS,
         })
     }
 
     /// The task with a stop of this stiffness in N/m.
     #[must_use]
-    pub fn task(&self, stiffness: f64, most_steps: u64) -> Task {
+    pub fn task(&self, stiffness: f64) -> Task {
         let scene = &self.file.scene;
         let stop = with_stiffness(&scene.stop, stiffness);
         Task {
@@ -110,9 +116,21 @@ impl View {
                 stop: stop.unwrap_or_else(|| scene.stop.clone()),
                 ..scene.clone()
             },
-            start: self.file.start,
+            start: self.start(stiffness),
             periods: self.periods,
-            most_steps,
+            most_steps: u64::MAX,
+        }
+    }
+
+    fn start(&self, stiffness: f64) -> Start {
+        let Start { position, velocity } = self.file.start;
+        let scene = &self.file.scene;
+        let load = -scene.stiffness * scene.clearance;
+        let carried = load / (scene.stiffness + stiffness);
+        let depth = if self.settling { 0.5 * carried } else { 0.0 };
+        Start {
+            position: position + depth,
+            velocity,
         }
     }
 }
@@ -125,6 +143,7 @@ impl BuiltIn {
             name: self.name.to_owned(),
             title: self.title.to_owned(),
             file,
+            settling: self.name == PRESSED,
             periods: self.periods,
         })
     }

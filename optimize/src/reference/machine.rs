@@ -1,0 +1,290 @@
+//! A scene as layers of positions with their laws, built from the user's data alone: sums of parameters are
+//! not rounded, and nothing of the core's lowering is used.
+
+use softstop::Scene;
+use softstop::Stop;
+use softstop::scene::{Release, Slope};
+
+use super::number::{Digits, Real};
+
+/// x'' = push - `damping` x' - `stiffness` x + `force`, all per mass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Law {
+    /// Damping in 1/s.
+    pub damping: Real,
+    /// Stiffness in 1/s^2.
+    pub stiffness: Real,
+    /// Constant force in m/s^2.
+    pub force: Real,
+}
+
+/// What holds in a layer besides its two laws.
+#[derive(Debug, Clone)]
+pub enum Grip {
+    /// Nothing.
+    Firm,
+    /// The stop presses only while `position` (x - face) + `velocity` v > 0; else the law is `free`.
+    Pressing {
+        /// Stiffness of the stop in N/m.
+        position: Real,
+        /// Damping that contact adds, in N s/m.
+        velocity: Real,
+        /// The law without contact.
+        free: Law,
+    },
+    /// A power law presses besides.
+    Power(Power),
+}
+
+/// `rate` d^`exponent` max(0, 1 + `dissipation` v) per mass, d from the layer's lower end on.
+#[derive(Debug, Clone)]
+pub struct Power {
+    /// Stiffness per mass.
+    pub rate: Real,
+    /// Exponent.
+    pub exponent: Real,
+    /// Hunt and Crossley's factor in s/m.
+    pub dissipation: Real,
+}
+
+/// A range of positions with one law for the way forward and one for the way back.
+#[derive(Debug, Clone)]
+pub struct Layer {
+    /// Its lower end; none of the free layer.
+    pub from: Option<Real>,
+    /// Its upper end, if any.
+    pub to: Option<Real>,
+    /// Law of the way forward.
+    pub forward: Law,
+    /// Law of the way back.
+    pub backward: Law,
+    /// What holds besides.
+    pub grip: Grip,
+}
+
+impl Layer {
+    /// True if the force jumps where the velocity changes its sign.
+    pub fn rubs(&self) -> bool {
+        self.forward != self.backward
+    }
+}
+
+/// The drive, per mass: `amplitude` cos(`frequency` t + `phase`).
+#[derive(Debug, Clone)]
+pub struct Drive {
+    /// In m/s^2.
+    pub amplitude: Real,
+    /// In rad/s.
+    pub frequency: Real,
+    /// In rad.
+    pub phase: Real,
+}
+
+/// A scene as layers.
+#[derive(Debug, Clone)]
+pub struct Machine {
+    /// The layers in order of position; the first is the free one.
+    pub layers: Vec<Layer>,
+    /// Restitution of the rigid stop that ends the last layer, if one does.
+    pub restitution: Option<Real>,
+    /// The drive.
+    pub drive: Drive,
+}
+
+impl Machine {
+    /// The layers of a valid scene.
+    pub fn new(scene: &Scene, digits: Digits) -> Self {
+        let real = |value: f64| digits.real(value);
+        let mass = real(scene.mass);
+        let free = Law {
+            damping: real(scene.damping) / &mass,
+            stiffness: real(scene.stiffness) / &mass,
+            force: real(0.0),
+        };
+        let touching = Law {
+            damping: real(scene.contact_damping) / &mass,
+            ..free.clone()
+        };
+        let mut builder = Builder {
+            digits,
+            mass,
+            touching,
+            layers: vec![Layer {
+                from: None,
+                to: None,
+                forward: free.clone(),
+                backward: free,
+                grip: Grip::Firm,
+            }],
+        };
+        let face = builder.strip(scene);
+        let wall = builder.stop(scene, &face);
+        let drive = Drive {
+            amplitude: real(scene.excitation.amplitude) / &builder.mass,
+            frequency: real(scene.excitation.frequency),
+            phase: real(scene.excitation.phase),
+        };
+        let mut layers = builder.layers;
+        if let Some((position, _)) = &wall {
+            layers.retain(|layer| layer.from.as_ref().is_none_or(|from| from < position));
+        }
+        let ends: Vec<_> = layers
+            .iter()
+            .skip(1)
+            .map(|next| next.from.clone())
+            .collect();
+        let last = wall.as_ref().map(|(position, _)| position.clone());
+        for (layer, end) in layers.iter_mut().zip(ends.into_iter().chain([last])) {
+            layer.to = end;
+        }
+        Self {
+            layers,
+            restitution: wall.map(|(_, restitution)| restitution),
+            drive,
+        }
+    }
+}
+
+struct Builder {
+    digits: Digits,
+    mass: Real,
+    /// Suspension and contact damping alone.
+    touching: Law,
+    layers: Vec<Layer>,
+}
+
+impl Builder {
+    fn real(&self, value: f64) -> Real {
+        self.digits.real(value)
+    }
+
+    fn add(&mut self, from: &Real, forward: Law, backward: Law, grip: Grip) {
+        self.layers.push(Layer {
+            from: Some(from.clone()),
+            to: None,
+            forward,
+            backward,
+            grip,
+        });
+    }
+
+    /// Contact with a spring that gives `force` at `origin`.
+    fn sprung(&self, stiffness: &Real, origin: &Real, force: &Real) -> Law {
+        Law {
+            damping: self.touching.damping.clone(),
+            stiffness: &self.touching.stiffness + stiffness / &self.mass,
+            force: (stiffness * origin - force) / &self.mass,
+        }
+    }
+
+    /// Phases I and II (Peterka 2003, eqs. 1-4); where the stop stands behind them.
+    fn strip(&mut self, scene: &Scene) -> Real {
+        let near = self.real(scene.clearance);
+        let Some(strip) = scene.piercing else {
+            return near;
+        };
+        let (zero, thickness) = (self.real(0.0), self.real(strip.thickness));
+        let (forming, friction) = (self.real(strip.stiffness), self.real(strip.friction));
+        if strip.thickness > 0.0 {
+            let forward = self.sprung(&(&forming + &friction), &near, &zero);
+            let backward = self.sprung(&(&forming - &friction), &near, &zero);
+            self.add(&near, forward, backward, Grip::Firm);
+        }
+        let cut = near + &thickness;
+        if strip.travel > 0.0 {
+            let unit = thickness * (forming + friction) / self.real(40.0);
+            let forward = self.sprung(&zero, &zero, &(&unit * self.real(4.0)));
+            let backward = self.sprung(&zero, &zero, &(unit * self.real(-2.0)));
+            self.add(&cut, forward, backward, Grip::Firm);
+        }
+        cut + self.real(strip.travel)
+    }
+
+    /// The stop's own layers, and the rigid stop at the end of all.
+    fn stop(&mut self, scene: &Scene, face: &Real) -> Option<(Real, Real)> {
+        let zero = self.real(0.0);
+        let wall = scene.rigid.map(|rigid| {
+            let position = face + self.real(rigid.travel);
+            (position, self.real(rigid.restitution))
+        });
+        match &scene.stop {
+            Stop::Rigid { restitution } => return Some((face.clone(), self.real(*restitution))),
+            Stop::None if scene.piercing.is_none() && wall.is_none() => {}
+            Stop::None => self.spring(face, &zero, &zero, Grip::Firm),
+            Stop::Preloaded { stiffness, preload } => {
+                let (stiffness, preload) = (self.real(*stiffness), self.real(*preload));
+                self.spring(face, &stiffness, &preload, Grip::Firm);
+            }
+            Stop::KelvinVoigt { stiffness, release } => {
+                let stiffness = self.real(*stiffness);
+                let grip = self.release(scene, *release, &stiffness);
+                self.spring(face, &stiffness, &zero, grip);
+            }
+            Stop::PiecewiseLinear { loading, unloading } => {
+                let back = if unloading.is_empty() {
+                    loading
+                } else {
+                    unloading
+                };
+                self.slopes(face, loading, back);
+            }
+            Stop::Hertz {
+                stiffness,
+                exponent,
+                dissipation,
+            } => {
+                let power = Power {
+                    rate: self.real(*stiffness) / &self.mass,
+                    exponent: self.real(*exponent),
+                    dissipation: self.real(*dissipation),
+                };
+                self.spring(face, &zero, &zero, Grip::Power(power));
+            }
+        }
+        wall
+    }
+
+    fn spring(&mut self, face: &Real, stiffness: &Real, force: &Real, grip: Grip) {
+        let law = self.sprung(stiffness, face, force);
+        self.add(face, law.clone(), law, grip);
+    }
+
+    /// A Kelvin-Voigt stop that is let go at zero force never pulls.
+    fn release(&self, scene: &Scene, release: Release, stiffness: &Real) -> Grip {
+        if release == Release::Clearance || scene.contact_damping == scene.damping {
+            return Grip::Firm;
+        }
+        Grip::Pressing {
+            position: stiffness.clone(),
+            velocity: self.real(scene.contact_damping) - self.real(scene.damping),
+            free: self.layers[0].forward.clone(),
+        }
+    }
+
+    /// One layer from each deflection on at which a slope of either way begins.
+    fn slopes(&mut self, face: &Real, loading: &[Slope], back: &[Slope]) {
+        let mut starts: Vec<f64> = loading.iter().chain(back).map(|slope| slope.from).collect();
+        starts.sort_by(f64::total_cmp);
+        starts.dedup();
+        for start in starts {
+            let from = face + self.real(start);
+            let law = |builder: &Self, slopes: &[Slope]| {
+                let (stiffness, force) = builder.chain(slopes, start);
+                builder.sprung(&stiffness, &from, &force)
+            };
+            let (forward, backward) = (law(self, loading), law(self, back));
+            self.add(&from, forward, backward, Grip::Firm);
+        }
+    }
+
+    /// Stiffness from a deflection on and force there, of a continuous chain.
+    fn chain(&self, slopes: &[Slope], deflection: f64) -> (Real, Real) {
+        let (mut force, mut stiffness, mut from) = (self.real(0.0), self.real(0.0), 0.0);
+        for slope in slopes.iter().take_while(|slope| slope.from <= deflection) {
+            force += &stiffness * (self.real(slope.from) - self.real(from));
+            (stiffness, from) = (self.real(slope.stiffness), slope.from);
+        }
+        force += &stiffness * (self.real(deflection) - self.real(from));
+        (stiffness, force)
+    }
+}
