@@ -158,7 +158,7 @@ impl Cell {
 }
 
 impl Column {
-    fn new(view: &View, stiffness: f64, steps: &[f64], tolerance: f64) -> Result<Self, Failure> {
+    fn new(view: &View, stiffness: f64, tolerance: f64) -> Result<Self, Failure> {
         let task = view.task(stiffness);
         let lost = || format!("no true motion at a stiffness of {stiffness} N/m");
         let truth = Exact.integrate(&task).with_context(lost)?;
