@@ -16,8 +16,8 @@ use crate::integrator::Impact;
 /// ```
 ///
 /// One contact has the solution v+ = min(v of the step without it, -R v). Softer stops in front of the rigid
-/// one are forces as those of the suspension. A contact that lasts is held at the velocity 0, whatever
-/// the number of impacts that led to it; of these, many may lie in one step.
+/// one are forces as those of the suspension. An impact is a step with an impulse on a mass that comes on, after one
+/// without; of shorter flights nothing is seen, and a mass that is pressed on rests.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moreau {
     /// Longest step in s, > 0.
@@ -69,27 +69,35 @@ impl Stepping {
             velocity,
             acceleration: 0.0,
         };
+        let mut was_pushed = false;
         for index in 0..steps.count {
             let time = steps.time(index);
             let h = steps.time(index + 1) - time;
             machine.count_step(time)?;
-            let to = self.step(machine, time, h, &state)?;
+            let (to, is_pushed) = self.step(machine, time, h, &state)?;
             if !to.is_finite() {
                 return Err(MethodError::BlownUp { time });
             }
-            self.note(machine, time, h, (state, to));
-            state = to;
+            let span = Span {
+                time,
+                length: h,
+                from: state,
+                to,
+            };
+            self.note(machine, &span, is_pushed && !was_pushed);
+            (state, was_pushed) = (to, is_pushed);
         }
         Ok(state)
     }
 
+    /// The end of a step, and whether the stop has given an impulse.
     fn step(
         &self,
         machine: &mut Machine,
         time: f64,
         h: f64,
         from: &State,
-    ) -> Result<State, MethodError> {
+    ) -> Result<(State, bool), MethodError> {
         let State {
             position,
             velocity,
@@ -110,38 +118,30 @@ impl Stepping {
         };
         let acceleration = balance.solve(machine, guess)?;
         let free = velocity + gained + theta * h * acceleration;
-        let reached = if self.touches(h, from) {
-            free.min(-self.wall.1 * velocity)
+        let (wall, restitution) = self.wall;
+        let touches = position + 0.5 * h * velocity >= wall;
+        let pushed = touches && free > -restitution * velocity;
+        let reached = if pushed {
+            -restitution * velocity
         } else {
             free
         };
-        Ok(State {
+        let to = State {
             position: position + h * (theta * reached + (1.0 - theta) * velocity),
             velocity: reached,
             acceleration,
-        })
+        };
+        Ok((to, pushed))
     }
 
-    fn touches(&self, h: f64, from: &State) -> bool {
-        from.position + 0.5 * h * from.velocity >= self.wall.0
-    }
-
-    /// An impact at the rigid stop is a step with a mass that comes on with a velocity and is sent back or
-    /// stopped.
-    fn note(&self, machine: &mut Machine, time: f64, h: f64, (from, to): (State, State)) {
+    fn note(&self, machine: &mut Machine, span: &Span, is_hit: bool) {
+        let from = &span.from;
         if !self.places.wall_is_clearance() {
-            let length = h;
-            Span {
-                time,
-                length,
-                from,
-                to,
-            }
-            .note_passing(machine, self.places);
-        } else if self.touches(h, &from) && from.velocity > 0.0 {
+            span.note_passing(machine, self.places);
+        } else if is_hit && from.velocity > 0.0 {
             let ahead = (self.wall.0 - from.position) / from.velocity;
             machine.impacts.push(Impact {
-                time: time + ahead.clamp(0.0, h),
+                time: span.time + ahead.clamp(0.0, span.length),
                 velocity: from.velocity,
             });
         }
