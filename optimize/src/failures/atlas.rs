@@ -10,8 +10,8 @@ use super::view::{View, contact_mode, shortest_contact};
 use crate::failure::Failure;
 use crate::interrupt;
 
-/// Steps that events may cost a run beyond those that its duration needs.
-const SPARE_STEPS: u64 = 100;
+/// Steps that events may cost a run beyond those that its duration needs. To locate one crossing takes some ten.
+const SPARE_STEPS: u64 = 1000;
 
 /// Where the atlas looks: both axes are logarithmic and in rising order.
 #[derive(Debug, Clone, PartialEq)]
