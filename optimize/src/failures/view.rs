@@ -18,7 +18,7 @@ pub struct View {
     pub title: String,
     /// Machine and start; the stop's stiffness is swept.
     pub file: SceneFile,
-    /// Whether it starts in contact, halfway to the position where the stop carries the suspension's load.
+    /// Whether it starts in contact, near the position where the stop carries the suspension's load.
     pub settling: bool,
     /// Drive periods to run.
     pub periods: f64,
@@ -53,6 +53,9 @@ const BUILT_IN: [BuiltIn; 5] = [
 
 /// The one whose start depends on the stiffness: a start at a fixed depth would throw the mass off a stiff stop.
 const PRESSED: &str = "pressed";
+
+/// Its depth at the start over that at rest.
+const SETTLED: f64 = 0.9;
 
 /// Drive periods that a user's scene runs unless the user says otherwise.
 const PERIODS: f64 = 3.0;
@@ -127,7 +130,11 @@ impl View {
         let scene = &self.file.scene;
         let load = -scene.stiffness * scene.clearance;
         let carried = load / (scene.stiffness + stiffness);
-        let depth = if self.settling { 0.5 * carried } else { 0.0 };
+        let depth = if self.settling {
+            SETTLED * carried
+        } else {
+            0.0
+        };
         Start {
             position: position + depth,
             velocity,
