@@ -3,7 +3,7 @@
 use clap::{Args, Subcommand};
 
 use crate::failure::Failure;
-use crate::precision;
+use crate::{failures, precision};
 
 /// Arguments of `softstop chart`.
 #[derive(Debug, Args)]
@@ -18,6 +18,8 @@ pub struct ChartsArguments {
 pub enum Subject {
     /// Speed against accuracy of all methods on one scene
     Precision(precision::PrecisionArguments),
+    /// Where fixed-step methods fail: over step and stop stiffness
+    Failures(failures::FailuresArguments),
 }
 
 /// Draws one chart.
@@ -27,5 +29,6 @@ pub enum Subject {
 pub fn run(arguments: &ChartsArguments) -> Result<(), Failure> {
     match &arguments.subject {
         Subject::Precision(arguments) => precision::run(arguments),
+        Subject::Failures(arguments) => failures::run(arguments),
     }
 }

@@ -14,6 +14,7 @@ pub mod charts;
 pub mod configuration;
 pub mod design;
 pub mod failure;
+pub mod failures;
 pub mod fidelity;
 pub mod interrupt;
 pub mod optimize;
@@ -52,6 +53,7 @@ Examples:
   softstop stops                                   pictures of all the stops' laws
   softstop fidelity B --tolerance 0.02             the simplest model that will do
   softstop chart precision periodic                speed against accuracy of all methods
+  softstop chart failures                          where fixed-step methods fail, and how
 
 Exit codes: 0 done, 1 the run could not do it, 2 bad usage or values, 130 interrupted.
 optimize, orbit and zone use the paper's dimensionless ratios: m = k1 = F0 = 1.";

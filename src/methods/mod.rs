@@ -14,6 +14,7 @@ mod rise;
 mod scheme;
 mod stability;
 mod step;
+mod verdict;
 mod walk;
 
 pub use exact::Exact;
@@ -21,6 +22,7 @@ pub use fixed::{Events, FixedStep};
 pub use moreau::Moreau;
 pub use rise::{Fineness, Probe, rise};
 pub use scheme::Scheme;
+pub use verdict::{Judge, Verdict};
 pub use walk::Walk;
 
 use thiserror::Error;

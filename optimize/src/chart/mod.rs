@@ -1,15 +1,20 @@
 //! The charts. This one is that of a design: before-impact velocity over drive frequency, in the
 //! paper's symbols. [`Loops`] draws a stop's law, [`MotionChart`] a simulated motion,
-//! [`FidelityChart`] and [`RegimeChart`] the models of a scene, [`PrecisionChart`] what accuracy costs.
+//! [`FidelityChart`] and [`RegimeChart`] the models of a scene, [`PrecisionChart`] what accuracy costs,
+//! [`page`] a page of the failures atlas.
 
+mod atlas;
 mod branch;
 mod fidelity;
+mod heat;
 mod loops;
 mod motion;
+mod pen;
 mod precision;
 mod regimes;
 mod style;
 
+pub use atlas::page;
 pub use fidelity::{Candidate, FidelityChart, FidelityPicture};
 pub use loops::Loops;
 pub use motion::{Drawing, MotionChart};

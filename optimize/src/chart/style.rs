@@ -4,6 +4,7 @@ use kuva::plot::legend::LegendPosition;
 use kuva::render::annotations::TextAnnotation;
 use kuva::render::layout::Layout;
 use kuva::render::theme::Theme;
+use softstop::methods::Verdict;
 
 // The colours are Okabe and Ito's, told apart by colour-blind readers too
 // (https://jfly.uni-koeln.de/color/).
@@ -19,6 +20,27 @@ pub(super) const OPTIMUM: &str = "#D55E00";
 pub(super) const ALLOWED: &str = "#56B4E9";
 /// Grey, of what stands beside the matter.
 pub(super) const ASIDE: &str = "#777777";
+
+/// Almost black, of lines and letters of drawings.
+pub(super) const INK: &str = "#222222";
+
+/// The letters.
+pub(super) const FONTS: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";
+
+/// The colour of a class of outcomes: blues where the motion is right at least in kind, all others apart from
+/// them and from each other in lightness too.
+pub(super) const fn verdict(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Converged => "#0072B2",
+        Verdict::Inaccurate => "#9CCDEC",
+        Verdict::WrongCount => "#F0E442",
+        Verdict::MissedContact => "#009E73",
+        Verdict::EnergyGain => "#E69F00",
+        Verdict::BlownUp => "#3A3A3A",
+        Verdict::Stuck => "#CC79A7",
+        Verdict::Unsuited => "#EEEEEE",
+    }
+}
 
 /// The ranges of both axes.
 #[derive(Debug, Clone, Copy)]
@@ -85,7 +107,7 @@ pub(super) fn plain(x: (f64, f64), y: (f64, f64)) -> Layout {
             legend_border: "#bbbbbb".into(),
             ..Theme::light()
         })
-        .with_font_family("DejaVu Sans, Helvetica, Arial, sans-serif")
+        .with_font_family(FONTS)
         .with_x_axis_min(x.0)
         .with_x_axis_max(x.1)
         .with_y_axis_min(y.0)

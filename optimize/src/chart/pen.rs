@@ -1,0 +1,130 @@
+//! A drawing of plain shapes, for charts that are no plot of curves.
+
+use kuva::backend::svg::SvgBackend;
+use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
+
+use super::style;
+
+/// Width of the line and of the light rim that tells it from dark grounds.
+const LINE: (f64, f64) = (1.6, 3.6);
+
+/// Shapes on a white page; lengths are pixels, y points down.
+pub(super) struct Pen {
+    scene: Scene,
+}
+
+/// How a text stands to its place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Align {
+    Left,
+    Middle,
+    Right,
+    /// Centred and turned to be read from below.
+    Upwards,
+}
+
+/// A rectangle: left, top, width, height.
+pub(super) type Area = (f64, f64, f64, f64);
+
+impl Pen {
+    pub(super) fn new(width: f64, height: f64) -> Self {
+        let mut scene = Scene::new(width, height);
+        scene.font_family = Some(style::FONTS.to_owned());
+        Self { scene }
+    }
+
+    pub(super) fn text(&mut self, place: (f64, f64), size: u32, align: Align, text: &str) {
+        self.write(place, size, align, false, text);
+    }
+
+    pub(super) fn heading(&mut self, place: (f64, f64), size: u32, align: Align, text: &str) {
+        self.write(place, size, align, true, text);
+    }
+
+    fn write(&mut self, (x, y): (f64, f64), size: u32, align: Align, bold: bool, text: &str) {
+        let (anchor, rotate) = match align {
+            Align::Left => (TextAnchor::Start, None),
+            Align::Middle => (TextAnchor::Middle, None),
+            Align::Right => (TextAnchor::End, None),
+            Align::Upwards => (TextAnchor::Middle, Some(-90.0)),
+        };
+        self.scene.add(Primitive::Text {
+            x,
+            y,
+            content: text.to_owned(),
+            size,
+            anchor,
+            rotate,
+            bold,
+            color: Some(style::INK.into()),
+        });
+    }
+
+    /// Rectangles of one colour that leave no seams between them.
+    pub(super) fn fill(&mut self, areas: &[Area], color: &str) {
+        let corners = areas
+            .iter()
+            .map(|(x, y, width, height)| format!("M{x} {y}h{width}v{height}h-{width}z"));
+        self.scene.add(Primitive::GroupStart {
+            transform: None,
+            title: None,
+            extra_attrs: Some("shape-rendering=\"crispEdges\"".to_owned()),
+        });
+        self.scene.add(Primitive::Path(Box::new(PathData {
+            d: corners.collect(),
+            fill: Some(color.into()),
+            stroke: kuva::render::color::Color::None,
+            stroke_width: 0.0,
+            opacity: None,
+            stroke_dasharray: None,
+        })));
+        self.scene.add(Primitive::GroupEnd);
+    }
+
+    /// The rim of a rectangle.
+    pub(super) fn frame(&mut self, (x, y, width, height): Area) {
+        self.scene.add(Primitive::Rect {
+            x,
+            y,
+            width,
+            height,
+            fill: kuva::render::color::Color::None,
+            stroke: Some(style::INK.into()),
+            stroke_width: Some(1.0),
+            opacity: None,
+        });
+    }
+
+    /// A short mark on an axis.
+    pub(super) fn tick(&mut self, (x1, y1): (f64, f64), (x2, y2): (f64, f64)) {
+        self.scene.add(Primitive::Line {
+            x1,
+            y1,
+            x2,
+            y2,
+            stroke: style::INK.into(),
+            stroke_width: 1.0,
+            stroke_dasharray: None,
+        });
+    }
+
+    /// A curve that is seen on any ground; `dashes` as in SVG.
+    pub(super) fn curve(&mut self, points: &[(f64, f64)], dashes: Option<&str>) {
+        for (stroke, stroke_width, dashes) in
+            [("#ffffff", LINE.1, None), (style::INK, LINE.0, dashes)]
+        {
+            self.scene.add(Primitive::PolyLine {
+                points: points.to_vec(),
+                stroke: stroke.into(),
+                stroke_width,
+                stroke_dasharray: dashes.map(str::to_owned),
+            });
+        }
+    }
+
+    pub(super) fn svg(&self) -> String {
+        SvgBackend::new()
+            .with_pretty(true)
+            .render_scene(&self.scene)
+    }
+}
