@@ -156,10 +156,10 @@ mod tests {
         let found = solution((1.3, 2.16), &[(0.52, 3.0), (2.5, 2.6)]);
         let errors = Errors::between(&found, &truth, &SCALE);
         assert!((errors.end - 0.05).abs() < 1e-15);
-        assert!((errors.impact_time.unwrap() - 0.01).abs() < 1e-15);
-        assert!((errors.impact_velocity.unwrap() - 0.1).abs() < 1e-15);
+        assert!((errors.impact_time.expect("a value") - 0.01).abs() < 1e-15);
+        assert!((errors.impact_velocity.expect("a value") - 0.1).abs() < 1e-15);
         assert_eq!(errors.impact_difference, 0);
-        assert_eq!(errors.worst(), errors.impact_velocity.unwrap());
+        assert_eq!(errors.worst(), errors.impact_velocity.expect("a value"));
     }
 
     #[test]

@@ -197,7 +197,7 @@ mod tests {
     #[test]
     fn between_two_points_time_is_a_power_of_error() {
         let points = [(1e-2, 1.0), (1e-4, 10.0), (1e-8, 100.0)];
-        let time = time_at(&points, 1e-3).unwrap();
+        let time = time_at(&points, 1e-3).expect("a value");
         assert!((time - 10.0_f64.sqrt()).abs() < 1e-12);
         assert_eq!(time_at(&points, 1.0), Some(1.0));
         assert_eq!(time_at(&points, 1e-9), None);
@@ -215,7 +215,7 @@ mod tests {
             let found = leads
                 .iter()
                 .find(|lead| lead.quantity == quantity && lead.target == 1e-9);
-            found.and_then(|lead| lead.next.clone()).unwrap()
+            found.and_then(|lead| lead.next.clone()).expect("a value")
         };
         assert_eq!(at(Quantity::End).method, "lucky");
         assert_eq!(at(Quantity::End).ratio, 30.0);
@@ -227,8 +227,11 @@ mod tests {
     fn a_method_that_does_not_get_there_is_named_as_the_closest() {
         let rows = [row("exact", 1e-15, 1.0, 0), row("coarse", 1e-5, 7.0, 0)];
         let leads = leads(&rows, "exact");
-        let finest = leads.iter().find(|lead| lead.target == 1e-9).unwrap();
+        let finest = leads
+            .iter()
+            .find(|lead| lead.target == 1e-9)
+            .expect("a value");
         assert_eq!(finest.next, None);
-        assert_eq!(finest.closest.as_ref().unwrap().error, 1e-5);
+        assert_eq!(finest.closest.as_ref().expect("a value").error, 1e-5);
     }
 }

@@ -224,6 +224,6 @@ mod tests {
         assert!((pace.foreseen() - 0.2).abs() < 1e-12);
         pace.ran(Duration::from_millis(300), &work);
         assert!((pace.foreseen() - 0.9).abs() < 1e-12);
-        assert!((pace.step.unwrap() - 0.03).abs() < 1e-12);
+        assert!((pace.step.expect("a value") - 0.03).abs() < 1e-12);
     }
 }
