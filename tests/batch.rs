@@ -142,8 +142,9 @@ fn lanes_find_the_impacts_and_states_of_the_scalar_engine() {
         let off = distance(outcome.end, end);
         if outcome.impacts != impacts || off > 1e-9 {
             let growth = growth(&scenes[index], job.start, end);
+            let chaotic = growth > 1e6;
             assert!(
-                growth > 1e3 && off < 1e-10 * growth,
+                chaotic || (outcome.impacts == impacts && off < 1e-10 * growth),
                 "{index}: {} impacts for {impacts}, off by {off:e}, growth {growth:e}",
                 outcome.impacts,
             );
