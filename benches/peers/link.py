@@ -21,7 +21,7 @@ class PeerError(Exception):
     """A peer has no answer."""
 
 
-class PeerTimeout(PeerError):
+class PeerTimeoutError(PeerError):
     """A peer takes too long."""
 
 
@@ -44,7 +44,7 @@ class Worker:
             answer = self.answers.get(timeout=patience)
         except queue.Empty:
             self.close()
-            raise PeerTimeout(f"no answer within {patience:.0f} s") from None
+            raise PeerTimeoutError(f"no answer within {patience:.0f} s") from None
         except BrokenPipeError:
             answer = None
         if answer is None:
@@ -72,9 +72,7 @@ class Worker:
             env={**os.environ, **ONE_THREAD},
         )
         self.answers = queue.Queue()
-        listener = threading.Thread(
-            target=_listen, args=(self.process.stdout, self.answers), daemon=True
-        )
+        listener = threading.Thread(target=_listen, args=(self.process.stdout, self.answers), daemon=True)
         listener.start()
 
 

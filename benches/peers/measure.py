@@ -5,7 +5,7 @@ import statistics
 from dataclasses import dataclass, field
 
 from catalogue import PERIODS, SHORT_PERIODS, frequencies, request
-from link import PeerError, PeerTimeout
+from link import PeerError, PeerTimeoutError
 
 GOAL = 1e-9
 DECADES = [10.0**-k for k in range(8, 15)]
@@ -28,10 +28,10 @@ class Truth:
         self.worker = worker
         ends = self._solve([0.0, 14.0])
         nudged = self._solve([0.0, 14.0 + NUDGE])
-        self.ends = dict(zip(self.order, ends))
+        self.ends = dict(zip(self.order, ends, strict=True))
         self.regular = [
             frequency
-            for frequency, end, other in zip(self.order, ends, nudged)
+            for frequency, end, other in zip(self.order, ends, nudged, strict=True)
             if distance(end, other) < MOST_GROWTH * NUDGE and end[2] == other[2]
         ]
         self.comparable = set(self.regular)
@@ -44,7 +44,7 @@ class Truth:
         """The largest error, how many impact counts differ and how many motions were compared."""
         pairs = [
             (end, self.ends[frequency])
-            for frequency, end in zip(chosen, ends)
+            for frequency, end in zip(chosen, ends, strict=True)
             if frequency in self.comparable
         ]
         worst = max((distance(*pair) for pair in pairs), default=math.nan)
@@ -170,7 +170,7 @@ class Measurement:
             try:
                 seconds, ends = self._ask(tolerance, chosen)
             except PeerError as error:
-                verdict.timed_out = isinstance(error, PeerTimeout)
+                verdict.timed_out = isinstance(error, PeerTimeoutError)
                 verdict.failure = str(error)
                 break
             error, differing, judged = self.truth.compare(chosen, ends)

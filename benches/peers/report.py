@@ -84,7 +84,9 @@ def table(lines):
     """A table in Markdown."""
     cells = [HEAD, *(_cells(line) for line in lines)]
     widths = [max(len(row[k]) for row in cells) for k in range(len(HEAD))]
-    text = ["| " + " | ".join(cell.ljust(w) for cell, w in zip(row, widths)) + " |" for row in cells]
+    text = [
+        "| " + " | ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)) + " |" for row in cells
+    ]
     text.insert(1, "|" + "|".join("-" * (width + 2) for width in widths) + "|")
     return "\n".join(text)
 

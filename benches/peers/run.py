@@ -117,7 +117,8 @@ def run(given):
     lines = report.rows(lines, results, peers, versions())
     comparable = len(truths[catalogue.PERIODS].regular)
     print(f"{machine['processor']}, {machine['cores']} cores, {', '.join(machine['instruction_sets'])}")
-    print(f"load at the start {machine['load_at_start']}; {comparable} of {catalogue.COUNT} motions compared\n")
+    print(f"load at the start {machine['load_at_start']}")
+    print(f"{comparable} of {catalogue.COUNT} motions are regular and compared\n")
     print(report.table(lines))
     if remark:
         print(f"\n{remark}")

@@ -107,7 +107,7 @@ class Batch:
         for outcome, *_ in self.stepper.propagate_res:
             if outcome != hy.taylor_outcome.time_limit:
                 raise RuntimeError(str(outcome))
-        return list(zip(*self.stepper.state.tolist(), self.impacts))
+        return list(zip(*self.stepper.state.tolist(), self.impacts, strict=True))
 
 
 class Uncalled(Batch):
