@@ -10,7 +10,7 @@ from link import PeerError, PeerTimeoutError
 GOAL = 1e-9
 DECADES = [10.0**-k for k in range(8, 15)]
 JUDGED = 32
-LEAST_JUDGED = 3
+LEAST_JUDGED, ALIKE = 3, 4
 REPEATS, FEWER_REPEATS = 5, 3
 LEAST_PATIENCE = 30.0
 NUDGE = 1e-8
@@ -41,15 +41,15 @@ class Truth:
         return self.worker.ask(line, 120.0)[1]
 
     def compare(self, chosen, ends):
-        """The largest error, how many impact counts differ and how many motions were compared."""
+        """The largest and the median error, how many impact counts differ of how many motions compared."""
         pairs = [
             (end, self.ends[frequency])
             for frequency, end in zip(chosen, ends, strict=True)
             if frequency in self.comparable
         ]
-        worst = max((distance(*pair) for pair in pairs), default=math.nan)
+        errors = [distance(*pair) for pair in pairs] or [math.nan]
         differing = sum(end[2] != true[2] for end, true in pairs)
-        return worst, differing, len(pairs)
+        return max(errors), statistics.median(errors), differing, len(pairs)
 
     def scalar_rate(self, chosen):
         """Forcing periods per second of softstop's scalar engine on these frequencies."""
@@ -95,6 +95,7 @@ class Result:
     trajectories: int = 0
     rates: list = field(default_factory=list)
     error: float = math.nan
+    median_error: float = math.nan
     differing: int = 0
     compared: int = 0
     scalar_rate: float = math.nan
@@ -154,26 +155,32 @@ class Measurement:
                 return between if between.reaches else verdict
             if verdict.timed_out:
                 break
-        answered = [verdict for verdict in verdicts if not verdict.failure]
-        if not answered:
+        patient = [verdict.tolerance for verdict in verdicts if not verdict.failure]
+        if not patient:
             raise PeerError(verdicts[-1].failure)
+        # None reaches it: the best one, all judged by the same motions.
+        again = [self._judge(tolerance, ALIKE) for tolerance in patient]
+        answered = [verdict for verdict in again if not verdict.failure]
+        if not answered:
+            raise PeerError(again[-1].failure)
         return min(answered, key=lambda verdict: (verdict.differing > 0, verdict.error))
 
-    def _judge(self, tolerance):
-        """More and more motions, until one is wrong or the share of the budget is used up."""
+    def _judge(self, tolerance, fixed=0):
+        """More and more motions, until one is wrong or the share of the budget is used up; or as many as
+        are given."""
         verdict = Verdict(tolerance, error=0.0)
-        size = 1
-        while verdict.judged < JUDGED and verdict.reaches:
+        size, most = fixed or 1, fixed or JUDGED
+        while verdict.judged < most and verdict.reaches:
             if verdict.seconds > self.budget / 2.0 and verdict.judged >= LEAST_JUDGED:
                 break
-            chosen = self.truth.regular[verdict.judged : min(verdict.judged + size, JUDGED)]
+            chosen = self.truth.regular[verdict.judged : min(verdict.judged + size, most)]
             try:
                 seconds, ends = self._ask(tolerance, chosen)
             except PeerError as error:
                 verdict.timed_out = isinstance(error, PeerTimeoutError)
                 verdict.failure = str(error)
                 break
-            error, differing, judged = self.truth.compare(chosen, ends)
+            error, _, differing, judged = self.truth.compare(chosen, ends)
             verdict.error = max(verdict.error, error)
             verdict.differing += differing
             verdict.judged += judged
@@ -196,5 +203,5 @@ class Measurement:
             result.rates.append(self.truth.periods * count / seconds)
         result.trajectories = count
         compared = self.truth.compare(chosen, ends)
-        result.error, result.differing, result.compared = compared
+        result.error, result.median_error, result.differing, result.compared = compared
         result.scalar_rate = self.truth.scalar_rate(chosen)

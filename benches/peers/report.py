@@ -14,7 +14,7 @@ HEAD = [
     "tolerance",
     "periods/s",
     "spread",
-    "largest error",
+    "error: median, largest",
     "impact counts wrong",
     "motions",
     "softstop scalar is faster by",
@@ -69,7 +69,8 @@ def _row(result, peer, own, versions):
         "periods_per_second": result.rate,
         "slowest": min(result.rates),
         "fastest": max(result.rates),
-        "error": result.error if math.isfinite(result.error) else None,
+        "error": _finite(result.error),
+        "median_error": _finite(result.median_error),
         "impact_counts_wrong": result.differing,
         "compared": result.compared,
         "motions": result.trajectories,
@@ -78,6 +79,10 @@ def _row(result, peer, own, versions):
         "scalar_ratio": result.scalar_rate / result.rate,
         "batch_ratio": batch / result.rate if batch else None,
     }
+
+
+def _finite(value):
+    return value if math.isfinite(value) else None
 
 
 def table(lines):
@@ -99,7 +104,7 @@ def _cells(line):
     spread = ""
     if "slowest" in line:
         spread = f"{100.0 * (line['fastest'] - line['slowest']) / rate:.0f} %"
-    error = f"{line['error']:.1e}" if line.get("error") is not None else ""
+    error = ", ".join(f"{line[key]:.1e}" for key in ("median_error", "error") if line.get(key) is not None)
     if line["status"].startswith("does not"):
         error += " (goal missed)"
     wrong = f"{line['impact_counts_wrong']} of {line['compared']}" if "compared" in line else ""

@@ -1,7 +1,7 @@
 """The worker's side of the talk with run.py: lines of JSON in, lines of JSON out.
 
-A request names a method, a tolerance, the scene and frequencies; the answer holds the seconds that the
-solver took and, for each frequency, X, X' and the number of impacts at the end; or an error.
+A request names a method, a tolerance, the scene and frequencies; the answer holds the processor time in s
+that the solver took and, for each frequency, X, X' and the number of impacts at the end; or an error.
 """
 
 import json

@@ -8,7 +8,8 @@ mod peer_ode_solvers;
 mod request;
 
 use std::io::{BufRead, Write};
-use std::time::Instant;
+
+use cpu_time::ProcessTime;
 
 use request::{Answer, End, Request};
 
@@ -33,7 +34,7 @@ fn answer(line: &str) -> Answer {
     }
 }
 
-/// Solves for all frequencies in turn and takes the time.
+/// Solves for all frequencies in turn and takes the processor time.
 fn solve(request: &Request) -> Result<(f64, Vec<End>), String> {
     let peer: fn(&Request, f64) -> Result<End, String> = match request.method.as_str() {
         "exact" => exact::solve,
@@ -45,7 +46,7 @@ fn solve(request: &Request) -> Result<(f64, Vec<End>), String> {
         "differential-equations-dop853-unlocated" => peer_differential_equations::dop853_unlocated,
         other => return Err(format!("no method {other}")),
     };
-    let start = Instant::now();
+    let start = ProcessTime::now();
     let ends: Result<Vec<_>, _> = request
         .frequencies
         .iter()

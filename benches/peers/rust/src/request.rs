@@ -73,7 +73,7 @@ pub type End = (f64, f64, u64);
 pub enum Answer {
     /// All motions and the time that they took.
     Solved {
-        /// Wall-clock time in s.
+        /// Processor time in s.
         seconds: f64,
         /// The ends in the order of the frequencies.
         ends: Vec<End>,
