@@ -1,0 +1,60 @@
+"""softstop's own figures."""
+
+import json
+import statistics
+import subprocess
+
+from catalogue import PERIODS, request
+from measure import REPEATS, SCALAR
+
+# The one place where the figures of the program are read.
+THROUGHPUT = ["throughput", "--format", "json"]
+KEY = "periods_per_second_per_core"
+
+
+def lines(worker, truth, program):
+    """The lines of the table: the scalar engine as the peers are measured, and what the program says of
+    its engines, if it has the command; and a remark if not."""
+    told, remark = _throughput(program)
+    own = [_scalar(worker, truth)]
+    for engine in ("scalar", "batch"):
+        if engine in told:
+            setting = "softstop " + " ".join(THROUGHPUT)
+            name = "softstop batch" if engine == "batch" else "softstop scalar (program)"
+            own.append(
+                {
+                    "solver": name,
+                    "setting": setting,
+                    "status": "measured",
+                    "periods_per_second": told[engine][KEY],
+                }
+            )
+    return own, remark
+
+
+def _scalar(worker, truth):
+    line = request(SCALAR, 0.0, PERIODS, truth.order)
+    times = [worker.ask(line, 60.0)[0] for _ in range(2 * REPEATS)]
+    rates = [PERIODS * len(truth.order) / seconds for seconds in times]
+    return {
+        "solver": "softstop scalar",
+        "setting": "closed forms; every peer is compared with it",
+        "status": "measured",
+        "periods_per_second": statistics.median(rates),
+        "slowest": min(rates),
+        "fastest": max(rates),
+        "motions": len(truth.order),
+        "periods": PERIODS,
+    }
+
+
+def _throughput(program):
+    try:
+        done = subprocess.run(
+            [program, *THROUGHPUT], capture_output=True, text=True, check=False, timeout=300
+        )
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return {}, f"no figure of the batch engine: {error}"
+    if done.returncode:
+        return {}, "no figure of the batch engine: this softstop has no command `throughput`"
+    return json.loads(done.stdout), ""
