@@ -124,9 +124,9 @@ fn draws_repeat_themselves_and_are_of_all_kinds() -> Outcome {
     let mut kinds = [0; 3];
     let (mut one, mut same, mut other) = (Draw::new(3, 0), Draw::new(3, 0), Draw::new(3, 1));
     for _ in 0..90 {
-        let drawn = one.next()?;
-        assert_eq!(drawn, same.next()?);
-        assert_ne!(drawn.1, other.next()?.1);
+        let drawn = one.machine()?;
+        assert_eq!(drawn, same.machine()?);
+        assert_ne!(drawn.1, other.machine()?.1);
         kinds[match drawn.0 {
             Kind::Unloaded => 0,
             Kind::Loaded => 1,

@@ -120,7 +120,7 @@ pub fn check(trajectories: u64, seed: u64) -> Result<Check, Failure> {
 
 fn compare(draw: &mut Draw, count: u64) -> Result<Tally, Failure> {
     let motions: Vec<(Kind, Scene, Start)> = (0..count)
-        .map(|_| draw.next())
+        .map(|_| draw.machine())
         .collect::<Result<_, _>>()
         .context("a random machine")?;
     let machines: Vec<batch::Machine> = motions

@@ -36,7 +36,7 @@ impl Draw {
     ///
     /// # Errors
     /// [`SceneError`] if the drawing went wrong.
-    pub fn next(&mut self) -> Result<(Kind, Scene, Start), SceneError> {
+    pub fn machine(&mut self) -> Result<(Kind, Scene, Start), SceneError> {
         let kind = [Kind::Unloaded, Kind::Loaded, Kind::Other][self.below(3)];
         let base = match kind {
             Kind::Loaded => Ratios::loaded(),
