@@ -96,6 +96,14 @@ def table(lines):
     return "\n".join(text)
 
 
+def lead(lines, rival="heyoka-batch"):
+    """How far softstop's batch engine is ahead of the fastest of the peers' batch modes; none if either
+    was not measured."""
+    ratios = (line.get("batch_ratio") for line in lines if line["solver"] == rival)
+    ratio = next(ratios, None)
+    return f"softstop batch is {_figure(ratio)} times as fast as {rival}" if ratio else ""
+
+
 def _cells(line):
     first = [line["solver"], line.get("version", ""), line.get("setting", "")]
     if "periods_per_second" not in line:
