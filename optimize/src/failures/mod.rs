@@ -42,7 +42,7 @@ run, failures.json with the maps and the limits that theory sets.";
 
 /// Arguments of `softstop chart failures`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub struct FailuresArguments {
     /// Machine: pressed, bounce, graze, chatter, driven, or a TOML file; its stop's stiffness is
     /// swept. May be given several times [default: the five]
@@ -55,7 +55,7 @@ pub struct FailuresArguments {
     #[arg(long, value_name = "N")]
     pub periods: Option<f64>,
     /// Points on each axis, 2 to 200
-    #[arg(long, value_name = "N", default_value_t = 33)]
+    #[arg(long, value_name = "N", default_value_t = 29)]
     pub points: usize,
     /// Error at the end over the motion's size up to which a run has converged, > 0 and < 1
     #[arg(long, value_name = "SHARE", default_value_t = 0.01)]
@@ -109,7 +109,8 @@ fn atlases(
     families: &[Family],
 ) -> Result<Vec<Atlas>, Failure> {
     let axes = Axes::new(arguments.points);
-    let runs = views.len() * families.len() * axes.stiffness.len() * axes.step.len();
+    let columns = views.len() * axes.stiffness.len();
+    let runs = columns * (1 + families.len() * axes.step.len());
     let progress = Progress::new(runs);
     views
         .into_iter()
