@@ -21,6 +21,7 @@ pub mod optimize;
 pub mod orbit;
 pub mod output;
 pub mod precision;
+pub mod progress;
 pub mod reference;
 pub mod report;
 pub mod scene_file;

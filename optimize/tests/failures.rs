@@ -8,7 +8,8 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use softstop::methods::{Events, Exact, Integrator, Scheme, Task, Verdict};
-use softstop_optimize::failures::{Atlas, Axes, Family, Progress, View};
+use softstop_optimize::failures::{Atlas, Axes, Family, View};
+use softstop_optimize::progress::Progress;
 use softstop_optimize::reference;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -31,7 +32,7 @@ fn view(name: &str) -> Result<View, String> {
 }
 
 fn atlas(view: View, axes: Axes, families: &[Family]) -> Result<Atlas, String> {
-    Atlas::new(view, axes, families, 0.01, &Progress::hidden())
+    Atlas::new(view, axes, families, 0.01, &Progress::new(1, "runs"))
         .map_err(|failure| failure.to_string())
 }
 

@@ -5,9 +5,9 @@ use rayon::prelude::*;
 use softstop::methods::{Exact, Integrator, Judge, MethodError, Solution, Task, Verdict};
 
 use super::family::Family;
-use super::progress::Progress;
 use super::view::{View, contact_mode, shortest_contact};
 use crate::failure::Failure;
+use crate::progress::Progress;
 use crate::{interrupt, reference};
 
 /// Steps that events may cost a run beyond those that its duration needs. To locate one crossing takes some ten.
@@ -171,7 +171,7 @@ impl Column {
         let lost = || format!("no true motion at a stiffness of {stiffness} N/m");
         let own = Exact.integrate(&task).with_context(lost)?;
         let contact = shortest_contact(&task).with_context(lost)?;
-        let (truth, exact) = match in_digits(&task)? {
+        let (truth, exact) = match in_digits(&task, progress)? {
             Some(truth) => {
                 let judge = Judge::new(&task, &truth, tolerance);
                 let cell = Cell::new(&judge, Ok(own));
@@ -179,7 +179,7 @@ impl Column {
             }
             None => (own, None),
         };
-        progress.advance();
+        progress.one();
         Ok(Self {
             contact: contact.map(|contact| contact / task.scene.period()),
             mode: contact_mode(&task.scene),
@@ -200,15 +200,12 @@ impl Column {
         let judge = Judge::new(&self.task, &self.truth, tolerance);
         let period = self.task.scene.period();
         let cell = |step: &f64| {
-            if interrupt::requested() {
-                return Err(Failure::Interrupted);
-            }
+            progress.step()?;
             let task = Task {
                 most_steps: (self.task.periods / step).ceil() as u64 + SPARE_STEPS,
                 ..self.task.clone()
             };
             let outcome = family.method(step * period).integrate(&task);
-            progress.advance();
             Ok(Cell::new(&judge, outcome))
         };
         steps.iter().map(cell).collect()
@@ -223,10 +220,11 @@ impl Column {
 }
 
 /// The motion in 67 digits, unless there is none or it would take too long.
-fn in_digits(task: &Task) -> Result<Option<Solution>, Failure> {
+fn in_digits(task: &Task, progress: &Progress) -> Result<Option<Solution>, Failure> {
     let asked = std::cell::Cell::new(0);
     let go_on = |_| {
         asked.set(asked.get() + 1);
+        progress.beat();
         asked.get() < MOST_DIGITS && !interrupt::requested()
     };
     let found = reference::solve(task, &go_on).ok();

@@ -2,13 +2,11 @@
 
 mod atlas;
 mod family;
-mod progress;
 mod report;
 mod view;
 
 pub use atlas::{Atlas, Axes, Cell, Column, Map};
 pub use family::Family;
-pub use progress::Progress;
 pub use view::View;
 
 use std::path::PathBuf;
@@ -19,6 +17,7 @@ use crate::arguments::require;
 use crate::chart;
 use crate::failure::Failure;
 use crate::output::{self, Folder, Format};
+use crate::progress::Progress;
 use report::FailuresReport;
 
 const EXAMPLES: &str = "\
@@ -111,7 +110,7 @@ fn atlases(
     let axes = Axes::new(arguments.points);
     let columns = views.len() * axes.stiffness.len();
     let runs = columns * (1 + families.len() * axes.step.len());
-    let progress = Progress::new(runs);
+    let progress = Progress::new(runs as u64, "runs");
     views
         .into_iter()
         .map(|view| {

@@ -9,7 +9,6 @@ pub mod family;
 pub mod lead;
 pub mod machine;
 pub mod measure;
-mod progress;
 pub mod report;
 mod text;
 pub mod truth;
@@ -22,13 +21,13 @@ use crate::arguments::require;
 use crate::chart::PrecisionChart;
 use crate::failure::Failure;
 use crate::output::{self, Folder, Format};
+use crate::progress::Progress;
 use crate::simulate;
 use case::Case;
 use errors::Scale;
 use family::Family;
 use machine::Machine;
 use measure::{Bench, Effort, Row};
-use progress::Progress;
 use report::{COLUMNS, PrecisionReport, SceneReport};
 use truth::Truth;
 
@@ -98,7 +97,8 @@ pub fn run(arguments: &PrecisionArguments) -> Result<(), Failure> {
         .iter()
         .flatten()
         .map(|family| family.settings.len());
-    let progress = Progress::new(cases.len() + settings.sum::<usize>());
+    let runs = cases.len() + settings.sum::<usize>();
+    let progress = Progress::new(runs as u64, "settings");
     let mut charts = Vec::new();
     for (case, families) in cases.iter().zip(&families) {
         let mut report = measured(case, families, &machine, arguments, &progress)?;
@@ -180,7 +180,7 @@ fn measured(
     let name = &case.name;
     let scale = Scale::of(&case.task).map_err(simulate::failure)?;
     let truth = Truth::of(&case.task, &scale, &|share| {
-        progress.on(&format!("{name}: reference, {:.0} %", 100.0 * share));
+        progress.say(&format!("{name}: reference, {:.0} %", 100.0 * share));
     })?;
     progress.one();
     let bench = Bench {
@@ -191,7 +191,7 @@ fn measured(
     };
     let mut rows: Vec<Row> = Vec::new();
     for family in families {
-        progress.on(&format!("{name}: {}", family.name));
+        progress.say(&format!("{name}: {}", family.name));
         rows.extend(bench.family(family, &|| progress.one())?);
     }
     Ok(SceneReport::new(case, machine, &truth, scale, &rows))
