@@ -16,6 +16,7 @@ pub mod design;
 pub mod failure;
 pub mod failures;
 pub mod fidelity;
+pub mod filter;
 pub mod interrupt;
 pub mod optimize;
 pub mod orbit;

@@ -260,7 +260,10 @@ fn the_page_shows_every_map_and_scene() -> Outcome {
             assert!(docs(&name).is_file(), "{name}");
         }
     }
-    assert_eq!(fs::read_dir(docs("failures"))?.count(), 2 * views.len());
+    let pictures = fs::read_dir(docs("failures"))?
+        .filter_map(Result::ok)
+        .filter(|entry| entry.path().extension().is_some_and(|end| end == "svg"));
+    assert_eq!(pictures.count(), views.len());
     for verdict in Verdict::ALL {
         assert!(
             page.contains(&format!("| {} |", verdict.name())),

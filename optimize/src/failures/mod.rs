@@ -16,6 +16,7 @@ use clap::Args;
 use crate::arguments::require;
 use crate::chart;
 use crate::failure::Failure;
+use crate::filter::Filter;
 use crate::output::{self, Folder, Format};
 use crate::progress::Progress;
 use report::FailuresReport;
@@ -164,23 +165,10 @@ fn views(arguments: &FailuresArguments) -> Result<Vec<View>, Failure> {
     Ok(views)
 }
 
-/// The methods whose name holds one of these words, whatever the case.
 fn families(words: &[String]) -> Result<Vec<Family>, Failure> {
     let all = Family::all();
-    let holds = |family: &Family, word: &String| {
-        let name = family.name().to_lowercase();
-        name.contains(&word.to_lowercase())
-    };
-    if let Some(word) = words
-        .iter()
-        .find(|word| !all.iter().any(|family| holds(family, word)))
-    {
-        let names: Vec<String> = all.iter().map(Family::name).collect();
-        return Err(Failure::usage(format!(
-            "method = {word}: must be part of one of {}",
-            names.join("; ")
-        )));
-    }
-    let chosen = |family: &Family| words.is_empty() || words.iter().any(|word| holds(family, word));
-    Ok(all.into_iter().filter(chosen).collect())
+    let names: Vec<String> = all.iter().map(Family::name).collect();
+    let filter = Filter::new(words, &names)?;
+    let wanted = |family: &Family| filter.wants(&family.name());
+    Ok(all.into_iter().filter(wanted).collect())
 }
