@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use softstop::methods::{Events, Exact, Integrator, Scheme, Task, Verdict};
-use softstop_optimize::failures::{Atlas, Axes, Family, View};
+use softstop_optimize::failures::{Atlas, Axes, Cell, Family, View};
 use softstop_optimize::progress::Progress;
 use softstop_optimize::reference;
 
@@ -66,28 +66,32 @@ fn maps_change_at_the_line_of_theory() -> Outcome {
     let families = [Scheme::SemiImplicitEuler, Scheme::RungeKutta4]
         .map(|scheme| Family::FixedStep(scheme, Events::Ignored));
     let axes = Axes {
-        stiffness: vec![1e2, 1e4, 1e6, 1e8],
-        step: (0..40)
-            .map(|index| 3e-5 * 10_f64.powf(0.1 * f64::from(index)))
+        stiffness: vec![1e2, 1e3, 1e4, 1e5],
+        step: (0..36)
+            .map(|index| 1e-4 * 10_f64.powf(0.1 * f64::from(index)))
             .collect(),
     };
-    let fine = [Verdict::Converged, Verdict::Inaccurate];
     let atlas = atlas(view("pressed")?, axes, &families)?;
     assert_eq!(atlas.maps.len(), 2);
     for map in &atlas.maps {
         for (cells, limit) in map.columns.iter().zip(&map.limit) {
             let limit = limit.ok_or("a limit")?;
-            for (cell, step) in cells.iter().zip(&atlas.axes.step) {
-                let name = map.family.name();
-                if *step < 0.95 * limit {
-                    assert!(fine.contains(&cell.verdict), "{name}: {step} {limit}");
-                } else if *step > 1.05 * limit {
-                    assert!(!fine.contains(&cell.verdict), "{name}: {step} {limit}");
-                }
-            }
+            changes_at_the_line(&map.family.name(), limit, cells, &atlas.axes.step);
         }
     }
     Ok(())
+}
+
+fn changes_at_the_line(name: &str, limit: f64, cells: &[Cell], steps: &[f64]) {
+    let fine = [Verdict::Converged, Verdict::Inaccurate];
+    assert!(steps[0] < 0.95 * limit, "nothing lies below {limit}");
+    for (cell, step) in cells.iter().zip(steps) {
+        if *step < 0.95 * limit {
+            assert!(fine.contains(&cell.verdict), "{name}: {step} {limit}");
+        } else if *step > 1.05 * limit {
+            assert!(!fine.contains(&cell.verdict), "{name}: {step} {limit}");
+        }
+    }
 }
 
 /// Every class occurs on the page that is there for it.
@@ -102,7 +106,7 @@ fn each_page_shows_its_failure() -> Outcome {
         ("driven", Events::Ignored, Verdict::WrongCount),
     ] {
         let axes = Axes {
-            stiffness: vec![1.0, 1e4, 1e6],
+            stiffness: vec![1.0, 1e3, 1e5],
             step: vec![3e-3, 1e-2, 3e-2, 0.1],
         };
         let atlas = atlas(view(name)?, axes, &everywhere(events))?;
@@ -162,7 +166,11 @@ fn writes_pages_table_and_maps() -> Outcome {
 fn a_scene_of_the_user_and_a_filter() -> Outcome {
     let folder = tempfile::tempdir()?;
     let place = folder.path().to_str().ok_or("path")?;
-    for scene in ["kelvin-voigt", "piecewise-linear", "hertz"] {
+    for (scene, judged) in [
+        ("kelvin-voigt", "exact: 3 of 3 converged"),
+        ("piecewise-linear", "exact: 3 of 3 converged"),
+        ("hertz", "3 not compared with 67 digits"),
+    ] {
         let file = docs(&format!("scenes/{scene}.toml"));
         let file = file.to_str().ok_or("path")?;
         let output = softstop(&[
@@ -183,7 +191,7 @@ fn a_scene_of_the_user_and_a_filter() -> Outcome {
         let text = String::from_utf8(output.stdout)?;
         assert!(text.contains("RK4, events ignored") && text.contains("RK4, events located"));
         assert!(text.contains("Newmark, events located") && !text.contains("Euler"));
-        assert!(text.contains("exact: 3 of 3 converged"), "{text}");
+        assert!(text.contains(judged), "{text}");
         assert!(folder.path().join(format!("{scene}.svg")).is_file());
     }
     Ok(())
