@@ -182,7 +182,7 @@ mod stability {
     /// Its amplification matrix has the determinant 1 - 2 ratio z + z^2.
     #[test]
     fn explicit_euler_lives_on_damping_alone() {
-        check(Scheme::ExplicitEuler, 0.1, 0.2, 100_000);
+        check(Scheme::ExplicitEuler, 0.1, 0.2, 400_000);
     }
 
     #[test]
