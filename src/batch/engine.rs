@@ -2,7 +2,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::lanes::Lanes;
+use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::machine::Machine;
 use super::scalar::{self, Place, Resumed};
@@ -16,16 +16,16 @@ pub(super) fn run<W: Watch>(
     watch: &mut W,
     instructions: Instructions,
 ) -> Vec<Outcome> {
-    let guarded = machines.iter().any(Machine::is_guarded);
+    let plain = machines.iter().all(Machine::is_plain);
     let task = Task {
         machines,
         jobs,
         watch,
     };
-    if guarded {
-        dispatch(Guarded(task), instructions)
-    } else {
+    if plain {
         dispatch(Plain(task), instructions)
+    } else {
+        dispatch(Guarded(task), instructions)
     }
 }
 
@@ -50,9 +50,9 @@ pub(super) struct Task<'a, W> {
     pub watch: &'a mut W,
 }
 
-/// Phases end at positions only.
+/// One position ends a phase.
 struct Plain<'a, W>(Task<'a, W>);
-/// Phases may end by further guards.
+/// Phases may end by two positions and a further guard.
 struct Guarded<'a, W>(Task<'a, W>);
 
 impl<W: Watch> WithSimd for Plain<'_, W> {
@@ -73,7 +73,7 @@ impl<W: Watch> WithSimd for Guarded<'_, W> {
     }
 }
 
-/// All lanes and what they work at. `GUARDED`: phases may end by more than positions.
+/// All lanes and what they work at. `GUARDED`: phases may end by more than one position.
 pub(super) struct Engine<'a, S: Simd, W: Watch, const GUARDED: bool> {
     pub task: Task<'a, W>,
     laws: Vec<Law<S>>,
@@ -112,19 +112,37 @@ impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
         }
         while self.lanes.iter().any(Option::is_some) {
             let law = self.law();
-            let ended = self.scan(&law);
-            let (arrived, doubtful) = self.look(&law);
-            if (ended | arrived | doubtful).any() {
-                for lane in 0..Lanes::<S>::COUNT {
-                    if doubtful.get(lane) {
-                        self.hand_over(lane);
-                    } else if self.lanes[lane].is_some() && self.state.left.get(lane) <= 0.0 {
-                        self.finish(lane);
-                    }
-                }
+            let due = self.due();
+            let reached = self.scan(&law, (due * law.per_window).floor());
+            let (ended, doubtful) = self.look(&law, &reached, due);
+            if (ended | doubtful).any() {
+                self.serve(ended, doubtful);
             }
         }
         self.outcomes
+    }
+
+    fn serve(&mut self, ended: Mask<S>, doubtful: Mask<S>) {
+        for lane in 0..Lanes::<S>::COUNT {
+            if doubtful.get(lane) {
+                self.hand_over(lane);
+            } else if ended.get(lane) {
+                self.finish(lane);
+            }
+        }
+    }
+
+    /// Time in s until a lane has to stop: at the end of its job or, if periods are watched, of the period.
+    #[inline(always)]
+    fn due(&self) -> Lanes<S> {
+        let State {
+            left,
+            offset,
+            drive,
+            ..
+        } = self.state;
+        let periods = if W::PERIODS { left.like(1.0) } else { left };
+        periods.mul_add(drive.period, -offset)
     }
 
     /// The law of each lane's phase.
@@ -188,7 +206,11 @@ impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
         let machine = &self.task.machines[self.task.jobs[job].machine];
         let constants = machine.laws.iter().flatten();
         for (law, constants) in self.laws.iter_mut().zip(constants) {
-            law.set(lane, constants);
+            if GUARDED {
+                law.set(lane, &constants.of_position());
+            } else {
+                law.set(lane, constants);
+            }
         }
         self.state.install(lane, machine);
         self.lanes[lane] = Some(job);
@@ -223,7 +245,7 @@ impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
         let place = Place {
             job,
             cycle,
-            offset: self.state.offset(lane, &self.law()),
+            offset: self.state.offset.get(lane),
             state: self.state.state(lane),
         };
         self.outcomes[job].impacts += self.state.take_impacts(lane);

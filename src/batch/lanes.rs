@@ -89,6 +89,11 @@ impl<S: Simd> Lanes<S> {
     }
 
     #[inline(always)]
+    pub fn square_root(self) -> Self {
+        self.map(|simd, a| simd.sqrt_f64s(a))
+    }
+
+    #[inline(always)]
     pub fn max(self, other: Self) -> Self {
         self.zip(other, |simd, a, b| simd.max_f64s(a, b))
     }
