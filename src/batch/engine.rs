@@ -9,6 +9,9 @@ use super::scalar::{self, Place, Resumed};
 use super::state::State;
 use super::{Instructions, Job, Outcome, Watch};
 
+/// Registers that go side by side.
+const ABREAST: usize = 2;
+
 /// Follows all jobs with the instruction set asked for, or the widest below it.
 pub(super) fn run<W: Watch>(
     machines: &[Machine],
@@ -21,11 +24,16 @@ pub(super) fn run<W: Watch>(
         machines,
         jobs,
         watch,
+        at_once: match instructions {
+            Instructions::OneByOne => 1,
+            _ => usize::MAX,
+        },
     };
-    if plain {
-        dispatch(Plain(task), instructions)
-    } else {
-        dispatch(Guarded(task), instructions)
+    match (plain, instructions) {
+        (true, Instructions::OneByOne) => dispatch(Plain::<W, 1>(task), instructions),
+        (true, _) => dispatch(Plain::<W, ABREAST>(task), instructions),
+        (false, Instructions::OneByOne) => dispatch(Guarded::<W, 1>(task), instructions),
+        (false, _) => dispatch(Guarded::<W, ABREAST>(task), instructions),
     }
 }
 
@@ -36,7 +44,7 @@ fn dispatch<T: WithSimd<Output = Vec<Outcome>>>(
     match instructions {
         Instructions::Widest => pulp::Arch::new().dispatch(task),
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        Instructions::Avx2 => match pulp::x86::V3::try_new() {
+        Instructions::Avx2 | Instructions::OneByOne => match pulp::x86::V3::try_new() {
             Some(simd) => Simd::vectorize(simd, task),
             None => Simd::vectorize(pulp::Scalar, task),
         },
@@ -48,43 +56,45 @@ pub(super) struct Task<'a, W> {
     machines: &'a [Machine],
     jobs: &'a [Job],
     pub watch: &'a mut W,
+    /// Most lanes to use.
+    at_once: usize,
 }
 
 /// One position ends a phase.
-struct Plain<'a, W>(Task<'a, W>);
+struct Plain<'a, W, const N: usize>(Task<'a, W>);
 /// Phases may end by two positions and a further guard.
-struct Guarded<'a, W>(Task<'a, W>);
+struct Guarded<'a, W, const N: usize>(Task<'a, W>);
 
-impl<W: Watch> WithSimd for Plain<'_, W> {
+impl<W: Watch, const N: usize> WithSimd for Plain<'_, W, N> {
     type Output = Vec<Outcome>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        Engine::<S, W, false>::new(simd, self.0).run()
+        Engine::<S, W, false, N>::new(simd, self.0).run()
     }
 }
 
-impl<W: Watch> WithSimd for Guarded<'_, W> {
+impl<W: Watch, const N: usize> WithSimd for Guarded<'_, W, N> {
     type Output = Vec<Outcome>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        Engine::<S, W, true>::new(simd, self.0).run()
+        Engine::<S, W, true, N>::new(simd, self.0).run()
     }
 }
 
 /// All lanes and what they work at. `GUARDED`: phases may end by more than one position.
-pub(super) struct Engine<'a, S: Simd, W: Watch, const GUARDED: bool> {
+pub(super) struct Engine<'a, S: Simd, W: Watch, const GUARDED: bool, const N: usize> {
     pub task: Task<'a, W>,
-    laws: Vec<Law<S>>,
-    pub state: State<S>,
+    laws: Vec<Law<S, N>>,
+    pub state: State<S, N>,
     /// The job of each lane.
     lanes: Vec<Option<usize>>,
     next: usize,
     outcomes: Vec<Outcome>,
 }
 
-impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
+impl<'a, S: Simd, W: Watch, const GUARDED: bool, const N: usize> Engine<'a, S, W, GUARDED, N> {
     #[inline(always)]
     fn new(simd: S, task: Task<'a, W>) -> Self {
         let laws = task.machines.iter().flat_map(|machine| &machine.laws);
@@ -98,7 +108,7 @@ impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
         Self {
             laws: vec![Law::new(simd); most],
             state: State::idle(simd),
-            lanes: vec![None; Lanes::<S>::COUNT],
+            lanes: vec![None; Lanes::<S, N>::COUNT],
             next: 0,
             outcomes: outcomes.collect(),
             task,
@@ -107,7 +117,7 @@ impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
 
     #[inline(always)]
     fn run(mut self) -> Vec<Outcome> {
-        for lane in 0..Lanes::<S>::COUNT {
+        for lane in 0..Lanes::<S, N>::COUNT.min(self.task.at_once) {
             self.take_next(lane);
         }
         while self.lanes.iter().any(Option::is_some) {
@@ -122,8 +132,8 @@ impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
         self.outcomes
     }
 
-    fn serve(&mut self, ended: Mask<S>, doubtful: Mask<S>) {
-        for lane in 0..Lanes::<S>::COUNT {
+    fn serve(&mut self, ended: Mask<S, N>, doubtful: Mask<S, N>) {
+        for lane in 0..Lanes::<S, N>::COUNT {
             if doubtful.get(lane) {
                 self.hand_over(lane);
             } else if ended.get(lane) {
@@ -134,7 +144,7 @@ impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
 
     /// Time in s until a lane has to stop: at the end of its job or, if periods are watched, of the period.
     #[inline(always)]
-    fn due(&self) -> Lanes<S> {
+    fn due(&self) -> Lanes<S, N> {
         let State {
             left,
             offset,
@@ -147,7 +157,7 @@ impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
 
     /// The law of each lane's phase.
     #[inline(always)]
-    pub fn law(&self) -> Law<S> {
+    pub fn law(&self) -> Law<S, N> {
         let mut law = self.laws[0];
         for (index, other) in self.laws.iter().enumerate().skip(1) {
             let here = self.state.phase.equals(self.state.phase.like(index as f64));

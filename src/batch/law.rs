@@ -18,11 +18,11 @@ macro_rules! law {
 
         /// The same in all lanes.
         #[derive(Debug, Clone, Copy)]
-        pub(super) struct Law<S: Simd> {
-            $(pub $field: Lanes<S>,)*
+        pub(super) struct Law<S: Simd, const N: usize> {
+            $(pub $field: Lanes<S, N>,)*
         }
 
-        impl<S: Simd> Law<S> {
+        impl<S: Simd, const N: usize> Law<S, N> {
             #[inline(always)]
             pub fn new(simd: S) -> Self {
                 let none = Lanes::splat(simd, 0.0);
@@ -36,7 +36,7 @@ macro_rules! law {
 
             /// `yes` where true, `no` elsewhere.
             #[inline(always)]
-            pub fn choose(mask: Mask<S>, yes: &Self, no: &Self) -> Self {
+            pub fn choose(mask: Mask<S, N>, yes: &Self, no: &Self) -> Self {
                 Self { $($field: mask.choose(yes.$field, no.$field),)* }
             }
         }

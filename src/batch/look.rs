@@ -18,52 +18,52 @@ const LEAST: f64 = 1e-12;
 const SHORTEST: f64 = 1.0 / 256.0;
 
 /// The motion of all lanes over the stretch that they look at: x, or the guard itself where it is the only one.
-struct Ahead<S: Simd> {
-    x: Series<S>,
-    v: Series<S>,
-    span: Lanes<S>,
+struct Ahead<S: Simd, const N: usize> {
+    x: Series<S, N>,
+    v: Series<S, N>,
+    span: Lanes<S, N>,
     /// Its value, rate and second derivative at its end.
-    end: (Lanes<S>, Lanes<S>, Lanes<S>),
+    end: (Lanes<S, N>, Lanes<S, N>, Lanes<S, N>),
 }
 
 /// The guard that each lane has to look at: g = position x + velocity v - level.
-struct Guard<S: Simd> {
-    position: Lanes<S>,
-    velocity: Lanes<S>,
-    level: Lanes<S>,
-    grain: Lanes<S>,
-    slow: Lanes<S>,
-    slack: Lanes<S>,
+struct Guard<S: Simd, const N: usize> {
+    position: Lanes<S, N>,
+    velocity: Lanes<S, N>,
+    level: Lanes<S, N>,
+    grain: Lanes<S, N>,
+    slow: Lanes<S, N>,
+    slack: Lanes<S, N>,
     /// The lower end of the phase, or the further guard; else the upper end.
-    is_low: Mask<S>,
-    is_further: Mask<S>,
+    is_low: Mask<S, N>,
+    is_further: Mask<S, N>,
     /// Lanes that meet none, and lanes that may meet more than one.
-    none: Mask<S>,
-    several: Mask<S>,
+    none: Mask<S, N>,
+    several: Mask<S, N>,
 }
 
 /// What was found.
-struct Found<S: Simd> {
-    clear: Mask<S>,
-    hits: Mask<S>,
+struct Found<S: Simd, const N: usize> {
+    clear: Mask<S, N>,
+    hits: Mask<S, N>,
     /// Lanes that the scalar engine has to decide.
-    doubtful: Mask<S>,
+    doubtful: Mask<S, N>,
     /// Time to the crossing, and the guard's rate there.
-    time: Lanes<S>,
-    slope: Lanes<S>,
+    time: Lanes<S, N>,
+    slope: Lanes<S, N>,
 }
 
-impl<S: Simd, W: Watch, const GUARDED: bool> Engine<'_, S, W, GUARDED> {
+impl<S: Simd, W: Watch, const GUARDED: bool, const N: usize> Engine<'_, S, W, GUARDED, N> {
     /// Looks at what lies ahead of the lanes that the scan has stopped, and moves all on; those that came to
     /// the end of their job, and those that the scalar engine has to take. `due`: time to where each has to
     /// stop.
     #[inline(always)]
     pub fn look(
         &mut self,
-        law: &Law<S>,
-        reached: &Reached<S>,
-        due: Lanes<S>,
-    ) -> (Mask<S>, Mask<S>) {
+        law: &Law<S, N>,
+        reached: &Reached<S, N>,
+        due: Lanes<S, N>,
+    ) -> (Mask<S, N>, Mask<S, N>) {
         let pending = self.state.busy().and_not(reached.go);
         let scanned = reached.count * law.window;
         let remaining = due - scanned;
@@ -82,7 +82,7 @@ impl<S: Simd, W: Watch, const GUARDED: bool> Engine<'_, S, W, GUARDED> {
 
     /// Puts the lanes that have moved where the scan has brought them.
     #[inline(always)]
-    fn place(&mut self, law: &Law<S>, reached: &Reached<S>) {
+    fn place(&mut self, law: &Law<S, N>, reached: &Reached<S, N>) {
         let Parts { y, u, p, q } = reached.parts;
         let state = &mut self.state;
         let moved = y.like(0.0).below(reached.count);
@@ -95,12 +95,12 @@ impl<S: Simd, W: Watch, const GUARDED: bool> Engine<'_, S, W, GUARDED> {
     #[inline(always)]
     fn move_on(
         &mut self,
-        law: &Law<S>,
-        ahead: &Ahead<S>,
-        guard: &Guard<S>,
-        found: &Found<S>,
-        scanned: Lanes<S>,
-    ) -> (Mask<S>, Mask<S>) {
+        law: &Law<S, N>,
+        ahead: &Ahead<S, N>,
+        guard: &Guard<S, N>,
+        found: &Found<S, N>,
+        scanned: Lanes<S, N>,
+    ) -> (Mask<S, N>, Mask<S, N>) {
         let zero = scanned.like(0.0);
         let (x, v, rate) = guard.crossing::<GUARDED>(law, ahead, found);
         let hits = found.hits & guard.slow.below(rate);
@@ -133,7 +133,7 @@ impl<S: Simd, W: Watch, const GUARDED: bool> Engine<'_, S, W, GUARDED> {
 
     /// Shares of a window that are looked at next: half of that which could not be decided.
     #[inline(always)]
-    fn shares(&self, pending: Mask<S>, moves: Mask<S>) -> Lanes<S> {
+    fn shares(&self, pending: Mask<S, N>, moves: Mask<S, N>) -> Lanes<S, N> {
         let share = self.state.share;
         let one = share.like(1.0);
         let halved = share * share.like(0.5);
@@ -143,7 +143,7 @@ impl<S: Simd, W: Watch, const GUARDED: bool> Engine<'_, S, W, GUARDED> {
     /// Lets the lanes that have come to the end of a period or their job begin the next one; those that have
     /// none left.
     #[inline(always)]
-    fn arrive(&mut self, arrived: Mask<S>) -> Mask<S> {
+    fn arrive(&mut self, arrived: Mask<S, N>) -> Mask<S, N> {
         if !arrived.any() {
             return arrived;
         }
@@ -163,8 +163,8 @@ impl<S: Simd, W: Watch, const GUARDED: bool> Engine<'_, S, W, GUARDED> {
     }
 
     /// Tells the watcher of impacts, now.
-    fn tell_impacts(&mut self, lanes: Mask<S>, velocity: Lanes<S>) {
-        for lane in 0..Lanes::<S>::COUNT {
+    fn tell_impacts(&mut self, lanes: Mask<S, N>, velocity: Lanes<S, N>) {
+        for lane in 0..Lanes::<S, N>::COUNT {
             if lanes.get(lane)
                 && let Some((job, cycle)) = self.progress(lane)
             {
@@ -177,8 +177,8 @@ impl<S: Simd, W: Watch, const GUARDED: bool> Engine<'_, S, W, GUARDED> {
     }
 
     /// Tells the watcher of lanes that have begun a period.
-    fn tell_periods(&mut self, lanes: Mask<S>) {
-        for lane in 0..Lanes::<S>::COUNT {
+    fn tell_periods(&mut self, lanes: Mask<S, N>) {
+        for lane in 0..Lanes::<S, N>::COUNT {
             if lanes.get(lane)
                 && let Some((job, cycle)) = self.progress(lane)
             {
@@ -189,13 +189,13 @@ impl<S: Simd, W: Watch, const GUARDED: bool> Engine<'_, S, W, GUARDED> {
     }
 }
 
-impl<S: Simd> Ahead<S> {
+impl<S: Simd, const N: usize> Ahead<S, N> {
     #[inline(always)]
     fn of<const GUARDED: bool>(
-        law: &Law<S>,
-        state: &State<S>,
-        parts: &Parts<S>,
-        span: Lanes<S>,
+        law: &Law<S, N>,
+        state: &State<S, N>,
+        parts: &Parts<S, N>,
+        span: Lanes<S, N>,
     ) -> Self {
         let mut x = expand(law, state.drive.frequency, parts);
         x[0] = x[0] - law.edge;
@@ -215,9 +215,9 @@ impl<S: Simd> Ahead<S> {
     }
 }
 
-impl<S: Simd> Guard<S> {
+impl<S: Simd, const N: usize> Guard<S, N> {
     #[inline(always)]
-    fn of<const GUARDED: bool>(law: &Law<S>, parts: &Parts<S>, ahead: &Ahead<S>) -> Self {
+    fn of<const GUARDED: bool>(law: &Law<S, N>, parts: &Parts<S, N>, ahead: &Ahead<S, N>) -> Self {
         let share = ahead.span * law.per_window;
         let square = share * share;
         let scale = square * square;
@@ -231,7 +231,7 @@ impl<S: Simd> Guard<S> {
 
     /// The one that ends the phase.
     #[inline(always)]
-    fn of_one(law: &Law<S>, slack: Lanes<S>) -> Self {
+    fn of_one(law: &Law<S, N>, slack: Lanes<S, N>) -> Self {
         let zero = slack.like(0.0);
         let never = zero.below(zero);
         Self {
@@ -251,11 +251,11 @@ impl<S: Simd> Guard<S> {
     /// The one that may be met.
     #[inline(always)]
     fn of_several(
-        law: &Law<S>,
-        parts: &Parts<S>,
-        ahead: &Ahead<S>,
-        slack: Lanes<S>,
-        scale: Lanes<S>,
+        law: &Law<S, N>,
+        parts: &Parts<S, N>,
+        ahead: &Ahead<S, N>,
+        slack: Lanes<S, N>,
+        scale: Lanes<S, N>,
     ) -> Self {
         let one = slack.like(1.0);
         let third = ahead.span * one.like(1.0 / 3.0);
@@ -285,10 +285,10 @@ impl<S: Simd> Guard<S> {
     #[inline(always)]
     fn crossing<const GUARDED: bool>(
         &self,
-        law: &Law<S>,
-        ahead: &Ahead<S>,
-        found: &Found<S>,
-    ) -> (Lanes<S>, Lanes<S>, Lanes<S>) {
+        law: &Law<S, N>,
+        ahead: &Ahead<S, N>,
+        found: &Found<S, N>,
+    ) -> (Lanes<S, N>, Lanes<S, N>, Lanes<S, N>) {
         if GUARDED {
             let time = found.hits.choose(found.time, ahead.span);
             let (x, v) = evaluate(&ahead.x, time);
@@ -304,7 +304,7 @@ impl<S: Simd> Guard<S> {
 
     /// Looks at the further guard in the lanes `at` instead.
     #[inline(always)]
-    fn turn_to_further(&mut self, law: &Law<S>, at: Mask<S>, rate_slack: Lanes<S>) {
+    fn turn_to_further(&mut self, law: &Law<S, N>, at: Mask<S, N>, rate_slack: Lanes<S, N>) {
         let (a, b) = (law.by_position, law.by_velocity);
         self.several = self.several | at.and_not(self.none);
         self.none = self.none.and_not(at);
@@ -320,7 +320,7 @@ impl<S: Simd> Guard<S> {
 
     /// g as a series.
     #[inline(always)]
-    fn series<const GUARDED: bool>(&self, ahead: &Ahead<S>) -> Series<S> {
+    fn series<const GUARDED: bool>(&self, ahead: &Ahead<S, N>) -> Series<S, N> {
         let mut g = ahead.x;
         if GUARDED {
             for (g, rate) in g.iter_mut().zip(&ahead.v) {
@@ -332,7 +332,7 @@ impl<S: Simd> Guard<S> {
     }
 
     #[inline(always)]
-    fn search<const GUARDED: bool>(&self, ahead: &Ahead<S>, pending: Mask<S>) -> Found<S> {
+    fn search<const GUARDED: bool>(&self, ahead: &Ahead<S, N>, pending: Mask<S, N>) -> Found<S, N> {
         let g = self.series::<GUARDED>(ahead);
         let (x, v, acceleration) = ahead.end;
         let mut right = (x, v);
@@ -378,7 +378,11 @@ impl<S: Simd> Guard<S> {
 
 /// The maximum of g in lanes that have one: where, how high, and whether it was found.
 #[inline(always)]
-fn summit<S: Simd>(g: &Series<S>, span: Lanes<S>, of: Mask<S>) -> (Lanes<S>, Lanes<S>, Mask<S>) {
+fn summit<S: Simd, const N: usize>(
+    g: &Series<S, N>,
+    span: Lanes<S, N>,
+    of: Mask<S, N>,
+) -> (Lanes<S, N>, Lanes<S, N>, Mask<S, N>) {
     let falls = derivative(g).map(|rate| -rate);
     let guess = span * span.like(0.5);
     let bracket = Bracket {
@@ -393,13 +397,13 @@ fn summit<S: Simd>(g: &Series<S>, span: Lanes<S>, of: Mask<S>) -> (Lanes<S>, Lan
 /// Where g rises through zero in the lanes `of`, between 0 and `end`, where it and its rate are `top`. In the
 /// lanes that leave zero at 0 the rise is that of g(t)/t.
 #[inline(always)]
-fn first_rise<S: Simd>(
-    g: &Series<S>,
-    leaves: Mask<S>,
-    end: Lanes<S>,
-    top: (Lanes<S>, Lanes<S>),
-    of: Mask<S>,
-) -> Zero<S> {
+fn first_rise<S: Simd, const N: usize>(
+    g: &Series<S, N>,
+    leaves: Mask<S, N>,
+    end: Lanes<S, N>,
+    top: (Lanes<S, N>, Lanes<S, N>),
+    of: Mask<S, N>,
+) -> Zero<S, N> {
     if (leaves & of).any() {
         return rise_after_leaving(g, leaves, end, top, of);
     }
@@ -412,13 +416,13 @@ fn first_rise<S: Simd>(
 }
 
 #[inline(always)]
-fn rise_after_leaving<S: Simd>(
-    g: &Series<S>,
-    leaves: Mask<S>,
-    end: Lanes<S>,
-    top: (Lanes<S>, Lanes<S>),
-    of: Mask<S>,
-) -> Zero<S> {
+fn rise_after_leaving<S: Simd, const N: usize>(
+    g: &Series<S, N>,
+    leaves: Mask<S, N>,
+    end: Lanes<S, N>,
+    top: (Lanes<S, N>, Lanes<S, N>),
+    of: Mask<S, N>,
+) -> Zero<S, N> {
     let mut series = *g;
     for (to, from) in series.iter_mut().zip(shifted(g)) {
         *to = leaves.choose(from, *to);

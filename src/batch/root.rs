@@ -12,24 +12,24 @@ const CONVERGED: f64 = 1e-8;
 
 /// A function below zero at 0 and above it at `span`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Bracket<'a, S: Simd> {
-    pub series: &'a Series<S>,
-    pub span: Lanes<S>,
-    pub guess: Lanes<S>,
+pub(super) struct Bracket<'a, S: Simd, const N: usize> {
+    pub series: &'a Series<S, N>,
+    pub span: Lanes<S, N>,
+    pub guess: Lanes<S, N>,
 }
 
 /// A zero: where, how steep the function is there, and whether it was found.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Zero<S: Simd> {
-    pub at: Lanes<S>,
-    pub slope: Lanes<S>,
-    pub sure: Mask<S>,
+pub(super) struct Zero<S: Simd, const N: usize> {
+    pub at: Lanes<S, N>,
+    pub slope: Lanes<S, N>,
+    pub sure: Mask<S, N>,
 }
 
-impl<S: Simd> Bracket<'_, S> {
+impl<S: Simd, const N: usize> Bracket<'_, S, N> {
     /// Halley's method, kept inside the bracket by bisection, in the lanes `of`.
     #[inline(always)]
-    pub fn solve(&self, of: Mask<S>) -> Zero<S> {
+    pub fn solve(&self, of: Mask<S, N>) -> Zero<S, N> {
         let zero = self.span.like(0.0);
         let (mut low, mut high) = (zero, self.span);
         let tolerance = self.span * self.span.like(CONVERGED);
@@ -62,11 +62,11 @@ impl<S: Simd> Bracket<'_, S> {
 /// Where a function that rises from below to above zero passes it, from (value, slope) at both ends: the zero
 /// of the parabola through the left end and the right value, then one step of Newton's method on the cubic.
 #[inline(always)]
-pub(super) fn guess<S: Simd>(
-    left: (Lanes<S>, Lanes<S>),
-    right: (Lanes<S>, Lanes<S>),
-    span: Lanes<S>,
-) -> Lanes<S> {
+pub(super) fn guess<S: Simd, const N: usize>(
+    left: (Lanes<S, N>, Lanes<S, N>),
+    right: (Lanes<S, N>, Lanes<S, N>),
+    span: Lanes<S, N>,
+) -> Lanes<S, N> {
     let zero = span.like(0.0);
     let inverse = span.like(1.0) / span;
     let square = ((right.0 - left.0) * inverse - left.1) * inverse;

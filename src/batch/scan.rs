@@ -15,40 +15,40 @@ const LEAVING: f64 = 16.0 / 3.0;
 
 /// A motion as the sum of a free one (y, u) and the steady one (p, q): positions and velocities.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Parts<S: Simd> {
-    pub y: Lanes<S>,
-    pub u: Lanes<S>,
-    pub p: Lanes<S>,
-    pub q: Lanes<S>,
+pub(super) struct Parts<S: Simd, const N: usize> {
+    pub y: Lanes<S, N>,
+    pub u: Lanes<S, N>,
+    pub p: Lanes<S, N>,
+    pub q: Lanes<S, N>,
 }
 
 /// How far the lanes have come.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Reached<S: Simd> {
+pub(super) struct Reached<S: Simd, const N: usize> {
     /// Where they stand.
-    pub parts: Parts<S>,
+    pub parts: Parts<S, N>,
     /// Windows scanned.
-    pub count: Lanes<S>,
+    pub count: Lanes<S, N>,
     /// Lanes that may go on.
-    pub go: Mask<S>,
+    pub go: Mask<S, N>,
 }
 
 /// The enclosure of a motion over a stretch of time.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Hull<S: Simd> {
+pub(super) struct Hull<S: Simd, const N: usize> {
     /// Positions that it stays between.
-    pub low: Lanes<S>,
-    pub high: Lanes<S>,
+    pub low: Lanes<S, N>,
+    pub high: Lanes<S, N>,
 }
 
-impl<S: Simd> Hull<S> {
+impl<S: Simd, const N: usize> Hull<S, N> {
     /// Of a motion with these positions and velocities at both ends, |x''''| span^4 / 384 <= slack.
     #[inline(always)]
     pub fn of(
-        left: (Lanes<S>, Lanes<S>),
-        right: (Lanes<S>, Lanes<S>),
-        third: Lanes<S>,
-        slack: Lanes<S>,
+        left: (Lanes<S, N>, Lanes<S, N>),
+        right: (Lanes<S, N>, Lanes<S, N>),
+        third: Lanes<S, N>,
+        slack: Lanes<S, N>,
     ) -> Self {
         let (b1, b2) = (third.mul_add(left.1, left.0), right.0 - third * right.1);
         Self {
@@ -58,10 +58,10 @@ impl<S: Simd> Hull<S> {
     }
 }
 
-impl<S: Simd> Parts<S> {
+impl<S: Simd, const N: usize> Parts<S, N> {
     /// The parts one window later.
     #[inline(always)]
-    fn next(&self, law: &Law<S>) -> Self {
+    fn next(&self, law: &Law<S, N>) -> Self {
         let Self { y, u, p, q } = *self;
         Self {
             y: law.xx.mul_add(y, law.xv * u),
@@ -72,7 +72,7 @@ impl<S: Simd> Parts<S> {
     }
 
     #[inline(always)]
-    fn choose(mask: Mask<S>, yes: &Self, no: &Self) -> Self {
+    fn choose(mask: Mask<S, N>, yes: &Self, no: &Self) -> Self {
         Self {
             y: mask.choose(yes.y, no.y),
             u: mask.choose(yes.u, no.u),
@@ -82,11 +82,11 @@ impl<S: Simd> Parts<S> {
     }
 }
 
-impl<S: Simd> Law<S> {
+impl<S: Simd, const N: usize> Law<S, N> {
     /// |x''''| window^4 / 384 over the next window, of a motion whose free part is (y, u). In phases that only
     /// a position ends, over all windows of a scan.
     #[inline(always)]
-    pub fn slack(&self, parts: &Parts<S>) -> Lanes<S> {
+    pub fn slack(&self, parts: &Parts<S, N>) -> Lanes<S, N> {
         let Parts { y, u, .. } = *parts;
         let fourth = self.fourth_x.mul_add(y, self.fourth_v * u).abs();
         let fifth = self.fifth_x.mul_add(y, self.fifth_v * u).abs();
@@ -95,7 +95,7 @@ impl<S: Simd> Law<S> {
 
     /// The same of |v''''|.
     #[inline(always)]
-    pub fn rate_slack(&self, parts: &Parts<S>) -> Lanes<S> {
+    pub fn rate_slack(&self, parts: &Parts<S, N>) -> Lanes<S, N> {
         let Parts { y, u, .. } = *parts;
         let fifth = self.rate_fifth_x.mul_add(y, self.rate_fifth_v * u).abs();
         let sixth = self.rate_sixth_x.mul_add(y, self.rate_sixth_v * u).abs();
@@ -104,17 +104,17 @@ impl<S: Simd> Law<S> {
 
     /// x'' of the two parts together.
     #[inline(always)]
-    pub fn acceleration(&self, frequency: Lanes<S>, parts: &Parts<S>) -> Lanes<S> {
+    pub fn acceleration(&self, frequency: Lanes<S, N>, parts: &Parts<S, N>) -> Lanes<S, N> {
         let steady = -(frequency * frequency * parts.p);
         self.stiffness
             .mul_add(parts.y, self.damping.mul_add(parts.u, steady))
     }
 }
 
-impl<S: Simd, W: Watch, const GUARDED: bool> Engine<'_, S, W, GUARDED> {
+impl<S: Simd, W: Watch, const GUARDED: bool, const N: usize> Engine<'_, S, W, GUARDED, N> {
     /// The motion of all lanes in units of their guard: g = side (x - offset) - edge.
     #[inline(always)]
-    pub fn parts(&self, law: &Law<S>) -> Parts<S> {
+    pub fn parts(&self, law: &Law<S, N>) -> Parts<S, N> {
         let (cos, sin) = self.state.angle();
         let p = law.cosine.mul_add(cos, law.sine * sin);
         let q = law.cosine_rate.mul_add(cos, law.sine_rate * sin);
@@ -130,7 +130,7 @@ impl<S: Simd, W: Watch, const GUARDED: bool> Engine<'_, S, W, GUARDED> {
     /// Moves the lanes on for a while, or until each stands before a window in which something may happen, or
     /// that is its last. `cap`: windows before that one.
     #[inline(always)]
-    pub fn scan(&self, law: &Law<S>, cap: Lanes<S>) -> Reached<S> {
+    pub fn scan(&self, law: &Law<S, N>, cap: Lanes<S, N>) -> Reached<S, N> {
         let reached = Reached {
             parts: self.parts(law),
             count: cap.like(0.0),
@@ -145,7 +145,12 @@ impl<S: Simd, W: Watch, const GUARDED: bool> Engine<'_, S, W, GUARDED> {
 
     /// Between two positions and below a further guard.
     #[inline(always)]
-    fn scan_between(&self, law: &Law<S>, cap: Lanes<S>, mut reached: Reached<S>) -> Reached<S> {
+    fn scan_between(
+        &self,
+        law: &Law<S, N>,
+        cap: Lanes<S, N>,
+        mut reached: Reached<S, N>,
+    ) -> Reached<S, N> {
         let one = cap.like(1.0);
         let frequency = self.state.drive.frequency;
         for _ in 0..MOST_WINDOWS {
@@ -172,7 +177,11 @@ impl<S: Simd, W: Watch, const GUARDED: bool> Engine<'_, S, W, GUARDED> {
 
 /// On one side of one position.
 #[inline(always)]
-fn scan_below<S: Simd>(law: &Law<S>, cap: Lanes<S>, mut reached: Reached<S>) -> Reached<S> {
+fn scan_below<S: Simd, const N: usize>(
+    law: &Law<S, N>,
+    cap: Lanes<S, N>,
+    mut reached: Reached<S, N>,
+) -> Reached<S, N> {
     let one = cap.like(1.0);
     let mut parts = reached.parts;
     let slack = law.slack(&parts);
@@ -201,10 +210,10 @@ fn scan_below<S: Simd>(law: &Law<S>, cap: Lanes<S>, mut reached: Reached<S>) -> 
     reached
 }
 
-impl<S: Simd> Law<S> {
+impl<S: Simd, const N: usize> Law<S, N> {
     /// Largest value of the further guard's weighted sum within the hulls of position and velocity.
     #[inline(always)]
-    pub fn guard_top(&self, positions: &Hull<S>, velocities: &Hull<S>) -> Lanes<S> {
+    pub fn guard_top(&self, positions: &Hull<S, N>, velocities: &Hull<S, N>) -> Lanes<S, N> {
         let (a, b) = (self.by_position, self.by_velocity);
         let x = (a * positions.low).max(a * positions.high);
         x + (b * velocities.low).max(b * velocities.high)

@@ -9,34 +9,34 @@ use crate::integrator::Start;
 
 /// The state of all lanes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct State<S: Simd> {
-    pub x: Lanes<S>,
-    pub v: Lanes<S>,
+pub(super) struct State<S: Simd, const N: usize> {
+    pub x: Lanes<S, N>,
+    pub v: Lanes<S, N>,
     /// Seconds since the beginning of the drive period.
-    pub offset: Lanes<S>,
+    pub offset: Lanes<S, N>,
     /// Drive periods left, the present one included; none in a lane without a job.
-    pub left: Lanes<S>,
+    pub left: Lanes<S, N>,
     /// The phase each is in.
-    pub phase: Lanes<S>,
+    pub phase: Lanes<S, N>,
     /// Impacts so far.
-    pub impacts: Lanes<S>,
+    pub impacts: Lanes<S, N>,
     /// Share of a window that is looked at next: 1, or less where a whole one could not be decided.
-    pub share: Lanes<S>,
-    pub drive: Drive<S>,
+    pub share: Lanes<S, N>,
+    pub drive: Drive<S, N>,
 }
 
 /// The drive's clock.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Drive<S: Simd> {
-    pub frequency: Lanes<S>,
+pub(super) struct Drive<S: Simd, const N: usize> {
+    pub frequency: Lanes<S, N>,
     /// A drive period in s, and its reciprocal.
-    pub period: Lanes<S>,
-    pub per_period: Lanes<S>,
+    pub period: Lanes<S, N>,
+    pub per_period: Lanes<S, N>,
     /// cos and sin of the angle at the beginning of a period.
-    pub begin: (Lanes<S>, Lanes<S>),
+    pub begin: (Lanes<S, N>, Lanes<S, N>),
 }
 
-impl<S: Simd> State<S> {
+impl<S: Simd, const N: usize> State<S, N> {
     /// No lane has a job.
     #[inline(always)]
     pub fn idle(simd: S) -> Self {
@@ -88,7 +88,7 @@ impl<S: Simd> State<S> {
 
     /// The lanes that have a job.
     #[inline(always)]
-    pub fn busy(&self) -> Mask<S> {
+    pub fn busy(&self) -> Mask<S, N> {
         self.left.like(0.0).below(self.left)
     }
 
@@ -111,7 +111,7 @@ impl<S: Simd> State<S> {
 
     /// cos and sin of the drive angle.
     #[inline(always)]
-    pub fn angle(&self) -> (Lanes<S>, Lanes<S>) {
+    pub fn angle(&self) -> (Lanes<S, N>, Lanes<S, N>) {
         let (c, s) = cos_sin(self.offset * self.drive.per_period);
         let (c0, s0) = self.drive.begin;
         (c0 * c - s0 * s, s0 * c + c0 * s)
@@ -119,7 +119,7 @@ impl<S: Simd> State<S> {
 
     /// Lets time pass; `wraps`: across the ends of periods.
     #[inline(always)]
-    pub fn pass(&mut self, time: Lanes<S>, wraps: bool) {
+    pub fn pass(&mut self, time: Lanes<S, N>, wraps: bool) {
         self.offset = self.offset + time;
         if wraps {
             let (zero, one) = (time.like(0.0), time.like(1.0));

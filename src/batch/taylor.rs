@@ -11,7 +11,7 @@ use super::scan::Parts;
 /// Degree of the polynomials: over one window, (rate t)^16 / 16! < 2e-17.
 const DEGREE: usize = 15;
 /// Coefficients of x(t), constant first.
-pub(super) type Series<S> = [Lanes<S>; DEGREE + 1];
+pub(super) type Series<S, const N: usize> = [Lanes<S, N>; DEGREE + 1];
 
 const INVERSE_FACTORIALS: [f64; DEGREE + 1] = {
     let mut table = [1.0; DEGREE + 1];
@@ -25,15 +25,15 @@ const INVERSE_FACTORIALS: [f64; DEGREE + 1] = {
 
 /// cos and sin of `turns` full turns, of 0 to 1.
 #[inline(always)]
-pub(super) fn cos_sin<S: Simd>(turns: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+pub(super) fn cos_sin<S: Simd, const N: usize>(turns: Lanes<S, N>) -> (Lanes<S, N>, Lanes<S, N>) {
     let one = turns.like(1.0);
     let quarter = turns.mul_add(turns.like(4.0), turns.like(0.5)).floor();
     let rest = quarter.mul_add(turns.like(-0.25), turns);
     let angle = rest * turns.like(TAU);
     let square = -(angle * angle);
     let (c, s) = (
-        alternating::<S, 0>(square),
-        angle * alternating::<S, 1>(square),
+        alternating::<S, N, 0>(square),
+        angle * alternating::<S, N, 1>(square),
     );
     let second = one + one;
     let odd = (quarter - second).abs().equals(one);
@@ -49,7 +49,7 @@ pub(super) fn cos_sin<S: Simd>(turns: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
 /// 1 + q / ((k+1)(k+2)) (1 + q / ((k+3)(k+4)) (...)) from k = `ODD` on: the cosine for q = -a^2, or the sine
 /// over a.
 #[inline(always)]
-fn alternating<S: Simd, const ODD: usize>(square: Lanes<S>) -> Lanes<S> {
+fn alternating<S: Simd, const N: usize, const ODD: usize>(square: Lanes<S, N>) -> Lanes<S, N> {
     let one = square.like(1.0);
     let mut sum = one;
     for n in (0..8).rev() {
@@ -61,7 +61,11 @@ fn alternating<S: Simd, const ODD: usize>(square: Lanes<S>) -> Lanes<S> {
 
 /// Series of the sum of a free motion and a steady one.
 #[inline(always)]
-pub(super) fn expand<S: Simd>(law: &Law<S>, frequency: Lanes<S>, parts: &Parts<S>) -> Series<S> {
+pub(super) fn expand<S: Simd, const N: usize>(
+    law: &Law<S, N>,
+    frequency: Lanes<S, N>,
+    parts: &Parts<S, N>,
+) -> Series<S, N> {
     let turn = -(frequency * frequency);
     let mut series = [parts.y + parts.p; DEGREE + 1];
     series[1] = parts.u + parts.q;
@@ -78,7 +82,10 @@ pub(super) fn expand<S: Simd>(law: &Law<S>, frequency: Lanes<S>, parts: &Parts<S
 
 /// Value and slope of a series.
 #[inline(always)]
-pub(super) fn evaluate<S: Simd>(series: &Series<S>, t: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+pub(super) fn evaluate<S: Simd, const N: usize>(
+    series: &Series<S, N>,
+    t: Lanes<S, N>,
+) -> (Lanes<S, N>, Lanes<S, N>) {
     let mut value = series[DEGREE];
     let mut slope = value.like(0.0);
     for coefficient in series[..DEGREE].iter().rev() {
@@ -90,10 +97,10 @@ pub(super) fn evaluate<S: Simd>(series: &Series<S>, t: Lanes<S>) -> (Lanes<S>, L
 
 /// Value, slope and half the curvature.
 #[inline(always)]
-pub(super) fn evaluate_twice<S: Simd>(
-    series: &Series<S>,
-    t: Lanes<S>,
-) -> (Lanes<S>, Lanes<S>, Lanes<S>) {
+pub(super) fn evaluate_twice<S: Simd, const N: usize>(
+    series: &Series<S, N>,
+    t: Lanes<S, N>,
+) -> (Lanes<S, N>, Lanes<S, N>, Lanes<S, N>) {
     let mut value = series[DEGREE];
     let mut slope = value.like(0.0);
     let mut bend = slope;
@@ -107,7 +114,7 @@ pub(super) fn evaluate_twice<S: Simd>(
 
 /// The series of the velocity.
 #[inline(always)]
-pub(super) fn derivative<S: Simd>(series: &Series<S>) -> Series<S> {
+pub(super) fn derivative<S: Simd, const N: usize>(series: &Series<S, N>) -> Series<S, N> {
     let mut rates = [series[0].like(0.0); DEGREE + 1];
     for n in 1..=DEGREE {
         rates[n - 1] = series[n] * series[n].like(n as f64);
@@ -117,7 +124,7 @@ pub(super) fn derivative<S: Simd>(series: &Series<S>) -> Series<S> {
 
 /// The series divided by t, where it begins with zero.
 #[inline(always)]
-pub(super) fn shifted<S: Simd>(series: &Series<S>) -> Series<S> {
+pub(super) fn shifted<S: Simd, const N: usize>(series: &Series<S, N>) -> Series<S, N> {
     let mut next = [series[0].like(0.0); DEGREE + 1];
     next[..DEGREE].copy_from_slice(&series[1..]);
     next
