@@ -23,8 +23,10 @@ def lines(worker, truth, program):
             if "lanes" in told[engine]:
                 setting += f": {told[engine]['instructions']}, {told[engine]['lanes']} lanes"
             name = "softstop batch" if engine == "batch" else "softstop scalar (program)"
+            lead = {"times_scalar": told[engine]["times_scalar"]} if engine == "batch" else {}
             own.append(
                 {
+                    **lead,
                     "solver": name,
                     "setting": setting,
                     "status": "measured",
