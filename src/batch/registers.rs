@@ -14,6 +14,9 @@ pub struct Registers {
     pub lanes: usize,
 }
 
+/// Registers that the engine lets go side by side.
+const ABREAST: usize = 2;
+
 impl Instructions {
     /// What this processor has of it.
     pub fn registers(self) -> Registers {
@@ -23,6 +26,10 @@ impl Instructions {
             Self::Avx2 => match pulp::x86::V3::try_new() {
                 Some(simd) => Measure.with_simd(simd),
                 None => Measure.with_simd(pulp::Scalar),
+            },
+            Self::OneByOne => Registers {
+                lanes: 1,
+                ..Self::Avx2.registers()
             },
             _ => Measure.with_simd(pulp::Scalar),
         }
@@ -44,7 +51,7 @@ impl WithSimd for Measure {
         };
         Registers {
             name,
-            lanes: Lanes::<S>::COUNT,
+            lanes: Lanes::<S, ABREAST>::COUNT,
         }
     }
 }
