@@ -10,7 +10,7 @@ use super::state::State;
 use super::{Instructions, Job, Outcome, Watch};
 
 /// Registers that go side by side.
-const ABREAST: usize = 2;
+pub(super) const ABREAST: usize = 2;
 
 /// Follows all jobs with the instruction set asked for, or the widest below it.
 pub(super) fn run<W: Watch>(
@@ -37,10 +37,8 @@ pub(super) fn run<W: Watch>(
     }
 }
 
-fn dispatch<T: WithSimd<Output = Vec<Outcome>>>(
-    task: T,
-    instructions: Instructions,
-) -> Vec<Outcome> {
+/// Does a task with an instruction set, or the widest below it that the processor has.
+pub(super) fn dispatch<T: WithSimd>(task: T, instructions: Instructions) -> T::Output {
     match instructions {
         Instructions::Widest => pulp::Arch::new().dispatch(task),
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
