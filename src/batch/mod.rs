@@ -22,10 +22,14 @@ mod scalar;
 mod scan;
 mod state;
 mod taylor;
+mod watch;
 
 pub use machine::Machine;
 pub use parallel::run_parallel;
 pub use registers::Registers;
+pub use watch::Watch;
+
+use watch::Listener;
 
 use crate::error::MotionError;
 use crate::integrator::Start;
@@ -67,33 +71,12 @@ pub enum Instructions {
     OneByOne,
 }
 
-/// Watches the motions of a batch. To add one, implement what it needs and say so in the constants.
-pub trait Watch {
-    /// True if it wants to know of impacts.
-    const IMPACTS: bool = false;
-    /// True if it wants to know of the ends of drive periods.
-    const PERIODS: bool = false;
-
-    /// A mass touches, `offset` seconds into the drive period `cycle`.
-    fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
-        let _ = (job, cycle, offset, velocity);
-    }
-
-    /// Drive period `cycle` has begun.
-    fn period(&mut self, job: usize, cycle: u64, state: Start) {
-        let _ = (job, cycle, state);
-    }
-}
-
-/// Watches nothing.
-impl Watch for () {}
-
 /// Follows all jobs on this thread.
 ///
 /// # Panics
 /// If a job names a machine that is not there.
 pub fn run(machines: &[Machine], jobs: &[Job], watch: &mut impl Watch) -> Vec<Outcome> {
-    engine::run(machines, jobs, watch, Instructions::Widest)
+    run_with(Instructions::Widest, machines, jobs, watch)
 }
 
 /// The same with the instruction set chosen.
@@ -103,5 +86,5 @@ pub fn run_with(
     jobs: &[Job],
     watch: &mut impl Watch,
 ) -> Vec<Outcome> {
-    engine::run(machines, jobs, watch, instructions)
+    engine::run(machines, jobs, Listener::of(watch), instructions)
 }
