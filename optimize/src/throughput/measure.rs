@@ -39,7 +39,7 @@ pub struct Timings {
 
 /// How often all cores together run the motions in one measurement: threads end together but for a
 /// part of the jobs, which would weigh much in a short one.
-pub const ROUNDS: usize = 8;
+pub const ROUNDS: usize = 16;
 
 impl Timing {
     /// The middle one of the times, in s.
