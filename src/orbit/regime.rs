@@ -1,4 +1,4 @@
-//! What a motion settles on: z = p/n, or nothing that repeats.
+//! The regime z = p/n of a motion that repeats.
 
 use std::fmt;
 

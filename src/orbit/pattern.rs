@@ -1,0 +1,92 @@
+//! The order of the impacts within the period of a motion.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::integrator::Instant;
+
+/// Impacts in each drive period of a periodic motion, in order of time.
+///
+/// The cuts between the drive periods lie at the drive angle that is farthest from all impacts, so that
+/// impacts on both sides of drive angle phi do not count as those of two periods. Of the rotations of the
+/// list the largest one stands for all: 1-0-1-0 for the paper's (2/4)A, 1-1-0-0 for its (2/4)B.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct ImpactPattern(Vec<u64>);
+
+impl ImpactPattern {
+    /// The pattern of impacts within `periods` drive periods of `period` seconds each.
+    pub fn new(instants: &[Instant], periods: u64, period: f64) -> Self {
+        let cut = cut(instants, period);
+        let mut counts = vec![0; periods as usize];
+        for instant in instants {
+            let early = instant.offset < cut;
+            let cycle = instant.cycles as u64 + periods - u64::from(early);
+            counts[(cycle % periods) as usize] += 1;
+        }
+        Self(largest_rotation(&counts))
+    }
+
+    /// Impacts per drive period.
+    pub fn counts(&self) -> &[u64] {
+        &self.0
+    }
+}
+
+/// Seconds into the drive period in the middle of the longest time without an impact in any of them.
+fn cut(instants: &[Instant], period: f64) -> f64 {
+    let mut offsets: Vec<f64> = instants.iter().map(|instant| instant.offset).collect();
+    offsets.sort_by(f64::total_cmp);
+    let (Some(first), Some(last)) = (offsets.first(), offsets.last()) else {
+        return 0.0;
+    };
+    let around = (first + period - last, *last);
+    let gaps = offsets.windows(2).map(|pair| (pair[1] - pair[0], pair[0]));
+    let (gap, from) = gaps.fold(around, |best, gap| if gap.0 > best.0 { gap } else { best });
+    let cut = from + 0.5 * gap;
+    if cut < period { cut } else { cut - period }
+}
+
+fn largest_rotation(counts: &[u64]) -> Vec<u64> {
+    let rotations = (0..counts.len()).map(|by| [&counts[by..], &counts[..by]].concat());
+    rotations.max().unwrap_or_default()
+}
+
+impl fmt::Display for ImpactPattern {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, count) in self.0.iter().enumerate() {
+            let dash = if index > 0 { "-" } else { "" };
+            write!(formatter, "{dash}{count}")?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pattern(instants: &[(f64, f64)], periods: u64) -> String {
+        let instants: Vec<Instant> = instants
+            .iter()
+            .map(|&(cycles, offset)| Instant { cycles, offset })
+            .collect();
+        ImpactPattern::new(&instants, periods, 1.0).to_string()
+    }
+
+    #[test]
+    fn the_order_of_impacts_differs_whatever_the_first_period() {
+        assert_eq!(pattern(&[(0.0, 0.4), (2.0, 0.4)], 4), "1-0-1-0");
+        assert_eq!(pattern(&[(1.0, 0.4), (3.0, 0.4)], 4), "1-0-1-0");
+        assert_eq!(pattern(&[(0.0, 0.4), (3.0, 0.5)], 4), "1-1-0-0");
+        assert_eq!(pattern(&[], 1), "0");
+    }
+
+    #[test]
+    fn impacts_on_both_sides_of_the_sections_angle_belong_together() {
+        // At 0.98 of period 0 and 0.02 of period 2: of neighbouring periods, not two apart.
+        assert_eq!(pattern(&[(0.0, 0.98), (2.0, 0.02)], 4), "1-1-0-0");
+        assert_eq!(pattern(&[(3.0, 0.98), (0.0, 0.02)], 4), "2-0-0-0");
+    }
+}
