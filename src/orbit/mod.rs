@@ -1,18 +1,21 @@
 //! Periodic motions: shooting on the exact map, multipliers, stability.
 
+mod exponents;
 mod map;
 mod newton;
 mod pattern;
 mod periodic;
+pub(crate) mod recurrence;
 mod regime;
 mod search;
 mod sensitivity;
 mod tangent;
 
+pub use exponents::Exponents;
 pub use map::{Passage, StroboscopicMap};
 pub use newton::fixed_point;
 pub(crate) use newton::round_off;
-pub use pattern::ImpactPattern;
+pub use pattern::{Count, ImpactPattern};
 pub use periodic::Orbit;
 pub use regime::Regime;
 pub use search::find;

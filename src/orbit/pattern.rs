@@ -6,6 +6,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::integrator::Instant;
 
+/// Impacts in one drive period.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Count {
+    /// So many.
+    Finite(u64),
+    /// Complete chatter: ever weaker ones that end in rest.
+    Infinite,
+}
+
 /// Impacts in each drive period of a periodic motion, in order of time.
 ///
 /// The cuts between the drive periods lie at the drive angle that is farthest from all impacts, so that
@@ -13,23 +23,32 @@ use crate::integrator::Instant;
 /// list the largest one stands for all: 1-0-1-0 for the paper's (2/4)A, 1-1-0-0 for its (2/4)B.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct ImpactPattern(Vec<u64>);
+pub struct ImpactPattern(Vec<Count>);
 
 impl ImpactPattern {
-    /// The pattern of impacts within `periods` drive periods of `period` seconds each.
-    pub fn new(instants: &[Instant], periods: u64, period: f64) -> Self {
-        let cut = cut(instants, period);
-        let mut counts = vec![0; periods as usize];
-        for instant in instants {
-            let early = instant.offset < cut;
-            let cycle = instant.cycles as u64 + periods - u64::from(early);
-            counts[(cycle % periods) as usize] += 1;
+    /// The pattern of impacts, and of complete chatter that ends at `rests`, within `periods` drive periods
+    /// of `period` seconds each.
+    pub fn new(impacts: &[Instant], rests: &[Instant], periods: u64, period: f64) -> Self {
+        let all: Vec<Instant> = [impacts, rests].concat();
+        let cut = cut(&all, period);
+        let cycle = |instant: &Instant| {
+            let early = u64::from(instant.offset < cut);
+            ((instant.cycles as u64 + periods - early) % periods) as usize
+        };
+        let mut counts = vec![Count::Finite(0); periods as usize];
+        for instant in impacts {
+            if let Count::Finite(count) = &mut counts[cycle(instant)] {
+                *count += 1;
+            }
+        }
+        for instant in rests {
+            counts[cycle(instant)] = Count::Infinite;
         }
         Self(largest_rotation(&counts))
     }
 
     /// Impacts per drive period.
-    pub fn counts(&self) -> &[u64] {
+    pub fn counts(&self) -> &[Count] {
         &self.0
     }
 }
@@ -48,7 +67,7 @@ fn cut(instants: &[Instant], period: f64) -> f64 {
     if cut < period { cut } else { cut - period }
 }
 
-fn largest_rotation(counts: &[u64]) -> Vec<u64> {
+fn largest_rotation(counts: &[Count]) -> Vec<Count> {
     let rotations = (0..counts.len()).map(|by| [&counts[by..], &counts[..by]].concat());
     rotations.max().unwrap_or_default()
 }
@@ -57,7 +76,10 @@ impl fmt::Display for ImpactPattern {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (index, count) in self.0.iter().enumerate() {
             let dash = if index > 0 { "-" } else { "" };
-            write!(formatter, "{dash}{count}")?;
+            match count {
+                Count::Finite(count) => write!(formatter, "{dash}{count}")?,
+                Count::Infinite => write!(formatter, "{dash}∞")?,
+            }
         }
         Ok(())
     }
@@ -67,12 +89,13 @@ impl fmt::Display for ImpactPattern {
 mod tests {
     use super::*;
 
+    fn instants_of(instants: &[(f64, f64)]) -> Vec<Instant> {
+        let instant = |&(cycles, offset): &(f64, f64)| Instant { cycles, offset };
+        instants.iter().map(instant).collect()
+    }
+
     fn pattern(instants: &[(f64, f64)], periods: u64) -> String {
-        let instants: Vec<Instant> = instants
-            .iter()
-            .map(|&(cycles, offset)| Instant { cycles, offset })
-            .collect();
-        ImpactPattern::new(&instants, periods, 1.0).to_string()
+        ImpactPattern::new(&instants_of(instants), &[], periods, 1.0).to_string()
     }
 
     #[test]
@@ -81,6 +104,13 @@ mod tests {
         assert_eq!(pattern(&[(1.0, 0.4), (3.0, 0.4)], 4), "1-0-1-0");
         assert_eq!(pattern(&[(0.0, 0.4), (3.0, 0.5)], 4), "1-1-0-0");
         assert_eq!(pattern(&[], 1), "0");
+    }
+
+    #[test]
+    fn complete_chatter_is_without_number() {
+        let impacts = instants_of(&[(0.0, 0.3), (1.0, 0.3), (1.0, 0.4)]);
+        let pattern = ImpactPattern::new(&impacts, &instants_of(&[(1.0, 0.5)]), 2, 1.0);
+        assert_eq!(pattern.to_string(), "∞-1");
     }
 
     #[test]

@@ -114,7 +114,7 @@ impl Orbit {
     /// The order of its impacts.
     pub fn pattern(&self) -> ImpactPattern {
         let instants: Vec<Instant> = self.impacts.iter().map(|touch| touch.instant).collect();
-        ImpactPattern::new(&instants, self.periods, self.clock().period())
+        ImpactPattern::new(&instants, &self.rests, self.periods, self.clock().period())
     }
 
     /// True if there are infinitely many impacts in its period, ever weaker ones that end in rest.
