@@ -1,6 +1,9 @@
 //! Periodic motions: shooting on the exact map, multipliers, stability.
 
+mod contact;
 mod exponents;
+mod guess;
+mod legs;
 mod map;
 mod newton;
 mod pattern;
@@ -65,7 +68,12 @@ impl From<SceneError> for OrbitError {
 
 /// Eigenvalues of a 2x2 matrix, the one of larger modulus first.
 pub fn multipliers(matrix: &Matrix2<f64>) -> [Complex<f64>; 2] {
-    let (half, determinant) = (0.5 * matrix.trace(), matrix.determinant());
+    roots(matrix.trace(), matrix.determinant())
+}
+
+/// The roots of mu^2 - trace mu + determinant, the one of larger modulus first.
+fn roots(trace: f64, determinant: f64) -> [Complex<f64>; 2] {
+    let half = 0.5 * trace;
     let discriminant = half * half - determinant;
     if discriminant < 0.0 {
         let imaginary = (-discriminant).sqrt();

@@ -2,8 +2,10 @@
 
 use nalgebra::{Complex, Matrix2, Vector2};
 
+use super::guess::guesses;
+use super::legs::Legs;
 use super::newton::{fixed_point, round_off};
-use super::{ImpactPattern, OrbitError, Passage, Regime, StroboscopicMap, is_stable, multipliers};
+use super::{ImpactPattern, OrbitError, Passage, Regime, StroboscopicMap, is_stable, roots};
 use crate::error::MotionError;
 use crate::integrator::{Clock, Instant};
 use crate::scene::Scene;
@@ -32,11 +34,16 @@ pub struct Orbit {
     /// Integral of damping over mass along the period: det = exp(-integral), times R^2 for each rebound
     /// from a rigid stop, unless the mass turns or sticks under dry friction.
     pub damping_integral: f64,
+    /// Determinant of the monodromy matrix, free of the cancellation between entries that a weak impact makes
+    /// large.
+    pub(super) determinant: f64,
 }
 
 /// Distance in units of 1 + |state| within which a state that has returned after n periods has also
 /// returned after a divisor of n. Newton's method leaves about 1e-13.
 const SAME: f64 = 1e-9;
+/// Norm of a Jacobian beyond which impacts are looked at one by one.
+const STEEP: f64 = 1e3;
 
 impl Orbit {
     /// The z = 1 orbit, stable or not, that Newton's method reaches from a state near it.
@@ -53,15 +60,88 @@ impl Orbit {
         }
     }
 
-    /// The periodic orbit, stable or not and of whatever impacts, that Newton's method on the map over
-    /// `periods` drive periods reaches from a state near it. Its own period may be a part of `periods`.
+    /// The periodic orbit, stable or not and of whatever impacts, that Newton's method reaches from a state
+    /// near it. Its own period may be a part of `periods`.
+    ///
+    /// Newton's method on the map comes first. Where that fails, as it does near grazing, or an impact is weak,
+    /// it goes from impact to impact ([`Orbit::by_impacts`]).
     ///
     /// # Errors
     /// [`OrbitError`] if Newton's method does not settle or a motion cannot be computed.
     pub fn periodic(scene: &Scene, state: Vector2<f64>, periods: u64) -> Result<Self, OrbitError> {
-        let map = StroboscopicMap::new(scene, periods.max(1))?;
+        let periods = periods.max(1);
+        match Self::on_map(scene, state, periods) {
+            Ok(orbit) if orbit.is_weak() => {
+                let impacts: Vec<(f64, f64)> = orbit.timed_impacts();
+                Ok(Self::by_impacts(scene, orbit.periods, &impacts).unwrap_or(orbit))
+            }
+            Ok(orbit) => Ok(orbit),
+            Err(error) => {
+                let guesses = guesses(scene, state, periods)?;
+                let mut found = guesses
+                    .iter()
+                    .filter_map(|impacts| Self::by_impacts(scene, periods, impacts).ok());
+                found.next().ok_or(error)
+            }
+        }
+    }
+
+    /// The periodic orbit, stable or not, that Newton's method from impact to impact reaches from times in s
+    /// and before-impact velocities in m/s of all impacts near its own. It is regular down to grazing,
+    /// where the map is not. No impact may come to rest.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if it does not settle, or on impacts between which there are others.
+    pub fn by_impacts(
+        scene: &Scene,
+        periods: u64,
+        impacts: &[(f64, f64)],
+    ) -> Result<Self, OrbitError> {
+        scene.validate()?;
+        let none = OrbitError::OtherRegime { impacts: 0 };
+        if impacts.is_empty() {
+            return Err(none);
+        }
+        let legs = Legs::new(scene, periods.max(1)).ok_or(none)?;
+        let orbit = legs.settle(impacts)?;
+        let all = orbit.timed_impacts();
+        for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
+            let share = all.len() as u64 * part;
+            if share.is_multiple_of(periods) && orbit.repeats(&all, part) {
+                let first = &all[..(share / periods) as usize];
+                return Self::by_impacts(scene, part, first);
+            }
+        }
+        Ok(orbit)
+    }
+
+    /// True if the impacts are the same after `part` drive periods.
+    fn repeats(&self, impacts: &[(f64, f64)], part: u64) -> bool {
+        let period = self.clock().period();
+        let shift = impacts.len() * part as usize / self.periods as usize;
+        let span = period * part as f64;
+        let pairs = impacts.iter().zip(&impacts[shift..]);
+        let mut pairs = pairs.map(|(a, b)| ((b.0 - a.0 - span) / period, b.1 - a.1));
+        pairs.all(|(time, velocity)| time.hypot(velocity) <= SAME * (1.0 + self.velocity.abs()))
+    }
+
+    /// Times in s and before-impact velocities in m/s of its impacts.
+    fn timed_impacts(&self) -> Vec<(f64, f64)> {
+        let clock = self.clock();
+        let timed = |touch: &Touch| (clock.time(touch.instant), touch.before_impact_velocity);
+        self.impacts.iter().map(timed).collect()
+    }
+
+    /// True if the map is steep by a weak impact, so that rounding of the state tells in that impact.
+    fn is_weak(&self) -> bool {
+        !self.impacts.is_empty() && self.rests.is_empty() && self.monodromy.norm() > STEEP
+    }
+
+    /// The same by Newton's method on the map.
+    fn on_map(scene: &Scene, state: Vector2<f64>, periods: u64) -> Result<Self, OrbitError> {
+        let map = StroboscopicMap::new(scene, periods)?;
         let (state, passage) = fixed_point(&map, state)?;
-        for part in (1..map.periods()).filter(|part| map.periods().is_multiple_of(*part)) {
+        for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
             let shorter = StroboscopicMap::new(scene, part)?;
             let gap = (shorter.image(state)? - state).norm();
             if gap > SAME * (1.0 + state.norm()) {
@@ -100,6 +180,7 @@ impl Orbit {
             max_position: map.max_position(state)?,
             monodromy: passage.monodromy,
             damping_integral: passage.damping_integral,
+            determinant: passage.monodromy.determinant(),
         })
     }
 
@@ -183,12 +264,12 @@ impl Orbit {
 
     /// Determinant of the monodromy matrix.
     pub fn determinant(&self) -> f64 {
-        self.monodromy.determinant()
+        self.determinant
     }
 
     /// Floquet multipliers, the roots of mu^2 - trace mu + determinant.
     pub fn multipliers(&self) -> [Complex<f64>; 2] {
-        multipliers(&self.monodromy)
+        roots(self.trace(), self.determinant)
     }
 
     /// True if both multipliers lie inside the unit circle.
