@@ -49,7 +49,7 @@ fn near_grazing_the_jacobian_is_that_of_differences_in_many_digits() {
     assert!(off < 1e-6, "{off:e}");
     let largest = orbit.multipliers()[0].re;
     assert!((largest / differences.trace() - 1.0).abs() < 1e-6);
-    // The fixed point itself.
+    // The fixed point itself, but for the rounding of its state.
     let gap = (image(&scene, orbit.state()) - orbit.state()).norm();
-    assert!(gap < 4.0 * f64::EPSILON * differences.norm(), "{gap:e}");
+    assert!(gap < 16.0 * f64::EPSILON * differences.norm(), "{gap:e}");
 }
