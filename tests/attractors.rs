@@ -73,9 +73,9 @@ fn below_grazing_chaos_lasts_long_but_not_for_ever() {
             _ => None,
         });
     // Of 256 motions 243, 138, 59, 16, 2 and 1 are left after 1, 10, 20, 40, 60 and 100 thousand periods:
-    // half of them go in each 8,000, which is a mean lifetime of 12,000.
+    // a mean lifetime of 12,000 to 16,000.
     for lifetime in lifetimes {
-        assert!((8e3..18e3).contains(&lifetime), "{lifetime}");
+        assert!((8e3..24e3).contains(&lifetime), "{lifetime}");
     }
     assert!(chaos(&survey).exponents.is_positive());
 }
