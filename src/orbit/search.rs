@@ -31,8 +31,8 @@ pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
             .filter_map(|state| Orbit::near(scene, state).ok())
             .filter(Orbit::is_stable)
             .max_by(|a, b| {
-                a.before_impact_velocity
-                    .total_cmp(&b.before_impact_velocity)
+                a.before_impact_velocity()
+                    .total_cmp(&b.before_impact_velocity())
             });
         if let Some(orbit) = best {
             return Ok(orbit);
