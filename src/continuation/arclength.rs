@@ -135,7 +135,10 @@ pub(crate) fn locate<E: Equations>(
     narrow(ends.0, ends.1, width / way.norm(), |share| {
         let node = correct(equations, &(&from.at + share * &way), Some(&chord))?;
         let value = test(&node);
-        if best.as_ref().is_none_or(|known| value.abs() <= known.2.abs()) {
+        if best
+            .as_ref()
+            .is_none_or(|known| value.abs() <= known.2.abs())
+        {
             best = Some((node, share, value));
         }
         Ok::<f64, OrbitError>(value)

@@ -10,6 +10,7 @@ use super::follower::{Follower, Heading, WIDTH};
 use super::graze::Approach;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::round::{Round, grazes_gently};
+use super::shooting::Shooting;
 use super::test::Test;
 use crate::orbit::OrbitError;
 
@@ -69,6 +70,11 @@ const SHARE_LEFT: f64 = 0.3;
 const NEAR: f64 = 1e-4;
 /// Length of the steps from which on all changes are taken.
 const SHORT: f64 = 1e-5;
+/// Scaled distance within which an orbit repeats.
+const REPEATS: f64 = 1e-7;
+/// Share of its way across that half a round may have left where an orbit has become one of half as many
+/// periods.
+const MERGED: f64 = 1e-3;
 /// Points after which a branch may be found closed.
 const SHORTEST_LOOP: usize = 8;
 /// Distance from the start, in units of the step, at which a branch is closed.
@@ -88,12 +94,40 @@ impl<F: Family> Follower<'_, F> {
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
         let start = self.start(parameter, state)?;
-        let up = self.way(start.clone(), &Self::direction(Heading::Up), limits, &mut watch)?;
+        let minimal = self.minimal_period(&start);
+        if minimal < self.shooting.periods {
+            let shorter = Follower::new(self.shooting.family, minimal);
+            return shorter.branch(parameter, self.shooting.state(&start.at), limits, watch);
+        }
+        let up = self.way(
+            start.clone(),
+            &Self::direction(Heading::Up),
+            limits,
+            &mut watch,
+        )?;
         let down = match up.end {
             End::Closed => Way::none(),
-            _ => self.way(start.clone(), &Self::direction(Heading::Down), limits, &mut watch)?,
+            _ => self.way(
+                start.clone(),
+                &Self::direction(Heading::Down),
+                limits,
+                &mut watch,
+            )?,
         };
         Ok(self.joined(&start, down, up))
+    }
+
+    /// The drive periods after which an orbit really repeats.
+    fn minimal_period(&self, node: &Node<Round>) -> u64 {
+        let periods = self.shooting.periods;
+        let returns = |after: &u64| {
+            let way = node.here.point.ends[*after as usize - 1] - self.shooting.state(&node.at);
+            self.shooting.scaled(way, [0.0]).norm() < REPEATS
+        };
+        (1..periods)
+            .filter(|after| periods.is_multiple_of(*after))
+            .find(returns)
+            .unwrap_or(periods)
     }
 
     /// The branch from a point on in one direction, given as a change of state and parameter.
@@ -144,7 +178,10 @@ impl<F: Family> Follower<'_, F> {
                     walker.take(stride);
                     let end = self.record(&mut way, (&last, &walker.node), &origin, limits)?;
                     approach = ahead;
-                    let stopped = way.points.last().is_some_and(|point| watch(point).is_break());
+                    let stopped = way
+                        .points
+                        .last()
+                        .is_some_and(|point| watch(point).is_break());
                     if let Some(end) = end.or(stopped.then_some(End::Stopped)) {
                         way.end = end;
                         return Ok(way);
@@ -158,9 +195,11 @@ impl<F: Family> Follower<'_, F> {
                         return Ok(way);
                     }
                     if !walker.shorten() {
-                        way.end = End::Lost(refused.err().unwrap_or(OrbitError::Diverged {
-                            residual: f64::NAN,
-                        }));
+                        way.end = End::Lost(
+                            refused
+                                .err()
+                                .unwrap_or(OrbitError::Diverged { residual: f64::NAN }),
+                        );
                         return Ok(way);
                     }
                 }
@@ -172,7 +211,7 @@ impl<F: Family> Follower<'_, F> {
     /// True if nothing can be missed on a step.
     fn may_take(
         &self,
-        walker: &Walker<'_, super::shooting::Shooting<'_, F, 1>>,
+        walker: &Walker<'_, Shooting<'_, F, 1>>,
         stride: &Stride<Round>,
         (now, ahead): (&Approach, &Approach),
     ) -> bool {
@@ -195,7 +234,7 @@ impl<F: Family> Follower<'_, F> {
     /// The grazing within the next step, if there is one.
     fn graze_ahead(
         &self,
-        walker: &Walker<'_, super::shooting::Shooting<'_, F, 1>>,
+        walker: &Walker<'_, Shooting<'_, F, 1>>,
         approach: &Approach,
     ) -> Option<Special> {
         approach.grazes(&self.shooting).into_iter().find(|special| {
@@ -256,8 +295,7 @@ impl<F: Family> Follower<'_, F> {
         for test in Test::ALL {
             if test.passes(&a.monodromy, &b.monodromy) {
                 let value = |node: &Node<Round>| test.value(&node.here.point.monodromy);
-                let (node, share) =
-                    arclength::locate(&self.shooting, (from, to), WIDTH, value)?;
+                let (node, share) = arclength::locate(&self.shooting, (from, to), WIDTH, value)?;
                 let point = self.point_at(&node);
                 let kind = SpecialKind::Critical(test);
                 found.push((share, Special { kind, point }));
@@ -306,7 +344,7 @@ impl<F: Family> Follower<'_, F> {
             half - self.shooting.state(&node.at)
         };
         let (a, b) = (asymmetry(from), asymmetry(to));
-        if a.dot(&b) >= 0.0 {
+        if a.dot(&b) >= 0.0 && b.norm() > MERGED * a.norm() {
             return None;
         }
         let share = a.norm() / (a.norm() + b.norm());

@@ -86,12 +86,16 @@ pub fn curve<F: Family<2>>(
             follow(&critical, kind, &guess, region, &mut watch)
         }
         SpecialKind::Grazing(Graze {
-            angle, crossings, ..
+            angle,
+            crossings,
+            face,
+            ..
         }) => {
             let touching = Touching {
                 family,
                 periods,
                 crossings,
+                face,
             };
             let guess = touching.scaled(angle, parameters);
             follow(&touching, kind, &guess, region, &mut watch)
@@ -205,10 +209,12 @@ fn way<E: Codimension>(
                 walker.take(stride);
                 let (node, leaves) = within(equations, (&last, &walker.node), region)?;
                 let step = &node.at - &last.at;
-                let off = (&origin - &last.at) - step.dot(&(&origin - &last.at)) / step.norm_squared() * &step;
-                let passes = (0.0..=1.0)
-                    .contains(&(step.dot(&(&origin - &last.at)) / step.norm_squared()));
-                let closed = points.len() >= SHORTEST_LOOP && passes && off.norm() < CLOSED * step.norm();
+                let off = (&origin - &last.at)
+                    - step.dot(&(&origin - &last.at)) / step.norm_squared() * &step;
+                let passes =
+                    (0.0..=1.0).contains(&(step.dot(&(&origin - &last.at)) / step.norm_squared()));
+                let closed =
+                    points.len() >= SHORTEST_LOOP && passes && off.norm() < CLOSED * step.norm();
                 let point = equations.describe(&node)?;
                 let stopped = watch(&point).is_break();
                 points.push(point);

@@ -14,9 +14,6 @@ use crate::error::MotionError;
 use crate::orbit::OrbitError;
 use crate::scene::Stop;
 
-/// Scaled distance within which a crossing counts as one of the clearance.
-const LEVEL: f64 = 1e-9;
-
 /// An orbit's slowest crossing and its nearest turning point.
 #[derive(Debug, Clone)]
 pub(crate) struct Approach {
@@ -25,7 +22,6 @@ pub(crate) struct Approach {
     /// Crossings of the orbit, and those that a dying impact takes along.
     crossings: (usize, usize),
     parameter: f64,
-    clearance: f64,
     drive: (f64, f64),
     speed: f64,
 }
@@ -45,7 +41,6 @@ impl Approach {
             rising: nearest_turn(&scene, shooting.periods, shooting.state(&node.at))?,
             crossings: (total, if bounces { 1 } else { 2 }),
             parameter: shooting.parameters(&node.at)[0],
-            clearance: scene.clearance,
             drive: (scene.excitation.phase, scene.excitation.frequency),
             speed: shooting.velocity_scale(),
         })
@@ -67,11 +62,12 @@ impl Approach {
     pub fn grazes<F: Family>(&self, shooting: &Shooting<'_, F, 1>) -> Vec<Special> {
         let (total, taken) = self.crossings;
         let dying = self.dying.zip(total.checked_sub(taken));
-        let rising = self.rising.map(|touch| (touch, total));
+        let rising = self
+            .rising
+            .map(|touch| (touch, total - usize::from(touch.reverses)));
         [(dying, true), (rising, false)]
             .into_iter()
             .filter_map(|(touch, dies)| touch.map(|(touch, crossings)| (touch, crossings, dies)))
-            .filter(|(touch, ..)| (touch.level - self.clearance).abs() < LEVEL * self.speed)
             .filter_map(|(touch, crossings, dies)| {
                 self.graze(shooting, &touch, crossings, dies).ok()
             })
@@ -89,6 +85,7 @@ impl Approach {
             family: shooting.family,
             periods: shooting.periods,
             crossings,
+            face: touch.face,
         };
         let (phase, frequency) = self.drive;
         let angle = phase + frequency * touch.time;
@@ -101,6 +98,7 @@ impl Approach {
             angle: phase + (node.at[0] - phase).rem_euclid(TAU * shooting.periods as f64),
             impacts: impacts.len(),
             dies,
+            face: touch.face,
             crossings,
         };
         Ok(Special {

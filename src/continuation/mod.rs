@@ -45,6 +45,7 @@ pub use follower::{Follower, Heading};
 pub use parameter::{Adjustable, Along, Parameter};
 pub use point::{BranchPoint, Graze, Special, SpecialKind};
 pub use root::{Bracket, narrow};
+pub use round::Face;
 pub use test::Test;
 
 use crate::error::MotionError;

@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
+use super::round::Face;
 use super::test::Test;
 use crate::orbit::is_stable;
 
@@ -59,9 +60,11 @@ pub struct Graze {
     pub angle: f64,
     /// Impacts of the orbit, the touch left out.
     pub impacts: usize,
-    /// True if the touch is a dying impact, seen from the branch: p/n becomes (p - 1)/n. Otherwise a
-    /// turning point reaches the stop, and p/n becomes (p + 1)/n.
+    /// True if the touch is a dying crossing, seen from the branch: at the clearance, p/n becomes
+    /// (p - 1)/n. Otherwise a turning point reaches the surface, and p/n becomes (p + 1)/n.
     pub dies: bool,
+    /// The surface that is touched; but for the clearance, the number of impacts stays.
+    pub face: Face,
     /// Crossings of the orbit, the touch left out.
     pub(crate) crossings: usize,
 }

@@ -22,6 +22,46 @@ pub(crate) struct Sequence {
     pub rests: usize,
 }
 
+/// A surface at which a scene's law of force changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Face {
+    /// The clearance: an impact.
+    Clearance,
+    /// The end of phase I, where the strip is pierced.
+    Pierced,
+    /// The stop behind the strip.
+    Stop,
+    /// The rigid stop behind that.
+    Wall,
+}
+
+impl Face {
+    /// All.
+    pub const ALL: [Self; 4] = [Self::Clearance, Self::Pierced, Self::Stop, Self::Wall];
+
+    /// Its position in m, if the scene has it.
+    pub fn position(self, scene: &Scene) -> Option<f64> {
+        match self {
+            Self::Clearance => Some(scene.clearance),
+            Self::Pierced => scene
+                .piercing
+                .map(|strip| scene.clearance + strip.thickness),
+            Self::Stop => scene.piercing.map(|_| scene.stop_position()),
+            Self::Wall => scene.wall().map(|(position, _)| position),
+        }
+    }
+
+    /// The face at a position, to rounding.
+    fn at(scene: &Scene, position: f64) -> Option<Self> {
+        let near = 1e-9 * (1.0 + position.abs());
+        let stands = |face: &Self| {
+            face.position(scene)
+                .is_some_and(|level| (level - position).abs() < near)
+        };
+        Self::ALL.into_iter().find(stands)
+    }
+}
+
 /// Where an orbit comes near to grazing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Touch {
@@ -29,8 +69,10 @@ pub(crate) struct Touch {
     pub time: f64,
     /// Velocity in m/s of a crossing, or distance in m of a turning point from the surface ahead.
     pub amount: f64,
-    /// The surface's position in m.
-    pub level: f64,
+    /// The surface.
+    pub face: Face,
+    /// Dry friction turns its sign there.
+    pub reverses: bool,
 }
 
 /// What happens from time 0 over a number of drive periods.
@@ -53,6 +95,7 @@ impl Round {
     pub fn of(scene: &Scene, periods: u64, state: Vector2<f64>) -> Result<Self, MotionError> {
         let mut motion = begin(scene, state)?;
         let mut watch = Watch {
+            scene,
             clock: *motion.clock(),
             tangent: Tangent::default(),
             impacts: Vec::new(),
@@ -101,7 +144,8 @@ pub(crate) fn finish(motion: &Motion, observer: &mut impl Observer) {
     observer.arc(&arc, elapsed);
 }
 
-struct Watch {
+struct Watch<'a> {
+    scene: &'a Scene,
     clock: Clock,
     tangent: Tangent,
     impacts: Vec<f64>,
@@ -109,7 +153,7 @@ struct Watch {
     slowest: Option<Touch>,
 }
 
-impl Observer for Watch {
+impl Observer for Watch<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         self.tangent.arc(arc, elapsed);
     }
@@ -126,15 +170,18 @@ impl Observer for Watch {
     }
 }
 
-impl Watch {
+impl Watch<'_> {
     fn passes(&mut self, crossing: &Crossing) {
         self.sequence.surfaces += 1;
         let amount = crossing.velocity.abs();
-        if self.slowest.is_none_or(|known| amount < known.amount) {
+        if self.slowest.is_none_or(|known| amount < known.amount)
+            && let Some(face) = Face::at(self.scene, crossing.position)
+        {
             self.slowest = Some(Touch {
                 time: self.clock.time(crossing.instant),
                 amount,
-                level: crossing.position,
+                face,
+                reverses: false,
             });
         }
     }
@@ -151,21 +198,6 @@ impl Watch {
         }
         self.slowest = None;
     }
-}
-
-/// Positions in m of the surfaces at which a scene's law of force changes.
-fn surfaces(scene: &Scene) -> Vec<f64> {
-    let strip = scene
-        .piercing
-        .map(|strip| scene.clearance + strip.thickness);
-    let wall = scene.wall().map(|(position, _)| position);
-    let given = [
-        Some(scene.clearance),
-        strip,
-        Some(scene.stop_position()),
-        wall,
-    ];
-    given.into_iter().flatten().collect()
 }
 
 /// True if an orbit can graze the scene's stop without losing its derivative: the force does not jump
@@ -189,7 +221,10 @@ pub(crate) fn nearest_turn(
     let mut motion = begin(scene, state)?;
     let mut turns = Turns {
         clock: *motion.clock(),
-        surfaces: surfaces(scene),
+        faces: Face::ALL
+            .into_iter()
+            .filter_map(|face| Some((face, face.position(scene)?)))
+            .collect(),
         nearest: None,
     };
     motion.advance(Clock::at_cycle(periods), &mut turns)?;
@@ -199,7 +234,7 @@ pub(crate) fn nearest_turn(
 
 struct Turns {
     clock: Clock,
-    surfaces: Vec<f64>,
+    faces: Vec<(Face, f64)>,
     nearest: Option<Touch>,
 }
 
@@ -207,21 +242,36 @@ impl Observer for Turns {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         let start = self.clock.time(arc.start);
         for (back, at, position) in turning_points(arc.course, elapsed) {
-            self.turn(back, start + at, position);
+            self.turn(back, start + at, position, false);
+        }
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        if crossing.kind == CrossingKind::Reversal {
+            let back = crossing.acceleration_before < 0.0;
+            let time = self.clock.time(crossing.instant);
+            self.turn(back, time, crossing.position, true);
         }
     }
 }
 
 impl Turns {
-    fn turn(&mut self, back: bool, time: f64, position: f64) {
-        let ahead = |level: f64| if back { level - position } else { position - level };
-        for &level in self.surfaces.iter().filter(|level| ahead(**level) > 0.0) {
-            let amount = ahead(level);
-            if self.nearest.is_none_or(|known| amount < known.amount) {
+    fn turn(&mut self, back: bool, time: f64, position: f64, reverses: bool) {
+        for &(face, level) in &self.faces {
+            let amount = if back {
+                level - position
+            } else {
+                position - level
+            };
+            let nearer = self
+                .nearest
+                .is_none_or(|known| amount < known.amount || (reverses && amount == known.amount));
+            if amount > 0.0 && nearer {
                 self.nearest = Some(Touch {
                     time,
                     amount,
-                    level,
+                    face,
+                    reverses,
                 });
             }
         }

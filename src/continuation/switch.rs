@@ -45,9 +45,7 @@ impl<F: Family> Follower<'_, F> {
                 return doubled.branch_along(node, &along, limits, &mut watch);
             }
         }
-        Err(OrbitError::Diverged {
-            residual: f64::NAN,
-        })
+        Err(OrbitError::Diverged { residual: f64::NAN })
     }
 
     /// The doublings of a branch, one after the other: the first flip among `specials`, the first on the

@@ -66,8 +66,7 @@ mod tests {
     #[test]
     fn neimark_sacker_needs_complex_multipliers_and_a_change() {
         let turned = |size: f64| Rotation2::new(1.0).into_inner() * size;
-        let passes =
-            |from: Matrix2<f64>, to: Matrix2<f64>| Test::NeimarkSacker.passes(&from, &to);
+        let passes = |from: Matrix2<f64>, to: Matrix2<f64>| Test::NeimarkSacker.passes(&from, &to);
         assert!(passes(turned(0.9), turned(1.1)));
         assert!(!passes(turned(0.9), turned(0.95)));
         assert!(!passes(turned(1.0 - 1e-14), turned(1.0 + 1e-14)));

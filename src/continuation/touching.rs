@@ -1,17 +1,16 @@
-//! Orbits that graze the stop: with the touch at their beginning, all that follows is smooth.
+//! Orbits that graze a surface: with the touch at their beginning, all that follows is smooth.
 //!
 //! Near grazing the map over whole periods has a derivative without bounds (saltation with 1/v), but
-//! the orbit that just touches solves a regular system: from (clearance, 0) at a drive angle, over whole
-//! periods back to it, the last arc taken on as if the stop were not there. (Arclength and Newton near
+//! the orbit that just touches solves a regular system: from rest at a surface at a drive angle, over
+//! whole periods back to it, the last arc taken on as if the stop were not there. (Arclength and Newton near
 //! grazing: arXiv 2506.18379, arXiv 2510.16218.)
 
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Evaluation, Node, differences};
-use super::round::{begin, finish};
+use super::round::{Face, begin, finish};
 use super::shooting::round_off;
-use crate::error::MotionError;
 use crate::integrator::{Arc, Clock, Crossing, Instant, Observer};
 use crate::orbit::{OrbitError, Tangent};
 use crate::scene::Scene;
@@ -23,6 +22,8 @@ pub(crate) struct Touching<'a, F, const N: usize> {
     pub periods: u64,
     /// Crossings of the orbit, the touch left out.
     pub crossings: usize,
+    /// The surface that is touched.
+    pub face: Face,
 }
 
 /// A grazing orbit.
@@ -34,10 +35,18 @@ pub(crate) struct Contact {
     pub impacts: Vec<f64>,
 }
 
+/// The orbit does not cross as often as it should, or there is no such surface.
+const LOST: OrbitError = OrbitError::Diverged {
+    residual: f64::INFINITY,
+};
+
 impl<F: Family<N>, const N: usize> Touching<'_, F, N> {
     pub fn scaled(&self, angle: f64, parameters: [f64; N]) -> DVector<f64> {
         let spans = self.family.parameter_scales();
-        let scaled = parameters.iter().zip(spans).map(|(value, span)| value / span);
+        let scaled = parameters
+            .iter()
+            .zip(spans)
+            .map(|(value, span)| value / span);
         DVector::from_iterator(1 + N, [angle].into_iter().chain(scaled))
     }
 
@@ -46,25 +55,29 @@ impl<F: Family<N>, const N: usize> Touching<'_, F, N> {
         std::array::from_fn(|index| at[1 + index] * spans[index])
     }
 
-    /// The scene with time 0 at the touch.
-    fn scene(&self, at: &DVector<f64>) -> Result<Scene, MotionError> {
+    /// The scene with time 0 at the touch, and the state there.
+    fn scene(&self, at: &DVector<f64>) -> Result<(Scene, Vector2<f64>), OrbitError> {
         let mut scene = self.family.scene(self.parameters(at))?;
         scene.excitation.phase = at[0];
-        Ok(scene)
+        let position = self.face.position(&scene).ok_or(LOST)?;
+        Ok((scene, Vector2::new(position, 0.0)))
     }
 
     /// The state of a grazing orbit at time 0 of its family's scene.
     pub fn state(&self, node: &Node<Contact>) -> Result<Vector2<f64>, OrbitError> {
         let parameters = self.parameters(&node.at);
         let phase = self.family.scene(parameters)?.excitation.phase;
-        let scene = self.scene(&node.at)?;
+        let (scene, touch) = self.scene(&node.at)?;
         let turn = std::f64::consts::TAU;
         let touched = ((node.at[0] - phase) / turn).rem_euclid(self.periods as f64);
-        let mut motion = begin(&scene, Vector2::new(scene.clearance, 0.0))?;
+        let mut motion = begin(&scene, touch)?;
         let clock = *motion.clock();
         let duration = (self.periods as f64 - touched) * clock.period();
         motion.advance(clock.instant(duration), &mut ())?;
-        Ok(Vector2::new(motion.state().position, motion.state().velocity))
+        Ok(Vector2::new(
+            motion.state().position,
+            motion.state().velocity,
+        ))
     }
 }
 
@@ -72,8 +85,7 @@ impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
     type Point = Contact;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Contact>, OrbitError> {
-        let scene = self.scene(at)?;
-        let touch = Vector2::new(scene.clearance, 0.0);
+        let (scene, touch) = self.scene(at)?;
         let mut motion = begin(&scene, touch)?;
         let until = Clock::at_cycle(self.periods);
         let mut watch = LastArc {
@@ -86,10 +98,7 @@ impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
         };
         motion.advance(until, &mut watch)?;
         finish(&motion, &mut watch);
-        let lost = OrbitError::Diverged {
-            residual: f64::INFINITY,
-        };
-        let end = watch.found.ok_or(lost)?;
+        let end = watch.found.ok_or(LOST)?;
         let monodromy = watch.tangent.matrix;
         let drift = end - touch;
         let [length, speed] = self.family.state_scales();
