@@ -68,8 +68,12 @@ const LARGEST_CHANGE: f64 = 0.3;
 /// (scaled).
 const SHARE_LEFT: f64 = 0.3;
 const NEAR: f64 = 1e-4;
+/// Length of the steps up to which a grazing orbit is looked for ahead: nothing else is on so short a way.
+const CLOSE: f64 = 1e-3;
 /// Length of the steps from which on all changes are taken.
 const SHORT: f64 = 1e-5;
+/// Steps shorter than that in a row after which an orbit is too unstable to be followed.
+const LONGEST_CRAWL: usize = 60;
 /// Scaled distance within which an orbit repeats.
 const REPEATS: f64 = 1e-7;
 /// Share of its way across that half a round may have left where an orbit has become one of half as many
@@ -167,7 +171,12 @@ impl<F: Family> Follower<'_, F> {
         let origin = start.clone();
         let mut approach = Approach::of(&self.shooting, &start)?;
         let mut walker = Walker::new(&self.shooting, start, along)?;
+        let mut crawled = 0;
         while way.points.len() < limits.points {
+            if crawled > LONGEST_CRAWL {
+                way.end = End::Lost(OrbitError::Diverged { residual: f64::NAN });
+                return Ok(way);
+            }
             let stride = walker.attempt().and_then(|stride| {
                 let ahead = Approach::of(&self.shooting, &stride.node)?;
                 Ok((stride, ahead))
@@ -175,6 +184,7 @@ impl<F: Family> Follower<'_, F> {
             match stride {
                 Ok((stride, ahead)) if self.may_take(&walker, &stride, (&approach, &ahead)) => {
                     let last = walker.node.clone();
+                    crawled = if walker.step < SHORT { crawled + 1 } else { 0 };
                     walker.take(stride);
                     let end = self.record(&mut way, (&last, &walker.node), &origin, limits)?;
                     approach = ahead;
@@ -237,6 +247,9 @@ impl<F: Family> Follower<'_, F> {
         walker: &Walker<'_, Shooting<'_, F, 1>>,
         approach: &Approach,
     ) -> Option<Special> {
+        if walker.step > CLOSE || self.is_gentle(&walker.node) {
+            return None;
+        }
         approach.grazes(&self.shooting).into_iter().find(|special| {
             let point = &special.point;
             let at = self.shooting.scaled(point.state(), [point.parameter]);

@@ -293,7 +293,7 @@ fn turning_points(course: &Course, duration: f64) -> Vec<(bool, f64, f64)> {
             Guard::turning_forward()
         };
         match first_crossing(course, &[guard], node, duration) {
-            Outlook::Crossing(turn) if turn.elapsed <= duration => {
+            Outlook::Crossing(turn) if turn.elapsed > node.elapsed && turn.elapsed <= duration => {
                 found.push((back, turn.elapsed, turn.position));
                 node = course.node(turn.elapsed);
                 back = !back;

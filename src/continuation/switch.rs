@@ -40,8 +40,10 @@ impl<F: Family> Follower<'_, F> {
             let Ok(node) = correct(&doubled.shooting, &guess, Some(&away)) else {
                 continue;
             };
-            if doubled.half_round(&node) > APART * distance {
-                let along: DVector<f64> = &node.at - &at;
+            let along: DVector<f64> = &node.at - &at;
+            let twice = node.here.point.impacts.len() == 2 * flip.impacts.len();
+            let near = along.norm() < 2.0 * distance;
+            if twice && near && doubled.half_round(&node) > APART * distance {
                 return doubled.branch_along(node, &along, limits, &mut watch);
             }
         }
