@@ -8,8 +8,8 @@ use std::ops::ControlFlow;
 use common::{list, machine, number};
 use nalgebra::{Matrix2, Vector2};
 use softstop::continuation::{
-    Along, Branch, BranchPoint, Curve, End, Face, Follower, Limits, Parameter, Region, Special,
-    SpecialKind, Test, curve,
+    Along, Branch, BranchPoint, Curve, CurvePoint, End, Face, Follower, Limits, Parameter, Region,
+    Special, SpecialKind, Test, curve,
 };
 use softstop::orbit::StroboscopicMap;
 use softstop::zone::grazing_frequencies;
@@ -307,6 +307,16 @@ fn followed(
 
 const FREQUENCY_CLEARANCE: [Parameter; 2] = [Parameter::Frequency, Parameter::Clearance];
 
+/// The point of a curve in frequency and clearance at a clearance that it stops at.
+#[track_caller]
+fn at_clearance(curve: &Curve, clearance: f64) -> &CurvePoint {
+    let off = |point: &&CurvePoint| (point.parameters[1] - clearance).abs();
+    let nearest = curve.points.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+    let nearest = nearest.expect("points");
+    assert!(off(&nearest) < 1e-9, "{clearance}: {nearest:?}");
+    nearest
+}
+
 /// s_SN over rho: the fold's curve passes through all of them, to their digits.
 #[test]
 fn fold_curve_passes_through_all_known_folds() {
@@ -327,14 +337,7 @@ fn fold_curve_passes_through_all_known_folds() {
         // The curve ends exactly at the range's end.
         let range = (clearance.min(10.0), clearance.max(10.0));
         let curve = followed(&fold, 1, &family, 10.0, [(1.0, 2.0), range]);
-        let off =
-            |point: &softstop::continuation::CurvePoint| (point.parameters[1] - clearance).abs();
-        let nearest = curve
-            .points
-            .iter()
-            .min_by(|a, b| off(a).total_cmp(&off(b)))
-            .expect("points");
-        assert!(off(nearest) < 1e-9, "{clearance}: {nearest:?}");
+        let nearest = at_clearance(&curve, clearance);
         assert_near(nearest.parameters[0], frequency, 0.5e-5 + 1e-9);
         assert_near(nearest.impacts[0], velocity, 0.005 + 1e-9);
         assert_near(Test::Fold.value(&nearest.monodromy), 0.0, 1e-11);
@@ -360,11 +363,7 @@ fn fold_curve_agrees_with_thirty_digits() {
         }
         let range = (ratios.clearance.min(10.0), ratios.clearance.max(10.0));
         let curve = followed(&fold, 1, &family, 10.0, [(1.0, 2.0), range]);
-        let ends = [&curve.points[0], &curve.points[curve.points.len() - 1]];
-        let hit = ends
-            .into_iter()
-            .find(|point| (point.parameters[1] - ratios.clearance).abs() < 1e-9)
-            .expect("the curve reaches it");
+        let hit = at_clearance(&curve, ratios.clearance);
         assert_near(hit.parameters[0], number(expected, "frequency_sn"), 1e-9);
         compared += 1;
     }

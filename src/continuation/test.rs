@@ -57,10 +57,10 @@ mod tests {
 
     #[test]
     fn tests_vanish_at_their_multipliers() {
-        assert_eq!(Test::Fold.value(&Matrix2::new(1.0, 5.0, 0.0, 0.3)), 0.0);
-        assert_eq!(Test::Flip.value(&Matrix2::new(-1.0, 5.0, 0.0, 0.3)), 0.0);
-        let turned = Rotation2::new(1.0).into_inner();
-        assert!(Test::NeimarkSacker.value(&turned).abs() < 1e-15);
+        let vanishes = |test: Test, matrix| assert!(test.value(&matrix).abs() < 1e-15);
+        vanishes(Test::Fold, Matrix2::new(1.0, 5.0, 0.0, 0.3));
+        vanishes(Test::Flip, Matrix2::new(-1.0, 5.0, 0.0, 0.3));
+        vanishes(Test::NeimarkSacker, Rotation2::new(1.0).into_inner());
     }
 
     #[test]

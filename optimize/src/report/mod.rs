@@ -101,7 +101,7 @@ impl MotionReport {
             frequency,
             position: orbit.position,
             velocity: orbit.velocity,
-            before_impact_velocity: orbit.before_impact_velocity,
+            before_impact_velocity: orbit.before_impact_velocity(),
             max_position: orbit.max_position,
             trace: orbit.trace(),
             determinant: orbit.determinant(),
@@ -257,7 +257,7 @@ impl ReferenceReport {
         Self {
             machine: MachineReport::new(regime, &ratios),
             motion: MotionReport::new(ratios.frequency, orbit),
-            gain: design_velocity / orbit.before_impact_velocity,
+            gain: design_velocity / orbit.before_impact_velocity(),
         }
     }
 }
