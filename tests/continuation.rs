@@ -292,6 +292,7 @@ fn followed(
     let region = Region {
         ranges,
         points: 500,
+        step: 0.25,
     };
     let start = [special.point.parameter, second];
     curve(

@@ -154,7 +154,7 @@ pub(crate) fn locate<E: Equations>(
 /// First, smallest and largest arclength steps.
 const FIRST_STEP: f64 = 0.02;
 const SMALLEST_STEP: f64 = 1e-9;
-const LARGEST_STEP: f64 = 0.25;
+pub(crate) const LARGEST_STEP: f64 = 0.25;
 /// Largest turn of the direction per step, as a cosine, and that up to which steps grow.
 const LARGEST_TURN: f64 = 0.96;
 const GENTLE_TURN: f64 = 0.995;
@@ -165,6 +165,7 @@ pub(crate) struct Walker<'a, E: Equations> {
     pub node: Node<E::Point>,
     pub direction: DVector<f64>,
     pub step: f64,
+    largest: f64,
 }
 
 /// A step that can be taken.
@@ -175,18 +176,20 @@ pub(crate) struct Stride<P> {
 }
 
 impl<'a, E: Equations> Walker<'a, E> {
-    /// From a node on the side of `along`.
+    /// From a node on the side of `along`, with steps of at most `largest`.
     pub fn new(
         equations: &'a E,
         node: Node<E::Point>,
         along: &DVector<f64>,
+        largest: f64,
     ) -> Result<Self, OrbitError> {
         let direction = tangent(equations, &node, along)?;
         Ok(Self {
             equations,
             node,
             direction,
-            step: FIRST_STEP,
+            step: FIRST_STEP.min(largest),
+            largest,
         })
     }
 
@@ -211,7 +214,7 @@ impl<'a, E: Equations> Walker<'a, E> {
         self.node = stride.node;
         self.direction = stride.direction;
         if stride.grows {
-            self.step = (1.6 * self.step).min(LARGEST_STEP);
+            self.step = (1.6 * self.step).min(self.largest);
         }
     }
 

@@ -100,7 +100,7 @@ impl<F: Family> Follower<'_, F> {
         let start = self.start(parameter, state)?;
         let minimal = self.minimal_period(&start);
         if minimal < self.shooting.periods {
-            let shorter = Follower::new(self.shooting.family, minimal);
+            let shorter = self.over(minimal);
             return shorter.branch(parameter, self.shooting.state(&start.at), limits, watch);
         }
         let up = self.way(
@@ -170,7 +170,7 @@ impl<F: Family> Follower<'_, F> {
         let mut way = Way::none();
         let origin = start.clone();
         let mut approach = Approach::of(&self.shooting, &start)?;
-        let mut walker = Walker::new(&self.shooting, start, along)?;
+        let mut walker = Walker::new(&self.shooting, start, along, self.largest)?;
         let mut crawled = 0;
         while way.points.len() < limits.points {
             if crawled > LONGEST_CRAWL {
@@ -362,7 +362,7 @@ impl<F: Family> Follower<'_, F> {
         }
         let share = a.norm() / (a.norm() + b.norm());
         let at = &from.at + share * (&to.at - &from.at);
-        let follower = Follower::new(self.shooting.family, periods / 2);
+        let follower = self.over(periods / 2);
         let [parameter] = self.shooting.parameters(&at);
         let near = follower.point(parameter, self.shooting.state(&at)).ok()?;
         follower.critical(&near, Test::Flip).ok()

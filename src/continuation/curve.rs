@@ -20,6 +20,8 @@ pub struct Region {
     pub ranges: [(f64, f64); 2],
     /// Points in each direction.
     pub points: usize,
+    /// Largest step, in units of the family's scales.
+    pub step: f64,
 }
 
 /// A point of a curve of special points.
@@ -200,7 +202,7 @@ fn way<E: Codimension>(
 ) -> Result<(Vec<CurvePoint>, CurveEnd), OrbitError> {
     let origin = start.at.clone();
     let sequence = equations.sequence(&start.here.point);
-    let mut walker = Walker::new(equations, start, along)?;
+    let mut walker = Walker::new(equations, start, along, region.step)?;
     let mut points = Vec::new();
     while points.len() < region.points {
         let cause = match walker.attempt() {

@@ -3,7 +3,7 @@
 use nalgebra::{DVector, Vector2};
 
 use super::Family;
-use super::arclength::{self, Node, Walker, correct};
+use super::arclength::{self, LARGEST_STEP, Node, Walker, correct};
 use super::point::BranchPoint;
 use super::round::Round;
 use super::shooting::{Critical, Shooting};
@@ -26,6 +26,7 @@ pub enum Heading {
 #[derive(Debug)]
 pub struct Follower<'a, F> {
     pub(super) shooting: Shooting<'a, F, 1>,
+    pub(super) largest: f64,
 }
 
 impl<'a, F: Family> Follower<'a, F> {
@@ -33,7 +34,20 @@ impl<'a, F: Family> Follower<'a, F> {
     pub fn new(family: &'a F, periods: u64) -> Self {
         Self {
             shooting: Shooting::new(family, periods),
+            largest: LARGEST_STEP,
         }
+    }
+
+    /// With steps of at most `largest`, in units of the family's scales: for curves without visible
+    /// corners.
+    #[must_use]
+    pub fn with_steps(self, largest: f64) -> Self {
+        Self { largest, ..self }
+    }
+
+    /// The same for another number of drive periods.
+    pub(super) fn over(&self, periods: u64) -> Self {
+        Self::new(self.shooting.family, periods).with_steps(self.largest)
     }
 
     /// The orbit at `parameter`, stable or not, that Newton's method reaches from a state near it.
@@ -79,7 +93,12 @@ impl<'a, F: Family> Follower<'a, F> {
         let node = self.start(parameter, state)?;
         let sequence = node.here.point.sequence;
         let mut points = vec![self.point_at(&node)];
-        let mut walker = Walker::new(&self.shooting, node, &Self::direction(heading))?;
+        let mut walker = Walker::new(
+            &self.shooting,
+            node,
+            &Self::direction(heading),
+            self.largest,
+        )?;
         while points.len() < limit {
             match walker.attempt() {
                 Ok(stride) if stride.node.here.point.sequence == sequence => {

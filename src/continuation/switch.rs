@@ -30,8 +30,7 @@ impl<F: Family> Follower<'_, F> {
         limits: &Limits,
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
-        let family = self.shooting.family;
-        let doubled = Follower::new(family, 2 * self.shooting.periods);
+        let doubled = self.over(2 * self.shooting.periods);
         let at = doubled.shooting.scaled(flip.state(), [flip.parameter]);
         let away = critical_direction(flip);
         let away = doubled.shooting.scaled(away, [0.0]).normalize();
@@ -64,7 +63,7 @@ impl<F: Family> Follower<'_, F> {
         let mut flips = vec![first.clone()];
         let mut periods = self.shooting.periods;
         while flips.len() < count {
-            let follower = Follower::new(self.shooting.family, periods);
+            let follower = self.over(periods);
             let flip = &flips[flips.len() - 1];
             let mut last = None;
             let branch = follower.doubled(flip, limits, |point| {
