@@ -134,7 +134,8 @@ impl<F: Family> Follower<'_, F> {
             .unwrap_or(periods)
     }
 
-    /// The branch from a point on in one direction, given as a change of state and parameter.
+    /// The branch from a point beside a flip on, away from it: in one direction, given as a change of state
+    /// and parameter.
     pub(super) fn branch_along(
         &self,
         start: Node<Round>,
@@ -143,7 +144,9 @@ impl<F: Family> Follower<'_, F> {
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
         let way = self.way(start.clone(), along, limits, watch)?;
-        Ok(self.joined(&start, Way::none(), way))
+        let mut branch = self.joined(&start, Way::none(), way);
+        branch.ends.0 = End::Merged;
+        Ok(branch)
     }
 
     fn joined(&self, start: &Node<Round>, mut down: Way, up: Way) -> Branch {
