@@ -1,7 +1,7 @@
 //! `softstop optimize`: the hardest impact inside the hysteresis zone.
 
+mod best;
 mod fmu;
-mod progress;
 mod task;
 
 use std::collections::BTreeMap;
@@ -18,7 +18,7 @@ use crate::design::{Design, Problem};
 use crate::failure::Failure;
 use crate::output::{self, Folder, Format};
 use crate::report::{self, DesignReport, OptimizeReport, ReferenceReport, SearchReport};
-use progress::Progress;
+use best::Best;
 use task::{Job, Named};
 
 const EXAMPLES: &str = "\
@@ -108,9 +108,9 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
 }
 
 fn solve(job: &Job) -> Result<Design, Failure> {
-    let progress = Progress::new(job.settings.evaluations);
-    let outcome = search::search(&job.problem, job.settings, &progress);
-    progress.finish();
+    let best = Best::new(job.settings.evaluations);
+    let outcome = search::search(&job.problem, job.settings, &best);
+    drop(best);
     outcome.map_err(|error| match error {
         SearchError::Stopped => Failure::Interrupted,
         error => Failure::Run(error.into()),

@@ -2,12 +2,15 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::lanes::Lanes;
+use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::machine::Machine;
 use super::scalar::{self, Place, Resumed};
 use super::state::State;
 use super::{Instructions, Job, Outcome, Watch};
+
+/// Registers that go side by side.
+const ABREAST: usize = 2;
 
 /// Follows all jobs with the instruction set asked for, or the widest below it.
 pub(super) fn run<W: Watch>(
@@ -16,16 +19,21 @@ pub(super) fn run<W: Watch>(
     watch: &mut W,
     instructions: Instructions,
 ) -> Vec<Outcome> {
-    let guarded = machines.iter().any(Machine::is_guarded);
+    let plain = machines.iter().all(Machine::is_plain);
     let task = Task {
         machines,
         jobs,
         watch,
+        at_once: match instructions {
+            Instructions::OneByOne => 1,
+            _ => usize::MAX,
+        },
     };
-    if guarded {
-        dispatch(Guarded(task), instructions)
-    } else {
-        dispatch(Plain(task), instructions)
+    match (plain, instructions) {
+        (true, Instructions::OneByOne) => dispatch(Plain::<W, 1>(task), instructions),
+        (true, _) => dispatch(Plain::<W, ABREAST>(task), instructions),
+        (false, Instructions::OneByOne) => dispatch(Guarded::<W, 1>(task), instructions),
+        (false, _) => dispatch(Guarded::<W, ABREAST>(task), instructions),
     }
 }
 
@@ -36,7 +44,7 @@ fn dispatch<T: WithSimd<Output = Vec<Outcome>>>(
     match instructions {
         Instructions::Widest => pulp::Arch::new().dispatch(task),
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        Instructions::Avx2 => match pulp::x86::V3::try_new() {
+        Instructions::Avx2 | Instructions::OneByOne => match pulp::x86::V3::try_new() {
             Some(simd) => Simd::vectorize(simd, task),
             None => Simd::vectorize(pulp::Scalar, task),
         },
@@ -48,43 +56,45 @@ pub(super) struct Task<'a, W> {
     machines: &'a [Machine],
     jobs: &'a [Job],
     pub watch: &'a mut W,
+    /// Most lanes to use.
+    at_once: usize,
 }
 
-/// Phases end at positions only.
-struct Plain<'a, W>(Task<'a, W>);
-/// Phases may end by further guards.
-struct Guarded<'a, W>(Task<'a, W>);
+/// One position ends a phase.
+struct Plain<'a, W, const N: usize>(Task<'a, W>);
+/// Phases may end by two positions and a further guard.
+struct Guarded<'a, W, const N: usize>(Task<'a, W>);
 
-impl<W: Watch> WithSimd for Plain<'_, W> {
+impl<W: Watch, const N: usize> WithSimd for Plain<'_, W, N> {
     type Output = Vec<Outcome>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        Engine::<S, W, false>::new(simd, self.0).run()
+        Engine::<S, W, false, N>::new(simd, self.0).run()
     }
 }
 
-impl<W: Watch> WithSimd for Guarded<'_, W> {
+impl<W: Watch, const N: usize> WithSimd for Guarded<'_, W, N> {
     type Output = Vec<Outcome>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        Engine::<S, W, true>::new(simd, self.0).run()
+        Engine::<S, W, true, N>::new(simd, self.0).run()
     }
 }
 
-/// All lanes and what they work at. `GUARDED`: phases may end by more than positions.
-pub(super) struct Engine<'a, S: Simd, W: Watch, const GUARDED: bool> {
+/// All lanes and what they work at. `GUARDED`: phases may end by more than one position.
+pub(super) struct Engine<'a, S: Simd, W: Watch, const GUARDED: bool, const N: usize> {
     pub task: Task<'a, W>,
-    laws: Vec<Law<S>>,
-    pub state: State<S>,
+    laws: Vec<Law<S, N>>,
+    pub state: State<S, N>,
     /// The job of each lane.
     lanes: Vec<Option<usize>>,
     next: usize,
     outcomes: Vec<Outcome>,
 }
 
-impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
+impl<'a, S: Simd, W: Watch, const GUARDED: bool, const N: usize> Engine<'a, S, W, GUARDED, N> {
     #[inline(always)]
     fn new(simd: S, task: Task<'a, W>) -> Self {
         let laws = task.machines.iter().flat_map(|machine| &machine.laws);
@@ -98,7 +108,7 @@ impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
         Self {
             laws: vec![Law::new(simd); most],
             state: State::idle(simd),
-            lanes: vec![None; Lanes::<S>::COUNT],
+            lanes: vec![None; Lanes::<S, N>::COUNT],
             next: 0,
             outcomes: outcomes.collect(),
             task,
@@ -107,29 +117,47 @@ impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
 
     #[inline(always)]
     fn run(mut self) -> Vec<Outcome> {
-        for lane in 0..Lanes::<S>::COUNT {
+        for lane in 0..Lanes::<S, N>::COUNT.min(self.task.at_once) {
             self.take_next(lane);
         }
         while self.lanes.iter().any(Option::is_some) {
             let law = self.law();
-            let ended = self.scan(&law);
-            let (arrived, doubtful) = self.look(&law);
-            if (ended | arrived | doubtful).any() {
-                for lane in 0..Lanes::<S>::COUNT {
-                    if doubtful.get(lane) {
-                        self.hand_over(lane);
-                    } else if self.lanes[lane].is_some() && self.state.left.get(lane) <= 0.0 {
-                        self.finish(lane);
-                    }
-                }
+            let due = self.due();
+            let reached = self.scan(&law, (due * law.per_window).floor());
+            let (ended, doubtful) = self.look(&law, &reached, due);
+            if (ended | doubtful).any() {
+                self.serve(ended, doubtful);
             }
         }
         self.outcomes
     }
 
+    fn serve(&mut self, ended: Mask<S, N>, doubtful: Mask<S, N>) {
+        for lane in 0..Lanes::<S, N>::COUNT {
+            if doubtful.get(lane) {
+                self.hand_over(lane);
+            } else if ended.get(lane) {
+                self.finish(lane);
+            }
+        }
+    }
+
+    /// Time in s until a lane has to stop: at the end of its job or, if periods are watched, of the period.
+    #[inline(always)]
+    fn due(&self) -> Lanes<S, N> {
+        let State {
+            left,
+            offset,
+            drive,
+            ..
+        } = self.state;
+        let periods = if W::PERIODS { left.like(1.0) } else { left };
+        periods.mul_add(drive.period, -offset)
+    }
+
     /// The law of each lane's phase.
     #[inline(always)]
-    pub fn law(&self) -> Law<S> {
+    pub fn law(&self) -> Law<S, N> {
         let mut law = self.laws[0];
         for (index, other) in self.laws.iter().enumerate().skip(1) {
             let here = self.state.phase.equals(self.state.phase.like(index as f64));
@@ -188,7 +216,11 @@ impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
         let machine = &self.task.machines[self.task.jobs[job].machine];
         let constants = machine.laws.iter().flatten();
         for (law, constants) in self.laws.iter_mut().zip(constants) {
-            law.set(lane, constants);
+            if GUARDED {
+                law.set(lane, &constants.of_position());
+            } else {
+                law.set(lane, constants);
+            }
         }
         self.state.install(lane, machine);
         self.lanes[lane] = Some(job);
@@ -223,7 +255,7 @@ impl<'a, S: Simd, W: Watch, const GUARDED: bool> Engine<'a, S, W, GUARDED> {
         let place = Place {
             job,
             cycle,
-            offset: self.state.offset(lane, &self.law()),
+            offset: self.state.offset.get(lane),
             state: self.state.state(lane),
         };
         self.outcomes[job].impacts += self.state.take_impacts(lane);

@@ -9,33 +9,33 @@ use super::lanes::{Lanes, Mask};
 
 /// A guard function g on [0, span]: values and rates at both ends, and slack = |g''''| span^4 / 384.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stretch<S: Simd> {
-    pub left: (Lanes<S>, Lanes<S>),
-    pub right: (Lanes<S>, Lanes<S>),
-    pub span: Lanes<S>,
-    pub slack: Lanes<S>,
+pub(super) struct Stretch<S: Simd, const N: usize> {
+    pub left: (Lanes<S, N>, Lanes<S, N>),
+    pub right: (Lanes<S, N>, Lanes<S, N>),
+    pub span: Lanes<S, N>,
+    pub slack: Lanes<S, N>,
 }
 
 /// What a stretch is; a lane in which nothing is true has to be looked at more closely.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Verdict<S: Simd> {
+pub(super) struct Verdict<S: Simd, const N: usize> {
     /// g rises through zero nowhere.
-    pub clear: Mask<S>,
+    pub clear: Mask<S, N>,
     /// g rises through zero once, and is above it at the end.
-    pub rises: Mask<S>,
+    pub rises: Mask<S, N>,
     /// g has one maximum inside and is not above zero at the ends.
-    pub hump: Mask<S>,
+    pub hump: Mask<S, N>,
     /// g begins within the grain of zero.
-    pub touches: Mask<S>,
+    pub touches: Mask<S, N>,
     /// g begins there and falls.
-    pub leaves: Mask<S>,
+    pub leaves: Mask<S, N>,
 }
 
-impl<S: Simd> Stretch<S> {
+impl<S: Simd, const N: usize> Stretch<S, N> {
     /// Judges all lanes. A guard within `grain` of zero at the beginning has to fall there faster
     /// than `slow`.
     #[inline(always)]
-    pub fn judge(&self, grain: Lanes<S>, slow: Lanes<S>) -> Verdict<S> {
+    pub fn judge(&self, grain: Lanes<S, N>, slow: Lanes<S, N>) -> Verdict<S, N> {
         let ((g0, d0), (g1, d1)) = (self.left, self.right);
         let zero = g0.like(0.0);
         let third = self.span * g0.like(1.0 / 3.0);

@@ -1,33 +1,30 @@
-//! Many numbers at once: two registers of whatever width the processor has.
+//! Many numbers at once: registers of whatever width the processor has.
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 use pulp::Simd;
 
-/// Registers that go side by side, so that one waits less for the other.
-const ABREAST: usize = 2;
-
-/// One number per lane.
+/// One number per lane, in N registers that go side by side, so that one waits less for the other.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Lanes<S: Simd> {
+pub(super) struct Lanes<S: Simd, const N: usize> {
     simd: S,
-    registers: [S::f64s; ABREAST],
+    registers: [S::f64s; N],
 }
 
 /// One truth value per lane.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Mask<S: Simd> {
+pub(super) struct Mask<S: Simd, const N: usize> {
     simd: S,
-    registers: [S::m64s; ABREAST],
+    registers: [S::m64s; N],
 }
 
-impl<S: Simd> Lanes<S> {
+impl<S: Simd, const N: usize> Lanes<S, N> {
     /// How many there are.
-    pub const COUNT: usize = ABREAST * S::F64_LANES;
+    pub const COUNT: usize = N * S::F64_LANES;
 
     #[inline(always)]
     pub fn splat(simd: S, value: f64) -> Self {
-        let registers = [simd.splat_f64s(value); ABREAST];
+        let registers = [simd.splat_f64s(value); N];
         Self { simd, registers }
     }
 
@@ -43,22 +40,28 @@ impl<S: Simd> Lanes<S> {
 
     #[inline(always)]
     fn map(self, f: impl Fn(S, S::f64s) -> S::f64s) -> Self {
-        let [a, b] = self.registers;
-        let registers = [f(self.simd, a), f(self.simd, b)];
+        let mut registers = self.registers;
+        for register in &mut registers {
+            *register = f(self.simd, *register);
+        }
         Self { registers, ..self }
     }
 
     #[inline(always)]
     fn zip(self, other: Self, f: impl Fn(S, S::f64s, S::f64s) -> S::f64s) -> Self {
-        let ([a, b], [c, d]) = (self.registers, other.registers);
-        let registers = [f(self.simd, a, c), f(self.simd, b, d)];
+        let mut registers = self.registers;
+        for (a, b) in registers.iter_mut().zip(other.registers) {
+            *a = f(self.simd, *a, b);
+        }
         Self { registers, ..self }
     }
 
     #[inline(always)]
-    fn compare(self, other: Self, f: impl Fn(S, S::f64s, S::f64s) -> S::m64s) -> Mask<S> {
-        let ([a, b], [c, d]) = (self.registers, other.registers);
-        let registers = [f(self.simd, a, c), f(self.simd, b, d)];
+    fn compare(self, other: Self, f: impl Fn(S, S::f64s, S::f64s) -> S::m64s) -> Mask<S, N> {
+        let mut registers = [f(self.simd, self.registers[0], other.registers[0]); N];
+        for (i, register) in registers.iter_mut().enumerate().skip(1) {
+            *register = f(self.simd, self.registers[i], other.registers[i]);
+        }
         Mask {
             simd: self.simd,
             registers,
@@ -74,18 +77,21 @@ impl<S: Simd> Lanes<S> {
     /// self * b + c, rounded once where the processor can.
     #[inline(always)]
     pub fn mul_add(self, b: Self, c: Self) -> Self {
-        let ([x0, x1], [y0, y1], [z0, z1]) = (self.registers, b.registers, c.registers);
-        let simd = self.simd;
-        let registers = [
-            simd.mul_add_e_f64s(x0, y0, z0),
-            simd.mul_add_e_f64s(x1, y1, z1),
-        ];
+        let mut registers = self.registers;
+        for ((a, b), c) in registers.iter_mut().zip(b.registers).zip(c.registers) {
+            *a = self.simd.mul_add_e_f64s(*a, b, c);
+        }
         Self { registers, ..self }
     }
 
     #[inline(always)]
     pub fn abs(self) -> Self {
         self.map(|simd, a| simd.abs_f64s(a))
+    }
+
+    #[inline(always)]
+    pub fn square_root(self) -> Self {
+        self.map(|simd, a| simd.sqrt_f64s(a))
     }
 
     #[inline(always)]
@@ -99,17 +105,17 @@ impl<S: Simd> Lanes<S> {
     }
 
     #[inline(always)]
-    pub fn below(self, other: Self) -> Mask<S> {
+    pub fn below(self, other: Self) -> Mask<S, N> {
         self.compare(other, |simd, a, b| simd.less_than_f64s(a, b))
     }
 
     #[inline(always)]
-    pub fn at_most(self, other: Self) -> Mask<S> {
+    pub fn at_most(self, other: Self) -> Mask<S, N> {
         self.compare(other, |simd, a, b| simd.less_than_or_equal_f64s(a, b))
     }
 
     #[inline(always)]
-    pub fn equals(self, other: Self) -> Mask<S> {
+    pub fn equals(self, other: Self) -> Mask<S, N> {
         self.compare(other, |simd, a, b| simd.equal_f64s(a, b))
     }
 
@@ -122,14 +128,15 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
-impl<S: Simd> Mask<S> {
+impl<S: Simd, const N: usize> Mask<S, N> {
     /// `yes` where true, `no` elsewhere.
     #[inline(always)]
-    pub fn choose(self, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
-        let ([m0, m1], [a0, a1], [b0, b1]) = (self.registers, yes.registers, no.registers);
-        let simd = self.simd;
-        let registers = [simd.select_f64s(m0, a0, b0), simd.select_f64s(m1, a1, b1)];
-        Lanes { registers, simd }
+    pub fn choose(self, yes: Lanes<S, N>, no: Lanes<S, N>) -> Lanes<S, N> {
+        let mut registers = yes.registers;
+        for ((mask, yes), no) in self.registers.iter().zip(&mut registers).zip(no.registers) {
+            *yes = self.simd.select_f64s(*mask, *yes, no);
+        }
+        Lanes { registers, ..yes }
     }
 
     /// True where this one is and the other is not.
@@ -140,23 +147,20 @@ impl<S: Simd> Mask<S> {
 
     #[inline(always)]
     pub fn not(self) -> Self {
-        let [a, b] = self.registers;
-        let registers = [self.simd.not_m64s(a), self.simd.not_m64s(b)];
+        let mut registers = self.registers;
+        for register in &mut registers {
+            *register = self.simd.not_m64s(*register);
+        }
         Self { registers, ..self }
     }
 
     #[inline(always)]
     pub fn any(self) -> bool {
-        let [a, b] = self.registers;
-        self.simd.first_true_m64s(self.simd.or_m64s(a, b)) < S::F64_LANES
-    }
-
-    #[inline(always)]
-    pub fn set(&mut self, lane: usize, value: bool) {
-        let (one, zero) = (Lanes::splat(self.simd, 1.0), Lanes::splat(self.simd, 0.0));
-        let mut truths = self.choose(one, zero);
-        truths.set(lane, f64::from(u8::from(value)));
-        *self = truths.equals(one);
+        let mut any = self.registers[0];
+        for register in &self.registers[1..] {
+            any = self.simd.or_m64s(any, *register);
+        }
+        self.simd.first_true_m64s(any) < S::F64_LANES
     }
 
     /// Truth of one lane.
@@ -169,7 +173,7 @@ impl<S: Simd> Mask<S> {
 
 macro_rules! operator {
     ($trait:ident, $name:ident, $intrinsic:ident) => {
-        impl<S: Simd> $trait for Lanes<S> {
+        impl<S: Simd, const N: usize> $trait for Lanes<S, N> {
             type Output = Self;
 
             #[inline(always)]
@@ -185,7 +189,7 @@ operator!(Sub, sub, sub_f64s);
 operator!(Mul, mul, mul_f64s);
 operator!(Div, div, div_f64s);
 
-impl<S: Simd> Neg for Lanes<S> {
+impl<S: Simd, const N: usize> Neg for Lanes<S, N> {
     type Output = Self;
 
     #[inline(always)]
@@ -194,24 +198,28 @@ impl<S: Simd> Neg for Lanes<S> {
     }
 }
 
-impl<S: Simd> BitAnd for Mask<S> {
+impl<S: Simd, const N: usize> BitAnd for Mask<S, N> {
     type Output = Self;
 
     #[inline(always)]
     fn bitand(self, other: Self) -> Self {
-        let ([a, b], [c, d]) = (self.registers, other.registers);
-        let registers = [self.simd.and_m64s(a, c), self.simd.and_m64s(b, d)];
+        let mut registers = self.registers;
+        for (a, b) in registers.iter_mut().zip(other.registers) {
+            *a = self.simd.and_m64s(*a, b);
+        }
         Self { registers, ..self }
     }
 }
 
-impl<S: Simd> BitOr for Mask<S> {
+impl<S: Simd, const N: usize> BitOr for Mask<S, N> {
     type Output = Self;
 
     #[inline(always)]
     fn bitor(self, other: Self) -> Self {
-        let ([a, b], [c, d]) = (self.registers, other.registers);
-        let registers = [self.simd.or_m64s(a, c), self.simd.or_m64s(b, d)];
+        let mut registers = self.registers;
+        for (a, b) in registers.iter_mut().zip(other.registers) {
+            *a = self.simd.or_m64s(*a, b);
+        }
         Self { registers, ..self }
     }
 }

@@ -18,11 +18,11 @@ macro_rules! law {
 
         /// The same in all lanes.
         #[derive(Debug, Clone, Copy)]
-        pub(super) struct Law<S: Simd> {
-            $(pub $field: Lanes<S>,)*
+        pub(super) struct Law<S: Simd, const N: usize> {
+            $(pub $field: Lanes<S, N>,)*
         }
 
-        impl<S: Simd> Law<S> {
+        impl<S: Simd, const N: usize> Law<S, N> {
             #[inline(always)]
             pub fn new(simd: S) -> Self {
                 let none = Lanes::splat(simd, 0.0);
@@ -36,7 +36,7 @@ macro_rules! law {
 
             /// `yes` where true, `no` elsewhere.
             #[inline(always)]
-            pub fn choose(mask: Mask<S>, yes: &Self, no: &Self) -> Self {
+            pub fn choose(mask: Mask<S, N>, yes: &Self, no: &Self) -> Self {
                 Self { $($field: mask.choose(yes.$field, no.$field),)* }
             }
         }
@@ -48,8 +48,6 @@ law! {
     damping,
     /// - b.
     stiffness,
-    /// The law's constant force per mass.
-    force,
     /// Particular solution: offset + cosine cos + sine sin; its velocity: cosine_rate cos + sine_rate sin.
     offset,
     cosine,
@@ -61,13 +59,16 @@ law! {
     xv,
     vx,
     vv,
-    turn_cos,
-    turn_sin,
-    /// Length of a window, how many make a drive period, and 1/3 and the reciprocal of the length.
+    turn,
+    turn_by_velocity,
+    turn_by_position,
+    /// Length of a window, and 1/3 and the reciprocal of it.
     window,
-    windows,
     third,
     per_window,
+    /// The guard of a phase that only one position ends: side (x - offset) rising through edge.
+    side,
+    edge,
     /// Bound on |x''''| window^4 / 384: steady + |fourth_x y + fourth_v y'| + |fifth_x y + fifth_v y'|.
     steady,
     fourth_x,
@@ -105,7 +106,7 @@ law! {
 /// Largest product of window and fastest rate.
 pub(super) const SPAN: f64 = 0.6;
 /// Most windows per drive period.
-const MOST_WINDOWS: f64 = 65_536.0;
+const FINEST: f64 = 65_536.0;
 /// Where the scalar engine has to decide, relative to the size of the motion.
 const GRAIN: f64 = 1e-10;
 /// Relative to the size of the velocity.
@@ -148,13 +149,26 @@ impl Constants {
         if !guarded {
             constants.level = f64::INFINITY;
         }
-        constants.set_grain(phase.flow.frequency.max(phase.flow.modes.fastest_rate()));
+        let flow = &phase.flow;
+        constants.set_side();
+        constants.set_grain(flow.frequency.max(flow.modes.fastest_rate()));
+        constants.set_bounds(&flow.modes, flow.frequency);
         Some(constants)
     }
 
-    /// True if there is a further guard.
-    pub fn is_guarded(&self) -> bool {
-        self.level < f64::INFINITY
+    /// True if nothing but one position ends the phase, and its free motion never grows.
+    pub fn is_plain(&self) -> bool {
+        let one_sided = self.low == f64::NEG_INFINITY || self.high == f64::INFINITY;
+        one_sided && self.level == f64::INFINITY && self.stiffness < 0.0
+    }
+
+    /// The same with x itself in the place of the guard.
+    pub fn of_position(&self) -> Self {
+        Self {
+            side: 1.0,
+            edge: -self.offset,
+            ..*self
+        }
     }
 
     fn end_above(&mut self, phases: &Phases, surface: usize) {
@@ -175,18 +189,16 @@ impl Constants {
         }
         let w = flow.frequency;
         let fastest = w.max(flow.modes.fastest_rate());
-        let windows = (TAU * fastest / (w * SPAN)).ceil();
-        if windows > MOST_WINDOWS {
+        let window = SPAN / fastest;
+        if TAU / w > FINEST * window {
             return None;
         }
-        let window = TAU / (w * windows);
         let [[xx, xv], [vx, vv]] = flow.modes.at(window).rows();
-        let (turn_sin, turn_cos) = (TAU / windows).sin_cos();
+        let (sin, cos) = (w * window).sin_cos();
         let force = phase.law.force / phases.mass;
-        let mut constants = Self {
+        Some(Self {
             damping: -2.0 * flow.modes.decay,
             stiffness: -flow.modes.stiffness,
-            force,
             offset: force / flow.modes.stiffness,
             cosine,
             sine,
@@ -196,23 +208,36 @@ impl Constants {
             xv,
             vx,
             vv,
-            turn_cos,
-            turn_sin,
+            turn: cos,
+            turn_by_velocity: sin / w,
+            turn_by_position: -w * sin,
             window,
-            windows,
             third: window / 3.0,
             per_window: 1.0 / window,
             ..Self::default()
+        })
+    }
+
+    /// Chooses the one end of a phase.
+    fn set_side(&mut self) {
+        let is_low = self.high == f64::INFINITY && self.low > f64::NEG_INFINITY;
+        (self.side, self.edge) = if is_low {
+            (-1.0, self.offset - self.low)
+        } else {
+            (1.0, self.high - self.offset)
         };
-        constants.set_bounds(&flow.modes, w);
-        Some(constants)
     }
 
     /// |x''''| <= |y''''| C + |y'''''| S for the free part y, with the bounds C and S on the fundamental
-    /// solutions over one window, plus w^4 times the steady amplitude; |v''''| likewise.
+    /// solutions over one window, or over all time in a plain phase, plus w^4 times the steady amplitude; |v''''| likewise.
     fn set_bounds(&mut self, modes: &Modes, w: f64) {
         let scale = self.window.powi(4) / 384.0;
-        let (c, s) = modes.bounds(self.window);
+        let reach = if self.is_plain() {
+            f64::INFINITY
+        } else {
+            self.window
+        };
+        let (c, s) = modes.bounds(reach);
         let amplitude = self.cosine.hypot(self.sine) * scale;
         // Rows of derivatives: y^(n) = row.0 y + row.1 y'.
         let next = |(x, v): (f64, f64)| (self.stiffness * v, x + self.damping * v);

@@ -7,219 +7,304 @@ use super::engine::Engine;
 use super::judge::Stretch;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
-use super::root::{Bracket, guess};
-use super::scan::Hull;
+use super::root::{Bracket, Zero, guess};
+use super::scan::{Hull, Parts, Reached};
 use super::state::State;
 use super::taylor::{Series, derivative, evaluate, expand, shifted};
 
+/// Shortest stretch, in windows, that is looked at.
+const LEAST: f64 = 1e-12;
 /// Share of a window that is looked at last before the scalar engine decides.
 const SHORTEST: f64 = 1.0 / 256.0;
 
-/// The motion of all lanes over the stretch that they look at.
-struct Ahead<S: Simd> {
-    x: Series<S>,
-    v: Series<S>,
-    span: Lanes<S>,
-    /// Position, velocity and acceleration at its end.
-    end: (Lanes<S>, Lanes<S>, Lanes<S>),
+/// The motion of all lanes over the stretch that they look at: x, or the guard itself where it is the only one.
+struct Ahead<S: Simd, const N: usize> {
+    x: Series<S, N>,
+    v: Series<S, N>,
+    span: Lanes<S, N>,
+    /// Its value, rate and second derivative at its end.
+    end: (Lanes<S, N>, Lanes<S, N>, Lanes<S, N>),
 }
 
 /// The guard that each lane has to look at: g = position x + velocity v - level.
-struct Guard<S: Simd> {
-    position: Lanes<S>,
-    velocity: Lanes<S>,
-    level: Lanes<S>,
-    grain: Lanes<S>,
-    slow: Lanes<S>,
-    slack: Lanes<S>,
+struct Guard<S: Simd, const N: usize> {
+    position: Lanes<S, N>,
+    velocity: Lanes<S, N>,
+    level: Lanes<S, N>,
+    grain: Lanes<S, N>,
+    slow: Lanes<S, N>,
+    slack: Lanes<S, N>,
     /// The lower end of the phase, or the further guard; else the upper end.
-    is_low: Mask<S>,
-    is_further: Mask<S>,
+    is_low: Mask<S, N>,
+    is_further: Mask<S, N>,
     /// Lanes that meet none, and lanes that may meet more than one.
-    none: Mask<S>,
-    several: Mask<S>,
+    none: Mask<S, N>,
+    several: Mask<S, N>,
 }
 
 /// What was found.
-struct Found<S: Simd> {
-    clear: Mask<S>,
-    hits: Mask<S>,
+struct Found<S: Simd, const N: usize> {
+    clear: Mask<S, N>,
+    hits: Mask<S, N>,
     /// Lanes that the scalar engine has to decide.
-    doubtful: Mask<S>,
-    /// Time to the crossing.
-    time: Lanes<S>,
+    doubtful: Mask<S, N>,
+    /// Time to the crossing, and the guard's rate there.
+    time: Lanes<S, N>,
+    slope: Lanes<S, N>,
 }
 
-impl<S: Simd, W: Watch, const GUARDED: bool> Engine<'_, S, W, GUARDED> {
-    /// Looks at what lies ahead of the pending lanes and moves them on; those that came to the end of
-    /// their job, and those that the scalar engine has to take.
+impl<S: Simd, W: Watch, const GUARDED: bool, const N: usize> Engine<'_, S, W, GUARDED, N> {
+    /// Looks at what lies ahead of the lanes that the scan has stopped, and moves all on; those that came to
+    /// the end of their job, and those that the scalar engine has to take. `due`: time to where each has to
+    /// stop.
     #[inline(always)]
-    pub fn look(&mut self, law: &Law<S>) -> (Mask<S>, Mask<S>) {
-        let ahead = Ahead::<S>::of::<GUARDED>(law, &self.state);
-        let guard = Guard::of::<GUARDED>(law, &self.state, &ahead);
-        let found = guard.search::<GUARDED>(&ahead, self.state.pending);
-        self.move_on(law, &ahead, &guard, &found)
+    pub fn look(
+        &mut self,
+        law: &Law<S, N>,
+        reached: &Reached<S, N>,
+        due: Lanes<S, N>,
+    ) -> (Mask<S, N>, Mask<S, N>) {
+        let pending = self.state.busy().and_not(reached.go);
+        let scanned = reached.count * law.window;
+        let remaining = due - scanned;
+        let least = law.window * due.like(LEAST);
+        let span = (self.state.share * law.window).min(remaining).max(least);
+        let ahead = Ahead::of::<GUARDED>(law, &self.state, &reached.parts, span);
+        let guard = Guard::of::<GUARDED>(law, &reached.parts, &ahead);
+        let found = guard.search::<GUARDED>(&ahead, pending);
+        self.place(law, reached);
+        let (hits, doubtful) = self.move_on(law, &ahead, &guard, &found, scanned);
+        let arrived = found.clear & remaining.at_most(span);
+        self.state.share = self.shares(pending, hits | found.clear);
+        let doubtful = doubtful | self.state.share.below(due.like(SHORTEST));
+        (self.arrive(arrived), doubtful)
     }
 
+    /// Puts the lanes that have moved where the scan has brought them.
+    #[inline(always)]
+    fn place(&mut self, law: &Law<S, N>, reached: &Reached<S, N>) {
+        let Parts { y, u, p, q } = reached.parts;
+        let state = &mut self.state;
+        let moved = y.like(0.0).below(reached.count);
+        state.x = moved.choose(law.side.mul_add(y + p, law.offset), state.x);
+        state.v = moved.choose(law.side * (u + q), state.v);
+    }
+
+    /// Moves the lanes that meet nothing to the end of their stretch, and those that cross to the crossing; the
+    /// latter, and those that the scalar engine has to take.
     #[inline(always)]
     fn move_on(
         &mut self,
-        law: &Law<S>,
-        ahead: &Ahead<S>,
-        guard: &Guard<S>,
-        found: &Found<S>,
-    ) -> (Mask<S>, Mask<S>) {
-        let mut state = self.state;
-        let one = state.x.like(1.0);
-        let time = found.hits.choose(found.time, ahead.span);
-        let (x, v) = evaluate(&ahead.x, time);
-        let (hits, mut doubtful) = guard.confirm::<GUARDED>(law, &state, found, (x, v, time));
+        law: &Law<S, N>,
+        ahead: &Ahead<S, N>,
+        guard: &Guard<S, N>,
+        found: &Found<S, N>,
+        scanned: Lanes<S, N>,
+    ) -> (Mask<S, N>, Mask<S, N>) {
+        let zero = scanned.like(0.0);
+        let (x, v, rate) = guard.crossing::<GUARDED>(law, ahead, found);
+        let hits = found.hits & guard.slow.below(rate);
         let moves = hits | found.clear;
-        let (cos, sin) = state.drive.turned(time);
-        state.drive.cos = moves.choose(cos, state.drive.cos);
-        state.drive.sin = moves.choose(sin, state.drive.sin);
-
         let is_high = guard.is_low.not().and_not(guard.is_further);
         let at_high = hits & is_high;
         let at_low = hits & guard.is_low;
         let at_further = hits & guard.is_further;
+        let state = &mut self.state;
         let x = at_high.choose(law.high, at_low.choose(law.low, x));
         let turned = if GUARDED {
-            let turns = at_further & law.by_position.equals(one.like(0.0));
-            turns.choose(one.like(0.0), v)
+            let turns = at_further & law.by_position.equals(zero);
+            turns.choose(zero, v)
         } else {
             v
         };
         state.x = moves.choose(x, state.x);
         state.v = moves.choose(at_high.choose(v * law.bounce, turned), state.v);
-        if W::IMPACTS {
-            self.tell_impacts(at_high & law.impact.equals(one), law, time, v);
-        }
+        let time = hits.choose(found.time, ahead.span);
+        state.pass(scanned + moves.choose(time, zero), !W::PERIODS);
         state.impacts = at_high.choose(state.impacts + law.impact, state.impacts);
-
-        // Lanes that split look at half of their stretch next.
-        let halves = state.pending.and_not(moves | doubtful);
-        let half = state.span * one.like(0.5);
-        doubtful = doubtful | (halves & half.below(law.window * one.like(SHORTEST)));
-        state.toward = found.clear.choose(state.toward - ahead.span, state.toward);
-        let arrived = found.clear & state.toward.at_most(one.like(0.0));
-        state.span = halves.choose(half, found.clear.choose(state.toward, state.span));
-
         let beyond = at_high.choose(law.beyond_high, law.beyond_low);
         let beyond = at_further.choose(law.beyond_guard, beyond);
         state.phase = hits.choose(beyond, state.phase);
-        let left_at = state.node * law.window - state.toward + time;
-        self.state = state;
-        if hits.any() {
-            self.aim(hits, left_at);
+        if W::IMPACTS {
+            self.tell_impacts(at_high & zero.below(law.impact), v);
         }
-        self.settle(arrived, doubtful, law)
+        (hits, found.doubtful | found.hits.and_not(hits))
     }
 
-    /// Sets out from crossings, `offset` into the period, to the next node of the new phase.
+    /// Shares of a window that are looked at next: half of that which could not be decided.
     #[inline(always)]
-    fn aim(&mut self, hits: Mask<S>, offset: Lanes<S>) {
-        let law = self.law();
-        let one = offset.like(1.0);
-        let node = ((offset * law.per_window).floor() + one).min(law.windows);
-        let least = law.window * one.like(1e-12);
-        let toward = (node * law.window - offset).max(least);
-        let state = &mut self.state;
-        state.node = hits.choose(node, state.node);
-        state.toward = hits.choose(toward, state.toward);
-        state.span = hits.choose(toward, state.span);
+    fn shares(&self, pending: Mask<S, N>, moves: Mask<S, N>) -> Lanes<S, N> {
+        let share = self.state.share;
+        let one = share.like(1.0);
+        let halved = share * share.like(0.5);
+        pending.and_not(moves).choose(halved, one)
     }
 
-    /// Lets the lanes that have come to a node scan on.
+    /// Lets the lanes that have come to the end of a period or their job begin the next one; those that have
+    /// none left.
     #[inline(always)]
-    fn settle(&mut self, arrived: Mask<S>, doubtful: Mask<S>, law: &Law<S>) -> (Mask<S>, Mask<S>) {
-        let state = &mut self.state;
-        let zero = state.x.like(0.0);
-        let ends = state.arrive(arrived, law);
-        let done = arrived & state.left.at_most(zero);
-        state.pending = state.pending.and_not(arrived | doubtful);
-        state.scanning = state.scanning | arrived.and_not(done);
-        if W::PERIODS && ends.any() {
-            self.tell_periods(ends);
+    fn arrive(&mut self, arrived: Mask<S, N>) -> Mask<S, N> {
+        if !arrived.any() {
+            return arrived;
         }
-        (done, doubtful)
+        let state = &mut self.state;
+        let zero = state.left.like(0.0);
+        let left = if W::PERIODS {
+            state.left - zero.like(1.0)
+        } else {
+            zero
+        };
+        state.left = arrived.choose(left, state.left);
+        state.offset = arrived.choose(zero, state.offset);
+        if W::PERIODS {
+            self.tell_periods(arrived);
+        }
+        arrived & self.state.left.at_most(zero)
     }
 
-    /// Tells the watcher of impacts, `time` after the present state.
-    fn tell_impacts(&mut self, lanes: Mask<S>, law: &Law<S>, time: Lanes<S>, velocity: Lanes<S>) {
-        for lane in 0..Lanes::<S>::COUNT {
+    /// Tells the watcher of impacts, now.
+    fn tell_impacts(&mut self, lanes: Mask<S, N>, velocity: Lanes<S, N>) {
+        for lane in 0..Lanes::<S, N>::COUNT {
             if lanes.get(lane)
                 && let Some((job, cycle)) = self.progress(lane)
             {
-                let offset = self.state.offset(lane, law) + time.get(lane);
+                let offset = self.state.offset.get(lane);
                 self.task
                     .watch
                     .impact(job, cycle, offset, velocity.get(lane));
             }
         }
     }
+
+    /// Tells the watcher of lanes that have begun a period.
+    fn tell_periods(&mut self, lanes: Mask<S, N>) {
+        for lane in 0..Lanes::<S, N>::COUNT {
+            if lanes.get(lane)
+                && let Some((job, cycle)) = self.progress(lane)
+            {
+                let state = self.state.state(lane);
+                self.task.watch.period(job, cycle, state);
+            }
+        }
+    }
 }
 
-impl<S: Simd> Ahead<S> {
+impl<S: Simd, const N: usize> Ahead<S, N> {
     #[inline(always)]
-    fn of<const GUARDED: bool>(law: &Law<S>, state: &State<S>) -> Self {
-        let x = expand(law, &state.drive, state.x, state.v);
-        let v = derivative(&x);
-        let (position, velocity) = evaluate(&x, state.span);
-        let acceleration = if GUARDED {
-            evaluate(&v, state.span).1
-        } else {
-            velocity
-        };
+    fn of<const GUARDED: bool>(
+        law: &Law<S, N>,
+        state: &State<S, N>,
+        parts: &Parts<S, N>,
+        span: Lanes<S, N>,
+    ) -> Self {
+        let mut x = expand(law, state.drive.frequency, parts);
+        x[0] = x[0] - law.edge;
+        let (position, velocity) = evaluate(&x, span);
+        let mut v = x;
+        let mut acceleration = velocity;
+        if GUARDED {
+            v = derivative(&x);
+            acceleration = evaluate(&v, span).1;
+        }
         Self {
             x,
             v,
-            span: state.span,
+            span,
             end: (position, velocity, acceleration),
         }
     }
 }
 
-impl<S: Simd> Guard<S> {
+impl<S: Simd, const N: usize> Guard<S, N> {
     #[inline(always)]
-    fn of<const GUARDED: bool>(law: &Law<S>, state: &State<S>, ahead: &Ahead<S>) -> Self {
-        let one = state.x.like(1.0);
-        let (px, pv) = law.particular(state.drive.cos, state.drive.sin);
-        let (y, u) = (state.x - px, state.v - pv);
+    fn of<const GUARDED: bool>(law: &Law<S, N>, parts: &Parts<S, N>, ahead: &Ahead<S, N>) -> Self {
         let share = ahead.span * law.per_window;
         let square = share * share;
         let scale = square * square;
+        let slack = law.slack(parts) * scale;
+        if GUARDED {
+            Self::of_several(law, parts, ahead, slack, scale)
+        } else {
+            Self::of_one(law, slack)
+        }
+    }
+
+    /// The one that ends the phase.
+    #[inline(always)]
+    fn of_one(law: &Law<S, N>, slack: Lanes<S, N>) -> Self {
+        let zero = slack.like(0.0);
+        let never = zero.below(zero);
+        Self {
+            position: slack.like(1.0),
+            velocity: zero,
+            level: zero,
+            grain: law.grain,
+            slow: law.slow,
+            slack,
+            is_low: law.side.below(zero),
+            is_further: never,
+            none: never,
+            several: never,
+        }
+    }
+
+    /// The one that may be met.
+    #[inline(always)]
+    fn of_several(
+        law: &Law<S, N>,
+        parts: &Parts<S, N>,
+        ahead: &Ahead<S, N>,
+        slack: Lanes<S, N>,
+        scale: Lanes<S, N>,
+    ) -> Self {
+        let one = slack.like(1.0);
         let third = ahead.span * one.like(1.0 / 3.0);
-        let slack = law.slack(y, u) * scale;
         let (x, v, acceleration) = ahead.end;
-        let hull = Hull::of((state.x, state.v), (x, v), third, slack);
+        let here = (ahead.x[0], ahead.x[1]);
+        let hull = Hull::of(here, (x, v), third, slack);
         let is_low = law.low.below(hull.low).not();
         let is_high = hull.high.below(law.high).not();
         let mut guard = Self {
             position: is_low.choose(-one, one),
-            velocity: one.like(0.0),
             level: is_low.choose(-law.low, law.high),
-            grain: law.grain,
-            slow: law.slow,
-            slack,
             is_low,
-            is_further: is_low.and_not(is_low),
             none: (is_low | is_high).not(),
             several: is_low & is_high,
+            ..Self::of_one(law, slack)
         };
-        if GUARDED {
-            let slack = law.rate_slack(y, u) * scale;
-            let here = ahead.v[1];
-            let rates = Hull::of((state.v, here), (v, acceleration), third, slack);
-            let further = law.guard_top(&hull, &rates).below(law.level).not();
-            guard.turn_to_further(law, further, slack);
-        }
+        let rate_slack = law.rate_slack(parts) * scale;
+        let before = (ahead.v[0], ahead.v[1]);
+        let rates = Hull::of(before, (v, acceleration), third, rate_slack);
+        let further = law.guard_top(&hull, &rates).below(law.level).not();
+        guard.turn_to_further(law, further, rate_slack);
         guard
+    }
+
+    /// Position, velocity and rate of the guard at a crossing; position and velocity at the end of the stretch
+    /// in the lanes without one.
+    #[inline(always)]
+    fn crossing<const GUARDED: bool>(
+        &self,
+        law: &Law<S, N>,
+        ahead: &Ahead<S, N>,
+        found: &Found<S, N>,
+    ) -> (Lanes<S, N>, Lanes<S, N>, Lanes<S, N>) {
+        if GUARDED {
+            let time = found.hits.choose(found.time, ahead.span);
+            let (x, v) = evaluate(&ahead.x, time);
+            let acceleration = evaluate(&ahead.v, time).1;
+            let rate = self.velocity.mul_add(acceleration, self.position * v);
+            return (x, v, rate);
+        }
+        let (g, rate, _) = ahead.end;
+        let x = law.side.mul_add(g + law.edge, law.offset);
+        let rate = found.hits.choose(found.slope, rate);
+        (x, law.side * rate, rate)
     }
 
     /// Looks at the further guard in the lanes `at` instead.
     #[inline(always)]
-    fn turn_to_further(&mut self, law: &Law<S>, at: Mask<S>, rate_slack: Lanes<S>) {
+    fn turn_to_further(&mut self, law: &Law<S, N>, at: Mask<S, N>, rate_slack: Lanes<S, N>) {
         let (a, b) = (law.by_position, law.by_velocity);
         self.several = self.several | at.and_not(self.none);
         self.none = self.none.and_not(at);
@@ -235,26 +320,26 @@ impl<S: Simd> Guard<S> {
 
     /// g as a series.
     #[inline(always)]
-    fn series<const GUARDED: bool>(&self, ahead: &Ahead<S>) -> Series<S> {
+    fn series<const GUARDED: bool>(&self, ahead: &Ahead<S, N>) -> Series<S, N> {
         let mut g = ahead.x;
-        for (g, rate) in g.iter_mut().zip(&ahead.v) {
-            *g = *g * self.position;
-            if GUARDED {
-                *g = self.velocity.mul_add(*rate, *g);
+        if GUARDED {
+            for (g, rate) in g.iter_mut().zip(&ahead.v) {
+                *g = self.velocity.mul_add(*rate, *g * self.position);
             }
+            g[0] = g[0] - self.level;
         }
-        g[0] = g[0] - self.level;
         g
     }
 
     #[inline(always)]
-    fn search<const GUARDED: bool>(&self, ahead: &Ahead<S>, pending: Mask<S>) -> Found<S> {
+    fn search<const GUARDED: bool>(&self, ahead: &Ahead<S, N>, pending: Mask<S, N>) -> Found<S, N> {
         let g = self.series::<GUARDED>(ahead);
         let (x, v, acceleration) = ahead.end;
-        let mut right = (self.position.mul_add(x, -self.level), self.position * v);
+        let mut right = (x, v);
         if GUARDED {
-            right.0 = self.velocity.mul_add(v, right.0);
-            right.1 = self.velocity.mul_add(acceleration, right.1);
+            let by_position = self.position.mul_add(x, -self.level);
+            right.0 = self.velocity.mul_add(v, by_position);
+            right.1 = self.velocity.mul_add(acceleration, self.position * v);
         }
         let stretch = Stretch {
             left: (g[0], g[1]),
@@ -280,38 +365,24 @@ impl<S: Simd> Guard<S> {
             top = (over.choose(value, top.0), over.choose(end.like(0.0), top.1));
         }
         rises = rises.and_not(doubtful);
-        let (time, sure) = first_rise(&g, verdict.leaves, end, top, rises);
+        let Zero { at, slope, sure } = first_rise(&g, verdict.leaves, end, top, rises);
         Found {
             clear: clear.and_not(doubtful),
             hits: rises & sure,
             doubtful: doubtful | rises.and_not(sure),
-            time,
+            time: at,
+            slope,
         }
-    }
-
-    /// Hits that are plain crossings, and the lanes that the scalar engine has to decide.
-    #[inline(always)]
-    fn confirm<const GUARDED: bool>(
-        &self,
-        law: &Law<S>,
-        state: &State<S>,
-        found: &Found<S>,
-        (x, v, time): (Lanes<S>, Lanes<S>, Lanes<S>),
-    ) -> (Mask<S>, Mask<S>) {
-        let mut rate = self.position * v;
-        if GUARDED {
-            let (cos, _) = state.drive.turned(time);
-            let acceleration = law.acceleration(x, v, state.drive.amplitude * cos);
-            rate = self.velocity.mul_add(acceleration, rate);
-        }
-        let plain = found.hits & self.slow.below(rate);
-        (plain, found.doubtful | found.hits.and_not(plain))
     }
 }
 
 /// The maximum of g in lanes that have one: where, how high, and whether it was found.
 #[inline(always)]
-fn summit<S: Simd>(g: &Series<S>, span: Lanes<S>, of: Mask<S>) -> (Lanes<S>, Lanes<S>, Mask<S>) {
+fn summit<S: Simd, const N: usize>(
+    g: &Series<S, N>,
+    span: Lanes<S, N>,
+    of: Mask<S, N>,
+) -> (Lanes<S, N>, Lanes<S, N>, Mask<S, N>) {
     let falls = derivative(g).map(|rate| -rate);
     let guess = span * span.like(0.5);
     let bracket = Bracket {
@@ -319,20 +390,39 @@ fn summit<S: Simd>(g: &Series<S>, span: Lanes<S>, of: Mask<S>) -> (Lanes<S>, Lan
         span,
         guess,
     };
-    let (at, sure) = bracket.solve(of);
+    let Zero { at, sure, .. } = bracket.solve(of);
     (at, evaluate(g, at).0, sure)
 }
 
 /// Where g rises through zero in the lanes `of`, between 0 and `end`, where it and its rate are `top`. In the
 /// lanes that leave zero at 0 the rise is that of g(t)/t.
 #[inline(always)]
-fn first_rise<S: Simd>(
-    g: &Series<S>,
-    leaves: Mask<S>,
-    end: Lanes<S>,
-    top: (Lanes<S>, Lanes<S>),
-    of: Mask<S>,
-) -> (Lanes<S>, Mask<S>) {
+fn first_rise<S: Simd, const N: usize>(
+    g: &Series<S, N>,
+    leaves: Mask<S, N>,
+    end: Lanes<S, N>,
+    top: (Lanes<S, N>, Lanes<S, N>),
+    of: Mask<S, N>,
+) -> Zero<S, N> {
+    if (leaves & of).any() {
+        return rise_after_leaving(g, leaves, end, top, of);
+    }
+    let bracket = Bracket {
+        series: g,
+        span: end,
+        guess: guess((g[0], g[1]), top, end),
+    };
+    bracket.solve(of)
+}
+
+#[inline(always)]
+fn rise_after_leaving<S: Simd, const N: usize>(
+    g: &Series<S, N>,
+    leaves: Mask<S, N>,
+    end: Lanes<S, N>,
+    top: (Lanes<S, N>, Lanes<S, N>),
+    of: Mask<S, N>,
+) -> Zero<S, N> {
     let mut series = *g;
     for (to, from) in series.iter_mut().zip(shifted(g)) {
         *to = leaves.choose(from, *to);
@@ -347,5 +437,9 @@ fn first_rise<S: Simd>(
         span: end,
         guess: guess((series[0], series[1]), right, end),
     };
-    bracket.solve(of)
+    let zero = bracket.solve(of);
+    Zero {
+        slope: leaves.choose(zero.slope * zero.at, zero.slope),
+        ..zero
+    }
 }

@@ -1,5 +1,6 @@
 //! A machine made ready for the lanes.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::law::Constants;
@@ -14,8 +15,7 @@ pub struct Machine {
     pub(super) phases: Arc<Phases>,
     pub(super) clock: Clock,
     pub(super) laws: Option<Vec<Constants>>,
-    /// The drive: amplitude per mass in m/s^2, frequency in rad/s, cos and sin of its angle at time 0.
-    pub(super) amplitude: f64,
+    /// The drive: frequency in rad/s, cos and sin of its angle at time 0.
     pub(super) frequency: f64,
     pub(super) angle: (f64, f64),
 }
@@ -41,7 +41,6 @@ impl Machine {
             laws: if count <= MOST_PHASES { laws } else { None },
             clock: Clock::new(drive.frequency, drive.phase),
             phases: Arc::new(phases),
-            amplitude: drive.amplitude / scene.mass,
             frequency: drive.frequency,
             angle: (cos, sin),
         })
@@ -53,9 +52,13 @@ impl Machine {
         self.laws.is_some()
     }
 
-    /// True if phases end by more than positions.
-    pub(super) fn is_guarded(&self) -> bool {
-        let laws = self.laws.iter().flatten();
-        laws.clone().any(Constants::is_guarded)
+    /// True if each phase is ended by one position alone.
+    pub(super) fn is_plain(&self) -> bool {
+        self.laws.iter().flatten().all(Constants::is_plain)
+    }
+
+    /// A drive period in s.
+    pub(super) fn period(&self) -> f64 {
+        TAU / self.frequency
     }
 }

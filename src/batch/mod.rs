@@ -1,12 +1,13 @@
 //! Many motions at once, one per lane of the processor's vector registers.
 //!
-//! The lanes go in lock-step through the same work: they scan windows of time until each has met one
-//! that may hold a crossing, then all expand their motion about the instant before it, decide, and find the
-//! crossing. What a lane concludes it concludes by the certificates of the scalar engine; what lies within
-//! rounding of two answers, or is not a plain crossing (rest, sticking, chatter), is handed to the scalar
-//! engine up to the end of the drive period. Machines with power laws go there altogether.
+//! The lanes go in lock-step through the same work, from crossing to crossing: they scan windows of time, counted
+//! from the last crossing, until each has met one that may hold the next; then all expand their motion about the
+//! instant before it, decide, and find the crossing. What a lane concludes it concludes by the certificates of the
+//! scalar engine; what lies within rounding of two answers, or is not a plain crossing (rest, sticking, chatter),
+//! is handed to the scalar engine up to the end of the drive period. Machines with power laws go there altogether.
 //!
-//! Windows divide the drive period evenly, so the drive angle at their ends never drifts.
+//! A lane keeps the time since the beginning of its drive period, and takes cos and sin of the drive angle from
+//! it anew before each scan: the drive never drifts. Nothing in the loop calls the mathematical library.
 
 mod engine;
 mod judge;
@@ -58,6 +59,8 @@ pub enum Instructions {
     Avx2,
     /// No vector instructions but those that every processor of its kind has.
     Portable,
+    /// One motion after another, each alone in one register of at most 256 bits.
+    OneByOne,
 }
 
 /// Watches the motions of a batch. To add one, implement what it needs and say so in the constants.

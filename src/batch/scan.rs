@@ -7,25 +7,48 @@ use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
 
-/// Windows that are scanned before the lanes that wait are looked at: about a drive period.
-const MOST_WINDOWS: usize = 12;
+/// Windows that are scanned at most before the lanes that wait are looked at: about a drive period.
+pub(super) const MOST_WINDOWS: usize = 12;
+/// In the first window after a crossing the motion falls from zero; 16/3 times the error of the cubic there is
+/// what its second Bernstein coefficient has to lie below zero.
+const LEAVING: f64 = 16.0 / 3.0;
+
+/// A motion as the sum of a free one (y, u) and the steady one (p, q): positions and velocities.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Parts<S: Simd, const N: usize> {
+    pub y: Lanes<S, N>,
+    pub u: Lanes<S, N>,
+    pub p: Lanes<S, N>,
+    pub q: Lanes<S, N>,
+}
+
+/// How far the lanes have come.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reached<S: Simd, const N: usize> {
+    /// Where they stand.
+    pub parts: Parts<S, N>,
+    /// Windows scanned.
+    pub count: Lanes<S, N>,
+    /// Lanes that may go on.
+    pub go: Mask<S, N>,
+}
 
 /// The enclosure of a motion over a stretch of time.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Hull<S: Simd> {
+pub(super) struct Hull<S: Simd, const N: usize> {
     /// Positions that it stays between.
-    pub low: Lanes<S>,
-    pub high: Lanes<S>,
+    pub low: Lanes<S, N>,
+    pub high: Lanes<S, N>,
 }
 
-impl<S: Simd> Hull<S> {
+impl<S: Simd, const N: usize> Hull<S, N> {
     /// Of a motion with these positions and velocities at both ends, |x''''| span^4 / 384 <= slack.
     #[inline(always)]
     pub fn of(
-        left: (Lanes<S>, Lanes<S>),
-        right: (Lanes<S>, Lanes<S>),
-        third: Lanes<S>,
-        slack: Lanes<S>,
+        left: (Lanes<S, N>, Lanes<S, N>),
+        right: (Lanes<S, N>, Lanes<S, N>),
+        third: Lanes<S, N>,
+        slack: Lanes<S, N>,
     ) -> Self {
         let (b1, b2) = (third.mul_add(left.1, left.0), right.0 - third * right.1);
         Self {
@@ -35,20 +58,36 @@ impl<S: Simd> Hull<S> {
     }
 }
 
-impl<S: Simd> Law<S> {
-    /// Position and velocity of the particular solution.
+impl<S: Simd, const N: usize> Parts<S, N> {
+    /// The parts one window later.
     #[inline(always)]
-    pub fn particular(&self, cos: Lanes<S>, sin: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
-        let x = self
-            .cosine
-            .mul_add(cos, self.sine.mul_add(sin, self.offset));
-        let v = self.cosine_rate.mul_add(cos, self.sine_rate * sin);
-        (x, v)
+    fn next(&self, law: &Law<S, N>) -> Self {
+        let Self { y, u, p, q } = *self;
+        Self {
+            y: law.xx.mul_add(y, law.xv * u),
+            u: law.vx.mul_add(y, law.vv * u),
+            p: law.turn.mul_add(p, law.turn_by_velocity * q),
+            q: law.turn.mul_add(q, law.turn_by_position * p),
+        }
     }
 
-    /// |x''''| window^4 / 384 over the next window, of a motion whose free part is (y, u).
     #[inline(always)]
-    pub fn slack(&self, y: Lanes<S>, u: Lanes<S>) -> Lanes<S> {
+    fn choose(mask: Mask<S, N>, yes: &Self, no: &Self) -> Self {
+        Self {
+            y: mask.choose(yes.y, no.y),
+            u: mask.choose(yes.u, no.u),
+            p: mask.choose(yes.p, no.p),
+            q: mask.choose(yes.q, no.q),
+        }
+    }
+}
+
+impl<S: Simd, const N: usize> Law<S, N> {
+    /// |x''''| window^4 / 384 over the next window, of a motion whose free part is (y, u). In phases that only
+    /// a position ends, over all windows of a scan.
+    #[inline(always)]
+    pub fn slack(&self, parts: &Parts<S, N>) -> Lanes<S, N> {
+        let Parts { y, u, .. } = *parts;
         let fourth = self.fourth_x.mul_add(y, self.fourth_v * u).abs();
         let fifth = self.fifth_x.mul_add(y, self.fifth_v * u).abs();
         self.steady + fourth + fifth
@@ -56,94 +95,125 @@ impl<S: Simd> Law<S> {
 
     /// The same of |v''''|.
     #[inline(always)]
-    pub fn rate_slack(&self, y: Lanes<S>, u: Lanes<S>) -> Lanes<S> {
+    pub fn rate_slack(&self, parts: &Parts<S, N>) -> Lanes<S, N> {
+        let Parts { y, u, .. } = *parts;
         let fifth = self.rate_fifth_x.mul_add(y, self.rate_fifth_v * u).abs();
         let sixth = self.rate_sixth_x.mul_add(y, self.rate_sixth_v * u).abs();
         self.rate_steady + fifth + sixth
     }
 
-    /// x'' of a state under the drive A cos(angle).
+    /// x'' of the two parts together.
     #[inline(always)]
-    pub fn acceleration(&self, x: Lanes<S>, v: Lanes<S>, drive: Lanes<S>) -> Lanes<S> {
-        let damped = self.damping.mul_add(v, drive + self.force);
-        self.stiffness.mul_add(x, damped)
+    pub fn acceleration(&self, frequency: Lanes<S, N>, parts: &Parts<S, N>) -> Lanes<S, N> {
+        let steady = -(frequency * frequency * parts.p);
+        self.stiffness
+            .mul_add(parts.y, self.damping.mul_add(parts.u, steady))
     }
 }
 
-impl<S: Simd, W: Watch, const GUARDED: bool> Engine<'_, S, W, GUARDED> {
-    /// Moves the scanning lanes on, for a while or until each stands before a window in which something
-    /// may happen or at the end of its job; the latter ones.
+impl<S: Simd, W: Watch, const GUARDED: bool, const N: usize> Engine<'_, S, W, GUARDED, N> {
+    /// The motion of all lanes in units of their guard: g = side (x - offset) - edge.
     #[inline(always)]
-    pub fn scan(&mut self, law: &Law<S>) -> Mask<S> {
-        let mut state = self.state;
-        let zero = state.x.like(0.0);
-        let (px, pv) = law.particular(state.drive.cos, state.drive.sin);
-        let (mut y, mut u) = (state.x - px, state.v - pv);
-        let mut go = state.scanning;
+    pub fn parts(&self, law: &Law<S, N>) -> Parts<S, N> {
+        let (cos, sin) = self.state.angle();
+        let p = law.cosine.mul_add(cos, law.sine * sin);
+        let q = law.cosine_rate.mul_add(cos, law.sine_rate * sin);
+        let side = law.side;
+        Parts {
+            y: side * (self.state.x - law.offset - p),
+            u: side * (self.state.v - q),
+            p: side * p,
+            q: side * q,
+        }
+    }
+
+    /// Moves the lanes on for a while, or until each stands before a window in which something may happen, or
+    /// that is its last. `cap`: windows before that one.
+    #[inline(always)]
+    pub fn scan(&self, law: &Law<S, N>, cap: Lanes<S, N>) -> Reached<S, N> {
+        let reached = Reached {
+            parts: self.parts(law),
+            count: cap.like(0.0),
+            go: self.state.busy() & self.state.share.equals(cap.like(1.0)),
+        };
+        if GUARDED {
+            self.scan_between(law, cap, reached)
+        } else {
+            scan_below(law, cap, reached)
+        }
+    }
+
+    /// Between two positions and below a further guard.
+    #[inline(always)]
+    fn scan_between(
+        &self,
+        law: &Law<S, N>,
+        cap: Lanes<S, N>,
+        mut reached: Reached<S, N>,
+    ) -> Reached<S, N> {
+        let one = cap.like(1.0);
+        let frequency = self.state.drive.frequency;
         for _ in 0..MOST_WINDOWS {
-            if !go.any() {
+            let here = reached.parts;
+            let next = here.next(law);
+            let left = (here.y + here.p + law.offset, here.u + here.q);
+            let right = (next.y + next.p + law.offset, next.u + next.q);
+            let hull = Hull::of(left, right, law.third, law.slack(&here));
+            let mut clear = hull.high.below(law.high) & law.low.below(hull.low);
+            let before = (left.1, law.acceleration(frequency, &here));
+            let after = (right.1, law.acceleration(frequency, &next));
+            let rates = Hull::of(before, after, law.third, law.rate_slack(&here));
+            clear = clear & law.guard_top(&hull, &rates).below(law.level);
+            reached.go = reached.go & clear & reached.count.below(cap);
+            if !reached.go.any() {
                 break;
             }
-            let (cos, sin) = (state.drive.cos, state.drive.sin);
-            let next_cos = cos * law.turn_cos - sin * law.turn_sin;
-            let next_sin = sin * law.turn_cos + cos * law.turn_sin;
-            let next_y = law.xx.mul_add(y, law.xv * u);
-            let next_u = law.vx.mul_add(y, law.vv * u);
-            let (px, pv) = law.particular(next_cos, next_sin);
-            let (x, v) = (px + next_y, pv + next_u);
-            let slack = law.slack(y, u);
-            let hull = Hull::of((state.x, state.v), (x, v), law.third, slack);
-            let mut clear = hull.high.below(law.high) & law.low.below(hull.low);
-            if GUARDED {
-                let amplitude = state.drive.amplitude;
-                let here = law.acceleration(state.x, state.v, amplitude * cos);
-                let there = law.acceleration(x, v, amplitude * next_cos);
-                let rates = Hull::of((state.v, here), (v, there), law.third, law.rate_slack(y, u));
-                clear = clear & law.guard_top(&hull, &rates).below(law.level);
-            }
-            let step = go & clear;
-            state.x = step.choose(x, state.x);
-            state.v = step.choose(v, state.v);
-            state.drive.cos = step.choose(next_cos, cos);
-            state.drive.sin = step.choose(next_sin, sin);
-            y = step.choose(next_y, y);
-            u = step.choose(next_u, u);
-            state.node = step.choose(state.node + zero.like(1.0), state.node);
-            let ends = state.arrive(step, law);
-            if W::PERIODS && ends.any() {
-                self.state = state;
-                self.tell_periods(ends);
-            }
-            go = step & zero.below(state.left);
+            reached.parts = Parts::choose(reached.go, &next, &here);
+            reached.count = reached.go.choose(reached.count + one, reached.count);
         }
-        let ended = state.scanning & state.left.at_most(zero);
-        let stopped = state.scanning.and_not(ended | go);
-        state.node = stopped.choose(state.node + zero.like(1.0), state.node);
-        state.toward = stopped.choose(law.window, state.toward);
-        state.span = stopped.choose(law.window, state.span);
-        state.pending = state.pending | stopped;
-        state.scanning = go;
-        self.state = state;
-        ended
-    }
-
-    /// Tells the watcher of lanes that have begun a period.
-    pub fn tell_periods(&mut self, lanes: Mask<S>) {
-        for lane in 0..Lanes::<S>::COUNT {
-            if lanes.get(lane)
-                && let Some((job, cycle)) = self.progress(lane)
-            {
-                let state = self.state.state(lane);
-                self.task.watch.period(job, cycle, state);
-            }
-        }
+        reached
     }
 }
 
-impl<S: Simd> Law<S> {
+/// On one side of one position.
+#[inline(always)]
+fn scan_below<S: Simd, const N: usize>(
+    law: &Law<S, N>,
+    cap: Lanes<S, N>,
+    mut reached: Reached<S, N>,
+) -> Reached<S, N> {
+    let one = cap.like(1.0);
+    let mut parts = reached.parts;
+    let slack = law.slack(&parts);
+    let (x, v) = (parts.y + parts.p, parts.u + parts.q);
+    let apart = (law.edge - law.grain).below(x).not();
+    let leaves = v.below(-law.slow);
+    reached.go = reached.go & (apart | leaves);
+    let limit = law.edge - slack;
+    let mut top = law.third.mul_add(v, x);
+    // On the edge the first two Bernstein coefficients need no proof.
+    top = apart.choose(top.max(x), one.like(f64::NEG_INFINITY));
+    let mut below = apart.choose(limit, one.like(-LEAVING).mul_add(slack, law.edge));
+    for _ in 0..MOST_WINDOWS {
+        let next = parts.next(law);
+        let (x, v) = (next.y + next.p, next.u + next.q);
+        let reach = law.third * v;
+        let clear = top.max(x.max(x - reach)).below(below);
+        reached.go = reached.go & clear & reached.count.below(cap);
+        if !reached.go.any() {
+            break;
+        }
+        reached.parts = Parts::choose(reached.go, &next, &reached.parts);
+        reached.count = reached.go.choose(reached.count + one, reached.count);
+        (parts, top, below) = (next, x + reach, limit);
+    }
+    reached
+}
+
+impl<S: Simd, const N: usize> Law<S, N> {
     /// Largest value of the further guard's weighted sum within the hulls of position and velocity.
     #[inline(always)]
-    pub fn guard_top(&self, positions: &Hull<S>, velocities: &Hull<S>) -> Lanes<S> {
+    pub fn guard_top(&self, positions: &Hull<S, N>, velocities: &Hull<S, N>) -> Lanes<S, N> {
         let (a, b) = (self.by_position, self.by_velocity);
         let x = (a * positions.low).max(a * positions.high);
         x + (b * velocities.low).max(b * velocities.high)

@@ -3,70 +3,70 @@
 use pulp::Simd;
 
 use super::lanes::{Lanes, Mask};
-use super::law::Law;
 use super::machine::Machine;
-use super::taylor::Drive;
+use super::taylor::cos_sin;
 use crate::integrator::Start;
 
 /// The state of all lanes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct State<S: Simd> {
-    pub x: Lanes<S>,
-    pub v: Lanes<S>,
-    pub drive: Drive<S>,
-    /// cos and sin of the drive angle at the beginning of a period.
-    pub begin: (Lanes<S>, Lanes<S>),
+pub(super) struct State<S: Simd, const N: usize> {
+    pub x: Lanes<S, N>,
+    pub v: Lanes<S, N>,
+    /// Seconds since the beginning of the drive period.
+    pub offset: Lanes<S, N>,
+    /// Drive periods left, the present one included; none in a lane without a job.
+    pub left: Lanes<S, N>,
     /// The phase each is in.
-    pub phase: Lanes<S>,
-    /// Ends of windows since the beginning of the period: the one at which a lane stands or, if it
-    /// stands between two, the next one.
-    pub node: Lanes<S>,
-    /// Time to that node, and how much of it is looked at.
-    pub toward: Lanes<S>,
-    pub span: Lanes<S>,
-    /// Drive periods left.
-    pub left: Lanes<S>,
+    pub phase: Lanes<S, N>,
     /// Impacts so far.
-    pub impacts: Lanes<S>,
-    /// Lanes that stand at a node and scan from there.
-    pub scanning: Mask<S>,
-    /// Lanes that have to look closely at what lies ahead.
-    pub pending: Mask<S>,
+    pub impacts: Lanes<S, N>,
+    /// Share of a window that is looked at next: 1, or less where a whole one could not be decided.
+    pub share: Lanes<S, N>,
+    pub drive: Drive<S, N>,
 }
 
-impl<S: Simd> State<S> {
-    /// No lane does anything.
+/// The drive's clock.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Drive<S: Simd, const N: usize> {
+    pub frequency: Lanes<S, N>,
+    /// A drive period in s, and its reciprocal.
+    pub period: Lanes<S, N>,
+    pub per_period: Lanes<S, N>,
+    /// cos and sin of the angle at the beginning of a period.
+    pub begin: (Lanes<S, N>, Lanes<S, N>),
+}
+
+impl<S: Simd, const N: usize> State<S, N> {
+    /// No lane has a job.
     #[inline(always)]
     pub fn idle(simd: S) -> Self {
         let (none, one) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0));
         Self {
             x: none,
             v: none,
-            drive: Drive {
-                amplitude: none,
-                frequency: one,
-                cos: one,
-                sin: none,
-            },
-            begin: (one, none),
-            phase: none,
-            node: none,
-            toward: one,
-            span: one,
+            offset: none,
             left: none,
+            phase: none,
             impacts: none,
-            scanning: none.equals(one),
-            pending: none.equals(one),
+            share: one,
+            drive: Drive {
+                frequency: one,
+                period: one,
+                per_period: one,
+                begin: (one, none),
+            },
         }
     }
 
     /// Gives a lane the drive of a machine.
     #[inline(always)]
     pub fn install(&mut self, lane: usize, machine: &Machine) {
-        self.drive.amplitude.set(lane, machine.amplitude);
-        self.drive.frequency.set(lane, machine.frequency);
-        self.begin.0.set(lane, machine.angle.0);
-        self.begin.1.set(lane, machine.angle.1);
+        let drive = &mut self.drive;
+        drive.frequency.set(lane, machine.frequency);
+        drive.period.set(lane, machine.period());
+        drive.per_period.set(lane, 1.0 / machine.period());
+        drive.begin.0.set(lane, machine.angle.0);
+        drive.begin.1.set(lane, machine.angle.1);
     }
 
     /// Puts a lane at the beginning of a period.
@@ -74,20 +74,22 @@ impl<S: Simd> State<S> {
     pub fn resume(&mut self, lane: usize, state: Start, phase: usize, left: u64) {
         self.x.set(lane, state.position);
         self.v.set(lane, state.velocity);
-        self.drive.cos.set(lane, self.begin.0.get(lane));
-        self.drive.sin.set(lane, self.begin.1.get(lane));
-        self.phase.set(lane, phase as f64);
-        self.node.set(lane, 0.0);
+        self.offset.set(lane, 0.0);
         self.left.set(lane, left as f64);
-        self.scanning.set(lane, true);
-        self.pending.set(lane, false);
+        self.phase.set(lane, phase as f64);
+        self.share.set(lane, 1.0);
     }
 
     /// Takes a lane out of the work.
     #[inline(always)]
     pub fn stop(&mut self, lane: usize) {
-        self.scanning.set(lane, false);
-        self.pending.set(lane, false);
+        self.left.set(lane, 0.0);
+    }
+
+    /// The lanes that have a job.
+    #[inline(always)]
+    pub fn busy(&self) -> Mask<S, N> {
+        self.left.like(0.0).below(self.left)
     }
 
     /// Position and velocity of a lane.
@@ -99,13 +101,6 @@ impl<S: Simd> State<S> {
         }
     }
 
-    /// Seconds of a pending lane since the beginning of the period.
-    #[inline(always)]
-    pub fn offset(&self, lane: usize, law: &Law<S>) -> f64 {
-        let node = self.node.get(lane) * law.window.get(lane);
-        (node - self.toward.get(lane)).max(0.0)
-    }
-
     /// The impacts that a lane has counted, once.
     #[inline(always)]
     pub fn take_impacts(&mut self, lane: usize) -> u64 {
@@ -114,16 +109,24 @@ impl<S: Simd> State<S> {
         impacts
     }
 
-    /// Puts the lanes `at` on the node that they have come to, and begins a new period where it is the
-    /// last one; those lanes.
+    /// cos and sin of the drive angle.
     #[inline(always)]
-    pub fn arrive(&mut self, at: Mask<S>, law: &Law<S>) -> Mask<S> {
-        let ends = at & self.node.equals(law.windows);
-        let one = self.left.like(1.0);
-        self.node = ends.choose(self.node.like(0.0), self.node);
-        self.left = ends.choose(self.left - one, self.left);
-        self.drive.cos = ends.choose(self.begin.0, self.drive.cos);
-        self.drive.sin = ends.choose(self.begin.1, self.drive.sin);
-        ends
+    pub fn angle(&self) -> (Lanes<S, N>, Lanes<S, N>) {
+        let (c, s) = cos_sin(self.offset * self.drive.per_period);
+        let (c0, s0) = self.drive.begin;
+        (c0 * c - s0 * s, s0 * c + c0 * s)
+    }
+
+    /// Lets time pass; `wraps`: across the ends of periods.
+    #[inline(always)]
+    pub fn pass(&mut self, time: Lanes<S, N>, wraps: bool) {
+        self.offset = self.offset + time;
+        if wraps {
+            let (zero, one) = (time.like(0.0), time.like(1.0));
+            let periods = (self.offset * self.drive.per_period).floor();
+            let periods = periods.min(self.left - one).max(zero);
+            self.left = self.left - periods;
+            self.offset = (self.offset - periods * self.drive.period).max(zero);
+        }
     }
 }

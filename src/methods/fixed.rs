@@ -92,10 +92,7 @@ impl Integrator for FixedStep {
                 let places = Places::of(task, &machine);
                 ignored::run(&mut machine, places, prepared.steps, start)?
             }
-            Events::Located => {
-                let period = task.scene.period();
-                Located::new(&mut machine, start, period).run(prepared.steps)?
-            }
+            Events::Located => Located::new(&mut machine, task, start).run(prepared.steps)?,
         };
         Ok(machine.finish(end))
     }

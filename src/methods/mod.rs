@@ -104,6 +104,21 @@ pub enum MethodError {
     Task(#[from] MotionError),
 }
 
+impl MethodError {
+    /// The same, said by a method that had made so many steps.
+    #[must_use]
+    pub fn after(self, steps: u64) -> Self {
+        match self {
+            Self::Stuck { time, reason, .. } => Self::Stuck {
+                time,
+                steps,
+                reason,
+            },
+            other => other,
+        }
+    }
+}
+
 /// A way to compute motions, with all its settings. To add one, implement the two methods: `integrate` asks
 /// [`Scene::phases`] for the laws, ends at the task's duration exactly, and counts its work honestly.
 pub trait Integrator: Sync {

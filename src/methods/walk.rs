@@ -1,5 +1,7 @@
 //! A motion from phase to phase, for methods that find the guards' crossings themselves.
 
+use std::borrow::Cow;
+
 use super::{MethodError, Task};
 use crate::error::MotionError;
 use crate::events::{Found, Guard};
@@ -19,7 +21,7 @@ const MOST_AT_ONCE: u32 = 1000;
 #[derive(Debug, Clone)]
 pub struct Walk<'a> {
     scene: &'a Scene,
-    phases: Phases,
+    phases: Cow<'a, Phases>,
     mode: Mode,
     /// Guards that let go a mass that is held.
     releases: Vec<Guard>,
@@ -42,9 +44,14 @@ impl<'a> Walk<'a> {
             let present = 0.0;
             return Err(MotionError::TimeBackwards { until, present }.into());
         }
+        Ok(Self::through(task, Cow::Owned(task.scene.phases())))
+    }
+
+    /// The start of a task that makes sense, whose scene has these phases.
+    pub(super) fn through(task: &'a Task, phases: Cow<'a, Phases>) -> Self {
         let mut walk = Self {
             scene: &task.scene,
-            phases: task.scene.phases(),
+            phases,
             mode: Mode::Moving(0),
             releases: Vec::new(),
             time: 0.0,
@@ -56,7 +63,7 @@ impl<'a> Walk<'a> {
         let Start { position, velocity } = task.start;
         let push = walk.push();
         walk.enter(walk.phases.locate(position, velocity, push, true), push);
-        Ok(walk)
+        walk
     }
 
     /// Time in s of the last crossing, or 0.
@@ -71,8 +78,13 @@ impl<'a> Walk<'a> {
 
     /// The phase whose law holds from there on; none while the mass is held.
     pub fn phase(&self) -> Option<&Phase> {
+        self.index().map(|phase| &self.phases.phases[phase])
+    }
+
+    /// Which of the scene's phases it is.
+    pub(super) fn index(&self) -> Option<usize> {
         match self.mode {
-            Mode::Moving(phase) => Some(&self.phases.phases[phase]),
+            Mode::Moving(phase) => Some(phase),
             Mode::Held { .. } | Mode::Chattering { .. } => None,
         }
     }
@@ -85,6 +97,11 @@ impl<'a> Walk<'a> {
     /// The impacts so far.
     pub fn impacts(&self) -> &[Impact] {
         &self.impacts
+    }
+
+    /// The same, at the end.
+    pub(super) fn into_impacts(self) -> Vec<Impact> {
+        self.impacts
     }
 
     /// Goes on beyond a guard that was found to rise through zero at `time` in s and `before` the crossing.

@@ -156,7 +156,7 @@ impl<'a> Page<'a> {
         pen.heading(heading, 13, Align::Middle, map.family.title());
     }
 
-    /// The strip of the exact method, the same for all steps.
+    /// The strip of the exact method, the same for all steps; blank where nothing else knows the true motion.
     fn exact(&mut self, top: f64) {
         let axes = Axes {
             stiffness: self.atlas.axes.stiffness.clone(),
@@ -170,7 +170,7 @@ impl<'a> Page<'a> {
         let columns = &self.atlas.columns;
         let verdicts: Vec<Vec<Verdict>> = columns
             .iter()
-            .map(|column| vec![column.exact.verdict])
+            .map(|column| column.exact.iter().map(|cell| cell.verdict).collect())
             .collect();
         let pen = &mut self.pen;
         grid.verdicts(pen, &verdicts);

@@ -146,7 +146,7 @@ impl<'a> PrecisionChart<'a> {
     fn legend(&self) -> Vec<LegendEntry> {
         let mut entries: Vec<LegendEntry> = self.curves.iter().map(Curve::entry).collect();
         entries.push(LegendEntry {
-            label: "hollow: wrong number of impacts".to_owned(),
+            label: "hollow circles: wrong number of impacts".to_owned(),
             color: "none".to_owned(),
             shape: LegendShape::Rect,
             dasharray: None,
@@ -186,25 +186,17 @@ impl Curve<'_> {
         )
     }
 
-    /// Full where the number of impacts is right, else hollow.
+    /// The scheme's own where the number of impacts is right, else hollow circles.
     fn markers(&self, panel: &Panel) -> [Plot; 2] {
         let (color, shape) = self.style();
         let size = if self.look.scheme == 0 { 9.0 } else { 4.0 };
-        let plot = |points: Vec<(f64, f64)>, opacity: f64| {
-            Plot::Scatter(
-                ScatterPlot::new()
-                    .with_data(points)
-                    .with_color(color)
-                    .with_marker(shape)
-                    .with_size(size)
-                    .with_marker_opacity(opacity)
-                    .with_marker_stroke_width(1.2),
-            )
-        };
-        let right = |row: &RowReport| row.impact_difference == Some(0);
+        let is_right = |row: &RowReport| row.impact_difference == Some(0);
+        let plot = ScatterPlot::new().with_color(color).with_size(size);
+        let right = plot.clone().with_marker(shape);
+        let wrong = plot.with_marker_opacity(0.0).with_marker_stroke_width(1.2);
         [
-            plot(self.points(panel, right), 1.0),
-            plot(self.points(panel, |row| !right(row)), 0.0),
+            Plot::Scatter(right.with_data(self.points(panel, is_right))),
+            Plot::Scatter(wrong.with_data(self.points(panel, |row| !is_right(row)))),
         ]
     }
 

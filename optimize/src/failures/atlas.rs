@@ -5,13 +5,16 @@ use rayon::prelude::*;
 use softstop::methods::{Exact, Integrator, Judge, MethodError, Solution, Task, Verdict};
 
 use super::family::Family;
-use super::progress::Progress;
 use super::view::{View, contact_mode, shortest_contact};
 use crate::failure::Failure;
-use crate::interrupt;
+use crate::progress::Progress;
+use crate::{interrupt, reference};
 
 /// Steps that events may cost a run beyond those that its duration needs. To locate one crossing takes some ten.
 const SPARE_STEPS: u64 = 1000;
+
+/// How often the reference may ask whether to go on: some ten seconds.
+const MOST_DIGITS: u32 = 40_000;
 
 /// Where the atlas looks: both axes are logarithmic and in rising order.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,14 +30,14 @@ pub struct Axes {
 pub struct Column {
     /// The task; its machine has the column's stiffness.
     pub task: Task,
-    /// The true motion.
+    /// The true motion: in 67 digits, or else the exact method's own.
     pub truth: Solution,
     /// Angular frequency in rad/s and damping ratio of the linear contact, if it is linear.
     pub mode: Option<(f64, f64)>,
     /// Shortest whole contact as a share of the drive period, if there is one.
     pub contact: Option<f64>,
-    /// The exact method, judged as all others are.
-    pub exact: Cell,
+    /// The exact method, judged as all others are, if the true motion is not its own.
+    pub exact: Option<Cell>,
 }
 
 /// One run.
@@ -108,7 +111,7 @@ impl Atlas {
         let columns = axes
             .stiffness
             .par_iter()
-            .map(|&stiffness| Column::new(&view, stiffness, tolerance))
+            .map(|&stiffness| Column::new(&view, stiffness, tolerance, progress))
             .collect::<Result<Vec<_>, _>>()?;
         let map = |family: &Family| {
             let cells = columns
@@ -158,15 +161,25 @@ impl Cell {
 }
 
 impl Column {
-    fn new(view: &View, stiffness: f64, tolerance: f64) -> Result<Self, Failure> {
+    fn new(
+        view: &View,
+        stiffness: f64,
+        tolerance: f64,
+        progress: &Progress,
+    ) -> Result<Self, Failure> {
         let task = view.task(stiffness);
         let lost = || format!("no true motion at a stiffness of {stiffness} N/m");
-        let truth = Exact.integrate(&task).with_context(lost)?;
-        let exact = Cell::new(
-            &Judge::new(&task, &truth, tolerance),
-            Exact.integrate(&task),
-        );
+        let own = Exact.integrate(&task).with_context(lost)?;
         let contact = shortest_contact(&task).with_context(lost)?;
+        let (truth, exact) = match in_digits(&task, progress)? {
+            Some(truth) => {
+                let judge = Judge::new(&task, &truth, tolerance);
+                let cell = Cell::new(&judge, Ok(own));
+                (truth, Some(cell))
+            }
+            None => (own, None),
+        };
+        progress.one();
         Ok(Self {
             contact: contact.map(|contact| contact / task.scene.period()),
             mode: contact_mode(&task.scene),
@@ -187,15 +200,12 @@ impl Column {
         let judge = Judge::new(&self.task, &self.truth, tolerance);
         let period = self.task.scene.period();
         let cell = |step: &f64| {
-            if interrupt::requested() {
-                return Err(Failure::Interrupted);
-            }
+            progress.step()?;
             let task = Task {
                 most_steps: (self.task.periods / step).ceil() as u64 + SPARE_STEPS,
                 ..self.task.clone()
             };
             let outcome = family.method(step * period).integrate(&task);
-            progress.advance();
             Ok(Cell::new(&judge, outcome))
         };
         steps.iter().map(cell).collect()
@@ -207,4 +217,23 @@ impl Column {
         let limit = family.limit(ratio)?;
         Some(limit / frequency / self.task.scene.period())
     }
+}
+
+/// The motion in 67 digits, unless there is none or it would take too long.
+fn in_digits(task: &Task, progress: &Progress) -> Result<Option<Solution>, Failure> {
+    let asked = std::cell::Cell::new(0);
+    let go_on = |_| {
+        asked.set(asked.get() + 1);
+        progress.beat();
+        asked.get() < MOST_DIGITS && !interrupt::requested()
+    };
+    let found = reference::solve(task, &go_on).ok();
+    if interrupt::requested() {
+        return Err(Failure::Interrupted);
+    }
+    Ok(found.map(|found| Solution {
+        end: found.end,
+        impacts: found.impacts,
+        ..Solution::default()
+    }))
 }

@@ -2,13 +2,11 @@
 
 mod atlas;
 mod family;
-mod progress;
 mod report;
 mod view;
 
 pub use atlas::{Atlas, Axes, Cell, Column, Map};
 pub use family::Family;
-pub use progress::Progress;
 pub use view::View;
 
 use std::path::PathBuf;
@@ -18,7 +16,9 @@ use clap::Args;
 use crate::arguments::require;
 use crate::chart;
 use crate::failure::Failure;
+use crate::filter::Filter;
 use crate::output::{self, Folder, Format};
+use crate::progress::Progress;
 use report::FailuresReport;
 
 const EXAMPLES: &str = "\
@@ -42,7 +42,7 @@ run, failures.json with the maps and the limits that theory sets.";
 
 /// Arguments of `softstop chart failures`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub struct FailuresArguments {
     /// Machine: pressed, bounce, graze, chatter, driven, or a TOML file; its stop's stiffness is
     /// swept. May be given several times [default: the five]
@@ -55,7 +55,7 @@ pub struct FailuresArguments {
     #[arg(long, value_name = "N")]
     pub periods: Option<f64>,
     /// Points on each axis, 2 to 200
-    #[arg(long, value_name = "N", default_value_t = 33)]
+    #[arg(long, value_name = "N", default_value_t = 29)]
     pub points: usize,
     /// Error at the end over the motion's size up to which a run has converged, > 0 and < 1
     #[arg(long, value_name = "SHARE", default_value_t = 0.01)]
@@ -109,8 +109,9 @@ fn atlases(
     families: &[Family],
 ) -> Result<Vec<Atlas>, Failure> {
     let axes = Axes::new(arguments.points);
-    let runs = views.len() * families.len() * axes.stiffness.len() * axes.step.len();
-    let progress = Progress::new(runs);
+    let columns = views.len() * axes.stiffness.len();
+    let runs = columns * (1 + families.len() * axes.step.len());
+    let progress = Progress::new(runs as u64, "runs");
     views
         .into_iter()
         .map(|view| {
@@ -164,23 +165,10 @@ fn views(arguments: &FailuresArguments) -> Result<Vec<View>, Failure> {
     Ok(views)
 }
 
-/// The methods whose name holds one of these words, whatever the case.
 fn families(words: &[String]) -> Result<Vec<Family>, Failure> {
     let all = Family::all();
-    let holds = |family: &Family, word: &String| {
-        let name = family.name().to_lowercase();
-        name.contains(&word.to_lowercase())
-    };
-    if let Some(word) = words
-        .iter()
-        .find(|word| !all.iter().any(|family| holds(family, word)))
-    {
-        let names: Vec<String> = all.iter().map(Family::name).collect();
-        return Err(Failure::usage(format!(
-            "method = {word}: must be part of one of {}",
-            names.join("; ")
-        )));
-    }
-    let chosen = |family: &Family| words.is_empty() || words.iter().any(|word| holds(family, word));
-    Ok(all.into_iter().filter(chosen).collect())
+    let names: Vec<String> = all.iter().map(Family::name).collect();
+    let filter = Filter::new(words, &names)?;
+    let wanted = |family: &Family| filter.wants(&family.name());
+    Ok(all.into_iter().filter(wanted).collect())
 }

@@ -7,8 +7,8 @@ use serde::Serialize;
 use softstop::methods::{Exact, Integrator, Task};
 use softstop::{Scene, Start};
 
-use super::progress::Progress;
 use crate::failure::Failure;
+use crate::progress::Progress;
 
 /// What a drive period of a model's settled motion takes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -41,7 +41,7 @@ pub(super) fn costs(
             most_steps: MOST_STEPS,
         })
         .collect();
-    let mut progress = Progress::new(tasks.len() * repeats as usize, "runs");
+    let progress = Progress::new(tasks.len() as u64 * repeats, "runs");
     let mut times = vec![Vec::new(); tasks.len()];
     let mut evaluations = vec![0; tasks.len()];
     for _ in 0..repeats {

@@ -2,7 +2,6 @@
 
 mod cost;
 mod options;
-mod progress;
 mod report;
 mod structure;
 mod study;

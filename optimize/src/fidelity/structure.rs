@@ -7,11 +7,11 @@ use softstop::orbit::Regime;
 use softstop::{Scene, Start};
 
 use super::options::Sweep;
-use super::progress::Progress;
 use super::study::{Entry, Study};
 use super::word;
 use crate::chart::{RegimeRow, Strip};
 use crate::failure::Failure;
+use crate::progress::Progress;
 
 /// Drive periods after which a motion counts as settled.
 const TRANSIENT: u64 = 200;
@@ -87,9 +87,9 @@ impl Structure {
         }
         let frequencies = sweep.frequencies(points);
         let count = ORIGINS.len() * frequencies.len() * study.entries.len();
-        let mut progress = Progress::new(count, "motions");
+        let progress = Progress::new(count as u64, "motions");
         let mut track = |entry: &Entry| -> Result<Track, Failure> {
-            let mut regimes = |origin: Origin| -> Result<Vec<Option<Regime>>, Failure> {
+            let regimes = |origin: Origin| -> Result<Vec<Option<Regime>>, Failure> {
                 let each = frequencies.iter().map(|frequency| {
                     let regime = regime(&entry.scene, frequency * unit, origin)?;
                     progress.step()?;

@@ -8,9 +8,9 @@ use softstop::fidelity::{
 use softstop::{Scene, Start};
 
 use super::cost::{Cost, costs};
-use super::progress::Progress;
 use super::word;
 use crate::failure::Failure;
+use crate::progress::Progress;
 
 /// What is to be compared.
 #[derive(Debug, Clone)]
@@ -72,7 +72,7 @@ impl Study {
         }
         let velocity = from_truth(&observed).ok();
         let plan = plan(truth, &task.likenesses);
-        let mut progress = Progress::new(plan.len(), "models");
+        let progress = Progress::new(plan.len() as u64, "models");
         let (mut found, mut missing) = (Vec::new(), Vec::new());
         for (rung, likeness) in plan {
             let ladder = Ladder {

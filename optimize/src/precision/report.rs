@@ -146,6 +146,17 @@ pub const COLUMNS: [&str; 13] = [
 ];
 
 impl RowReport {
+    /// The largest of the errors.
+    #[must_use]
+    pub fn worst_error(&self) -> Option<f64> {
+        let errors = [
+            self.end_error,
+            self.impact_time_error,
+            self.impact_velocity_error,
+        ];
+        errors.into_iter().flatten().reduce(f64::max)
+    }
+
     fn new(row: &Row) -> Self {
         let empty = Self {
             method: row.method.clone(),

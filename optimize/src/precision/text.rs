@@ -1,6 +1,6 @@
 //! The measurement as tables for people.
 
-use super::lead::{Lead, Quantity};
+use super::lead::{Lead, Quantity, TARGETS};
 use super::report::{PrecisionReport, RowReport, SceneReport};
 use crate::report::text::{Row, heading, row, table};
 
@@ -92,10 +92,7 @@ fn cells(row: &RowReport) -> Vec<String> {
 
 fn leads(leads: &[Lead]) -> String {
     let line = |lead: &Lead| {
-        let what = match lead.quantity {
-            Quantity::End => "error at the end",
-            Quantity::Worst => "worst of all errors",
-        };
+        let what = name(lead.quantity);
         let (accuracy, ratio, next) = (lead.accuracy, ratio(lead), next(lead));
         format!("  {what:19}   {accuracy:>5.0e}   {ratio:>7}   {next}\n")
     };
@@ -143,33 +140,51 @@ fn failures(rows: &[RowReport]) -> String {
     format!("\nSettings without an answer\n{lines}")
 }
 
-/// The lead at each scene, as a table in Markdown that can be put into a page.
+/// The lead at each scene, as a table in Markdown for docs/accuracy.md.
 fn summary(report: &PrecisionReport) -> String {
-    let mut text = "Lead at equal accuracy (Markdown)\n\n".to_owned();
-    text += "| scene | exact: time, error at the end | accuracy | lead by end error, next best | lead by worst error, next best |\n";
-    text += "|---|---|---|---|---|\n";
+    let accuracies: Vec<String> = TARGETS.map(|target| format!("{target:.0e}")).into();
+    let mut text = format!(
+        "Lead at equal accuracy\n\n| scene | exact: time, worst error | by | {} |\n",
+        accuracies.join(" | ")
+    );
+    text += &format!("|---|---|---|{}\n", "---|".repeat(TARGETS.len()));
     for chart in &report.charts {
-        let at = |quantity| {
-            let mut found = chart.lead.at.iter().rev();
-            found.find(|lead| lead.quantity == quantity)
-        };
-        let (Some(end), Some(worst)) = (at(Quantity::End), at(Quantity::Worst)) else {
-            continue;
-        };
-        let error = chart.rows.first().and_then(|row| row.end_error);
-        text += &format!(
-            "| {} | {:.1e} s, {} | {:.0e} | {} {} | {} {} |\n",
-            chart.scene,
-            end.exact_seconds,
-            figure(error),
-            end.accuracy,
-            ratio(end),
-            next(end),
-            ratio(worst),
-            next(worst),
-        );
+        for quantity in Quantity::ALL {
+            text += &summary_line(chart, quantity);
+        }
     }
     text + "\n"
+}
+
+fn summary_line(chart: &SceneReport, quantity: Quantity) -> String {
+    let own = chart
+        .lead
+        .at
+        .iter()
+        .filter(|lead| lead.quantity == quantity);
+    let cells: Vec<String> = own
+        .map(|lead| match &lead.next {
+            Some(next) => format!("{} {}", ratio(lead), next.method),
+            None => "none gets there".to_owned(),
+        })
+        .collect();
+    let exact = chart.rows.first();
+    let (time, worst) = exact.map_or((None, None), |row| (row.seconds, row.worst_error()));
+    format!(
+        "| {} | {} s, {} | {} | {} |\n",
+        chart.scene,
+        figure(time),
+        figure(worst),
+        name(quantity),
+        cells.join(" | ")
+    )
+}
+
+const fn name(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::End => "error at the end",
+        Quantity::Worst => "worst of all errors",
+    }
 }
 
 fn dash() -> String {

@@ -1,6 +1,5 @@
 //! `softstop simulate`: any scene, from a start, over whole drive periods.
 
-mod progress;
 mod record;
 mod report;
 mod run;

@@ -6,13 +6,13 @@ use softstop::trajectory::mechanical_energy;
 use softstop::{MotionError, Scene, Start};
 
 use super::name;
-use super::progress::Progress;
 use super::record::{Recorder, force};
 use super::tally::Tally;
 use crate::chart::Drawing;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::Staged;
+use crate::progress::Progress;
 
 /// Periods that are drawn, the last ones.
 pub(super) const DRAWN: u64 = 4;
@@ -48,7 +48,7 @@ impl Plan<'_> {
         let before = mechanical_energy(self.scene, &motion);
         let mut recorder = Recorder::new(self.scene, &motion, crossings, drawn_from)?;
         table.header(&["time", "position", "velocity", "contact_force", "phase"])?;
-        let mut progress = Progress::new(self.periods);
+        let progress = Progress::new(self.periods, "periods");
         for sample in 0..=self.periods * self.samples {
             let (cycle, part) = (sample / self.samples, sample % self.samples);
             if part == 0 {
@@ -65,7 +65,7 @@ impl Plan<'_> {
             recorder.check()?;
             self.row(&motion, &mut table)?;
         }
-        progress.finish();
+        drop(progress);
         table.close()?;
         let (tally, drawing) = recorder.finish(&motion)?;
         Ok(Outcome {

@@ -178,7 +178,8 @@ impl Journey<'_> {
                 end
             };
             let Some(guard) = reached.guard else { break };
-            self.walk.cross(guard, reached.time, end)?;
+            let crossed = self.walk.cross(guard, reached.time, end);
+            crossed.map_err(|error| error.after(self.work.steps))?;
             end = self.walk.state();
         }
         Ok(Solution {
