@@ -28,6 +28,7 @@
 mod arclength;
 mod branch;
 mod curve;
+mod detect;
 mod follower;
 mod graze;
 mod parameter;

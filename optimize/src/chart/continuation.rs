@@ -281,7 +281,7 @@ fn padded(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
         (low.min(value), high.max(value))
     });
-    let room = 0.04 * (high - low);
+    let room = 0.06 * (high - low);
     if room > 0.0 {
         (low - room, high + room)
     } else {

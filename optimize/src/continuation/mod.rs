@@ -104,7 +104,7 @@ pub struct ContinueArguments {
 }
 
 /// Largest steps along branches and curves, scaled: fine enough for charts.
-const STEP: f64 = 0.06;
+const STEP: f64 = 0.02;
 
 /// Follows the motion and writes tables and charts.
 ///
