@@ -1,0 +1,111 @@
+//! What lies on one step of a branch: special points, ends.
+
+use super::Family;
+use super::arclength::{self, Node};
+use super::branch::Limits;
+use super::follower::{Follower, WIDTH};
+use super::graze::Approach;
+use super::point::{BranchPoint, Special, SpecialKind};
+use super::round::Round;
+use super::test::Test;
+use crate::orbit::OrbitError;
+
+/// Share of its way across that half a round may have left where an orbit has become one of half as many
+/// periods.
+const MERGED: f64 = 1e-3;
+/// Distance from the start, in units of the step, at which a branch is closed.
+const CLOSED: f64 = 0.05;
+
+impl<F: Family> Follower<'_, F> {
+    pub(super) fn bound_between(
+        &self,
+        from: &Node<Round>,
+        to: &Node<Round>,
+        limits: &Limits,
+    ) -> Option<f64> {
+        let (low, high) = limits.range;
+        let [now] = self.shooting.parameters(&to.at);
+        let [before] = self.shooting.parameters(&from.at);
+        let bound = now.clamp(low, high);
+        (bound != now && before != bound).then_some(bound)
+    }
+
+    /// The special points of a step, in their order.
+    pub(super) fn specials_between(
+        &self,
+        from: &Node<Round>,
+        to: &Node<Round>,
+    ) -> Result<Vec<Special>, OrbitError> {
+        let mut found = Vec::new();
+        let (a, b) = (&from.here.point, &to.here.point);
+        for test in Test::ALL {
+            if test.passes(&a.monodromy, &b.monodromy) {
+                let value = |node: &Node<Round>| test.value(&node.here.point.monodromy);
+                let (node, share) = arclength::locate(&self.shooting, (from, to), WIDTH, value)?;
+                let point = self.point_at(&node);
+                let kind = SpecialKind::Critical(test);
+                found.push((share, Special { kind, point }));
+            }
+        }
+        if a.sequence != b.sequence {
+            found.extend(self.graze_between(from, to)?);
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(found.into_iter().map(|(_, special)| special).collect())
+    }
+
+    /// The grazing of a stop without a jump of its force, where the branch goes on.
+    fn graze_between(
+        &self,
+        from: &Node<Round>,
+        to: &Node<Round>,
+    ) -> Result<Option<(f64, Special)>, OrbitError> {
+        let way = &to.at - &from.at;
+        for node in [from, to] {
+            for mut special in Approach::of(&self.shooting, node)?.grazes(&self.shooting) {
+                let point = &special.point;
+                let at = self.shooting.scaled(point.state(), [point.parameter]);
+                let share = (&at - &from.at).dot(&way) / way.norm_squared();
+                if !(0.0..=1.0).contains(&share) {
+                    continue;
+                }
+                if let SpecialKind::Grazing(graze) = &mut special.kind {
+                    graze.dies = from.here.point.impacts.len() > graze.impacts;
+                }
+                return Ok(Some((share, special)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The flip at which an orbit becomes one of half as many periods, if it does on a step: half a round
+    /// leads to the other side of it.
+    pub(super) fn merging(&self, from: &Node<Round>, to: &Node<Round>) -> Option<BranchPoint> {
+        let periods = self.shooting.periods;
+        if !periods.is_multiple_of(2) {
+            return None;
+        }
+        let asymmetry = |node: &Node<Round>| {
+            let half = node.here.point.ends[periods as usize / 2 - 1];
+            half - self.shooting.state(&node.at)
+        };
+        let (a, b) = (asymmetry(from), asymmetry(to));
+        if a.dot(&b) >= 0.0 && b.norm() > MERGED * a.norm() {
+            return None;
+        }
+        let share = a.norm() / (a.norm() + b.norm());
+        let at = &from.at + share * (&to.at - &from.at);
+        let follower = self.over(periods / 2);
+        let [parameter] = self.shooting.parameters(&at);
+        let near = follower.point(parameter, self.shooting.state(&at)).ok()?;
+        follower.critical(&near, Test::Flip).ok()
+    }
+}
+
+/// True if a step passes the start of the branch.
+pub(super) fn passes_by(from: &Node<Round>, to: &Node<Round>, origin: &Node<Round>) -> bool {
+    let way = &to.at - &from.at;
+    let share = (&origin.at - &from.at).dot(&way) / way.norm_squared();
+    let off = &origin.at - (&from.at + share * &way);
+    (0.0..=1.0).contains(&share) && off.norm() < CLOSED * way.norm()
+}
