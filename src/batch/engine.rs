@@ -9,6 +9,7 @@ use super::safe::{self, Place, Resumed};
 use super::state::State;
 use super::watch::Listener;
 use super::{Instructions, Job, Outcome};
+use crate::integrator::Start;
 
 /// Registers that go side by side.
 pub(super) const ABREAST: usize = 2;
@@ -255,17 +256,38 @@ impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N>
         let Some((job, cycle)) = self.progress(lane) else {
             return;
         };
+        let offset = self.state.offset.get(lane);
+        let begun = cycle > 0 || offset > 0.0;
         let place = Place {
             job,
             cycle,
-            offset: self.state.offset.get(lane),
-            state: self.state.state(lane),
+            offset,
+            state: if begun {
+                self.within_phase(lane)
+            } else {
+                self.state.state(lane)
+            },
         };
         self.outcomes[job].impacts += self.state.take_impacts(lane);
         match self.follow(place) {
             Some(resumed) => self.resume(lane, job, &resumed),
             None => self.take_next(lane),
         }
+    }
+
+    /// The state of a lane, on its own side of the ends of its phase: one that moves on and has come to an end
+    /// by rounding is put beside it, or the safe engine would take the crossing for done.
+    fn within_phase(&self, lane: usize) -> Start {
+        let Start { position, velocity } = self.state.state(lane);
+        let law = self.law();
+        let position = if velocity > 0.0 {
+            position.min(law.high.get(lane).next_down())
+        } else if velocity < 0.0 {
+            position.max(law.low.get(lane).next_up())
+        } else {
+            position
+        };
+        Start { position, velocity }
     }
 
     fn finish(&mut self, lane: usize) {

@@ -364,6 +364,9 @@ impl<S: Simd, const N: usize> Guard<S, N> {
             end = over.choose(at, end);
             top = (over.choose(value, top.0), over.choose(end.like(0.0), top.1));
         }
+        // A crossing within rounding of the end: before it or after?
+        let ends_there = (-self.grain).below(right.0) & g[0].like(0.0).below(right.1);
+        doubtful = doubtful | (clear & single & ends_there);
         rises = rises.and_not(doubtful);
         let Zero { at, slope, sure } = first_rise(&g, verdict.leaves, end, top, rises);
         Found {
