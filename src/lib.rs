@@ -24,6 +24,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+pub mod attractors;
 pub mod batch;
 pub mod continuation;
 pub mod error;

@@ -136,7 +136,7 @@ pub fn hysteresis(ratios: &Ratios) -> Result<Zone, ZoneError> {
     let follower = Follower::new(&family);
     let mut branch = follower.follow(&start, frequency_g0, LONGEST_BRANCH, |point| {
         let flipped = !point.is_stable() && point.fold_test() > 0.0;
-        let weak = point.before_impact_velocity < WEAKEST * start.before_impact_velocity;
+        let weak = point.before_impact_velocity < WEAKEST * start.before_impact_velocity();
         let outside = point.parameter < frequency_g0 || point.parameter > FARTHEST * frequency_g0;
         let ends_in_grazing = point.fold_test() < STEEPEST || (weak && point.fold_test() < 0.0);
         flipped || outside || ends_in_grazing

@@ -1,9 +1,10 @@
 //! Models of a machine: matching formulas against exact contacts, and ladders with known answers.
 
 use softstop::fidelity::{
-    Answers, Contact, FidelityError, Ladder, Likeness, Observation, Quantity, Regime, Rung, bounds,
+    Answers, Contact, FidelityError, Ladder, Likeness, Observation, Quantity, Rung, bounds,
     cheapest, from_model, from_truth, matching,
 };
+use softstop::orbit::Regime;
 use softstop::scene::{Release, Slope};
 use softstop::{Excitation, Ratios, Scene, Start, Stop};
 

@@ -50,7 +50,7 @@ impl Regime {
 
 /// What one layer, command line or TOML table, says about the machine. All are the paper's
 /// dimensionless ratios: lengths in units of F0/k1, forces of F0, stiffnesses of k1.
-#[derive(Debug, Clone, Default, Args, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Args, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 #[command(
     next_help_heading = "Machine (the paper's dimensionless ratios)",

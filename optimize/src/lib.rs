@@ -3,8 +3,8 @@
 //! (2003) 79-88).
 //!
 //! One way through it: [`arguments`] and [`configuration`] turn what the user wrote into a
-//! [`arguments::Machine`], [`scene_file`] reads any scene; a subcommand ([`orbit`], [`zone`],
-//! [`optimize`], [`simulate`], [`stops`], [`fidelity`], [`charts`]) asks the core or the search in
+//! [`arguments::Machine`], [`scene_file`] reads any scene; a subcommand ([`orbit`], [`motions`],
+//! [`zone`], [`optimize`], [`simulate`], [`stops`], [`fidelity`], [`charts`]) asks the core or the search in
 //! [`design`]; [`report`]
 //! and [`chart`] say and draw the answer; [`output`] puts files in place whole or not at all.
 
@@ -18,6 +18,7 @@ pub mod failures;
 pub mod fidelity;
 pub mod filter;
 pub mod interrupt;
+pub mod motions;
 pub mod optimize;
 pub mod orbit;
 pub mod output;
@@ -50,6 +51,7 @@ const EXAMPLES: &str = "\
 Examples:
   softstop optimize                                the best design beside points A and B
   softstop orbit --frequency 1.15 --clearance 10   the paper's point A
+  softstop motions --frequency 0.9875              all motions: z = 2/3, (2/4)B, chaos
   softstop zone --regime loaded --clearance 10     where impacts and rest coexist
   softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
   softstop stops                                   pictures of all the stops' laws
@@ -65,6 +67,8 @@ optimize, orbit and zone use the paper's dimensionless ratios: m = k1 = F0 = 1."
 pub enum Command {
     /// The stable motion with one impact per period of the drive (z = 1)
     Orbit(orbit::OrbitArguments),
+    /// All motions on which a machine settles: regimes, chaos, basins' shares
+    Motions(motions::MotionsArguments),
     /// The hysteresis zone of a clearance: from grazing (g0) to the fold (s_SN)
     Zone(zone::ZoneArguments),
     /// Search stiffness, clearance and frequency for the hardest impact
@@ -99,6 +103,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
     interrupt::install();
     match command {
         Command::Orbit(arguments) => orbit::run(&arguments),
+        Command::Motions(arguments) => motions::run(&arguments),
         Command::Zone(arguments) => zone::run(&arguments),
         Command::Optimize(arguments) => optimize::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),

@@ -56,7 +56,7 @@ fn on_grid(problem: &Problem, stiffness: f64, clearance: f64, places: usize) -> 
     grid(window, places)
         .filter_map(|place| zone.orbit_at(place).ok())
         .filter(|orbit| orbit.is_stable())
-        .map(|orbit| orbit.before_impact_velocity)
+        .map(|orbit| orbit.before_impact_velocity())
         .fold(f64::NEG_INFINITY, f64::max)
 }
 

@@ -203,7 +203,7 @@ impl<'a, F: Family> Follower<'a, F> {
             parameter,
             position: orbit.position,
             velocity: orbit.velocity,
-            before_impact_velocity: orbit.before_impact_velocity,
+            before_impact_velocity: orbit.before_impact_velocity(),
             monodromy: orbit.monodromy,
         })
     }

@@ -13,7 +13,6 @@ pub mod matching;
 mod observation;
 mod operating;
 mod quantity;
-mod regime;
 
 pub use bounds::{Bounds, bounds};
 pub use contact::Contact;
@@ -21,7 +20,6 @@ pub use ladder::{Ladder, Likeness, Model, Rung};
 pub use observation::Observation;
 pub use operating::{from_model, from_truth};
 pub use quantity::{Answers, Quantity, cheapest};
-pub use regime::Regime;
 
 use thiserror::Error;
 

@@ -5,10 +5,9 @@ use std::f64::consts::TAU;
 use nalgebra::Vector2;
 use serde::Serialize;
 
-use super::Regime;
 use crate::error::MotionError;
 use crate::integrator::{Arc, Clock, Crossing, CrossingKind, Observer, Start};
-use crate::orbit::{Orbit, OrbitError, StroboscopicMap, find};
+use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
 use crate::phases::{Law, PhaseKind};
 use crate::scene::Scene;
 use crate::trajectory::{Work, work};

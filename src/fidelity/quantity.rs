@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Bounds, Observation, Regime};
+use super::{Bounds, Observation};
+use crate::orbit::Regime;
 
 /// A quantity that a model should give.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

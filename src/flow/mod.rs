@@ -101,6 +101,11 @@ impl Flow {
         Matrix2::new(c, s, dc, ds)
     }
 
+    /// Damping over mass in 1/s.
+    pub(crate) fn damping(&self) -> f64 {
+        2.0 * self.modes.decay
+    }
+
     /// x'' in m/s^2 of a state under `push` per mass.
     pub(crate) fn acceleration(&self, x: f64, v: f64, push: f64) -> f64 {
         push - 2.0 * self.modes.decay * v - self.modes.stiffness * x

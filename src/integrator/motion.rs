@@ -2,6 +2,8 @@
 
 use std::sync::Arc as Shared;
 
+use nalgebra::Vector2;
+
 use super::clock::{Clock, Instant};
 use super::force::Force;
 use super::hum::Hum;
@@ -18,6 +20,21 @@ pub struct Start {
     pub position: f64,
     /// Velocity in m/s.
     pub velocity: f64,
+}
+
+impl From<Vector2<f64>> for Start {
+    fn from(state: Vector2<f64>) -> Self {
+        Self {
+            position: state.x,
+            velocity: state.y,
+        }
+    }
+}
+
+impl From<Start> for Vector2<f64> {
+    fn from(start: Start) -> Self {
+        Self::new(start.position, start.velocity)
+    }
 }
 
 impl Start {

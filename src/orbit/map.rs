@@ -8,7 +8,7 @@ use super::tangent::Tangent;
 use crate::error::MotionError;
 use crate::events::{Guard, Outlook, first_crossing};
 use crate::flow::Course;
-use crate::integrator::{Arc, Clock, Crossing, Motion, Observer, Start};
+use crate::integrator::{Arc, Clock, Crossing, CrossingKind, Instant, Motion, Observer, Start};
 use crate::phases::Phases;
 use crate::scene::Scene;
 
@@ -31,6 +31,11 @@ pub struct Passage {
     pub damping_integral: f64,
     /// Before-impact velocities in m/s, in order of time.
     pub impacts: Vec<f64>,
+    /// When they happen.
+    pub instants: Vec<Instant>,
+    /// Ends of complete chatter: infinitely many ever weaker impacts that end in rest, of which `impacts`
+    /// holds only those before the summed ones.
+    pub rests: Vec<Instant>,
 }
 
 impl StroboscopicMap {
@@ -48,6 +53,16 @@ impl StroboscopicMap {
         })
     }
 
+    /// The drive periods of one application.
+    pub fn periods(&self) -> u64 {
+        self.periods
+    }
+
+    /// The clock of the drive.
+    pub fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
     /// The image of a state, with the Jacobian.
     ///
     /// # Errors
@@ -60,6 +75,8 @@ impl StroboscopicMap {
             monodromy: watch.tangent.matrix,
             damping_integral: watch.tangent.damping_integral,
             impacts: watch.impacts,
+            instants: watch.instants,
+            rests: watch.rests,
         })
     }
 
@@ -114,6 +131,8 @@ impl StroboscopicMap {
 struct Watch {
     tangent: Tangent,
     impacts: Vec<f64>,
+    instants: Vec<Instant>,
+    rests: Vec<Instant>,
 }
 
 impl Observer for Watch {
@@ -123,7 +142,13 @@ impl Observer for Watch {
 
     fn crossing(&mut self, crossing: &Crossing) {
         self.tangent.crossing(crossing);
-        self.impacts.extend(crossing.impact_velocity());
+        if let Some(velocity) = crossing.impact_velocity() {
+            self.impacts.push(velocity);
+            self.instants.push(crossing.instant);
+        }
+        if crossing.kind == CrossingKind::Rest {
+            self.rests.push(crossing.instant);
+        }
     }
 }
 

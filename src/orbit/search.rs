@@ -28,8 +28,8 @@ pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
             .flat_map(|start| settling.iter().map(move |periods| (start, *periods)))
             .filter_map(|(start, periods)| settle(scene, &map, start, periods))
             .max_by(|a, b| {
-                a.before_impact_velocity
-                    .total_cmp(&b.before_impact_velocity)
+                a.before_impact_velocity()
+                    .total_cmp(&b.before_impact_velocity())
             });
         if let Some(orbit) = best {
             return Ok(orbit);

@@ -33,7 +33,7 @@ impl Observer for Tangent {
                 transition
             }
             (Some(phase), None) => {
-                self.damping_integral += 2.0 * phase.flow.modes.decay * elapsed;
+                self.damping_integral += phase.flow.damping() * elapsed;
                 phase.flow.transition(elapsed)
             }
             (None, _) => Matrix2::new(1.0, 0.0, 0.0, 0.0),

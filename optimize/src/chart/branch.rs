@@ -77,5 +77,5 @@ fn between(
     let orbit = Orbit::near(&scene, state).ok()?;
     let inside = |value: f64, a: f64, b: f64| value >= a.min(b) && value <= a.max(b);
     inside(orbit.position, from.position, to.position)
-        .then_some((frequency, orbit.before_impact_velocity))
+        .then_some((frequency, orbit.before_impact_velocity()))
 }

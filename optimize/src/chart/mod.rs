@@ -85,7 +85,7 @@ impl Chart {
                 &zone::hysteresis(&paper)?,
                 label(&format!("paper's {name}"), paper.stiffness, paper.clearance),
             ),
-            reference: (paper.frequency, reference.before_impact_velocity),
+            reference: (paper.frequency, reference.before_impact_velocity()),
             reference_name: name,
             allowance: format!("allowed by margin M = {margin}"),
             title: format!("Hardest impact of the {} machine", regime.name()),

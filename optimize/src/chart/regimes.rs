@@ -7,7 +7,7 @@ use kuva::plot::scatter::MarkerShape;
 use kuva::render::figure::Figure;
 use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
-use softstop::fidelity::Regime;
+use softstop::orbit::Regime;
 
 use super::style;
 

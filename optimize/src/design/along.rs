@@ -67,7 +67,7 @@ impl Line<'_> {
                 return LOST;
             }
         };
-        let velocity = orbit.before_impact_velocity;
+        let velocity = orbit.before_impact_velocity();
         // At the fold itself a multiplier is 1: the limit of the stable motions, wanted for M = 0.
         if !(orbit.is_stable() || place >= 1.0) || !velocity.is_finite() {
             self.reason
@@ -77,7 +77,7 @@ impl Line<'_> {
         let mut best = self.best.borrow_mut();
         if best
             .as_ref()
-            .is_none_or(|(_, known)| velocity > known.before_impact_velocity)
+            .is_none_or(|(_, known)| velocity > known.before_impact_velocity())
         {
             *best = Some((place, orbit));
         }

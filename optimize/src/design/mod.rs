@@ -48,7 +48,7 @@ impl Design {
     /// Velocity at which the mass reaches the clearance, in units of sqrt(F0^2/(m k1)).
     #[must_use]
     pub fn before_impact_velocity(&self) -> f64 {
-        self.orbit.before_impact_velocity
+        self.orbit.before_impact_velocity()
     }
 }
 

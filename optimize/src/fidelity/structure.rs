@@ -2,7 +2,8 @@
 
 use anyhow::{Context, anyhow};
 use serde::Serialize;
-use softstop::fidelity::{Bounds, Likeness, Regime, Rung};
+use softstop::fidelity::{Bounds, Likeness, Rung};
+use softstop::orbit::Regime;
 use softstop::{Scene, Start};
 
 use super::options::Sweep;

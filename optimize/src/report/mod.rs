@@ -23,6 +23,18 @@ pub struct Multiplier {
     pub modulus: f64,
 }
 
+impl Multiplier {
+    /// This complex number.
+    #[must_use]
+    pub fn new(multiplier: nalgebra::Complex<f64>) -> Self {
+        Self {
+            re: multiplier.re,
+            im: multiplier.im,
+            modulus: multiplier.norm(),
+        }
+    }
+}
+
 /// The machine: the paper's dimensionless ratios by the names of the command line.
 #[derive(Debug, Clone, Serialize)]
 pub struct MachineReport {
@@ -101,15 +113,11 @@ impl MotionReport {
             frequency,
             position: orbit.position,
             velocity: orbit.velocity,
-            before_impact_velocity: orbit.before_impact_velocity,
+            before_impact_velocity: orbit.before_impact_velocity(),
             max_position: orbit.max_position,
             trace: orbit.trace(),
             determinant: orbit.determinant(),
-            multipliers: orbit.multipliers().map(|multiplier| Multiplier {
-                re: multiplier.re,
-                im: multiplier.im,
-                modulus: multiplier.norm(),
-            }),
+            multipliers: orbit.multipliers().map(Multiplier::new),
         }
     }
 }
@@ -257,7 +265,7 @@ impl ReferenceReport {
         Self {
             machine: MachineReport::new(regime, &ratios),
             motion: MotionReport::new(ratios.frequency, orbit),
-            gain: design_velocity / orbit.before_impact_velocity,
+            gain: design_velocity / orbit.before_impact_velocity(),
         }
     }
 }

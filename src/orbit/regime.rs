@@ -1,9 +1,10 @@
-//! What a motion settles on: z = p/n, or nothing that repeats.
+//! The regime z = p/n of a motion that repeats.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::recurrence::returns;
 use crate::error::MotionError;
 use crate::integrator::{Clock, Crossing, Observer, Start};
 use crate::scene::Scene;
@@ -18,9 +19,7 @@ pub struct Regime {
 }
 
 /// Most periods after which a state is looked for again.
-const LONGEST: usize = 64;
-/// Distance within which it has returned, in units of the motion's size.
-const RETURN: f64 = 1e-4;
+const LONGEST: u64 = 64;
 
 impl Regime {
     /// The regime that a motion from `start` shows after `transient` drive periods; none if its state
@@ -40,24 +39,16 @@ impl Regime {
         motion.advance(Clock::at_cycle(transient), &mut ())?;
         let settled = motion.state();
         let mut counter = Counter(0);
-        let mut seen = vec![(settled, 0)];
-        for period in 1..=2 * LONGEST as u64 {
+        let (mut states, mut counts) = (vec![settled], vec![0]);
+        for period in 1..=2 * LONGEST {
             motion.advance(Clock::at_cycle(transient + period), &mut counter)?;
-            seen.push((motion.state(), counter.0));
+            states.push(motion.state());
+            counts.push(counter.0);
         }
-        let w = scene.excitation.frequency;
-        let size = seen
-            .iter()
-            .map(|(state, _)| (w * state.position).hypot(state.velocity))
-            .fold(0.0, f64::max);
-        let near = |a: &Start, b: &Start| {
-            let gap = (w * (a.position - b.position)).hypot(a.velocity - b.velocity);
-            gap <= RETURN * size
-        };
-        let returns = |n: &usize| (0..=LONGEST).all(|j| near(&seen[j].0, &seen[j + n].0));
-        let regime = (1..=LONGEST).find(returns).map(|n| Self {
-            impacts: seen[n].1,
-            periods: n as u64,
+        let found = returns(scene.excitation.frequency, &states);
+        let regime = found.map(|found| Self {
+            impacts: counts[found.periods],
+            periods: found.periods as u64,
         });
         Ok((regime, settled))
     }

@@ -1,0 +1,129 @@
+//! Many motions of one scene, carried on together.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use rayon::prelude::*;
+
+use super::{SurveyError, Watcher};
+use crate::batch::{self, Job, Machine, Watch};
+use crate::error::MotionError;
+use crate::integrator::Start;
+use crate::scene::Scene;
+
+/// Motions that one thread follows at a time: several times as many as there are lanes.
+const AT_ONCE: usize = 64;
+
+/// One motion.
+#[derive(Debug, Clone)]
+pub(super) struct Voyage {
+    /// Its latest state at drive angle phi.
+    pub state: Start,
+    /// Its last states there, in order of time; the latest is the last.
+    pub log: Vec<Start>,
+    /// Why it ended.
+    pub error: Option<MotionError>,
+}
+
+impl Voyage {
+    pub(super) fn new(state: Start) -> Self {
+        Self {
+            state,
+            log: Vec::new(),
+            error: None,
+        }
+    }
+}
+
+/// The machine they share, and how much work has been done.
+pub(super) struct Fleet<'a> {
+    machine: [Machine; 1],
+    watcher: Watcher<'a>,
+    done: AtomicU64,
+    /// Drive periods that will be done at most.
+    pub planned: u64,
+}
+
+impl<'a> Fleet<'a> {
+    pub(super) fn new(scene: &Scene, watcher: Watcher<'a>) -> Result<Self, SurveyError> {
+        Ok(Self {
+            machine: [Machine::new(scene)?],
+            watcher,
+            done: AtomicU64::new(0),
+            planned: 0,
+        })
+    }
+
+    /// True if many motions cost little.
+    pub(super) fn is_fast(&self) -> bool {
+        self.machine[0].is_for_lanes()
+    }
+
+    pub(super) fn done(&self) -> u64 {
+        self.done.load(Ordering::Relaxed)
+    }
+
+    /// Counts work; an error if the watcher wants to stop.
+    pub(super) fn note(&self, periods: u64) -> Result<(), SurveyError> {
+        let done = self.done.fetch_add(periods, Ordering::Relaxed) + periods;
+        if (self.watcher)(done, self.planned.max(done)) {
+            Ok(())
+        } else {
+            Err(SurveyError::Stopped)
+        }
+    }
+
+    /// Carries all on for `periods` drive periods and keeps a log of the last `logged` of them.
+    pub(super) fn sail(
+        &self,
+        voyages: &mut [&mut Voyage],
+        periods: u64,
+        logged: usize,
+    ) -> Result<(), SurveyError> {
+        voyages
+            .par_chunks_mut(AT_ONCE)
+            .try_for_each(|chunk| self.sail_together(chunk, periods, logged))
+    }
+
+    fn sail_together(
+        &self,
+        voyages: &mut [&mut Voyage],
+        periods: u64,
+        logged: usize,
+    ) -> Result<(), SurveyError> {
+        let jobs: Vec<Job> = voyages
+            .iter()
+            .map(|voyage| Job {
+                machine: 0,
+                start: voyage.state,
+                periods,
+            })
+            .collect();
+        let mut log = Log {
+            from: periods.saturating_sub(logged as u64),
+            logs: vec![Vec::with_capacity(logged); jobs.len()],
+        };
+        let outcomes = batch::run(&self.machine, &jobs, &mut log);
+        for ((voyage, outcome), log) in voyages.iter_mut().zip(outcomes).zip(log.logs) {
+            voyage.state = outcome.end;
+            voyage.error = outcome.error;
+            voyage.log = log;
+        }
+        self.note(periods * jobs.len() as u64)
+    }
+}
+
+/// Keeps the states from one drive period on.
+struct Log {
+    from: u64,
+    logs: Vec<Vec<Start>>,
+}
+
+impl Watch for Log {
+    const PERIODS: bool = true;
+
+    fn period(&mut self, job: usize, cycle: u64, state: Start) {
+        if cycle > self.from {
+            self.logs[job].push(state);
+        }
+    }
+}
