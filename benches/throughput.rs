@@ -1,6 +1,7 @@
 //! Forcing periods per second of the exact integrator on one core: the unloaded and the loaded machine at
 //! frequencies over 0.95..1.4, 200 periods each from (0, 14); and what other stops cost in the place
-//! of the preloaded one, at eta = 1.15 from (6.9, 9.5). Reproduce with `cargo xtask bench`.
+//! of the preloaded one, at eta = 1.15 from (6.9, 9.5). The same of the batch engine, with each instruction
+//! set. Reproduce with `cargo xtask bench`.
 
 #![allow(
     missing_docs,
@@ -10,6 +11,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use softstop::batch::{Instructions, Job, Machine, run_with};
 use softstop::scene::Release;
 use softstop::{Clock, Ratios, Scene, Start, Stop};
 
@@ -47,8 +49,32 @@ fn periods(criterion: &mut Criterion) {
     ] {
         let scenes = machines(base);
         group.bench_function(name, |bencher| bencher.iter(|| run(&scenes, 0.0, 14.0)));
+        for set in [
+            Instructions::Widest,
+            Instructions::Avx2,
+            Instructions::Portable,
+        ] {
+            let name = format!("{name}, lanes {set:?}");
+            group.bench_function(name, |bencher| bencher.iter(|| lanes(&scenes, set)));
+        }
     }
     group.finish();
+}
+
+/// The same in lanes, the machines lowered each time as the scalar engine does.
+fn lanes(scenes: &[Scene], set: Instructions) {
+    let machines: Vec<Machine> = scenes
+        .iter()
+        .map(|scene| Machine::new(scene).expect("valid"))
+        .collect();
+    let (position, velocity) = (0.0, 14.0);
+    let job = |machine| Job {
+        machine,
+        start: Start { position, velocity },
+        periods: PERIODS,
+    };
+    let jobs: Vec<Job> = (0..machines.len()).map(job).collect();
+    black_box(run_with(set, &machines, &jobs, &mut ()));
 }
 
 /// The machine at point A with other stops; the stiff one has a contact damping ratio of 0.09.

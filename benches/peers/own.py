@@ -20,13 +20,19 @@ def lines(worker, truth, program):
     for engine in ("scalar", "batch"):
         if engine in told:
             setting = "softstop " + " ".join(THROUGHPUT)
+            if "lanes" in told[engine]:
+                setting += f": {told[engine]['instructions']}, {told[engine]['lanes']} lanes"
             name = "softstop batch" if engine == "batch" else "softstop scalar (program)"
+            lead = {"times_scalar": told[engine]["times_scalar"]} if engine == "batch" else {}
             own.append(
                 {
+                    **lead,
                     "solver": name,
                     "setting": setting,
                     "status": "measured",
                     "periods_per_second": told[engine][KEY],
+                    "slowest": told[engine]["spread"][0],
+                    "fastest": told[engine]["spread"][1],
                 }
             )
     return own, remark
@@ -56,5 +62,6 @@ def _throughput(program):
     except (OSError, subprocess.TimeoutExpired) as error:
         return {}, f"no figure of the batch engine: {error}"
     if done.returncode:
-        return {}, "no figure of the batch engine: this softstop has no command `throughput`"
+        lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
+        return {}, f"no figure of the batch engine: {lines[0]}"
     return json.loads(done.stdout), ""

@@ -120,8 +120,9 @@ def run(given):
     print(f"load at the start {machine['load_at_start']}")
     print(f"{comparable} of {catalogue.COUNT} motions are regular and compared\n")
     print(report.table(lines))
-    if remark:
-        print(f"\n{remark}")
+    for told in (report.lead(lines), remark):
+        if told:
+            print(f"\n{told}")
     content = {
         "machine": machine,
         "scene": catalogue.SCENE,

@@ -4,7 +4,8 @@
 //!
 //! One way through it: [`arguments`] and [`configuration`] turn what the user wrote into a
 //! [`arguments::Machine`], [`scene_file`] reads any scene; a subcommand ([`orbit`], [`motions`],
-//! [`zone`], [`optimize`], [`simulate`], [`stops`], [`fidelity`], [`charts`]) asks the core or the search in
+//! [`zone`], [`optimize`], [`simulate`], [`stops`], [`fidelity`], [`charts`],
+//! [`throughput`]) asks the core or the search in
 //! [`design`]; [`report`]
 //! and [`chart`] say and draw the answer; [`output`] puts files in place whole or not at all.
 
@@ -30,6 +31,7 @@ pub mod scene_file;
 pub mod simulate;
 pub mod solvers;
 pub mod stops;
+pub mod throughput;
 pub mod zone;
 
 use std::process::ExitCode;
@@ -58,6 +60,7 @@ Examples:
   softstop fidelity B --tolerance 0.02             the simplest model that will do
   softstop chart precision periodic                speed against accuracy of all methods
   softstop chart failures                          where fixed-step methods fail, and how
+  softstop throughput                              how many drive periods a second
 
 Exit codes: 0 done, 1 the run could not do it, 2 bad usage or values, 130 interrupted.
 optimize, orbit and zone use the paper's dimensionless ratios: m = k1 = F0 = 1.";
@@ -81,6 +84,8 @@ pub enum Command {
     Fidelity(fidelity::FidelityArguments),
     /// Chart methods of computing a motion: speed against accuracy
     Chart(charts::ChartsArguments),
+    /// How fast the engines are, and whether the fast one counts the same impacts
+    Throughput(throughput::ThroughputArguments),
 }
 
 /// Reads the command line, does what it says and turns the outcome into an exit code.
@@ -110,5 +115,6 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Stops(arguments) => stops::run(&arguments),
         Command::Fidelity(arguments) => fidelity::run(&arguments),
         Command::Chart(arguments) => charts::run(&arguments),
+        Command::Throughput(arguments) => throughput::run(&arguments),
     }
 }

@@ -10,7 +10,7 @@ use super::state::State;
 use super::{Instructions, Job, Outcome, Watch};
 
 /// Registers that go side by side.
-const ABREAST: usize = 2;
+pub(super) const ABREAST: usize = 2;
 
 /// Follows all jobs with the instruction set asked for, or the widest below it.
 pub(super) fn run<W: Watch>(

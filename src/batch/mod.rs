@@ -15,6 +15,8 @@ mod lanes;
 mod law;
 mod look;
 mod machine;
+mod parallel;
+mod registers;
 mod root;
 mod scalar;
 mod scan;
@@ -22,6 +24,8 @@ mod state;
 mod taylor;
 
 pub use machine::Machine;
+pub use parallel::run_parallel;
+pub use registers::Registers;
 
 use crate::error::MotionError;
 use crate::integrator::Start;

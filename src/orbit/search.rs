@@ -4,7 +4,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
-use super::{Orbit, OrbitError, StroboscopicMap};
+use super::{Orbit, OrbitError};
+use crate::batch::{self, Job, Machine, Watch};
+use crate::integrator::Start;
 use crate::scene::Scene;
 
 /// Speeds of the starts, in units of w times the length of the motion.
@@ -22,11 +24,12 @@ const SETTLING: [&[u64]; 2] = [&[2, 12], &[60]];
 /// [`OrbitError::NotFound`] if no start leads to one; [`OrbitError::Motion`] if the scene is
 /// invalid.
 pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
-    let map = StroboscopicMap::new(scene, 1)?;
+    let machines = [Machine::new(scene)?];
     for settling in SETTLING {
-        let best = starts(scene)
-            .flat_map(|start| settling.iter().map(move |periods| (start, *periods)))
-            .filter_map(|(start, periods)| settle(scene, &map, start, periods))
+        let best = settled(&machines, starts(scene), settling)
+            .into_iter()
+            .filter_map(|state| Orbit::near(scene, state).ok())
+            .filter(Orbit::is_stable)
             .max_by(|a, b| {
                 a.before_impact_velocity()
                     .total_cmp(&b.before_impact_velocity())
@@ -41,26 +44,58 @@ pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
     })
 }
 
-fn settle(
-    scene: &Scene,
-    map: &StroboscopicMap,
-    start: Vector2<f64>,
-    periods: u64,
-) -> Option<Orbit> {
-    let state = map.iterate(start, periods).ok()?;
-    let orbit = Orbit::near(scene, state).ok()?;
-    orbit.is_stable().then_some(orbit)
+/// Where the starts have come to after each of these numbers of periods, in ascending order; those that lead
+/// nowhere are left out.
+fn settled(
+    machines: &[Machine],
+    starts: impl Iterator<Item = Start>,
+    periods: &[u64],
+) -> Vec<Vector2<f64>> {
+    let last = periods.last().copied().unwrap_or(0);
+    let jobs: Vec<Job> = starts
+        .map(|start| Job {
+            machine: 0,
+            start,
+            periods: last,
+        })
+        .collect();
+    let mut stages = Stages {
+        periods,
+        states: Vec::new(),
+    };
+    batch::run(machines, &jobs, &mut stages);
+    stages.states
+}
+
+/// Keeps the states after some numbers of periods.
+struct Stages<'a> {
+    periods: &'a [u64],
+    states: Vec<Vector2<f64>>,
+}
+
+impl Watch for Stages<'_> {
+    const PERIODS: bool = true;
+
+    fn period(&mut self, _: usize, cycle: u64, state: Start) {
+        if self.periods.contains(&cycle) {
+            self.states
+                .push(Vector2::new(state.position, state.velocity));
+        }
+    }
 }
 
 /// Starts on circles in (w x, x') about the origin.
-fn starts(scene: &Scene) -> impl Iterator<Item = Vector2<f64>> + use<> {
+fn starts(scene: &Scene) -> impl Iterator<Item = Start> + use<> {
     let w = scene.excitation.frequency;
     let drive = scene.excitation.amplitude / scene.mass / (w * w);
     let length = scene.clearance.abs().max(drive);
     SPEEDS.into_iter().flat_map(move |speed| {
         (0..DIRECTIONS).map(move |k| {
             let angle = TAU * k as f64 / DIRECTIONS as f64;
-            speed * length * Vector2::new(angle.cos(), w * angle.sin())
+            Start {
+                position: speed * length * angle.cos(),
+                velocity: speed * length * (w * angle.sin()),
+            }
         })
     })
 }

@@ -1,0 +1,104 @@
+//! Random machines with linear laws, and where their motions start.
+
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rand_xoshiro::rand_core::{RngCore, SeedableRng};
+use serde::Serialize;
+use softstop::scene::{Release, RigidStop, Slope};
+use softstop::{Ratios, Scene, SceneError, Start, Stop};
+
+/// What kind of machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// The paper's, without a strip.
+    Unloaded,
+    /// The paper's, with a strip.
+    Loaded,
+    /// Another stop with a linear law.
+    Other,
+}
+
+/// Draws machines; the same ones for the same seed and part.
+pub struct Draw(Xoshiro256PlusPlus);
+
+impl Draw {
+    /// The machines of one part of a check.
+    #[must_use]
+    pub fn new(seed: u64, part: u64) -> Self {
+        let mut numbers = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let own = numbers.next_u64() ^ part;
+        Self(Xoshiro256PlusPlus::seed_from_u64(own))
+    }
+
+    /// The next machine and the start of its motion: as many of each kind, frequency ratios 0.5 to 2,
+    /// clearances 0.5 to 20, stops of stiffness 3 to 10^4; every tenth one of those without a rigid stop
+    /// gets one behind.
+    ///
+    /// # Errors
+    /// [`SceneError`] if the drawing went wrong.
+    pub fn machine(&mut self) -> Result<(Kind, Scene, Start), SceneError> {
+        let kind = [Kind::Unloaded, Kind::Loaded, Kind::Other][self.below(3)];
+        let base = match kind {
+            Kind::Loaded => Ratios::loaded(),
+            _ => Ratios::unloaded(),
+        };
+        let mut scene = Ratios {
+            frequency: self.between(0.5, 2.0),
+            clearance: self.between(0.5, 20.0),
+            ..base
+        }
+        .scene()?;
+        if kind == Kind::Other {
+            scene.stop = self.stop();
+        }
+        if self.below(10) == 0 && !matches!(scene.stop, Stop::Rigid { .. }) {
+            let (travel, restitution) = (self.between(0.1, 2.0), self.between(0.2, 0.95));
+            scene.rigid = Some(RigidStop {
+                travel,
+                restitution,
+            });
+        }
+        let wall = scene.wall().map_or(f64::INFINITY, |(wall, _)| wall);
+        let start = Start {
+            position: self.between(-12.0, wall.min(12.0)),
+            velocity: self.between(-15.0, 15.0),
+        };
+        Ok((kind, scene, start))
+    }
+
+    fn stop(&mut self) -> Stop {
+        let stiffness = 10f64.powf(self.between(0.5, 4.0));
+        let slope = |from, stiffness| Slope { from, stiffness };
+        match self.below(5) {
+            0 => Stop::Rigid {
+                restitution: self.between(0.2, 0.95),
+            },
+            1 => Stop::KelvinVoigt {
+                stiffness,
+                release: Release::Clearance,
+            },
+            2 => Stop::KelvinVoigt {
+                stiffness,
+                release: Release::ZeroForce,
+            },
+            3 => Stop::PiecewiseLinear {
+                loading: vec![slope(0.0, stiffness), slope(0.3, 2.0 * stiffness)],
+                unloading: vec![slope(0.0, 0.5 * stiffness)],
+            },
+            _ => Stop::Preloaded {
+                stiffness,
+                preload: self.between(0.0, 100.0),
+            },
+        }
+    }
+
+    /// Evenly in [low, high).
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        let share = (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+        low + (high - low) * share
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.between(0.0, count as f64) as usize).min(count - 1)
+    }
+}

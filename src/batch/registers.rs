@@ -1,0 +1,51 @@
+//! What an instruction set comes to on this processor.
+
+use pulp::{Simd, WithSimd};
+
+use super::Instructions;
+use super::engine::ABREAST;
+use super::lanes::Lanes;
+
+/// What the lanes are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Registers {
+    /// The instruction set's name.
+    pub name: &'static str,
+    /// Motions that go in lock-step.
+    pub lanes: usize,
+}
+
+impl Instructions {
+    /// What this processor has of it.
+    pub fn registers(self) -> Registers {
+        match self {
+            Self::Widest => pulp::Arch::new().dispatch(Measure),
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Self::Avx2 => match pulp::x86::V3::try_new() {
+                Some(simd) => Measure.with_simd(simd),
+                None => Measure.with_simd(pulp::Scalar),
+            },
+            _ => Measure.with_simd(pulp::Scalar),
+        }
+    }
+}
+
+struct Measure;
+
+impl WithSimd for Measure {
+    type Output = Registers;
+
+    fn with_simd<S: Simd>(self, _: S) -> Registers {
+        let name = match S::F64_LANES {
+            8 => "AVX-512",
+            4 => "AVX2",
+            2 if cfg!(target_arch = "aarch64") => "NEON",
+            2 => "128 bits",
+            _ => "portable",
+        };
+        Registers {
+            name,
+            lanes: Lanes::<S, ABREAST>::COUNT,
+        }
+    }
+}
