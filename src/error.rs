@@ -15,6 +15,9 @@ pub enum SceneError {
         /// The allowed range in words.
         allowed: &'static str,
     },
+    /// A parameter that the machine does not have.
+    #[error("{0}: this machine has no such parameter")]
+    Lacks(&'static str),
     /// A strip without thickness and travel.
     #[error("piercing: thickness = {thickness} and travel = {travel} leave no room for a strip")]
     EmptyPiercing {

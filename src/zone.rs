@@ -3,7 +3,7 @@
 
 use thiserror::Error;
 
-use crate::continuation::{BranchPoint, Family, Follower};
+use crate::continuation::{BranchPoint, Family, Follower, Heading};
 use crate::error::{MotionError, SceneError};
 use crate::orbit::{Orbit, OrbitError, find};
 use crate::scene::{Ratios, Scene};
@@ -128,19 +128,21 @@ pub fn hysteresis(ratios: &Ratios) -> Result<Zone, ZoneError> {
     ratios.scene()?;
     let (frequency_g0_below, frequency_g0) = grazing_frequencies(ratios)?;
     let family = Frequencies(*ratios);
-    let start = find(&family.scene(frequency_g0).map_err(OrbitError::from)?).map_err(|_| {
+    let start = find(&family.scene([frequency_g0]).map_err(OrbitError::from)?).map_err(|_| {
         ZoneError::NoOrbit {
             frequency: frequency_g0,
         }
     })?;
-    let follower = Follower::new(&family);
-    let mut branch = follower.follow(&start, frequency_g0, LONGEST_BRANCH, |point| {
-        let flipped = !point.is_stable() && point.fold_test() > 0.0;
-        let weak = point.before_impact_velocity < WEAKEST * start.before_impact_velocity();
-        let outside = point.parameter < frequency_g0 || point.parameter > FARTHEST * frequency_g0;
-        let ends_in_grazing = point.fold_test() < STEEPEST || (weak && point.fold_test() < 0.0);
-        flipped || outside || ends_in_grazing
-    })?;
+    let follower = Follower::new(&family, 1);
+    let mut branch =
+        follower.follow(&start, frequency_g0, Heading::Up, LONGEST_BRANCH, |point| {
+            let flipped = !point.is_stable() && point.fold_test() > 0.0;
+            let weak = point.before_impact_velocity() < WEAKEST * start.before_impact_velocity();
+            let outside =
+                point.parameter < frequency_g0 || point.parameter > FARTHEST * frequency_g0;
+            let ends_in_grazing = point.fold_test() < STEEPEST || (weak && point.fold_test() < 0.0);
+            flipped || outside || ends_in_grazing
+        })?;
     insert_folds(&follower, &mut branch)?;
     let fold = branch
         .iter()
@@ -152,7 +154,7 @@ pub fn hysteresis(ratios: &Ratios) -> Result<Zone, ZoneError> {
         frequency_g0_below,
         frequency_g0,
         frequency_sn: fold.parameter,
-        velocity_sn: fold.before_impact_velocity,
+        velocity_sn: fold.before_impact_velocity(),
         branch,
     })
 }
@@ -200,7 +202,7 @@ impl Zone {
             return Err(ZoneError::Outside { share });
         }
         let family = Frequencies(self.ratios);
-        let follower = Follower::new(&family);
+        let follower = Follower::new(&family, 1);
         let target = self.frequency_at(share);
         let mut best: Option<BranchPoint> = None;
         for pair in self.branch.windows(2) {
@@ -217,7 +219,7 @@ impl Zone {
                 _ => continue,
             };
             let stronger =
-                |best: &BranchPoint| point.before_impact_velocity > best.before_impact_velocity;
+                |best: &BranchPoint| point.before_impact_velocity() > best.before_impact_velocity();
             if best.as_ref().is_none_or(stronger) {
                 best = Some(point);
             }
@@ -234,16 +236,19 @@ impl Zone {
 struct Frequencies(Ratios);
 
 impl Family for Frequencies {
-    fn scene(&self, parameter: f64) -> Result<Scene, MotionError> {
+    fn scene(&self, [frequency]: [f64; 1]) -> Result<Scene, MotionError> {
         Ok(Ratios {
-            frequency: parameter,
+            frequency,
             ..self.0
         }
         .scene()?)
     }
 
-    fn scales(&self) -> [f64; 3] {
-        let length = self.0.clearance.abs().max(1.0);
-        [length, length, 0.2]
+    fn state_scales(&self) -> [f64; 2] {
+        [self.0.clearance.abs().max(1.0); 2]
+    }
+
+    fn parameter_scales(&self) -> [f64; 1] {
+        [0.2]
     }
 }

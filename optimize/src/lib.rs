@@ -4,7 +4,7 @@
 //!
 //! One way through it: [`arguments`] and [`configuration`] turn what the user wrote into a
 //! [`arguments::Machine`], [`scene_file`] reads any scene; a subcommand ([`orbit`], [`motions`],
-//! [`zone`], [`optimize`], [`simulate`], [`stops`], [`fidelity`], [`charts`],
+//! [`continuation`], [`zone`], [`optimize`], [`simulate`], [`stops`], [`fidelity`], [`charts`],
 //! [`throughput`]) asks the core or the search in
 //! [`design`]; [`report`]
 //! and [`chart`] say and draw the answer; [`output`] puts files in place whole or not at all.
@@ -13,6 +13,7 @@ pub mod arguments;
 pub mod chart;
 pub mod charts;
 pub mod configuration;
+pub mod continuation;
 pub mod design;
 pub mod failure;
 pub mod failures;
@@ -55,6 +56,7 @@ Examples:
   softstop orbit --frequency 1.15 --clearance 10   the paper's point A
   softstop motions --frequency 0.9875              all motions: z = 2/3, (2/4)B, chaos
   softstop zone --regime loaded --clearance 10     where impacts and rest coexist
+  softstop continue --parameter eta --from 0.9 --to 1.5   its branch with folds and flips
   softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
   softstop stops                                   pictures of all the stops' laws
   softstop fidelity B --tolerance 0.02             the simplest model that will do
@@ -63,7 +65,7 @@ Examples:
   softstop throughput                              how many drive periods a second
 
 Exit codes: 0 done, 1 the run could not do it, 2 bad usage or values, 130 interrupted.
-optimize, orbit and zone use the paper's dimensionless ratios: m = k1 = F0 = 1.";
+optimize, orbit, zone and continue use the paper's dimensionless ratios: m = k1 = F0 = 1.";
 
 /// The subcommands.
 #[derive(Debug, Subcommand)]
@@ -72,6 +74,8 @@ pub enum Command {
     Orbit(orbit::OrbitArguments),
     /// All motions on which a machine settles: regimes, chaos, basins' shares
     Motions(motions::MotionsArguments),
+    /// Follow a periodic motion along a parameter, through folds, with all its bifurcations
+    Continue(continuation::ContinueArguments),
     /// The hysteresis zone of a clearance: from grazing (g0) to the fold (s_SN)
     Zone(zone::ZoneArguments),
     /// Search stiffness, clearance and frequency for the hardest impact
@@ -109,6 +113,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
     match command {
         Command::Orbit(arguments) => orbit::run(&arguments),
         Command::Motions(arguments) => motions::run(&arguments),
+        Command::Continue(arguments) => continuation::run(&arguments),
         Command::Zone(arguments) => zone::run(&arguments),
         Command::Optimize(arguments) => optimize::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),

@@ -4,8 +4,7 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::Observation;
-use crate::continuation::{BranchPoint, Family, Follower};
-use crate::error::MotionError;
+use crate::continuation::{Along, BranchPoint, Follower, Heading, Parameter};
 use crate::orbit::{Orbit, OrbitError};
 use crate::scene::Scene;
 
@@ -37,8 +36,8 @@ pub fn bounds(scene: &Scene, observed: &Observation) -> Result<Bounds, OrbitErro
     let (flip, fold) = if is_z1 {
         let start = Vector2::new(observed.start.position, observed.start.velocity);
         let orbit = Orbit::near(scene, start)?;
-        let fold = along(scene, &orbit, 1.0, BranchPoint::fold_test)?;
-        let flip = along(scene, &orbit, -1.0, flip_test)?;
+        let fold = along(scene, &orbit, Heading::Up, BranchPoint::fold_test)?;
+        let flip = along(scene, &orbit, Heading::Down, flip_test)?;
         (flip, fold)
     } else {
         (None, None)
@@ -69,19 +68,19 @@ fn flip_test(point: &BranchPoint) -> f64 {
     1.0 + point.monodromy.trace() + point.monodromy.determinant()
 }
 
-/// The first frequency on the branch, up (`way` = 1) or down (-1), at which a test passes zero; none if
+/// The first frequency on the branch, up or down, at which a test passes zero; none if
 /// the motion loses its stability otherwise, or not at all.
 fn along(
     scene: &Scene,
     orbit: &Orbit,
-    way: f64,
+    heading: Heading,
     test: impl Fn(&BranchPoint) -> f64,
 ) -> Result<Option<f64>, OrbitError> {
-    let family = Frequencies { scene, way };
-    let follower = Follower::new(&family);
+    let family = Along::new(scene.clone(), [Parameter::Frequency])?;
+    let follower = Follower::new(&family, 1);
     let from = scene.excitation.frequency;
-    let branch = follower.follow(orbit, way * from, LONGEST, |point| {
-        let ratio = way * point.parameter / from;
+    let branch = follower.follow(orbit, from, heading, LONGEST, |point| {
+        let ratio = point.parameter / from;
         !point.is_stable() || !(1.0 / FARTHEST..=FARTHEST).contains(&ratio)
     })?;
     let [.., before, last] = &branch[..] else {
@@ -89,30 +88,7 @@ fn along(
     };
     if test(before) > 0.0 && test(last) <= 0.0 {
         let found = follower.locate(before, last, test)?;
-        return Ok(Some(way * found.parameter));
+        return Ok(Some(found.parameter));
     }
     Ok(None)
-}
-
-/// A scene at all frequencies of its drive; the parameter is `way` times the frequency.
-struct Frequencies<'a> {
-    scene: &'a Scene,
-    way: f64,
-}
-
-impl Family for Frequencies<'_> {
-    fn scene(&self, parameter: f64) -> Result<Scene, MotionError> {
-        let mut scene = self.scene.clone();
-        scene.excitation.frequency = self.way * parameter;
-        scene.validate()?;
-        Ok(scene)
-    }
-
-    fn scales(&self) -> [f64; 3] {
-        let drive = self.scene.excitation;
-        let w = drive.frequency;
-        let still = drive.amplitude / self.scene.mass / (w * w);
-        let length = self.scene.clearance.abs().max(still);
-        [length, length * w, 0.2 * w]
-    }
 }

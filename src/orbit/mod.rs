@@ -17,7 +17,6 @@ mod tangent;
 pub use exponents::Exponents;
 pub use map::{Passage, StroboscopicMap};
 pub use newton::fixed_point;
-pub(crate) use newton::round_off;
 pub use pattern::{Count, ImpactPattern};
 pub use periodic::Orbit;
 pub use regime::Regime;

@@ -43,14 +43,14 @@ fn smooth(ratios: &Ratios, piece: &[BranchPoint]) -> Vec<(f64, f64)> {
     let mut curve = Vec::new();
     for pair in piece.windows(2) {
         let (from, to) = (&pair[0], &pair[1]);
-        curve.push((from.parameter, from.before_impact_velocity));
+        curve.push((from.parameter, from.before_impact_velocity()));
         let shares = (1..=BETWEEN).map(|step| f64::from(step) / f64::from(BETWEEN + 1));
         curve.extend(shares.filter_map(|share| between(ratios, from, to, share)));
     }
     curve.extend(
         piece
             .last()
-            .map(|point| (point.parameter, point.before_impact_velocity)),
+            .map(|point| (point.parameter, point.before_impact_velocity())),
     );
     curve
 }

@@ -5,6 +5,7 @@
 
 mod atlas;
 mod branch;
+mod continuation;
 mod fidelity;
 mod heat;
 mod loops;
@@ -15,6 +16,7 @@ mod regimes;
 mod style;
 
 pub use atlas::page;
+pub use continuation::{BranchChart, CurveChart};
 pub use fidelity::{Candidate, FidelityChart, FidelityPicture};
 pub use loops::Loops;
 pub use motion::{Drawing, MotionChart};

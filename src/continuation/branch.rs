@@ -1,0 +1,391 @@
+//! Whole branches: both directions, every special point on the way, and why they end.
+
+use std::ops::ControlFlow;
+
+use nalgebra::{DVector, Vector2};
+
+use super::Family;
+use super::arclength::{self, Node, Stride, Walker};
+use super::follower::{Follower, Heading, WIDTH};
+use super::graze::Approach;
+use super::point::{BranchPoint, Special, SpecialKind};
+use super::round::{Round, grazes_gently};
+use super::shooting::Shooting;
+use super::test::Test;
+use crate::orbit::OrbitError;
+
+/// How far a branch is followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Lowest and highest value of the parameter.
+    pub range: (f64, f64),
+    /// Points in each direction.
+    pub points: usize,
+}
+
+/// Why a branch ends.
+#[derive(Debug, Clone)]
+pub enum End {
+    /// The parameter reaches the end of its range; the last point is there.
+    Range,
+    /// There are as many points as asked for.
+    Points,
+    /// The branch is closed: it comes back to its start.
+    Closed,
+    /// The orbit grazes the stop; the last point does.
+    Grazing,
+    /// The orbit becomes one of half as many periods, at its flip; the last point is that.
+    Merged,
+    /// The watcher asked for it.
+    Stopped,
+    /// It cannot be followed even with the smallest step.
+    Lost(OrbitError),
+}
+
+/// A branch of orbits, in order of arclength.
+#[derive(Debug, Clone)]
+pub struct Branch {
+    /// Drive periods of the orbits.
+    pub periods: u64,
+    /// Points, special ones among them.
+    pub points: Vec<BranchPoint>,
+    /// Special points, in the same order.
+    pub specials: Vec<Special>,
+    /// Why it ends at its first point and at its last.
+    pub ends: (End, End),
+}
+
+/// One direction of a branch, its start left out.
+struct Way {
+    points: Vec<BranchPoint>,
+    specials: Vec<Special>,
+    end: End,
+}
+
+/// Largest change of a test function per step.
+const LARGEST_CHANGE: f64 = 0.3;
+/// Smallest share that a step may leave of the distance to grazing, while that is more than `NEAR`
+/// (scaled).
+const SHARE_LEFT: f64 = 0.3;
+const NEAR: f64 = 1e-4;
+/// Length of the steps up to which a grazing orbit is looked for ahead: nothing else is on so short a way.
+const CLOSE: f64 = 1e-3;
+/// Length of the steps from which on all changes are taken.
+const SHORT: f64 = 1e-5;
+/// Steps shorter than that in a row after which an orbit is too unstable to be followed.
+const LONGEST_CRAWL: usize = 60;
+/// Scaled distance within which an orbit repeats.
+const REPEATS: f64 = 1e-7;
+/// Share of its way across that half a round may have left where an orbit has become one of half as many
+/// periods.
+const MERGED: f64 = 1e-3;
+/// Points after which a branch may be found closed.
+const SHORTEST_LOOP: usize = 8;
+/// Distance from the start, in units of the step, at which a branch is closed.
+const CLOSED: f64 = 0.05;
+
+impl<F: Family> Follower<'_, F> {
+    /// The branch through the orbit near a state, towards falling and rising parameters, with every
+    /// fold, flip, Neimark-Sacker point and grazing on it. `watch` sees each point as it comes.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if there is no orbit to start from.
+    pub fn branch(
+        &self,
+        parameter: f64,
+        state: Vector2<f64>,
+        limits: &Limits,
+        mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
+    ) -> Result<Branch, OrbitError> {
+        let start = self.start(parameter, state)?;
+        let minimal = self.minimal_period(&start);
+        if minimal < self.shooting.periods {
+            let shorter = self.over(minimal);
+            return shorter.branch(parameter, self.shooting.state(&start.at), limits, watch);
+        }
+        let up = self.way(
+            start.clone(),
+            &Self::direction(Heading::Up),
+            limits,
+            &mut watch,
+        )?;
+        let down = match up.end {
+            End::Closed => Way::none(),
+            _ => self.way(
+                start.clone(),
+                &Self::direction(Heading::Down),
+                limits,
+                &mut watch,
+            )?,
+        };
+        Ok(self.joined(&start, down, up))
+    }
+
+    /// The drive periods after which an orbit really repeats.
+    fn minimal_period(&self, node: &Node<Round>) -> u64 {
+        let periods = self.shooting.periods;
+        let returns = |after: &u64| {
+            let way = node.here.point.ends[*after as usize - 1] - self.shooting.state(&node.at);
+            self.shooting.scaled(way, [0.0]).norm() < REPEATS
+        };
+        (1..periods)
+            .filter(|after| periods.is_multiple_of(*after))
+            .find(returns)
+            .unwrap_or(periods)
+    }
+
+    /// The branch from a point beside a flip on, away from it: in one direction, given as a change of state
+    /// and parameter.
+    pub(super) fn branch_along(
+        &self,
+        start: Node<Round>,
+        along: &DVector<f64>,
+        limits: &Limits,
+        watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
+    ) -> Result<Branch, OrbitError> {
+        let way = self.way(start.clone(), along, limits, watch)?;
+        let mut branch = self.joined(&start, Way::none(), way);
+        branch.ends.0 = End::Merged;
+        Ok(branch)
+    }
+
+    fn joined(&self, start: &Node<Round>, mut down: Way, up: Way) -> Branch {
+        down.points.reverse();
+        down.specials.reverse();
+        down.points.push(self.point_at(start));
+        down.points.extend(up.points);
+        down.specials.extend(up.specials);
+        Branch {
+            periods: self.shooting.periods,
+            points: down.points,
+            specials: down.specials,
+            ends: (down.end, up.end),
+        }
+    }
+
+    fn way(
+        &self,
+        start: Node<Round>,
+        along: &DVector<f64>,
+        limits: &Limits,
+        watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
+    ) -> Result<Way, OrbitError> {
+        let mut way = Way::none();
+        let origin = start.clone();
+        let mut approach = Approach::of(&self.shooting, &start)?;
+        let mut walker = Walker::new(&self.shooting, start, along, self.largest)?;
+        let mut crawled = 0;
+        while way.points.len() < limits.points {
+            if crawled > LONGEST_CRAWL {
+                way.end = End::Lost(OrbitError::Diverged { residual: f64::NAN });
+                return Ok(way);
+            }
+            let stride = walker.attempt().and_then(|stride| {
+                let ahead = Approach::of(&self.shooting, &stride.node)?;
+                Ok((stride, ahead))
+            });
+            match stride {
+                Ok((stride, ahead)) if self.may_take(&walker, &stride, (&approach, &ahead)) => {
+                    let last = walker.node.clone();
+                    crawled = if walker.step < SHORT { crawled + 1 } else { 0 };
+                    walker.take(stride);
+                    let end = self.record(&mut way, (&last, &walker.node), &origin, limits)?;
+                    approach = ahead;
+                    let stopped = way
+                        .points
+                        .last()
+                        .is_some_and(|point| watch(point).is_break());
+                    if let Some(end) = end.or(stopped.then_some(End::Stopped)) {
+                        way.end = end;
+                        return Ok(way);
+                    }
+                }
+                refused => {
+                    if let Some(special) = self.graze_ahead(&walker, &approach) {
+                        way.points.push(special.point.clone());
+                        way.specials.push(special);
+                        way.end = End::Grazing;
+                        return Ok(way);
+                    }
+                    if !walker.shorten() {
+                        way.end = End::Lost(
+                            refused
+                                .err()
+                                .unwrap_or(OrbitError::Diverged { residual: f64::NAN }),
+                        );
+                        return Ok(way);
+                    }
+                }
+            }
+        }
+        Ok(way)
+    }
+
+    /// True if nothing can be missed on a step.
+    fn may_take(
+        &self,
+        walker: &Walker<'_, Shooting<'_, F, 1>>,
+        stride: &Stride<Round>,
+        (now, ahead): (&Approach, &Approach),
+    ) -> bool {
+        let (from, to) = (&walker.node.here.point, &stride.node.here.point);
+        let same = from.sequence == to.sequence;
+        if walker.step < SHORT {
+            return same;
+        }
+        let gentle = self.is_gentle(&stride.node);
+        let change = |test: Test| (test.value(&from.monodromy) - test.value(&to.monodromy)).abs();
+        Test::ALL.iter().all(|test| change(*test) < LARGEST_CHANGE)
+            && (gentle || (same && ahead.leaves(now, SHARE_LEFT, NEAR)))
+    }
+
+    fn is_gentle(&self, node: &Node<Round>) -> bool {
+        let scene = self.shooting.scene(&node.at);
+        scene.is_ok_and(|scene| grazes_gently(&scene))
+    }
+
+    /// The grazing within the next step, if there is one.
+    fn graze_ahead(
+        &self,
+        walker: &Walker<'_, Shooting<'_, F, 1>>,
+        approach: &Approach,
+    ) -> Option<Special> {
+        if walker.step > CLOSE || self.is_gentle(&walker.node) {
+            return None;
+        }
+        approach.grazes(&self.shooting).into_iter().find(|special| {
+            let point = &special.point;
+            let at = self.shooting.scaled(point.state(), [point.parameter]);
+            let way = at - &walker.node.at;
+            way.norm() < 2.0 * walker.step && way.dot(&walker.direction) > 0.5 * way.norm()
+        })
+    }
+
+    /// Adds the end of a step and the special points on it; says why the branch ends there, if it does.
+    fn record(
+        &self,
+        way: &mut Way,
+        (from, to): (&Node<Round>, &Node<Round>),
+        origin: &Node<Round>,
+        limits: &Limits,
+    ) -> Result<Option<End>, OrbitError> {
+        let closes = way.points.len() >= SHORTEST_LOOP && passes_by(from, to, origin);
+        let bound = self.bound_between(from, to, limits);
+        let merged = self.merging(from, to);
+        let (to, end) = match (bound, merged) {
+            (Some(bound), _) => {
+                let test = |node: &Node<Round>| self.shooting.parameters(&node.at)[0] - bound;
+                let (node, _) = arclength::locate(&self.shooting, (from, to), WIDTH, test)?;
+                (node, Some(End::Range))
+            }
+            (None, Some(point)) => {
+                way.points.push(point);
+                return Ok(Some(End::Merged));
+            }
+            (None, None) => (to.clone(), closes.then_some(End::Closed)),
+        };
+        let specials = self.specials_between(from, &to)?;
+        way.points
+            .extend(specials.iter().map(|special| special.point.clone()));
+        way.specials.extend(specials);
+        way.points.push(self.point_at(&to));
+        Ok(end)
+    }
+
+    fn bound_between(&self, from: &Node<Round>, to: &Node<Round>, limits: &Limits) -> Option<f64> {
+        let (low, high) = limits.range;
+        let [now] = self.shooting.parameters(&to.at);
+        let [before] = self.shooting.parameters(&from.at);
+        let bound = now.clamp(low, high);
+        (bound != now && before != bound).then_some(bound)
+    }
+
+    /// The special points of a step, in their order.
+    fn specials_between(
+        &self,
+        from: &Node<Round>,
+        to: &Node<Round>,
+    ) -> Result<Vec<Special>, OrbitError> {
+        let mut found = Vec::new();
+        let (a, b) = (&from.here.point, &to.here.point);
+        for test in Test::ALL {
+            if test.passes(&a.monodromy, &b.monodromy) {
+                let value = |node: &Node<Round>| test.value(&node.here.point.monodromy);
+                let (node, share) = arclength::locate(&self.shooting, (from, to), WIDTH, value)?;
+                let point = self.point_at(&node);
+                let kind = SpecialKind::Critical(test);
+                found.push((share, Special { kind, point }));
+            }
+        }
+        if a.sequence != b.sequence {
+            found.extend(self.graze_between(from, to)?);
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(found.into_iter().map(|(_, special)| special).collect())
+    }
+
+    /// The grazing of a stop without a jump of its force, where the branch goes on.
+    fn graze_between(
+        &self,
+        from: &Node<Round>,
+        to: &Node<Round>,
+    ) -> Result<Option<(f64, Special)>, OrbitError> {
+        let way = &to.at - &from.at;
+        for node in [from, to] {
+            for mut special in Approach::of(&self.shooting, node)?.grazes(&self.shooting) {
+                let point = &special.point;
+                let at = self.shooting.scaled(point.state(), [point.parameter]);
+                let share = (&at - &from.at).dot(&way) / way.norm_squared();
+                if !(0.0..=1.0).contains(&share) {
+                    continue;
+                }
+                if let SpecialKind::Grazing(graze) = &mut special.kind {
+                    graze.dies = from.here.point.impacts.len() > graze.impacts;
+                }
+                return Ok(Some((share, special)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The flip at which an orbit becomes one of half as many periods, if it does on a step: half a round
+    /// leads to the other side of it.
+    fn merging(&self, from: &Node<Round>, to: &Node<Round>) -> Option<BranchPoint> {
+        let periods = self.shooting.periods;
+        if !periods.is_multiple_of(2) {
+            return None;
+        }
+        let asymmetry = |node: &Node<Round>| {
+            let half = node.here.point.ends[periods as usize / 2 - 1];
+            half - self.shooting.state(&node.at)
+        };
+        let (a, b) = (asymmetry(from), asymmetry(to));
+        if a.dot(&b) >= 0.0 && b.norm() > MERGED * a.norm() {
+            return None;
+        }
+        let share = a.norm() / (a.norm() + b.norm());
+        let at = &from.at + share * (&to.at - &from.at);
+        let follower = self.over(periods / 2);
+        let [parameter] = self.shooting.parameters(&at);
+        let near = follower.point(parameter, self.shooting.state(&at)).ok()?;
+        follower.critical(&near, Test::Flip).ok()
+    }
+}
+
+/// True if a step passes the start of the branch.
+fn passes_by(from: &Node<Round>, to: &Node<Round>, origin: &Node<Round>) -> bool {
+    let way = &to.at - &from.at;
+    let share = (&origin.at - &from.at).dot(&way) / way.norm_squared();
+    let off = &origin.at - (&from.at + share * &way);
+    (0.0..=1.0).contains(&share) && off.norm() < CLOSED * way.norm()
+}
+
+impl Way {
+    fn none() -> Self {
+        Self {
+            points: Vec::new(),
+            specials: Vec::new(),
+            end: End::Points,
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! Orbits of a family followed along its parameter.
+
+use nalgebra::{DVector, Vector2};
+
+use super::Family;
+use super::arclength::{self, LARGEST_STEP, Node, Walker, correct};
+use super::point::BranchPoint;
+use super::round::Round;
+use super::shooting::{Critical, Shooting};
+use super::test::Test;
+use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
+
+/// Scaled distance along a branch to which special points are located.
+pub(crate) const WIDTH: f64 = 1e-12;
+
+/// Which way a branch is followed from its start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Heading {
+    /// Towards rising parameters.
+    Up,
+    /// Towards falling parameters.
+    Down,
+}
+
+/// Follows the orbits of a family over a number of drive periods.
+#[derive(Debug)]
+pub struct Follower<'a, F> {
+    pub(super) shooting: Shooting<'a, F, 1>,
+    pub(super) largest: f64,
+}
+
+impl<'a, F: Family> Follower<'a, F> {
+    /// A follower of the orbits of `family` over `periods` drive periods.
+    pub fn new(family: &'a F, periods: u64) -> Self {
+        Self {
+            shooting: Shooting::new(family, periods),
+            largest: LARGEST_STEP,
+        }
+    }
+
+    /// With steps of at most `largest`, in units of the family's scales: for curves without visible
+    /// corners.
+    #[must_use]
+    pub fn with_steps(self, largest: f64) -> Self {
+        Self { largest, ..self }
+    }
+
+    /// The same for another number of drive periods.
+    pub(super) fn over(&self, periods: u64) -> Self {
+        Self::new(self.shooting.family, periods).with_steps(self.largest)
+    }
+
+    /// The orbit at `parameter`, stable or not, that Newton's method reaches from a state near it.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if it does not settle.
+    pub fn point(&self, parameter: f64, state: Vector2<f64>) -> Result<BranchPoint, OrbitError> {
+        Ok(self.point_at(&self.start(parameter, state)?))
+    }
+
+    pub(super) fn start(
+        &self,
+        parameter: f64,
+        state: Vector2<f64>,
+    ) -> Result<Node<Round>, OrbitError> {
+        let guess = self.shooting.scaled(state, [parameter]);
+        correct(&self.shooting, &guess, Some(&Self::direction(Heading::Up)))
+    }
+
+    /// The direction of rising or falling parameters.
+    pub(super) fn direction(heading: Heading) -> DVector<f64> {
+        let way = match heading {
+            Heading::Up => 1.0,
+            Heading::Down => -1.0,
+        };
+        DVector::from_vec(vec![0.0, 0.0, way])
+    }
+
+    /// The branch of z = 1 motions from an orbit at `parameter`, until `stop` says so of its last point or `limit` points are there, or until it cannot be followed any
+    /// farther even with the smallest step (where the regime ends).
+    ///
+    /// # Errors
+    /// [`OrbitError`] if the start is not on a branch.
+    pub fn follow(
+        &self,
+        start: &Orbit,
+        parameter: f64,
+        heading: Heading,
+        limit: usize,
+        stop: impl Fn(&BranchPoint) -> bool,
+    ) -> Result<Vec<BranchPoint>, OrbitError> {
+        let state = Vector2::new(start.position, start.velocity);
+        let node = self.start(parameter, state)?;
+        let sequence = node.here.point.sequence;
+        let mut points = vec![self.point_at(&node)];
+        let mut walker = Walker::new(
+            &self.shooting,
+            node,
+            &Self::direction(heading),
+            self.largest,
+        )?;
+        while points.len() < limit {
+            match walker.attempt() {
+                Ok(stride) if stride.node.here.point.sequence == sequence => {
+                    walker.take(stride);
+                    let point = self.point_at(&walker.node);
+                    let ends = stop(&point);
+                    points.push(point);
+                    if ends {
+                        break;
+                    }
+                }
+                _ if walker.shorten() => {}
+                _ => break,
+            }
+        }
+        Ok(points)
+    }
+
+    /// The point between two neighbours at which `test` changes its sign.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if a correction fails.
+    pub fn locate(
+        &self,
+        from: &BranchPoint,
+        to: &BranchPoint,
+        test: impl Fn(&BranchPoint) -> f64,
+    ) -> Result<BranchPoint, OrbitError> {
+        let ends = (&self.node_at(from)?, &self.node_at(to)?);
+        let test = |node: &Node<Round>| test(&self.point_at(node));
+        let (node, _) = arclength::locate(&self.shooting, ends, WIDTH, test)?;
+        Ok(self.point_at(&node))
+    }
+
+    /// The orbit at which a test vanishes, by Newton's method for orbit and parameter together.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if it does not settle.
+    pub fn critical(&self, near: &BranchPoint, test: Test) -> Result<BranchPoint, OrbitError> {
+        let critical = Critical {
+            shooting: Shooting::<F, 1>::new(self.shooting.family, self.shooting.periods),
+            test,
+        };
+        let guess = self.shooting.scaled(near.state(), [near.parameter]);
+        Ok(self.point_at(&correct(&critical, &guess, None)?))
+    }
+
+    /// The full orbit at a point.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if the point is not on a z = 1 orbit.
+    pub fn orbit(&self, point: &BranchPoint) -> Result<Orbit, OrbitError> {
+        let scene = self.shooting.family.scene([point.parameter])?;
+        let map = StroboscopicMap::new(&scene, self.shooting.periods)?;
+        let passage = map.apply(point.state())?;
+        Orbit::on(&scene, &map, point.state(), &passage)
+    }
+
+    pub(super) fn point_at(&self, node: &Node<Round>) -> BranchPoint {
+        let state = self.shooting.state(&node.at);
+        let [parameter] = self.shooting.parameters(&node.at);
+        BranchPoint {
+            parameter,
+            position: state.x,
+            velocity: state.y,
+            impacts: node.here.point.impacts.clone(),
+            monodromy: node.here.point.monodromy,
+        }
+    }
+
+    pub(super) fn node_at(&self, point: &BranchPoint) -> Result<Node<Round>, OrbitError> {
+        let at = self.shooting.scaled(point.state(), [point.parameter]);
+        let here = arclength::Equations::evaluate(&self.shooting, &at)?;
+        Ok(Node { at, here })
+    }
+}

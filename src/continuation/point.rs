@@ -1,0 +1,101 @@
+//! Points of branches, and what is special about some.
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::round::Face;
+use super::test::Test;
+use crate::orbit::is_stable;
+
+/// A point of a branch.
+#[derive(Debug, Clone)]
+pub struct BranchPoint {
+    /// The parameter's value.
+    pub parameter: f64,
+    /// Position in m at time 0.
+    pub position: f64,
+    /// Velocity in m/s at time 0.
+    pub velocity: f64,
+    /// Before-impact velocities in m/s over the period, in order of time.
+    pub impacts: Vec<f64>,
+    /// Jacobian of the map over the period; of an orbit that grazes, that without the touch.
+    pub monodromy: Matrix2<f64>,
+}
+
+impl BranchPoint {
+    /// The highest before-impact velocity in m/s; 0 without any impact.
+    pub fn before_impact_velocity(&self) -> f64 {
+        self.impacts.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Position and velocity at time 0.
+    pub fn state(&self) -> Vector2<f64> {
+        Vector2::new(self.position, self.velocity)
+    }
+
+    /// 1 - tr + det: zero at a fold, positive on its stable side.
+    pub fn fold_test(&self) -> f64 {
+        1.0 - self.monodromy.trace() + self.monodromy.determinant()
+    }
+
+    /// True if the orbit is stable.
+    pub fn is_stable(&self) -> bool {
+        is_stable(&self.monodromy)
+    }
+}
+
+/// What a special point is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SpecialKind {
+    /// A bifurcation that the monodromy matrix tells: fold (the paper's SN), flip (PD),
+    /// Neimark-Sacker.
+    Critical(Test),
+    /// The orbit grazes the stop (the paper's G).
+    Grazing(Graze),
+}
+
+/// An orbit that grazes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Graze {
+    /// Drive angle in rad of the touch, counted on over the drive periods from the phase at time 0.
+    pub angle: f64,
+    /// Impacts of the orbit, the touch left out.
+    pub impacts: usize,
+    /// True if the touch is a dying crossing, seen from the branch: at the clearance, p/n becomes
+    /// (p - 1)/n. Otherwise a turning point reaches the surface, and p/n becomes (p + 1)/n.
+    pub dies: bool,
+    /// The surface that is touched; but for the clearance, the number of impacts stays.
+    pub face: Face,
+    /// Crossings of the orbit, the touch left out.
+    pub(crate) crossings: usize,
+}
+
+impl SpecialKind {
+    /// In one word, as in the paper's table where it has one: SN, PD, NS, G.
+    pub fn symbol(&self) -> &'static str {
+        match self {
+            Self::Critical(Test::Fold) => "SN",
+            Self::Critical(Test::Flip) => "PD",
+            Self::Critical(Test::NeimarkSacker) => "NS",
+            Self::Grazing(_) => "G",
+        }
+    }
+
+    /// In words.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Critical(Test::Fold) => "fold",
+            Self::Critical(Test::Flip) => "flip",
+            Self::Critical(Test::NeimarkSacker) => "Neimark-Sacker",
+            Self::Grazing(_) => "grazing",
+        }
+    }
+}
+
+/// A special point of a branch.
+#[derive(Debug, Clone)]
+pub struct Special {
+    /// What it is.
+    pub kind: SpecialKind,
+    /// Where it is.
+    pub point: BranchPoint,
+}

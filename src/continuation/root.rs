@@ -1,0 +1,111 @@
+//! A root between two ends, to a width that is asked for.
+
+/// The end of a search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bracket {
+    /// Ends between which the function changes its sign.
+    pub ends: (f64, f64),
+    /// Evaluations of the function.
+    pub evaluations: usize,
+}
+
+impl Bracket {
+    /// The middle.
+    pub fn middle(&self) -> f64 {
+        0.5 * (self.ends.0 + self.ends.1)
+    }
+}
+
+/// Evaluations beyond those of bisection that a search may take.
+const SLACK: f64 = 1.0;
+
+/// Narrows the interval between `low` and `high`, where the function has the values `at_low` and
+/// `at_high` of opposite signs, to `width`: interpolation, truncation, projection (Oliveira and
+/// Takahashi 2020, ACM Trans. Math. Softw. 47, 5). It never takes more evaluations than bisection and
+/// one, and on a smooth function converges with the order of the secant method.
+///
+/// # Errors
+/// The function's own.
+pub fn narrow<E>(
+    low: (f64, f64),
+    high: (f64, f64),
+    width: f64,
+    mut function: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<Bracket, E> {
+    let ((mut a, mut f_a), (mut b, mut f_b)) = (low, high);
+    let half = 0.5 * width;
+    let most = ((b - a) / width).log2().ceil().max(0.0) + SLACK;
+    let truncation = 0.2 / (b - a);
+    let mut evaluations = 0;
+    while b - a > width {
+        let middle = 0.5 * (a + b);
+        let secant = (f_b * a - f_a * b) / (f_b - f_a);
+        let side = (middle - secant).signum();
+        let shift = truncation * (b - a) * (b - a);
+        let truncated = if shift <= (middle - secant).abs() {
+            secant + side * shift
+        } else {
+            middle
+        };
+        let radius = half * (most - evaluations as f64).exp2() - 0.5 * (b - a);
+        let at = if (truncated - middle).abs() <= radius {
+            truncated
+        } else {
+            middle - side * radius.max(0.0)
+        };
+        if at <= a || at >= b {
+            break;
+        }
+        let value = function(at)?;
+        evaluations += 1;
+        if value == 0.0 {
+            (a, b) = (at, at);
+        } else if (value > 0.0) == (f_b > 0.0) {
+            (b, f_b) = (at, value);
+        } else {
+            (a, f_a) = (at, value);
+        }
+    }
+    Ok(Bracket {
+        ends: (a, b),
+        evaluations,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::narrow;
+
+    type Never = std::convert::Infallible;
+
+    fn evaluations(width: f64) -> usize {
+        let function = |x: f64| x.exp() - 2.0;
+        let bracket = narrow::<Never>((0.0, -1.0), (1.0, function(1.0)), width, |x| {
+            Ok(function(x))
+        })
+        .expect("a root");
+        let root = 2f64.ln();
+        assert!(bracket.ends.0 <= root + 1e-16 && root - 1e-16 <= bracket.ends.1);
+        assert!(bracket.ends.1 - bracket.ends.0 <= width);
+        bracket.evaluations
+    }
+
+    /// Four times the digits cost a few evaluations more: bisection would take 10, 20 and 40.
+    #[test]
+    fn order_is_that_of_the_secant_method() {
+        let counts = [1e-3, 1e-6, 1e-12].map(evaluations);
+        assert!(counts[1] - counts[0] <= 3, "{counts:?}");
+        assert!(counts[2] - counts[1] <= 3, "{counts:?}");
+    }
+
+    /// A jump is found as by bisection.
+    #[test]
+    fn a_jump_costs_no_more_than_bisection_and_one() {
+        let bracket = narrow::<Never>((0.0, -1.0), (1.0, 1e9), 2f64.powi(-30), |x| {
+            Ok(if x < 0.3 { -1.0 } else { 1e9 })
+        })
+        .expect("a jump");
+        assert!(bracket.evaluations <= 31, "{bracket:?}");
+        assert!((bracket.middle() - 0.3).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,114 @@
+//! From a flip to the orbits of twice the period.
+
+use std::ops::ControlFlow;
+
+use nalgebra::{DVector, Vector2};
+
+use super::Family;
+use super::arclength::{Node, correct};
+use super::branch::{Branch, Limits};
+use super::follower::Follower;
+use super::point::{BranchPoint, Special, SpecialKind};
+use super::round::Round;
+use super::test::Test;
+use crate::orbit::OrbitError;
+
+/// Scaled distances from the flip at which the doubled branch is looked for.
+const DISTANCES: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-5];
+/// Smallest share of such a distance by which half a round must lead away.
+const APART: f64 = 0.5;
+
+impl<F: Family> Follower<'_, F> {
+    /// The branch of orbits of twice the period from a flip of this follower's orbits on, along the
+    /// critical eigenvector.
+    ///
+    /// # Errors
+    /// [`OrbitError::Diverged`] if there is no such branch near the point.
+    pub fn doubled(
+        &self,
+        flip: &BranchPoint,
+        limits: &Limits,
+        mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
+    ) -> Result<Branch, OrbitError> {
+        let doubled = self.over(2 * self.shooting.periods);
+        let at = doubled.shooting.scaled(flip.state(), [flip.parameter]);
+        let away = critical_direction(flip);
+        let away = doubled.shooting.scaled(away, [0.0]).normalize();
+        for distance in DISTANCES {
+            let guess = &at + distance * &away;
+            let Ok(node) = correct(&doubled.shooting, &guess, Some(&away)) else {
+                continue;
+            };
+            let along: DVector<f64> = &node.at - &at;
+            let twice = node.here.point.impacts.len() == 2 * flip.impacts.len();
+            let near = along.norm() < 2.0 * distance;
+            if twice && near && doubled.half_round(&node) > APART * distance {
+                return doubled.branch_along(node, &along, limits, &mut watch);
+            }
+        }
+        Err(OrbitError::Diverged { residual: f64::NAN })
+    }
+
+    /// The doublings of a branch, one after the other: the first flip among `specials`, the first on the
+    /// branch of twice the period from there, and so on; `count` at most.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if a doubled branch cannot be followed.
+    pub fn cascade(
+        &self,
+        first: &BranchPoint,
+        count: usize,
+        limits: &Limits,
+    ) -> Result<Vec<BranchPoint>, OrbitError> {
+        let mut flips = vec![first.clone()];
+        let mut periods = self.shooting.periods;
+        while flips.len() < count {
+            let follower = self.over(periods);
+            let flip = &flips[flips.len() - 1];
+            let mut last = None;
+            let branch = follower.doubled(flip, limits, |point| {
+                let flipped = last.is_some_and(|sign| sign != flip_sign(point));
+                last = Some(flip_sign(point));
+                if flipped {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            })?;
+            let Some(next) = branch.specials.into_iter().find(is_flip) else {
+                break;
+            };
+            flips.push(next.point);
+            periods *= 2;
+        }
+        Ok(flips)
+    }
+
+    /// Scaled distance between the states at half a round and at its start.
+    fn half_round(&self, node: &Node<Round>) -> f64 {
+        let half = node.here.point.ends[self.shooting.periods as usize / 2 - 1];
+        let way = half - self.shooting.state(&node.at);
+        self.shooting.scaled(way, [0.0]).norm()
+    }
+}
+
+fn flip_sign(point: &BranchPoint) -> bool {
+    Test::Flip.value(&point.monodromy) > 0.0
+}
+
+fn is_flip(special: &Special) -> bool {
+    special.kind == SpecialKind::Critical(Test::Flip)
+}
+
+/// The eigenvector of the multiplier -1, from the larger row of monodromy + 1.
+fn critical_direction(flip: &BranchPoint) -> Vector2<f64> {
+    let m = &flip.monodromy;
+    let rows = [(m.m11 + 1.0, m.m12), (m.m21, m.m22 + 1.0)];
+    let [(a, b), other] = rows;
+    let (a, b) = if a.hypot(b) >= other.0.hypot(other.1) {
+        (a, b)
+    } else {
+        other
+    };
+    Vector2::new(-b, a)
+}

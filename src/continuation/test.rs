@@ -1,0 +1,76 @@
+//! What the monodromy matrix says: folds, flips, Neimark-Sacker points.
+
+use nalgebra::Matrix2;
+
+/// A function of the monodromy matrix that vanishes at a bifurcation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Test {
+    /// 1 - tr + det: a multiplier is 1.
+    Fold,
+    /// 1 + tr + det: a multiplier is -1.
+    Flip,
+    /// det - 1 between two complex multipliers. Never where there is any damping: det =
+    /// exp(-integral of damping over mass) times R^2 for each rebound, and a scene's damping is not
+    /// negative.
+    NeimarkSacker,
+}
+
+impl Test {
+    /// All.
+    pub const ALL: [Self; 3] = [Self::Fold, Self::Flip, Self::NeimarkSacker];
+
+    /// The value, scaled by the size of trace and determinant: bounded also where they grow beyond all
+    /// bounds, at grazing.
+    pub fn value(self, monodromy: &Matrix2<f64>) -> f64 {
+        let (trace, determinant) = (monodromy.trace(), monodromy.determinant());
+        let size = 1.0f64.hypot(trace).hypot(determinant);
+        match self {
+            Self::Fold => (1.0 - trace + determinant) / size,
+            Self::Flip => (1.0 + trace + determinant) / size,
+            Self::NeimarkSacker => (determinant - 1.0) / size,
+        }
+    }
+
+    /// True if the test passes zero between two orbits. Without damping the determinant is 1 to rounding
+    /// all along: nothing passes there.
+    pub(crate) fn passes(self, from: &Matrix2<f64>, to: &Matrix2<f64>) -> bool {
+        let (a, b) = (self.value(from), self.value(to));
+        let changes = (a > 0.0) != (b > 0.0);
+        match self {
+            Self::Fold | Self::Flip => changes,
+            Self::NeimarkSacker => {
+                let rotates = |matrix: &Matrix2<f64>| matrix.trace().abs() < 2.0;
+                let moves = (a - b).abs() > CONSERVATIVE;
+                changes && moves && rotates(from) && rotates(to)
+            }
+        }
+    }
+}
+
+/// Change of the determinant that rounding may bring.
+const CONSERVATIVE: f64 = 1e-9;
+
+#[cfg(test)]
+mod tests {
+    use super::Test;
+    use nalgebra::{Matrix2, Rotation2};
+
+    #[test]
+    fn tests_vanish_at_their_multipliers() {
+        let vanishes = |test: Test, matrix| assert!(test.value(&matrix).abs() < 1e-15);
+        vanishes(Test::Fold, Matrix2::new(1.0, 5.0, 0.0, 0.3));
+        vanishes(Test::Flip, Matrix2::new(-1.0, 5.0, 0.0, 0.3));
+        vanishes(Test::NeimarkSacker, Rotation2::new(1.0).into_inner());
+    }
+
+    #[test]
+    fn neimark_sacker_needs_complex_multipliers_and_a_change() {
+        let turned = |size: f64| Rotation2::new(1.0).into_inner() * size;
+        let passes = |from: Matrix2<f64>, to: Matrix2<f64>| Test::NeimarkSacker.passes(&from, &to);
+        assert!(passes(turned(0.9), turned(1.1)));
+        assert!(!passes(turned(0.9), turned(0.95)));
+        assert!(!passes(turned(1.0 - 1e-14), turned(1.0 + 1e-14)));
+        let stretched = |size: f64| Matrix2::new(3.0 * size, 0.0, 0.0, size / 3.0);
+        assert!(!passes(stretched(0.9), stretched(1.1)));
+    }
+}
