@@ -150,7 +150,7 @@ fn steps_have_the_motions_of_newtons_method() {
 
 #[test]
 fn chaos_is_told_from_rest_and_order() {
-    // Model.md: chaos at 0.9875 below the doublings; z = 1/2 between 0.98906 and 0.9956 or so.
+    // Between grazing at 0.95265 and the first windows of order.
     let plan = frequencies((0.96, 0.975), 4, 200);
     let chains = run(&plan, both(Ratios::unloaded()));
     let chaotic = |step: &Step| match step.settled {

@@ -4,19 +4,20 @@ use pulp::{Simd, WithSimd};
 
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
+use super::listener::Listener;
 use super::machine::Machine;
 use super::scalar::{self, Place, Resumed};
 use super::state::State;
-use super::{Instructions, Job, Outcome, Watch};
+use super::{Instructions, Job, Outcome};
 
 /// Registers that go side by side.
 pub(super) const ABREAST: usize = 2;
 
 /// Follows all jobs with the instruction set asked for, or the widest below it.
-pub(super) fn run<W: Watch>(
-    machines: &[Machine],
-    jobs: &[Job],
-    watch: &mut W,
+pub(super) fn run<'a>(
+    machines: &'a [Machine],
+    jobs: &'a [Job],
+    watch: Listener<'a>,
     instructions: Instructions,
 ) -> Vec<Outcome> {
     let plain = machines.iter().all(Machine::is_plain);
@@ -30,10 +31,10 @@ pub(super) fn run<W: Watch>(
         },
     };
     match (plain, instructions) {
-        (true, Instructions::OneByOne) => dispatch(Plain::<W, 1>(task), instructions),
-        (true, _) => dispatch(Plain::<W, ABREAST>(task), instructions),
-        (false, Instructions::OneByOne) => dispatch(Guarded::<W, 1>(task), instructions),
-        (false, _) => dispatch(Guarded::<W, ABREAST>(task), instructions),
+        (true, Instructions::OneByOne) => dispatch(Plain::<1>(task), instructions),
+        (true, _) => dispatch(Plain::<ABREAST>(task), instructions),
+        (false, Instructions::OneByOne) => dispatch(Guarded::<1>(task), instructions),
+        (false, _) => dispatch(Guarded::<ABREAST>(task), instructions),
     }
 }
 
@@ -52,40 +53,40 @@ fn dispatch<T: WithSimd<Output = Vec<Outcome>>>(
     }
 }
 
-pub(super) struct Task<'a, W> {
+pub(super) struct Task<'a> {
     machines: &'a [Machine],
     jobs: &'a [Job],
-    pub watch: &'a mut W,
+    pub watch: Listener<'a>,
     /// Most lanes to use.
     at_once: usize,
 }
 
 /// One position ends a phase.
-struct Plain<'a, W, const N: usize>(Task<'a, W>);
+struct Plain<'a, const N: usize>(Task<'a>);
 /// Phases may end by two positions and a further guard.
-struct Guarded<'a, W, const N: usize>(Task<'a, W>);
+struct Guarded<'a, const N: usize>(Task<'a>);
 
-impl<W: Watch, const N: usize> WithSimd for Plain<'_, W, N> {
+impl<const N: usize> WithSimd for Plain<'_, N> {
     type Output = Vec<Outcome>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        Engine::<S, W, false, N>::new(simd, self.0).run()
+        Engine::<S, false, N>::new(simd, self.0).run()
     }
 }
 
-impl<W: Watch, const N: usize> WithSimd for Guarded<'_, W, N> {
+impl<const N: usize> WithSimd for Guarded<'_, N> {
     type Output = Vec<Outcome>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        Engine::<S, W, true, N>::new(simd, self.0).run()
+        Engine::<S, true, N>::new(simd, self.0).run()
     }
 }
 
 /// All lanes and what they work at. `GUARDED`: phases may end by more than one position.
-pub(super) struct Engine<'a, S: Simd, W: Watch, const GUARDED: bool, const N: usize> {
-    pub task: Task<'a, W>,
+pub(super) struct Engine<'a, S: Simd, const GUARDED: bool, const N: usize> {
+    pub task: Task<'a>,
     laws: Vec<Law<S, N>>,
     pub state: State<S, N>,
     /// The job of each lane.
@@ -94,9 +95,9 @@ pub(super) struct Engine<'a, S: Simd, W: Watch, const GUARDED: bool, const N: us
     outcomes: Vec<Outcome>,
 }
 
-impl<'a, S: Simd, W: Watch, const GUARDED: bool, const N: usize> Engine<'a, S, W, GUARDED, N> {
+impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N> {
     #[inline(always)]
-    fn new(simd: S, task: Task<'a, W>) -> Self {
+    fn new(simd: S, task: Task<'a>) -> Self {
         let laws = task.machines.iter().flat_map(|machine| &machine.laws);
         let most = laws.map(Vec::len).max().unwrap_or(1);
         let outcomes = task.jobs.iter().map(|job| Outcome {
@@ -151,7 +152,11 @@ impl<'a, S: Simd, W: Watch, const GUARDED: bool, const N: usize> Engine<'a, S, W
             drive,
             ..
         } = self.state;
-        let periods = if W::PERIODS { left.like(1.0) } else { left };
+        let periods = if self.task.watch.periods {
+            left.like(1.0)
+        } else {
+            left
+        };
         periods.mul_add(drive.period, -offset)
     }
 
@@ -238,7 +243,7 @@ impl<'a, S: Simd, W: Watch, const GUARDED: bool, const N: usize> Engine<'a, S, W
         } = self.task.jobs[place.job];
         let outcome = &mut self.outcomes[place.job];
         let machine = &self.task.machines[machine];
-        match scalar::follow(machine, place, periods, self.task.watch, outcome) {
+        match scalar::follow(machine, place, periods, &mut self.task.watch, outcome) {
             Ok(resumed) => resumed,
             Err(error) => {
                 outcome.error = Some(error);

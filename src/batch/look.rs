@@ -2,7 +2,6 @@
 
 use pulp::Simd;
 
-use super::Watch;
 use super::engine::Engine;
 use super::judge::Stretch;
 use super::lanes::{Lanes, Mask};
@@ -53,7 +52,7 @@ struct Found<S: Simd, const N: usize> {
     slope: Lanes<S, N>,
 }
 
-impl<S: Simd, W: Watch, const GUARDED: bool, const N: usize> Engine<'_, S, W, GUARDED, N> {
+impl<S: Simd, const GUARDED: bool, const N: usize> Engine<'_, S, GUARDED, N> {
     /// Looks at what lies ahead of the lanes that the scan has stopped, and moves all on; those that came to
     /// the end of their job, and those that the scalar engine has to take. `due`: time to where each has to
     /// stop.
@@ -120,12 +119,12 @@ impl<S: Simd, W: Watch, const GUARDED: bool, const N: usize> Engine<'_, S, W, GU
         state.x = moves.choose(x, state.x);
         state.v = moves.choose(at_high.choose(v * law.bounce, turned), state.v);
         let time = hits.choose(found.time, ahead.span);
-        state.pass(scanned + moves.choose(time, zero), !W::PERIODS);
+        state.pass(scanned + moves.choose(time, zero), !self.task.watch.periods);
         state.impacts = at_high.choose(state.impacts + law.impact, state.impacts);
         let beyond = at_high.choose(law.beyond_high, law.beyond_low);
         let beyond = at_further.choose(law.beyond_guard, beyond);
         state.phase = hits.choose(beyond, state.phase);
-        if W::IMPACTS {
+        if self.task.watch.impacts {
             self.tell_impacts(at_high & zero.below(law.impact), v);
         }
         (hits, found.doubtful | found.hits.and_not(hits))
@@ -149,14 +148,14 @@ impl<S: Simd, W: Watch, const GUARDED: bool, const N: usize> Engine<'_, S, W, GU
         }
         let state = &mut self.state;
         let zero = state.left.like(0.0);
-        let left = if W::PERIODS {
+        let left = if self.task.watch.periods {
             state.left - zero.like(1.0)
         } else {
             zero
         };
         state.left = arrived.choose(left, state.left);
         state.offset = arrived.choose(zero, state.offset);
-        if W::PERIODS {
+        if self.task.watch.periods {
             self.tell_periods(arrived);
         }
         arrived & self.state.left.at_most(zero)

@@ -13,6 +13,7 @@ mod engine;
 mod judge;
 mod lanes;
 mod law;
+mod listener;
 mod look;
 mod machine;
 mod parallel;
@@ -26,6 +27,8 @@ mod taylor;
 pub use machine::Machine;
 pub use parallel::run_parallel;
 pub use registers::Registers;
+
+use listener::Listener;
 
 use crate::error::MotionError;
 use crate::integrator::Start;
@@ -93,7 +96,7 @@ impl Watch for () {}
 /// # Panics
 /// If a job names a machine that is not there.
 pub fn run(machines: &[Machine], jobs: &[Job], watch: &mut impl Watch) -> Vec<Outcome> {
-    engine::run(machines, jobs, watch, Instructions::Widest)
+    run_with(Instructions::Widest, machines, jobs, watch)
 }
 
 /// The same with the instruction set chosen.
@@ -103,5 +106,5 @@ pub fn run_with(
     jobs: &[Job],
     watch: &mut impl Watch,
 ) -> Vec<Outcome> {
-    engine::run(machines, jobs, watch, instructions)
+    engine::run(machines, jobs, Listener::new(watch), instructions)
 }

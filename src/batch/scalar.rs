@@ -1,7 +1,8 @@
 //! Where the scalar engine takes over.
 
+use super::Outcome;
+use super::listener::Listener;
 use super::machine::Machine;
-use super::{Outcome, Watch};
 use crate::error::MotionError;
 use crate::integrator::{Clock, Crossing, Instant, Motion, Observer, Start};
 use crate::phases::Mode;
@@ -45,11 +46,11 @@ fn lane_phase(machine: &Machine, motion: &Motion) -> Option<usize> {
 
 /// Follows a motion to the next beginning of a drive period at which it moves in a phase that lanes can
 /// follow; none if that is not before its end after `periods`.
-pub(super) fn follow<W: Watch>(
+pub(super) fn follow(
     machine: &Machine,
     place: Place,
     periods: u64,
-    watch: &mut W,
+    watch: &mut Listener<'_>,
     outcome: &mut Outcome,
 ) -> Result<Option<Resumed>, MotionError> {
     let at = Instant {
@@ -71,7 +72,7 @@ pub(super) fn follow<W: Watch>(
         outcome.handed_over += 1;
         let state = motion.state();
         outcome.end = state;
-        if W::PERIODS {
+        if counter.watch.periods {
             counter.watch.period(place.job, cycle, state);
         }
         if cycle < periods
@@ -89,17 +90,17 @@ pub(super) fn follow<W: Watch>(
     followed
 }
 
-struct Counter<'a, W: Watch> {
+struct Counter<'a, 'b> {
     job: usize,
-    watch: &'a mut W,
+    watch: &'a mut Listener<'b>,
     impacts: u64,
 }
 
-impl<W: Watch> Observer for Counter<'_, W> {
+impl Observer for Counter<'_, '_> {
     fn crossing(&mut self, crossing: &Crossing) {
         if let Some(velocity) = crossing.impact_velocity() {
             self.impacts += 1;
-            if W::IMPACTS {
+            if self.watch.impacts {
                 let Instant { cycles, offset } = crossing.instant;
                 self.watch.impact(self.job, cycles as u64, offset, velocity);
             }

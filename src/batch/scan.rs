@@ -2,7 +2,6 @@
 
 use pulp::Simd;
 
-use super::Watch;
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
@@ -111,7 +110,7 @@ impl<S: Simd, const N: usize> Law<S, N> {
     }
 }
 
-impl<S: Simd, W: Watch, const GUARDED: bool, const N: usize> Engine<'_, S, W, GUARDED, N> {
+impl<S: Simd, const GUARDED: bool, const N: usize> Engine<'_, S, GUARDED, N> {
     /// The motion of all lanes in units of their guard: g = side (x - offset) - edge.
     #[inline(always)]
     pub fn parts(&self, law: &Law<S, N>) -> Parts<S, N> {
