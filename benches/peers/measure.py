@@ -51,8 +51,8 @@ class Truth:
         differing = sum(end[2] != true[2] for end, true in pairs)
         return max(errors), statistics.median(errors), differing, len(pairs)
 
-    def scalar_rate(self, chosen):
-        """Forcing periods per second of softstop's scalar engine on these frequencies."""
+    def safe_rate(self, chosen):
+        """Forcing periods per second of softstop's safe engine on these frequencies."""
         line = request(SCALAR, 0.0, self.periods, chosen)
         rounds = max(REPEATS, 200 // len(chosen))
         times = [self.worker.ask(line, 60.0)[0] for _ in range(rounds)]
@@ -98,7 +98,7 @@ class Result:
     median_error: float = math.nan
     differing: int = 0
     compared: int = 0
-    scalar_rate: float = math.nan
+    safe_rate: float = math.nan
 
     @property
     def rate(self):
@@ -204,4 +204,4 @@ class Measurement:
         result.trajectories = count
         compared = self.truth.compare(chosen, ends)
         result.error, result.median_error, result.differing, result.compared = compared
-        result.scalar_rate = self.truth.scalar_rate(chosen)
+        result.safe_rate = self.truth.safe_rate(chosen)

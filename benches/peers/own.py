@@ -13,17 +13,17 @@ KEY = "periods_per_second_per_core"
 
 
 def lines(worker, truth, program):
-    """The lines of the table: the scalar engine as the peers are measured, and what the program says of
+    """The lines of the table: the safe engine as the peers are measured, and what the program says of
     its engines, if it has the command; and a remark if not."""
     told, remark = _throughput(program)
     own = [_scalar(worker, truth)]
-    for engine in ("scalar", "batch"):
+    for engine in ("safe", "scalar", "batch"):
         if engine in told:
             setting = "softstop " + " ".join(THROUGHPUT)
             if "lanes" in told[engine]:
                 setting += f": {told[engine]['instructions']}, {told[engine]['lanes']} lanes"
-            name = "softstop batch" if engine == "batch" else "softstop scalar (program)"
-            lead = {"times_scalar": told[engine]["times_scalar"]} if engine == "batch" else {}
+            name = "softstop safe (program)" if engine == "safe" else f"softstop {engine}"
+            lead = {"times_safe": told[engine]["times_safe"]} if engine == "batch" else {}
             own.append(
                 {
                     **lead,
@@ -43,7 +43,7 @@ def _scalar(worker, truth):
     times = [worker.ask(line, 60.0)[0] for _ in range(2 * REPEATS)]
     rates = [PERIODS * len(truth.order) / seconds for seconds in times]
     return {
-        "solver": "softstop scalar",
+        "solver": "softstop safe",
         "setting": "closed forms; every peer is compared with it",
         "status": "measured",
         "periods_per_second": statistics.median(rates),

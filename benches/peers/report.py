@@ -17,7 +17,7 @@ HEAD = [
     "error: median, largest",
     "impact counts wrong",
     "motions",
-    "softstop scalar is faster by",
+    "softstop safe is faster by",
     "softstop batch is faster by",
 ]
 
@@ -64,8 +64,8 @@ def _row(result, peer, own, versions):
         return {**row, "reason": result.reason}
     # Both engines are timed by turns on the wall, the peers by processor time: the ratio of the engines holds
     # on a machine that others use, the rate itself does not.
-    ahead = next((one["times_scalar"] for one in own if "times_scalar" in one), None)
-    scalar_ratio = result.scalar_rate / result.rate
+    ahead = next((one["times_safe"] for one in own if "times_safe" in one), None)
+    safe_ratio = result.safe_rate / result.rate
     return {
         **row,
         "tolerance": result.tolerance,
@@ -78,9 +78,9 @@ def _row(result, peer, own, versions):
         "compared": result.compared,
         "motions": result.trajectories,
         "periods": result.periods,
-        "softstop_scalar_periods_per_second": result.scalar_rate,
-        "scalar_ratio": scalar_ratio,
-        "batch_ratio": scalar_ratio * ahead if ahead else None,
+        "softstop_safe_periods_per_second": result.safe_rate,
+        "safe_ratio": safe_ratio,
+        "batch_ratio": safe_ratio * ahead if ahead else None,
     }
 
 
@@ -128,7 +128,7 @@ def _cells(line):
         error,
         wrong,
         motions,
-        *(_figure(line[key]) if line.get(key) else "" for key in ("scalar_ratio", "batch_ratio")),
+        *(_figure(line[key]) if line.get(key) else "" for key in ("safe_ratio", "batch_ratio")),
     ]
 
 

@@ -34,7 +34,7 @@ fn the_report_holds_what_scripts_look_for() -> Outcome {
     let registers = Instructions::Widest.registers();
     assert_eq!(report["batch"]["lanes"], registers.lanes);
     assert_eq!(report["batch"]["instructions"], registers.name);
-    let mut engines = vec!["scalar", "batch"];
+    let mut engines = vec!["safe", "scalar", "batch"];
     for set in narrower() {
         let name = if set == Instructions::Avx2 {
             "avx2"
@@ -106,16 +106,16 @@ fn engines_agree_on_the_motions_that_are_timed() -> Outcome {
         start: (0.0, 14.0),
     };
     let fleet = range.fleet()?;
-    let scalar = fleet.scalar()?.impacts;
-    assert!(scalar > 100);
+    let safe = fleet.safe()?.impacts;
+    assert!(safe > 100);
     for set in [
         Instructions::Widest,
         Instructions::Avx2,
         Instructions::Portable,
     ] {
-        assert_eq!(fleet.batch(set)?.impacts, scalar);
+        assert_eq!(fleet.batch(set)?.impacts, safe);
     }
-    assert_eq!(fleet.parallel(3)?.impacts, 3 * scalar);
+    assert_eq!(fleet.parallel(3)?.impacts, 3 * safe);
     Ok(())
 }
 

@@ -4,10 +4,10 @@ use pulp::{Simd, WithSimd};
 
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
-use super::listener::Listener;
 use super::machine::Machine;
-use super::scalar::{self, Place, Resumed};
+use super::safe::{self, Place, Resumed};
 use super::state::State;
+use super::watch::Listener;
 use super::{Instructions, Job, Outcome};
 
 /// Registers that go side by side.
@@ -38,10 +38,8 @@ pub(super) fn run<'a>(
     }
 }
 
-fn dispatch<T: WithSimd<Output = Vec<Outcome>>>(
-    task: T,
-    instructions: Instructions,
-) -> Vec<Outcome> {
+/// Does a task with an instruction set, or the widest below it that the processor has.
+pub(super) fn dispatch<T: WithSimd>(task: T, instructions: Instructions) -> T::Output {
     match instructions {
         Instructions::Widest => pulp::Arch::new().dispatch(task),
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -195,7 +193,7 @@ impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N>
             if self.task.jobs[job].periods == 0 {
                 continue;
             }
-            let begun = scalar::begin(&self.task.machines[machine], start);
+            let begun = safe::begin(&self.task.machines[machine], start);
             let resumed = match begun {
                 Ok(Some(phase)) => Some(Resumed {
                     cycle: 0,
@@ -236,14 +234,14 @@ impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N>
         self.state.resume(lane, resumed.state, resumed.phase, left);
     }
 
-    /// Lets the scalar engine follow a job; where it can go on in a lane, unless it has come to its end.
+    /// Lets the safe engine follow a job; where it can go on in a lane, unless it has come to its end.
     fn follow(&mut self, place: Place) -> Option<Resumed> {
         let Job {
             machine, periods, ..
         } = self.task.jobs[place.job];
         let outcome = &mut self.outcomes[place.job];
         let machine = &self.task.machines[machine];
-        match scalar::follow(machine, place, periods, &mut self.task.watch, outcome) {
+        match safe::follow(machine, place, periods, &mut self.task.watch, outcome) {
             Ok(resumed) => resumed,
             Err(error) => {
                 outcome.error = Some(error);
@@ -252,7 +250,7 @@ impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N>
         }
     }
 
-    /// Hands a lane to the scalar engine for the rest of the period.
+    /// Hands a lane to the safe engine for the rest of the period.
     fn hand_over(&mut self, lane: usize) {
         let Some((job, cycle)) = self.progress(lane) else {
             return;

@@ -107,13 +107,13 @@ law! {
 pub(super) const SPAN: f64 = 0.6;
 /// Most windows per drive period.
 const FINEST: f64 = 65_536.0;
-/// Where the scalar engine has to decide, relative to the size of the motion.
+/// Where the safe engine has to decide, relative to the size of the motion.
 const GRAIN: f64 = 1e-10;
 /// Relative to the size of the velocity.
 const SLOW: f64 = 1e-5;
 
 impl Constants {
-    /// The constants of a phase, unless it is one that only the scalar engine follows.
+    /// The constants of a phase, unless it is one that only the safe engine follows.
     pub fn of(phases: &Phases, index: usize) -> Option<Self> {
         let phase = &phases.phases[index];
         let mut constants = Self::of_flow(phases, phase)?;
@@ -252,7 +252,7 @@ impl Constants {
         (self.rate_sixth_x, self.rate_sixth_v) = (scale * s * sixth.0, scale * s * sixth.1);
     }
 
-    /// Sets below what the scalar engine has to decide: differences that rounding may have made.
+    /// Sets below what the safe engine has to decide: differences that rounding may have made.
     fn set_grain(&mut self, fastest: f64) {
         let finite = |level: f64| if level.is_finite() { level.abs() } else { 0.0 };
         let steady = self.cosine.hypot(self.sine);

@@ -3,8 +3,8 @@
 //! The lanes go in lock-step through the same work, from crossing to crossing: they scan windows of time, counted
 //! from the last crossing, until each has met one that may hold the next; then all expand their motion about the
 //! instant before it, decide, and find the crossing. What a lane concludes it concludes by the certificates of the
-//! scalar engine; what lies within rounding of two answers, or is not a plain crossing (rest, sticking, chatter),
-//! is handed to the scalar engine up to the end of the drive period. Machines with power laws go there altogether.
+//! safe engine, [`Motion`](crate::Motion); what lies within rounding of two answers, or is not a plain crossing (rest, sticking, chatter),
+//! is handed to the safe engine up to the end of the drive period. Machines with power laws go there altogether.
 //!
 //! A lane keeps the time since the beginning of its drive period, and takes cos and sin of the drive angle from
 //! it anew before each scan: the drive never drifts. Nothing in the loop calls the mathematical library.
@@ -13,22 +13,23 @@ mod engine;
 mod judge;
 mod lanes;
 mod law;
-mod listener;
 mod look;
 mod machine;
 mod parallel;
 mod registers;
 mod root;
-mod scalar;
+mod safe;
 mod scan;
 mod state;
 mod taylor;
+mod watch;
 
 pub use machine::Machine;
 pub use parallel::run_parallel;
 pub use registers::Registers;
+pub use watch::Watch;
 
-use listener::Listener;
+use watch::Listener;
 
 use crate::error::MotionError;
 use crate::integrator::Start;
@@ -51,7 +52,7 @@ pub struct Outcome {
     pub end: Start,
     /// Impacts on the way.
     pub impacts: u64,
-    /// Drive periods that the scalar engine followed, in part or whole.
+    /// Drive periods that the safe engine followed, in part or whole.
     pub handed_over: u64,
     /// Why it ended early, if it did.
     pub error: Option<MotionError>,
@@ -70,27 +71,6 @@ pub enum Instructions {
     OneByOne,
 }
 
-/// Watches the motions of a batch. To add one, implement what it needs and say so in the constants.
-pub trait Watch {
-    /// True if it wants to know of impacts.
-    const IMPACTS: bool = false;
-    /// True if it wants to know of the ends of drive periods.
-    const PERIODS: bool = false;
-
-    /// A mass touches, `offset` seconds into the drive period `cycle`.
-    fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
-        let _ = (job, cycle, offset, velocity);
-    }
-
-    /// Drive period `cycle` has begun.
-    fn period(&mut self, job: usize, cycle: u64, state: Start) {
-        let _ = (job, cycle, state);
-    }
-}
-
-/// Watches nothing.
-impl Watch for () {}
-
 /// Follows all jobs on this thread.
 ///
 /// # Panics
@@ -106,5 +86,5 @@ pub fn run_with(
     jobs: &[Job],
     watch: &mut impl Watch,
 ) -> Vec<Outcome> {
-    engine::run(machines, jobs, Listener::new(watch), instructions)
+    engine::run(machines, jobs, Listener::of(watch), instructions)
 }

@@ -9,7 +9,7 @@ use crate::integrator::Start;
 
 /// Jobs of a part. Lanes that go together round together, so the parts may not depend on how many threads
 /// there are; and they are long enough for all lanes to be busy nearly to the end.
-const PART: usize = 256;
+const PART: usize = 128;
 
 /// Follows all jobs on the threads of rayon's pool, part by part, with the same result for any number of
 /// threads. Each part has a watcher of its own, which `watch` makes for the jobs in this range; they come

@@ -3,7 +3,7 @@
 use pulp::{Simd, WithSimd};
 
 use super::Instructions;
-use super::engine::ABREAST;
+use super::engine::{ABREAST, dispatch};
 use super::lanes::Lanes;
 
 /// What the lanes are made of.
@@ -18,14 +18,13 @@ pub struct Registers {
 impl Instructions {
     /// What this processor has of it.
     pub fn registers(self) -> Registers {
+        let registers = dispatch(Measure, self);
         match self {
-            Self::Widest => pulp::Arch::new().dispatch(Measure),
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-            Self::Avx2 => match pulp::x86::V3::try_new() {
-                Some(simd) => Measure.with_simd(simd),
-                None => Measure.with_simd(pulp::Scalar),
+            Self::OneByOne => Registers {
+                lanes: 1,
+                ..registers
             },
-            _ => Measure.with_simd(pulp::Scalar),
+            _ => registers,
         }
     }
 }

@@ -99,11 +99,11 @@ impl Observer for Impacts {
 }
 
 impl Fleet {
-    /// One motion after the other, each machine lowered first.
+    /// One motion after the other by the safe engine, each machine lowered first.
     ///
     /// # Errors
     /// [`MotionError`] if a motion cannot be computed.
-    pub fn scalar(&self) -> Result<Count, MotionError> {
+    pub fn safe(&self) -> Result<Count, MotionError> {
         let mut impacts = Impacts::default();
         let end = Clock::at_cycle(self.range.periods);
         for scene in &self.scenes {
@@ -120,7 +120,7 @@ impl Fleet {
     /// All in lanes on this thread, each machine lowered first.
     ///
     /// # Errors
-    /// As [`Fleet::scalar`].
+    /// As [`Fleet::safe`].
     pub fn batch(&self, instructions: Instructions) -> Result<Count, MotionError> {
         let machines = self.machines()?;
         Count::of(&run_with(instructions, &machines, &self.jobs, &mut ()))
@@ -129,7 +129,7 @@ impl Fleet {
     /// All in lanes, `rounds` times over, on the threads of the pool that this is called in.
     ///
     /// # Errors
-    /// As [`Fleet::scalar`].
+    /// As [`Fleet::safe`].
     pub fn parallel(&self, rounds: usize) -> Result<Count, MotionError> {
         let machines = self.machines()?;
         let jobs = self.jobs.repeat(rounds);

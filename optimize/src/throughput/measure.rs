@@ -23,7 +23,9 @@ pub struct Timing {
 /// What was measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Timings {
-    /// The scalar engine.
+    /// The safe engine.
+    pub safe: Timing,
+    /// One motion after the other, in one lane.
     pub scalar: Timing,
     /// The lanes with the widest instruction set.
     pub batch: Timing,
@@ -37,7 +39,7 @@ pub struct Timings {
 
 /// How often all cores together run the motions in one measurement: threads end together but for a
 /// part of the jobs, which would weigh much in a short one.
-pub const ROUNDS: usize = 8;
+pub const ROUNDS: usize = 16;
 
 impl Timing {
     /// The middle one of the times, in s.
@@ -51,7 +53,7 @@ impl Timing {
 /// One way through the motions.
 #[derive(Debug, Clone, Copy)]
 enum Way {
-    Scalar,
+    Safe,
     Lanes(Instructions),
     AllCores,
 }
@@ -70,10 +72,11 @@ pub fn narrower() -> Vec<Instructions> {
 /// Measurements that [`measure`] makes in so many repeats.
 #[must_use]
 pub fn measurements(sets: &[Instructions], repeats: usize) -> u64 {
-    ((repeats + 1) * (sets.len() + 3)) as u64
+    ((repeats + 1) * (sets.len() + 4)) as u64
 }
 
-/// Measures so many rounds after one that is not counted: scalar, lanes, lanes with the narrower sets, all cores.
+/// Measures so many rounds after one that is not counted: the safe engine, one lane, all lanes, lanes with the narrower
+/// sets, all cores.
 ///
 /// # Errors
 /// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
@@ -87,7 +90,12 @@ pub fn measure(
         .build()
         .context("no threads to be had")?;
     let sets_ways = sets.iter().map(|set| Way::Lanes(*set));
-    let mut ways = vec![Way::Scalar, Way::Lanes(Instructions::Widest), Way::AllCores];
+    let mut ways = vec![
+        Way::Safe,
+        Way::Lanes(Instructions::OneByOne),
+        Way::Lanes(Instructions::Widest),
+        Way::AllCores,
+    ];
     ways.extend(sets_ways);
     let mut rounds = vec![Vec::new(); ways.len()];
     for round in 0..=repeats {
@@ -102,6 +110,7 @@ pub fn measure(
     let mut timings = rounds.into_iter().map(timing);
     let mut next = || timings.next().context("a measurement is missing");
     Ok(Timings {
+        safe: next()?,
         scalar: next()?,
         batch: next()?,
         parallel: next()?,
@@ -113,7 +122,7 @@ pub fn measure(
 impl Way {
     fn go(self, fleet: &Fleet, pool: &ThreadPool) -> Result<Count, MotionError> {
         match self {
-            Self::Scalar => fleet.scalar(),
+            Self::Safe => fleet.safe(),
             Self::Lanes(set) => fleet.batch(set),
             Self::AllCores => pool.install(|| fleet.parallel(ROUNDS)),
         }

@@ -17,8 +17,10 @@ pub struct ThroughputReport {
     pub scene: Range,
     /// How often they were measured.
     pub repeats: usize,
-    /// The scalar engine.
-    pub scalar: Engine,
+    /// The safe engine, which decides what the lanes leave undecided.
+    pub safe: Engine,
+    /// One motion after the other, each alone in one lane.
+    pub scalar: LaneEngine,
     /// The lanes with the widest instruction set.
     pub batch: LaneEngine,
     /// The same with registers of 256 bits, where the processor has wider ones.
@@ -54,10 +56,12 @@ pub struct LaneEngine {
     pub lanes: usize,
     /// Name of the instruction set.
     pub instructions: &'static str,
-    /// Forcing periods that the scalar engine followed, in part or whole.
+    /// Forcing periods that the safe engine followed, in part or whole.
     pub handed_over: u64,
-    /// How many times as fast as the scalar engine.
+    /// How many times as fast as one lane.
     pub times_scalar: f64,
+    /// How many times as fast as the safe engine.
+    pub times_safe: f64,
 }
 
 /// All cores together.
@@ -79,15 +83,16 @@ impl ThroughputReport {
         let lanes = |wanted| {
             let mut all = timings.narrower.iter();
             let (set, timing) = all.find(|(set, _)| *set == wanted)?;
-            Some(LaneEngine::new(*set, timing, &timings.scalar, work))
+            Some(LaneEngine::new(*set, timing, timings, work))
         };
         let parallel = work * ROUNDS as f64 / timings.parallel.median();
-        let batch = LaneEngine::new(Instructions::Widest, &timings.batch, &timings.scalar, work);
+        let batch = LaneEngine::new(Instructions::Widest, &timings.batch, timings, work);
         Self {
             machine: Machine::this(),
             scene: range,
             repeats,
-            scalar: Engine::new(&timings.scalar, work),
+            safe: Engine::new(&timings.safe, work),
+            scalar: LaneEngine::new(Instructions::OneByOne, &timings.scalar, timings, work),
             both_cores: Cores {
                 threads: timings.threads,
                 periods_per_second: parallel,
@@ -113,14 +118,15 @@ impl Engine {
 }
 
 impl LaneEngine {
-    fn new(set: Instructions, timing: &Timing, scalar: &Timing, work: f64) -> Self {
+    fn new(set: Instructions, timing: &Timing, all: &Timings, work: f64) -> Self {
         let registers = set.registers();
         Self {
             engine: Engine::new(timing, work),
             lanes: registers.lanes,
             instructions: registers.name,
             handed_over: timing.count.handed_over,
-            times_scalar: scalar.median() / timing.median(),
+            times_scalar: all.scalar.median() / timing.median(),
+            times_safe: all.safe.median() / timing.median(),
         }
     }
 }

@@ -11,22 +11,30 @@ pub fn text(report: &ThroughputReport) -> String {
     let (low, high) = scene.frequencies;
     let mut text = heading("Throughput on one core, in millions of forcing periods per second");
     text += &format!(
-        "The {} machine at {} frequencies over {low} to {high}, {} periods each from ({}, {});\nmedians of {} runs\n\n",
+        "The {} machine at {} frequencies over {low} to {high}, {} periods each from ({}, {});\nmedians of {} runs (--repeats)\n\n",
         scene.machine, scene.motions, scene.periods, scene.start.0, scene.start.1, report.repeats
     );
     let mut rows = vec![row(
         "  engine",
         ["median", "slowest", "fastest", "lanes", "handed over"].map(String::from),
     )];
-    rows.push(row("  scalar", figures(&report.scalar)));
-    rows.push(lanes(&report.batch));
+    rows.push(row("  safe", figures(&report.safe)));
+    rows.push(lanes("  scalar", &report.scalar));
+    rows.push(lanes("  batch", &report.batch));
     let narrower = [&report.avx2, &report.portable];
-    rows.extend(narrower.into_iter().flatten().map(lanes));
+    rows.extend(
+        narrower
+            .into_iter()
+            .flatten()
+            .map(|engine| lanes("  batch", engine)),
+    );
     text += &table(&rows);
     let cores = &report.both_cores;
     text += &format!(
-        "\nLanes are {:.1} times as fast as the scalar engine; {} threads {:.2} times as fast as one: {} million\n",
+        "\nAll lanes are {:.1} times as fast as one, {:.1} times as fast as the safe engine; {} thread(s) {:.2} times \
+         as fast as one: {} million\n",
         report.batch.times_scalar,
+        report.batch.times_safe,
         cores.threads,
         cores.factor,
         millions(cores.periods_per_second)
@@ -44,11 +52,11 @@ fn figures(engine: &Engine) -> Vec<String> {
         .to_vec()
 }
 
-fn lanes(engine: &LaneEngine) -> Row {
+fn lanes(name: &str, engine: &LaneEngine) -> Row {
     let mut cells = figures(&engine.engine);
     cells.push(engine.lanes.to_string());
     cells.push(engine.handed_over.to_string());
-    row(&format!("  batch, {}", engine.instructions), cells)
+    row(&format!("{name}, {}", engine.instructions), cells)
 }
 
 fn millions(rate: f64) -> String {
@@ -73,7 +81,7 @@ fn told(check: &Check) -> String {
     );
     for difference in &tally.first {
         text += &format!(
-            "  {} impacts in lanes, {} by the scalar engine: {:?} from {:?}\n",
+            "  {} impacts in lanes, {} by the safe engine: {:?} from {:?}\n",
             difference.batch, difference.scalar, difference.scene, difference.start
         );
     }

@@ -1,8 +1,8 @@
-//! Where the scalar engine takes over.
+//! Where the safe engine takes over.
 
 use super::Outcome;
-use super::listener::Listener;
 use super::machine::Machine;
+use super::watch::Listener;
 use crate::error::MotionError;
 use crate::integrator::{Clock, Crossing, Instant, Motion, Observer, Start};
 use crate::phases::Mode;
