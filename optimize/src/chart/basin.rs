@@ -107,7 +107,7 @@ impl<'a> BasinPicture<'a> {
     fn colors(&self) -> Vec<&'static str> {
         let mut others = OTHERS.iter().cycle();
         let kinds = self.basins.classes.iter().map(|class| &class.kind);
-        let mut color = |kind: &Kind| match kind {
+        let color = |kind: &Kind| match kind {
             Kind::Periodic(orbit) => match (orbit.impacts.len(), orbit.periods) {
                 (0, _) => "#D9D9D9",
                 (1, 1) => style::DESIGN,
@@ -118,7 +118,7 @@ impl<'a> BasinPicture<'a> {
             Kind::Unsettled(_) => "#555555",
             Kind::Lost(_) => "#FFFFFF",
         };
-        kinds.map(|kind| color(kind)).collect()
+        kinds.map(color).collect()
     }
 
     fn axes(&self, pen: &mut Pen) {
