@@ -51,6 +51,11 @@ impl Machine {
         self.laws.is_some()
     }
 
+    /// Its phases, shared.
+    pub(crate) fn shared_phases(&self) -> Arc<Phases> {
+        self.phases.clone()
+    }
+
     /// True if each phase is ended by one position alone.
     pub(super) fn is_plain(&self) -> bool {
         self.laws.iter().flatten().all(Constants::is_plain)
