@@ -10,6 +10,7 @@
 //! it anew before each scan: the drive never drifts. Nothing in the loop calls the mathematical library.
 
 mod engine;
+mod guard;
 mod judge;
 mod lanes;
 mod law;

@@ -1,5 +1,6 @@
 //! What is run: the paper's unloaded machine at a thousand frequencies, by either engine.
 
+use rayon::prelude::*;
 use serde::Serialize;
 use softstop::batch::{self, Instructions, Job, Outcome, run_parallel, run_with};
 use softstop::integrator::{Crossing, Observer};
@@ -131,7 +132,11 @@ impl Fleet {
     /// # Errors
     /// As [`Fleet::safe`].
     pub fn parallel(&self, rounds: usize) -> Result<Count, MotionError> {
-        let machines = self.machines()?;
+        let machines: Vec<_> = self
+            .scenes
+            .par_iter()
+            .map(batch::Machine::new)
+            .collect::<Result<_, _>>()?;
         let jobs = self.jobs.repeat(rounds);
         let (outcomes, _) = run_parallel(Instructions::Widest, &machines, &jobs, |_| ());
         Count::of(&outcomes)

@@ -33,6 +33,8 @@ pub struct Timings {
     pub narrower: Vec<(Instructions, Timing)>,
     /// The lanes on all cores, [`ROUNDS`] times over.
     pub parallel: Timing,
+    /// The same on one core.
+    pub alone: Timing,
     /// Threads that they ran on.
     pub threads: usize,
 }
@@ -56,6 +58,7 @@ enum Way {
     Safe,
     Lanes(Instructions),
     AllCores,
+    OneCore,
 }
 
 /// The instruction sets narrower than the widest that this processor has.
@@ -72,11 +75,11 @@ pub fn narrower() -> Vec<Instructions> {
 /// Measurements that [`measure`] makes in so many repeats.
 #[must_use]
 pub fn measurements(sets: &[Instructions], repeats: usize) -> u64 {
-    ((repeats + 1) * (sets.len() + 4)) as u64
+    ((repeats + 1) * (sets.len() + 5)) as u64
 }
 
-/// Measures so many rounds after one that is not counted: the safe engine, one lane, all lanes, lanes with the narrower
-/// sets, all cores.
+/// Measures so many rounds after one that is not counted: the safe engine, one lane, all lanes, all cores and one
+/// of them, lanes with the narrower sets.
 ///
 /// # Errors
 /// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
@@ -86,21 +89,24 @@ pub fn measure(
     repeats: usize,
     progress: &Progress,
 ) -> Result<Timings, Failure> {
-    let pool = ThreadPoolBuilder::new()
-        .build()
-        .context("no threads to be had")?;
+    let pool = |threads| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.context("no threads to be had")
+    };
+    let (all, one) = (pool(0)?, pool(1)?);
     let sets_ways = sets.iter().map(|set| Way::Lanes(*set));
     let mut ways = vec![
         Way::Safe,
         Way::Lanes(Instructions::OneByOne),
         Way::Lanes(Instructions::Widest),
         Way::AllCores,
+        Way::OneCore,
     ];
     ways.extend(sets_ways);
     let mut rounds = vec![Vec::new(); ways.len()];
     for round in 0..=repeats {
         for (way, times) in ways.iter().zip(&mut rounds) {
-            let took = timed(|| way.go(fleet, &pool))?;
+            let took = timed(|| way.go(fleet, &all, &one))?;
             progress.step(1)?;
             if round > 0 {
                 times.push(took);
@@ -114,17 +120,19 @@ pub fn measure(
         scalar: next()?,
         batch: next()?,
         parallel: next()?,
+        alone: next()?,
         narrower: sets.iter().copied().zip(timings).collect(),
-        threads: pool.current_num_threads(),
+        threads: all.current_num_threads(),
     })
 }
 
 impl Way {
-    fn go(self, fleet: &Fleet, pool: &ThreadPool) -> Result<Count, MotionError> {
+    fn go(self, fleet: &Fleet, all: &ThreadPool, one: &ThreadPool) -> Result<Count, MotionError> {
         match self {
             Self::Safe => fleet.safe(),
             Self::Lanes(set) => fleet.batch(set),
-            Self::AllCores => pool.install(|| fleet.parallel(ROUNDS)),
+            Self::AllCores => all.install(|| fleet.parallel(ROUNDS)),
+            Self::OneCore => one.install(|| fleet.parallel(ROUNDS)),
         }
     }
 }

@@ -71,7 +71,7 @@ pub struct Cores {
     pub threads: usize,
     /// Forcing periods per second, the median.
     pub periods_per_second: f64,
-    /// How many times as fast as one core.
+    /// How many times as fast as one core at the same work.
     pub factor: f64,
 }
 
@@ -96,7 +96,7 @@ impl ThroughputReport {
             both_cores: Cores {
                 threads: timings.threads,
                 periods_per_second: parallel,
-                factor: parallel / batch.engine.periods_per_second_per_core,
+                factor: timings.alone.median() / timings.parallel.median(),
             },
             batch,
             avx2: lanes(Instructions::Avx2),
