@@ -22,7 +22,7 @@ fn scene(frequency: f64) -> Scene {
         ..Ratios::unloaded()
     }
     .scene()
-    .unwrap()
+    .expect("there is one")
 }
 
 fn states(size: usize) -> Grid {
@@ -34,7 +34,7 @@ fn states(size: usize) -> Grid {
 }
 
 fn on(scene: &Scene, grid: &Grid) -> Basins {
-    let found = basins(scene, grid, &Options::default()).unwrap();
+    let found = basins(scene, grid, &Options::default()).expect("there is one");
     assert_eq!(found.cells.len(), grid.cells());
     let cells: usize = found.classes.iter().map(|class| class.cells).sum();
     assert_eq!(cells, grid.cells());
@@ -71,13 +71,13 @@ fn by_scalar(scene: &Scene, basins: &Basins, cell: usize) -> usize {
     let mut turned = scene.clone();
     turned.excitation.phase = angle;
     let wait = (-angle).rem_euclid(std::f64::consts::TAU) / turned.excitation.frequency;
-    let mut motion = turned.motion(start).unwrap();
+    let mut motion = turned.motion(start).expect("there is one");
     let clock = Clock::new(turned.excitation.frequency, angle);
     let at = clock.instant(wait + 250.0 * scene.period());
-    motion.advance(at, &mut ()).unwrap();
+    motion.advance(at, &mut ()).expect("there is one");
     let end = Vector2::from([motion.state().position, motion.state().velocity]);
     let near = |orbit: &&Orbit| (orbit.state() - end).norm() < 1e-3;
-    orbits(basins).iter().position(near).unwrap()
+    orbits(basins).iter().position(near).expect("there is one")
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn threads_change_nothing() {
         let pool = ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
-            .unwrap();
+            .expect("there is one");
         pool.install(|| on(&scene, &grid))
     };
     assert_eq!(with(1), with(2));
@@ -169,8 +169,8 @@ fn chaos_is_one_set_beside_the_isolated_motions() {
 fn cells_in_a_basin_go_to_its_orbit_and_the_largest_ball_is_inside() {
     let scene = scene(1.15);
     let found = on(&scene, &states(60));
-    let ball = found.largest_ball(1).unwrap();
-    let map = StroboscopicMap::new(&scene, 250).unwrap();
+    let ball = found.largest_ball(1).expect("there is one");
+    let map = StroboscopicMap::new(&scene, 250).expect("there is one");
     let orbit = orbits(&found)[1];
     for k in 0..12 {
         let (sin, cos) = (f64::from(k) * 0.5236).sin_cos();
@@ -179,7 +179,7 @@ fn cells_in_a_basin_go_to_its_orbit_and_the_largest_ball_is_inside() {
             ball.centre[0] + within * 22.5 * cos,
             ball.centre[1] + within * 30.0 * sin,
         );
-        assert!((map.image(state).unwrap() - orbit.state()).norm() < 1e-6);
+        assert!((map.image(state).expect("there is one") - orbit.state()).norm() < 1e-6);
     }
     assert!(ball.radius > 0.02 && ball.radius < 1.0, "{ball:?}");
     assert_eq!(found.largest_ball(2), None);
@@ -187,12 +187,12 @@ fn cells_in_a_basin_go_to_its_orbit_and_the_largest_ball_is_inside() {
 
 #[test]
 fn the_certainty_falls_along_the_zone() {
-    let zone = zone::hysteresis(&Ratios::unloaded()).unwrap();
+    let zone = zone::hysteresis(&Ratios::unloaded()).expect("there is one");
     let places = [0.0, 0.25, 0.5, 0.75, 0.98];
     let found = establishing(&zone, &places, &states(30), &Options::default(), &|_, _| {
         true
     })
-    .unwrap();
+    .expect("there is one");
     let shares: Vec<f64> = found.iter().map(|place| place.certainty).collect();
     // The paper says from 1 at g0 to 0 at s_SN. A few starts at g0 lead to z = 3/4, and near the fold a share
     // above zero is left; in between the certainty hardly falls.
@@ -230,9 +230,9 @@ fn cells_that_cannot_be_are_lost() {
         travel: 2.0,
         restitution: 0.6,
     });
-    let found = on(&ratios.scene().unwrap(), &states(24));
+    let found = on(&ratios.scene().expect("there is one"), &states(24));
     let beyond = (0..found.grid.cells()).filter(|cell| found.grid.start(*cell).0.position > 12.0);
-    let lost = found.classes.last().unwrap();
+    let lost = found.classes.last().expect("there is one");
     assert_eq!(lost.kind.name(), "lost");
     assert_eq!(lost.cells, beyond.count());
 }

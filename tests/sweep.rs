@@ -34,15 +34,22 @@ fn run(plan: &Plan, mut chains: Vec<Chain<Ratios>>) -> Vec<Chain<Ratios>> {
 }
 
 fn frequencies(range: (f64, f64), steps: usize, periods: u64) -> Plan {
-    Plan::new(Parameter::Frequency, range, steps, periods).unwrap()
+    Plan::new(Parameter::Frequency, range, steps, periods).expect("there is one")
 }
 
 /// Value of the first step with fewer impacts than one per drive period, after at least one with one.
 fn lost(chain: &Chain<Ratios>) -> f64 {
     let strikes = |step: &&Step| step.impacts_per_period == 1.0;
-    let first = chain.steps.iter().position(|step| strikes(&step)).unwrap();
+    let first = chain
+        .steps
+        .iter()
+        .position(|step| strikes(&step))
+        .expect("there is one");
     let rest = &chain.steps[first..];
-    rest.iter().find(|step| !strikes(step)).unwrap().value
+    rest.iter()
+        .find(|step| !strikes(step))
+        .expect("there is one")
+        .value
 }
 
 #[test]
@@ -53,7 +60,10 @@ fn between_grazing_and_fold_the_way_matters() {
     plan.tolerance = 1e-2;
     let chains = run(&plan, both(Ratios::unloaded()));
     let zones = hysteresis(&chains[0], &chains[1]);
-    let zone = zones.iter().find(|zone| zone.from > 1.03).unwrap();
+    let zone = zones
+        .iter()
+        .find(|zone| zone.from > 1.03)
+        .expect("there is one");
     assert!(
         zone.up.is_like(&ONE) && zone.down.is_like(&NONE),
         "{zone:?}"
@@ -61,7 +71,7 @@ fn between_grazing_and_fold_the_way_matters() {
     assert!(zone.from >= G0 && zone.from < G0 + 5e-3, "{zone:?}");
     assert!((zone.to - FOLD).abs() < 2e-3, "{zone:?}");
     let up = chains[0].jumps();
-    let jump = up.last().unwrap();
+    let jump = up.last().expect("there is one");
     assert!(jump.before.is_like(&ONE) && jump.after.is_like(&NONE));
     assert!(jump.velocities.0 > 16.0 && jump.velocities.1 == 0.0);
 }
@@ -81,10 +91,10 @@ fn a_sweep_loses_the_motion_after_its_end() {
                 ..Ratios::unloaded()
             }
             .scene()
-            .unwrap(),
+            .expect("there is one"),
         );
         let plan = Plan {
-            start: orbit.unwrap().state().into(),
+            start: orbit.expect("there is one").state().into(),
             ..plan
         };
         let chains = run(&plan, vec![Chain::new(Ratios::unloaded(), Direction::Up)]);
@@ -102,8 +112,8 @@ fn a_slower_sweep_loses_it_nearer_to_the_fold() {
             ..Ratios::unloaded()
         }
         .scene()
-        .unwrap();
-        let start = orbit::find(&scene).unwrap().state().into();
+        .expect("there is one");
+        let start = orbit::find(&scene).expect("there is one").state().into();
         let chains = run(
             &Plan { start, ..plan },
             vec![Chain::new(Ratios::unloaded(), Direction::Up)],
@@ -128,9 +138,9 @@ fn steps_have_the_motions_of_newtons_method() {
             ..Ratios::unloaded()
         }
         .scene()
-        .unwrap(),
+        .expect("there is one"),
     )
-    .unwrap()
+    .expect("there is one")
     .state()
     .into();
     let chains = run(&plan, vec![Chain::new(Ratios::unloaded(), Direction::Up)]);
@@ -140,8 +150,8 @@ fn steps_have_the_motions_of_newtons_method() {
             ..Ratios::unloaded()
         }
         .scene()
-        .unwrap();
-        let orbit = orbit::find(&scene).unwrap();
+        .expect("there is one");
+        let orbit = orbit::find(&scene).expect("there is one");
         assert!(step.settled.is_like(&ONE));
         assert!((step.hardest() - orbit.before_impact_velocity()).abs() < 1e-8);
         assert!((step.max_position - orbit.max_position).abs() < 1e-8);
@@ -162,7 +172,7 @@ fn chaos_is_told_from_rest_and_order() {
 
 #[test]
 fn any_parameter_can_be_swept() {
-    let plan = Plan::new(Parameter::Clearance, (8.0, 12.0), 9, 100).unwrap();
+    let plan = Plan::new(Parameter::Clearance, (8.0, 12.0), 9, 100).expect("there is one");
     let chains = run(
         &plan,
         both(Ratios {
@@ -201,7 +211,7 @@ fn threads_and_interruptions_change_nothing() {
         let pool = ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
-            .unwrap();
+            .expect("there is one");
         pool.install(|| run(&plan, fleet()))
     };
     let whole = on(1);
@@ -229,7 +239,7 @@ fn plans_and_parameters_that_cannot_be_are_refused() {
     ));
     assert!(matches!(plan((1.0, 2.0), 1, 3), Err(PlanError::Steps(1))));
     assert!(matches!(plan((1.0, 2.0), 3, 0), Err(PlanError::Periods(0))));
-    let plan = plan((-1.0, 1.0), 3, 3).unwrap();
+    let plan = plan((-1.0, 1.0), 3, 3).expect("there is one");
     let mut chains = both(Ratios::unloaded());
     assert!(plan.run(&mut chains, &|_| true));
     // A frequency below zero: one chain cannot begin, the other cannot end.
