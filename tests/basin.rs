@@ -173,7 +173,7 @@ fn cells_in_a_basin_go_to_its_orbit_and_the_largest_ball_is_inside() {
     let map = StroboscopicMap::new(&scene, 250).expect("there is one");
     let orbit = orbits(&found)[1];
     for k in 0..12 {
-        let (sin, cos) = (f64::from(k) * 0.5236).sin_cos();
+        let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_6).sin_cos();
         let within = 0.9 * ball.radius;
         let state = Vector2::new(
             ball.centre[0] + within * 22.5 * cos,
