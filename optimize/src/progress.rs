@@ -57,7 +57,16 @@ impl Progress {
     /// # Errors
     /// [`Failure::Interrupted`] after Ctrl-C.
     pub fn step(&self) -> Result<(), Failure> {
-        self.one();
+        self.steps(1)
+    }
+
+    /// So many more are done, and the run may go on.
+    ///
+    /// # Errors
+    /// [`Failure::Interrupted`] after Ctrl-C.
+    pub fn steps(&self, count: u64) -> Result<(), Failure> {
+        self.bar.inc(count);
+        self.beat();
         if interrupt::requested() {
             return Err(Failure::Interrupted);
         }

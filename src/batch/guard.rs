@@ -45,6 +45,7 @@ pub(super) struct Found<S: Simd, const N: usize> {
     pub time: Lanes<S, N>,
     slope: Lanes<S, N>,
 }
+
 impl<S: Simd, const N: usize> Ahead<S, N> {
     #[inline(always)]
     pub fn of<const GUARDED: bool>(

@@ -11,8 +11,8 @@ use softstop::{Scene, Start};
 
 use super::doubt::{self, Verdict};
 use super::draw::{Draw, Kind};
-use super::progress::Progress;
 use crate::failure::Failure;
+use crate::progress::Progress;
 
 /// Drive periods of each motion.
 pub const PERIODS: u64 = 20;
@@ -100,7 +100,7 @@ pub fn check(trajectories: u64, seed: u64) -> Result<Check, Failure> {
     let tallies = (0..parts).into_par_iter().map(|part| {
         let count = PART.min(trajectories - part * PART);
         let tally = compare(&mut Draw::new(seed, part), count)?;
-        progress.step(count)?;
+        progress.steps(count)?;
         Ok::<_, Failure>(tally)
     });
     let add = |mut sum: Tally, other| {

@@ -8,8 +8,8 @@ use softstop::MotionError;
 use softstop::batch::Instructions;
 
 use super::fleet::{Count, Fleet};
-use super::progress::Progress;
 use crate::failure::Failure;
+use crate::progress::Progress;
 
 /// One way through the motions, with its times.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,7 +107,7 @@ pub fn measure(
     for round in 0..=repeats {
         for (way, times) in ways.iter().zip(&mut rounds) {
             let took = timed(|| way.go(fleet, &all, &one))?;
-            progress.step(1)?;
+            progress.step()?;
             if round > 0 {
                 times.push(took);
             }

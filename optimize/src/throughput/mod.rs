@@ -8,7 +8,6 @@ pub mod doubt;
 pub mod draw;
 pub mod fleet;
 pub mod measure;
-pub mod progress;
 pub mod report;
 mod text;
 
@@ -18,8 +17,8 @@ use clap::Args;
 use crate::arguments::require;
 use crate::failure::Failure;
 use crate::output::{self, Format};
+use crate::progress::Progress;
 use fleet::RANGE;
-use progress::Progress;
 use report::ThroughputReport;
 
 const EXAMPLES: &str = "\
