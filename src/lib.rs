@@ -38,6 +38,7 @@ pub mod phases;
 pub mod samples;
 pub mod scene;
 pub mod trajectory;
+pub mod transitions;
 pub mod zone;
 
 pub use error::{MotionError, SceneError};
