@@ -4,7 +4,7 @@
 //!
 //! One way through it: [`arguments`] and [`configuration`] turn what the user wrote into a
 //! [`arguments::Machine`], [`scene_file`] reads any scene; a subcommand ([`orbit`], [`motions`], [`zone`],
-//! [`optimize`], [`continuation`], [`simulate`], [`stops`], [`fidelity`], [`charts`],
+//! [`optimize`], [`continuation`], [`table1`], [`simulate`], [`stops`], [`fidelity`], [`charts`],
 //! [`throughput`]) asks the core or the search in
 //! [`design`]; [`report`]
 //! and [`chart`] say and draw the answer; [`output`] puts files in place whole or not at all.
@@ -32,6 +32,7 @@ pub mod scene_file;
 pub mod simulate;
 pub mod solvers;
 pub mod stops;
+pub mod table1;
 pub mod throughput;
 pub mod zone;
 
@@ -57,6 +58,7 @@ Examples:
   softstop motions --frequency 0.9875              all motions: z = 2/3, (2/4)B, chaos
   softstop zone --regime loaded --clearance 10     where impacts and rest coexist
   softstop continue --parameter eta --from 0.9 --to 1.5   its branch with folds and flips
+  softstop table1                                  the paper's Table 1, found anew
   softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
   softstop stops                                   pictures of all the stops' laws
   softstop fidelity B --tolerance 0.02             the simplest model that will do
@@ -76,6 +78,8 @@ pub enum Command {
     Motions(motions::MotionsArguments),
     /// Follow a periodic motion along a parameter, through folds, with all its bifurcations
     Continue(continuation::ContinueArguments),
+    /// The paper's Table 1 found anew: 19 transitions with their types
+    Table1(table1::TableArguments),
     /// The hysteresis zone of a clearance: from grazing (g0) to the fold (s_SN)
     Zone(zone::ZoneArguments),
     /// Search stiffness, clearance and frequency for the hardest impact
@@ -114,6 +118,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Orbit(arguments) => orbit::run(&arguments),
         Command::Motions(arguments) => motions::run(&arguments),
         Command::Continue(arguments) => continuation::run(&arguments),
+        Command::Table1(arguments) => table1::run(&arguments),
         Command::Zone(arguments) => zone::run(&arguments),
         Command::Optimize(arguments) => optimize::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),

@@ -28,7 +28,7 @@ impl<F: Family + Sync> Stage<'_, F> {
         value: f64,
         states: &[Start],
     ) -> Result<Option<Vec<Start>>, TransitionError> {
-        let arrivals = self.hold(value, &self.fill(states))?;
+        let arrivals = self.hold(value, &self.fill(states), self.rules.lifetime)?;
         let wandering: Vec<Start> = arrivals
             .iter()
             .filter(|it| it.orbit.is_none())
@@ -69,7 +69,7 @@ impl<F: Family + Sync> Stage<'_, F> {
         let Some(after) = bad else {
             return Ok((good, None));
         };
-        let arrivals: Vec<Arrival> = self.hold(after, &self.fill(&states))?;
+        let arrivals: Vec<Arrival> = self.hold(after, &self.fill(&states), self.rules.patience)?;
         let settled = arrivals.into_iter().filter(|it| it.orbit.is_some());
         let end = ChaosEnd {
             value: 0.5 * (good + after),

@@ -15,7 +15,7 @@ use crate::scene::Scene;
 /// Relative differences between motions started side by side.
 const SPREAD: f64 = 1e-9;
 /// Drive periods in each batch of an exponent.
-const BATCH: u64 = 100;
+const BATCH: u64 = 1600;
 /// Share of a window within which the way back is tried.
 const INSIDE: f64 = 0.25;
 
@@ -40,9 +40,14 @@ pub(super) struct Departure {
 
 impl<F: Family + Sync> Stage<'_, F> {
     /// Holds the parameter and lets motions settle.
-    pub fn hold(&self, value: f64, starts: &[Start]) -> Result<Vec<Arrival>, TransitionError> {
+    pub fn hold(
+        &self,
+        value: f64,
+        starts: &[Start],
+        periods: u64,
+    ) -> Result<Vec<Arrival>, TransitionError> {
         let options = Options {
-            transient: self.rules.patience,
+            transient: periods,
             ..self.rules.survey
         };
         let scene = self.family.scene([value])?;
@@ -54,7 +59,7 @@ impl<F: Family + Sync> Stage<'_, F> {
 
     /// What most of them do then.
     pub fn gather(&self, value: f64, starts: &[Start]) -> Result<Gathering, TransitionError> {
-        let arrivals = self.hold(value, starts)?;
+        let arrivals = self.hold(value, starts, self.rules.patience)?;
         let (settled, wandering): (Vec<Arrival>, Vec<Arrival>) =
             arrivals.into_iter().partition(|it| it.orbit.is_some());
         if wandering.len() > settled.len() {
@@ -104,7 +109,9 @@ impl<F: Family + Sync> Stage<'_, F> {
         let transition = Transition {
             value: end.point.parameter,
             from: window.motion.clone(),
-            causes: causes(end.kind, doubled, &way.path, hysteresis),
+            causes: causes(end.kind, doubled.map(|it| it.0), &way.path, hysteresis),
+            doubled_until: doubled.map(|it| it.1),
+            settled_at: self.settling(&way, end.point.parameter, sign)?,
             path: way.path,
             rising: upper,
             hysteresis,
@@ -115,6 +122,25 @@ impl<F: Family + Sync> Stage<'_, F> {
             value: end.point.parameter + sign * distance,
             gathering,
         }))
+    }
+
+    /// Where the last motion on a way first follows, if others come before it.
+    fn settling(&self, way: &Way, end: f64, sign: f64) -> Result<Option<f64>, TransitionError> {
+        let (Some((near, states)), Some((far, last))) = (&way.before, &way.first) else {
+            return Ok(None);
+        };
+        let (mut near, mut far) = (*near, *far);
+        let width = self.rules.width * end.abs();
+        while far - near > width {
+            let middle = 0.5 * (near + far);
+            let there = self.gather(end + sign * middle, &self.fill(states))?;
+            if there.motion.as_ref() == Some(last) {
+                far = middle;
+            } else {
+                near = middle;
+            }
+        }
+        Ok(Some(end + sign * 0.5 * (near + far)))
     }
 
     /// Distances beyond an end, each twice the one before.
@@ -155,12 +181,13 @@ impl<F: Family + Sync> Stage<'_, F> {
         window: &Window,
         end: &WindowEnd,
         upper: bool,
-    ) -> Result<Option<EndKind>, TransitionError> {
+    ) -> Result<Option<(EndKind, f64)>, TransitionError> {
         let place = usize::from(upper);
         if let Some((distance, orbit)) = &way.doubled {
             let value = end.point.parameter + if upper { *distance } else { -distance };
             let window = Window::of(self.family, value, orbit, self.range, &self.rules)?;
-            return Ok(Some(window.ends[place].kind));
+            let end = &window.ends[place];
+            return Ok(Some((end.kind, end.point.parameter)));
         }
         let Some(periods) = window.motion.periods() else {
             return Ok(None);
@@ -178,11 +205,14 @@ impl<F: Family + Sync> Stage<'_, F> {
             }
         });
         let first = branch.ok().and_then(|it| it.specials.into_iter().next());
-        Ok(first.map(|special| match special.kind {
-            SpecialKind::Grazing(graze) => EndKind::Grazing { dies: graze.dies },
-            SpecialKind::Critical(Test::Fold) => EndKind::Fold,
-            SpecialKind::Critical(Test::Flip) => EndKind::Flip,
-            SpecialKind::Critical(_) => EndKind::Lost,
+        Ok(first.map(|special| {
+            let kind = match special.kind {
+                SpecialKind::Grazing(graze) => EndKind::Grazing { dies: graze.dies },
+                SpecialKind::Critical(Test::Fold) => EndKind::Fold,
+                SpecialKind::Critical(Test::Flip) => EndKind::Flip,
+                SpecialKind::Critical(_) => EndKind::Lost,
+            };
+            (kind, special.point.parameter)
         }))
     }
 }
@@ -229,6 +259,11 @@ struct Way {
     last: Option<(f64, Gathering)>,
     /// Motion that is believed if it is met once more.
     tentative: Option<Motion>,
+    /// The distance at which the last motion was first met, and the motion.
+    first: Option<(f64, Motion)>,
+    /// The last distance before that at which something else was, and the states there.
+    before: Option<(f64, Vec<Start>)>,
+    last_seen: Option<(f64, Vec<Start>)>,
 }
 
 impl Way {
@@ -240,6 +275,9 @@ impl Way {
             doubled: None,
             last: None,
             tentative: None,
+            first: None,
+            before: None,
+            last_seen: None,
         }
     }
 
@@ -254,6 +292,11 @@ impl Way {
         if motion == self.from {
             return false;
         }
+        if self.first.as_ref().is_none_or(|(_, last)| *last != motion) {
+            self.before = self.last_seen.take();
+            self.first = Some((distance, motion.clone()));
+        }
+        self.last_seen = Some((distance, self.states.clone()));
         let doubles = is_doubled(&self.from, &motion);
         let settles = match (end, &motion) {
             (EndKind::Flip, Motion::Chaos) => false,

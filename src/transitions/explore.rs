@@ -174,9 +174,11 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
             let window = Window::of(stage.family, end.after, orbit, stage.range, &stage.rules);
             let before = end.value + (end.value - end.after) * 4.0;
             let hysteresis = window.is_ok_and(|window| window.contains(before));
-            if hysteresis || !atlas.has_reverse(target, end.value) {
+            if !atlas.has_reverse(target, end.value) {
                 atlas.transitions.push(Transition {
                     value: end.value,
+                    doubled_until: None,
+                    settled_at: None,
                     from: Motion::Chaos,
                     path: vec![target.clone()],
                     causes: vec![Cause::OutOfChaos],

@@ -95,6 +95,10 @@ pub struct Transition {
     pub value: f64,
     /// What ends there.
     pub from: Motion,
+    /// The parameter where the last doubled motion after it ends, if there is one.
+    pub doubled_until: Option<f64>,
+    /// The parameter where the last motion on the way first follows, if others come before it.
+    pub settled_at: Option<f64>,
     /// What is met after it, in order, doubled motions among them; the last is where it settles.
     pub path: Vec<Motion>,
     /// Why, in order.
@@ -127,9 +131,10 @@ pub struct Rules {
     pub survey: Options,
     /// Motions started beside an end or on chaos.
     pub motions: usize,
-    /// Drive periods for which they go on before they are looked at. Chaos has ended where half of the
-    /// motions on it settle within so many.
+    /// Drive periods for which they go on beside an end before they are looked at.
     pub patience: u64,
+    /// Chaos has ended where half of the motions on it settle within so many drive periods.
+    pub lifetime: u64,
     /// First and largest distance beyond an end at which is looked what follows, as shares of the
     /// parameter.
     pub beyond: (f64, f64),
@@ -146,9 +151,10 @@ impl Default for Rules {
                 patience: 400_000,
                 ..Options::default()
             },
-            motions: 32,
+            motions: 64,
             patience: 5000,
-            beyond: (1e-8, 1e-4),
+            lifetime: 500,
+            beyond: (1e-8, 1e-3),
             width: 1e-8,
             points: 4000,
         }
