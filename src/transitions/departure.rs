@@ -18,6 +18,8 @@ const SPREAD: f64 = 1e-9;
 const BATCH: u64 = 1600;
 /// Share of a window within which the way back is tried.
 const INSIDE: f64 = 0.25;
+/// Points of a doubled branch on which its first special point is looked for.
+const DOUBLED: usize = 300;
 
 /// Where most of several motions are.
 #[derive(Debug, Clone)]
@@ -197,8 +199,12 @@ impl<F: Family + Sync> Stage<'_, F> {
             points: self.rules.points,
         };
         let follower = crate::continuation::Follower::new(self.family, periods);
-        let branch = follower.doubled(&end.point, &limits, |point| {
-            if point.is_stable() {
+        // Its first special point is the end of the doubled motion or, where the flip is hard, the fold from
+        // which the doubled motion comes.
+        let mut seen = 0;
+        let branch = follower.doubled(&end.point, &limits, |_| {
+            seen += 1;
+            if seen < DOUBLED {
                 std::ops::ControlFlow::Continue(())
             } else {
                 std::ops::ControlFlow::Break(())
