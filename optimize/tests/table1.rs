@@ -23,9 +23,9 @@ fn quick() -> Rules {
     }
 }
 
-fn table(values: &[f64]) -> Result<TableReport, Box<dyn std::error::Error>> {
+fn table(range: (f64, f64), values: &[f64]) -> Result<TableReport, Box<dyn std::error::Error>> {
     let rules = quick();
-    let found = transitions(&rules, values).map_err(|failure| failure.to_string())?;
+    let found = transitions(&rules, range, values).map_err(|failure| failure.to_string())?;
     Ok(TableReport::new(&ROWS, &found, &rules))
 }
 
@@ -35,7 +35,7 @@ fn is_near(row: &RowReport, eta: f64, tolerance: f64) -> bool {
 
 #[test]
 fn rest_ends_by_grazing_and_impacts_by_a_fold_beyond_it() -> Outcome {
-    let table = table(&[1.2])?;
+    let table = table((1.01, 1.8), &[1.2])?;
     let (grazing, fold) = (&table.rows[17], &table.rows[18]);
     // Grazing in closed form: the amplitude of the free motion is the clearance.
     let amplitude = |eta: f64| 1.0 / (1.0 - eta * eta).hypot(0.04 * eta);

@@ -66,7 +66,7 @@ pub struct TableArguments {
 }
 
 /// The paper's frequency interval.
-const RANGE: (f64, f64) = (0.8, 1.8);
+pub const RANGE: (f64, f64) = (0.8, 1.8);
 
 /// Finds the rows and prints them.
 ///
@@ -75,7 +75,7 @@ const RANGE: (f64, f64) = (0.8, 1.8);
 /// [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &TableArguments) -> Result<(), Failure> {
     let rules = rules(arguments)?;
-    let transitions = transitions(&rules, &values(&paper::INTERVALS))?;
+    let transitions = transitions(&rules, RANGE, &values(&paper::INTERVALS))?;
     let report = TableReport::new(&paper::ROWS, &transitions, &rules);
     output::print(&match arguments.format {
         TableFormat::Json => output::json(&report)?,
@@ -112,11 +112,16 @@ pub fn values(intervals: &[(f64, f64, usize)]) -> Vec<f64> {
     intervals.iter().flat_map(inside).collect()
 }
 
-/// All transitions of the unloaded machine at rho = 10 that are found from these frequencies.
+/// All transitions in a range of frequencies, of the unloaded machine at rho = 10, that are found from
+/// some of them.
 ///
 /// # Errors
 /// [`Failure::Run`] if they cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
-pub fn transitions(rules: &Rules, values: &[f64]) -> Result<Vec<Transition>, Failure> {
+pub fn transitions(
+    rules: &Rules,
+    range: (f64, f64),
+    values: &[f64],
+) -> Result<Vec<Transition>, Failure> {
     let family = Along::new(Ratios::unloaded(), [Parameter::Frequency])
         .map_err(|error| Failure::usage(error.to_string()))?;
     let bar = seed::spinner("looks at motions");
@@ -124,7 +129,7 @@ pub fn transitions(rules: &Rules, values: &[f64]) -> Result<Vec<Transition>, Fai
         bar.inc(1);
         !interrupt::requested()
     };
-    let found = Explorer::new(&family, RANGE, *rules, &watcher).explore(values);
+    let found = Explorer::new(&family, range, *rules, &watcher).explore(values);
     bar.finish_and_clear();
     found.map_err(|error| match error {
         TransitionError::Survey(SurveyError::Stopped) => Failure::Interrupted,
