@@ -25,6 +25,7 @@
 #![forbid(unsafe_code)]
 
 pub mod attractors;
+pub mod basin;
 pub mod batch;
 pub mod continuation;
 pub mod error;
@@ -37,6 +38,7 @@ pub mod orbit;
 pub mod phases;
 pub mod samples;
 pub mod scene;
+pub mod sweep;
 pub mod trajectory;
 pub mod transitions;
 pub mod zone;

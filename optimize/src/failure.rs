@@ -1,4 +1,4 @@
-//! The three ways in which a run ends without its result, and their exit codes.
+//! The ways in which a run ends without its result, and their exit codes.
 
 use std::fmt;
 use std::process::ExitCode;
@@ -12,6 +12,8 @@ pub enum Failure {
     Run(anyhow::Error),
     /// Ctrl-C or a termination signal.
     Interrupted,
+    /// The same, but what is done is kept; the message says how to go on.
+    Suspended(String),
 }
 
 impl Failure {
@@ -26,7 +28,7 @@ impl Failure {
         ExitCode::from(match self {
             Self::Usage(_) => 2,
             Self::Run(_) => 1,
-            Self::Interrupted => 130,
+            Self::Interrupted | Self::Suspended(_) => 130,
         })
     }
 }
@@ -40,6 +42,7 @@ impl fmt::Display for Failure {
             ),
             Self::Run(error) => write!(formatter, "error: {error:#}"),
             Self::Interrupted => write!(formatter, "interrupted: no files were written"),
+            Self::Suspended(message) => write!(formatter, "interrupted: {message}"),
         }
     }
 }

@@ -3,13 +3,15 @@
 //! (2003) 79-88).
 //!
 //! One way through it: [`arguments`] and [`configuration`] turn what the user wrote into a
-//! [`arguments::Machine`], [`scene_file`] reads any scene; a subcommand ([`orbit`], [`motions`], [`zone`],
-//! [`optimize`], [`continuation`], [`table1`], [`simulate`], [`stops`], [`fidelity`], [`charts`],
+//! [`arguments::Machine`], [`scene_file`] reads any scene; a subcommand ([`orbit`], [`motions`],
+//! [`continuation`], [`sweep`], [`basin`], [`table1`], [`zone`], [`optimize`], [`simulate`], [`stops`],
+//! [`fidelity`], [`charts`],
 //! [`throughput`]) asks the core or the search in
 //! [`design`]; [`report`]
 //! and [`chart`] say and draw the answer; [`output`] puts files in place whole or not at all.
 
 pub mod arguments;
+pub mod basin;
 pub mod chart;
 pub mod charts;
 pub mod configuration;
@@ -32,6 +34,7 @@ pub mod scene_file;
 pub mod simulate;
 pub mod solvers;
 pub mod stops;
+pub mod sweep;
 pub mod table1;
 pub mod throughput;
 pub mod zone;
@@ -58,6 +61,8 @@ Examples:
   softstop motions --frequency 0.9875              all motions: z = 2/3, (2/4)B, chaos
   softstop zone --regime loaded --clearance 10     where impacts and rest coexist
   softstop continue --parameter eta --from 0.9 --to 1.5   its branch with folds and flips
+  softstop sweep --from 0.8 --to 1.8               bifurcation diagram, up and down
+  softstop basin --size 1000                       which start leads to which motion
   softstop table1                                  the paper's Table 1, found anew
   softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
   softstop stops                                   pictures of all the stops' laws
@@ -82,6 +87,10 @@ pub enum Command {
     Table1(table1::TableArguments),
     /// The hysteresis zone of a clearance: from grazing (g0) to the fold (s_SN)
     Zone(zone::ZoneArguments),
+    /// A parameter up and down: bifurcation diagram, jumps, hysteresis
+    Sweep(sweep::SweepArguments),
+    /// Which initial states lead to which motion
+    Basin(basin::BasinArguments),
     /// Search stiffness, clearance and frequency for the hardest impact
     Optimize(optimize::OptimizeArguments),
     /// Run any scene: a motion as tables, a chart and a summary
@@ -120,6 +129,8 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Continue(arguments) => continuation::run(&arguments),
         Command::Table1(arguments) => table1::run(&arguments),
         Command::Zone(arguments) => zone::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::Basin(arguments) => basin::run(&arguments),
         Command::Optimize(arguments) => optimize::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Stops(arguments) => stops::run(&arguments),

@@ -70,6 +70,12 @@ impl Progress {
         self.beat();
     }
 
+    /// So many more are done.
+    pub fn more(&self, count: u64) {
+        self.bar.inc(count);
+        self.beat();
+    }
+
     /// What else there is to say.
     pub fn say(&self, what: &str) {
         self.bar.set_message(format!(", {what}"));

@@ -15,7 +15,7 @@ const AT_ONCE: usize = 64;
 
 /// One motion.
 #[derive(Debug, Clone)]
-pub(super) struct Voyage {
+pub(crate) struct Voyage {
     /// Its latest state at drive angle phi.
     pub state: Start,
     /// Its last states there, in order of time; the latest is the last.
@@ -25,7 +25,7 @@ pub(super) struct Voyage {
 }
 
 impl Voyage {
-    pub(super) fn new(state: Start) -> Self {
+    pub(crate) fn new(state: Start) -> Self {
         Self {
             state,
             log: Vec::new(),
@@ -35,7 +35,7 @@ impl Voyage {
 }
 
 /// The machine they share, and how much work has been done.
-pub(super) struct Fleet<'a> {
+pub(crate) struct Fleet<'a> {
     machine: [Machine; 1],
     watcher: Watcher<'a>,
     done: AtomicU64,
@@ -44,7 +44,7 @@ pub(super) struct Fleet<'a> {
 }
 
 impl<'a> Fleet<'a> {
-    pub(super) fn new(scene: &Scene, watcher: Watcher<'a>) -> Result<Self, SurveyError> {
+    pub(crate) fn new(scene: &Scene, watcher: Watcher<'a>) -> Result<Self, SurveyError> {
         Ok(Self {
             machine: [Machine::new(scene)?],
             watcher,
@@ -54,16 +54,16 @@ impl<'a> Fleet<'a> {
     }
 
     /// True if many motions cost little.
-    pub(super) fn is_fast(&self) -> bool {
+    pub(crate) fn is_fast(&self) -> bool {
         self.machine[0].is_for_lanes()
     }
 
-    pub(super) fn done(&self) -> u64 {
+    pub(crate) fn done(&self) -> u64 {
         self.done.load(Ordering::Relaxed)
     }
 
     /// Counts work; an error if the watcher wants to stop.
-    pub(super) fn note(&self, periods: u64) -> Result<(), SurveyError> {
+    pub(crate) fn note(&self, periods: u64) -> Result<(), SurveyError> {
         let done = self.done.fetch_add(periods, Ordering::Relaxed) + periods;
         if (self.watcher)(done, self.planned.max(done)) {
             Ok(())
@@ -73,7 +73,7 @@ impl<'a> Fleet<'a> {
     }
 
     /// Carries all on for `periods` drive periods and keeps a log of the last `logged` of them.
-    pub(super) fn sail(
+    pub(crate) fn sail(
         &self,
         voyages: &mut [&mut Voyage],
         periods: u64,

@@ -20,7 +20,7 @@ const NEAR: f64 = 1e-3;
 
 /// A stable orbit.
 #[derive(Debug, Clone)]
-pub(super) struct Known {
+pub(crate) struct Known {
     pub orbit: Orbit,
     pub certainty: Certainty,
     states: Vec<Start>,
@@ -28,14 +28,14 @@ pub(super) struct Known {
 }
 
 /// All of them.
-pub(super) struct Book<'a> {
+pub(crate) struct Book<'a> {
     scene: &'a Scene,
     pub orbits: Vec<Known>,
 }
 
 /// How it stands with a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Standing {
+pub(crate) enum Standing {
     /// It has arrived at this orbit.
     Arrived(usize),
     /// It has come to rest for good.
@@ -47,7 +47,7 @@ pub(super) enum Standing {
 }
 
 impl<'a> Book<'a> {
-    pub(super) fn new(scene: &'a Scene) -> Self {
+    pub(crate) fn new(scene: &'a Scene) -> Self {
         Self {
             scene,
             orbits: Vec::new(),
@@ -78,7 +78,7 @@ impl<'a> Book<'a> {
     }
 
     /// How it stands with a motion whose last states are these; what it turns up is entered.
-    pub(super) fn judge(&mut self, log: &[Start]) -> Result<Standing, SurveyError> {
+    pub(crate) fn judge(&mut self, log: &[Start]) -> Result<Standing, SurveyError> {
         let Some(last) = log.last() else {
             return Ok(Standing::Wandering);
         };

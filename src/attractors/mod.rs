@@ -8,9 +8,9 @@
 //! transient, and its mean lifetime is told.
 
 mod chaos;
-mod fleet;
+pub(crate) mod fleet;
 mod group;
-mod known;
+pub(crate) mod known;
 mod search;
 mod starts;
 

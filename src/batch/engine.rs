@@ -5,10 +5,11 @@ use pulp::{Simd, WithSimd};
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::machine::Machine;
-use super::scalar::{self, Place, Resumed};
+use super::safe::{self, Place, Resumed};
 use super::state::State;
 use super::watch::Listener;
 use super::{Instructions, Job, Outcome};
+use crate::integrator::Start;
 
 /// Registers that go side by side.
 pub(super) const ABREAST: usize = 2;
@@ -193,7 +194,7 @@ impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N>
             if self.task.jobs[job].periods == 0 {
                 continue;
             }
-            let begun = scalar::begin(&self.task.machines[machine], start);
+            let begun = safe::begin(&self.task.machines[machine], start);
             let resumed = match begun {
                 Ok(Some(phase)) => Some(Resumed {
                     cycle: 0,
@@ -234,14 +235,14 @@ impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N>
         self.state.resume(lane, resumed.state, resumed.phase, left);
     }
 
-    /// Lets the scalar engine follow a job; where it can go on in a lane, unless it has come to its end.
+    /// Lets the safe engine follow a job; where it can go on in a lane, unless it has come to its end.
     fn follow(&mut self, place: Place) -> Option<Resumed> {
         let Job {
             machine, periods, ..
         } = self.task.jobs[place.job];
         let outcome = &mut self.outcomes[place.job];
         let machine = &self.task.machines[machine];
-        match scalar::follow(machine, place, periods, &mut self.task.watch, outcome) {
+        match safe::follow(machine, place, periods, &mut self.task.watch, outcome) {
             Ok(resumed) => resumed,
             Err(error) => {
                 outcome.error = Some(error);
@@ -250,22 +251,43 @@ impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N>
         }
     }
 
-    /// Hands a lane to the scalar engine for the rest of the period.
+    /// Hands a lane to the safe engine for the rest of the period.
     fn hand_over(&mut self, lane: usize) {
         let Some((job, cycle)) = self.progress(lane) else {
             return;
         };
+        let offset = self.state.offset.get(lane);
+        let begun = cycle > 0 || offset > 0.0;
         let place = Place {
             job,
             cycle,
-            offset: self.state.offset.get(lane),
-            state: self.state.state(lane),
+            offset,
+            state: if begun {
+                self.within_phase(lane)
+            } else {
+                self.state.state(lane)
+            },
         };
         self.outcomes[job].impacts += self.state.take_impacts(lane);
         match self.follow(place) {
             Some(resumed) => self.resume(lane, job, &resumed),
             None => self.take_next(lane),
         }
+    }
+
+    /// The state of a lane, on its own side of the ends of its phase: one that moves on and has come to an end
+    /// by rounding is put beside it, or the safe engine would take the crossing for done.
+    fn within_phase(&self, lane: usize) -> Start {
+        let Start { position, velocity } = self.state.state(lane);
+        let law = self.law();
+        let position = if velocity > 0.0 {
+            position.min(law.high.get(lane).next_down())
+        } else if velocity < 0.0 {
+            position.max(law.low.get(lane).next_up())
+        } else {
+            position
+        };
+        Start { position, velocity }
     }
 
     fn finish(&mut self, lane: usize) {

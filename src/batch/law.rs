@@ -107,13 +107,16 @@ law! {
 pub(super) const SPAN: f64 = 0.6;
 /// Most windows per drive period.
 const FINEST: f64 = 65_536.0;
-/// Where the scalar engine has to decide, relative to the size of the motion.
+/// Least stiffness per mass, in units of the drive's w^2, with which a constant force is described by a static
+/// deflection: a larger one would cost the motion its digits.
+const SOFTEST: f64 = 1e-2;
+/// Where the safe engine has to decide, relative to the size of the motion.
 const GRAIN: f64 = 1e-10;
 /// Relative to the size of the velocity.
 const SLOW: f64 = 1e-5;
 
 impl Constants {
-    /// The constants of a phase, unless it is one that only the scalar engine follows.
+    /// The constants of a phase, unless it is one that only the safe engine follows.
     pub fn of(phases: &Phases, index: usize) -> Option<Self> {
         let phase = &phases.phases[index];
         let mut constants = Self::of_flow(phases, phase)?;
@@ -156,9 +159,9 @@ impl Constants {
         Some(constants)
     }
 
-    /// True if nothing but one position ends the phase, and its free motion never grows.
+    /// True if one position and nothing else ends the phase, and its free motion never grows.
     pub fn is_plain(&self) -> bool {
-        let one_sided = self.low == f64::NEG_INFINITY || self.high == f64::INFINITY;
+        let one_sided = self.low.is_finite() != self.high.is_finite();
         one_sided && self.level == f64::INFINITY && self.stiffness < 0.0
     }
 
@@ -190,7 +193,8 @@ impl Constants {
         let w = flow.frequency;
         let fastest = w.max(flow.modes.fastest_rate());
         let window = SPAN / fastest;
-        if TAU / w > FINEST * window {
+        let soft = flow.modes.stiffness.abs() < SOFTEST * w * w;
+        if TAU / w > FINEST * window || (soft && phase.law.force != 0.0) {
             return None;
         }
         let [[xx, xv], [vx, vv]] = flow.modes.at(window).rows();
@@ -252,7 +256,7 @@ impl Constants {
         (self.rate_sixth_x, self.rate_sixth_v) = (scale * s * sixth.0, scale * s * sixth.1);
     }
 
-    /// Sets below what the scalar engine has to decide: differences that rounding may have made.
+    /// Sets below what the safe engine has to decide: differences that rounding may have made.
     fn set_grain(&mut self, fastest: f64) {
         let finite = |level: f64| if level.is_finite() { level.abs() } else { 0.0 };
         let steady = self.cosine.hypot(self.sine);

@@ -1,4 +1,4 @@
-//! A close look at what lies ahead of a lane: nothing, a crossing, or a matter for the scalar engine.
+//! A close look at what lies ahead of a lane: nothing, a crossing, or a matter for the safe engine.
 
 use pulp::Simd;
 
@@ -13,7 +13,7 @@ use super::taylor::{Series, derivative, evaluate, expand, shifted};
 
 /// Shortest stretch, in windows, that is looked at.
 const LEAST: f64 = 1e-12;
-/// Share of a window that is looked at last before the scalar engine decides.
+/// Share of a window that is looked at last before the safe engine decides.
 const SHORTEST: f64 = 1.0 / 256.0;
 
 /// The motion of all lanes over the stretch that they look at: x, or the guard itself where it is the only one.
@@ -45,7 +45,7 @@ struct Guard<S: Simd, const N: usize> {
 struct Found<S: Simd, const N: usize> {
     clear: Mask<S, N>,
     hits: Mask<S, N>,
-    /// Lanes that the scalar engine has to decide.
+    /// Lanes that the safe engine has to decide.
     doubtful: Mask<S, N>,
     /// Time to the crossing, and the guard's rate there.
     time: Lanes<S, N>,
@@ -54,7 +54,7 @@ struct Found<S: Simd, const N: usize> {
 
 impl<S: Simd, const GUARDED: bool, const N: usize> Engine<'_, S, GUARDED, N> {
     /// Looks at what lies ahead of the lanes that the scan has stopped, and moves all on; those that came to
-    /// the end of their job, and those that the scalar engine has to take. `due`: time to where each has to
+    /// the end of their job, and those that the safe engine has to take. `due`: time to where each has to
     /// stop.
     #[inline(always)]
     pub fn look(
@@ -90,7 +90,7 @@ impl<S: Simd, const GUARDED: bool, const N: usize> Engine<'_, S, GUARDED, N> {
     }
 
     /// Moves the lanes that meet nothing to the end of their stretch, and those that cross to the crossing; the
-    /// latter, and those that the scalar engine has to take.
+    /// latter, and those that the safe engine has to take.
     #[inline(always)]
     fn move_on(
         &mut self,
@@ -364,6 +364,9 @@ impl<S: Simd, const N: usize> Guard<S, N> {
             end = over.choose(at, end);
             top = (over.choose(value, top.0), over.choose(end.like(0.0), top.1));
         }
+        // A crossing within rounding of the end: before it or after?
+        let ends_there = (-self.grain).below(right.0) & g[0].like(0.0).below(right.1);
+        doubtful = doubtful | (clear & single & ends_there);
         rises = rises.and_not(doubtful);
         let Zero { at, slope, sure } = first_rise(&g, verdict.leaves, end, top, rises);
         Found {

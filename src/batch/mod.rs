@@ -3,8 +3,8 @@
 //! The lanes go in lock-step through the same work, from crossing to crossing: they scan windows of time, counted
 //! from the last crossing, until each has met one that may hold the next; then all expand their motion about the
 //! instant before it, decide, and find the crossing. What a lane concludes it concludes by the certificates of the
-//! scalar engine; what lies within rounding of two answers, or is not a plain crossing (rest, sticking, chatter),
-//! is handed to the scalar engine up to the end of the drive period. Machines with power laws go there altogether.
+//! safe engine, [`Motion`](crate::Motion); what lies within rounding of two answers, or is not a plain crossing (rest, sticking, chatter),
+//! is handed to the safe engine up to the end of the drive period. Machines with power laws go there altogether.
 //!
 //! A lane keeps the time since the beginning of its drive period, and takes cos and sin of the drive angle from
 //! it anew before each scan: the drive never drifts. Nothing in the loop calls the mathematical library.
@@ -18,7 +18,7 @@ mod machine;
 mod parallel;
 mod registers;
 mod root;
-mod scalar;
+mod safe;
 mod scan;
 mod state;
 mod taylor;
@@ -52,7 +52,7 @@ pub struct Outcome {
     pub end: Start,
     /// Impacts on the way.
     pub impacts: u64,
-    /// Drive periods that the scalar engine followed, in part or whole.
+    /// Drive periods that the safe engine followed, in part or whole.
     pub handed_over: u64,
     /// Why it ended early, if it did.
     pub error: Option<MotionError>,

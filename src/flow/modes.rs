@@ -147,6 +147,10 @@ impl Modes {
         match self.kind {
             Kind::Oscillating { .. } => (1.0, span.min(1.0 / self.stiffness.sqrt())),
             Kind::Aperiodic { slow, spread, .. } => {
+                if self.stiffness > 0.0 {
+                    let least = (1.0 / spread).min(1.0 / self.stiffness.sqrt());
+                    return (1.0, span.min(least));
+                }
                 let growth = if slow > 0.0 { (slow * span).exp() } else { 1.0 };
                 (growth, growth * span.min(1.0 / spread))
             }

@@ -3,6 +3,7 @@
 use std::sync::Arc as Shared;
 
 use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
 
 use super::clock::{Clock, Instant};
 use super::force::Force;
@@ -14,7 +15,7 @@ use crate::flow::{Chatter, Course, Departure, Finer, Polynomial};
 use crate::phases::{Mode, Phase, PhaseKind, Phases, Store};
 
 /// A state to start from.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Start {
     /// Position in m.
     pub position: f64,

@@ -34,13 +34,18 @@ pub(crate) fn size<'a>(frequency: f64, states: impl IntoIterator<Item = &'a Star
 /// The least number of drive periods, up to half of the row's length, after which each state of the first
 /// half of the row returns.
 pub(crate) fn returns(frequency: f64, states: &[Start]) -> Option<Return> {
+    returns_within(frequency, states, RETURN)
+}
+
+/// The same with another distance, in units of the motion's size.
+pub(crate) fn returns_within(frequency: f64, states: &[Start], share: f64) -> Option<Return> {
     let longest = states.len().checked_sub(1)? / 2;
     let size = size(frequency, states);
     (1..=longest).find_map(|periods| {
         let mut largest = 0.0f64;
         for j in 0..=longest {
             largest = largest.max(distance(frequency, &states[j], &states[j + periods]));
-            if largest > RETURN * size {
+            if largest > share * size {
                 return None;
             }
         }

@@ -290,7 +290,7 @@ fn padded(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// The name of an axis.
-fn axis(parameter: Parameter) -> &'static str {
+pub(super) fn axis(parameter: Parameter) -> &'static str {
     match parameter {
         Parameter::Frequency => "drive frequency η = ω/Ω",
         Parameter::Amplitude => "drive amplitude F₀",

@@ -4,6 +4,7 @@
 //! [`page`] a page of the failures atlas.
 
 mod atlas;
+mod basin;
 mod branch;
 mod continuation;
 mod fidelity;
@@ -14,14 +15,17 @@ mod pen;
 mod precision;
 mod regimes;
 mod style;
+mod sweep;
 
 pub use atlas::page;
+pub use basin::{BasinPicture, CertaintyChart};
 pub use continuation::{BranchChart, CurveChart};
 pub use fidelity::{Candidate, FidelityChart, FidelityPicture};
 pub use loops::Loops;
 pub use motion::{Drawing, MotionChart};
 pub use precision::PrecisionChart;
 pub use regimes::{RegimeChart, RegimeRow, Strip};
+pub use sweep::SweepChart;
 
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::scatter::MarkerShape;

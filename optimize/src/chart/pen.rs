@@ -1,5 +1,6 @@
 //! A drawing of plain shapes, for charts that are no plot of curves.
 
+use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 
@@ -120,6 +121,36 @@ impl Pen {
                 stroke_dasharray: dashes.map(str::to_owned),
             });
         }
+    }
+
+    /// Rectangles of many colours.
+    pub(super) fn mosaic(&mut self, tiles: &[(Area, &str)]) {
+        let side = |pick: fn(&Area) -> f64| tiles.iter().map(|(area, _)| pick(area)).collect();
+        self.scene.add(Primitive::RectBatch {
+            x: side(|area| area.0),
+            y: side(|area| area.1),
+            w: side(|area| area.2),
+            h: side(|area| area.3),
+            fills: tiles.iter().map(|(_, color)| (*color).into()).collect(),
+        });
+    }
+
+    /// A white spot with a dark rim, seen on any ground.
+    pub(super) fn spot(&mut self, (cx, cy): (f64, f64), radius: f64) {
+        self.scene.add(Primitive::Circle {
+            cx,
+            cy,
+            r: radius,
+            fill: "#ffffff".into(),
+            fill_opacity: None,
+            stroke: Some(style::INK.into()),
+            stroke_width: Some(1.6),
+        });
+    }
+
+    /// As pixels, one for each unit of length.
+    pub(super) fn png(&self) -> Result<Vec<u8>, String> {
+        PngBackend::new().with_scale(1.0).render_scene(&self.scene)
     }
 
     pub(super) fn svg(&self) -> String {

@@ -25,16 +25,18 @@ use report::ThroughputReport;
 const EXAMPLES: &str = "\
 Examples:
   softstop throughput
-      the speed of the safe engine, of one lane (scalar) and of all (batch), on one core and on all
+      the speed of the safe engine, of one lane and of all, on one core and more
   softstop throughput --format json
       the same for programs
   softstop throughput --check 1000000 --repeats 5
       and whether both count the same impacts in a million random motions
 
-The engines take turns, each round a measurement of each; a round ahead of them is not counted. Lowering the
-machines is part of the time. The random machines of --check are the paper's without and with a strip, and
-others with linear stops; a motion is compared if no rounding error can change its number of impacts, which the
-growth of such errors along the safe engine's motion tells. Exit code 1 if one differs.";
+The engines take turns, each round a measurement of each; a round ahead of them
+is not counted. Lowering the machines is part of the time. The random machines of
+--check are the paper's without and with a strip, and others with linear stops; a
+motion is compared if no rounding error can change its number of impacts, which
+the growth of such errors along the safe engine's motion tells. Exit code 1 if one
+differs.";
 
 /// Arguments of `softstop throughput`.
 #[derive(Debug, Args)]

@@ -11,7 +11,7 @@ pub fn text(report: &ThroughputReport) -> String {
     let (low, high) = scene.frequencies;
     let mut text = heading("Throughput on one core, in millions of forcing periods per second");
     text += &format!(
-        "The {} machine at {} frequencies over {low} to {high}, {} periods each from ({}, {});\nmedians of {} runs\n\n",
+        "The {} machine at {} frequencies over {low} to {high}, {} periods each from ({}, {});\nmedians of {} runs (--repeats)\n\n",
         scene.machine, scene.motions, scene.periods, scene.start.0, scene.start.1, report.repeats
     );
     let mut rows = vec![row(
@@ -31,7 +31,7 @@ pub fn text(report: &ThroughputReport) -> String {
     text += &table(&rows);
     let cores = &report.both_cores;
     text += &format!(
-        "\nAll lanes are {:.1} times as fast as one, {:.1} times as fast as the safe engine; {} threads {:.2} times \
+        "\nAll lanes are {:.1} times as fast as one, {:.1} times as fast as the safe engine; {} thread(s) {:.2} times \
          as fast as one: {} million\n",
         report.batch.times_scalar,
         report.batch.times_safe,

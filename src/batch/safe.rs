@@ -1,4 +1,4 @@
-//! Where the scalar engine takes over.
+//! Where the safe engine takes over.
 
 use super::Outcome;
 use super::machine::Machine;

@@ -1,0 +1,156 @@
+//! The integrity of a basin: the largest ball inside it.
+
+use super::grid::Grid;
+
+/// A ball inside a basin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Clearing {
+    /// Its centre on both axes.
+    pub centre: [f64; 2],
+    /// Distance from there to the nearest cell of another basin or to the edge of the grid, in units of half
+    /// of each axis: 1 would fill the grid. On the axes it is an ellipse.
+    pub radius: f64,
+}
+
+/// The largest ball on a grid all of whose cells are `inside`, about the middle of a cell.
+pub fn clearing(grid: &Grid, inside: impl Fn(usize) -> bool) -> Option<Clearing> {
+    // One row and column of outside all around.
+    let (columns, rows) = (grid.across.cells + 2, grid.up.cells + 2);
+    let outside = |row: usize, column: usize| {
+        let within =
+            (1..=grid.up.cells).contains(&row) && (1..=grid.across.cells).contains(&column);
+        !within || !inside((row - 1) * grid.across.cells + column - 1)
+    };
+    let mut squares: Vec<Vec<f64>> = (0..rows)
+        .map(|row| {
+            let start = |column| {
+                if outside(row, column) {
+                    0.0
+                } else {
+                    f64::INFINITY
+                }
+            };
+            transform(
+                &(0..columns).map(start).collect::<Vec<_>>(),
+                grid.across.spacing(),
+            )
+        })
+        .collect();
+    for column in 0..columns {
+        let along: Vec<f64> = squares.iter().map(|row| row[column]).collect();
+        for (row, square) in squares.iter_mut().zip(transform(&along, grid.up.spacing())) {
+            row[column] = square;
+        }
+    }
+    let places = (1..rows - 1).flat_map(|row| (1..columns - 1).map(move |column| (row, column)));
+    // The first of equals.
+    let best = places.fold((0.0, (0, 0)), |best, (row, column)| {
+        let square = squares[row][column];
+        if square > best.0 {
+            (square, (row, column))
+        } else {
+            best
+        }
+    });
+    let (square, (row, column)) = best;
+    (square > 0.0).then(|| Clearing {
+        centre: [grid.across.value(column - 1), grid.up.value(row - 1)],
+        radius: square.sqrt(),
+    })
+}
+
+/// min over q of f(q) + (h (p - q))^2 for all p: the lower envelope of parabolas (Felzenszwalb and
+/// Huttenlocher 2012).
+fn transform(f: &[f64], h: f64) -> Vec<f64> {
+    let square = |q: usize| (h * q as f64) * (h * q as f64);
+    // Parabolas of the envelope, and from where on each is the lowest, in units of h.
+    let mut envelope: Vec<(usize, f64)> = Vec::new();
+    for q in (0..f.len()).filter(|q| f[*q].is_finite()) {
+        let mut from = f64::NEG_INFINITY;
+        while let Some(&(other, begin)) = envelope.last() {
+            let apart = 2.0 * h * h * (q - other) as f64;
+            from = (f[q] + square(q) - f[other] - square(other)) / apart;
+            if from > begin {
+                break;
+            }
+            envelope.pop();
+            from = f64::NEG_INFINITY;
+        }
+        envelope.push((q, from));
+    }
+    let mut lowest = 0;
+    let value = |p: usize| {
+        while envelope
+            .get(lowest + 1)
+            .is_some_and(|next| next.1 <= p as f64)
+        {
+            lowest += 1;
+        }
+        envelope.get(lowest).map_or(f64::INFINITY, |&(q, _)| {
+            let gap = h * (p as f64 - q as f64);
+            f[q] + gap * gap
+        })
+    };
+    (0..f.len()).map(value).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::basin::Axis;
+
+    fn grid(columns: usize, rows: usize) -> Grid {
+        Grid::states(
+            Axis::position(-1.0, 1.0, columns),
+            Axis::velocity(-1.0, 1.0, rows),
+            0.0,
+        )
+    }
+
+    #[test]
+    fn the_largest_ball_of_a_disc_is_the_disc() {
+        let grid = grid(101, 201);
+        let inside = |cell| {
+            let start = grid.start(cell).0;
+            (start.position - 0.2).hypot(start.velocity + 0.1) < 0.5
+        };
+        let found = clearing(&grid, inside).expect("there is a disc");
+        assert!((found.centre[0] - 0.2).abs() < 0.02 && (found.centre[1] + 0.1).abs() < 0.02);
+        assert!((found.radius - 0.5).abs() < 0.02, "{found:?}");
+    }
+
+    #[test]
+    fn the_same_as_by_trying_all_pairs() {
+        let grid = grid(17, 12);
+        let inside = |cell: usize| !(cell * cell / 7).is_multiple_of(5);
+        let at = |row: i64, column: i64| {
+            (0..12).contains(&row)
+                && (0..17).contains(&column)
+                && inside((row * 17 + column) as usize)
+        };
+        let mut best = 0.0f64;
+        for (row, column) in (0..12).flat_map(|row| (0..17).map(move |column| (row, column))) {
+            let mut nearest = f64::INFINITY;
+            for (r, c) in (-1..13).flat_map(|r| (-1..18).map(move |c| (r, c))) {
+                if !at(r, c) {
+                    let (x, y) = ((c - column) as f64 * 2.0 / 17.0, (r - row) as f64 / 6.0);
+                    nearest = nearest.min(x.hypot(y));
+                }
+            }
+            best = best.max(nearest);
+        }
+        let found = clearing(&grid, inside).expect("some cells are inside");
+        assert!(
+            (found.radius - best).abs() < 1e-12,
+            "{} {best}",
+            found.radius
+        );
+    }
+
+    #[test]
+    fn nothing_is_inside_of_nothing() {
+        assert_eq!(clearing(&grid(5, 5), |_| false), None);
+        let all = clearing(&grid(5, 5), |_| true).expect("the whole grid");
+        assert!((all.radius - 1.2).abs() < 1e-12);
+    }
+}

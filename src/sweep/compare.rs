@@ -1,0 +1,102 @@
+//! Where a sweep jumps, and where up and down differ.
+
+use super::{Chain, Settled, Step};
+
+/// Change of the largest before-impact velocity from one step to the next, in units of the larger one, that
+/// is a jump.
+const LEAP: f64 = 0.1;
+/// Difference of the largest before-impact velocities at one value, in units of the larger one, of two motions
+/// of the same regime that are not the same.
+const APART: f64 = 0.01;
+
+/// A change of the motion from one step to the next that has settled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Jump {
+    /// Value of the last step before.
+    pub from: f64,
+    /// Value of the first step after.
+    pub to: f64,
+    /// What the motion was.
+    pub before: Settled,
+    /// What it is now.
+    pub after: Settled,
+    /// Largest before-impact velocities in m/s before and after.
+    pub velocities: (f64, f64),
+}
+
+/// Neighbouring values of the parameter at which the motions up and down differ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coexistence {
+    /// Least of them.
+    pub from: f64,
+    /// Largest.
+    pub to: f64,
+    /// The motion on the way up.
+    pub up: Settled,
+    /// The motion on the way down.
+    pub down: Settled,
+}
+
+impl<M> Chain<M> {
+    /// Its jumps, in its own order. Steps that have not settled are passed over: a jump goes from the last
+    /// settled step before them to the first one after.
+    pub fn jumps(&self) -> Vec<Jump> {
+        let settled = self
+            .steps
+            .iter()
+            .filter(|step| !step.settled.is_unsettled());
+        let settled: Vec<&Step> = settled.collect();
+        let pairs = settled.windows(2);
+        let jumps = pairs.filter(|pair| differ(pair[0], pair[1], LEAP));
+        let jump = |pair: &[&Step]| Jump {
+            from: pair[0].value,
+            to: pair[1].value,
+            before: pair[0].settled,
+            after: pair[1].settled,
+            velocities: (pair[0].hardest(), pair[1].hardest()),
+        };
+        jumps.map(jump).collect()
+    }
+}
+
+/// True if the motions are of different kinds, or of one regime but not the same.
+fn differ(a: &Step, b: &Step, share: f64) -> bool {
+    let (low, high) = (a.hardest().min(b.hardest()), a.hardest().max(b.hardest()));
+    let periodic = a.settled.regime().is_some();
+    !a.settled.is_like(&b.settled) || (periodic && high - low > share * high)
+}
+
+/// The steps of both at the same values, in rising order.
+fn pairs<'a, M>(up: &'a Chain<M>, down: &'a Chain<M>) -> Vec<(&'a Step, &'a Step)> {
+    let others = down.rising();
+    let other = |value: f64| others.binary_search_by(|step| step.value.total_cmp(&value));
+    let ours = up.rising().into_iter();
+    ours.filter_map(|step| Some((step, others[other(step.value).ok()?])))
+        .collect()
+}
+
+/// The ranges in which the same machine moves otherwise on the way up than on the way down; where one of them
+/// has not settled, nothing is said.
+pub fn hysteresis<M>(up: &Chain<M>, down: &Chain<M>) -> Vec<Coexistence> {
+    let mut zones: Vec<Coexistence> = Vec::new();
+    let mut open = false;
+    for (a, b) in pairs(up, down) {
+        let settled = !a.settled.is_unsettled() && !b.settled.is_unsettled();
+        let apart = settled && differ(a, b, APART);
+        let last = zones.last_mut().filter(|zone| {
+            open && apart && zone.up.is_like(&a.settled) && zone.down.is_like(&b.settled)
+        });
+        match last {
+            Some(zone) => zone.to = a.value,
+            None if apart => zones.push(Coexistence {
+                from: a.value,
+                to: a.value,
+                up: a.settled,
+                down: b.settled,
+            }),
+            None => {}
+        }
+        open = apart;
+    }
+    zones
+}
