@@ -40,6 +40,7 @@ pub mod samples;
 pub mod scene;
 pub mod sweep;
 pub mod trajectory;
+pub mod transitions;
 pub mod zone;
 
 pub use error::{MotionError, SceneError};

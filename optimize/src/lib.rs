@@ -4,7 +4,8 @@
 //!
 //! One way through it: [`arguments`] and [`configuration`] turn what the user wrote into a
 //! [`arguments::Machine`], [`scene_file`] reads any scene; a subcommand ([`orbit`], [`motions`],
-//! [`continuation`], [`sweep`], [`basin`], [`zone`], [`optimize`], [`simulate`], [`stops`], [`fidelity`], [`charts`],
+//! [`continuation`], [`sweep`], [`basin`], [`table1`], [`zone`], [`optimize`], [`simulate`], [`stops`],
+//! [`fidelity`], [`charts`],
 //! [`throughput`]) asks the core or the search in
 //! [`design`]; [`report`]
 //! and [`chart`] say and draw the answer; [`output`] puts files in place whole or not at all.
@@ -34,6 +35,7 @@ pub mod simulate;
 pub mod solvers;
 pub mod stops;
 pub mod sweep;
+pub mod table1;
 pub mod throughput;
 pub mod zone;
 
@@ -61,6 +63,7 @@ Examples:
   softstop continue --parameter eta --from 0.9 --to 1.5   its branch with folds and flips
   softstop sweep --from 0.8 --to 1.8               bifurcation diagram, up and down
   softstop basin --size 1000                       which start leads to which motion
+  softstop table1                                  the paper's Table 1, found anew
   softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
   softstop stops                                   pictures of all the stops' laws
   softstop fidelity B --tolerance 0.02             the simplest model that will do
@@ -80,6 +83,8 @@ pub enum Command {
     Motions(motions::MotionsArguments),
     /// Follow a periodic motion along a parameter, through folds, with all its bifurcations
     Continue(continuation::ContinueArguments),
+    /// The paper's Table 1 found anew: 19 transitions with their types
+    Table1(table1::TableArguments),
     /// The hysteresis zone of a clearance: from grazing (g0) to the fold (s_SN)
     Zone(zone::ZoneArguments),
     /// A parameter up and down: bifurcation diagram, jumps, hysteresis
@@ -122,6 +127,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Orbit(arguments) => orbit::run(&arguments),
         Command::Motions(arguments) => motions::run(&arguments),
         Command::Continue(arguments) => continuation::run(&arguments),
+        Command::Table1(arguments) => table1::run(&arguments),
         Command::Zone(arguments) => zone::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Basin(arguments) => basin::run(&arguments),

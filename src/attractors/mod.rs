@@ -187,3 +187,27 @@ pub fn attractors_watched(
 pub fn classify(scene: &Scene, start: Start, options: &Options) -> Result<Kind, SurveyError> {
     search::classify(scene, start, options)
 }
+
+/// Where a motion is after the transient.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Arrival {
+    /// Its state at drive angle phi.
+    pub state: Start,
+    /// The stable orbit to which it returns; none if it wanders (or rests).
+    pub orbit: Option<Orbit>,
+}
+
+/// Where motions from several starts are after the transient, in their order: cheaper than
+/// [`classify`], as a motion that has not settled then is not looked at any farther.
+///
+/// # Errors
+/// [`SurveyError::Motion`] if the scene is invalid or a motion cannot be computed;
+/// [`SurveyError::Stopped`].
+pub fn settle(
+    scene: &Scene,
+    starts: &[Start],
+    options: &Options,
+    watcher: Watcher<'_>,
+) -> Result<Vec<Arrival>, SurveyError> {
+    search::settle(scene, starts, options, watcher)
+}

@@ -6,7 +6,7 @@ use super::chaos::Chaos;
 use super::fleet::{Fleet, Voyage};
 use super::group::groups;
 use super::known::{Book, Known, Standing};
-use super::{Attractor, Kind, Options, Region, Survey, SurveyError, Watcher};
+use super::{Arrival, Attractor, Kind, Options, Region, Survey, SurveyError, Watcher};
 use crate::error::MotionError;
 use crate::integrator::Start;
 use crate::orbit::Exponents;
@@ -93,6 +93,30 @@ pub(super) fn classify(
     first
         .map(|attractor| attractor.kind)
         .ok_or(SurveyError::Stopped)
+}
+
+/// Where motions from several starts are after the transient: see [`super::settle`].
+pub(super) fn settle(
+    scene: &Scene,
+    starts: &[Start],
+    options: &Options,
+    watcher: Watcher<'_>,
+) -> Result<Vec<Arrival>, SurveyError> {
+    let mut search = Search::new(scene, options, watcher)?;
+    search.launch(starts.to_vec(), true)?;
+    let Search { members, book, .. } = search;
+    let arrival = |member: Member| match (member.voyage.error, member.standing) {
+        (Some(error), _) => Err(error.into()),
+        (None, Standing::Arrived(at) | Standing::Approaching(at)) => Ok(Arrival {
+            state: member.voyage.state,
+            orbit: Some(book.orbits[at].orbit.clone()),
+        }),
+        (None, Standing::AtRest | Standing::Wandering) => Ok(Arrival {
+            state: member.voyage.state,
+            orbit: None,
+        }),
+    };
+    members.into_iter().map(arrival).collect()
 }
 
 impl<'a> Search<'a> {

@@ -1,0 +1,143 @@
+//! The values of the parameter for which a periodic motion is stable.
+
+use std::ops::ControlFlow;
+
+use super::{Motion, Rules, TransitionError};
+use crate::continuation::{Branch, BranchPoint, End, Family, Follower, Limits, SpecialKind, Test};
+use crate::orbit::Orbit;
+
+/// By what a window ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EndKind {
+    /// The motion grazes.
+    Grazing {
+        /// True if the touch is that of an impact that dies.
+        dies: bool,
+    },
+    /// Fold.
+    Fold,
+    /// Flip.
+    Flip,
+    /// A doubled motion becomes that of half its period, at a flip of that.
+    Merging,
+    /// The parameter's range ends.
+    Range,
+    /// It could not be followed any farther.
+    Lost,
+}
+
+/// One end.
+#[derive(Debug, Clone)]
+pub struct WindowEnd {
+    /// By what.
+    pub kind: EndKind,
+    /// The orbit there.
+    pub point: BranchPoint,
+}
+
+/// A periodic motion from one end of its stability to the other.
+#[derive(Debug, Clone)]
+pub struct Window {
+    /// The motion.
+    pub motion: Motion,
+    /// Its lower end and its upper.
+    pub ends: [WindowEnd; 2],
+}
+
+impl Window {
+    /// The window of a stable orbit at a value of the parameter.
+    ///
+    /// # Errors
+    /// [`TransitionError::Orbit`] if the orbit is none of the family.
+    pub fn of<F: Family>(
+        family: &F,
+        value: f64,
+        orbit: &Orbit,
+        range: (f64, f64),
+        rules: &Rules,
+    ) -> Result<Self, TransitionError> {
+        let limits = Limits {
+            range,
+            points: rules.points,
+        };
+        let follower = Follower::new(family, orbit.periods);
+        let watch = |point: &BranchPoint| match point.is_stable() {
+            true => ControlFlow::Continue(()),
+            // One point beyond a fold or flip is enough to have it located.
+            false => ControlFlow::Break(()),
+        };
+        let branch = follower.branch(value, orbit.state(), &limits, watch)?;
+        let start = nearest(&branch, value, orbit);
+        let mut ends = [end(&branch, start, true), end(&branch, start, false)];
+        if ends[0].point.parameter > ends[1].point.parameter {
+            ends.reverse();
+        }
+        Ok(Self {
+            motion: Motion::of(orbit),
+            ends,
+        })
+    }
+
+    /// True if the motion is stable at a value.
+    pub fn contains(&self, value: f64) -> bool {
+        let [low, high] = &self.ends;
+        (low.point.parameter..=high.point.parameter).contains(&value)
+    }
+}
+
+/// The place of the point from which a branch was followed.
+fn nearest(branch: &Branch, value: f64, orbit: &Orbit) -> usize {
+    let gap = |point: &BranchPoint| {
+        (point.parameter - value).abs() + (point.state() - orbit.state()).norm()
+    };
+    let gaps = branch.points.iter().map(gap).enumerate();
+    gaps.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |it| it.0)
+}
+
+/// The end of stability on one side of a point of a branch.
+fn end(branch: &Branch, start: usize, backwards: bool) -> WindowEnd {
+    let last = branch.points.len() - 1;
+    let mut at = start;
+    loop {
+        let point = &branch.points[at];
+        if at != start
+            && let Some(kind) = special(branch, point)
+        {
+            return WindowEnd {
+                kind,
+                point: point.clone(),
+            };
+        }
+        let is_last = at == if backwards { 0 } else { last };
+        if is_last {
+            let why = if backwards {
+                &branch.ends.0
+            } else {
+                &branch.ends.1
+            };
+            let kind = match why {
+                End::Range => EndKind::Range,
+                End::Merged => EndKind::Merging,
+                _ => EndKind::Lost,
+            };
+            return WindowEnd {
+                kind,
+                point: point.clone(),
+            };
+        }
+        at = if backwards { at - 1 } else { at + 1 };
+    }
+}
+
+/// What ends stability at a point, if anything does.
+fn special(branch: &Branch, point: &BranchPoint) -> Option<EndKind> {
+    let here = branch.specials.iter().find(|special| {
+        special.point.parameter == point.parameter && special.point.state() == point.state()
+    })?;
+    Some(match here.kind {
+        SpecialKind::Grazing(graze) => EndKind::Grazing { dies: graze.dies },
+        SpecialKind::Critical(Test::Fold) => EndKind::Fold,
+        SpecialKind::Critical(Test::Flip) => EndKind::Flip,
+        SpecialKind::Critical(_) => EndKind::Lost,
+    })
+}
