@@ -4,10 +4,8 @@
 //!
 //! One way through it: [`arguments`] and [`configuration`] turn what the user wrote into a
 //! [`arguments::Machine`], [`scene_file`] reads any scene; a subcommand ([`orbit`], [`motions`],
-//! [`continuation`], [`sweep`], [`basin`], [`table1`], [`zone`], [`optimize`], [`simulate`], [`stops`],
-//! [`fidelity`], [`charts`],
-//! [`throughput`]) asks the core or the search in
-//! [`design`]; [`report`]
+//! [`continuation`], [`sweep`], [`basin`], [`table1`], [`paper`], [`zone`], [`optimize`], [`simulate`],
+//! [`stops`], [`fidelity`], [`charts`], [`throughput`]) asks the core or the search in [`design`]; [`report`]
 //! and [`chart`] say and draw the answer; [`output`] puts files in place whole or not at all.
 
 pub mod arguments;
@@ -26,6 +24,7 @@ pub mod motions;
 pub mod optimize;
 pub mod orbit;
 pub mod output;
+pub mod paper;
 pub mod precision;
 pub mod progress;
 pub mod reference;
@@ -64,6 +63,7 @@ Examples:
   softstop sweep --from 0.8 --to 1.8               bifurcation diagram, up and down
   softstop basin --size 1000                       which start leads to which motion
   softstop table1                                  the paper's Table 1, found anew
+  softstop paper                                   all its figures, found anew
   softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
   softstop stops                                   pictures of all the stops' laws
   softstop fidelity B --tolerance 0.02             the simplest model that will do
@@ -85,6 +85,8 @@ pub enum Command {
     Continue(continuation::ContinueArguments),
     /// The paper's Table 1 found anew: 19 transitions with their types
     Table1(table1::TableArguments),
+    /// The paper's figures drawn anew, and what it only describes
+    Paper(paper::PaperArguments),
     /// The hysteresis zone of a clearance: from grazing (g0) to the fold (s_SN)
     Zone(zone::ZoneArguments),
     /// A parameter up and down: bifurcation diagram, jumps, hysteresis
@@ -128,6 +130,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Motions(arguments) => motions::run(&arguments),
         Command::Continue(arguments) => continuation::run(&arguments),
         Command::Table1(arguments) => table1::run(&arguments),
+        Command::Paper(arguments) => paper::run(&arguments),
         Command::Zone(arguments) => zone::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Basin(arguments) => basin::run(&arguments),
