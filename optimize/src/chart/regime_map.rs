@@ -258,7 +258,7 @@ impl RegimePage {
         let classes = self.classes();
         let table = TOP + ROW * self.panels.len().div_ceil(2) as f64;
         let width = LEFT + 2.0 * MAP.0 + BETWEEN + RIGHT;
-        let height = table + LINE * (classes.len() as f64 + 1.6);
+        let height = table + LINE * (classes.len() as f64 + 2.0);
         let mut pen = Pen::new(width, height);
         pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
         let title = "Regimes z = p/n: p impacts in n drive periods";
@@ -269,7 +269,7 @@ impl RegimePage {
             panel.draw(&mut pen, index, (left, top));
         }
         self.table(&mut pen, table, &classes);
-        pen.png_at(SCALE)
+        pen.png(SCALE)
     }
 
     /// The classes that there are.

@@ -72,8 +72,8 @@ const PLANES: [Plane; 4] = [
         name: "coexistence",
         title: "(d) Three at once: η = 0.9875, ρ = 10, at drive angle 0",
         frequency: 0.9875,
-        across: position(-5.0, 15.0),
-        up: velocity(-15.0, 15.0),
+        across: position(5.0, 11.0),
+        up: velocity(-2.0, 10.0),
     },
 ];
 

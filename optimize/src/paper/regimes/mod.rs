@@ -40,7 +40,7 @@ const CELLS: [(usize, usize); 2] = [(600, 400), (120, 80)];
 /// Drive periods at each frequency.
 const PERIODS: u64 = 120;
 /// Starts at each cell of the map of hardest motions.
-const STARTS: [usize; 2] = [12, 8];
+const STARTS: usize = 12;
 
 /// A part of the plane of eta and rho.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,31 +67,8 @@ fn middle((from, to): (f64, f64), cell: usize, cells: usize) -> f64 {
 
 fn draw(detail: Detail) -> Result<Drawn, Failure> {
     let size = detail.pick(CELLS[0], CELLS[1]);
-    // The map of many starts is half as fine.
-    let coarse = (size.0 / 2, size.1 / 2);
-    let starts = detail.pick(STARTS[0], STARTS[1]);
-    let work = 5 * size.0 * size.1 + coarse.0 * coarse.1 * starts;
-    let progress = Progress::new(work as u64, "motions");
-    let swept = |machine, window, way| {
-        let sweep = Sweep {
-            machine,
-            window,
-            way,
-            size,
-        };
-        sweep.map(&progress)
-    };
-    let (free, loaded) = (Ratios::unloaded(), Ratios::loaded());
-    let maps = [
-        swept(free, ALL, Direction::Up)?,
-        swept(free, ALL, Direction::Down)?,
-        swept(free, ZOOM, Direction::Up)?,
-        starts::hardest(&free, ZOOM, coarse, starts, &progress)?,
-        swept(loaded, ALL, Direction::Up)?,
-        swept(loaded, ALL, Direction::Down)?,
-    ];
-    drop(progress);
-    let boundaries = [Boundaries::of(&free, &ALL)?, Boundaries::of(&loaded, &ALL)?];
+    let (maps, boundaries) = rayon::join(|| maps(size), boundaries);
+    let (maps, boundaries) = (maps?, boundaries?);
     let findings = findings::of(&maps, &boundaries);
     let tables = [table::runs(&maps)?, table::boundaries(&boundaries)?];
     let png = RegimePage::new(panels(maps, &boundaries))
@@ -102,6 +79,37 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
         files: vec![png, runs, lines],
         findings,
     })
+}
+
+/// The maps. Those of many starts and of the loaded machine are half as fine.
+fn maps(size: (usize, usize)) -> Result<[RegimeMap; 6], Failure> {
+    let coarse = (size.0 / 2, size.1 / 2);
+    let work = 3 * size.0 * size.1 + coarse.0 * coarse.1 * (STARTS + 2);
+    let progress = Progress::new(work as u64, "motions");
+    let swept = |machine, window, way, size| {
+        let sweep = Sweep {
+            machine,
+            window,
+            way,
+            size,
+        };
+        sweep.map(&progress)
+    };
+    let (free, loaded) = (Ratios::unloaded(), Ratios::loaded());
+    Ok([
+        swept(free, ALL, Direction::Up, size)?,
+        swept(free, ALL, Direction::Down, size)?,
+        swept(free, ZOOM, Direction::Up, size)?,
+        starts::hardest(&free, ZOOM, coarse, STARTS, &progress)?,
+        swept(loaded, ALL, Direction::Up, coarse)?,
+        swept(loaded, ALL, Direction::Down, coarse)?,
+    ])
+}
+
+/// The boundaries of both machines.
+fn boundaries() -> Result<[Boundaries; 2], Failure> {
+    let [free, loaded] = [Ratios::unloaded(), Ratios::loaded()];
+    Ok([Boundaries::of(&free, &ALL)?, Boundaries::of(&loaded, &ALL)?])
 }
 
 /// What the panels are called.
