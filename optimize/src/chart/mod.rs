@@ -16,6 +16,7 @@ mod precision;
 mod regimes;
 mod style;
 mod sweep;
+mod table;
 
 pub use atlas::page;
 pub use basin::{BasinPicture, CertaintyChart};
@@ -26,6 +27,7 @@ pub use motion::{Drawing, MotionChart};
 pub use precision::PrecisionChart;
 pub use regimes::{RegimeChart, RegimeRow, Strip};
 pub use sweep::SweepChart;
+pub use table::TablePicture;
 
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::scatter::MarkerShape;

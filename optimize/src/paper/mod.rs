@@ -12,6 +12,7 @@ mod figure9;
 mod hardening;
 mod regimes;
 mod report;
+mod table;
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -35,6 +36,7 @@ Figures of F. Peterka, Chaos, Solitons & Fractals 18 (2003) 79-88, computed anew
   7a, 7b   points A and B: time series and phase trajectory, phases shaded
   8        the diagram of rho = 10 with its four zooms and the numbered bifurcations of Table 1
   9        the motions (A) to (L): time series, phase trajectory, Poincare points
+  table1   its Table 1
 and what it only describes:
   regimes     map of the regimes z = p/n over eta and rho
   exponents   the largest Lyapunov exponent under the diagram
@@ -84,6 +86,9 @@ pub enum Subject {
     /// The motions (A) to (L)
     #[value(name = "9")]
     Motions,
+    /// Table 1
+    #[value(name = "table1")]
+    Table,
     /// Map of the regimes
     Regimes,
     /// Lyapunov exponent under the diagram
@@ -142,6 +147,7 @@ impl Subject {
             Self::PointB => &figure7::POINT_B,
             Self::Diagram => &figure8::FIGURE,
             Self::Motions => &figure9::FIGURE,
+            Self::Table => &table::FIGURE,
             Self::Regimes => &regimes::FIGURE,
             Self::Exponents => &exponents::FIGURE,
             Self::Basins => &basins::FIGURE,
