@@ -6,12 +6,14 @@ use super::explore::Stage;
 use super::{Motion, TransitionError};
 use crate::continuation::Family;
 use crate::integrator::Start;
-use crate::orbit::StroboscopicMap;
+use crate::orbit::{Exponents, Orbit, StroboscopicMap};
 
 /// Drive periods for which a motion is followed.
 const ENDURANCE: u64 = 400_000;
 /// Bursts after which it counts as chaos.
 const BURSTS: usize = 3;
+/// Least difference of a motion from the orbit, in units of its size.
+const NEAR: f64 = 1e-9;
 /// Periods of the old motion in a row that tell it from chance.
 const CALM: u64 = 5;
 
@@ -27,8 +29,14 @@ impl<F: Family + Sync> Stage<'_, F> {
         let (Some(periods), Some(start)) = (motion.periods(), states.first()) else {
             return Ok(false);
         };
-        let map = StroboscopicMap::new(&self.family.scene([value])?, 1)?;
+        let scene = self.family.scene([value])?;
         let mut state = (*start).into();
+        let leaves_in_time = Orbit::periodic(&scene, state, periods)
+            .is_ok_and(|orbit| BURSTS as f64 * leaving(&orbit) < ENDURANCE as f64);
+        if !leaves_in_time {
+            return Ok(false);
+        }
+        let map = StroboscopicMap::new(&scene, 1)?;
         let mut calm = Calm::new(periods as usize);
         for _ in 0..ENDURANCE {
             let passage = map.apply(state)?;
@@ -42,6 +50,16 @@ impl<F: Family + Sync> Stage<'_, F> {
             }
         }
         Ok(false)
+    }
+}
+
+/// Drive periods that a difference takes to grow to the size of the motion, from [`NEAR`] of it.
+fn leaving(orbit: &Orbit) -> f64 {
+    let growth = Exponents::of(orbit).per_period[0];
+    if growth > 0.0 {
+        -NEAR.ln() / growth
+    } else {
+        f64::INFINITY
     }
 }
 
