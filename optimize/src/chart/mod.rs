@@ -15,6 +15,7 @@ mod pen;
 mod precision;
 mod regimes;
 mod style;
+mod supply;
 mod sweep;
 mod table;
 
@@ -26,6 +27,7 @@ pub use loops::Loops;
 pub use motion::{Drawing, MotionChart};
 pub use precision::PrecisionChart;
 pub use regimes::{RegimeChart, RegimeRow, Strip};
+pub use supply::{SupplyChart, SupplyCurve};
 pub use sweep::SweepChart;
 pub use table::TablePicture;
 

@@ -12,6 +12,7 @@ mod figure9;
 mod hardening;
 mod regimes;
 mod report;
+mod supply;
 mod table;
 
 use std::path::PathBuf;
@@ -42,6 +43,7 @@ and what it only describes:
   exponents   the largest Lyapunov exponent under the diagram
   basins      which start leads to which motion
   certainty   how certainly z = 1 establishes itself, from g0 to s_SN
+  supply      whether an interrupted supply of strips ends z = 1
   hardening   the transition of the stop's stiffness k2 from 0 to infinity
 
 Pictures are SVG where they are curves and PNG where they are clouds or maps, with the data of
@@ -97,6 +99,8 @@ pub enum Subject {
     Basins,
     /// Establishing certainty along the hysteresis zone
     Certainty,
+    /// z = 1 under an interrupted supply of strips
+    Supply,
     /// The stop's stiffness from 0 to infinity
     Hardening,
 }
@@ -152,6 +156,7 @@ impl Subject {
             Self::Exponents => &exponents::FIGURE,
             Self::Basins => &basins::FIGURE,
             Self::Certainty => &certainty::FIGURE,
+            Self::Supply => &supply::FIGURE,
             Self::Hardening => &hardening::FIGURE,
         }
     }

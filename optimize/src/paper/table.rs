@@ -4,6 +4,7 @@ use softstop::transitions::Rules;
 
 use super::{Detail, Drawn, Figure};
 use crate::failure::Failure;
+use crate::output;
 use crate::table1;
 
 /// Table 1.
@@ -19,7 +20,7 @@ fn draw(_: Detail) -> Result<Drawn, Failure> {
     Ok(Drawn {
         files: vec![
             table1::picture(&report).svg().into_bytes(),
-            report.csv()?.into_bytes(),
+            output::csv(&report.rows)?,
         ],
         findings: report.rows.iter().filter_map(finding).collect(),
     })

@@ -90,14 +90,14 @@ pub fn run(arguments: &TableArguments) -> Result<(), Failure> {
     let folder = folder.map(|path| Folder::open(path, &NAMES)).transpose()?;
     let report = table(&rules)?;
     if let Some(folder) = folder {
-        folder.stage(NAMES[0], report.csv()?.as_bytes())?;
+        folder.stage(NAMES[0], &output::csv(&report.rows)?)?;
         folder.stage(NAMES[1], output::json(&report)?.as_bytes())?;
         folder.stage(NAMES[2], picture(&report).svg().as_bytes())?;
         folder.commit(&NAMES)?;
     }
     output::print(&match arguments.format {
         TableFormat::Json => output::json(&report)?,
-        TableFormat::Csv => report.csv()?,
+        TableFormat::Csv => String::from_utf8_lossy(&output::csv(&report.rows)?).into_owned(),
         TableFormat::Text => text::text(&report),
     })
 }

@@ -1,13 +1,11 @@
 //! The table as data.
 
-use anyhow::Context;
 use serde::Serialize;
 use softstop::transitions::{Cause, Motion, Rules, Transition};
 
 use super::matching::{Match, find};
 use super::paper::PaperRow;
 use super::swept::{self, Swept};
-use crate::failure::Failure;
 
 /// The table.
 #[derive(Debug, Serialize)]
@@ -52,19 +50,6 @@ impl TableReport {
         Self {
             rows: rows.iter().map(report).collect(),
         }
-    }
-
-    /// As comma-separated values.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] if they cannot be written.
-    pub fn csv(&self) -> Result<String, Failure> {
-        let mut table = csv::Writer::from_writer(Vec::new());
-        for row in &self.rows {
-            table.serialize(row).context("cannot write the table")?;
-        }
-        let bytes = table.into_inner().context("cannot write the table")?;
-        Ok(String::from_utf8(bytes).context("cannot write the table")?)
     }
 }
 
