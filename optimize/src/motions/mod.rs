@@ -32,9 +32,9 @@ Examples:
 How they are found: starts from far and wide show where motions stay; then --starts quasi-random
 starts fill that region and settle. What returns is polished by Newton's method on the exact
 map, so each periodic motion listed exists and is stable (both multipliers inside the unit
-circle). What does not return and has a positive Lyapunov exponent beyond five standard errors
-is chaos. It is watched for --patience more periods: if motions leave it meanwhile, it is
-transient, and its mean lifetime is told.
+circle). What does not return and has a Lyapunov exponent above zero by more than three
+half-widths of its 95 % interval is chaos. It is watched for --patience more periods: if motions
+leave it meanwhile, it is transient, and its mean lifetime is told.
 
 z = p/n: p impacts in n drive periods. The order of impacts tells them apart: 1-0-1-0 is the
 paper's (2/4)A, 1-1-0-0 its (2/4)B. The share of starts is a rough measure of the basin.
