@@ -16,10 +16,10 @@ use softstop::attractors::SurveyError;
 use softstop::continuation::{Along, Parameter};
 use softstop::transitions::{Explorer, Rules, Transition, TransitionError};
 
-use crate::continuation::seed;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::{self, Folder};
+use crate::progress::Progress;
 pub use picture::picture;
 use report::TableReport;
 
@@ -151,13 +151,13 @@ pub fn transitions(
 ) -> Result<Vec<Transition>, Failure> {
     let family = Along::new(Ratios::unloaded(), [Parameter::Frequency])
         .map_err(|error| Failure::usage(error.to_string()))?;
-    let bar = seed::spinner("looks at motions");
+    let bar = Progress::open("looks at motions");
     let watcher = || {
-        bar.inc(1);
+        bar.one();
         !interrupt::requested()
     };
     let found = Explorer::new(&family, range, *rules, &watcher).explore(values);
-    bar.finish_and_clear();
+    drop(bar);
     found.map_err(|error| match error {
         TransitionError::Survey(SurveyError::Stopped) => Failure::Interrupted,
         other => Failure::Run(anyhow!(other)),
