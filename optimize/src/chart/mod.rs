@@ -6,13 +6,16 @@
 mod atlas;
 mod basin;
 mod branch;
+mod certainty;
 mod continuation;
 mod fidelity;
 mod heat;
 mod loops;
 mod motion;
 mod pen;
+mod plane;
 mod precision;
+mod regime_map;
 mod regimes;
 mod style;
 mod supply;
@@ -20,12 +23,16 @@ mod sweep;
 mod table;
 
 pub use atlas::page;
-pub use basin::{BasinPicture, CertaintyChart};
+pub use basin::{BasinPage, BasinPicture};
+pub use certainty::{
+    CertaintyChart, CertaintyCurve, CertaintyPage, CertaintyPanel, CertaintyPoint,
+};
 pub use continuation::{BranchChart, CurveChart};
 pub use fidelity::{Candidate, FidelityChart, FidelityPicture};
 pub use loops::Loops;
 pub use motion::{Drawing, MotionChart};
 pub use precision::PrecisionChart;
+pub use regime_map::{BoundaryCurve, RegimeCell, RegimeClass, RegimeMap, RegimePage, RegimePanel};
 pub use regimes::{RegimeChart, RegimeRow, Strip};
 pub use supply::{SupplyChart, SupplyCurve};
 pub use sweep::SweepChart;
