@@ -6,25 +6,32 @@
 mod atlas;
 mod basin;
 mod branch;
+mod clearances;
 mod continuation;
 mod fidelity;
 mod heat;
 mod loops;
 mod motion;
+mod numbered;
+mod panel;
 mod pen;
 mod precision;
 mod regimes;
+mod stability;
 mod style;
 mod sweep;
 
 pub use atlas::page;
 pub use basin::{BasinPicture, CertaintyChart};
+pub use clearances::{Boundaries, ClearanceChart, ClearanceRow};
 pub use continuation::{BranchChart, CurveChart};
 pub use fidelity::{Candidate, FidelityChart, FidelityPicture};
 pub use loops::Loops;
 pub use motion::{Drawing, MotionChart};
+pub use numbered::{Bifurcation, Diagram, NumberedChart};
 pub use precision::PrecisionChart;
 pub use regimes::{RegimeChart, RegimeRow, Strip};
+pub use stability::{StabilityChart, StabilityPart, StabilityPoint};
 pub use sweep::SweepChart;
 
 use kuva::backend::svg::SvgBackend;
