@@ -48,7 +48,7 @@ fn folds_and_flips_are_where_they_were_found_before() -> Outcome {
     near(&found, "eta_g0 at rho = 10", 1.04444, 5.1e-6);
     near(&found, "eta_PD at rho = 10", 0.988_907, 5.1e-7);
     // The optimum clearance lies between those whose folds are weaker.
-    near(&found, "rho of the hardest impact", 7.0, 1.0);
+    near(&found, "rho of the hardest impact at a fold", 7.0, 1.0);
     Ok(())
 }
 

@@ -40,8 +40,6 @@ pub struct ClearanceRow {
     pub clearance: f64,
     /// The sweeps up and down.
     pub ways: [Chain<Ratios>; 2],
-    /// Where z = 1 ends above, if it was found: eta, X_m, X'-.
-    pub fold: Option<[f64; 3]>,
 }
 
 /// Boundaries across the clearances; points are eta, X_m and X'- of z = 1 there.
@@ -155,8 +153,10 @@ impl ClearanceChart<'_> {
     /// Dots of all motions, and a line where z = 1 is stable.
     fn diagrams(&self, pen: &mut Pen, panel: &Panel, show: impl Fn(&Step) -> Vec<f64>) {
         for (row, color) in self.rows.iter().zip(COLOURS) {
-            let steps = || row.ways.iter().flat_map(|chain| &chain.steps);
-            let points = steps().flat_map(|step| {
+            let steps = row.ways.iter().flat_map(|chain| &chain.steps);
+            // What has not settled is on its way from one motion to another.
+            let settled = steps.filter(|step| !step.settled.is_unsettled());
+            let points = settled.flat_map(|step| {
                 let value = step.value;
                 show(step).into_iter().map(move |height| (value, height))
             });
@@ -184,19 +184,26 @@ impl ClearanceChart<'_> {
         }
     }
 
-    /// The clearance of each diagram beside the end of its z = 1.
+    /// The clearance of each diagram, beside the end of its z = 1 or above its hardest impact.
     fn names(&self, pen: &mut Pen, panel: &Panel, which: usize) {
         for (row, color) in self.rows.iter().zip(COLOURS) {
-            let Some(end) = row.fold else { continue };
-            let (x, y) = panel.place((end[0], end[which]));
+            let steps = row.ways.iter().flat_map(|chain| &chain.steps);
+            let ones = steps.filter(|step| is_one(step));
+            let height = |step: &&Step| match which {
+                1 => step.value,
+                _ => step.hardest(),
+            };
+            let Some(step) = ones.max_by(|a, b| height(a).total_cmp(&height(b))) else {
+                continue;
+            };
             let text = format!("ρ = {}", row.clearance);
-            pen.words(
-                (x + 12.0, y - 4.0),
-                LETTERS,
-                Align::Left,
-                (color, true),
-                &text,
-            );
+            let (height, shift, align) = match which {
+                1 => (step.max_position, (12.0, -4.0), Align::Left),
+                _ => (step.hardest(), (-7.0, -6.0), Align::Right),
+            };
+            let (x, y) = panel.place((step.value, height));
+            let place = (x + shift.0, y + shift.1);
+            pen.words(place, LETTERS, align, (color, which == 1), &text);
         }
     }
 
@@ -217,7 +224,7 @@ impl ClearanceChart<'_> {
         let entries = [
             (
                 RESPONSE,
-                "g₀  amplitude of the free mass: impacts begin where it is ρ;",
+                "g₀  amplitude of the free mass: impacts begin where it is ρ",
             ),
             (FOLD, "s_SN  fold: z = 1 ends"),
             (FLIP, "s_PD  flip: the period of z = 1 doubles"),
@@ -234,7 +241,7 @@ impl ClearanceChart<'_> {
             pen.text((left + 50.0, y), LETTERS - 1, Align::Left, text);
             y += 20.0;
             if stroke.width == RESPONSE.width && stroke.dashes.is_none() {
-                let more = "below: z = 1 at that frequency, above resonance";
+                let more = "(lower panel: X′₋ of z = 1 there, above resonance)";
                 pen.text((left + 82.0, y), LETTERS - 1, Align::Left, more);
                 y += 20.0;
             }
@@ -254,7 +261,7 @@ impl ClearanceChart<'_> {
             y: (0.0, 1.0),
         };
         pen.frame(panel.area);
-        let text = "the strip is pierced";
+        let text = "the strip is pierced: Xₘ > ρ + σ";
         pen.words(
             (panel.right() - 8.0, top + 18.0),
             LETTERS - 1,

@@ -19,7 +19,7 @@ const DOT: f64 = 0.65;
 /// Height of the band of numbers above a panel.
 const BAND: f64 = 86.0;
 /// Left and right ends of the columns of zooms, and the height of the panels.
-const COLUMNS: [(f64, f64); 2] = [(80.0, 620.0), (690.0, 1226.0)];
+const COLUMNS: [(f64, f64); 2] = [(76.0, 612.0), (676.0, 1212.0)];
 const HEIGHTS: (f64, f64) = (300.0, 330.0);
 /// Room below a panel.
 const BELOW: f64 = 62.0;
@@ -163,11 +163,11 @@ impl NumberedChart<'_> {
         for (letters, eta) in self.letters.iter().filter(|it| within(zoom.range, it.1)) {
             let x = panel.across(*eta);
             pen.arrow(
-                (x, panel.bottom() - 18.0),
+                (x, panel.bottom() - 13.0),
                 (x, panel.bottom() - 1.0),
                 Stroke::solid(style::INK, 1.0),
             );
-            let place = (x, panel.bottom() - 22.0);
+            let place = (x, panel.bottom() - 16.0);
             pen.words(place, SMALL + 1, Align::Middle, (style::INK, true), letters);
         }
         pen.heading(
@@ -188,7 +188,7 @@ impl NumberedChart<'_> {
         Panel {
             area,
             x: diagram.range,
-            y: (-0.12 * top, 1.12 * top),
+            y: (-0.16 * top, 1.12 * top),
         }
     }
 
@@ -198,6 +198,7 @@ impl NumberedChart<'_> {
         let fleeting = fleeting.filter(|step| step.hardest() > 0.0);
         panel.dots(pen, fleeting.flat_map(dots), 0.8 * DOT, DOWN);
         let isolated = self.isolated.iter();
+        let isolated = isolated.filter(|step| !step.settled.is_unsettled());
         let (up, down) = (diagram.ways[0].rising(), diagram.ways[1].rising());
         let alike: Vec<bool> = up.iter().zip(&down).map(|(a, b)| same(a, b)).collect();
         let of = |steps: &[&Step], wanted: bool| -> Vec<(f64, f64)> {
@@ -205,7 +206,9 @@ impl NumberedChart<'_> {
                 .iter()
                 .zip(&alike)
                 .filter(|(_, alike)| **alike == wanted);
-            own.flat_map(|(step, _)| dots(step)).collect()
+            // What has not settled is on its way from one motion to another.
+            let settled = own.filter(|(step, _)| !step.settled.is_unsettled());
+            settled.flat_map(|(step, _)| dots(step)).collect()
         };
         panel.dots(
             pen,
@@ -287,6 +290,8 @@ fn same(a: &Step, b: &Step) -> bool {
 fn names(pen: &mut Pen, panel: &Panel, diagram: &Diagram) {
     for (eta, velocity, name) in &diagram.names {
         let (x, y) = panel.place((*eta, *velocity));
+        let half = 0.5 * width(LETTERS - 1, name);
+        let x = x.clamp(panel.area.0 + half + 4.0, panel.right() - half - 4.0);
         pen.words(
             (x, y - 7.0),
             LETTERS - 1,

@@ -4,9 +4,11 @@ use super::panel::{Axes, Panel, heading};
 use super::pen::{Align, Pen, Stroke};
 use super::style;
 
+/// Pixels for each unit of length.
+const SCALE: f32 = 2.0;
 const WIDTH: f64 = 1200.0;
 /// Left and right ends of the columns, and the heights of the rows.
-const COLUMNS: [(f64, f64); 2] = [(78.0, 668.0), (742.0, 1184.0)];
+const COLUMNS: [(f64, f64); 2] = [(84.0, 664.0), (756.0, 1172.0)];
 const HEIGHTS: [f64; 2] = [330.0, 330.0];
 const LETTERS: u32 = 14;
 const DOT: f64 = 0.7;
@@ -22,6 +24,8 @@ pub struct StabilityPoint {
     pub velocities: Vec<f64>,
     /// z, if it repeats.
     pub regime: Option<(u64, u64)>,
+    /// False while it is on its way from one motion to another.
+    pub is_settled: bool,
     /// The largest exponent per unit of tau, and the half-width of its 95 % interval.
     pub exponent: (f64, f64),
 }
@@ -42,6 +46,8 @@ pub struct StabilityPart {
 pub struct StabilityChart<'a> {
     /// The whole range, and a part of it.
     pub parts: &'a [StabilityPart; 2],
+    /// z = 1 up to its fold: eta, X'-, exponent.
+    pub branch: &'a [[f64; 3]],
     /// Points to mark on z = 1 in the whole range: name, eta, X'-, exponent.
     pub marks: &'a [(String, [f64; 3])],
     /// How it was made.
@@ -49,8 +55,11 @@ pub struct StabilityChart<'a> {
 }
 
 impl StabilityChart<'_> {
-    /// As drawn shapes.
-    fn draw(&self) -> Pen {
+    /// As PNG.
+    ///
+    /// # Errors
+    /// What the encoder says.
+    pub fn png(&self) -> Result<Vec<u8>, String> {
         let tops = [112.0, 112.0 + HEIGHTS[0] + 24.0];
         let mut pen = Pen::new(WIDTH, tops[1] + HEIGHTS[1] + 58.0);
         let title = "Stability of the motions along ρ = 10: the largest Lyapunov exponent λ";
@@ -79,6 +88,17 @@ impl StabilityChart<'_> {
             diagram.ground(&mut pen, &upper);
             exponents.ground(&mut pen, &lower);
             self.curves(&mut pen, part, &diagram, &exponents);
+            let z_one = Stroke::solid(COLOURS[1], 1.8);
+            let curve = |which: usize| -> Vec<(f64, f64)> {
+                self.branch.iter().map(|at| (at[0], at[which])).collect()
+            };
+            if whole {
+                diagram.curve(&mut pen, &curve(1), z_one);
+                exponents.curve(&mut pen, &curve(2), z_one);
+                let beyond = "chaos, λ > 0: at the right";
+                let place = (exponents.across(1.005), exponents.area.1 + 22.0);
+                pen.words(place, LETTERS - 1, Align::Left, (style::INK, true), beyond);
+            }
             let zero = [(part.range.0, 0.0), (part.range.1, 0.0)];
             exponents.curve(&mut pen, &zero, Stroke::solid(style::INK, 1.0));
             if whole {
@@ -87,20 +107,15 @@ impl StabilityChart<'_> {
             diagram.axes(&mut pen, &upper);
             exponents.axes(&mut pen, &lower);
         }
-        pen
-    }
-
-    /// As SVG.
-    #[must_use]
-    pub fn svg(&self) -> String {
-        self.draw().svg()
+        pen.png_at(SCALE)
     }
 
     fn curves(&self, pen: &mut Pen, part: &StabilityPart, diagram: &Panel, exponents: &Panel) {
         for way in [1, 2, 0] {
-            let own = |point: &&(usize, &StabilityPoint)| point.0 == way;
+            let own = |point: &&(usize, &StabilityPoint)| point.0 == way && point.1.is_settled;
             let points = classed(part);
-            let velocities = points.iter().filter(own).flat_map(|(_, point)| {
+            let own_points = points.iter().filter(own);
+            let velocities = own_points.flat_map(|(_, point)| {
                 let rest = point.velocities.is_empty().then_some(0.0);
                 let all = point.velocities.iter().copied().chain(rest);
                 all.map(|velocity| (point.eta, velocity))

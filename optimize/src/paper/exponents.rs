@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use softstop::continuation::{Adjustable, Parameter};
 use softstop::orbit::{Exponents, Orbit, find};
 use softstop::sweep::{Chain, Direction, Plan, Settled, Step};
+use softstop::zone::{ZoneError, hysteresis};
 use softstop::{MotionError, Ratios};
 
 use super::diagram;
@@ -16,19 +17,19 @@ use crate::progress::Progress;
 /// Lyapunov exponent under the diagram.
 pub(super) const FIGURE: Figure = Figure {
     title: "Lyapunov exponent under the diagram",
-    files: &["exponents.svg", "exponents.csv"],
+    files: &["exponents.png", "exponents.csv"],
     draw,
 };
 
 /// Both ranges of eta, and the exponents that their panels show.
 const PARTS: [((f64, f64), (f64, f64)); 2] =
-    [((0.8, 1.8), (-0.06, 0.08)), ((0.95, 1.0), (-0.06, 0.08))];
+    [((0.8, 1.8), (-0.03, 0.008)), ((0.95, 1.0), (-0.03, 0.09))];
 
 fn draw(detail: Detail) -> Result<Drawn, Failure> {
     let mut jobs = Vec::new();
     for (index, (range, _)) in PARTS.iter().enumerate() {
         let (steps, periods) =
-            detail.pick([(1401, 200), (900, 300)], [(101, 100), (41, 100)])[index];
+            detail.pick([(1401, 200), (900, 200)], [(101, 100), (41, 100)])[index];
         let plan = Plan::new(Parameter::Frequency, *range, steps, periods)
             .map_err(|error| Failure::Run(anyhow!(error)))?;
         let ways = [Direction::Up, Direction::Down];
@@ -44,7 +45,7 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
         .map(|chain| chain.steps.len())
         .sum();
     let progress = Progress::new(steps as u64, "exponents");
-    let batch = detail.pick(60, 4);
+    let batch = detail.pick(40, 4);
     let mut parts = Vec::new();
     for ((_, chains), (range, exponents)) in jobs.iter().zip(PARTS) {
         let ways = [
@@ -60,14 +61,19 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
     let parts: [StabilityPart; 2] = parts
         .try_into()
         .map_err(|_| Failure::usage("two parts are drawn"))?;
-    let summary = Summary::new(&parts[0])?;
+    let branch = branch(detail.pick(400, 80))?;
+    let summary = Summary::new(&parts, &branch)?;
     let chart = StabilityChart {
         parts: &parts,
+        branch: &branch,
         marks: &summary.marks(),
         explanation: explanation(&jobs, batch),
     };
     Ok(Drawn {
-        files: vec![chart.svg().into_bytes(), table(&parts)?],
+        files: vec![
+            chart.png().map_err(|error| Failure::Run(anyhow!(error)))?,
+            table(&parts)?,
+        ],
         findings: summary.findings(),
     })
 }
@@ -106,6 +112,7 @@ fn points(
                 eta: step.value,
                 velocities: step.velocities.clone(),
                 regime: step.settled.regime().map(|it| (it.impacts, it.periods)),
+                is_settled: !step.settled.is_unsettled(),
                 exponent: exponent.map_err(|error| Failure::Run(anyhow!(error)))?,
             })
         })
@@ -126,33 +133,50 @@ fn exponent(mut machine: Ratios, step: &Step, batch: u64) -> Result<(f64, f64), 
     Ok((found.per_second()[0], found.error / found.period))
 }
 
+/// z = 1 from the grazing g0 to its fold, ever denser towards the fold: eta, X'-, exponent.
+fn branch(count: u32) -> Result<Vec<[f64; 3]>, Failure> {
+    let failed = |error: ZoneError| Failure::Run(anyhow!(error));
+    let zone = hysteresis(&Ratios::unloaded()).map_err(failed)?;
+    let shares = (0..=count).map(|index| 1.0 - (1.0 - f64::from(index) / f64::from(count)).powi(3));
+    let at = |share: f64| {
+        let orbit = zone.orbit_at(share).map_err(failed)?;
+        let exponent = Exponents::of(&orbit).per_second()[0];
+        Ok([
+            zone.frequency_at(share),
+            orbit.before_impact_velocity(),
+            exponent,
+        ])
+    };
+    shares
+        .collect::<Vec<f64>>()
+        .into_par_iter()
+        .map(at)
+        .collect()
+}
+
 /// What the figure says about z = 1: eta, X'-, exponent.
 struct Summary {
     point: [f64; 3],
     hardest: [f64; 3],
     most_stable: [f64; 3],
     most_chaotic: Option<[f64; 3]>,
+    /// z = 1 at its fold.
+    fold: [f64; 3],
     /// Exponent of the impact-less motion.
     rest: f64,
 }
 
 impl Summary {
-    fn new(part: &StabilityPart) -> Result<Self, Failure> {
+    fn new(parts: &[StabilityPart], branch: &[[f64; 3]]) -> Result<Self, Failure> {
         let machine = Ratios::unloaded();
         let failed = |error: &dyn std::fmt::Display| Failure::Run(anyhow!("{error}"));
         let scene = machine.scene().map_err(|error| failed(&error))?;
         let orbit = find(&scene).map_err(|error| failed(&error))?;
-        let all: Vec<[f64; 3]> = part.ways.iter().flatten().map(triple).collect();
-        let ones = part
-            .ways
-            .iter()
-            .flatten()
-            .filter(|point| point.regime == Some((1, 1)));
-        let ones: Vec<[f64; 3]> = ones.map(triple).collect();
-        let hardest = ones.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
-        let stable = ones.iter().min_by(|a, b| a[2].total_cmp(&b[2]));
+        let ways = parts.iter().flat_map(|part| &part.ways);
+        let hardest = branch.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
+        let stable = branch.iter().min_by(|a, b| a[2].total_cmp(&b[2]));
         let none = || failed(&"z = 1 was not met");
-        let chaotic = all.into_iter().filter(|it| it[2] > 0.0);
+        let chaotic = ways.flatten().map(triple).filter(|it| it[2] > 0.0);
         Ok(Self {
             point: [
                 machine.frequency,
@@ -162,6 +186,7 @@ impl Summary {
             hardest: *hardest.ok_or_else(none)?,
             most_stable: *stable.ok_or_else(none)?,
             most_chaotic: chaotic.max_by(|a, b| a[2].total_cmp(&b[2])),
+            fold: *branch.last().ok_or_else(none)?,
             rest: -machine.damping,
         })
     }
@@ -169,7 +194,11 @@ impl Summary {
     fn marks(&self) -> Vec<(String, [f64; 3])> {
         let named =
             |name: &str, at: [f64; 3]| (format!("{name}: λ = {:.4}", at[2]).replace('-', "−"), at);
-        vec![named("A", self.point), named("lowest", self.most_stable)]
+        vec![
+            named("A", self.point),
+            named("lowest", self.most_stable),
+            ("λ → 0 at the fold s_SN".to_owned(), self.fold),
+        ]
     }
 
     fn findings(&self) -> Vec<(String, f64)> {

@@ -19,9 +19,8 @@ use crate::progress::Progress;
 
 /// Frequencies within which z = 1 is followed.
 const RANGE: (f64, f64) = (0.7, 1.9);
-/// Clearances of the curves, and how far a curve goes from its own.
+/// Clearances of the curves.
 const CLEARANCES: (f64, f64) = (1.0, 24.5);
-const REACH: f64 = 2.05;
 /// Clearances from one point of g0 to the next.
 const SPACING: f64 = 0.25;
 /// Most points of a branch or a curve in each direction.
@@ -89,7 +88,8 @@ fn ends_of(machine: &Ratios) -> Result<Ends, Box<dyn std::error::Error>> {
         all.filter(move |special| special.kind == SpecialKind::Critical(test))
             .map(|special| &special.point)
     };
-    let fold = of_test(Test::Fold).max_by(|a, b| a.parameter.total_cmp(&b.parameter));
+    let folds = of_test(Test::Fold).filter(|point| point.parameter > grazing[0]);
+    let fold = folds.max_by(|a, b| a.parameter.total_cmp(&b.parameter));
     let flips = of_test(Test::Flip).filter(|point| point.parameter < grazing[0]);
     let flip = flips.max_by(|a, b| a.parameter.total_cmp(&b.parameter));
     let described = |point: Option<&BranchPoint>| -> Result<_, Box<dyn std::error::Error>> {
@@ -144,11 +144,21 @@ pub(super) fn across(
     progress: &Progress,
 ) -> Result<Boundaries, Failure> {
     let follow = |test: Test, pick: fn(&Ends) -> Option<&Critical>| {
-        let pieces = ends.par_iter().map(|end| {
+        let found = ends
+            .iter()
+            .filter_map(|end| Some((end.clearance, &pick(end)?.0)));
+        let found: Vec<(f64, &BranchPoint)> = found.collect();
+        let pieces = (0..found.len()).into_par_iter().map(|index| {
             progress.step()?;
-            let piece =
-                pick(end).map(|(point, _)| piece(machine, end.clearance, (test, point), step));
-            Ok(piece.unwrap_or_default())
+            let (clearance, point) = found[index];
+            let half_way = |other: &(f64, &BranchPoint)| f64::midpoint(clearance, other.0);
+            let before = index.checked_sub(1).map(|before| half_way(&found[before]));
+            let after = found.get(index + 1).map(half_way);
+            let range = (
+                before.unwrap_or(CLEARANCES.0),
+                after.unwrap_or(CLEARANCES.1),
+            );
+            Ok(piece(machine, clearance, (test, point), range, step))
         });
         pieces.collect::<Result<Vec<_>, Failure>>()
     };
@@ -172,11 +182,12 @@ pub(super) fn across(
     })
 }
 
-/// The curve through a special point, as far as the next clearances.
+/// The curve through a special point, within a range of clearances.
 fn piece(
     machine: &Ratios,
     clearance: f64,
     (test, point): (Test, &BranchPoint),
+    range: (f64, f64),
     step: f64,
 ) -> Vec<[f64; 3]> {
     let machine = Ratios {
@@ -185,13 +196,7 @@ fn piece(
         ..*machine
     };
     let region = Region {
-        ranges: [
-            RANGE,
-            (
-                (clearance - REACH).max(CLEARANCES.0),
-                (clearance + REACH).min(CLEARANCES.1),
-            ),
-        ],
+        ranges: [RANGE, range],
         points: POINTS,
         step,
     };

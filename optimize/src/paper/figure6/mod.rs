@@ -4,7 +4,7 @@ mod boundaries;
 
 use anyhow::anyhow;
 use softstop::continuation::Parameter;
-use softstop::sweep::{Chain, Direction, Plan};
+use softstop::sweep::{Chain, Direction, Plan, Step};
 use softstop::{Ratios, orbit};
 
 use super::diagram::{self, Job};
@@ -49,7 +49,7 @@ fn draw(detail: Detail, machine: Ratios, name: &'static str) -> Result<Drawn, Fa
 
     let progress = Progress::new(3 * CLEARANCES.len() as u64, "boundaries");
     let ends = boundaries::ends(&machine, &CLEARANCES, &progress)?;
-    let across = boundaries::across(&machine, &ends, detail.pick(0.004, 0.05), &progress)?;
+    let across = boundaries::across(&machine, &ends, detail.pick(0.02, 0.05), &progress)?;
     let optimum = boundaries::optimum(&machine, &ends);
     let rows: Vec<ClearanceRow> = chains
         .chunks_exact(2)
@@ -57,7 +57,6 @@ fn draw(detail: Detail, machine: Ratios, name: &'static str) -> Result<Drawn, Fa
         .map(|(ways, ends)| ClearanceRow {
             clearance: ends.clearance,
             ways: [ways[0].clone(), ways[1].clone()],
-            fold: ends.fold.as_ref().map(|it| it.1),
         })
         .collect();
     let scene = machine.scene().map_err(|it| failed(&it))?;
@@ -89,7 +88,7 @@ fn draw(detail: Detail, machine: Ratios, name: &'static str) -> Result<Drawn, Fa
             table(&rows)?,
             boundaries::table(&across)?,
         ],
-        findings: findings(&ends, optimum, piercing.as_deref()),
+        findings: findings(&ends, &rows, optimum, piercing.as_deref()),
     })
 }
 
@@ -141,13 +140,24 @@ fn table(rows: &[ClearanceRow]) -> Result<Vec<u8>, Failure> {
     diagram::table(&columns, lines)
 }
 
+/// The step of z = 1 with the highest velocity.
+fn hardest(row: &ClearanceRow) -> Option<&Step> {
+    let steps = row.ways.iter().flat_map(|chain| &chain.steps);
+    let ones = steps.filter(|step| {
+        let regime = step.settled.regime();
+        regime.is_some_and(|it| (it.impacts, it.periods) == (1, 1))
+    });
+    ones.max_by(|a, b| a.hardest().total_cmp(&b.hardest()))
+}
+
 fn findings(
     ends: &[Ends],
+    rows: &[ClearanceRow],
     optimum: Option<(f64, f64)>,
     piercing: Option<&[[Vec<(f64, f64)>; 2]]>,
 ) -> Vec<(String, f64)> {
     let mut findings = Vec::new();
-    for end in ends {
+    for (end, row) in ends.iter().zip(rows) {
         let mut add = |name: &str, value: Option<f64>| {
             if let Some(value) = value {
                 findings.push((format!("{name} at rho = {}", end.clearance), value));
@@ -158,11 +168,14 @@ fn findings(
         add("eta_SN", fold.map(|it| it[0]));
         add("eta_PD", end.flip.as_ref().map(|it| it.1[0]));
         add("velocity at the fold", fold.map(|it| it[2]));
+        let hardest = hardest(row);
+        add("hardest impact of z = 1", hardest.map(Step::hardest));
+        add("eta of the hardest impact", hardest.map(|it| it.value));
         add("hysteresis width", fold.map(|it| it[0] - end.grazing[0]));
     }
     if let Some((clearance, velocity)) = optimum {
-        findings.push(("rho of the hardest impact".to_owned(), clearance));
-        findings.push(("hardest impact".to_owned(), velocity));
+        findings.push(("rho of the hardest impact at a fold".to_owned(), clearance));
+        findings.push(("hardest impact at a fold".to_owned(), velocity));
     }
     for (rows, end) in piercing.into_iter().flatten().zip(ends) {
         for (ranges, way) in rows.iter().zip(["up", "down"]) {

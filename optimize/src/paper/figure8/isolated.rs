@@ -102,7 +102,7 @@ fn job(eta: f64, orbit: &Orbit, way: Direction, detail: Detail) -> Result<Job, F
         Direction::Up => (eta, eta + REACH),
         Direction::Down => (eta - REACH, eta),
     };
-    let (steps, periods) = detail.pick((1500, 300), (60, 100));
+    let (steps, periods) = detail.pick((1000, 200), (60, 100));
     let plan = Plan::new(Parameter::Frequency, range, steps, periods)
         .map_err(|error| Failure::Run(anyhow!(error)))?;
     let start = Start::from(orbit.state());

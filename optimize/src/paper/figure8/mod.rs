@@ -35,10 +35,10 @@ struct Part {
 const WHOLE: Part = part("", table1::RANGE, (2200, 200), (200, 100));
 /// The paper's sub-intervals; (d) without the stretch in which nothing happens.
 const ZOOMS: [Part; 4] = [
-    part("(a)", (0.952_64, 0.952_67), (800, 1000), (40, 400)),
-    part("(b)", (0.9533, 0.9563), (1000, 600), (60, 200)),
-    part("(c)", (0.9825, 0.9935), (1000, 400), (60, 150)),
-    part("(d)", (1.0, 1.05), (800, 200), (60, 100)),
+    part("(a)", (0.952_624, 0.952_67), (700, 800), (40, 200)),
+    part("(b)", (0.9533, 0.9563), (800, 500), (60, 150)),
+    part("(c)", (0.9825, 0.9935), (900, 300), (60, 150)),
+    part("(d)", (1.0, 1.05), (500, 150), (60, 100)),
 ];
 
 const fn part(
@@ -56,7 +56,7 @@ const fn part(
 }
 
 /// Chaos below g0 lasts some thousand drive periods: faster sweeps down, side by side, show it while it lasts.
-const FLEETING: Part = part("", (0.952_64, 0.952_656), (400, 40), (30, 40));
+const FLEETING: Part = part("", (0.952_624, 0.952_656), (600, 40), (30, 40));
 const SIDE_BY_SIDE: usize = 8;
 
 /// Letters of Fig. 9 and their frequencies: those that the text of the paper gives, and our choice within the
@@ -71,27 +71,16 @@ const LETTERS: [(&str, f64); 6] = [
 ];
 
 fn draw(detail: Detail) -> Result<Drawn, Failure> {
-    let parts: Vec<&Part> = std::iter::once(&WHOLE).chain(&ZOOMS).collect();
-    let mut jobs = Vec::new();
-    for part in &parts {
-        jobs.push((plan(part, detail)?, ways()));
-    }
-    jobs.push(fleeting(detail)?);
-    diagram::sweep(&mut jobs, "steps of the sweeps")?;
-    let fleeting = jobs.pop().map_or_else(Vec::new, |job| job.1);
-    let mut diagrams = parts
-        .iter()
-        .zip(jobs)
-        .map(|(part, (_, chains))| diagram(part, chains));
-    let overview = diagrams
-        .next()
-        .ok_or_else(|| Failure::usage("no diagram"))?;
-    let mut zooms: Vec<Diagram> = diagrams.collect();
+    let mut whole = [(plan(&WHOLE, detail)?, WAYS.map(chain).to_vec())];
+    diagram::sweep(&mut whole, "steps of the sweeps")?;
+    let [(_, chains)] = whole;
+    let mut overview = diagram(&WHOLE, chains);
+    let (mut zooms, fleeting) = zooms(&overview, detail)?;
     let known: Vec<&Diagram> = zooms.iter().chain([&overview]).collect();
     let isolated = isolated::find(&known, detail)?;
     zooms[0].fleeting = fleeting;
-    for zoom in &mut zooms {
-        zoom.names = names::of(zoom, &isolated);
+    for diagram in zooms.iter_mut().chain([&mut overview]) {
+        diagram.names = names::of(diagram, &isolated);
     }
     let rules = rules(detail);
     // A first look numbers the last two alone.
@@ -139,12 +128,43 @@ fn plan(part: &Part, detail: Detail) -> Result<Plan, Failure> {
         .map_err(|error| Failure::Run(anyhow!(error)))
 }
 
-fn ways() -> Vec<Chain<Ratios>> {
-    let machine = Ratios::unloaded();
-    vec![
-        Chain::new(machine, Direction::Up),
-        Chain::new(machine, Direction::Down),
-    ]
+const WAYS: [Direction; 2] = [Direction::Up, Direction::Down];
+
+fn chain(way: Direction) -> Chain<Ratios> {
+    Chain::new(Ratios::unloaded(), way)
+}
+
+/// The zooms, each way going on from where the sweep over all frequencies is at their ends, and the chaos
+/// that does not last.
+fn zooms(
+    overview: &Diagram,
+    detail: Detail,
+) -> Result<(Vec<Diagram>, Vec<Chain<Ratios>>), Failure> {
+    let mut jobs = Vec::new();
+    for zoom in &ZOOMS {
+        let plan = plan(zoom, detail)?;
+        for (way, sweep) in WAYS.into_iter().zip(&overview.ways) {
+            let rising = sweep.rising();
+            let before = match way {
+                Direction::Up => rising.iter().rfind(|step| step.value <= zoom.range.0),
+                Direction::Down => rising.iter().find(|step| step.value >= zoom.range.1),
+            };
+            let start = before.map_or(plan.start, |step| step.end);
+            let plan = Plan {
+                start,
+                ..plan.clone()
+            };
+            jobs.push((plan, vec![chain(way)]));
+        }
+    }
+    jobs.push(fleeting(detail)?);
+    diagram::sweep(&mut jobs, "steps of the zooms")?;
+    let fleeting = jobs.pop().map_or_else(Vec::new, |job| job.1);
+    let mut chains = jobs.into_iter().flat_map(|job| job.1);
+    let zooms = ZOOMS
+        .iter()
+        .map(|zoom| diagram(zoom, chains.by_ref().take(2).collect()));
+    Ok((zooms.collect(), fleeting))
 }
 
 /// Sweeps down from chaos. Their machines differ by rounding only, so that the motions part.
@@ -195,8 +215,8 @@ fn explanation(detail: Detail) -> String {
         })
         .collect();
     format!(
-        "Peterka 2003, Fig. 8 and Table 1. Sweeps up and down from rest: {steps} frequencies × {periods} drive \
-         periods; zooms {}",
+        "Peterka 2003, Fig. 8 and Table 1. Sweeps up and down: {steps} frequencies × {periods} drive periods; \
+         zooms {}",
         zooms.join(", ")
     )
 }

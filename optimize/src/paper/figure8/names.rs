@@ -7,7 +7,7 @@ use softstop::sweep::Step;
 use crate::chart::Diagram;
 
 /// Share of the range that a motion has to fill to be named.
-const LEAST: f64 = 0.04;
+const LEAST: f64 = 0.02;
 
 /// Each motion once: eta, X'- and its name, in the middle of its longest stretch.
 pub(super) fn of(diagram: &Diagram, isolated: &[Step]) -> Vec<(f64, f64, String)> {
