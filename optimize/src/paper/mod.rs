@@ -4,6 +4,7 @@
 
 mod basins;
 mod certainty;
+mod diagram;
 mod exponents;
 mod figure6;
 mod figure7;

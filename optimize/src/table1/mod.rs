@@ -1,6 +1,6 @@
 //! `softstop table1`: the paper's Table 1, found anew.
 
-mod matching;
+pub(crate) mod matching;
 pub mod paper;
 mod picture;
 pub mod report;
