@@ -11,9 +11,12 @@ mod fidelity;
 mod heat;
 mod loops;
 mod motion;
+mod motions;
+mod panel;
 mod pen;
 mod precision;
 mod regimes;
+mod stroke;
 mod style;
 mod sweep;
 
@@ -23,8 +26,10 @@ pub use continuation::{BranchChart, CurveChart};
 pub use fidelity::{Candidate, FidelityChart, FidelityPicture};
 pub use loops::Loops;
 pub use motion::{Drawing, MotionChart};
+pub use motions::{MotionPage, MotionRow};
 pub use precision::PrecisionChart;
 pub use regimes::{RegimeChart, RegimeRow, Strip};
+pub use stroke::{StrokeChart, StrokePoint};
 pub use sweep::SweepChart;
 
 use kuva::backend::svg::SvgBackend;

@@ -12,6 +12,7 @@ mod figure9;
 mod hardening;
 mod regimes;
 mod report;
+mod table;
 
 use std::path::PathBuf;
 use std::time::Instant;
