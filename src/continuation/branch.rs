@@ -82,7 +82,8 @@ const SHORTEST_LOOP: usize = 8;
 
 impl<F: Family> Follower<'_, F> {
     /// The branch through the orbit near a state, towards falling and rising parameters, with every
-    /// fold, flip, Neimark-Sacker point and grazing on it. `watch` sees each point as it comes.
+    /// fold, flip, Neimark-Sacker point and grazing on it. `watch` sees each point as it comes, and the last
+    /// one again whenever the next one was not reached by a step.
     ///
     /// # Errors
     /// [`OrbitError`] if there is no orbit to start from.
@@ -173,7 +174,7 @@ impl<F: Family> Follower<'_, F> {
         let mut crawled = 0;
         while way.points.len() < limits.points {
             if crawled > LONGEST_CRAWL {
-                way.end = End::Lost(OrbitError::Diverged { residual: f64::NAN });
+                self.give_up(&mut way, &walker, &approach, limits, UNSTABLE);
                 return Ok(way);
             }
             let stride = walker.attempt().and_then(|stride| {
@@ -197,24 +198,45 @@ impl<F: Family> Follower<'_, F> {
                     }
                 }
                 refused => {
-                    if let Some(special) = self.graze_ahead(&walker, &approach) {
-                        way.points.push(special.point.clone());
-                        way.specials.push(special);
-                        way.end = End::Grazing;
+                    if watch(&self.point_at(&walker.node)).is_break() {
+                        way.end = End::Stopped;
+                        return Ok(way);
+                    }
+                    if !self.is_gentle(&walker.node)
+                        && way.grazes(self.graze_ahead(&walker, &approach))
+                    {
                         return Ok(way);
                     }
                     if !walker.shorten() {
-                        way.end = End::Lost(
-                            refused
-                                .err()
-                                .unwrap_or(OrbitError::Diverged { residual: f64::NAN }),
-                        );
+                        let error = refused.err().unwrap_or(UNSTABLE);
+                        self.give_up(&mut way, &walker, &approach, limits, error);
                         return Ok(way);
                     }
                 }
             }
         }
         Ok(way)
+    }
+
+    /// Ends a branch that cannot be followed any farther: in the grazing just ahead, at the end of the range just
+    /// ahead (of values that no machine can have beyond), or lost.
+    fn give_up(
+        &self,
+        way: &mut Way,
+        walker: &Walker<'_, Shooting<'_, F, 1>>,
+        approach: &Approach,
+        limits: &Limits,
+        error: OrbitError,
+    ) {
+        if way.grazes(self.graze_ahead(walker, approach)) {
+            return;
+        }
+        if let Some(node) = self.bound_at(&walker.node, limits) {
+            way.points.push(self.point_at(&node));
+            way.end = End::Range;
+            return;
+        }
+        way.end = End::Lost(error);
     }
 
     /// True if nothing can be missed on a step.
@@ -246,7 +268,7 @@ impl<F: Family> Follower<'_, F> {
         walker: &Walker<'_, Shooting<'_, F, 1>>,
         approach: &Approach,
     ) -> Option<Special> {
-        if walker.step > CLOSE || self.is_gentle(&walker.node) {
+        if walker.step > CLOSE {
             return None;
         }
         approach.grazes(&self.shooting).into_iter().find(|special| {
@@ -289,7 +311,21 @@ impl<F: Family> Follower<'_, F> {
     }
 }
 
+/// No step is short enough.
+const UNSTABLE: OrbitError = OrbitError::Diverged { residual: f64::NAN };
+
 impl Way {
+    /// Ends in a grazing; false if there is none.
+    fn grazes(&mut self, special: Option<Special>) -> bool {
+        let Some(special) = special else {
+            return false;
+        };
+        self.points.push(special.point.clone());
+        self.specials.push(special);
+        self.end = End::Grazing;
+        true
+    }
+
     fn none() -> Self {
         Self {
             points: Vec::new(),

@@ -1,10 +1,13 @@
 //! A drawing of plain shapes, for charts that are no plot of curves.
 
+mod ink;
+
 use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 
 use super::style;
+pub(super) use ink::{Stroke, width};
 
 /// Width of the line and of the light rim that tells it from dark grounds.
 const LINE: (f64, f64) = (1.6, 3.6);
