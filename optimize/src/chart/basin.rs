@@ -68,7 +68,7 @@ impl<'a> BasinPicture<'a> {
         self.draw(&mut pen, (MARGINS.0, MARGINS.1, width, height), LETTERS);
         let place = (MARGINS.0 + width + 24.0, MARGINS.1 + 12.0);
         self.legend(&mut pen, place, LETTERS);
-        pen.png(SCALE)
+        pen.png_at(SCALE)
     }
 
     pub(super) fn title(&self) -> &str {
@@ -248,6 +248,6 @@ impl BasinPage<'_> {
             let place = (left + GRID + 22.0, top + 16.0);
             picture.legend(&mut pen, place, PAGE_LETTERS);
         }
-        pen.png(SCALE)
+        pen.png_at(SCALE)
     }
 }

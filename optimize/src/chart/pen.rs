@@ -190,7 +190,7 @@ impl Pen {
     }
 
     /// As pixels, so many for each unit of length.
-    pub(super) fn png(&self, scale: f32) -> Result<Vec<u8>, String> {
+    pub(super) fn png_at(&self, scale: f32) -> Result<Vec<u8>, String> {
         PngBackend::new()
             .with_scale(scale)
             .render_scene(&self.scene)

@@ -269,7 +269,7 @@ impl RegimePage {
             panel.draw(&mut pen, index, (left, top));
         }
         self.table(&mut pen, table, &classes);
-        pen.png(SCALE)
+        pen.png_at(SCALE)
     }
 
     /// The classes that there are.
@@ -349,11 +349,11 @@ impl RegimePanel {
     }
 }
 
-/// Dashes of a boundary.
-fn dashes(name: &str) -> Option<&'static str> {
+/// Dashes of a boundary and the gaps between them.
+fn dashes(name: &str) -> Option<(f64, f64)> {
     match name {
-        "g₀" => Some("3 4"),
-        "s_PD" => Some("10 5"),
+        "g₀" => Some((3.0, 4.0)),
+        "s_PD" => Some((9.0, 5.0)),
         _ => None,
     }
 }

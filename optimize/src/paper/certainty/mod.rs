@@ -37,9 +37,9 @@ const REGIONS: [Starts; 4] = [
 /// Their colours: that of clearance 10 where the region is the usual one.
 const REGION_COLORS: [usize; 4] = [5, 7, MIDDLE, 6];
 /// Cells on each side of the region.
-const CELLS: [usize; 2] = [56, 24];
+const CELLS: [usize; 2] = [52, 24];
 /// Places of the zone between its ends; at the ends themselves one of the motions is not stable.
-const STEPS: [usize; 2] = [16, 8];
+const STEPS: [usize; 2] = [20, 8];
 const ENDS: [f64; 3] = [0.001, 0.01, 0.025];
 
 /// Places from near g0 to near s_SN, closer at the ends.

@@ -35,8 +35,12 @@ const ZOOM: Window = Window {
     eta: (0.9, 1.02),
     rho: (4.0, 24.0),
 };
-/// Cells across and up, for print and for a first look.
-const CELLS: [(usize, usize); 2] = [(600, 400), (120, 80)];
+/// Cells across and up, for print and for a first look: whole pixels each. The loaded machine costs more.
+const FREE: [(usize, usize); 2] = [(400, 400), (100, 80)];
+const NEAR: [(usize, usize); 2] = [(600, 400), (120, 80)];
+const LOADED: [(usize, usize); 2] = [(300, 200), (60, 40)];
+/// Those of the map of hardest motions.
+const MANY: [(usize, usize); 2] = [(240, 160), (60, 40)];
 /// Drive periods at each frequency.
 const PERIODS: u64 = 120;
 /// Starts at each cell of the map of hardest motions.
@@ -66,8 +70,7 @@ fn middle((from, to): (f64, f64), cell: usize, cells: usize) -> f64 {
 }
 
 fn draw(detail: Detail) -> Result<Drawn, Failure> {
-    let size = detail.pick(CELLS[0], CELLS[1]);
-    let (maps, boundaries) = rayon::join(|| maps(size), boundaries);
+    let (maps, boundaries) = rayon::join(|| maps(detail), boundaries);
     let (maps, boundaries) = (maps?, boundaries?);
     let findings = findings::of(&maps, &boundaries);
     let tables = [table::runs(&maps)?, table::boundaries(&boundaries)?];
@@ -81,10 +84,12 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
     })
 }
 
-/// The maps. Those of many starts and of the loaded machine are half as fine.
-fn maps(size: (usize, usize)) -> Result<[RegimeMap; 6], Failure> {
-    let coarse = (size.0 / 2, size.1 / 2);
-    let work = 3 * size.0 * size.1 + coarse.0 * coarse.1 * (STARTS + 2);
+/// The maps.
+fn maps(detail: Detail) -> Result<[RegimeMap; 6], Failure> {
+    let [all, near, many, less] =
+        [FREE, NEAR, MANY, LOADED].map(|[full, draft]| detail.pick(full, draft));
+    let cells = |size: (usize, usize)| size.0 * size.1;
+    let work = 2 * cells(all) + cells(near) + STARTS * cells(many) + 2 * cells(less);
     let progress = Progress::new(work as u64, "motions");
     let swept = |machine, window, way, size| {
         let sweep = Sweep {
@@ -97,12 +102,12 @@ fn maps(size: (usize, usize)) -> Result<[RegimeMap; 6], Failure> {
     };
     let (free, loaded) = (Ratios::unloaded(), Ratios::loaded());
     Ok([
-        swept(free, ALL, Direction::Up, size)?,
-        swept(free, ALL, Direction::Down, size)?,
-        swept(free, ZOOM, Direction::Up, size)?,
-        starts::hardest(&free, ZOOM, coarse, STARTS, &progress)?,
-        swept(loaded, ALL, Direction::Up, coarse)?,
-        swept(loaded, ALL, Direction::Down, coarse)?,
+        swept(free, ALL, Direction::Up, all)?,
+        swept(free, ALL, Direction::Down, all)?,
+        swept(free, ZOOM, Direction::Up, near)?,
+        starts::hardest(&free, ZOOM, many, STARTS, &progress)?,
+        swept(loaded, ALL, Direction::Up, less)?,
+        swept(loaded, ALL, Direction::Down, less)?,
     ])
 }
 
