@@ -54,7 +54,7 @@ pub fn json(value: &impl Serialize) -> Result<String, Failure> {
 ///
 /// # Errors
 /// [`Failure::Run`] if a row cannot be written.
-pub fn csv(rows: &[impl Serialize]) -> Result<Vec<u8>, Failure> {
+pub fn csv(rows: impl IntoIterator<Item = impl Serialize>) -> Result<Vec<u8>, Failure> {
     let mut table = csv::Writer::from_writer(Vec::new());
     for row in rows {
         table.serialize(row).context("cannot write a table")?;

@@ -14,7 +14,7 @@ mod hardening;
 mod regimes;
 mod report;
 mod supply;
-mod table;
+mod table1;
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -152,7 +152,7 @@ impl Subject {
             Self::PointB => &figure7::POINT_B,
             Self::Diagram => &figure8::FIGURE,
             Self::Motions => &figure9::FIGURE,
-            Self::Table => &table::FIGURE,
+            Self::Table => &table1::FIGURE,
             Self::Regimes => &regimes::FIGURE,
             Self::Exponents => &exponents::FIGURE,
             Self::Basins => &basins::FIGURE,
