@@ -18,7 +18,7 @@ fn findings(figure: &str, folder: &Path) -> Result<Value, Box<dyn std::error::Er
     let report: Value = serde_json::from_slice(&output.stdout)?;
     for file in report["figures"][0]["files"].as_array().ok_or("no files")? {
         let file = file.as_str().ok_or("no name")?;
-        assert!(std::fs::metadata(file)?.len() > 100, "{file} is empty");
+        assert!(std::fs::metadata(file)?.len() > 50, "{file} is empty");
     }
     Ok(report["figures"][0]["findings"].clone())
 }
