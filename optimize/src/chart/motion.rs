@@ -157,7 +157,7 @@ impl MotionChart {
 
 /// Tints of Okabe and Ito's colours for the phases, grey for a mass at rest; free flight stays
 /// white.
-const fn color(kind: PhaseKind) -> Option<&'static str> {
+pub(super) const fn color(kind: PhaseKind) -> Option<&'static str> {
     match kind {
         PhaseKind::Free => None,
         PhaseKind::Pierce => Some("#F4D48C"),
