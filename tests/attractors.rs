@@ -111,7 +111,7 @@ fn three_motions_coexist_and_the_order_of_impacts_differs() {
 
 #[test]
 fn the_half_order_motion_gives_way_to_chaos_at_its_flip() {
-    // The flip of z = 1/2 is at 0.9884956: at 0.9885 it is still the attractor, by little.
+    // The flip of z = 1/2 is at 0.9884970: at 0.9885 it is still the attractor, by little.
     let above = survey(&unloaded(0.9885));
     assert_eq!(names(&above), ["1-0", "1-1-0", "1-1-0-0"]);
     let half = above.attractors.iter().find_map(|found| match &found.kind {

@@ -48,7 +48,7 @@ fn the_coexisting_motions_of_four_frequencies_are_found() -> Outcome {
         ("0.9526475", &["0", "transient-chaos"]),
         ("0.95365", &["1-0-0-0-0-0-0-0-0-0", "chaos"]),
         ("0.9875", &["1-1-0", "1-1-0-0", "chaos"]),
-        // Of (2/4)A the z = 1/2 that it doubles from: its flip is at 0.9884956.
+        // Of (2/4)A the z = 1/2 that it doubles from: its flip is at 0.9884970.
         ("0.9885", &["1-0", "1-1-0", "1-1-0-0"]),
     ];
     for (frequency, expected) in cases {

@@ -2,7 +2,9 @@
 //!
 //! States of two logs of one motion mix: the nearest other state belongs to either log equally often, however thin
 //! or wide the set is that they fill (the nearest-neighbour test for two samples, Schilling 1986). States of
-//! two motions apart from each other have all their nearest neighbours in their own log.
+//! two motions apart from each other have all their nearest neighbours in their own log. Where a motion is nearly
+//! periodic for long (intermittency), each log is a few slow strands, and neighbours are those next on the strand:
+//! there the strands of one motion share the cells of a grid. Either is enough.
 
 use crate::integrator::Start;
 
@@ -10,6 +12,11 @@ use crate::integrator::Start;
 /// to one motion. It is 0.5 on average for one motion; with logs of 129 states its standard deviation is 0.05,
 /// more where states follow each other closely. It is 0 for motions apart.
 const MIXED: f64 = 0.1;
+
+/// Cells across the plane.
+const CELLS: f64 = 100.0;
+/// Share of the larger set of cells that two logs of one motion have in common at least.
+const COMMON: f64 = 0.1;
 
 /// A state in units of the plane's size.
 type Place = [f64; 2];
@@ -22,6 +29,7 @@ pub(super) fn groups(logs: &[&[Start]]) -> Vec<usize> {
         .iter()
         .map(|log| log.iter().map(place).collect())
         .collect();
+    let cells: Vec<Vec<(i64, i64)>> = places.iter().map(|log| cells(log)).collect();
     let own: Vec<Vec<f64>> = places.iter().map(|log| gaps_within(log)).collect();
     let mut group: Vec<usize> = (0..logs.len()).collect();
     for index in 0..logs.len() {
@@ -30,7 +38,7 @@ pub(super) fn groups(logs: &[&[Start]]) -> Vec<usize> {
                 continue;
             }
             let pair = [index, other].map(|at| (places[at].as_slice(), own[at].as_slice()));
-            if are_mixed(pair) {
+            if share_cells(&cells[index], &cells[other]) || are_mixed(pair) {
                 let (kept, gone) = (group[other], group[index]);
                 for member in &mut group {
                     if *member == gone {
@@ -67,6 +75,23 @@ fn gaps_within(log: &[Place]) -> Vec<f64> {
         squares.fold(f64::INFINITY, f64::min)
     };
     (0..log.len()).map(gap).collect()
+}
+
+/// The cells of a log, in order.
+fn cells(log: &[Place]) -> Vec<(i64, i64)> {
+    let cell = |place: &Place| {
+        let [x, v] = place.map(|part| (CELLS * part).floor() as i64);
+        (x, v)
+    };
+    let mut cells: Vec<(i64, i64)> = log.iter().map(cell).collect();
+    cells.sort_unstable();
+    cells.dedup();
+    cells
+}
+
+fn share_cells(a: &[(i64, i64)], b: &[(i64, i64)]) -> bool {
+    let common = a.iter().filter(|cell| b.binary_search(cell).is_ok());
+    common.count() as f64 >= COMMON * a.len().max(b.len()) as f64
 }
 
 /// True if enough places of two logs have their nearest neighbour in the other one.

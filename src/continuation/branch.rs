@@ -5,14 +5,13 @@ use std::ops::ControlFlow;
 use nalgebra::{DVector, Vector2};
 
 use super::Family;
-use super::arclength::{self, Node, Stride, Walker};
+use super::arclength::{self, Node, Walker};
+use super::caution::SHORT;
 use super::detect::passes_by;
 use super::follower::{Follower, Heading, WIDTH};
 use super::graze::Approach;
 use super::point::{BranchPoint, Special};
-use super::round::{Round, grazes_gently};
-use super::shooting::Shooting;
-use super::test::Test;
+use super::round::Round;
 use crate::orbit::OrbitError;
 
 /// How far a branch is followed.
@@ -57,22 +56,12 @@ pub struct Branch {
 }
 
 /// One direction of a branch, its start left out.
-struct Way {
-    points: Vec<BranchPoint>,
-    specials: Vec<Special>,
-    end: End,
+pub(super) struct Way {
+    pub(super) points: Vec<BranchPoint>,
+    pub(super) specials: Vec<Special>,
+    pub(super) end: End,
 }
 
-/// Largest change of a test function per step.
-const LARGEST_CHANGE: f64 = 0.3;
-/// Smallest share that a step may leave of the distance to grazing, while that is more than `NEAR`
-/// (scaled).
-const SHARE_LEFT: f64 = 0.3;
-const NEAR: f64 = 1e-4;
-/// Length of the steps up to which a grazing orbit is looked for ahead: nothing else is on so short a way.
-const CLOSE: f64 = 1e-3;
-/// Length of the steps from which on all changes are taken.
-const SHORT: f64 = 1e-5;
 /// Steps shorter than that in a row after which an orbit is too unstable to be followed.
 const LONGEST_CRAWL: usize = 60;
 /// Scaled distance within which an orbit repeats.
@@ -218,67 +207,6 @@ impl<F: Family> Follower<'_, F> {
         Ok(way)
     }
 
-    /// Ends a branch that cannot be followed any farther: in the grazing just ahead, at the end of the range just
-    /// ahead (of values that no machine can have beyond), or lost.
-    fn give_up(
-        &self,
-        way: &mut Way,
-        walker: &Walker<'_, Shooting<'_, F, 1>>,
-        approach: &Approach,
-        limits: &Limits,
-        error: OrbitError,
-    ) {
-        if way.grazes(self.graze_ahead(walker, approach)) {
-            return;
-        }
-        if let Some(node) = self.bound_at(&walker.node, limits) {
-            way.points.push(self.point_at(&node));
-            way.end = End::Range;
-            return;
-        }
-        way.end = End::Lost(error);
-    }
-
-    /// True if nothing can be missed on a step.
-    fn may_take(
-        &self,
-        walker: &Walker<'_, Shooting<'_, F, 1>>,
-        stride: &Stride<Round>,
-        (now, ahead): (&Approach, &Approach),
-    ) -> bool {
-        let (from, to) = (&walker.node.here.point, &stride.node.here.point);
-        let same = from.sequence == to.sequence;
-        if walker.step < SHORT {
-            return same;
-        }
-        let gentle = self.is_gentle(&stride.node);
-        let change = |test: Test| (test.value(&from.monodromy) - test.value(&to.monodromy)).abs();
-        Test::ALL.iter().all(|test| change(*test) < LARGEST_CHANGE)
-            && (gentle || (same && ahead.leaves(now, SHARE_LEFT, NEAR)))
-    }
-
-    fn is_gentle(&self, node: &Node<Round>) -> bool {
-        let scene = self.shooting.scene(&node.at);
-        scene.is_ok_and(|scene| grazes_gently(&scene))
-    }
-
-    /// The grazing within the next step, if there is one.
-    fn graze_ahead(
-        &self,
-        walker: &Walker<'_, Shooting<'_, F, 1>>,
-        approach: &Approach,
-    ) -> Option<Special> {
-        if walker.step > CLOSE {
-            return None;
-        }
-        approach.grazes(&self.shooting).into_iter().find(|special| {
-            let point = &special.point;
-            let at = self.shooting.scaled(point.state(), [point.parameter]);
-            let way = at - &walker.node.at;
-            way.norm() < 2.0 * walker.step && way.dot(&walker.direction) > 0.5 * way.norm()
-        })
-    }
-
     /// Adds the end of a step and the special points on it; says why the branch ends there, if it does.
     fn record(
         &self,
@@ -316,7 +244,7 @@ const UNSTABLE: OrbitError = OrbitError::Diverged { residual: f64::NAN };
 
 impl Way {
     /// Ends in a grazing; false if there is none.
-    fn grazes(&mut self, special: Option<Special>) -> bool {
+    pub(super) fn grazes(&mut self, special: Option<Special>) -> bool {
         let Some(special) = special else {
             return false;
         };

@@ -33,7 +33,7 @@ pub use basin::{BasinPage, BasinPicture};
 pub use certainty::{
     CertaintyChart, CertaintyCurve, CertaintyPage, CertaintyPanel, CertaintyPoint,
 };
-pub use clearances::{Boundaries, ClearanceChart, ClearanceRow};
+pub use clearances::{Boundaries, ClearanceChart, ClearanceRow, Ranges};
 pub use continuation::{BranchChart, CurveChart};
 pub use fidelity::{Candidate, FidelityChart, FidelityPicture};
 pub use loops::Loops;

@@ -1,6 +1,7 @@
 //! The results as tables and JSON.
 
 use serde::Serialize;
+use softstop::MotionError;
 use softstop::continuation::{
     Branch, BranchPoint, Curve, CurveEnd, CurvePoint, End, Special, SpecialKind,
 };
@@ -109,6 +110,7 @@ fn end(end: &End) -> String {
 /// Why something cannot be followed any farther.
 fn lost(error: &OrbitError) -> String {
     match error {
+        OrbitError::Motion(MotionError::Scene(_)) => "no machine is beyond".to_owned(),
         OrbitError::Motion(error) => format!("beyond, {error}"),
         _ => "no step is short enough to follow it any farther".to_owned(),
     }

@@ -28,7 +28,7 @@ pub(super) const FIGURE: Figure = Figure {
 /// Mean lengths of runs with and without strips, in drive periods.
 const RUNS: [f64; 3] = [2.0, 5.0, 25.0];
 /// Drive periods for which a motion settles in the end, and in which its impacts are counted then.
-const CLOSE: (usize, usize) = (400, 64);
+const CLOSE: (usize, usize) = (250, 64);
 /// Shares of the range from g0 to the loaded machine's fold, that fold being 1; the unloaded one's lies beyond.
 const SHARES: (f64, f64) = (0.02, 1.1);
 
@@ -131,7 +131,7 @@ fn survey(
         .iter()
         .flat_map(|mean| etas.iter().map(move |eta| (*eta, *mean)))
         .collect();
-    let (motions, periods) = detail.pick((96, 600), (16, 300));
+    let (motions, periods) = detail.pick((64, 400), (16, 200));
     let outcome = |&(eta, mean): &(f64, f64)| {
         let press = Press::new(clearance, eta, eta < zones.loaded)?;
         let mut outcome = Outcome {

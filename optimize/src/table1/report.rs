@@ -162,12 +162,14 @@ fn succession(transition: &Transition) -> Vec<String> {
 /// Why the paper's figure is another.
 fn reason(row: &PaperRow, transition: &Transition, gap: f64) -> Option<String> {
     if transition.causes[..] == [Cause::OutOfChaos] {
-        let slow = if (gap > 0.0) == transition.rising {
-            "a shorter"
+        let time = if (gap > 0.0) == transition.rising {
+            "longer"
         } else {
-            "a longer"
+            "shorter"
         };
-        return Some(format!("the paper's run gave chaos {slow} time to settle"));
+        return Some(format!(
+            "as a run that gives chaos a {time} time to settle would have it"
+        ));
     }
     let is_last = |settled: f64| (settled - row.eta).abs() <= ROUNDING;
     if transition.settled_at.is_some_and(is_last) {

@@ -24,11 +24,11 @@ const AROUND: (usize, usize) = (20, 60);
 const RETURN: f64 = 1e-2;
 
 impl Swept {
-    /// The sweep whose steps are of about this size, in the direction of the transition. None if the first
+    /// The sweep whose steps are the power of ten below this size, in the direction of the transition. None if the first
     /// motion does not repeat or is not lost on the way.
     #[must_use]
     pub fn over(transition: &Transition, size: f64) -> Option<Self> {
-        let step = 10_f64.powf(size.abs().log10().round());
+        let step = 10_f64.powf(size.abs().log10().floor());
         let mut chain = Chain::new(Ratios::unloaded(), direction(transition));
         let plan = plan(transition, step)?;
         let chains = std::slice::from_mut(&mut chain);

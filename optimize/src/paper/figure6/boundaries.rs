@@ -14,6 +14,7 @@ use softstop::{Ratios, Scene};
 
 use crate::chart::Boundaries;
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::paper::diagram;
 use crate::progress::Progress;
 
@@ -22,9 +23,10 @@ const RANGE: (f64, f64) = (0.7, 1.9);
 /// Clearances of the curves.
 const CLEARANCES: (f64, f64) = (1.0, 24.5);
 /// Clearances from one point of g0 to the next.
-const SPACING: f64 = 0.25;
-/// Most points of a branch or a curve in each direction.
+const SPACING: f64 = 0.5;
+/// Most points of a branch and of a curve in each direction: a curve that comes to an orbit that grazes creeps.
 const POINTS: usize = 4000;
+const CURVE_POINTS: usize = 300;
 /// Width to which the best clearance is found.
 const WIDTH: f64 = 1e-3;
 
@@ -77,10 +79,13 @@ fn ends_of(machine: &Ratios) -> Result<Ends, Box<dyn std::error::Error>> {
         range: RANGE,
         points: POINTS,
     };
-    // Unstable stretches between two folds are passed over: the last fold counts.
-    let watch = |point: &BranchPoint| match point.fold_test() < -1.0 {
-        true => ControlFlow::Break(()),
-        false => ControlFlow::Continue(()),
+    // Unstable stretches between two folds are passed over: the last fold counts. The first flip is the end.
+    let watch = |point: &BranchPoint| {
+        let is_flipped = !point.is_stable() && point.fold_test() > 0.0;
+        match is_flipped || point.fold_test() < -1.0 {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
     };
     let branch = Follower::new(&family, 1).branch(grazing[0], state, &limits, watch)?;
     let of_test = |test: Test| {
@@ -197,7 +202,7 @@ fn piece(
     };
     let region = Region {
         ranges: [RANGE, range],
-        points: POINTS,
+        points: CURVE_POINTS,
         step,
     };
     let Ok(family) = Along::new(machine, [Parameter::Frequency, Parameter::Clearance]) else {
@@ -205,9 +210,11 @@ fn piece(
     };
     let start = (SpecialKind::Critical(test), point);
     let parameters = [point.parameter, clearance];
-    let found = curve(&family, 1, start, parameters, &region, |_| {
-        ControlFlow::Continue(())
-    });
+    let watch = |_: &_| match interrupt::requested() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
+    let found = curve(&family, 1, start, parameters, &region, watch);
     let described = |curve: Curve| {
         let points = curve.points.iter().filter_map(|at| {
             let scene = family.scene(at.parameters).ok()?;
