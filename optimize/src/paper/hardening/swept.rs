@@ -1,0 +1,97 @@
+//! Sweeps of many stops along the frequency, up and down.
+
+use anyhow::anyhow;
+use softstop::continuation::Parameter;
+use softstop::sweep::{Chain, Direction, Plan, Settled, Step};
+
+use super::stops::Law;
+use crate::chart::StopRegime;
+use crate::continuation::model::Model;
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::progress::Progress;
+
+/// The frequencies eta.
+pub(super) const RANGE: (f64, f64) = (0.5, 1.7);
+
+/// The way up and the way down of a stop, both in rising order of frequency.
+pub(super) struct Swept {
+    pub(super) law: Law,
+    pub(super) up: Vec<Step>,
+    pub(super) down: Vec<Step>,
+}
+
+/// Sweeps of stops: so many frequencies, and drive periods at each.
+pub(super) fn sweep(laws: &[Law], steps: usize, periods: u64) -> Result<Vec<Swept>, Failure> {
+    let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods);
+    let plan = plan.map_err(|error| anyhow!(error))?;
+    let chain = |(law, direction): (&Law, Direction)| {
+        let model = Model::Scene(Box::new(law.scene(RANGE.0)));
+        Chain::new(model, direction)
+    };
+    let ways = |law| [(law, Direction::Up), (law, Direction::Down)];
+    let mut chains: Vec<Chain<Model>> = laws.iter().flat_map(ways).map(chain).collect();
+    let progress = Progress::new((chains.len() * steps) as u64, "steps of the stops' sweeps");
+    let go_on = |done| {
+        progress.more(done);
+        !interrupt::requested()
+    };
+    if !plan.run(&mut chains, &go_on) {
+        return Err(Failure::Interrupted);
+    }
+    let swept = laws.iter().zip(chains.chunks_exact(2)).map(|(law, pair)| {
+        for chain in pair {
+            if let Some(error) = &chain.error {
+                return Err(anyhow!("{}: {error}", law.name()).into());
+            }
+        }
+        let rising = |chain: &Chain<Model>| chain.rising().into_iter().cloned().collect();
+        Ok(Swept {
+            law: *law,
+            up: rising(&pair[0]),
+            down: rising(&pair[1]),
+        })
+    });
+    swept.collect()
+}
+
+/// The kind of motion of a step.
+pub(super) fn regime(step: &Step) -> StopRegime {
+    if step.velocities.is_empty() {
+        return StopRegime::None;
+    }
+    match step.settled {
+        Settled::Periodic(regime) => match (regime.impacts, regime.periods) {
+            (1, 1) => StopRegime::One,
+            (1, 2) => StopRegime::Half,
+            (impacts, periods) if impacts == periods => StopRegime::Split,
+            _ => StopRegime::Other,
+        },
+        Settled::Chaotic { .. } => StopRegime::Chaos,
+        Settled::Unsettled { .. } => StopRegime::Unsettled,
+    }
+}
+
+impl Swept {
+    /// Share of the frequencies at which both ways end in the same kind of motion.
+    pub(super) fn reversible(&self) -> f64 {
+        let pairs = self.up.iter().zip(&self.down);
+        let same = pairs.filter(|(up, down)| regime(up) == regime(down));
+        same.count() as f64 / self.up.len().max(1) as f64
+    }
+
+    /// Share of the frequencies at which the way up ends in chaos or in other than z = 0 or 1.
+    pub(super) fn complex(&self) -> f64 {
+        let plain = |step: &&Step| matches!(regime(step), StopRegime::None | StopRegime::One);
+        let plain = self.up.iter().filter(plain).count();
+        1.0 - plain as f64 / self.up.len().max(1) as f64
+    }
+
+    /// Share of the frequencies and ways at which two stops end in the same kind of motion.
+    pub(super) fn likeness(&self, other: &Self) -> f64 {
+        let ours = self.up.iter().chain(&self.down);
+        let pairs = ours.zip(other.up.iter().chain(&other.down));
+        let same = pairs.filter(|(a, b)| regime(a) == regime(b)).count();
+        same as f64 / (self.up.len() + self.down.len()).max(1) as f64
+    }
+}
