@@ -25,7 +25,7 @@ pub use atlas::page;
 pub use basin::{BasinPicture, CertaintyChart};
 pub use continuation::{BranchChart, CurveChart};
 pub use fidelity::{Candidate, FidelityChart, FidelityPicture};
-pub use hardening::{HardeningChart, StopDiagram, StopFolds, StopMap, StopRegime};
+pub use hardening::{HardeningChart, StopDiagram, StopFolds, StopMap, StopOrders, StopRegime};
 pub use loops::Loops;
 pub use motion::{Drawing, MotionChart};
 pub use motions::{MotionPage, MotionRow};

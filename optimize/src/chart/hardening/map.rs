@@ -6,7 +6,6 @@ use crate::chart::pen::{self, Align, Area, Pen, Stroke};
 use crate::chart::style;
 
 const FOLD: Stroke = Stroke::solid(style::INK, 2.0);
-const FLIP: Stroke = Stroke::dashed("#ffffff", 2.0, (2.0, 3.0));
 
 impl HardeningChart {
     /// On the way up; a dot where the way down ends in another motion.
@@ -30,8 +29,7 @@ impl HardeningChart {
             panel.curve(pen, &[(eta, panel.y.0), (eta, panel.y.1)], GRAZING);
         }
         self.line(pen, &panel, FOLD, |fold| Some(fold.strong?.0));
-        self.line(pen, &panel, FLIP, |fold| Some(fold.flips?.0));
-        self.line(pen, &panel, FLIP, |fold| Some(fold.flips?.1));
+        self.line(pen, &panel, FOLD, |fold| fold.flip);
         let axes = Axes {
             letters: LETTERS,
             across: Some("η"),
@@ -82,7 +80,7 @@ impl HardeningChart {
             let place = (panel.across(eta) + 8.0, panel.area.1 + 24.0);
             pen.words(place, LETTERS, Align::Left, ink, "s_SN");
         }
-        if let Some((_, eta)) = last.flips {
+        if let Some(eta) = last.flip {
             let place = (panel.across(eta) + 8.0, panel.area.1 + 24.0);
             pen.words(place, LETTERS, Align::Left, ink, "s_PD");
         }

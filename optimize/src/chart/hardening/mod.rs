@@ -1,6 +1,7 @@
 //! The chart of stops from soft to rigid: diagrams, a map of the motions, and folds.
 
 mod map;
+mod orders;
 mod widths;
 
 use super::panel::{Axes, Panel, heading};
@@ -93,8 +94,23 @@ pub struct StopFolds {
     pub strong: Option<(f64, f64)>,
     /// η and X'₋ where weak impacts end.
     pub weak: Option<(f64, f64)>,
-    /// η of the first and the last flip.
-    pub flips: Option<(f64, f64)>,
+    /// η of the flip right beyond grazing, below the resonance.
+    pub first_flip: Option<f64>,
+    /// η of the flip from which on z = 1 is stable.
+    pub flip: Option<f64>,
+}
+
+/// Motions z = 1/n of stops with a narrow clearance.
+#[derive(Debug, Clone)]
+pub struct StopOrders {
+    /// What is shown.
+    pub title: String,
+    /// Range of η.
+    pub frequencies: (f64, f64),
+    /// η up to which the impact-less motion would hit the stop.
+    pub grazing: f64,
+    /// For each stop its name, and η and n of its motions.
+    pub found: Vec<(String, Vec<(f64, f64)>)>,
 }
 
 /// The chart.
@@ -112,6 +128,8 @@ pub struct HardeningChart {
     pub map: StopMap,
     /// The folds, by rising stiffness.
     pub folds: Vec<StopFolds>,
+    /// Motions of higher order.
+    pub orders: StopOrders,
 }
 
 const PAGE: (f64, f64) = (1480.0, 1240.0);
@@ -122,7 +140,8 @@ const ACROSS: usize = 4;
 const DIAGRAM: ((f64, f64), (f64, f64), (f64, f64)) =
     ((78.0, 104.0), (354.0, 272.0), (306.0, 208.0));
 const MAP: Area = (78.0, 722.0, 760.0, 420.0);
-const WIDTHS: Area = (938.0, 722.0, 508.0, 420.0);
+const WIDTHS: Area = (938.0, 722.0, 508.0, 176.0);
+const ORDERS: Area = (938.0, 984.0, 508.0, 158.0);
 const GRAZING: Stroke = Stroke::dashed(style::INK, 1.2, (5.0, 4.0));
 /// Radius of a dot of the diagrams.
 const DOT: f64 = 1.0;
@@ -135,26 +154,22 @@ impl HardeningChart {
         let title = "From a soft to a rigid stop: the stiffness k₂ from 0 to infinity";
         heading(&mut pen, (28.0, 38.0), title, &self.explanation);
         legend(&mut pen, (PAGE.0 - 320.0, 60.0));
-        let top = self.fastest();
-        for (index, diagram) in self.diagrams.iter().enumerate() {
-            self.diagram(&mut pen, index, diagram, top);
+        for (row, diagrams) in self.diagrams.chunks(ACROSS).enumerate() {
+            // What is linear grows without regard to the clearance.
+            let top = fastest(&diagrams[usize::from(row == 0)..]);
+            for (column, diagram) in diagrams.iter().enumerate() {
+                self.diagram(&mut pen, (column, row), diagram, top);
+            }
         }
         self.map(&mut pen, MAP);
         self.widths(&mut pen, WIDTHS);
+        self.orders.draw(&mut pen, ORDERS);
         pen.svg()
     }
 
-    fn fastest(&self) -> f64 {
-        let points = |diagram: &StopDiagram| {
-            let points = diagram.up.iter().chain(&diagram.down);
-            points.map(|point| point.1).fold(0.0, f64::max)
-        };
-        1.08 * self.diagrams.iter().skip(1).map(points).fold(0.0, f64::max)
-    }
-
-    fn diagram(&self, pen: &mut Pen, index: usize, diagram: &StopDiagram, top: f64) {
+    fn diagram(&self, pen: &mut Pen, at: (usize, usize), diagram: &StopDiagram, top: f64) {
         let ((left, first), (right, down), (width, height)) = DIAGRAM;
-        let (column, row) = (index % ACROSS, index / ACROSS);
+        let (column, row) = at;
         let corner = (left + right * column as f64, first + down * row as f64);
         let panel = Panel {
             area: (corner.0, corner.1, width, height),
@@ -181,6 +196,14 @@ impl HardeningChart {
         panel.axes(pen, &axes);
         pen.heading((corner.0, corner.1 - 8.0), 15, Align::Left, &diagram.title);
     }
+}
+
+/// A little more than the highest velocity.
+fn fastest(diagrams: &[StopDiagram]) -> f64 {
+    let points = diagrams
+        .iter()
+        .flat_map(|diagram| diagram.up.iter().chain(&diagram.down));
+    1.08 * points.map(|point| point.1).fold(0.0, f64::max)
 }
 
 /// Which way is which colour.

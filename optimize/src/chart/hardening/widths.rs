@@ -33,37 +33,34 @@ impl HardeningChart {
         let axes = Axes {
             letters: LETTERS,
             across: Some("log₁₀ k₂/k₁"),
-            upwards: "log₁₀ of the width in η",
-            ticks: (4, 8),
+            upwards: "log₁₀ width in η",
+            ticks: (4, 5),
         };
         panel.ground(pen, &axes);
-        for (points, color, name) in [
+        for (points, color, shift, name) in [
             (
                 &strong,
                 style::DESIGN,
-                "hysteresis: strong z = 1 beside weak or none",
+                24.0,
+                "hysteresis, from s_SN back to the weak fold",
             ),
             (
                 &weak,
                 style::OPTIMUM,
-                "weak z = 1, one soft touch per period",
+                2.0,
+                "weak z = 1, from g₀ to its fold",
             ),
         ] {
             panel.curve(pen, points, Stroke::solid(color, 2.0));
             panel.dots(pen, points.iter().copied(), 3.4, color);
-            if let Some(point) = points.get(points.len() / 3) {
+            if let Some(point) = points.get(points.len() / 4) {
                 let place = panel.place(*point);
-                let place = (place.0 + 12.0, place.1 - 10.0);
+                let place = (place.0 + 12.0, place.1 + shift);
                 pen.words(place, LETTERS, Align::Left, (color, true), name);
             }
         }
         panel.axes(pen, &axes);
         let place = (area.0, area.1 - 14.0);
-        pen.heading(
-            place,
-            15,
-            Align::Left,
-            "Transition across g₀ above resonance",
-        );
+        pen.heading(place, 15, Align::Left, "Widths above the resonance");
     }
 }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use softstop::continuation::{Along, Follower, Limits, Parameter, Special};
 use softstop::orbit::{OrbitError, find};
 
-use super::stops::{Law, grazing};
+use super::stops::{CLEARANCE, Law, grazing};
 use super::swept::RANGE;
 use crate::chart::StopFolds;
 use crate::failure::Failure;
@@ -48,7 +48,7 @@ pub(super) fn onset(without: f64, with: f64) -> Result<f64, Failure> {
 }
 
 fn of(stiffness: f64) -> Result<StopFolds, OrbitError> {
-    let scene = Law::KelvinVoigt(stiffness).scene(FREQUENCY);
+    let scene = Law::KelvinVoigt(stiffness).scene(FREQUENCY, CLEARANCE);
     let state = find(&scene)?.state();
     let family = Along::new(scene, [Parameter::Frequency])?;
     let limits = Limits {
@@ -71,20 +71,19 @@ fn of(stiffness: f64) -> Result<StopFolds, OrbitError> {
             .filter(fits)
             .map(|special| &special.point)
     };
-    let (_, upper) = grazing();
+    let (_, upper) = grazing(CLEARANCE);
     let strong = named("SN").map(|point| (point.parameter, point.before_impact_velocity()));
     let strong = strong.reduce(|a, b| if a.0 > b.0 { a } else { b });
     let weak = named("SN").filter(|point| point.parameter < upper);
     let weak = weak.map(|point| (point.parameter, point.before_impact_velocity()));
     let flips: Vec<f64> = named("PD").map(|point| point.parameter).collect();
+    let first = flips.iter().copied().reduce(f64::min);
     Ok(StopFolds {
         stiffness,
         strong: strong.filter(|fold| fold.0 > upper),
         weak: weak.reduce(|a, b| if a.1 < b.1 { a } else { b }),
-        flips: flips
-            .iter()
-            .copied()
-            .reduce(f64::min)
-            .zip(flips.iter().copied().reduce(f64::max)),
+        // So near to grazing a branch may be too unstable to be followed to its first flip.
+        first_flip: first.filter(|_| flips.len() > 1),
+        flip: flips.iter().copied().reduce(f64::max),
     })
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 use softstop::sweep::Step;
 
 use super::{Detail, Drawn, Figure, table};
-use crate::chart::{HardeningChart, StopDiagram, StopFolds, StopMap};
+use crate::chart::{HardeningChart, StopDiagram, StopFolds, StopMap, StopOrders};
 use crate::failure::Failure;
 use orders::Subharmonic;
 use stops::{CLEARANCE, Law, RESTITUTION, grazing};
@@ -66,8 +66,8 @@ struct FoldLine {
     velocity_strong_fold: Option<f64>,
     eta_weak_fold: Option<f64>,
     velocity_weak_fold: Option<f64>,
-    eta_lowest_flip: Option<f64>,
-    eta_highest_flip: Option<f64>,
+    eta_first_flip: Option<f64>,
+    eta_flip: Option<f64>,
 }
 
 /// A subharmonic motion.
@@ -92,9 +92,9 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
         (Some(without), Some(with)) => Some(folds::onset(without.stiffness, with.stiffness)?),
         _ => None,
     };
-    let (frequencies, starts) = detail.pick((72, 64), (10, 24));
+    let (frequencies, starts) = detail.pick((72, 64), (18, 32));
     let subharmonics = orders::subharmonics(&SUBHARMONIC, frequencies, starts)?;
-    let chart = chart(&drawn, &map, &folds);
+    let chart = chart(&drawn, &map, &folds, &subharmonics);
     let mut findings = claims(&drawn, &folds, onset);
     findings.extend(orders_of(&subharmonics));
     Ok(Drawn {
@@ -116,7 +116,12 @@ fn stiffnesses(count: usize) -> Vec<f64> {
     (0..count).map(|index| 10f64.powf(power(index))).collect()
 }
 
-fn chart(drawn: &[Swept], map: &[Swept], folds: &[StopFolds]) -> HardeningChart {
+fn chart(
+    drawn: &[Swept],
+    map: &[Swept],
+    folds: &[StopFolds],
+    subharmonics: &[Subharmonic],
+) -> HardeningChart {
     let impacts = |steps: &[Step]| {
         let of = |step: &Step| {
             let value = step.value;
@@ -141,7 +146,7 @@ fn chart(drawn: &[Swept], map: &[Swept], folds: &[StopFolds]) -> HardeningChart 
             "clearance ρ = {CLEARANCE}, β₁ = 0.02, contact damping for a restitution of {RESTITUTION}; dashed: \
              grazing of the impact-less motion, g₀"
         ),
-        grazing: grazing(),
+        grazing: grazing(CLEARANCE),
         frequencies: RANGE,
         diagrams: drawn.iter().map(diagram).collect(),
         map: StopMap {
@@ -149,6 +154,24 @@ fn chart(drawn: &[Swept], map: &[Swept], folds: &[StopFolds]) -> HardeningChart 
             rows: map.iter().map(row).collect(),
         },
         folds: folds.to_vec(),
+        orders: orders(subharmonics),
+    }
+}
+
+/// Motions z = 1/n over the frequency.
+fn orders(found: &[Subharmonic]) -> StopOrders {
+    let of = |stiffness: f64| {
+        let own = found
+            .iter()
+            .filter(|motion| motion.stiffness == stiffness && motion.impacts == 1);
+        let points = own.map(|motion| (motion.frequency, motion.periods as f64));
+        (format!("k₂/k₁ = {stiffness}"), points.collect())
+    };
+    StopOrders {
+        title: format!("Motions z = 1/n found at clearance ρ = {}", orders::NARROW),
+        frequencies: orders::RANGE,
+        grazing: grazing(orders::NARROW).1,
+        found: SUBHARMONIC.into_iter().map(of).collect(),
     }
 }
 
@@ -170,7 +193,7 @@ fn claims(drawn: &[Swept], folds: &[StopFolds], onset: Option<f64>) -> Vec<(Stri
             swept.complex(),
         );
     }
-    let (_, upper) = grazing();
+    let (_, upper) = grazing(CLEARANCE);
     let widths: Vec<(f64, f64, f64)> = folds
         .iter()
         .filter_map(|fold| {
@@ -178,15 +201,28 @@ fn claims(drawn: &[Swept], folds: &[StopFolds], onset: Option<f64>) -> Vec<(Stri
             Some((fold.stiffness, upper - weak.0, strong.0 - weak.0))
         })
         .collect();
-    for &(stiffness, weak, hysteresis) in &widths {
+    let whole = |stiffness: f64| (stiffness.log10() - stiffness.log10().round()).abs() < 1e-9;
+    for &(stiffness, weak, hysteresis) in widths.iter().filter(|width| whole(width.0)) {
         add(
-            format!("(3) k2/k1 = {stiffness:.3}: width of weak z = 1"),
+            format!("(3) k2/k1 = {stiffness:.0}: width of weak z = 1"),
             weak,
         );
         add(
-            format!("(3) k2/k1 = {stiffness:.3}: width of hysteresis"),
+            format!("(3) k2/k1 = {stiffness:.0}: width of hysteresis"),
             hysteresis,
         );
+    }
+    let (lower, _) = grazing(CLEARANCE);
+    for fold in folds.iter().filter(|fold| whole(fold.stiffness)) {
+        if let Some(flip) = fold.first_flip {
+            add(
+                format!(
+                    "(3) k2/k1 = {:.0}: width of weak z = 1 below resonance, to its flip",
+                    fold.stiffness
+                ),
+                flip - lower,
+            );
+        }
     }
     let hard: Vec<_> = widths.iter().filter(|width| width.0 >= 10.0).collect();
     if let (Some(first), Some(last)) = (hard.first(), hard.last()) {
@@ -255,13 +291,13 @@ fn lines(swept: &Swept) -> impl Iterator<Item = StepLine> + '_ {
 fn fold_line(fold: &StopFolds) -> FoldLine {
     FoldLine {
         stiffness: fold.stiffness,
-        eta_grazing: grazing().1,
+        eta_grazing: grazing(CLEARANCE).1,
         eta_strong_fold: fold.strong.map(|fold| fold.0),
         velocity_strong_fold: fold.strong.map(|fold| fold.1),
         eta_weak_fold: fold.weak.map(|fold| fold.0),
         velocity_weak_fold: fold.weak.map(|fold| fold.1),
-        eta_lowest_flip: fold.flips.map(|flips| flips.0),
-        eta_highest_flip: fold.flips.map(|flips| flips.1),
+        eta_first_flip: fold.first_flip,
+        eta_flip: fold.flip,
     }
 }
 

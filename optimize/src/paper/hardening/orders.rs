@@ -10,7 +10,9 @@ use crate::interrupt;
 use crate::progress::Progress;
 
 /// The frequencies eta.
-const RANGE: (f64, f64) = (0.35, 4.0);
+pub(super) const RANGE: (f64, f64) = (1.5, 10.0);
+/// The clearance rho: so small that impacts go on far above the resonance.
+pub(super) const NARROW: f64 = 0.1;
 
 /// A stable subharmonic motion that was found.
 #[derive(Debug, Clone, Copy)]
@@ -50,14 +52,14 @@ fn at(index: usize, frequencies: usize) -> f64 {
 }
 
 fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmonic>, Failure> {
-    let (lower, upper) = grazing();
+    let (lower, upper) = grazing(NARROW);
     let options = Options {
         starts,
         transient: 300,
         patience: 2_000,
         ..Options::default()
     };
-    let scene = Law::KelvinVoigt(stiffness).scene(frequency);
+    let scene = Law::KelvinVoigt(stiffness).scene(frequency, NARROW);
     let survey = attractors_watched(&scene, &options, &|_, _| !interrupt::requested());
     let survey = survey.map_err(|error| match error {
         SurveyError::Stopped => Failure::Interrupted,

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use softstop::scene::{Release, Slope};
 use softstop::{Excitation, Scene, Stop};
 
-/// The clearance rho.
+/// The clearance rho of the diagrams.
 pub(super) const CLEARANCE: f64 = 2.0;
 /// Damping b1 of the free flight: beta1 = 0.02.
 const DAMPING: f64 = 0.04;
@@ -79,7 +79,7 @@ impl Law {
     }
 
     /// The machine with m = k1 = F0 = 1.
-    pub(super) fn scene(self, frequency: f64) -> Scene {
+    pub(super) fn scene(self, frequency: f64, clearance: f64) -> Scene {
         let critical = self
             .stiffness()
             .map_or(0.0, |stiffness| 2.0 * stiffness.sqrt());
@@ -92,7 +92,7 @@ impl Law {
                 frequency,
                 phase: 0.0,
             },
-            clearance: CLEARANCE,
+            clearance,
             contact_damping: DAMPING + damping_ratio() * critical,
             stop: self.stop(),
             piercing: None,
@@ -113,9 +113,10 @@ fn damping_ratio() -> f64 {
     decrement / decrement.hypot(PI)
 }
 
-/// The frequencies at which the impact-less motion grazes: 1/sqrt((1 - eta^2)^2 + (2 beta1 eta)^2) = rho.
-pub(super) fn grazing() -> (f64, f64) {
+/// The frequencies at which the impact-less motion grazes: 1/sqrt((1 - eta^2)^2 + (2 beta1 eta)^2) = rho. The
+/// lower one is 0 if already the static deflection is larger than the clearance.
+pub(super) fn grazing(clearance: f64) -> (f64, f64) {
     let half = 1.0 - 0.5 * DAMPING * DAMPING;
-    let root = (half * half - 1.0 + CLEARANCE.powi(-2)).sqrt();
-    ((half - root).sqrt(), (half + root).sqrt())
+    let root = (half * half - 1.0 + clearance.powi(-2)).max(0.0).sqrt();
+    ((half - root).max(0.0).sqrt(), (half + root).sqrt())
 }

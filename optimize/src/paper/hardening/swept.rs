@@ -4,7 +4,7 @@ use anyhow::anyhow;
 use softstop::continuation::Parameter;
 use softstop::sweep::{Chain, Direction, Plan, Settled, Step};
 
-use super::stops::Law;
+use super::stops::{CLEARANCE, Law};
 use crate::chart::StopRegime;
 use crate::continuation::model::Model;
 use crate::failure::Failure;
@@ -12,7 +12,7 @@ use crate::interrupt;
 use crate::progress::Progress;
 
 /// The frequencies eta.
-pub(super) const RANGE: (f64, f64) = (0.5, 1.7);
+pub(super) const RANGE: (f64, f64) = (0.6, 1.6);
 
 /// The way up and the way down of a stop, both in rising order of frequency.
 pub(super) struct Swept {
@@ -26,7 +26,7 @@ pub(super) fn sweep(laws: &[Law], steps: usize, periods: u64) -> Result<Vec<Swep
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods);
     let plan = plan.map_err(|error| anyhow!(error))?;
     let chain = |(law, direction): (&Law, Direction)| {
-        let model = Model::Scene(Box::new(law.scene(RANGE.0)));
+        let model = Model::Scene(Box::new(law.scene(RANGE.0, CLEARANCE)));
         Chain::new(model, direction)
     };
     let ways = |law| [(law, Direction::Up), (law, Direction::Down)];
@@ -75,23 +75,29 @@ pub(super) fn regime(step: &Step) -> StopRegime {
 impl Swept {
     /// Share of the frequencies at which both ways end in the same kind of motion.
     pub(super) fn reversible(&self) -> f64 {
-        let pairs = self.up.iter().zip(&self.down);
-        let same = pairs.filter(|(up, down)| regime(up) == regime(down));
-        same.count() as f64 / self.up.len().max(1) as f64
+        agreement(self.up.iter().zip(&self.down))
     }
 
-    /// Share of the frequencies at which the way up ends in chaos or in other than z = 0 or 1.
+    /// Share of the frequencies at which the way up ends in a subharmonic motion or chaos.
     pub(super) fn complex(&self) -> f64 {
-        let plain = |step: &&Step| matches!(regime(step), StopRegime::None | StopRegime::One);
-        let plain = self.up.iter().filter(plain).count();
-        1.0 - plain as f64 / self.up.len().max(1) as f64
+        use StopRegime::{Chaos, Half, Other, Split};
+        let complex = |step: &&Step| matches!(regime(step), Split | Half | Other | Chaos);
+        self.up.iter().filter(complex).count() as f64 / self.up.len().max(1) as f64
     }
 
     /// Share of the frequencies and ways at which two stops end in the same kind of motion.
     pub(super) fn likeness(&self, other: &Self) -> f64 {
         let ours = self.up.iter().chain(&self.down);
-        let pairs = ours.zip(other.up.iter().chain(&other.down));
-        let same = pairs.filter(|(a, b)| regime(a) == regime(b)).count();
-        same as f64 / (self.up.len() + self.down.len()).max(1) as f64
+        agreement(ours.zip(other.up.iter().chain(&other.down)))
     }
+}
+
+/// Share of the pairs that are of the same kind, among those in which both have settled.
+fn agreement<'a>(pairs: impl Iterator<Item = (&'a Step, &'a Step)>) -> f64 {
+    let kinds = pairs.map(|(a, b)| (regime(a), regime(b)));
+    let settled = kinds.filter(|(a, b)| *a != StopRegime::Unsettled && *b != StopRegime::Unsettled);
+    let (same, all) = settled.fold((0u32, 0u32), |(same, all), (a, b)| {
+        (same + u32::from(a == b), all + 1)
+    });
+    f64::from(same) / f64::from(all.max(1))
 }
