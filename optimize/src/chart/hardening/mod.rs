@@ -132,16 +132,16 @@ pub struct HardeningChart {
     pub orders: StopOrders,
 }
 
-const PAGE: (f64, f64) = (1480.0, 1240.0);
+const PAGE: (f64, f64) = (1480.0, 1212.0);
 const LETTERS: u32 = 14;
 /// Diagrams in a row.
 const ACROSS: usize = 4;
 /// Left end and top of the first diagram, distance to the next, and size.
 const DIAGRAM: ((f64, f64), (f64, f64), (f64, f64)) =
     ((78.0, 104.0), (354.0, 272.0), (306.0, 208.0));
-const MAP: Area = (78.0, 722.0, 760.0, 420.0);
-const WIDTHS: Area = (938.0, 722.0, 508.0, 176.0);
-const ORDERS: Area = (938.0, 984.0, 508.0, 158.0);
+const MAP: Area = (78.0, 694.0, 760.0, 420.0);
+const WIDTHS: Area = (938.0, 694.0, 508.0, 176.0);
+const ORDERS: Area = (938.0, 956.0, 508.0, 158.0);
 const GRAZING: Stroke = Stroke::dashed(style::INK, 1.2, (5.0, 4.0));
 /// Radius of a dot of the diagrams.
 const DOT: f64 = 1.0;
@@ -185,7 +185,7 @@ impl HardeningChart {
             } else {
                 ""
             },
-            ticks: (6, 4),
+            ticks: (6, 5),
         };
         panel.ground(pen, &axes);
         for eta in [self.grazing.0, self.grazing.1] {

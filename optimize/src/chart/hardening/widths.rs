@@ -47,7 +47,7 @@ impl HardeningChart {
             (
                 &weak,
                 style::OPTIMUM,
-                2.0,
+                -6.0,
                 "weak z = 1, from g₀ to its fold",
             ),
         ] {

@@ -1,6 +1,7 @@
 //! The transition of the stop's stiffness k2 from 0 to infinity (Peterka 2003, Fig. 1 and the five points of
 //! its introduction).
 
+mod claims;
 mod folds;
 mod orders;
 mod stops;
@@ -95,8 +96,8 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
     let (frequencies, starts) = detail.pick((72, 64), (18, 32));
     let subharmonics = orders::subharmonics(&SUBHARMONIC, frequencies, starts)?;
     let chart = chart(&drawn, &map, &folds, &subharmonics);
-    let mut findings = claims(&drawn, &folds, onset);
-    findings.extend(orders_of(&subharmonics));
+    let mut findings = claims::of_stops(&drawn, &folds, onset);
+    findings.extend(claims::of_orders(&subharmonics));
     Ok(Drawn {
         files: vec![
             chart.svg().into_bytes(),
@@ -173,101 +174,6 @@ fn orders(found: &[Subharmonic]) -> StopOrders {
         grazing: grazing(orders::NARROW).1,
         found: SUBHARMONIC.into_iter().map(of).collect(),
     }
-}
-
-/// The five points of the paper's introduction in numbers, all but the last.
-fn claims(drawn: &[Swept], folds: &[StopFolds], onset: Option<f64>) -> Vec<(String, f64)> {
-    let mut findings = Vec::new();
-    let mut add = |name: String, value: f64| findings.push((name, value));
-    if let Some(onset) = onset {
-        add("(1) k2/k1 from which on z = 1 has folds".to_owned(), onset);
-    }
-    for swept in drawn {
-        let name = swept.law.name().replace('₂', "2").replace('₁', "1");
-        add(
-            format!("(1) {name}: share of eta that is reversible"),
-            swept.reversible(),
-        );
-        add(
-            format!("(2) {name}: share of eta beyond z = 0 and z = 1"),
-            swept.complex(),
-        );
-    }
-    let (_, upper) = grazing(CLEARANCE);
-    let widths: Vec<(f64, f64, f64)> = folds
-        .iter()
-        .filter_map(|fold| {
-            let (weak, strong) = (fold.weak?, fold.strong?);
-            Some((fold.stiffness, upper - weak.0, strong.0 - weak.0))
-        })
-        .collect();
-    let whole = |stiffness: f64| (stiffness.log10() - stiffness.log10().round()).abs() < 1e-9;
-    for &(stiffness, weak, hysteresis) in widths.iter().filter(|width| whole(width.0)) {
-        add(
-            format!("(3) k2/k1 = {stiffness:.0}: width of weak z = 1"),
-            weak,
-        );
-        add(
-            format!("(3) k2/k1 = {stiffness:.0}: width of hysteresis"),
-            hysteresis,
-        );
-    }
-    let (lower, _) = grazing(CLEARANCE);
-    for fold in folds.iter().filter(|fold| whole(fold.stiffness)) {
-        if let Some(flip) = fold.first_flip {
-            add(
-                format!(
-                    "(3) k2/k1 = {:.0}: width of weak z = 1 below resonance, to its flip",
-                    fold.stiffness
-                ),
-                flip - lower,
-            );
-        }
-    }
-    let hard: Vec<_> = widths.iter().filter(|width| width.0 >= 10.0).collect();
-    if let (Some(first), Some(last)) = (hard.first(), hard.last()) {
-        let power = (last.1 / first.1).ln() / (last.0 / first.0).ln();
-        add(
-            "(3) width of weak z = 1 goes with k2 to the power".to_owned(),
-            power,
-        );
-    }
-    let of = |law: Law| drawn.iter().find(|swept| swept.law == law);
-    if let Some(kelvin) = of(Law::KelvinVoigt(10.0)) {
-        for law in [Law::TwoSlopes(10.0), Law::Hertz(10.0)] {
-            if let Some(other) = of(law) {
-                let name = law.name().replace('₂', "2").replace('₁', "1");
-                add(
-                    format!("(4) {name}: share of eta with the same motion"),
-                    kelvin.likeness(other),
-                );
-            }
-        }
-    }
-    findings
-}
-
-/// The fifth point.
-fn orders_of(found: &[Subharmonic]) -> Vec<(String, f64)> {
-    let of = |stiffness: f64| {
-        let own: Vec<Subharmonic> = found
-            .iter()
-            .filter(|motion| motion.stiffness == stiffness)
-            .copied()
-            .collect();
-        let (beside, inside) = orders::longest(&own);
-        [
-            (
-                format!("(5) k2/k1 = {stiffness}: highest n of z = 1/n beside z = 0"),
-                beside as f64,
-            ),
-            (
-                format!("(5) k2/k1 = {stiffness}: highest n of z = 1/n within g0"),
-                inside as f64,
-            ),
-        ]
-    };
-    SUBHARMONIC.into_iter().flat_map(of).collect()
 }
 
 fn lines(swept: &Swept) -> impl Iterator<Item = StepLine> + '_ {

@@ -78,6 +78,12 @@ impl Swept {
         agreement(self.up.iter().zip(&self.down))
     }
 
+    /// The lowest frequency with impacts on the way down.
+    pub(super) fn lowest_with_impacts(&self) -> Option<f64> {
+        let lowest = self.down.iter().find(|step| !step.velocities.is_empty());
+        lowest.map(|step| step.value)
+    }
+
     /// Share of the frequencies at which the way up ends in a subharmonic motion or chaos.
     pub(super) fn complex(&self) -> f64 {
         use StopRegime::{Chaos, Half, Other, Split};
