@@ -22,7 +22,11 @@ fn unloaded(frequency: f64) -> Scene {
 }
 
 fn survey(scene: &Scene) -> Survey {
-    let survey = attractors(scene, &OPTIONS).expect("a survey");
+    survey_by(scene, &OPTIONS)
+}
+
+fn survey_by(scene: &Scene, options: &Options) -> Survey {
+    let survey = attractors(scene, options).expect("a survey");
     assert_eq!(survey.lost, None);
     let starts: usize = survey.attractors.iter().map(|found| found.starts).sum();
     assert_eq!(starts, survey.starts, "every start counts once");
@@ -63,7 +67,11 @@ fn chaos(survey: &Survey) -> &Chaos {
 
 #[test]
 fn below_grazing_chaos_lasts_long_but_not_for_ever() {
-    let survey = survey(&unloaded(0.952_647_5));
+    let options = Options {
+        patience: 3_000_000,
+        ..OPTIONS
+    };
+    let survey = survey_by(&unloaded(0.952_647_5), &options);
     assert_eq!(names(&survey), ["0", "transient chaos"]);
     let lifetimes = survey
         .attractors
@@ -73,9 +81,11 @@ fn below_grazing_chaos_lasts_long_but_not_for_ever() {
             _ => None,
         });
     // Of 256 motions 243, 138, 59, 16, 2 and 1 are left after 1, 10, 20, 40, 60 and 100 thousand periods:
-    // a mean lifetime of 12,000 to 16,000.
+    // a mean lifetime of 12,000 to 16,000. Escapes are independent of each other, so that the mean over k of
+    // them has a standard deviation of a share 1/sqrt(k), 10 % of some 90: 11,000 to 20,000 is two and a half
+    // of these beside it.
     for lifetime in lifetimes {
-        assert!((8e3..24e3).contains(&lifetime), "{lifetime}");
+        assert!((11e3..20e3).contains(&lifetime), "{lifetime}");
     }
     assert!(chaos(&survey).exponents.is_positive());
 }
@@ -101,7 +111,7 @@ fn three_motions_coexist_and_the_order_of_impacts_differs() {
 
 #[test]
 fn the_half_order_motion_gives_way_to_chaos_at_its_flip() {
-    // The flip of z = 1/2 is at 0.9884956: at 0.9885 it is still the attractor, by little.
+    // The flip of z = 1/2 is at 0.9884970: at 0.9885 it is still the attractor, by little.
     let above = survey(&unloaded(0.9885));
     assert_eq!(names(&above), ["1-0", "1-1-0", "1-1-0-0"]);
     let half = above.attractors.iter().find_map(|found| match &found.kind {

@@ -51,8 +51,9 @@ fn newton_settles_down_to_a_distance_of_1e_9_from_grazing() {
         for distance in [1e-3, 1e-4, 1e-5, 1e-7, 1e-8, 1e-9] {
             let orbit = orbit(distance);
             assert_eq!(orbit.impacts.len(), 1, "{distance:e}");
-            // The before-impact velocity is linear in the distance, with a correction of its order. The
-            // frequency itself is rounded by 1e-16.
+            // The before-impact velocity is a smooth function v = a d (1 + c d + ...) of the distance d (from impact
+            // to impact there is no square root), and `slope` is a (1 + c 1e-6). This holds c, which is of order
+            // one, below 2 in size. The frequency itself is rounded by 1e-16.
             let off = orbit.before_impact_velocity() / (slope * distance) - 1.0;
             assert!(
                 off.abs() < 2.0 * (distance + 1e-6) + 1e-16 / distance,

@@ -56,8 +56,10 @@ fn lost(chain: &Chain<Ratios>) -> f64 {
 fn between_grazing_and_fold_the_way_matters() {
     // 1e-3 per 50 drive periods.
     let mut plan = frequencies((0.99, 1.42), 431, 50);
-    // 25 periods do not settle to 1e-4.
-    plan.tolerance = 1e-2;
+    // A step of 1e-3 moves the orbit by some 5e-3 of its size, and the map contracts by sqrt(0.786) per period:
+    // 25 periods, from which on it is looked at, leave 5 % of that. At the fold, where it contracts less, some steps
+    // do not settle.
+    plan.tolerance = 1e-3;
     let chains = run(&plan, both(Ratios::unloaded()));
     let zones = hysteresis(&chains[0], &chains[1]);
     let zone = zones
@@ -80,8 +82,8 @@ fn between_grazing_and_fold_the_way_matters() {
 fn a_sweep_loses_the_motion_after_its_end() {
     // The paper's 1.37083; an independent integrator loses it at 1.371 at both rates (model.md).
     let slow = frequencies((1.3, 1.4), 101, 50);
-    let mut fine = frequencies((1.3, 1.4), 1001, 5);
-    fine.tolerance = 1e-2;
+    // Which motion it is on is told by its impacts alone: nothing settles within 5 periods.
+    let fine = frequencies((1.3, 1.4), 1001, 5);
     for plan in [slow, fine] {
         assert!((plan.rate() - 2e-5).abs() < 1e-12);
         // From the motion with impacts, as a sweep from below comes.

@@ -50,6 +50,18 @@ pub fn json(value: &impl Serialize) -> Result<String, Failure> {
     Ok(text)
 }
 
+/// Rows as comma-separated values under a line of their names.
+///
+/// # Errors
+/// [`Failure::Run`] if a row cannot be written.
+pub fn csv(rows: impl IntoIterator<Item = impl Serialize>) -> Result<Vec<u8>, Failure> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        table.serialize(row).context("cannot write a table")?;
+    }
+    Ok(table.into_inner().context("cannot write a table")?)
+}
+
 /// An output folder that is known to be writable. Files are staged in a hidden folder inside
 /// it and renamed into place together; a folder made in vain is taken away again.
 #[derive(Debug)]

@@ -31,6 +31,22 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template(&style) {
             bar.set_style(style);
         }
+        Self::of(bar)
+    }
+
+    /// A count of things called `what`, nobody knows how many.
+    #[must_use]
+    pub fn open(what: &str) -> Self {
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        if let Ok(style) =
+            ProgressStyle::with_template(&format!("{{spinner}} {{pos}} {what}{{msg}}"))
+        {
+            bar.set_style(style);
+        }
+        Self::of(bar)
+    }
+
+    fn of(bar: ProgressBar) -> Self {
         Self {
             begin: Instant::now(),
             bar,
@@ -77,6 +93,12 @@ impl Progress {
     pub fn at(&self, done: u64) {
         self.bar.set_position(done);
         self.beat();
+    }
+
+    /// So many are done of so many.
+    pub fn at_of(&self, done: u64, total: u64) {
+        self.bar.set_length(total);
+        self.at(done);
     }
 
     /// So many more are done.

@@ -13,6 +13,10 @@ use crate::scene::Scene;
 /// Motions that one thread follows at a time: several times as many as there are lanes.
 const AT_ONCE: usize = 64;
 
+/// Drive periods for which they are followed before the watcher is asked again, where many motions cost little and
+/// where they do not: a third of a second.
+const STRETCH: (u64, u64) = (1 << 16, 256);
+
 /// One motion.
 #[derive(Debug, Clone)]
 pub(crate) struct Voyage {
@@ -84,13 +88,39 @@ impl<'a> Fleet<'a> {
             .try_for_each(|chunk| self.sail_together(chunk, periods, logged))
     }
 
+    /// Carries motions on in stretches, so that the watcher is asked often.
     fn sail_together(
         &self,
         voyages: &mut [&mut Voyage],
         periods: u64,
         logged: usize,
     ) -> Result<(), SurveyError> {
-        let jobs: Vec<Job> = voyages
+        let stretch = if self.is_fast() { STRETCH.0 } else { STRETCH.1 };
+        for voyage in voyages.iter_mut() {
+            voyage.log = Vec::with_capacity(logged);
+        }
+        let mut left = periods;
+        while left > 0 {
+            let now = left.min(stretch);
+            let from = left.saturating_sub(logged as u64);
+            self.sail_stretch(voyages, now, from)?;
+            left -= now;
+        }
+        Ok(())
+    }
+
+    /// Carries those on that can be, and logs their states after more than `from` drive periods.
+    fn sail_stretch(
+        &self,
+        voyages: &mut [&mut Voyage],
+        periods: u64,
+        from: u64,
+    ) -> Result<(), SurveyError> {
+        let mut afloat: Vec<&mut &mut Voyage> = voyages
+            .iter_mut()
+            .filter(|voyage| voyage.error.is_none())
+            .collect();
+        let jobs: Vec<Job> = afloat
             .iter()
             .map(|voyage| Job {
                 machine: 0,
@@ -98,15 +128,13 @@ impl<'a> Fleet<'a> {
                 periods,
             })
             .collect();
-        let mut log = Log {
-            from: periods.saturating_sub(logged as u64),
-            logs: vec![Vec::with_capacity(logged); jobs.len()],
-        };
+        let logs = vec![Vec::new(); jobs.len()];
+        let mut log = Log { from, logs };
         let outcomes = batch::run(&self.machine, &jobs, &mut log);
-        for ((voyage, outcome), log) in voyages.iter_mut().zip(outcomes).zip(log.logs) {
+        for ((voyage, outcome), log) in afloat.iter_mut().zip(outcomes).zip(log.logs) {
             voyage.state = outcome.end;
             voyage.error = outcome.error;
-            voyage.log = log;
+            voyage.log.extend(log);
         }
         self.note(periods * jobs.len() as u64)
     }

@@ -78,7 +78,7 @@ pub(super) fn run(
         watcher,
         done: AtomicUsize::new(0),
     };
-    survey.bring();
+    survey.bring()?;
     survey.scout()?;
     survey.settle()?;
     survey.judge_all()?;
@@ -87,11 +87,16 @@ pub(super) fn run(
 
 impl Survey<'_> {
     /// Brings all cells to drive angle phi.
-    fn bring(&mut self) {
+    fn bring(&mut self) -> Result<(), SurveyError> {
         let brought: Vec<Result<Start, MotionError>> = (0..self.grid.cells())
             .into_par_iter()
-            .map(|cell| self.at_section(cell))
-            .collect();
+            .map(|cell| {
+                if cell % TILE == 0 {
+                    self.note(0)?;
+                }
+                Ok(self.at_section(cell))
+            })
+            .collect::<Result<_, SurveyError>>()?;
         for (cell, result) in brought.into_iter().enumerate() {
             let (state, fate) = match result {
                 Ok(state) => (state, Fate::Afloat),
@@ -103,6 +108,7 @@ impl Survey<'_> {
             self.states.push(state);
             self.fates.push(fate);
         }
+        Ok(())
     }
 
     /// The state of a cell when the drive angle next is phi.

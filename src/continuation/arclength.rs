@@ -102,7 +102,8 @@ pub(crate) fn tangent<E: Equations>(
     }
 }
 
-/// Columns of central differences of a residual, one for each unknown from `first` on.
+/// Columns of central differences of a residual, one for each unknown from `first` on; of one-sided ones where
+/// there is no machine on the other side.
 pub(crate) fn differences<E: Equations>(
     equations: &E,
     at: &DVector<f64>,
@@ -115,7 +116,12 @@ pub(crate) fn differences<E: Equations>(
             at[unknown] += shift;
             equations.evaluate(&at).map(|found| found.residual)
         };
-        columns.push((beside(DIFFERENCE)? - beside(-DIFFERENCE)?) / (2.0 * DIFFERENCE));
+        columns.push(match (beside(DIFFERENCE), beside(-DIFFERENCE)) {
+            (Ok(ahead), Ok(behind)) => (ahead - behind) / (2.0 * DIFFERENCE),
+            (Ok(ahead), Err(_)) => (ahead - equations.evaluate(at)?.residual) / DIFFERENCE,
+            (Err(_), Ok(behind)) => (equations.evaluate(at)?.residual - behind) / DIFFERENCE,
+            (Err(error), Err(_)) => return Err(error),
+        });
     }
     Ok(DMatrix::from_columns(&columns))
 }

@@ -5,14 +5,13 @@ use std::ops::ControlFlow;
 use nalgebra::{DVector, Vector2};
 
 use super::Family;
-use super::arclength::{self, Node, Stride, Walker};
+use super::arclength::{self, Node, Walker};
+use super::caution::SHORT;
 use super::detect::passes_by;
 use super::follower::{Follower, Heading, WIDTH};
 use super::graze::Approach;
 use super::point::{BranchPoint, Special};
-use super::round::{Round, grazes_gently};
-use super::shooting::Shooting;
-use super::test::Test;
+use super::round::Round;
 use crate::orbit::OrbitError;
 
 /// How far a branch is followed.
@@ -57,22 +56,12 @@ pub struct Branch {
 }
 
 /// One direction of a branch, its start left out.
-struct Way {
-    points: Vec<BranchPoint>,
-    specials: Vec<Special>,
-    end: End,
+pub(super) struct Way {
+    pub(super) points: Vec<BranchPoint>,
+    pub(super) specials: Vec<Special>,
+    pub(super) end: End,
 }
 
-/// Largest change of a test function per step.
-const LARGEST_CHANGE: f64 = 0.3;
-/// Smallest share that a step may leave of the distance to grazing, while that is more than `NEAR`
-/// (scaled).
-const SHARE_LEFT: f64 = 0.3;
-const NEAR: f64 = 1e-4;
-/// Length of the steps up to which a grazing orbit is looked for ahead: nothing else is on so short a way.
-const CLOSE: f64 = 1e-3;
-/// Length of the steps from which on all changes are taken.
-const SHORT: f64 = 1e-5;
 /// Steps shorter than that in a row after which an orbit is too unstable to be followed.
 const LONGEST_CRAWL: usize = 60;
 /// Scaled distance within which an orbit repeats.
@@ -82,7 +71,8 @@ const SHORTEST_LOOP: usize = 8;
 
 impl<F: Family> Follower<'_, F> {
     /// The branch through the orbit near a state, towards falling and rising parameters, with every
-    /// fold, flip, Neimark-Sacker point and grazing on it. `watch` sees each point as it comes.
+    /// fold, flip, Neimark-Sacker point and grazing on it. `watch` sees each point as it comes, and the last
+    /// one again whenever the next one was not reached by a step.
     ///
     /// # Errors
     /// [`OrbitError`] if there is no orbit to start from.
@@ -173,7 +163,7 @@ impl<F: Family> Follower<'_, F> {
         let mut crawled = 0;
         while way.points.len() < limits.points {
             if crawled > LONGEST_CRAWL {
-                way.end = End::Lost(OrbitError::Diverged { residual: f64::NAN });
+                self.give_up(&mut way, &walker, &approach, limits, UNSTABLE);
                 return Ok(way);
             }
             let stride = walker.attempt().and_then(|stride| {
@@ -197,64 +187,24 @@ impl<F: Family> Follower<'_, F> {
                     }
                 }
                 refused => {
-                    if let Some(special) = self.graze_ahead(&walker, &approach) {
-                        way.points.push(special.point.clone());
-                        way.specials.push(special);
-                        way.end = End::Grazing;
+                    if watch(&self.point_at(&walker.node)).is_break() {
+                        way.end = End::Stopped;
+                        return Ok(way);
+                    }
+                    if !self.is_gentle(&walker.node)
+                        && way.grazes(self.graze_ahead(&walker, &approach))
+                    {
                         return Ok(way);
                     }
                     if !walker.shorten() {
-                        way.end = End::Lost(
-                            refused
-                                .err()
-                                .unwrap_or(OrbitError::Diverged { residual: f64::NAN }),
-                        );
+                        let error = refused.err().unwrap_or(UNSTABLE);
+                        self.give_up(&mut way, &walker, &approach, limits, error);
                         return Ok(way);
                     }
                 }
             }
         }
         Ok(way)
-    }
-
-    /// True if nothing can be missed on a step.
-    fn may_take(
-        &self,
-        walker: &Walker<'_, Shooting<'_, F, 1>>,
-        stride: &Stride<Round>,
-        (now, ahead): (&Approach, &Approach),
-    ) -> bool {
-        let (from, to) = (&walker.node.here.point, &stride.node.here.point);
-        let same = from.sequence == to.sequence;
-        if walker.step < SHORT {
-            return same;
-        }
-        let gentle = self.is_gentle(&stride.node);
-        let change = |test: Test| (test.value(&from.monodromy) - test.value(&to.monodromy)).abs();
-        Test::ALL.iter().all(|test| change(*test) < LARGEST_CHANGE)
-            && (gentle || (same && ahead.leaves(now, SHARE_LEFT, NEAR)))
-    }
-
-    fn is_gentle(&self, node: &Node<Round>) -> bool {
-        let scene = self.shooting.scene(&node.at);
-        scene.is_ok_and(|scene| grazes_gently(&scene))
-    }
-
-    /// The grazing within the next step, if there is one.
-    fn graze_ahead(
-        &self,
-        walker: &Walker<'_, Shooting<'_, F, 1>>,
-        approach: &Approach,
-    ) -> Option<Special> {
-        if walker.step > CLOSE || self.is_gentle(&walker.node) {
-            return None;
-        }
-        approach.grazes(&self.shooting).into_iter().find(|special| {
-            let point = &special.point;
-            let at = self.shooting.scaled(point.state(), [point.parameter]);
-            let way = at - &walker.node.at;
-            way.norm() < 2.0 * walker.step && way.dot(&walker.direction) > 0.5 * way.norm()
-        })
     }
 
     /// Adds the end of a step and the special points on it; says why the branch ends there, if it does.
@@ -289,7 +239,21 @@ impl<F: Family> Follower<'_, F> {
     }
 }
 
+/// No step is short enough.
+const UNSTABLE: OrbitError = OrbitError::Diverged { residual: f64::NAN };
+
 impl Way {
+    /// Ends in a grazing; false if there is none.
+    pub(super) fn grazes(&mut self, special: Option<Special>) -> bool {
+        let Some(special) = special else {
+            return false;
+        };
+        self.points.push(special.point.clone());
+        self.specials.push(special);
+        self.end = End::Grazing;
+        true
+    }
+
     fn none() -> Self {
         Self {
             points: Vec::new(),

@@ -13,6 +13,8 @@ use crate::orbit::OrbitError;
 /// Share of its way across that half a round may have left where an orbit has become one of half as many
 /// periods.
 const MERGED: f64 = 1e-3;
+/// Scaled distance within which an end of the range is reached where it cannot be passed.
+const AT_BOUND: f64 = 1e-4;
 /// Distance from the start, in units of the step, at which a branch is closed.
 const CLOSED: f64 = 0.05;
 
@@ -28,6 +30,19 @@ impl<F: Family> Follower<'_, F> {
         let [before] = self.shooting.parameters(&from.at);
         let bound = now.clamp(low, high);
         (bound != now && before != bound).then_some(bound)
+    }
+
+    /// The orbit at the end of the range that a node has reached to within `AT_BOUND`.
+    pub(super) fn bound_at(&self, node: &Node<Round>, limits: &Limits) -> Option<Node<Round>> {
+        let (low, high) = limits.range;
+        let state = self.shooting.state(&node.at);
+        let reached = |bound: &f64| {
+            let at = self.shooting.scaled(state, [*bound]);
+            (at - &node.at).norm() < AT_BOUND
+        };
+        let bound = [low, high].into_iter().find(reached)?;
+        let found = self.start(bound, state).ok()?;
+        (found.here.point.sequence == node.here.point.sequence).then_some(found)
     }
 
     /// The special points of a step, in their order.

@@ -27,6 +27,7 @@
 
 mod arclength;
 mod branch;
+mod caution;
 mod curve;
 mod detect;
 mod follower;

@@ -5,7 +5,9 @@ use nalgebra::{Matrix2, Vector2};
 use crate::error::MotionError;
 use crate::events::{Guard, Outlook, first_crossing};
 use crate::flow::Course;
-use crate::integrator::{Arc, Clock, Crossing, CrossingKind, Motion, Observer, Start};
+use crate::integrator::{
+    Arc, Clock, Crossing, CrossingKind, Effort, Instant, Motion, Observer, Start,
+};
 use crate::orbit::Tangent;
 use crate::scene::{Scene, Stop};
 
@@ -104,7 +106,7 @@ impl Round {
         };
         let mut ends = Vec::with_capacity(periods as usize);
         for period in 1..=periods {
-            motion.advance(Clock::at_cycle(period), &mut watch)?;
+            carry_on(&mut motion, Clock::at_cycle(period), &mut watch)?;
             let Start { position, velocity } = motion.state();
             ends.push(Vector2::new(position, velocity));
         }
@@ -135,6 +137,25 @@ pub(crate) fn begin(scene: &Scene, state: Vector2<f64>) -> Result<Motion, Motion
     start.validate()?;
     let clock = Clock::new(scene.excitation.frequency, scene.excitation.phase);
     Motion::new(scene.phases(), clock, Clock::at_cycle(0), start)
+}
+
+/// Work that an orbit may cost per drive period, in scan windows: 260,000 crossings. A mass that bounces more
+/// often is on its way to rest, and its motion is no orbit that could be followed.
+const MOST_WORK: u64 = 1 << 22;
+
+/// Carries a motion on by a drive period at most.
+pub(crate) fn carry_on(
+    motion: &mut Motion,
+    until: Instant,
+    observer: &mut impl Observer,
+) -> Result<(), MotionError> {
+    if motion.advance_within(until, observer, Effort::windows(MOST_WORK))? {
+        return Ok(());
+    }
+    Err(MotionError::Stalled {
+        time: motion.clock().time(motion.now()),
+        position: motion.state().position,
+    })
 }
 
 /// Tells an observer of the arc that is under way at the end.
@@ -227,7 +248,9 @@ pub(crate) fn nearest_turn(
             .collect(),
         nearest: None,
     };
-    motion.advance(Clock::at_cycle(periods), &mut turns)?;
+    for period in 1..=periods {
+        carry_on(&mut motion, Clock::at_cycle(period), &mut turns)?;
+    }
     finish(&motion, &mut turns);
     Ok(turns.nearest)
 }

@@ -9,9 +9,9 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Evaluation, Node, differences};
-use super::round::{Face, begin, finish};
+use super::round::{Face, begin, carry_on, finish};
 use super::shooting::round_off;
-use crate::integrator::{Arc, Clock, Crossing, Instant, Observer};
+use crate::integrator::{Arc, Clock, Crossing, Effort, Instant, Observer};
 use crate::orbit::{OrbitError, Tangent};
 use crate::scene::Scene;
 
@@ -34,6 +34,9 @@ pub(crate) struct Contact {
     /// Before-impact velocities in m/s, that of the touch left out.
     pub impacts: Vec<f64>,
 }
+
+/// Work between two looks whether an orbit has made its crossings, in scan windows: a few crossings.
+const FEW: Effort = Effort::windows(64);
 
 /// The orbit does not cross as often as it should, or there is no such surface.
 const LOST: OrbitError = OrbitError::Diverged {
@@ -73,7 +76,10 @@ impl<F: Family<N>, const N: usize> Touching<'_, F, N> {
         let mut motion = begin(&scene, touch)?;
         let clock = *motion.clock();
         let duration = (self.periods as f64 - touched) * clock.period();
-        motion.advance(clock.instant(duration), &mut ())?;
+        for period in 1..=duration.div_euclid(clock.period()) as u64 {
+            carry_on(&mut motion, Clock::at_cycle(period), &mut ())?;
+        }
+        carry_on(&mut motion, clock.instant(duration), &mut ())?;
         Ok(Vector2::new(
             motion.state().position,
             motion.state().velocity,
@@ -96,7 +102,9 @@ impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
             until,
             found: None,
         };
-        motion.advance(until, &mut watch)?;
+        // What comes after the last crossing of the orbit is not looked at: without the touch the mass may
+        // bounce without end.
+        while watch.found.is_none() && !motion.advance_within(until, &mut watch, FEW)? {}
         finish(&motion, &mut watch);
         let end = watch.found.ok_or(LOST)?;
         let monodromy = watch.tangent.matrix;

@@ -53,3 +53,66 @@ pub(crate) fn returns_within(frequency: f64, states: &[Start], share: f64) -> Op
         Some(Return { periods, distance })
     })
 }
+
+/// Share of its first size to which a difference must have fallen to count as one that dies out.
+const DYING: f64 = 0.8;
+
+/// The period of what a row of states that returns after `periods` drive periods settles on: that, or the least
+/// divisor of it so many periods apart of which the states come ever nearer to each other. A motion that spirals
+/// onto its orbit may come back after several turns before it does after one.
+pub(crate) fn settles_on(frequency: f64, states: &[Start], periods: usize) -> usize {
+    let divisors = (1..periods).filter(|part| periods.is_multiple_of(*part));
+    let mut dying = divisors.filter(|part| dies_out(frequency, states, *part));
+    dying.next().unwrap_or(periods)
+}
+
+/// True if states a number of periods apart come nearer to each other from the first half of a row to the second.
+fn dies_out(frequency: f64, states: &[Start], apart: usize) -> bool {
+    let gaps: Vec<f64> = states
+        .iter()
+        .zip(&states[apart..])
+        .map(|(a, b)| distance(frequency, a, b))
+        .collect();
+    let (first, second) = gaps.split_at(gaps.len() / 2);
+    let largest = |gaps: &[f64]| gaps.iter().copied().fold(0.0, f64::max);
+    largest(second) < DYING * largest(first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{returns_within, settles_on};
+    use crate::integrator::Start;
+
+    /// A spiral onto the origin, a third of a turn and a little more at each step.
+    fn spiral(decay: f64) -> Vec<Start> {
+        let state = |k: i32| {
+            let (sin, cos) = (f64::from(k) * 2.1).sin_cos();
+            let size = 1e-4 * decay.powi(k);
+            Start {
+                position: 1.0 + size * cos,
+                velocity: size * sin,
+            }
+        };
+        (0..=24).map(state).collect()
+    }
+
+    #[test]
+    fn a_spiral_settles_on_its_centre() {
+        let states = spiral(0.9);
+        let found = returns_within(1.0, &states, 3e-5).expect("returns");
+        assert!(found.periods > 1, "{found:?}");
+        assert_eq!(settles_on(1.0, &states, found.periods), 1);
+    }
+
+    #[test]
+    fn a_true_period_is_kept() {
+        let angle = |k: usize| (k % 3) as f64 * std::f64::consts::TAU / 3.0;
+        let states: Vec<Start> = (0..=24)
+            .map(|k| Start {
+                position: angle(k).cos(),
+                velocity: angle(k).sin(),
+            })
+            .collect();
+        assert_eq!(settles_on(1.0, &states, 3), 3);
+    }
+}

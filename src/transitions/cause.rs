@@ -8,11 +8,11 @@ use super::window::EndKind;
 pub enum Cause {
     /// G: the motion, or a loop of it without impact, touches the stop.
     Grazing,
-    /// SN: fold, and a jump to another motion.
+    /// SN: loss of stability with a jump to another periodic motion, at a fold or beyond a hard flip.
     Fold,
     /// PD: the period doubles.
     Flip,
-    /// ISN: a fold, or the jump that would follow one, ends in chaos by an additional impact.
+    /// ISN: the jump ends in chaos instead, by an additional impact.
     InterruptedFold,
     /// IPD: a cascade of doublings ends in chaos.
     InterruptedFlips,
@@ -37,37 +37,64 @@ impl Cause {
     }
 }
 
-/// The causes of a transition: from the end of the first motion, that of the last doubled one after it
-/// (if there is one), the motions met, and whether the way back is the same.
-pub(super) fn causes(
-    end: EndKind,
-    doubled: Option<EndKind>,
-    path: &[Motion],
-    hysteresis: bool,
-) -> Vec<Cause> {
-    let met_chaos = path.contains(&Motion::Chaos);
-    let ends_in_chaos = path.last() == Some(&Motion::Chaos);
-    let mut causes = match (end, met_chaos) {
-        (EndKind::Grazing { .. }, _) => return vec![Cause::Grazing],
-        (EndKind::Fold, true) => vec![Cause::InterruptedFold],
-        (EndKind::Fold, false) => vec![Cause::Fold],
-        (EndKind::Flip, true) if !hysteresis => return vec![Cause::InterruptedFlips],
-        (EndKind::Flip, chaos) => vec![Cause::Flip, after_doubling(doubled, chaos)],
-        (EndKind::Merging | EndKind::Range | EndKind::Lost, _) => vec![Cause::Unknown],
-    };
-    if met_chaos && !ends_in_chaos {
-        causes.push(Cause::OutOfChaos);
-    }
-    causes
+/// What goes before a transition.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Course<'a> {
+    /// By what the motion ends.
+    pub end: EndKind,
+    /// By what the motion doubled from it ends, if it ends by a flip.
+    pub doubled: Option<EndKind>,
+    /// True if the doubled motion begins beyond the flip, and takes over without a jump.
+    pub is_soft: bool,
+    /// The motions met beyond the end.
+    pub path: &'a [Motion],
+    /// True if the way back is another.
+    pub hysteresis: bool,
 }
 
-/// How the last doubled motion ends.
-fn after_doubling(end: Option<EndKind>, chaos: bool) -> Cause {
-    match (end, chaos) {
-        (Some(EndKind::Flip), true) => Cause::InterruptedFlips,
-        (Some(EndKind::Fold | EndKind::Grazing { .. }), true) => Cause::InterruptedFold,
-        (Some(EndKind::Fold), false) => Cause::Fold,
-        (Some(EndKind::Grazing { .. }), false) => Cause::Grazing,
-        _ => Cause::Unknown,
+impl Course<'_> {
+    /// The causes, in order.
+    pub(super) fn causes(&self) -> Vec<Cause> {
+        match self.end {
+            EndKind::Grazing { .. } => vec![Cause::Grazing],
+            EndKind::Fold => self.jump(),
+            EndKind::Flip if self.met_chaos() && !self.hysteresis => vec![Cause::InterruptedFlips],
+            EndKind::Flip if self.is_soft => self.end_of_doubled(),
+            // Beyond a hard flip there is nothing near to go on with.
+            EndKind::Flip => [vec![Cause::Flip], self.jump()].concat(),
+            EndKind::Merging | EndKind::Range | EndKind::Lost => vec![Cause::Unknown],
+        }
+    }
+
+    /// A soft doubling loses nothing: the doubled motion goes on in place of the simple one, and its end counts.
+    fn end_of_doubled(&self) -> Vec<Cause> {
+        match self.doubled {
+            Some(EndKind::Grazing { .. }) => vec![Cause::Grazing],
+            Some(EndKind::Fold) => self.jump(),
+            Some(EndKind::Flip) if self.met_chaos() => self.out_of_chaos(Cause::InterruptedFlips),
+            _ => vec![Cause::Flip],
+        }
+    }
+
+    /// A jump to another motion, or into chaos.
+    fn jump(&self) -> Vec<Cause> {
+        if self.met_chaos() {
+            self.out_of_chaos(Cause::InterruptedFold)
+        } else {
+            vec![Cause::Fold]
+        }
+    }
+
+    /// What led into chaos, and the way out of it if there is one.
+    fn out_of_chaos(&self, into: Cause) -> Vec<Cause> {
+        if self.path.last() == Some(&Motion::Chaos) {
+            vec![into]
+        } else {
+            vec![into, Cause::OutOfChaos]
+        }
+    }
+
+    fn met_chaos(&self) -> bool {
+        self.path.contains(&Motion::Chaos)
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::cause::causes;
+use super::cause::Course;
 use super::explore::Stage;
 use super::window::{EndKind, Window, WindowEnd};
 use super::{Motion, Transition, TransitionError};
@@ -91,7 +91,13 @@ impl<F: Family + Sync> Stage<'_, F> {
         let mut way = Way::new(self.side_by_side(end.point.state()), window);
         for distance in self.distances(end.point.parameter) {
             let value = end.point.parameter + sign * distance;
-            let gathering = self.gather(value, &self.fill(&way.states))?;
+            let mut gathering = self.gather(value, &self.fill(&way.states))?;
+            if gathering.motion.is_none()
+                && end.kind == EndKind::Flip
+                && self.is_intermittent(value, &gathering.states, &window.motion)?
+            {
+                gathering.motion = Some(Motion::Chaos);
+            }
             if way.meet(gathering, distance, end.kind) {
                 break;
             }
@@ -108,10 +114,18 @@ impl<F: Family + Sync> Stage<'_, F> {
             EndKind::Flip => self.end_of_doubled(&way, window, end, upper)?,
             _ => None,
         };
+        let course = Course {
+            end: end.kind,
+            doubled: doubled.map(|it| it.0),
+            is_soft: doubled.is_some_and(|it| sign * (it.1 - end.point.parameter) > 0.0),
+            path: &way.path,
+            hysteresis,
+        };
         let transition = Transition {
             value: end.point.parameter,
             from: window.motion.clone(),
-            causes: causes(end.kind, doubled.map(|it| it.0), &way.path, hysteresis),
+            state: Some(end.point.state().into()),
+            causes: course.causes(),
             doubled_until: doubled.map(|it| it.1),
             settled_at: self.settling(&way, end.point.parameter, sign)?,
             path: way.path,

@@ -180,6 +180,7 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
                     doubled_until: None,
                     settled_at: None,
                     from: Motion::Chaos,
+                    state: None,
                     path: vec![target.clone()],
                     causes: vec![Cause::OutOfChaos],
                     rising,

@@ -25,6 +25,7 @@ mod cause;
 mod chaos;
 mod departure;
 mod explore;
+mod intermittent;
 mod window;
 
 pub use cause::Cause;
@@ -37,6 +38,7 @@ use thiserror::Error;
 
 use crate::attractors::{Options, SurveyError};
 use crate::error::MotionError;
+use crate::integrator::Start;
 use crate::orbit::{Orbit, OrbitError};
 
 /// A motion, by what tells it from others.
@@ -95,6 +97,8 @@ pub struct Transition {
     pub value: f64,
     /// What ends there.
     pub from: Motion,
+    /// Its state there at drive angle phi, if it repeats.
+    pub state: Option<Start>,
     /// The parameter where the last doubled motion after it ends, if there is one.
     pub doubled_until: Option<f64>,
     /// The parameter where the last motion on the way first follows, if others come before it.
@@ -115,6 +119,18 @@ impl Transition {
     /// What follows in the end.
     pub fn to(&self) -> &Motion {
         self.path.last().unwrap_or(&self.from)
+    }
+
+    /// The parameter where the first motion is lost: where it ends or, if it ends by a soft doubling and what
+    /// follows is another motion for good, where that takes over.
+    pub fn lost_at(&self) -> f64 {
+        let is_soft = self
+            .doubled_until
+            .is_some_and(|until| (until > self.value) == self.rising);
+        match self.settled_at {
+            Some(settled) if is_soft && self.hysteresis => settled,
+            _ => self.value,
+        }
     }
 
     /// The causes by the paper's symbols: `PD -> ISN -> OCH`.

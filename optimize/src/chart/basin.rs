@@ -1,15 +1,11 @@
-//! Pictures of basins, and of the certainty with which z = 1 establishes itself.
+//! Pictures of basins: cells of colour, the motions' own points, the largest ball inside a basin.
 
-use kuva::backend::svg::SvgBackend;
-use kuva::plot::LinePlot;
-use kuva::plot::band::BandPlot;
-use kuva::render::plots::Plot;
-use kuva::render::render::render_multiple;
-use softstop::basin::{Axis, Basins, Establishing, Kind, Quantity};
+use softstop::basin::{Axis, Basins, Clearing, Kind, Quantity};
 use softstop::orbit::Orbit;
 
-use super::pen::{Align, Pen};
-use super::style;
+use super::pen::{Align, Area, Pen};
+use super::plane::Plane;
+use super::regime_map::{RegimeCell, RegimeClass};
 
 /// Basins as cells of colour.
 #[derive(Debug, Clone, Copy)]
@@ -18,20 +14,23 @@ pub struct BasinPicture<'a> {
     title: &'a str,
     /// Drive angle at which the orbits' own states are known.
     angle: f64,
+    /// Places of the plane on which chaos moves.
+    wandering: &'a [(f64, f64)],
 }
 
-/// Okabe and Ito's colours of what is neither z = 0 nor z = 1.
+/// Colours of motions whose class has its colour from another motion.
 const OTHERS: [&str; 6] = [
-    "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#F0E442", "#D55E00",
+    "#CC79A7", "#F0E442", "#0072B2", "#009E73", "#E69F00", "#D55E00",
 ];
 /// Pixels that the longer side of the grid has about.
 const SIDE: usize = 900;
 /// Margins around the grid: left, top, right, bottom.
-const MARGINS: (f64, f64, f64, f64) = (86.0, 56.0, 330.0, 66.0);
+const MARGINS: (f64, f64, f64, f64) = (86.0, 56.0, 340.0, 66.0);
 /// Size of letters.
 const LETTERS: u32 = 15;
-/// Numbers on an axis.
-const TICKS: usize = 6;
+/// Radius of the spots of periodic motions, and of the dots of chaos.
+const SPOT: f64 = 5.0;
+const DOT: f64 = 0.8;
 
 impl<'a> BasinPicture<'a> {
     /// The picture of basins; `angle`: the drive angle of the machine at time 0.
@@ -41,7 +40,14 @@ impl<'a> BasinPicture<'a> {
             basins,
             title,
             angle,
+            wandering: &[],
         }
+    }
+
+    /// With dots where chaos moves.
+    #[must_use]
+    pub fn with_wandering(self, wandering: &'a [(f64, f64)]) -> Self {
+        Self { wandering, ..self }
     }
 
     /// As PNG.
@@ -57,117 +63,84 @@ impl<'a> BasinPicture<'a> {
         let mut pen = Pen::new(page.0, page.1);
         pen.fill(&[(0.0, 0.0, page.0, page.1)], "#ffffff");
         pen.heading((MARGINS.0, 34.0), 19, Align::Left, self.title);
-        self.cells(&mut pen);
-        self.axes(&mut pen);
-        self.attractors(&mut pen);
-        self.legend(&mut pen);
+        self.draw(&mut pen, (MARGINS.0, MARGINS.1, width, height), LETTERS);
+        let place = (MARGINS.0 + width + 24.0, MARGINS.1 + 12.0);
+        self.legend(&mut pen, place, LETTERS);
         pen.png()
     }
 
-    /// Pixels of a cell's side.
-    fn cell(&self) -> f64 {
-        let grid = &self.basins.grid;
-        (SIDE / grid.across.cells.max(grid.up.cells)).max(1) as f64
+    pub(super) fn title(&self) -> &str {
+        self.title
     }
 
+    /// Width and height: whole pixels for each cell.
     fn size(&self) -> (f64, f64) {
         let grid = &self.basins.grid;
-        let cell = self.cell();
+        let cell = (SIDE / grid.across.cells.max(grid.up.cells)).max(1) as f64;
         (cell * grid.across.cells as f64, cell * grid.up.cells as f64)
     }
 
-    /// Runs of one colour, row by row.
-    fn cells(&self, pen: &mut Pen) {
-        let colors = self.colors();
-        let cell = self.cell();
-        let bottom = MARGINS.1 + self.size().1;
-        let mut tiles = Vec::new();
-        for (row, classes) in self
-            .basins
-            .cells
-            .chunks(self.basins.grid.across.cells)
-            .enumerate()
-        {
-            let top = bottom - cell * (row + 1) as f64;
-            let mut from = 0;
-            for run in classes.chunk_by(|a, b| a == b) {
-                let area = (
-                    MARGINS.0 + cell * from as f64,
-                    top,
-                    cell * run.len() as f64,
-                    cell,
-                );
-                tiles.push((area, colors[usize::from(run[0])]));
-                from += run.len();
-            }
-        }
-        pen.mosaic(&tiles);
-    }
-
-    fn colors(&self) -> Vec<&'static str> {
-        let mut others = OTHERS.iter().cycle();
-        let kinds = self.basins.classes.iter().map(|class| &class.kind);
-        let color = |kind: &Kind| match kind {
-            Kind::Periodic(orbit) => match (orbit.impacts.len(), orbit.periods) {
-                (0, _) => "#D9D9D9",
-                (1, 1) => style::DESIGN,
-                _ => others.next().copied().unwrap_or(OTHERS[0]),
-            },
-            Kind::AtRest => "#A6A6A6",
-            Kind::Chaotic(_) => style::POINT,
-            Kind::Unsettled(_) => "#555555",
-            Kind::Lost(_) => "#FFFFFF",
+    /// Cells, axes, motions and the largest ball inside the basin of z = 1.
+    pub(super) fn draw(&self, pen: &mut Pen, area: Area, letters: u32) {
+        let grid = &self.basins.grid;
+        let plane = Plane {
+            area,
+            x: grid.across.range.into(),
+            y: grid.up.range.into(),
+            letters,
         };
-        kinds.map(color).collect()
+        let palette = self.colors();
+        let cells = self.basins.cells.iter();
+        let colors: Vec<&str> = cells.map(|class| palette[usize::from(*class)]).collect();
+        plane.cells(pen, grid.across.cells, &colors);
+        if let Some(ball) = self.ball() {
+            let center = plane.place((ball.centre[0], ball.centre[1]));
+            let radius = (0.5 * ball.radius * area.2, 0.5 * ball.radius * area.3);
+            pen.ring(center, radius);
+        }
+        plane.axes(pen, name(&grid.across), name(&grid.up));
+        self.motions(pen, &plane);
     }
 
-    fn axes(&self, pen: &mut Pen) {
+    /// The points of the motions, where the plane shows them.
+    fn motions(&self, pen: &mut Pen, plane: &Plane) {
         let grid = &self.basins.grid;
-        let (width, height) = self.size();
-        let (left, top) = (MARGINS.0, MARGINS.1);
-        pen.frame((left, top, width, height));
-        for value in ticks(&grid.across) {
-            let x = left + width * share(&grid.across, value);
-            pen.tick((x, top + height), (x, top + height + 6.0));
-            pen.text(
-                (x, top + height + 24.0),
-                LETTERS,
-                Align::Middle,
-                &number(value),
-            );
-        }
-        for value in ticks(&grid.up) {
-            let y = top + height * (1.0 - share(&grid.up, value));
-            pen.tick((left - 6.0, y), (left, y));
-            pen.text(
-                (left - 10.0, y + 5.0),
-                LETTERS,
-                Align::Right,
-                &number(value),
-            );
-        }
-        let below = (left + 0.5 * width, top + height + 52.0);
-        pen.text(below, LETTERS, Align::Middle, name(grid.across.quantity));
-        let beside = (left - 58.0, top + 0.5 * height);
-        pen.text(beside, LETTERS, Align::Upwards, name(grid.up.quantity));
-    }
-
-    /// The points of the periodic motions, where the plane shows them.
-    fn attractors(&self, pen: &mut Pen) {
-        let grid = &self.basins.grid;
-        let plane = (grid.across.quantity, grid.up.quantity);
-        if plane != (Quantity::Position, Quantity::Velocity) || grid.angle != self.angle {
+        let shown = (grid.across.quantity, grid.up.quantity);
+        if shown != (Quantity::Position, Quantity::Velocity) || grid.angle != self.angle {
             return;
         }
-        let (width, height) = self.size();
+        let inside = |point: &(f64, f64)| plane.holds(*point);
+        let wandering = self.wandering.iter().copied().filter(inside);
+        let dots: Vec<(f64, f64)> = wandering.map(|point| plane.place(point)).collect();
+        pen.dots(&dots, DOT, "#ffffff");
         for orbit in self.orbits() {
-            for state in orbit.states().unwrap_or_default() {
-                let (x, y) = (share(&grid.across, state.x), share(&grid.up, state.y));
-                if (0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y) {
-                    pen.spot((MARGINS.0 + x * width, MARGINS.1 + (1.0 - y) * height), 5.0);
-                }
+            let states = orbit.states().unwrap_or_default().into_iter();
+            for point in states.map(|state| (state.x, state.y)).filter(inside) {
+                pen.spot(plane.place(point), SPOT);
             }
         }
+    }
+
+    /// The colour of each basin: that of its regime; if it is taken, another one.
+    fn colors(&self) -> Vec<&'static str> {
+        let mut taken: Vec<&'static str> = Vec::new();
+        for class in &self.basins.classes {
+            let own = match &class.kind {
+                Kind::Periodic(orbit) => RegimeCell::of(orbit).class().color(),
+                Kind::AtRest => "#B8A98C",
+                Kind::Chaotic(_) => RegimeClass::Chaos.color(),
+                Kind::Unsettled(_) => RegimeClass::Unsettled.color(),
+                Kind::Lost(_) => RegimeClass::Lost.color(),
+            };
+            let mut others = OTHERS.into_iter().filter(|color| !taken.contains(color));
+            let color = if taken.contains(&own) {
+                others.next().unwrap_or(own)
+            } else {
+                own
+            };
+            taken.push(color);
+        }
+        taken
     }
 
     fn orbits(&self) -> impl Iterator<Item = &Orbit> {
@@ -178,108 +151,103 @@ impl<'a> BasinPicture<'a> {
         })
     }
 
-    fn legend(&self, pen: &mut Pen) {
-        let left = MARGINS.0 + self.size().0 + 24.0;
-        let colors = self.colors();
-        for (index, (class, color)) in self.basins.classes.iter().zip(colors).enumerate() {
-            let top = MARGINS.1 + 56.0 * index as f64;
-            pen.fill(&[(left, top, 22.0, 22.0)], color);
-            pen.frame((left, top, 22.0, 22.0));
-            let label = match &class.kind {
-                Kind::Periodic(orbit) if orbit.periods > 1 => {
-                    format!("{} ({})", class.kind.name(), orbit.pattern())
-                }
-                kind => kind.name(),
-            };
-            pen.heading((left + 32.0, top + 12.0), LETTERS, Align::Left, &label);
+    /// The largest ball inside the basin of z = 1.
+    fn ball(&self) -> Option<Clearing> {
+        let kinds = self.basins.classes.iter().map(|class| class.kind.name());
+        let one = kinds.into_iter().position(|name| name == "z = 1")?;
+        self.basins.largest_ball(one)
+    }
+
+    /// Colours, names and shares, downwards from a place.
+    pub(super) fn legend(&self, pen: &mut Pen, (left, top): (f64, f64), letters: u32) {
+        let size = f64::from(letters);
+        let lines = self.basins.classes.iter().zip(self.colors());
+        for (index, (class, color)) in lines.enumerate() {
+            let line = top + 3.4 * size * index as f64;
+            let square = (left, line - size, 1.5 * size, 1.5 * size);
+            pen.fill(&[square], color);
+            pen.frame(square);
+            let place = (left + 2.2 * size, line);
+            pen.heading(place, letters, Align::Left, &label(&class.kind));
             let [low, high] = class.interval.map(|share| 100.0 * share);
             let share = format!("{:.2} % ({low:.2} to {high:.2})", 100.0 * class.share);
-            pen.text((left + 32.0, top + 31.0), LETTERS - 1, Align::Left, &share);
+            let place = (left + 2.2 * size, line + 1.3 * size);
+            pen.text(place, letters, Align::Left, &share);
+        }
+        if let Some(ball) = self.ball() {
+            let line = top + 3.4 * size * self.basins.classes.len() as f64;
+            let radius = (0.6 * size, 0.6 * size);
+            pen.ring((left + 0.75 * size, line - 0.35 * size), radius);
+            let place = (left + 2.2 * size, line);
+            let text = format!("largest ball in z = 1: {:.3}", ball.radius);
+            pen.text(place, letters, Align::Left, &text);
         }
     }
 }
 
-/// Where a value lies on an axis, from 0 to 1.
-fn share(axis: &Axis, value: f64) -> f64 {
-    (value - axis.range[0]) / (axis.range[1] - axis.range[0])
+/// What a basin is called.
+fn label(kind: &Kind) -> String {
+    match kind {
+        Kind::Periodic(orbit) if orbit.periods > 1 => {
+            let paired = RegimeCell::of(orbit).class() == RegimeClass::Paired;
+            let letter = if paired { "B" } else { "" };
+            let regime = orbit.regime();
+            let regime = if paired {
+                format!("z = ({regime}){letter}")
+            } else {
+                kind.name()
+            };
+            format!("{regime}: {}", orbit.pattern())
+        }
+        kind => kind.name(),
+    }
 }
 
-/// Round numbers on an axis.
-fn ticks(axis: &Axis) -> Vec<f64> {
-    let [from, to] = axis.range;
-    let rough = (to - from) / TICKS as f64;
-    let power = 10_f64.powf(rough.log10().floor());
-    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
-    let step = steps
-        .into_iter()
-        .find(|step| *step >= rough)
-        .unwrap_or(rough);
-    let (first, last) = ((from / step).ceil() as i64, (to / step).floor() as i64);
-    (first..=last).map(|k| k as f64 * step).collect()
-}
-
-fn number(value: f64) -> String {
-    let text = format!("{value:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    text.replace('-', "−")
-}
-
-const fn name(quantity: Quantity) -> &'static str {
-    match quantity {
+const fn name(axis: &Axis) -> &'static str {
+    match axis.quantity {
         Quantity::Position => "initial position X",
         Quantity::Velocity => "initial velocity X′",
-        Quantity::Angle => "initial drive angle in rad",
+        Quantity::Angle => "initial drive angle φ in rad",
     }
 }
 
-/// Certainty of z = 1 along the hysteresis zone.
-#[derive(Debug, Clone, Copy)]
-pub struct CertaintyChart<'a> {
-    places: &'a [Establishing],
-    title: &'a str,
+/// Four pictures of basins on a page.
+#[derive(Debug, Clone)]
+pub struct BasinPage<'a> {
+    /// The pictures.
+    pub pictures: Vec<BasinPicture<'a>>,
 }
 
-impl<'a> CertaintyChart<'a> {
-    /// The chart of these places.
-    #[must_use]
-    pub fn new(places: &'a [Establishing], title: &'a str) -> Self {
-        Self { places, title }
-    }
+/// Sizes on the page: a grid, what is left of it and right, above it and below.
+const GRID: f64 = 600.0;
+const COLUMN: f64 = GRID + 96.0 + 290.0;
+const ROW: f64 = GRID + 60.0 + 78.0;
+const HEAD: f64 = 66.0;
+/// Letters and pixels for each unit.
+const PAGE_LETTERS: u32 = 17;
+const SCALE: f32 = 2.0;
 
-    /// The chart as an SVG document.
-    #[must_use]
-    pub fn svg(&self) -> String {
-        let frequency: Vec<f64> = self.places.iter().map(|place| place.frequency).collect();
-        let low = frequency.iter().copied().fold(f64::MAX, f64::min);
-        let high = frequency.iter().copied().fold(f64::MIN, f64::max);
-        let room = 0.03 * (high - low).max(1e-3);
-        let edge = |end: usize| self.places.iter().map(move |place| place.interval[end]);
-        let data = self
-            .places
-            .iter()
-            .map(|place| (place.frequency, place.certainty));
-        let plots = vec![
-            Plot::Band(
-                BandPlot::new(frequency.clone(), edge(0), edge(1))
-                    .with_color(style::ALLOWED)
-                    .with_opacity(0.35),
-            ),
-            Plot::Line(
-                LinePlot::new()
-                    .with_data(data.collect::<Vec<_>>())
-                    .with_color(style::DESIGN)
-                    .with_stroke_width(2.2),
-            ),
-        ];
-        let layout = style::plain((low - room, high + room), (0.0, 1.05))
-            .with_width(900.0)
-            .with_height(560.0)
-            .with_title(self.title)
-            .with_subtitle("share of initial states that lead to z = 1, with 95 % interval")
-            .with_x_label("drive frequency η = ω/Ω, from g₀ to s_SN")
-            .with_y_label("establishing certainty of z = 1");
-        SvgBackend::new()
-            .with_pretty(true)
-            .render_scene(&render_multiple(plots, layout))
+impl BasinPage<'_> {
+    /// As PNG.
+    ///
+    /// # Errors
+    /// Why it cannot be made.
+    pub fn png(&self) -> Result<Vec<u8>, String> {
+        let rows = self.pictures.len().div_ceil(2) as f64;
+        let (width, height) = (2.0 * COLUMN, HEAD + rows * ROW);
+        let mut pen = Pen::new(width, height);
+        pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
+        let title = "Basins of attraction: which start leads to which motion";
+        pen.heading((92.0, 42.0), 24, Align::Left, title);
+        for (index, picture) in self.pictures.iter().enumerate() {
+            let left = 92.0 + COLUMN * (index % 2) as f64;
+            let top = HEAD + 46.0 + ROW * (index / 2) as f64;
+            let place = (left, top - 14.0);
+            pen.heading(place, PAGE_LETTERS + 2, Align::Left, picture.title());
+            picture.draw(&mut pen, (left, top, GRID, GRID), PAGE_LETTERS);
+            let place = (left + GRID + 22.0, top + 16.0);
+            picture.legend(&mut pen, place, PAGE_LETTERS);
+        }
+        pen.png_at(SCALE)
     }
 }

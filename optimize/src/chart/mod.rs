@@ -6,6 +6,8 @@
 mod atlas;
 mod basin;
 mod branch;
+mod certainty;
+mod clearances;
 mod continuation;
 mod fidelity;
 mod hardening;
@@ -13,26 +15,41 @@ mod heat;
 mod loops;
 mod motion;
 mod motions;
+mod numbered;
 mod panel;
 mod pen;
+mod plane;
 mod precision;
+mod regime_map;
 mod regimes;
+mod stability;
 mod stroke;
 mod style;
+mod supply;
 mod sweep;
+mod table;
 
 pub use atlas::page;
-pub use basin::{BasinPicture, CertaintyChart};
+pub use basin::{BasinPage, BasinPicture};
+pub use certainty::{
+    CertaintyChart, CertaintyCurve, CertaintyPage, CertaintyPanel, CertaintyPoint,
+};
+pub use clearances::{Boundaries, ClearanceChart, ClearanceRow};
 pub use continuation::{BranchChart, CurveChart};
 pub use fidelity::{Candidate, FidelityChart, FidelityPicture};
 pub use hardening::{HardeningChart, StopDiagram, StopFolds, StopMap, StopOrders, StopRegime};
 pub use loops::Loops;
 pub use motion::{Drawing, MotionChart};
 pub use motions::{MotionPage, MotionRow};
+pub use numbered::{Bifurcation, Diagram, NumberedChart};
 pub use precision::PrecisionChart;
+pub use regime_map::{BoundaryCurve, RegimeCell, RegimeClass, RegimeMap, RegimePage, RegimePanel};
 pub use regimes::{RegimeChart, RegimeRow, Strip};
+pub use stability::{StabilityChart, StabilityPart, StabilityPoint};
 pub use stroke::{StrokeChart, StrokePoint};
+pub use supply::{SupplyChart, SupplyCurve};
 pub use sweep::SweepChart;
+pub use table::TablePicture;
 
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::scatter::MarkerShape;

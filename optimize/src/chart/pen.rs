@@ -12,6 +12,9 @@ pub(super) use ink::{Stroke, width};
 /// Width of the line and of the light rim that tells it from dark grounds.
 const LINE: (f64, f64) = (1.6, 3.6);
 
+/// Sides of the polygon that stands for an ellipse.
+const SIDES: u32 = 180;
+
 /// Shapes on a white page; lengths are pixels, y points down.
 pub(super) struct Pen {
     scene: Scene,
@@ -151,9 +154,51 @@ impl Pen {
         });
     }
 
+    /// Text on a white ground, its middle at this place.
+    pub(super) fn label(&mut self, (x, y): (f64, f64), size: u32, text: &str) {
+        let letters = f64::from(size);
+        let width = 0.62 * letters * text.chars().count() as f64 + 8.0;
+        let height = 1.25 * letters;
+        self.fill(
+            &[(x - 0.5 * width, y - 0.5 * height, width, height)],
+            "#ffffff",
+        );
+        self.text((x, y + 0.35 * letters), size, Align::Middle, text);
+    }
+
+    /// An ellipse that is seen on any ground; the half-axes are those along x and y.
+    pub(super) fn ring(&mut self, (cx, cy): (f64, f64), (across, up): (f64, f64)) {
+        let point = |k: u32| {
+            let (sin, cos) = (f64::from(k) / f64::from(SIDES) * std::f64::consts::TAU).sin_cos();
+            (cx + across * cos, cy + up * sin)
+        };
+        let points: Vec<(f64, f64)> = (0..=SIDES).map(point).collect();
+        self.curve(&points, None);
+    }
+
+    /// Small dots of one colour.
+    pub(super) fn dots(&mut self, places: &[(f64, f64)], radius: f64, color: &str) {
+        self.scene.add(Primitive::CircleBatch {
+            cx: places.iter().map(|place| place.0).collect(),
+            cy: places.iter().map(|place| place.1).collect(),
+            r: radius,
+            fill: color.into(),
+            fill_opacity: None,
+            stroke: None,
+            stroke_width: None,
+        });
+    }
+
+    /// As pixels, so many for each unit of length.
+    pub(super) fn png_at(&self, scale: f32) -> Result<Vec<u8>, String> {
+        PngBackend::new()
+            .with_scale(scale)
+            .render_scene(&self.scene)
+    }
+
     /// As pixels, one for each unit of length.
     pub(super) fn png(&self) -> Result<Vec<u8>, String> {
-        PngBackend::new().with_scale(1.0).render_scene(&self.scene)
+        self.png_at(1.0)
     }
 
     pub(super) fn svg(&self) -> String {

@@ -10,10 +10,10 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use clap::Args;
-use indicatif::ProgressBar;
 use nalgebra::Vector2;
 use softstop::continuation::{
-    Adjustable, Along, Branch, Curve, Follower, Limits, Parameter, Region, SpecialKind, Test, curve,
+    Adjustable, Along, Branch, Curve, Family, Follower, Limits, Parameter, Region, SpecialKind,
+    Test, curve,
 };
 
 use crate::arguments::SceneSettings;
@@ -22,6 +22,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::orbit;
 use crate::output::{self, Folder, Format};
+use crate::progress::Progress;
 use crate::scene_file;
 use model::Model;
 use report::{BranchReport, ContinuationReport, CurveReport, CurvesReport};
@@ -36,7 +37,7 @@ Examples:
       the isolated z = 2/3 motion, found from scratch at eta = 0.9875
   softstop continue --parameter eta --from 0.9 --to 1.8 --second rho --second-from 2 --second-to 18
       besides, each special point as a curve in (eta, rho): regions of the z = 1 motion
-  softstop continue --parameter eta --from 1.5 --to 3 --double 4 docs/scenes/rigid.toml
+  softstop continue --parameter rho --from -1 --to 20 --double 4 docs/scenes/rigid.toml
       a scene in SI units; from each flip on to the orbits of twice the period, four times
   softstop continue --parameter k4 --from 1 --to 40 --state 6.9,9.5
       along the stop's stiffness, from an orbit near a state: an unstable one if that is nearest
@@ -103,8 +104,17 @@ pub struct ContinueArguments {
     pub machine: SceneSettings,
 }
 
-/// Largest steps along branches and curves, scaled: fine enough for charts.
+/// Largest steps along branches and curves, scaled: fine enough for charts of wide ranges.
 const STEP: f64 = 0.02;
+/// Steps of a narrow range, and the least share of `STEP` that they are.
+const NARROW: (f64, f64) = (100.0, 0.1);
+
+/// Largest step of a range, so that its chart has no corners.
+fn step(family: &Along<Model, 1>, (low, high): (f64, f64)) -> f64 {
+    let [scale] = family.parameter_scales();
+    let (steps, least) = NARROW;
+    ((high - low) / (steps * scale)).clamp(least * STEP, STEP)
+}
 
 /// Follows the motion and writes tables and charts.
 ///
@@ -227,12 +237,10 @@ fn second(
 }
 
 /// Counts a point; asks to stop after Ctrl-C.
-fn count(bar: &ProgressBar) -> ControlFlow<()> {
-    bar.inc(1);
-    if interrupt::requested() {
-        ControlFlow::Break(())
-    } else {
-        ControlFlow::Continue(())
+fn count(bar: &Progress) -> ControlFlow<()> {
+    match bar.step() {
+        Ok(()) => ControlFlow::Continue(()),
+        Err(_) => ControlFlow::Break(()),
     }
 }
 
@@ -251,8 +259,9 @@ fn branches(
         Some(state) => state,
         None => seed::find(&scene, arguments.orbit)?.state(),
     };
-    let bar = seed::spinner("points");
-    let follower = Follower::new(family, arguments.orbit.periods).with_steps(STEP);
+    let bar = Progress::open("points");
+    let largest = step(family, limits.range);
+    let follower = Follower::new(family, arguments.orbit.periods).with_steps(largest);
     let first = follower
         .branch(start, state, limits, |_| count(&bar))
         .map_err(|error| anyhow!(error).context("no orbit to start from"))?;
@@ -267,7 +276,7 @@ fn branches(
         branches.extend(doubled);
         done = last;
     }
-    bar.finish_and_clear();
+    drop(bar);
     if interrupt::requested() {
         return Err(Failure::Interrupted);
     }
@@ -279,9 +288,9 @@ fn doubled(
     family: &Along<Model, 1>,
     branch: &Branch,
     limits: &Limits,
-    bar: &ProgressBar,
+    bar: &Progress,
 ) -> Vec<Branch> {
-    let follower = Follower::new(family, branch.periods).with_steps(STEP);
+    let follower = Follower::new(family, branch.periods).with_steps(step(family, limits.range));
     let flips = branch
         .specials
         .iter()
@@ -324,7 +333,7 @@ fn curves(
         points: arguments.points,
         step: STEP,
     };
-    let bar = seed::spinner("points of curves");
+    let bar = Progress::open("points of curves");
     let mut found: Vec<Curve> = Vec::new();
     for special in &branch.specials {
         let start = [special.point.parameter, second.start];
@@ -340,7 +349,7 @@ fn curves(
             anyhow!(error).context(format!("no curve of the {}", special.kind.name()))
         })?);
     }
-    bar.finish_and_clear();
+    drop(bar);
     if interrupt::requested() {
         return Err(Failure::Interrupted);
     }

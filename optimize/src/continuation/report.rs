@@ -1,10 +1,11 @@
 //! The results as tables and JSON.
 
 use serde::Serialize;
+use softstop::MotionError;
 use softstop::continuation::{
     Branch, BranchPoint, Curve, CurveEnd, CurvePoint, End, Special, SpecialKind,
 };
-use softstop::orbit::multipliers;
+use softstop::orbit::{OrbitError, multipliers};
 
 /// Everything that `softstop continue` found.
 #[derive(Debug, Serialize)]
@@ -97,23 +98,32 @@ pub fn describe(kind: &SpecialKind) -> String {
 fn end(end: &End) -> String {
     match end {
         End::Range => "the range ends".to_owned(),
-        End::Points => "no more points were asked for".to_owned(),
+        End::Points => "there are --points of them".to_owned(),
         End::Closed => "the branch is closed".to_owned(),
         End::Grazing => "the orbit grazes".to_owned(),
         End::Merged => "it merges into the orbit of half its period".to_owned(),
         End::Stopped => "stopped".to_owned(),
-        End::Lost(_) => "the orbit is too unstable to be followed".to_owned(),
+        End::Lost(error) => lost(error),
+    }
+}
+
+/// Why something cannot be followed any farther.
+fn lost(error: &OrbitError) -> String {
+    match error {
+        OrbitError::Motion(MotionError::Scene(_)) => "no machine is beyond".to_owned(),
+        OrbitError::Motion(error) => format!("beyond, {error}"),
+        _ => "no step is short enough to follow it any farther".to_owned(),
     }
 }
 
 fn curve_end(end: &CurveEnd) -> String {
     match end {
         CurveEnd::Range => "a range ends".to_owned(),
-        CurveEnd::Points => "no more points were asked for".to_owned(),
+        CurveEnd::Points => "there are --points of them".to_owned(),
         CurveEnd::Closed => "the curve is closed".to_owned(),
         CurveEnd::Grazing => "the orbit grazes elsewhere".to_owned(),
         CurveEnd::Stopped => "stopped".to_owned(),
-        CurveEnd::Lost(_) => "it cannot be followed any farther".to_owned(),
+        CurveEnd::Lost(error) => lost(error),
     }
 }
 

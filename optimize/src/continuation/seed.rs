@@ -1,10 +1,8 @@
 //! The orbit to start from.
 
 use std::str::FromStr;
-use std::time::Duration;
 
 use anyhow::anyhow;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use nalgebra::Vector2;
 use softstop::Scene;
 use softstop::attractors::{Kind, Options, SurveyError, attractors_watched};
@@ -12,6 +10,7 @@ use softstop::orbit::Orbit;
 
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::progress::Progress;
 
 /// The regime z = p/n that is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,12 +76,12 @@ pub fn find(scene: &Scene, wanted: Wanted) -> Result<Orbit, Failure> {
         patience: PATIENCE,
         ..Options::default()
     };
-    let bar = spinner("drive periods in search of the orbit");
-    let survey = attractors_watched(scene, &options, &|done, _| {
-        bar.set_position(done);
+    let bar = Progress::new(1, "drive periods at most, in search of the orbit");
+    let survey = attractors_watched(scene, &options, &|done, planned| {
+        bar.at_of(done, planned);
         !interrupt::requested()
     });
-    bar.finish_and_clear();
+    drop(bar);
     let survey = survey.map_err(|error| match error {
         SurveyError::Stopped => Failure::Interrupted,
         other => Failure::Run(anyhow!(other)),
@@ -95,7 +94,11 @@ pub fn find(scene: &Scene, wanted: Wanted) -> Result<Orbit, Failure> {
                 if (regime.impacts, regime.periods) == (wanted.impacts, wanted.periods) {
                     return Ok(*orbit);
                 }
-                others.push(format!("z = {}/{}", regime.impacts, regime.periods));
+                others.push(match (orbit.chatters(), regime.impacts) {
+                    (true, _) => format!("complete chatter every {} drive periods", regime.periods),
+                    (false, 0) => "z = 0".to_owned(),
+                    (false, impacts) => format!("z = {impacts}/{}", regime.periods),
+                });
             }
             Kind::AtRest { .. } => others.push("rest".to_owned()),
             Kind::Chaotic(_) | Kind::TransientChaos { .. } => others.push("chaos".to_owned()),
@@ -103,26 +106,10 @@ pub fn find(scene: &Scene, wanted: Wanted) -> Result<Orbit, Failure> {
         }
     }
     Err(Failure::Run(anyhow!(
-        "no stable z = {}/{} motion found to start from; found: {}. Start elsewhere along the parameter, or \
-         give a state with --state",
+        "no stable z = {}/{} motion found to start from; found: {}. Start from another machine, ask for one of \
+         these with --orbit p/n, or give a state with --state",
         wanted.impacts,
         wanted.periods,
         others.join(", ")
     )))
-}
-
-/// A counter of things on stderr, seen only in runs of more than two seconds.
-pub fn spinner(what: &str) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
-    if let Ok(style) = ProgressStyle::with_template(&format!("{{spinner}} {{pos}} {what}")) {
-        bar.set_style(style);
-    }
-    let late = bar.clone();
-    std::thread::spawn(move || {
-        std::thread::sleep(Duration::from_secs(2));
-        if !late.is_finished() {
-            late.set_draw_target(ProgressDrawTarget::stderr());
-        }
-    });
-    bar
 }

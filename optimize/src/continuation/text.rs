@@ -36,8 +36,13 @@ fn branch_text(parameter: &str, branch: &BranchReport) -> String {
         .into_iter()
         .chain(branch.specials.iter().map(special_row))
         .collect();
+    let table = if branch.specials.is_empty() {
+        "No special points.\n".to_owned()
+    } else {
+        table(&rows)
+    };
     let [first, last] = &branch.ends;
-    heading(&title) + &table(&rows) + &format!("Ends: {first}; {last}.\n\n")
+    heading(&title) + &table + &format!("Ends: {first}; {last}.\n\n")
 }
 
 fn special_row(special: &SpecialReport) -> (String, Vec<String>) {

@@ -1,6 +1,5 @@
 //! `softstop motions`: all motions on which a machine settles.
 
-mod progress;
 mod report;
 mod text;
 
@@ -15,8 +14,8 @@ use crate::arguments::{Machine, SceneSettings};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::{self, Format};
+use crate::progress::Progress;
 use crate::scene_file;
-use progress::Progress;
 pub use report::{ExponentReport, MotionsReport, SettledReport};
 
 const EXAMPLES: &str = "\
@@ -33,13 +32,15 @@ Examples:
 How they are found: starts from far and wide show where motions stay; then --starts quasi-random
 starts fill that region and settle. What returns is polished by Newton's method on the exact
 map, so each periodic motion listed exists and is stable (both multipliers inside the unit
-circle). What does not return and has a positive Lyapunov exponent beyond five standard errors
-is chaos. It is watched for --patience more periods: if motions leave it meanwhile, it is
-transient, and its mean lifetime is told.
+circle). What does not return and has a Lyapunov exponent above zero by more than three
+half-widths of its 95 % interval is chaos. It is watched for --patience more periods: if motions
+leave it meanwhile, it is transient, and its mean lifetime is told.
 
 z = p/n: p impacts in n drive periods. The order of impacts tells them apart: 1-0-1-0 is the
 paper's (2/4)A, 1-1-0-0 its (2/4)B. The share of starts is a rough measure of the basin.
-A motion with a basin of 1 % is missed by 256 starts in 8 of 100 searches, by 1000 in none.";
+A motion whose basin is a share p of the region is missed by n random starts with probability
+(1 - p)^n: 1 % by 256 in 8 of 100 searches, by 1000 in 4 of 100,000. The quasi-random starts do no
+worse. Where three motions coexist, at eta = 0.9875, 16 starts found all in 100 of 100 searches.";
 
 /// Arguments of `softstop motions`.
 #[derive(Debug, Args)]
@@ -80,9 +81,9 @@ pub struct MotionsArguments {
 pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
     let options = options(arguments)?;
     let (name, scene) = scene(arguments)?;
-    let progress = Progress::new();
+    let progress = Progress::new(1, "drive periods at most");
     let watcher = |done, planned| {
-        progress.at(done, planned);
+        progress.at_of(done, planned);
         !interrupt::requested()
     };
     let survey = attractors_watched(&scene, &options, &watcher).map_err(|error| match error {

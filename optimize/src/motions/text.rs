@@ -67,7 +67,8 @@ fn rows(motion: &SettledReport) -> Vec<Row> {
             chaos,
         } => {
             let mut rows = self::chaos(chaos);
-            let lifetime = format!("{lifetime:.0} periods on average; {entered} starts came here");
+            let lifetime =
+                format!("{lifetime:.0} periods on average; {entered} starts came here first");
             rows.push(line("lifetime", lifetime));
             rows
         }
@@ -107,8 +108,24 @@ fn periodic(orbit: &PeriodicReport) -> Vec<Row> {
         )
     };
     rows.push(line("multipliers", multipliers));
-    rows.push(line("returns to within", format!("{:.1e}", orbit.residual)));
+    let [first, second] = orbit.exponents.per_period;
+    let exponents = format!("{}, {} per drive period", rate(first), rate(second));
+    rows.push(line("Lyapunov exponents", exponents));
+    let returned = format!(
+        "{:.1e} when met, {:.1e} m and m/s when polished",
+        orbit.returned, orbit.residual
+    );
+    rows.push(line("returns to within", returned));
     rows
+}
+
+/// An exponent: that of a multiplier zero is minus infinity.
+fn rate(exponent: f64) -> String {
+    if exponent.is_finite() {
+        format!("{exponent:.6}")
+    } else {
+        "-infinity".to_owned()
+    }
 }
 
 fn velocities(velocities: &[f64]) -> String {

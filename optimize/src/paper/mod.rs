@@ -4,6 +4,7 @@
 
 mod basins;
 mod certainty;
+mod diagram;
 mod exponents;
 mod figure6;
 mod figure7;
@@ -12,7 +13,8 @@ mod figure9;
 mod hardening;
 mod regimes;
 mod report;
-mod table;
+mod supply;
+mod table1;
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -36,11 +38,13 @@ Figures of F. Peterka, Chaos, Solitons & Fractals 18 (2003) 79-88, computed anew
   7a, 7b   points A and B: time series and phase trajectory, phases shaded
   8        the diagram of rho = 10 with its four zooms and the numbered bifurcations of Table 1
   9        the motions (A) to (L): time series, phase trajectory, Poincare points
+  table1   its Table 1
 and what it only describes:
   regimes     map of the regimes z = p/n over eta and rho
   exponents   the largest Lyapunov exponent under the diagram
   basins      which start leads to which motion
   certainty   how certainly z = 1 establishes itself, from g0 to s_SN
+  supply      whether an interrupted supply of strips ends z = 1
   hardening   the transition of the stop's stiffness k2 from 0 to infinity
 
 Pictures are SVG where they are curves and PNG where they are clouds or maps, with the data of
@@ -85,6 +89,9 @@ pub enum Subject {
     /// The motions (A) to (L)
     #[value(name = "9")]
     Motions,
+    /// Table 1
+    #[value(name = "table1")]
+    Table,
     /// Map of the regimes
     Regimes,
     /// Lyapunov exponent under the diagram
@@ -93,6 +100,8 @@ pub enum Subject {
     Basins,
     /// Establishing certainty along the hysteresis zone
     Certainty,
+    /// z = 1 under an interrupted supply of strips
+    Supply,
     /// The stop's stiffness from 0 to infinity
     Hardening,
 }
@@ -143,10 +152,12 @@ impl Subject {
             Self::PointB => &figure7::POINT_B,
             Self::Diagram => &figure8::FIGURE,
             Self::Motions => &figure9::FIGURE,
+            Self::Table => &table1::FIGURE,
             Self::Regimes => &regimes::FIGURE,
             Self::Exponents => &exponents::FIGURE,
             Self::Basins => &basins::FIGURE,
             Self::Certainty => &certainty::FIGURE,
+            Self::Supply => &supply::FIGURE,
             Self::Hardening => &hardening::FIGURE,
         }
     }

@@ -9,8 +9,7 @@ use super::paper::{Name, PaperRow};
 pub struct Match<'a> {
     /// The transition.
     pub transition: &'a Transition,
-    /// Our figure: where the motion ends or, if that is nearer, where the last motion doubled from it ends
-    /// or the last one of all begins. The paper saw one of these.
+    /// Our figure: where the motion is lost.
     pub eta: f64,
     /// True if the paper names it the other way about, which is the same where there is no hysteresis.
     pub is_reversed: bool,
@@ -28,7 +27,7 @@ pub fn find<'a>(row: &PaperRow, transitions: &'a [Transition]) -> Option<Match<'
         let reverse = !transition.hysteresis && is(row.from, to) && is(row.to, from);
         (forward || reverse).then(|| Match {
             transition,
-            eta: nearest(row.eta, transition),
+            eta: transition.lost_at(),
             is_reversed: !forward,
         })
     });
@@ -37,20 +36,6 @@ pub fn find<'a>(row: &PaperRow, transitions: &'a [Transition]) -> Option<Match<'
         .min_by(|a, b| {
             let gap = |found: &Match<'_>| (found.eta - row.eta).abs();
             gap(a).total_cmp(&gap(b))
-        })
-}
-
-fn nearest(eta: f64, transition: &Transition) -> f64 {
-    let gap = |value: &f64| (value - eta).abs();
-    [transition.doubled_until, transition.settled_at]
-        .into_iter()
-        .flatten()
-        .fold(transition.value, |best, other| {
-            if gap(&other) < gap(&best) {
-                other
-            } else {
-                best
-            }
         })
 }
 

@@ -1,10 +1,13 @@
 //! `softstop table1`: the paper's Table 1, found anew.
 
-mod matching;
+pub(crate) mod matching;
 pub mod paper;
+mod picture;
 pub mod report;
-mod swept;
+pub mod swept;
 mod text;
+
+use std::path::PathBuf;
 
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
@@ -13,10 +16,11 @@ use softstop::attractors::SurveyError;
 use softstop::continuation::{Along, Parameter};
 use softstop::transitions::{Explorer, Rules, Transition, TransitionError};
 
-use crate::continuation::seed;
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::output;
+use crate::output::{self, Folder};
+use crate::progress::Progress;
+pub use picture::picture;
 use report::TableReport;
 
 const EXAMPLES: &str = "\
@@ -24,6 +28,7 @@ Examples:
   softstop table1                       the 19 rows, beside the paper's figures
   softstop table1 --format csv          for a spreadsheet
   softstop table1 --format json         for programs
+  softstop table1 --output out          and as out/table1.csv, .json and .svg
   softstop table1 --lifetime 5000       chaos has to last longer to count
 
 How the rows are found: motions are searched for at a few frequencies, evenly spaced over the
@@ -35,7 +40,8 @@ followed as long as half of --motions motions on it last for --lifetime drive pe
 Only then are the transitions compared with the paper's.
 
 Types (the paper's Table 2): G grazing, SN fold, PD flip, ISN and IPD a fold or a cascade of
-flips that ends in chaos, OCH out of chaos. They are told from what was found, not copied. A
+flips that ends in chaos, OCH out of chaos; SN also stands for the jump beyond a hard (subcritical)
+flip, as in the paper. A soft flip loses nothing: the doubled motion goes on. They are told from what was found, not copied. A
 row that is not found has no figure.";
 
 /// How to print the table.
@@ -60,6 +66,9 @@ pub struct TableArguments {
     /// Drive periods for which half of them must wander for chaos to count, 100 to 10000000
     #[arg(long, value_name = "N", default_value_t = Rules::default().lifetime)]
     pub lifetime: u64,
+    /// Folder for table1.csv, table1.json and table1.svg [default: no files]
+    #[arg(long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
     /// How to print the table
     #[arg(long, value_enum, default_value_t)]
     pub format: TableFormat,
@@ -68,20 +77,38 @@ pub struct TableArguments {
 /// The paper's frequency interval.
 pub const RANGE: (f64, f64) = (0.8, 1.8);
 
+const NAMES: [&str; 3] = ["table1.csv", "table1.json", "table1.svg"];
+
 /// Finds the rows and prints them.
 ///
 /// # Errors
-/// [`Failure::Usage`] for values out of range, [`Failure::Run`] if nothing can be computed,
-/// [`Failure::Interrupted`] after Ctrl-C.
+/// [`Failure::Usage`] for values out of range, [`Failure::Run`] if nothing can be computed or the folder cannot
+/// be written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &TableArguments) -> Result<(), Failure> {
     let rules = rules(arguments)?;
-    let transitions = transitions(&rules, RANGE, &values(&paper::INTERVALS))?;
-    let report = TableReport::new(&paper::ROWS, &transitions, &rules);
+    let folder = arguments.output.as_ref();
+    let folder = folder.map(|path| Folder::open(path, &NAMES)).transpose()?;
+    let report = table(&rules)?;
+    if let Some(folder) = folder {
+        folder.stage(NAMES[0], &output::csv(&report.rows)?)?;
+        folder.stage(NAMES[1], output::json(&report)?.as_bytes())?;
+        folder.stage(NAMES[2], picture(&report).svg().as_bytes())?;
+        folder.commit(&NAMES)?;
+    }
     output::print(&match arguments.format {
         TableFormat::Json => output::json(&report)?,
-        TableFormat::Csv => report.csv()?,
+        TableFormat::Csv => String::from_utf8_lossy(&output::csv(&report.rows)?).into_owned(),
         TableFormat::Text => text::text(&report),
     })
+}
+
+/// The paper's rows among all transitions that are found.
+///
+/// # Errors
+/// As [`transitions`].
+pub fn table(rules: &Rules) -> Result<TableReport, Failure> {
+    let transitions = transitions(rules, RANGE, &values(&paper::INTERVALS))?;
+    Ok(TableReport::new(&paper::ROWS, &transitions, rules))
 }
 
 fn rules(arguments: &TableArguments) -> Result<Rules, Failure> {
@@ -124,13 +151,13 @@ pub fn transitions(
 ) -> Result<Vec<Transition>, Failure> {
     let family = Along::new(Ratios::unloaded(), [Parameter::Frequency])
         .map_err(|error| Failure::usage(error.to_string()))?;
-    let bar = seed::spinner("looks at motions");
+    let bar = Progress::open("looks at motions");
     let watcher = || {
-        bar.inc(1);
+        bar.one();
         !interrupt::requested()
     };
     let found = Explorer::new(&family, range, *rules, &watcher).explore(values);
-    bar.finish_and_clear();
+    drop(bar);
     found.map_err(|error| match error {
         TransitionError::Survey(SurveyError::Stopped) => Failure::Interrupted,
         other => Failure::Run(anyhow!(other)),

@@ -1,13 +1,11 @@
 //! The table as data.
 
-use anyhow::Context;
 use serde::Serialize;
-use softstop::transitions::{Cause, Rules, Transition};
+use softstop::transitions::{Cause, Motion, Rules, Transition};
 
 use super::matching::{Match, find};
 use super::paper::PaperRow;
-use super::swept::{self, Sweep};
-use crate::failure::Failure;
+use super::swept::{self, Swept};
 
 /// The table.
 #[derive(Debug, Serialize)]
@@ -53,19 +51,6 @@ impl TableReport {
             rows: rows.iter().map(report).collect(),
         }
     }
-
-    /// As comma-separated values.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] if they cannot be written.
-    pub fn csv(&self) -> Result<String, Failure> {
-        let mut table = csv::Writer::from_writer(Vec::new());
-        for row in &self.rows {
-            table.serialize(row).context("cannot write the table")?;
-        }
-        let bytes = table.into_inner().context("cannot write the table")?;
-        Ok(String::from_utf8(bytes).context("cannot write the table")?)
-    }
 }
 
 impl RowReport {
@@ -73,10 +58,10 @@ impl RowReport {
         let transition = found.transition;
         let names: Vec<String> = std::iter::once(&transition.from)
             .chain(&transition.path)
-            .map(ToString::to_string)
+            .map(name)
             .collect();
         let (from, to) = if found.is_reversed {
-            (transition.to().to_string(), transition.from.to_string())
+            (name(transition.to()), name(&transition.from))
         } else {
             (names[0].clone(), names[1..].join(" -> "))
         };
@@ -108,39 +93,99 @@ impl RowReport {
     }
 }
 
+/// A motion by its regime, and by the paper's letter where there are two of one regime.
+fn name(motion: &Motion) -> String {
+    match motion {
+        Motion::Periodic {
+            impacts: 2,
+            periods: 4,
+            pattern,
+        } => match pattern.as_str() {
+            "1-1-0-0" => "z = (2/4)B".to_owned(),
+            "1-0-1-0" => "z = (2/4)A".to_owned(),
+            other => format!("z = 2/4 ({other})"),
+        },
+        _ => motion.to_string(),
+    }
+}
+
 fn remark(row: &PaperRow, found: &Match<'_>, rules: &Rules) -> String {
     let transition = found.transition;
-    let mut parts = Vec::new();
-    match transition.causes[..] {
-        [Cause::OutOfChaos] => parts.push(format!(
-            "chaos is transient near its end: here half of {} motions on it settle within {} drive periods",
-            rules.motions, rules.lifetime
-        )),
-        _ => parts.push(format!(
-            "the stable branch ends at {:.10}, located to 1e-10",
-            transition.value
-        )),
-    }
-    if let Some(until) = transition.doubled_until {
-        parts.push(format!(
-            "the last motion doubled from it ends at {until:.10}"
-        ));
-    }
-    if let Some(settled) = transition.settled_at {
-        parts.push(format!("the last motion follows from {settled:.10} on"));
-    }
-    if transition.causes.first() == Some(&Cause::Fold)
-        && let Some(lost) = swept::lost_at(transition.value, Sweep::PAPER)
-    {
-        parts.push(format!(
-            "a sweep up by {} per {} drive periods loses it at {lost:.3} only",
-            Sweep::PAPER.step,
-            Sweep::PAPER.periods
-        ));
-    }
+    let mut parts = vec![origin(transition, rules)];
+    parts.extend(succession(transition));
     let gap = found.eta - row.eta;
     if gap.abs() > ROUNDING {
         parts.push(format!("{gap:+.1e} from the paper"));
+        parts.extend(reason(row, transition, gap));
+    }
+    if transition.symbols() != row.kind || transition.hysteresis != row.hysteresis {
+        let way = if row.hysteresis { "with" } else { "without" };
+        parts.push(format!("the paper has {} {way} hysteresis", row.kind));
     }
     parts.join("; ")
+}
+
+/// How the figure was found.
+fn origin(transition: &Transition, rules: &Rules) -> String {
+    match transition.causes[..] {
+        [Cause::OutOfChaos] => format!(
+            "chaos ends by its lifetime, which falls steadily: here half of {} motions settle within {} drive periods",
+            rules.motions, rules.lifetime
+        ),
+        _ => format!(
+            "the stable branch ends at {:.10}, located to 1e-10",
+            transition.value
+        ),
+    }
+}
+
+/// What comes between the first motion and the last.
+fn succession(transition: &Transition) -> Vec<String> {
+    let mut parts = Vec::new();
+    if let Some(until) = transition.doubled_until {
+        let what = if (until > transition.value) == transition.rising {
+            "it goes on doubled until"
+        } else {
+            "the flip is hard: the doubled branch is unstable and runs back to"
+        };
+        parts.push(format!("{what} {until:.10}"));
+    }
+    if let Some(settled) = transition.settled_at
+        && transition.hysteresis
+    {
+        let last = name(transition.to());
+        parts.push(format!("{last} follows from {settled:.10} on"));
+    }
+    parts
+}
+
+/// Why the paper's figure is another.
+fn reason(row: &PaperRow, transition: &Transition, gap: f64) -> Option<String> {
+    if transition.causes[..] == [Cause::OutOfChaos] {
+        let time = if (gap > 0.0) == transition.rising {
+            "longer"
+        } else {
+            "shorter"
+        };
+        return Some(format!(
+            "as a run that gives chaos a {time} time to settle would have it"
+        ));
+    }
+    let is_last = |settled: f64| (settled - row.eta).abs() <= ROUNDING;
+    if transition.settled_at.is_some_and(is_last) {
+        return Some("the paper gives where the last motion follows".to_owned());
+    }
+    let swept = Swept::over(transition, gap)?;
+    let way = if transition.rising { "up" } else { "down" };
+    let step = format!("{:e} per {} drive periods", swept.step, swept::PERIODS);
+    let digits = (1.0 - swept.step.log10()) as usize;
+    let mut reason = format!(
+        "a sweep {way} by {step} loses the motion at {:.digits$}",
+        swept.lost
+    );
+    if let Some(arrived) = swept.arrived {
+        let last = name(transition.to());
+        reason += &format!(" and has come to {last} at {arrived:.digits$}");
+    }
+    Some(reason)
 }

@@ -1,51 +1,93 @@
-//! Where a swept run loses the z = 1 motion: later than it ends.
+//! What a sweep makes of a transition: it loses a motion later than it ends, and comes to the next later still.
 
 use softstop::Ratios;
-use softstop::orbit::{StroboscopicMap, find};
+use softstop::continuation::Parameter;
+use softstop::sweep::{Chain, Direction, Plan, Settled, Step};
+use softstop::transitions::{Motion, Transition};
 
-/// How fast a run is swept.
-#[derive(Debug, Clone, Copy)]
-pub struct Sweep {
-    /// Rise of eta.
+/// A sweep over the end of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swept {
+    /// Change of eta from step to step.
     pub step: f64,
-    /// Drive periods for each.
-    pub periods: u64,
+    /// The first value in which the motion is no longer the first.
+    pub lost: f64,
+    /// The first value in which it is the last, and not lost again at once; none if that does not repeat.
+    pub arrived: Option<f64>,
 }
 
-impl Sweep {
-    /// A rate at which the loss is where the paper's row 19 has it.
-    pub const PAPER: Self = Self {
-        step: 1e-3,
-        periods: 50,
-    };
-}
+/// Drive periods of a step.
+pub const PERIODS: u64 = 50;
+/// Steps before the end at which the sweep begins, and steps after it.
+const AROUND: (usize, usize) = (20, 60);
+/// Distance within which a state has returned, in units of the motion's size: each step moves the orbit.
+const RETURN: f64 = 1e-2;
 
-/// Steps before the end at which the run begins.
-const BEFORE: f64 = 20.0;
-/// Steps after it at which it is given up.
-const AFTER: f64 = 50.0;
-
-/// The first frequency ratio of a rising sweep in which not every drive period has its impact.
-#[must_use]
-pub fn lost_at(end: f64, sweep: Sweep) -> Option<f64> {
-    let scene = |eta: f64| {
-        let ratios = Ratios {
-            frequency: eta,
-            ..Ratios::unloaded()
-        };
-        ratios.scene().ok()
-    };
-    // On whole steps, as a run by hand would go.
-    let first = (end / sweep.step).floor() - BEFORE;
-    let mut state = find(&scene(first * sweep.step)?).ok()?.state();
-    for step in 0..(BEFORE + AFTER) as u64 {
-        let eta = (first + step as f64) * sweep.step;
-        let map = StroboscopicMap::new(&scene(eta)?, sweep.periods).ok()?;
-        let passage = map.apply(state).ok()?;
-        if (passage.impacts.len() as u64) < sweep.periods {
-            return Some(eta);
-        }
-        state = passage.end;
+impl Swept {
+    /// The sweep whose steps are the power of ten below this size, in the direction of the transition. None if the first
+    /// motion does not repeat or is not lost on the way.
+    #[must_use]
+    pub fn over(transition: &Transition, size: f64) -> Option<Self> {
+        let step = 10_f64.powf(size.abs().log10().floor());
+        let mut chain = Chain::new(Ratios::unloaded(), direction(transition));
+        let plan = plan(transition, step)?;
+        let chains = std::slice::from_mut(&mut chain);
+        plan.run(chains, &|_| true).then_some(())?;
+        let steps = &chain.steps;
+        let first = steps.iter().position(|it| is(&transition.from, it))?;
+        let lost = first
+            + steps[first..]
+                .iter()
+                .position(|it| !is(&transition.from, it))?;
+        let arrived = steps[lost..].windows(2).find(|pair| {
+            let mut pair = pair.iter();
+            pair.all(|it| is(transition.to(), it))
+        });
+        Some(Self {
+            step,
+            lost: steps[lost].value,
+            arrived: arrived.map(|pair| pair[0].value),
+        })
     }
-    None
+}
+
+fn direction(transition: &Transition) -> Direction {
+    if transition.rising {
+        Direction::Up
+    } else {
+        Direction::Down
+    }
+}
+
+/// On whole steps, as a run by hand would go.
+fn plan(transition: &Transition, step: f64) -> Option<Plan> {
+    let (before, after) = AROUND;
+    let nearest = (transition.value / step).round();
+    let (below, above) = match direction(transition) {
+        Direction::Up => (before, after),
+        Direction::Down => (after, before),
+    };
+    let range = (
+        (nearest - below as f64) * step,
+        (nearest + above as f64) * step,
+    );
+    let plan = Plan::new(Parameter::Frequency, range, before + after + 1, PERIODS).ok()?;
+    Some(Plan {
+        start: transition.state?,
+        tolerance: RETURN,
+        ..plan
+    })
+}
+
+fn is(motion: &Motion, step: &Step) -> bool {
+    match (motion, &step.settled) {
+        (
+            Motion::Periodic {
+                impacts, periods, ..
+            },
+            Settled::Periodic(regime),
+        ) => (*impacts, *periods) == (regime.impacts, regime.periods),
+        (Motion::Chaos, Settled::Chaotic { .. }) => true,
+        _ => false,
+    }
 }

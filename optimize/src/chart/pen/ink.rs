@@ -1,6 +1,5 @@
 //! Coloured shapes: dots, lines with dashes that go on over corners, arrows, words on a plate, badges.
 
-use kuva::backend::png::PngBackend;
 use kuva::render::render::{PathData, Primitive, TextAnchor};
 
 use super::{Align, Pen};
@@ -48,19 +47,6 @@ pub(in crate::chart) fn width(size: u32, text: &str) -> f64 {
 }
 
 impl Pen {
-    /// Dots of one size and colour.
-    pub(in crate::chart) fn dots(&mut self, points: &[(f64, f64)], radius: f64, color: &str) {
-        self.scene.add(Primitive::CircleBatch {
-            cx: points.iter().map(|point| point.0).collect(),
-            cy: points.iter().map(|point| point.1).collect(),
-            r: radius,
-            fill: color.into(),
-            fill_opacity: None,
-            stroke: None,
-            stroke_width: None,
-        });
-    }
-
     /// A line through points.
     pub(in crate::chart) fn line(&mut self, points: &[(f64, f64)], stroke: Stroke) {
         let pieces = match stroke.dashes {
@@ -177,13 +163,6 @@ impl Pen {
     pub(in crate::chart) fn badge(&mut self, (x, y): (f64, f64), size: u32, text: &str) {
         self.spot((x, y), 0.88 * f64::from(size));
         self.text((x, y + 0.36 * f64::from(size)), size, Align::Middle, text);
-    }
-
-    /// As pixels, so many for each unit of length.
-    pub(in crate::chart) fn png_at(&self, scale: f32) -> Result<Vec<u8>, String> {
-        PngBackend::new()
-            .with_scale(scale)
-            .render_scene(&self.scene)
     }
 }
 

@@ -7,9 +7,10 @@ use serde::Serialize;
 use softstop::orbit::{Exponents, Orbit, find};
 use softstop::{PhaseKind, Ratios};
 
-use super::{Detail, Drawn, Figure, table};
+use super::{Detail, Drawn, Figure};
 use crate::chart::{StrokeChart, StrokePoint};
 use crate::failure::Failure;
+use crate::output;
 use stroke::Stroke;
 
 /// Point A: the unloaded machine.
@@ -61,7 +62,7 @@ fn draw(ratios: &Ratios, name: &str, detail: Detail) -> Result<Drawn, Failure> {
     Ok(Drawn {
         files: vec![
             chart.svg().into_bytes(),
-            table::csv(stroke.points.iter().map(line))?,
+            output::csv(stroke.points.iter().map(line))?,
         ],
         findings: findings(&orbit, &stroke),
     })

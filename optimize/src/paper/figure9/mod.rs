@@ -10,10 +10,11 @@ use serde::Serialize;
 use softstop::Ratios;
 use softstop::attractors::{Options, Survey, SurveyError, attractors_watched};
 
-use super::{Detail, Drawn, Figure, table};
+use super::{Detail, Drawn, Figure};
 use crate::chart::{MotionPage, MotionRow};
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::output;
 use crate::progress::Progress;
 use asked::{Asked, MOTIONS};
 use found::Found;
@@ -98,9 +99,9 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
         }
         files.push(page_of(rows, shown).svg().into_bytes());
     }
-    files.push(table::csv(found.iter().map(Found::line))?);
-    files.push(table::csv(series)?);
-    files.push(table::csv(sections)?);
+    files.push(output::csv(found.iter().map(Found::line))?);
+    files.push(output::csv(series)?);
+    files.push(output::csv(sections)?);
     Ok(Drawn {
         files,
         findings: found.iter().flat_map(Found::findings).collect(),

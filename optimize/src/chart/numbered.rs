@@ -1,0 +1,379 @@
+//! The bifurcation diagram of one clearance with its zooms and numbered bifurcations, as in Fig. 8 of Peterka
+//! 2003.
+
+use softstop::Ratios;
+use softstop::sweep::{Chain, Step};
+
+use super::panel::{Axes, Panel, heading};
+use super::pen::{Align, Pen, Stroke, width};
+use super::style;
+
+/// Pixels for each unit of length.
+const SCALE: f32 = 2.0;
+const WIDTH: f64 = 1240.0;
+/// Sizes of letters.
+const LETTERS: u32 = 14;
+const SMALL: u32 = 11;
+/// Size of a dot.
+const DOT: f64 = 0.65;
+/// Height of the band of numbers above a panel.
+const BAND: f64 = 86.0;
+/// Left and right ends of the columns of zooms, and the height of the panels.
+const COLUMNS: [(f64, f64); 2] = [(76.0, 612.0), (676.0, 1212.0)];
+const HEIGHTS: (f64, f64) = (300.0, 330.0);
+/// Room below a panel.
+const BELOW: f64 = 62.0;
+/// Difference of velocities, as a share, of motions that are not the same.
+const APART: f64 = 0.01;
+/// Colours of motions met both ways, up only, down only, and on no sweep from rest.
+const BOTH: &str = "#444444";
+const UP: &str = style::DESIGN;
+const DOWN: &str = style::OPTIMUM;
+const ISOLATED: &str = "#009E73";
+/// The line at a bifurcation.
+const MARK: Stroke = Stroke::dashed("#9a9a9a", 0.9, (3.0, 3.0));
+
+/// A diagram over a range of eta.
+#[derive(Debug, Clone)]
+pub struct Diagram {
+    /// Its letter, if it has one.
+    pub name: &'static str,
+    /// Range of eta.
+    pub range: (f64, f64),
+    /// The sweep up and the sweep down, over the same values.
+    pub ways: [Chain<Ratios>; 2],
+    /// Faster sweeps down that show chaos which does not last.
+    pub fleeting: Vec<Chain<Ratios>>,
+    /// What motions are called: eta, X'- and the name.
+    pub names: Vec<(f64, f64, String)>,
+}
+
+/// A numbered bifurcation.
+#[derive(Debug, Clone)]
+pub struct Bifurcation {
+    /// Its number.
+    pub number: usize,
+    /// Where it was found.
+    pub eta: f64,
+    /// By the paper's symbols.
+    pub symbols: String,
+    /// True if it cannot be reversed.
+    pub hysteresis: bool,
+    /// True if it is met on rising eta.
+    pub rising: bool,
+}
+
+/// The picture.
+#[derive(Debug, Clone)]
+pub struct NumberedChart<'a> {
+    /// All frequencies.
+    pub overview: &'a Diagram,
+    /// Its zooms.
+    pub zooms: &'a [Diagram],
+    /// Steps of motions that no sweep from rest reaches.
+    pub isolated: &'a [Step],
+    /// The bifurcations.
+    pub bifurcations: &'a [Bifurcation],
+    /// Letters of Fig. 9 and their frequencies.
+    pub letters: &'a [(&'static str, f64)],
+    /// How it was made.
+    pub explanation: String,
+}
+
+impl NumberedChart<'_> {
+    /// As PNG.
+    ///
+    /// # Errors
+    /// What the encoder says.
+    pub fn png(&self) -> Result<Vec<u8>, String> {
+        let top = 122.0 + BAND;
+        let first = top + HEIGHTS.0 + BELOW;
+        let row = BAND + HEIGHTS.1 + BELOW;
+        let rows = self.zooms.len().div_ceil(2) as f64;
+        let mut pen = Pen::new(WIDTH, first + row * rows + 4.0);
+        let title = "Bifurcation diagram for ρ = 10 (unloaded machine) and its zooms (a) to (d)";
+        heading(&mut pen, (COLUMNS[0].0, 30.0), title, &self.explanation);
+        self.legend(&mut pen, 76.0);
+        let area = (COLUMNS[0].0, top, COLUMNS[1].1 - COLUMNS[0].0, HEIGHTS.0);
+        self.whole(&mut pen, area);
+        for (index, zoom) in self.zooms.iter().enumerate() {
+            let (left, right) = COLUMNS[index % 2];
+            let top = first + BAND + row * (index / 2) as f64;
+            let area = (left, top, right - left, HEIGHTS.1);
+            self.zoom(&mut pen, area, zoom);
+        }
+        pen.png_at(SCALE)
+    }
+
+    fn whole(&self, pen: &mut Pen, area: super::pen::Area) {
+        let panel = self.panel(area, self.overview);
+        let axes = axes(Some("drive frequency η"), (10, 5));
+        panel.ground(pen, &axes);
+        let inside = |eta: f64| self.zooms.iter().any(|zoom| within(zoom.range, eta));
+        let shown: Vec<Bifurcation> = self
+            .bifurcations
+            .iter()
+            .filter(|it| !inside(it.eta) || it.eta > 1.0)
+            .cloned()
+            .collect();
+        self.content(pen, &panel, self.overview);
+        let zooms = self.zooms.iter().map(|zoom| {
+            let middle = f64::midpoint(zoom.range.0, zoom.range.1);
+            let (from, to) = (panel.across(zoom.range.0), panel.across(zoom.range.1));
+            let y = panel.bottom();
+            pen.tint(
+                (from, area.1, (to - from).max(1.0), y - area.1),
+                style::ALLOWED,
+                0.22,
+            );
+            (panel.across(middle), zoom.name)
+        });
+        let zooms: Vec<(f64, &str)> = zooms.collect();
+        let places = spread(
+            &zooms.iter().map(|zoom| (zoom.0, 30.0)).collect::<Vec<_>>(),
+            (area.0, panel.right()),
+        );
+        for ((x, name), place) in zooms.iter().zip(places) {
+            pen.line(
+                &[(place, area.1 - 16.0), (*x, area.1)],
+                Stroke::solid(style::ALLOWED, 1.0),
+            );
+            pen.text((place, area.1 - 20.0), LETTERS, Align::Middle, name);
+        }
+        let beyond: Vec<Bifurcation> = shown.into_iter().filter(|it| it.eta > 1.03).collect();
+        band(pen, &panel, &beyond);
+        panel.axes(pen, &axes);
+        names(pen, &panel, self.overview);
+    }
+
+    fn zoom(&self, pen: &mut Pen, area: super::pen::Area, zoom: &Diagram) {
+        let panel = self.panel(area, zoom);
+        let axes = axes(Some("η"), (5, 5));
+        panel.ground(pen, &axes);
+        self.content(pen, &panel, zoom);
+        let own: Vec<Bifurcation> = self
+            .bifurcations
+            .iter()
+            .filter(|it| within(zoom.range, it.eta))
+            .cloned()
+            .collect();
+        band(pen, &panel, &own);
+        panel.axes(pen, &axes);
+        names(pen, &panel, zoom);
+        for (letters, eta) in self.letters.iter().filter(|it| within(zoom.range, it.1)) {
+            let x = panel.across(*eta);
+            pen.arrow(
+                (x, panel.bottom() - 13.0),
+                (x, panel.bottom() - 1.0),
+                Stroke::solid(style::INK, 1.0),
+            );
+            let place = (x, panel.bottom() - 16.0);
+            pen.words(place, SMALL + 1, Align::Middle, (style::INK, true), letters);
+        }
+        pen.heading(
+            (area.0, area.1 - BAND + 12.0),
+            LETTERS + 1,
+            Align::Left,
+            zoom.name,
+        );
+    }
+
+    /// A panel as high as the diagram's velocities.
+    fn panel(&self, area: super::pen::Area, diagram: &Diagram) -> Panel {
+        let steps = diagram.ways.iter().flat_map(|chain| &chain.steps);
+        let isolated = self.isolated.iter();
+        let all = steps.chain(isolated.filter(|step| within(diagram.range, step.value)));
+        let top = all.map(Step::hardest).fold(0.0, f64::max);
+        let top = if top > 0.0 { top } else { 1.0 };
+        Panel {
+            area,
+            x: diagram.range,
+            y: (-0.16 * top, 1.12 * top),
+        }
+    }
+
+    /// The dots.
+    fn content(&self, pen: &mut Pen, panel: &Panel, diagram: &Diagram) {
+        let fleeting = diagram.fleeting.iter().flat_map(|chain| &chain.steps);
+        let fleeting = fleeting.filter(|step| step.hardest() > 0.0);
+        panel.dots(pen, fleeting.flat_map(dots), 0.8 * DOT, DOWN);
+        let isolated = self.isolated.iter();
+        let isolated = isolated.filter(|step| !step.settled.is_unsettled());
+        let (up, down) = (diagram.ways[0].rising(), diagram.ways[1].rising());
+        let alike: Vec<bool> = up.iter().zip(&down).map(|(a, b)| same(a, b)).collect();
+        let of = |steps: &[&Step], wanted: bool| -> Vec<(f64, f64)> {
+            let own = steps
+                .iter()
+                .zip(&alike)
+                .filter(|(_, alike)| **alike == wanted);
+            // What has not settled is on its way from one motion to another.
+            let settled = own.filter(|(step, _)| !step.settled.is_unsettled());
+            settled.flat_map(|(step, _)| dots(step)).collect()
+        };
+        panel.dots(
+            pen,
+            of(&up, true).into_iter().chain(of(&down, true)),
+            DOT,
+            BOTH,
+        );
+        panel.dots(pen, of(&up, false).into_iter(), DOT, UP);
+        panel.dots(pen, of(&down, false).into_iter(), DOT, DOWN);
+        panel.dots(pen, isolated.flat_map(dots), DOT, ISOLATED);
+    }
+
+    fn legend(&self, pen: &mut Pen, y: f64) {
+        let entries = [
+            (BOTH, "up and down"),
+            (UP, "up only"),
+            (DOWN, "down only"),
+            (ISOLATED, "reached by no sweep from z = 0"),
+        ];
+        let mut x = COLUMNS[0].0;
+        for (color, text) in entries {
+            pen.tint((x, y - 11.0, 12.0, 12.0), color, 1.0);
+            pen.text((x + 18.0, y), LETTERS, Align::Left, text);
+            x += 18.0 + 0.92 * width(LETTERS, text) + 26.0;
+        }
+        let from = (x, y - 5.0);
+        pen.arrow(from, (x + 30.0, y - 5.0), Stroke::solid(style::INK, 1.1));
+        pen.text((x + 38.0, y), LETTERS, Align::Left, "with hysteresis");
+        x += 38.0 + 0.92 * width(LETTERS, "with hysteresis") + 20.0;
+        both_ways(pen, (x + 15.0, y - 5.0));
+        pen.text((x + 38.0, y), LETTERS, Align::Left, "reversible");
+        let text = "G grazing   SN fold   PD period doubling   ISN, IPD fold or doublings interrupted by chaos   \
+                    OCH out of chaos   A, B, …: motions of Fig. 9";
+        pen.words(
+            (COLUMNS[0].0, y + 24.0),
+            LETTERS - 1,
+            Align::Left,
+            (style::INK, false),
+            text,
+        );
+    }
+}
+
+fn axes(across: Option<&str>, ticks: (usize, usize)) -> Axes<'_> {
+    Axes {
+        letters: LETTERS,
+        across,
+        upwards: "X′₋",
+        ticks,
+    }
+}
+
+fn within((low, high): (f64, f64), value: f64) -> bool {
+    (low..=high).contains(&value)
+}
+
+/// The velocities of a step; 0 for a motion without impacts.
+fn dots(step: &Step) -> Vec<(f64, f64)> {
+    if step.velocities.is_empty() {
+        return vec![(step.value, 0.0)];
+    }
+    let velocities = step.velocities.iter();
+    velocities.map(|velocity| (step.value, *velocity)).collect()
+}
+
+/// True if both are the same motion, or both wander.
+fn same(a: &Step, b: &Step) -> bool {
+    match (a.settled.regime(), b.settled.regime()) {
+        (Some(one), Some(other)) => {
+            let (low, high) = (a.hardest().min(b.hardest()), a.hardest().max(b.hardest()));
+            one == other && high - low <= APART * high
+        }
+        (None, None) => true,
+        _ => false,
+    }
+}
+
+/// The names of motions beside them.
+fn names(pen: &mut Pen, panel: &Panel, diagram: &Diagram) {
+    for (eta, velocity, name) in &diagram.names {
+        let (x, y) = panel.place((*eta, *velocity));
+        let half = 0.5 * width(LETTERS - 1, name);
+        let x = x.clamp(panel.area.0 + half + 4.0, panel.right() - half - 4.0);
+        pen.words(
+            (x, y - 7.0),
+            LETTERS - 1,
+            Align::Middle,
+            (style::INK, true),
+            name,
+        );
+    }
+}
+
+/// Numbers, arrows and symbols above a panel, each with a line to its frequency.
+fn band(pen: &mut Pen, panel: &Panel, bifurcations: &[Bifurcation]) {
+    let wanted: Vec<(f64, f64)> = bifurcations
+        .iter()
+        .map(|it| {
+            (
+                panel.across(it.eta),
+                8.0 + (0.9 * width(SMALL, &it.symbols)).max(30.0),
+            )
+        })
+        .collect();
+    let places = spread(&wanted, (panel.area.0 + 20.0, panel.right()));
+    let top = panel.area.1;
+    for ((it, x), (eta, _)) in bifurcations.iter().zip(places).zip(wanted) {
+        pen.line(&[(eta, top), (eta, panel.bottom())], MARK);
+        pen.line(
+            &[(x, top - 17.0), (eta, top)],
+            Stroke::solid("#9a9a9a", 0.9),
+        );
+        pen.badge((x, top - 64.0), SMALL + 1, &it.number.to_string());
+        let y = top - 42.0;
+        match (it.hysteresis, it.rising) {
+            (false, _) => both_ways(pen, (x, y)),
+            (true, true) => pen.arrow((x - 14.0, y), (x + 14.0, y), Stroke::solid(style::INK, 1.1)),
+            (true, false) => {
+                pen.arrow((x + 14.0, y), (x - 14.0, y), Stroke::solid(style::INK, 1.1))
+            }
+        }
+        let symbols = it.symbols.replace(" -> ", "→");
+        pen.text((x, top - 22.0), SMALL, Align::Middle, &symbols);
+    }
+}
+
+fn both_ways(pen: &mut Pen, (x, y): (f64, f64)) {
+    let line = Stroke::solid(style::INK, 1.1);
+    pen.arrow((x, y), (x + 15.0, y), line);
+    pen.arrow((x, y), (x - 15.0, y), line);
+}
+
+/// Rounds of moving neighbours apart.
+const ROUNDS: usize = 400;
+
+/// Places near those wanted, in their order, so far apart that things of these widths do not overlap.
+fn spread(wanted: &[(f64, f64)], (low, high): (f64, f64)) -> Vec<f64> {
+    let mut places: Vec<f64> = wanted.iter().map(|it| it.0).collect();
+    for _ in 0..ROUNDS {
+        for index in 1..places.len() {
+            let room = 0.5 * (wanted[index - 1].1 + wanted[index].1);
+            let lack = room - (places[index] - places[index - 1]);
+            if lack > 0.0 {
+                places[index - 1] -= 0.5 * lack;
+                places[index] += 0.5 * lack;
+            }
+        }
+        for (place, (_, width)) in places.iter_mut().zip(wanted) {
+            *place = place.clamp(low + 0.5 * width, high - 0.5 * width);
+        }
+    }
+    places
+}
+
+#[cfg(test)]
+mod tests {
+    use super::spread;
+
+    #[test]
+    fn neighbours_do_not_overlap() {
+        let places = spread(
+            &[(10.0, 30.0), (11.0, 30.0), (12.0, 30.0), (95.0, 20.0)],
+            (0.0, 100.0),
+        );
+        assert!(places.windows(2).all(|pair| pair[1] - pair[0] > 24.9));
+        assert!(places[0] > 14.9 && places[3] < 90.1);
+    }
+}

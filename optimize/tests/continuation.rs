@@ -1,0 +1,243 @@
+//! `softstop continue` as users and scripts meet it: figures of Table 1 and of Fig. 6, files, messages.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+use softstop::Ratios;
+use softstop::zone::grazing_frequencies;
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+fn command(arguments: &[&str], folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_softstop"));
+    command.arg("continue").args(arguments);
+    command.arg("--output").arg(folder);
+    command
+}
+
+fn run(arguments: &[&str], folder: &Path) -> std::io::Result<Output> {
+    command(arguments, folder).output()
+}
+
+fn followed(arguments: &[&str], folder: &Path) -> Result<Value, Box<dyn std::error::Error>> {
+    let output = run(&[arguments, &["--format", "json"]].concat(), folder)?;
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments:?}: {message}");
+    Ok(serde_json::from_slice(&output.stdout)?)
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or(f64::NAN)
+}
+
+/// Symbols and parameters of the special points of a branch.
+fn specials(branch: &Value) -> Vec<(&str, f64)> {
+    let specials = branch["specials"].as_array();
+    let special = |special: &'_ Value| number(&special["parameter"]);
+    let symbols = specials.into_iter().flatten();
+    symbols
+        .map(|it| (it["symbol"].as_str().unwrap_or("?"), special(it)))
+        .collect()
+}
+
+#[track_caller]
+fn near(found: f64, expected: f64, width: f64) {
+    assert!((found - expected).abs() < width, "{found}, not {expected}");
+}
+
+#[test]
+fn the_z_1_branch_has_the_rows_of_table_1_and_its_files() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let arguments = ["--parameter", "eta", "--from", "0.9", "--to", "1.5"];
+    let report = followed(&arguments, folder.path())?;
+    let branch = &report["branches"][0];
+    let found = specials(branch);
+    let symbols: Vec<&str> = found.iter().map(|special| special.0).collect();
+    assert_eq!(symbols, ["G", "PD", "SN", "G"]);
+    // Grazing in closed form.
+    let (lower, upper) = grazing_frequencies(&Ratios::unloaded())?;
+    near(found[0].1, lower.ok_or("none")?, 1e-10);
+    near(found[1].1, 0.988_907, 5e-7);
+    near(found[2].1, 1.369_036, 5e-7);
+    near(found[3].1, upper, 1e-10);
+    let fold = &branch["specials"][2];
+    near(number(&fold["before_impact_velocities"][0]), 16.87, 5e-3);
+    // At a fold 1 is a multiplier: trace = 1 + determinant.
+    near(
+        number(&fold["trace"]) - number(&fold["determinant"]),
+        1.0,
+        1e-9,
+    );
+
+    let mut table = csv::Reader::from_path(folder.path().join("branches.csv"))?;
+    assert_eq!(&table.headers()?[2], "parameter");
+    let mut marked = Vec::new();
+    let mut rows = 0;
+    for row in table.records() {
+        let row = row?;
+        rows += 1;
+        let parameter: f64 = row[2].parse()?;
+        assert!((0.9..=1.5).contains(&parameter));
+        let stable: bool = row[11].parse()?;
+        // Between flip and fold, on the upper side, it is stable.
+        let moduli = [(7, 8), (9, 10)].map(|(re, im)| -> Result<f64, std::num::ParseFloatError> {
+            Ok(row[re].parse::<f64>()?.hypot(row[im].parse()?))
+        });
+        let [one, other] = moduli;
+        if row[12].is_empty() {
+            assert_eq!(stable, one? < 1.0 && other? < 1.0);
+        } else {
+            marked.push(row[12].to_owned());
+        }
+    }
+    assert_eq!(marked, symbols);
+    assert_eq!(Some(rows), branch["points"].as_u64());
+    let chart = fs::read_to_string(folder.path().join("branches.svg"))?;
+    for words in ["<svg", "X′₋", "η", "fold (SN)", "period 1, stable"] {
+        assert!(chart.contains(words), "{words}");
+    }
+    Ok(())
+}
+
+#[test]
+fn an_isolated_motion_is_followed_to_its_ends() -> Outcome {
+    // Rows 12 and 17 of Table 1.
+    let folder = tempfile::tempdir()?;
+    let machine = ["--frequency", "0.9875", "--orbit", "2/3"];
+    let way = ["--parameter", "eta", "--from", "0.95", "--to", "1.05"];
+    let report = followed(&[&machine[..], &way[..]].concat(), folder.path())?;
+    let found = specials(&report["branches"][0]);
+    assert_eq!(report["branches"][0]["periods"], 3);
+    near(found[0].1, 0.986_778_9, 5e-8);
+    assert_eq!((found[0].0, found[1].0), ("G", "PD"));
+    // model.md gives 1.005452 by simulation.
+    near(found[1].1, 1.005_452, 5e-6);
+    Ok(())
+}
+
+#[test]
+fn folds_over_clearance_are_those_of_fig_6() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let first = ["--parameter", "eta", "--from", "1.1", "--to", "1.8"];
+    let second = ["--second", "rho", "--second-from", "2", "--second-to", "18"];
+    let report = followed(&[&first[..], &second[..]].concat(), folder.path())?;
+    let curves = report["curves"]["curves"].as_array().ok_or("no curves")?;
+    let fold = curves.iter().find(|curve| curve["symbol"] == "SN");
+    let fold = fold.ok_or("no fold")?;
+    let mut ends = ["from", "to"].map(|end| [0, 1].map(|index| number(&fold[end][index])));
+    ends.sort_by(|a, b| a[1].total_cmp(&b[1]));
+    near(ends[0][0], 1.690_31, 1e-5);
+    near(ends[0][1], 2.0, 1e-9);
+    near(ends[1][0], 1.180_34, 1e-5);
+    near(ends[1][1], 18.0, 1e-9);
+    assert!(folder.path().join("curves.csv").exists());
+    assert!(folder.path().join("curves.svg").exists());
+    Ok(())
+}
+
+#[test]
+fn a_mass_that_bounces_without_end_is_no_obstacle() -> Outcome {
+    // Pressed on a stop at its place of rest; doubling there once ran without end.
+    let folder = tempfile::tempdir()?;
+    let machine = ["--preload", "1", "--clearance", "0", "--double", "1"];
+    let way = ["--parameter", "eta", "--from", "0.9", "--to", "1.5"];
+    let report = followed(&[&machine[..], &way[..]].concat(), folder.path())?;
+    assert_eq!(specials(&report["branches"][0])[0].0, "PD");
+    Ok(())
+}
+
+#[test]
+fn ranges_end_where_no_machine_is_beyond() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let arguments = ["--parameter", "Fp", "--from", "0", "--to", "200"];
+    let report = followed(&arguments, folder.path())?;
+    let branch = &report["branches"][0];
+    near(number(&branch["from"]), 0.0, 1e-12);
+    near(number(&branch["to"]), 200.0, 1e-12);
+    assert_eq!(branch["ends"][0], "the range ends");
+    Ok(())
+}
+
+#[test]
+fn values_that_cannot_be_are_refused_by_name_value_and_range() -> Outcome {
+    let cases: [(&[&str], &[&str]); 4] = [
+        (
+            &["--parameter", "eta", "--from", "1.2", "--to", "1.5"],
+            &["--from 1.2", "--to 1.5", "frequency = 1.15"],
+        ),
+        (
+            &["--parameter", "F0", "--from", "1", "--to", "2"],
+            &["amplitude", "has no such parameter"],
+        ),
+        (
+            &["--parameter", "mass", "--from", "1", "--to", "2"],
+            &["mass", "frequency (eta)", "travel (nu)"],
+        ),
+        (
+            &[
+                "--parameter",
+                "eta",
+                "--from",
+                "1",
+                "--to",
+                "2",
+                "--orbit",
+                "1/0",
+            ],
+            &["1/0", "n from 1 to 64"],
+        ),
+    ];
+    let folder = tempfile::tempdir()?;
+    for (arguments, words) in cases {
+        let output = run(arguments, &folder.path().join("none"))?;
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+        for word in words {
+            assert!(message.contains(word), "{word}: {message}");
+        }
+    }
+    let absent = [
+        "--orbit",
+        "5/7",
+        "--parameter",
+        "eta",
+        "--from",
+        "1",
+        "--to",
+        "2",
+    ];
+    let output = run(&absent, &folder.path().join("none"))?;
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains("no stable z = 5/7 motion") && message.contains("z = 1/1"));
+    assert!(!folder.path().join("none").exists());
+    Ok(())
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_nothing_behind() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let place = folder.path().join("new");
+    // The search for a motion that is not there, among slow ones, takes seconds.
+    let scene = format!("{}/../docs/scenes/chatter.toml", env!("CARGO_MANIFEST_DIR"));
+    let way = ["--parameter", "eta", "--from", "0.1", "--to", "1.8"];
+    let arguments = [&[scene.as_str(), "--orbit", "5/7"], &way[..]].concat();
+    let child = command(&arguments, &place)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()?;
+    while !place.exists() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()?;
+    let output = child.wait_with_output()?;
+    assert_eq!(output.status.code(), Some(130));
+    assert!(output.stdout.is_empty());
+    assert!(!place.exists());
+    Ok(())
+}

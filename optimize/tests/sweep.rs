@@ -1,0 +1,154 @@
+//! `softstop sweep` as users and scripts meet it.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+fn sweep(folder: &Path, arguments: &[&str]) -> std::io::Result<Output> {
+    Command::new(env!("CARGO_BIN_EXE_softstop"))
+        .args(["sweep", "--output"])
+        .arg(folder)
+        .args(arguments)
+        .output()
+}
+
+fn json(folder: &Path, arguments: &[&str]) -> Result<Value, Box<dyn std::error::Error>> {
+    let arguments = [arguments, &["--format", "json"]].concat();
+    let output = sweep(folder, &arguments)?;
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{message}");
+    Ok(serde_json::from_slice(&output.stdout)?)
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or(f64::NAN)
+}
+
+#[test]
+fn the_hysteresis_zone_of_clearance_10() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let range = ["--from", "1", "--to", "1.4"];
+    let few = ["--steps", "41", "--periods", "100"];
+    let report = json(folder.path(), &[range, few].concat())?;
+    assert_eq!(report["parameter"], "frequency");
+    assert!((number(&report["ratePerPeriod"]) - 1e-4).abs() < 1e-12);
+    // Up: z = 1 up to the fold at 1.369036. Down: z = 0 down to g0 = 1.04444.
+    let zones = report["hysteresis"].as_array().ok_or("no zones")?;
+    assert_eq!(zones.len(), 1);
+    assert_eq!(
+        (&zones[0]["up"], &zones[0]["down"]),
+        (&"z = 1".into(), &"z = 0".into())
+    );
+    assert!((number(&zones[0]["from"]) - 1.05).abs() < 1e-9);
+    assert!((number(&zones[0]["to"]) - 1.37).abs() < 1e-9);
+    let file: Value = serde_json::from_slice(&fs::read(folder.path().join("sweep.json"))?)?;
+    assert_eq!(file, report);
+    let table = fs::read_to_string(folder.path().join("sweep.csv"))?;
+    assert_eq!(table.lines().count(), 83);
+    assert!(fs::read_to_string(folder.path().join("sweep.svg"))?.starts_with("<svg"));
+    assert_eq!(fs::read_dir(folder.path())?.count(), 3);
+    Ok(())
+}
+
+#[test]
+fn a_rigid_scene_is_swept_in_si_units() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes/rigid.toml");
+    let range = [
+        "--from",
+        "1",
+        "--to",
+        "3",
+        "--steps",
+        "21",
+        "--periods",
+        "50",
+    ];
+    let report = json(folder.path(), &[&[scene], &range[..]].concat())?;
+    assert_eq!(report["sweeps"].as_array().map(Vec::len), Some(2));
+    assert_eq!(report["sweeps"][0]["steps"], 21);
+    Ok(())
+}
+
+/// Runs the program where it has to fail, and checks exit code and message.
+#[track_caller]
+fn refuses(arguments: &[&str], words: &[&str]) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let target = folder.path().join("sweep");
+    let output = sweep(&target, arguments).expect("the program starts");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+    assert!(output.stdout.is_empty() && !target.exists());
+    for word in words {
+        assert!(message.contains(word), "{arguments:?}: {message:?}");
+    }
+}
+
+#[test]
+fn bad_values_are_named() {
+    let with = |rest: &[&'static str]| [&["--from", "0.8", "--to", "1.8"], rest].concat();
+    refuses(&["--from", "1.8", "--to", "0.8"], &["range", "rising"]);
+    refuses(&with(&["--steps", "1"]), &["steps", "2 to 10000000"]);
+    refuses(&with(&["--periods", "0"]), &["periods"]);
+    refuses(&with(&["--tolerance", "1"]), &["tolerance", "> 0 and < 1"]);
+    refuses(
+        &with(&["--parameter", "restitution"]),
+        &["restitution", "has none"],
+    );
+    refuses(&with(&["--parameter", "colour"]), &["colour"]);
+    refuses(&with(&["--clearances", "2,x"]), &["--clearances"]);
+    refuses(&["--from", "-1", "--to", "1"], &["frequency"]);
+    refuses(&with(&["--resume"]), &["--resume"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_sweep_goes_on_to_the_same_result() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (whole, part) = (folder.path().join("whole"), folder.path().join("part"));
+    let line = [
+        "--from",
+        "0.9",
+        "--to",
+        "1.1",
+        "--steps",
+        "400",
+        "--periods",
+        "2000",
+    ];
+    let kept = part.join("sweep.part");
+    let mut run = Command::new(env!("CARGO_BIN_EXE_softstop"))
+        .args(["sweep", "--output"])
+        .arg(&part)
+        .args(line)
+        .stderr(std::process::Stdio::piped())
+        .spawn()?;
+    let deadline = Instant::now() + Duration::from_secs(20);
+    while !part.is_dir() && Instant::now() < deadline {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    std::thread::sleep(Duration::from_millis(60));
+    Command::new("kill")
+        .args(["-INT", &run.id().to_string()])
+        .status()?;
+    assert_eq!(run.wait()?.code(), Some(130));
+    assert!(kept.is_file() && !part.join("sweep.csv").exists());
+
+    // Other arguments are another sweep.
+    let other = [&line[..7], &["1999", "--resume"]].concat();
+    assert_eq!(sweep(&part, &other)?.status.code(), Some(2));
+    let resumed = sweep(&part, &[&line[..], &["--resume"]].concat())?;
+    let message = String::from_utf8_lossy(&resumed.stderr);
+    assert!(resumed.status.success(), "{message}");
+    assert!(!kept.exists());
+    assert!(sweep(&whole, &line)?.status.success());
+    for file in ["sweep.csv", "sweep.svg"] {
+        assert_eq!(fs::read(part.join(file))?, fs::read(whole.join(file))?);
+    }
+    Ok(())
+}
