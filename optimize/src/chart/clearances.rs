@@ -263,7 +263,7 @@ impl ClearanceChart<'_> {
         pen.frame(panel.area);
         let text = "the strip is pierced: Xₘ > ρ + σ";
         pen.words(
-            (panel.right() - 8.0, top + 18.0),
+            (panel.right() - 8.0, panel.bottom() - 9.0),
             LETTERS - 1,
             Align::Right,
             (style::INK, false),

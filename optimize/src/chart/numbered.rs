@@ -202,13 +202,9 @@ impl NumberedChart<'_> {
         let (up, down) = (diagram.ways[0].rising(), diagram.ways[1].rising());
         let alike: Vec<bool> = up.iter().zip(&down).map(|(a, b)| same(a, b)).collect();
         let of = |steps: &[&Step], wanted: bool| -> Vec<(f64, f64)> {
-            let own = steps
-                .iter()
-                .zip(&alike)
-                .filter(|(_, alike)| **alike == wanted);
-            // What has not settled is on its way from one motion to another.
-            let settled = own.filter(|(step, _)| !step.settled.is_unsettled());
-            settled.flat_map(|(step, _)| dots(step)).collect()
+            let own = (0..alike.len()).filter(|index| alike[*index] == wanted);
+            let stays = own.filter(|index| !is_passing(steps, *index));
+            stays.flat_map(|index| dots(steps[index])).collect()
         };
         panel.dots(
             pen,
@@ -272,6 +268,15 @@ fn dots(step: &Step) -> Vec<(f64, f64)> {
     }
     let velocities = step.velocities.iter();
     velocities.map(|velocity| (step.value, *velocity)).collect()
+}
+
+/// True if a step shows a motion on its way from one periodic motion to another.
+fn is_passing(steps: &[&Step], index: usize) -> bool {
+    let is_settled = |step: &&&Step| !step.settled.is_unsettled();
+    let before = steps[..index].iter().rfind(is_settled);
+    let after = steps[index + 1..].iter().find(is_settled);
+    let repeats = |step: Option<&&Step>| step.is_none_or(|step| step.settled.regime().is_some());
+    steps[index].settled.is_unsettled() && repeats(before) && repeats(after)
 }
 
 /// True if both are the same motion, or both wander.

@@ -95,8 +95,8 @@ impl StabilityChart<'_> {
             if whole {
                 diagram.curve(&mut pen, &curve(1), z_one);
                 exponents.curve(&mut pen, &curve(2), z_one);
-                let beyond = "chaos, λ > 0: at the right";
-                let place = (exponents.across(1.005), exponents.area.1 + 22.0);
+                let beyond = "chaos: λ > 0, at the right";
+                let place = (exponents.across(0.965), exponents.height(0.0) - 8.0);
                 pen.words(place, LETTERS - 1, Align::Left, (style::INK, true), beyond);
             }
             let zero = [(part.range.0, 0.0), (part.range.1, 0.0)];
@@ -136,8 +136,13 @@ impl StabilityChart<'_> {
             for (panel, value) in [(diagram, *velocity), (exponents, *exponent)] {
                 pen.spot((x, panel.height(value)), 4.5);
             }
-            let place = (x + 9.0, exponents.height(*exponent) + 20.0);
-            pen.words(place, LETTERS - 1, Align::Left, (style::INK, true), name);
+            let (shift, align) = if *eta < 1.2 {
+                (-9.0, Align::Right)
+            } else {
+                (9.0, Align::Left)
+            };
+            let place = (x + shift, exponents.height(*exponent) + 20.0);
+            pen.words(place, LETTERS - 1, align, (style::INK, false), name);
         }
     }
 }

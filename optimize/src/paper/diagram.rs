@@ -3,7 +3,7 @@
 use anyhow::{Context, anyhow};
 use rayon::prelude::*;
 use softstop::Ratios;
-use softstop::sweep::{Chain, Plan, Settled, Step};
+use softstop::sweep::{Chain, Direction, Plan, Settled, Step};
 
 use crate::failure::Failure;
 use crate::interrupt;
@@ -35,6 +35,19 @@ pub(super) fn sweep(jobs: &mut [Job], what: &str) -> Result<(), Failure> {
     match errors.next() {
         Some(error) => Err(Failure::Run(anyhow!(error))),
         None => Ok(()),
+    }
+}
+
+/// The plan of one way over a part of a sweep's range, going on from where that is when it comes there.
+pub(super) fn part_of(sweep: &Chain<Ratios>, plan: &Plan) -> Plan {
+    let rising = sweep.rising();
+    let before = match sweep.direction {
+        Direction::Up => rising.iter().rfind(|step| step.value <= plan.range.0),
+        Direction::Down => rising.iter().find(|step| step.value >= plan.range.1),
+    };
+    Plan {
+        start: before.map_or(plan.start, |step| step.end),
+        ..plan.clone()
     }
 }
 

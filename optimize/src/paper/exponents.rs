@@ -8,7 +8,7 @@ use softstop::sweep::{Chain, Direction, Plan, Settled, Step};
 use softstop::zone::{ZoneError, hysteresis};
 use softstop::{MotionError, Ratios};
 
-use super::diagram;
+use super::diagram::{self, Job};
 use super::{Detail, Drawn, Figure};
 use crate::chart::{StabilityChart, StabilityPart, StabilityPoint};
 use crate::failure::Failure;
@@ -26,28 +26,31 @@ const PARTS: [((f64, f64), (f64, f64)); 2] =
     [((0.8, 1.8), (-0.03, 0.008)), ((0.95, 1.0), (-0.03, 0.09))];
 
 fn draw(detail: Detail) -> Result<Drawn, Failure> {
-    let mut jobs = Vec::new();
-    for (index, (range, _)) in PARTS.iter().enumerate() {
-        let (steps, periods) =
-            detail.pick([(1401, 200), (900, 200)], [(101, 100), (41, 100)])[index];
-        let plan = Plan::new(Parameter::Frequency, *range, steps, periods)
-            .map_err(|error| Failure::Run(anyhow!(error)))?;
-        let ways = [Direction::Up, Direction::Down];
-        jobs.push((
-            plan,
-            ways.map(|way| Chain::new(Ratios::unloaded(), way)).to_vec(),
-        ));
-    }
-    diagram::sweep(&mut jobs, "steps of the sweeps")?;
-    let steps: usize = jobs
+    let plans = PARTS
         .iter()
-        .flat_map(|job| &job.1)
-        .map(|chain| chain.steps.len())
-        .sum();
+        .zip(detail.pick([(1401, 200), (900, 200)], [(101, 100), (41, 100)]));
+    let plans = plans.map(|((range, _), (steps, periods))| {
+        Plan::new(Parameter::Frequency, *range, steps, periods)
+            .map_err(|error| Failure::Run(anyhow!(error)))
+    });
+    let plans = plans.collect::<Result<Vec<Plan>, Failure>>()?;
+    let chain = |way| Chain::new(Ratios::unloaded(), way);
+    let ways = [Direction::Up, Direction::Down].map(chain).to_vec();
+    let mut whole = [(plans[0].clone(), ways)];
+    diagram::sweep(&mut whole, "steps of the sweeps")?;
+    let [(_, whole)] = whole;
+    let zoom = whole.iter().map(|sweep| {
+        let plan = diagram::part_of(sweep, &plans[1]);
+        (plan, vec![chain(sweep.direction)])
+    });
+    let mut zoom: Vec<Job> = zoom.collect();
+    diagram::sweep(&mut zoom, "steps of the zoom")?;
+    let sweeps = [whole, zoom.into_iter().flat_map(|job| job.1).collect()];
+    let steps: usize = plans.iter().map(|plan| 2 * plan.steps).sum();
     let progress = Progress::new(steps as u64, "exponents");
     let batch = detail.pick(40, 4);
     let mut parts = Vec::new();
-    for ((_, chains), (range, exponents)) in jobs.iter().zip(PARTS) {
+    for (chains, (range, exponents)) in sweeps.iter().zip(PARTS) {
         let ways = [
             points(&chains[0], batch, &progress)?,
             points(&chains[1], batch, &progress)?,
@@ -67,7 +70,7 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
         parts: &parts,
         branch: &branch,
         marks: &summary.marks(),
-        explanation: explanation(&jobs, batch),
+        explanation: explanation(&plans, batch),
     };
     Ok(Drawn {
         files: vec![
@@ -78,10 +81,10 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
     })
 }
 
-fn explanation(jobs: &[diagram::Job], batch: u64) -> String {
-    let sweeps: Vec<String> = jobs
+fn explanation(plans: &[Plan], batch: u64) -> String {
+    let sweeps: Vec<String> = plans
         .iter()
-        .map(|(plan, _)| {
+        .map(|plan| {
             format!(
                 "{} frequencies × {} drive periods",
                 plan.steps, plan.periods

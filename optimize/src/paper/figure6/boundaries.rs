@@ -22,7 +22,7 @@ const RANGE: (f64, f64) = (0.7, 1.9);
 /// Clearances of the curves.
 const CLEARANCES: (f64, f64) = (1.0, 24.5);
 /// Clearances from one point of g0 to the next.
-const SPACING: f64 = 0.25;
+const SPACING: f64 = 0.5;
 /// Most points of a branch or a curve in each direction.
 const POINTS: usize = 4000;
 /// Width to which the best clearance is found.
@@ -77,10 +77,13 @@ fn ends_of(machine: &Ratios) -> Result<Ends, Box<dyn std::error::Error>> {
         range: RANGE,
         points: POINTS,
     };
-    // Unstable stretches between two folds are passed over: the last fold counts.
-    let watch = |point: &BranchPoint| match point.fold_test() < -1.0 {
-        true => ControlFlow::Break(()),
-        false => ControlFlow::Continue(()),
+    // Unstable stretches between two folds are passed over: the last fold counts. The first flip is the end.
+    let watch = |point: &BranchPoint| {
+        let is_flipped = !point.is_stable() && point.fold_test() > 0.0;
+        match is_flipped || point.fold_test() < -1.0 {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
     };
     let branch = Follower::new(&family, 1).branch(grazing[0], state, &limits, watch)?;
     let of_test = |test: Test| {

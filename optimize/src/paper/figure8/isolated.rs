@@ -4,7 +4,7 @@ use anyhow::anyhow;
 use softstop::attractors::{Kind, Options, SurveyError, attractors_watched};
 use softstop::continuation::Parameter;
 use softstop::orbit::Orbit;
-use softstop::sweep::{Chain, Direction, Plan, Step};
+use softstop::sweep::{Chain, Direction, Plan, Settled, Step};
 use softstop::{Ratios, Start};
 
 use super::Detail;
@@ -17,6 +17,8 @@ use crate::table1::{paper, values};
 
 /// How far from where they are found they are swept, at most.
 const REACH: f64 = 0.02;
+/// Fewest steps on which a motion is followed to be one of its own.
+const SHORTEST: usize = 10;
 /// Difference of velocities, as a share, of motions that are not the same.
 const APART: f64 = 0.01;
 
@@ -41,8 +43,14 @@ pub(super) fn find(known: &[&Diagram], detail: Detail) -> Result<Vec<Step>, Fail
         diagram::sweep(&mut jobs, "steps of isolated motions")?;
         for (_, chains) in jobs {
             let steps = chains.into_iter().flat_map(|chain| chain.steps);
-            let apart = steps.take_while(|step| known.iter().all(|diagram| !is_on(diagram, step)));
-            found.extend(apart);
+            let apart = steps.take_while(|step| {
+                let wanders = matches!(step.settled, Settled::Chaotic { .. });
+                !wanders && known.iter().all(|diagram| !is_on(diagram, step))
+            });
+            let apart: Vec<Step> = apart.collect();
+            if apart.len() >= detail.pick(SHORTEST, 2) {
+                found.extend(apart);
+            }
         }
         found.sort_by(|a, b| a.value.total_cmp(&b.value));
     }

@@ -67,7 +67,7 @@ const LETTERS: [(&str, f64); 6] = [
     ("D, E", 0.953_65),
     ("F", 0.955),
     ("G, H, I", 0.9875),
-    ("J", 0.9888),
+    ("J", 0.9887),
 ];
 
 fn draw(detail: Detail) -> Result<Drawn, Failure> {
@@ -144,17 +144,7 @@ fn zooms(
     for zoom in &ZOOMS {
         let plan = plan(zoom, detail)?;
         for (way, sweep) in WAYS.into_iter().zip(&overview.ways) {
-            let rising = sweep.rising();
-            let before = match way {
-                Direction::Up => rising.iter().rfind(|step| step.value <= zoom.range.0),
-                Direction::Down => rising.iter().find(|step| step.value >= zoom.range.1),
-            };
-            let start = before.map_or(plan.start, |step| step.end);
-            let plan = Plan {
-                start,
-                ..plan.clone()
-            };
-            jobs.push((plan, vec![chain(way)]));
+            jobs.push((diagram::part_of(sweep, &plan), vec![chain(way)]));
         }
     }
     jobs.push(fleeting(detail)?);
