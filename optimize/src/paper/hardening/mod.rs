@@ -10,9 +10,10 @@ mod swept;
 use serde::Serialize;
 use softstop::sweep::Step;
 
-use super::{Detail, Drawn, Figure, table};
+use super::{Detail, Drawn, Figure};
 use crate::chart::{HardeningChart, StopDiagram, StopFolds, StopMap, StopOrders};
 use crate::failure::Failure;
+use crate::output;
 use orders::Subharmonic;
 use stops::{CLEARANCE, Law, RESTITUTION, grazing};
 use swept::{RANGE, Swept, regime, sweep};
@@ -101,10 +102,10 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
     Ok(Drawn {
         files: vec![
             chart.svg().into_bytes(),
-            table::csv(drawn.iter().flat_map(lines))?,
-            table::csv(map.iter().flat_map(lines))?,
-            table::csv(folds.iter().map(fold_line))?,
-            table::csv(subharmonics.iter().map(subharmonic_line))?,
+            output::csv(drawn.iter().flat_map(lines))?,
+            output::csv(map.iter().flat_map(lines))?,
+            output::csv(folds.iter().map(fold_line))?,
+            output::csv(subharmonics.iter().map(subharmonic_line))?,
         ],
         findings,
     })
