@@ -33,6 +33,9 @@ const RESPONSE: Stroke = Stroke::solid(style::INK, 1.5);
 const FOLD: Stroke = Stroke::dashed(style::INK, 1.7, (8.0, 4.0));
 const FLIP: Stroke = Stroke::dashed(style::INK, 1.7, (2.0, 3.0));
 
+/// Ranges of eta.
+pub type Ranges = Vec<(f64, f64)>;
+
 /// The diagram of one clearance.
 #[derive(Debug, Clone)]
 pub struct ClearanceRow {
@@ -68,7 +71,7 @@ pub struct ClearanceChart<'a> {
     pub point: (&'static str, [f64; 3]),
     /// Ranges of eta in which the motion pierces the strip, up and down, for each diagram; none for a machine
     /// without a strip.
-    pub piercing: Option<Vec<[Vec<(f64, f64)>; 2]>>,
+    pub piercing: Option<Vec<[Ranges; 2]>>,
     /// What it shows.
     pub title: String,
     /// How it was made.
@@ -249,7 +252,7 @@ impl ClearanceChart<'_> {
     }
 
     /// A couple of lines for each clearance: where the motion pierces, up and down.
-    fn strip(&self, pen: &mut Pen, top: f64, rows: &[[Vec<(f64, f64)>; 2]]) {
+    fn strip(&self, pen: &mut Pen, top: f64, rows: &[[Ranges; 2]]) {
         let panel = Panel {
             area: (
                 SIDES.0,

@@ -34,7 +34,7 @@ pub use basin::{BasinPage, BasinPicture};
 pub use certainty::{
     CertaintyChart, CertaintyCurve, CertaintyPage, CertaintyPanel, CertaintyPoint,
 };
-pub use clearances::{Boundaries, ClearanceChart, ClearanceRow};
+pub use clearances::{Boundaries, ClearanceChart, ClearanceRow, Ranges};
 pub use continuation::{BranchChart, CurveChart};
 pub use fidelity::{Candidate, FidelityChart, FidelityPicture};
 pub use hardening::{HardeningChart, StopDiagram, StopFolds, StopMap, StopOrders, StopRegime};

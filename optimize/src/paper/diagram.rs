@@ -47,7 +47,7 @@ pub(super) fn part_of(sweep: &Chain<Ratios>, plan: &Plan) -> Plan {
     };
     Plan {
         start: before.map_or(plan.start, |step| step.end),
-        ..plan.clone()
+        ..*plan
     }
 }
 

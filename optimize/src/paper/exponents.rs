@@ -36,7 +36,7 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
     let plans = plans.collect::<Result<Vec<Plan>, Failure>>()?;
     let chain = |way| Chain::new(Ratios::unloaded(), way);
     let ways = [Direction::Up, Direction::Down].map(chain).to_vec();
-    let mut whole = [(plans[0].clone(), ways)];
+    let mut whole = [(plans[0], ways)];
     diagram::sweep(&mut whole, "steps of the sweeps")?;
     let [(_, whole)] = whole;
     let zoom = whole.iter().map(|sweep| {

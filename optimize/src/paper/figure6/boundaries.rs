@@ -14,6 +14,7 @@ use softstop::{Ratios, Scene};
 
 use crate::chart::Boundaries;
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::paper::diagram;
 use crate::progress::Progress;
 
@@ -23,8 +24,9 @@ const RANGE: (f64, f64) = (0.7, 1.9);
 const CLEARANCES: (f64, f64) = (1.0, 24.5);
 /// Clearances from one point of g0 to the next.
 const SPACING: f64 = 0.5;
-/// Most points of a branch or a curve in each direction.
+/// Most points of a branch and of a curve in each direction: a curve that comes to an orbit that grazes creeps.
 const POINTS: usize = 4000;
+const CURVE_POINTS: usize = 300;
 /// Width to which the best clearance is found.
 const WIDTH: f64 = 1e-3;
 
@@ -200,7 +202,7 @@ fn piece(
     };
     let region = Region {
         ranges: [RANGE, range],
-        points: POINTS,
+        points: CURVE_POINTS,
         step,
     };
     let Ok(family) = Along::new(machine, [Parameter::Frequency, Parameter::Clearance]) else {
@@ -208,9 +210,11 @@ fn piece(
     };
     let start = (SpecialKind::Critical(test), point);
     let parameters = [point.parameter, clearance];
-    let found = curve(&family, 1, start, parameters, &region, |_| {
-        ControlFlow::Continue(())
-    });
+    let watch = |_: &_| match interrupt::requested() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
+    let found = curve(&family, 1, start, parameters, &region, watch);
     let described = |curve: Curve| {
         let points = curve.points.iter().filter_map(|at| {
             let scene = family.scene(at.parameters).ok()?;

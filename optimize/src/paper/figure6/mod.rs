@@ -9,7 +9,7 @@ use softstop::{Ratios, orbit};
 
 use super::diagram::{self, Job};
 use super::{Detail, Drawn, Figure};
-use crate::chart::{ClearanceChart, ClearanceRow};
+use crate::chart::{ClearanceChart, ClearanceRow, Ranges};
 use crate::failure::Failure;
 use crate::progress::Progress;
 use boundaries::Ends;
@@ -100,7 +100,7 @@ fn title(machine: &Ratios) -> String {
 }
 
 /// Ranges of eta, up and down, in which the largest position lies behind the strip.
-fn piercing(machine: &Ratios, rows: &[ClearanceRow]) -> Option<Vec<[Vec<(f64, f64)>; 2]>> {
+fn piercing(machine: &Ratios, rows: &[ClearanceRow]) -> Option<Vec<[Ranges; 2]>> {
     let strip = machine.piercing?;
     let ranges = |chain: &Chain<Ratios>| {
         let through = chain.machine.clearance + strip.thickness;
@@ -109,7 +109,7 @@ fn piercing(machine: &Ratios, rows: &[ClearanceRow]) -> Option<Vec<[Vec<(f64, f6
         let pierced = runs.filter(|run| run[0].max_position > through && run.len() > 1);
         pierced
             .map(|run| (run[0].value, run[run.len() - 1].value))
-            .collect::<Vec<_>>()
+            .collect::<Ranges>()
     };
     let of_row = |row: &ClearanceRow| [ranges(&row.ways[0]), ranges(&row.ways[1])];
     Some(rows.iter().map(of_row).collect())
@@ -154,7 +154,7 @@ fn findings(
     ends: &[Ends],
     rows: &[ClearanceRow],
     optimum: Option<(f64, f64)>,
-    piercing: Option<&[[Vec<(f64, f64)>; 2]]>,
+    piercing: Option<&[[Ranges; 2]]>,
 ) -> Vec<(String, f64)> {
     let mut findings = Vec::new();
     for (end, row) in ends.iter().zip(rows) {
