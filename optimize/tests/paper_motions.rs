@@ -129,3 +129,60 @@ fn sections_return_and_chaos_is_shown_while_it_lasts() {
     // The chaos below grazing ends after some 15,000 periods; all 600 that are drawn have impacts.
     assert_eq!(["B", "E", "G", "K"].map(count), [600; 4]);
 }
+
+#[test]
+fn from_soft_to_rigid_the_papers_five_points_in_numbers() {
+    let (findings, folder) = draw("hardening");
+    let of = |name: &str| findings[name];
+    // (1) Without a stop worth the name all is reversible; z = 1 has folds only from some stiffness on.
+    assert_near(
+        &findings,
+        "(1) k2/k1 = 1: share of eta that is reversible",
+        1.0,
+        0.0,
+    );
+    assert_near(
+        &findings,
+        "(1) k2/k1 from which on z = 1 has folds",
+        2.31,
+        0.05,
+    );
+    // (2) Subharmonic and chaotic motions become more.
+    let complex = [1.0, 3.0, 10.0, 100.0].map(|k| {
+        of(&format!(
+            "(2) k2/k1 = {k}: share of eta beyond z = 0 and z = 1"
+        ))
+    });
+    assert!(
+        complex.is_sorted() && complex[0] == 0.0 && complex[3] > 0.1,
+        "{complex:?}"
+    );
+    // (3) The region of weak impacts is narrow, as 1/k2^2, and the hysteresis is not.
+    assert_near(
+        &findings,
+        "(3) k2/k1 = 10: width of weak z = 1",
+        2.379_027e-4,
+        1e-9,
+    );
+    assert_near(
+        &findings,
+        "(3) k2/k1 = 10: width of hysteresis",
+        0.111_243,
+        1e-6,
+    );
+    let power = "(3) width of weak z = 1 goes with k2 to the power";
+    assert_near(&findings, power, -2.0, 0.03);
+    // (4) Other laws, the same structure.
+    for law in ["two slopes", "Hertz"] {
+        let name = format!("(4) {law}, like k2/k1 = 10: share of eta with the same motion");
+        assert!(of(&name) > 0.85, "{law}: {}", of(&name));
+    }
+    // (5) z = 1/n of high order only where the impact-less motion exists too.
+    for motion in table(&folder, "hardening-subharmonics.csv") {
+        let high = motion["impacts"] == "1" && motion["periods"] != "2";
+        assert!(
+            !high || motion["beside_impactless_motion"] == "true",
+            "{motion:?}"
+        );
+    }
+}

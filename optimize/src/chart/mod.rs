@@ -10,6 +10,7 @@ mod certainty;
 mod clearances;
 mod continuation;
 mod fidelity;
+mod hardening;
 mod heat;
 mod loops;
 mod motion;
@@ -36,6 +37,7 @@ pub use certainty::{
 pub use clearances::{Boundaries, ClearanceChart, ClearanceRow, Ranges};
 pub use continuation::{BranchChart, CurveChart};
 pub use fidelity::{Candidate, FidelityChart, FidelityPicture};
+pub use hardening::{HardeningChart, StopDiagram, StopFolds, StopMap, StopOrders, StopRegime};
 pub use loops::Loops;
 pub use motion::{Drawing, MotionChart};
 pub use motions::{MotionPage, MotionRow};

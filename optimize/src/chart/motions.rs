@@ -26,10 +26,12 @@ pub struct MotionRow {
     pub impacts: Vec<f64>,
     /// X' over X.
     pub trajectory: Vec<(f64, f64)>,
+    /// The part of it near the stop, more finely.
+    pub near: Vec<(f64, f64)>,
     /// States at drive angle 0.
     pub section: Vec<(f64, f64)>,
-    /// Those of the other motions of the same machine.
-    pub others: Vec<(f64, f64)>,
+    /// Those of each other motion of the same machine.
+    pub others: Vec<Vec<(f64, f64)>>,
 }
 
 /// A page of motions.
@@ -64,7 +66,9 @@ const FACE: Stroke = Stroke::dashed(style::ASIDE, 1.1, (6.0, 4.0));
 /// Every other drive period.
 const BAND: &str = "#f3f3f3";
 /// Size of a dot of few, and of many.
-const DOTS: (f64, f64) = (4.2, 0.9);
+const DOTS: (f64, f64) = (4.2, 1.0);
+/// Room before the stop near it, in units of the depth beyond it.
+const NEAR: f64 = 5.0;
 /// Least depth beyond the clearance, as a share of it, that is shown.
 const SHALLOW: f64 = 0.002;
 /// More dots than this are many.
@@ -193,35 +197,37 @@ impl MotionRow {
 
     /// The phase trajectory near the stop.
     fn zoom(&self, pen: &mut Pen, place: &Place) {
-        let (_, high) = ends(self.trajectory.iter().map(|point| point.0));
+        let (_, high) = ends(self.near.iter().map(|point| point.0));
         let depth = (high - self.clearance).max(SHALLOW * self.clearance);
-        let x = (self.clearance - 5.0 * depth, self.clearance + 1.6 * depth);
-        let near = self.trajectory.iter().filter(|point| point.0 > x.0);
+        let x = (self.clearance - NEAR * depth, self.clearance + 1.6 * depth);
+        let shown = self.near.iter().filter(|point| point.0 > x.0);
         let panel = Panel {
             area: place.area(2),
             x,
-            y: wide(ends(near.map(|point| point.1)), 0.1),
+            y: wide(ends(shown.map(|point| point.1)), 0.1),
         };
         let face = [(self.clearance, panel.y.0), (self.clearance, panel.y.1)];
         panel.curve(pen, &face, FACE);
         let width = if self.is_chaotic { 0.45 } else { 1.1 };
-        panel.curve(pen, &self.trajectory, Stroke::solid(self.color(), width));
-        panel.axes(pen, &place.axes("X near the stop", "X′", (3, 4)));
+        panel.curve(pen, &self.near, Stroke::solid(self.color(), width));
+        panel.axes(pen, &place.axes("X near the stop", "X′", (3, 5)));
     }
 
     fn poincare(&self, pen: &mut Pen, place: &Place) {
-        let all = || self.section.iter().chain(&self.others);
+        let all = || self.section.iter().chain(self.others.iter().flatten());
         let panel = Panel {
             area: place.area(3),
             x: wide(ends(all().map(|point| point.0)), 0.08),
             y: wide(ends(all().map(|point| point.1)), 0.08),
         };
         let radius = |count: usize| if count > MANY { DOTS.1 } else { DOTS.0 };
-        let others = self.others.iter().copied();
-        panel.dots(pen, others, radius(self.others.len()), COLORS.2);
+        for other in &self.others {
+            let points = other.iter().copied();
+            panel.dots(pen, points, radius(other.len()), COLORS.2);
+        }
         let own = self.section.iter().copied();
         panel.dots(pen, own, radius(self.section.len()), self.color());
-        panel.axes(pen, &place.axes("X at drive angle 0", "X′", (4, 4)));
+        panel.axes(pen, &place.axes("X at drive angle 0", "X′", (5, 4)));
     }
 }
 

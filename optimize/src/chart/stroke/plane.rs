@@ -107,7 +107,7 @@ impl StrokeChart {
             GUIDE,
         );
         pen.spot(panel.place((self.clearance, velocity)), 4.0);
-        let place = (panel.area.0 + 8.0, panel.height(velocity) - 6.0);
+        let place = (panel.area.0 + 8.0, panel.height(velocity) + 17.0);
         let ink = (style::OPTIMUM, true);
         pen.words(place, LETTERS + 1, Align::Left, ink, "X′₋");
     }

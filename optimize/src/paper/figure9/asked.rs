@@ -76,7 +76,7 @@ pub(super) const MOTIONS: [Asked; 12] = [
         0.988_5,
         false,
         Impacts("1-0"),
-        "the paper's (2/4)A: each impact comes after 2 T",
+        "the paper's (2/4)A: one impact in 2 T",
     ),
     asked(
         'K',

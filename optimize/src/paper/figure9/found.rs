@@ -113,9 +113,9 @@ impl Found {
         self.period().unwrap_or(WANDERING)
     }
 
-    /// The motion over drive periods.
-    pub(super) fn path(&self, periods: u64) -> Result<Path, MotionError> {
-        Path::of(&self.asked.scene()?, self.start, periods)
+    /// The motion over drive periods, with so many points in each.
+    pub(super) fn path(&self, periods: u64, fineness: u32) -> Result<Path, MotionError> {
+        Path::of(&self.asked.scene()?, self.start, periods, fineness)
     }
 
     fn exponents(&self) -> Option<Exponents> {

@@ -36,8 +36,8 @@ pub(super) const FIGURE: Figure = Figure {
 const SHOWN: [u64; 2] = [24, 12];
 /// Motions on a page.
 const ON_A_PAGE: usize = 6;
-/// Points for each drive period.
-const FINENESS: u32 = 72;
+/// Points for each drive period, of all of a motion and of what is near the stop.
+const FINENESS: (u32, u32) = (72, 1440);
 
 /// A point of a time series in the table.
 #[derive(Serialize)]
@@ -64,10 +64,12 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
         let mut rows = Vec::new();
         let first = page * ON_A_PAGE;
         for motion in found.iter().skip(first).take(ON_A_PAGE) {
-            let path = motion.path(shown).map_err(|error| anyhow!(error))?;
-            let plane = motion
-                .path(motion.repeats())
+            let path = motion
+                .path(shown, FINENESS.0)
                 .map_err(|error| anyhow!(error))?;
+            let path_of = |fineness| motion.path(motion.repeats(), fineness);
+            let plane = path_of(FINENESS.0).map_err(|error| anyhow!(error))?;
+            let near = path_of(FINENESS.1).map_err(|error| anyhow!(error))?;
             let coexist = |other: &&Found| {
                 other.asked.letter != motion.asked.letter
                     && other.asked.frequency == motion.asked.frequency
@@ -90,8 +92,9 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
                 series: path.positions(),
                 impacts: path.impacts,
                 trajectory: plane.states(),
+                near: near.near(Ratios::unloaded().clearance),
                 section: motion.section.clone(),
-                others: others.flat_map(|other| other.section.clone()).collect(),
+                others: others.map(|other| other.section.clone()).collect(),
             });
         }
         files.push(page_of(rows, shown).svg().into_bytes());

@@ -2,10 +2,13 @@
 
 use softstop::{MotionError, Scene, Start};
 
-use super::FINENESS;
-
 /// Fewest points of an arc.
-const FEWEST: f64 = 4.0;
+const FEWEST: f64 = 8.0;
+
+/// How far back what is near the stop goes, in units of the depth beyond it.
+const NEAR: f64 = 6.0;
+/// Least such depth, in units of the clearance.
+const SHALLOW: f64 = 0.002;
 
 /// A point of a motion.
 #[derive(Debug, Clone, Copy)]
@@ -24,14 +27,19 @@ pub(super) struct Path {
 }
 
 impl Path {
-    /// The motion from a start over drive periods.
-    pub(super) fn of(scene: &Scene, start: Start, periods: u64) -> Result<Self, MotionError> {
+    /// The motion from a start over drive periods, with so many points in each.
+    pub(super) fn of(
+        scene: &Scene,
+        start: Start,
+        periods: u64,
+        fineness: u32,
+    ) -> Result<Self, MotionError> {
         let trajectory = scene.trajectory(start, periods)?;
         let clock = trajectory.clock;
         let period = clock.period();
         let mut points = Vec::new();
         for arc in &trajectory.arcs {
-            let steps = (f64::from(FINENESS) * arc.duration / period)
+            let steps = (f64::from(fineness) * arc.duration / period)
                 .ceil()
                 .max(FEWEST) as u32;
             for step in 0..=steps {
@@ -58,6 +66,15 @@ impl Path {
     pub(super) fn positions(&self) -> Vec<(f64, f64)> {
         let place = |point: &Point| (point.periods, point.position);
         self.points.iter().map(place).collect()
+    }
+
+    /// The states from the stop back by [`NEAR`] times the depth that the motion reaches beyond it.
+    pub(super) fn near(&self, clearance: f64) -> Vec<(f64, f64)> {
+        let mut states = self.states();
+        let highest = states.iter().map(|state| state.0).fold(clearance, f64::max);
+        let depth = (highest - clearance).max(SHALLOW * clearance);
+        states.retain(|state| state.0 > clearance - NEAR * depth);
+        states
     }
 
     /// Velocities over positions.

@@ -1,0 +1,122 @@
+//! The stops from soft to rigid, all with the same restitution.
+
+use std::f64::consts::PI;
+
+use softstop::scene::{Release, Slope};
+use softstop::{Excitation, Scene, Stop};
+
+/// The clearance rho of the diagrams.
+pub(super) const CLEARANCE: f64 = 2.0;
+/// Damping b1 of the free flight: beta1 = 0.02.
+const DAMPING: f64 = 0.04;
+/// Restitution R of all stops.
+pub(super) const RESTITUTION: f64 = 0.6;
+/// Before-impact velocity at which different laws go equally deep.
+const MATCHED: f64 = 3.0;
+
+/// A stop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Law {
+    /// Spring and damper with stiffness k2 (Fig. 2a).
+    KelvinVoigt(f64),
+    /// Two slopes, the second one five times the first, that take up as much energy (Fig. 2b).
+    TwoSlopes(f64),
+    /// A sphere, that takes up as much energy (Fig. 2c).
+    Hertz(f64),
+    /// Newton's (Fig. 1c).
+    Rigid,
+}
+
+impl Law {
+    /// What it is called.
+    pub(super) fn name(self) -> String {
+        match self {
+            Self::KelvinVoigt(stiffness) => format!("k₂/k₁ = {stiffness}"),
+            Self::TwoSlopes(stiffness) => format!("two slopes, like k₂/k₁ = {stiffness}"),
+            Self::Hertz(stiffness) => format!("Hertz, like k₂/k₁ = {stiffness}"),
+            Self::Rigid => format!("rigid, R = {RESTITUTION}"),
+        }
+    }
+
+    /// The stiffness k2 that it has or is like; none if rigid.
+    fn stiffness(self) -> Option<f64> {
+        match self {
+            Self::KelvinVoigt(stiffness) | Self::TwoSlopes(stiffness) | Self::Hertz(stiffness) => {
+                Some(stiffness)
+            }
+            Self::Rigid => None,
+        }
+    }
+
+    fn stop(self) -> Stop {
+        match self {
+            Self::KelvinVoigt(stiffness) => Stop::KelvinVoigt {
+                stiffness,
+                release: Release::Clearance,
+            },
+            Self::TwoSlopes(stiffness) => {
+                // k d^2/2 = a d^2/2 + (b - a) (d/2)^2/2 with b = 5 a: a = k/2.
+                let first = 0.5 * stiffness;
+                let slope = |from, stiffness| Slope { from, stiffness };
+                Stop::PiecewiseLinear {
+                    loading: vec![
+                        slope(0.0, first),
+                        slope(0.5 * depth(stiffness), 5.0 * first),
+                    ],
+                    unloading: Vec::new(),
+                }
+            }
+            // k d^2/2 = 2/5 h d^(5/2)
+            Self::Hertz(stiffness) => Stop::Hertz {
+                stiffness: 1.25 * stiffness / depth(stiffness).sqrt(),
+                exponent: 1.5,
+                dissipation: 0.0,
+            },
+            Self::Rigid => Stop::Rigid {
+                restitution: RESTITUTION,
+            },
+        }
+    }
+
+    /// The machine with m = k1 = F0 = 1.
+    pub(super) fn scene(self, frequency: f64, clearance: f64) -> Scene {
+        let critical = self
+            .stiffness()
+            .map_or(0.0, |stiffness| 2.0 * stiffness.sqrt());
+        Scene {
+            mass: 1.0,
+            stiffness: 1.0,
+            damping: DAMPING,
+            excitation: Excitation {
+                amplitude: 1.0,
+                frequency,
+                phase: 0.0,
+            },
+            clearance,
+            contact_damping: DAMPING + damping_ratio() * critical,
+            stop: self.stop(),
+            piercing: None,
+            rigid: None,
+        }
+    }
+}
+
+/// How deep a spring goes that is hit at the velocity of matching.
+fn depth(stiffness: f64) -> f64 {
+    MATCHED / stiffness.sqrt()
+}
+
+/// The damping ratio of a contact, half a period of its own vibration, with restitution R =
+/// exp(-pi zeta / sqrt(1 - zeta^2)).
+fn damping_ratio() -> f64 {
+    let decrement = -RESTITUTION.ln();
+    decrement / decrement.hypot(PI)
+}
+
+/// The frequencies at which the impact-less motion grazes: 1/sqrt((1 - eta^2)^2 + (2 beta1 eta)^2) = rho. The
+/// lower one is 0 if already the static deflection is larger than the clearance.
+pub(super) fn grazing(clearance: f64) -> (f64, f64) {
+    let half = 1.0 - 0.5 * DAMPING * DAMPING;
+    let root = (half * half - 1.0 + clearance.powi(-2)).max(0.0).sqrt();
+    ((half - root).max(0.0).sqrt(), (half + root).sqrt())
+}
