@@ -8,7 +8,7 @@ mod findings;
 use anyhow::Context;
 use softstop::Ratios;
 
-use super::{Detail, Drawn, Figure};
+use super::{Drawn, Figure, Studio};
 use crate::chart::{CertaintyCurve, CertaintyPage, CertaintyPanel, CertaintyPoint};
 use crate::failure::Failure;
 use crate::progress::Progress;
@@ -50,7 +50,8 @@ fn places(steps: usize) -> Vec<f64> {
     near.chain(inner).chain(far).collect()
 }
 
-fn draw(detail: Detail) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
     let places = places(detail.pick(STEPS[0], STEPS[1]));
     let cells = detail.pick(CELLS[0], CELLS[1]);
     let square = Starts::Square(REGION);

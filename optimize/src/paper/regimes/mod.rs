@@ -11,7 +11,7 @@ use anyhow::anyhow;
 use softstop::Ratios;
 use softstop::sweep::Direction;
 
-use super::{Detail, Drawn, Figure};
+use super::{Detail, Drawn, Figure, Studio};
 use crate::chart::{RegimeMap, RegimePage, RegimePanel};
 use crate::failure::Failure;
 use crate::progress::Progress;
@@ -69,7 +69,8 @@ fn middle((from, to): (f64, f64), cell: usize, cells: usize) -> f64 {
     from + (cell as f64 + 0.5) / cells as f64 * (to - from)
 }
 
-fn draw(detail: Detail) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
     let (maps, boundaries) = rayon::join(|| maps(detail), boundaries);
     let (maps, boundaries) = (maps?, boundaries?);
     let findings = findings::of(&maps, &boundaries);
