@@ -54,20 +54,24 @@ pub(crate) fn returns_within(frequency: f64, states: &[Start], share: f64) -> Op
     })
 }
 
-/// Share of its first size to which a difference must have fallen to count as one that dies out.
-const DYING: f64 = 0.8;
+/// Share of its first size to which a difference must have fallen to count as one that dies out, and how large it
+/// may still be, in units of the distance within which states have returned.
+const DYING: (f64, f64) = (0.8, 10.0);
 
 /// The period of what a row of states that returns after `periods` drive periods settles on: that, or the least
 /// divisor of it so many periods apart of which the states come ever nearer to each other. A motion that spirals
-/// onto its orbit may come back after several turns before it does after one.
-pub(crate) fn settles_on(frequency: f64, states: &[Start], periods: usize) -> usize {
+/// onto its orbit may come back after several turns before it does after one. `share`: the distance within
+/// which states have returned, in units of the motion's size.
+pub(crate) fn settles_on(frequency: f64, states: &[Start], periods: usize, share: f64) -> usize {
+    let largest = DYING.1 * share * size(frequency, states);
     let divisors = (1..periods).filter(|part| periods.is_multiple_of(*part));
-    let mut dying = divisors.filter(|part| dies_out(frequency, states, *part));
+    let mut dying = divisors.filter(|part| dies_out(frequency, states, *part, largest));
     dying.next().unwrap_or(periods)
 }
 
-/// True if states a number of periods apart come nearer to each other from the first half of a row to the second.
-fn dies_out(frequency: f64, states: &[Start], apart: usize) -> bool {
+/// True if states a number of periods apart come nearer to each other from the first half of a row to the second,
+/// and are no farther apart than `most` in the end.
+fn dies_out(frequency: f64, states: &[Start], apart: usize, most: f64) -> bool {
     let gaps: Vec<f64> = states
         .iter()
         .zip(&states[apart..])
@@ -75,7 +79,7 @@ fn dies_out(frequency: f64, states: &[Start], apart: usize) -> bool {
         .collect();
     let (first, second) = gaps.split_at(gaps.len() / 2);
     let largest = |gaps: &[f64]| gaps.iter().copied().fold(0.0, f64::max);
-    largest(second) < DYING * largest(first)
+    largest(second) < most.min(DYING.0 * largest(first))
 }
 
 #[cfg(test)]
@@ -101,7 +105,7 @@ mod tests {
         let states = spiral(0.9);
         let found = returns_within(1.0, &states, 3e-5).expect("returns");
         assert!(found.periods > 1, "{found:?}");
-        assert_eq!(settles_on(1.0, &states, found.periods), 1);
+        assert_eq!(settles_on(1.0, &states, found.periods, 3e-5), 1);
     }
 
     #[test]
@@ -113,6 +117,6 @@ mod tests {
                 velocity: angle(k).sin(),
             })
             .collect();
-        assert_eq!(settles_on(1.0, &states, 3), 3);
+        assert_eq!(settles_on(1.0, &states, 3, 1e-4), 3);
     }
 }

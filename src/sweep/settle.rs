@@ -85,7 +85,7 @@ impl Step {
         let frequency = scene.excitation.frequency;
         let found = returns_within(frequency, states, tolerance);
         let periods = found.map_or(watched, |found| {
-            settles_on(frequency, states, found.periods)
+            settles_on(frequency, states, found.periods, tolerance)
         });
         let first = (watched - periods) as u64;
         let own = impacts.iter().filter(|(cycle, _)| *cycle >= first);

@@ -20,8 +20,9 @@ pub struct Swept {
 pub const PERIODS: u64 = 50;
 /// Steps before the end at which the sweep begins, and steps after it.
 const AROUND: (usize, usize) = (20, 60);
-/// Distance within which a state has returned, in units of the motion's size: each step moves the orbit.
-const RETURN: f64 = 1e-2;
+/// Distance within which a state has returned, in units of the motion's size: near enough not to be lost, and to
+/// have arrived.
+const RETURN: (f64, f64) = (1e-2, 1e-3);
 
 impl Swept {
     /// The sweep whose steps are the power of ten below this size, in the direction of the transition. None if the first
@@ -29,26 +30,31 @@ impl Swept {
     #[must_use]
     pub fn over(transition: &Transition, size: f64) -> Option<Self> {
         let step = 10_f64.powf(size.abs().log10().floor());
-        let mut chain = Chain::new(Ratios::unloaded(), direction(transition));
-        let plan = plan(transition, step)?;
-        let chains = std::slice::from_mut(&mut chain);
-        plan.run(chains, &|_| true).then_some(())?;
-        let steps = &chain.steps;
-        let first = steps.iter().position(|it| is(&transition.from, it))?;
+        let seen = sweep(transition, step, RETURN.0)?;
+        let first = seen.iter().position(|it| is(&transition.from, it))?;
         let lost = first
-            + steps[first..]
+            + seen[first..]
                 .iter()
                 .position(|it| !is(&transition.from, it))?;
-        let arrived = steps[lost..].windows(2).find(|pair| {
+        let settled = sweep(transition, step, RETURN.1)?;
+        let arrived = settled[lost..].windows(2).find(|pair| {
             let mut pair = pair.iter();
             pair.all(|it| is(transition.to(), it))
         });
         Some(Self {
             step,
-            lost: steps[lost].value,
+            lost: seen[lost].value,
             arrived: arrived.map(|pair| pair[0].value),
         })
     }
+}
+
+/// The steps of a sweep over the end of a motion.
+fn sweep(transition: &Transition, step: f64, tolerance: f64) -> Option<Vec<Step>> {
+    let mut chain = Chain::new(Ratios::unloaded(), direction(transition));
+    let plan = plan(transition, step, tolerance)?;
+    let chains = std::slice::from_mut(&mut chain);
+    plan.run(chains, &|_| true).then_some(chain.steps)
 }
 
 fn direction(transition: &Transition) -> Direction {
@@ -60,7 +66,7 @@ fn direction(transition: &Transition) -> Direction {
 }
 
 /// On whole steps, as a run by hand would go.
-fn plan(transition: &Transition, step: f64) -> Option<Plan> {
+fn plan(transition: &Transition, step: f64, tolerance: f64) -> Option<Plan> {
     let (before, after) = AROUND;
     let nearest = (transition.value / step).round();
     let (below, above) = match direction(transition) {
@@ -74,7 +80,7 @@ fn plan(transition: &Transition, step: f64) -> Option<Plan> {
     let plan = Plan::new(Parameter::Frequency, range, before + after + 1, PERIODS).ok()?;
     Some(Plan {
         start: transition.state?,
-        tolerance: RETURN,
+        tolerance,
         ..plan
     })
 }
