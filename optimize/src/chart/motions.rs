@@ -210,7 +210,7 @@ impl MotionRow {
         panel.curve(pen, &face, FACE);
         let width = if self.is_chaotic { 0.45 } else { 1.1 };
         panel.curve(pen, &self.near, Stroke::solid(self.color(), width));
-        panel.axes(pen, &place.axes("X near the stop", "X′", (3, 4)));
+        panel.axes(pen, &place.axes("X near the stop", "X′", (3, 5)));
     }
 
     fn poincare(&self, pen: &mut Pen, place: &Place) {

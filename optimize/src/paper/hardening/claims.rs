@@ -7,16 +7,9 @@ use super::swept::Swept;
 use crate::chart::StopFolds;
 
 /// All points but the last.
-pub(super) fn of_stops(
-    drawn: &[Swept],
-    folds: &[StopFolds],
-    onset: Option<f64>,
-) -> Vec<(String, f64)> {
+pub(super) fn of_stops(drawn: &[Swept], folds: &[StopFolds]) -> Vec<(String, f64)> {
     let mut findings = Vec::new();
     let mut add = |name: String, value: f64| findings.push((name, value));
-    if let Some(onset) = onset {
-        add("(1) k2/k1 from which on z = 1 has folds".to_owned(), onset);
-    }
     for swept in drawn {
         let name = swept.law.name().replace('₂', "2").replace('₁', "1");
         add(

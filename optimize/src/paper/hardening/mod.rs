@@ -13,6 +13,7 @@ use softstop::sweep::Step;
 use super::{Detail, Drawn, Figure};
 use crate::chart::{HardeningChart, StopDiagram, StopFolds, StopMap, StopOrders};
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::output;
 use orders::Subharmonic;
 use stops::{CLEARANCE, Law, RESTITUTION, grazing};
@@ -88,16 +89,15 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
     let laws: Vec<Law> = rows.iter().copied().map(Law::KelvinVoigt).collect();
     let map = sweep(&laws, detail.pick(240, 60), detail.pick(120, 60))?;
     let folds = folds::folds(&stiffnesses(detail.pick(21, 6)))?;
-    let without = folds.iter().rfind(|fold| fold.strong.is_none());
-    let with = folds.iter().find(|fold| fold.strong.is_some());
-    let onset = match (without, with) {
-        (Some(without), Some(with)) => Some(folds::onset(without.stiffness, with.stiffness)?),
-        _ => None,
-    };
     let (frequencies, starts) = detail.pick((72, 64), (18, 32));
     let subharmonics = orders::subharmonics(&SUBHARMONIC, frequencies, starts)?;
+    let mut findings = folds::onsets(&folds)?;
+    // A branch that was cut short would go unnoticed.
+    if interrupt::requested() {
+        return Err(Failure::Interrupted);
+    }
     let chart = chart(&drawn, &map, &folds, &subharmonics);
-    let mut findings = claims::of_stops(&drawn, &folds, onset);
+    findings.extend(claims::of_stops(&drawn, &folds));
     findings.extend(claims::of_orders(&subharmonics));
     Ok(Drawn {
         files: vec![
