@@ -32,12 +32,13 @@ fn number(value: &Value) -> f64 {
 #[test]
 fn the_hysteresis_zone_of_clearance_10() -> Outcome {
     let folder = tempfile::tempdir()?;
-    let range = ["--from", "1", "--to", "1.4"];
-    let few = ["--steps", "41", "--periods", "100"];
+    let range = ["--from", "1.02", "--to", "1.4"];
+    let few = ["--steps", "39", "--periods", "300"];
     let report = json(folder.path(), &[range, few].concat())?;
     assert_eq!(report["parameter"], "frequency");
-    assert!((number(&report["ratePerPeriod"]) - 1e-4).abs() < 1e-12);
-    // Up: z = 1 up to the fold at 1.369036. Down: z = 0 down to g0 = 1.04444.
+    assert!((number(&report["ratePerPeriod"]) - 0.01 / 300.0).abs() < 1e-12);
+    // Up: z = 1 up to the fold at 1.369036, which the step of 1.37 passes too slowly to settle. Down: z = 0
+    // down to g0 = 1.04444.
     let zones = report["hysteresis"].as_array().ok_or("no zones")?;
     assert_eq!(zones.len(), 1);
     assert_eq!(
@@ -45,11 +46,11 @@ fn the_hysteresis_zone_of_clearance_10() -> Outcome {
         (&"z = 1".into(), &"z = 0".into())
     );
     assert!((number(&zones[0]["from"]) - 1.05).abs() < 1e-9);
-    assert!((number(&zones[0]["to"]) - 1.37).abs() < 1e-9);
+    assert!((number(&zones[0]["to"]) - 1.36).abs() < 1e-9);
     let file: Value = serde_json::from_slice(&fs::read(folder.path().join("sweep.json"))?)?;
     assert_eq!(file, report);
     let table = fs::read_to_string(folder.path().join("sweep.csv"))?;
-    assert_eq!(table.lines().count(), 83);
+    assert_eq!(table.lines().count(), 79);
     assert!(fs::read_to_string(folder.path().join("sweep.svg"))?.starts_with("<svg"));
     assert_eq!(fs::read_dir(folder.path())?.count(), 3);
     Ok(())

@@ -34,13 +34,9 @@ pub enum CertaintyError {
     Survey(#[from] SurveyError),
 }
 
-const ONE: Regime = Regime {
-    impacts: 1,
-    periods: 1,
-};
-
 /// The establishing certainty of z = 1 at places s of a hysteresis zone (Peterka 2003, section 3: it is said to
-/// rise from 0 at s_SN to 1 at g0): the share of the initial states of a grid that lead to it. The watcher is
+/// rise from 0 at s_SN to 1 at g0): the share of the initial states of a grid that lead to it, or to any of several
+/// z = 1 motions, a weak and a strong one say. The watcher is
 /// told of the cells done at all places.
 ///
 /// # Errors
@@ -68,7 +64,7 @@ pub fn establishing(
         let basins = basins_watched(&scene, grid, options, &|done, _| {
             watcher(before + done, all)
         })?;
-        let (certainty, interval) = basins.share(ONE);
+        let (certainty, interval) = basins.share(Regime::ONE);
         Ok(Establishing {
             place: *place,
             frequency,

@@ -117,6 +117,15 @@ impl Basins {
     pub fn largest_ball(&self, class: usize) -> Option<Clearing> {
         clearing(&self.grid, |cell| usize::from(self.cells[cell]) == class)
     }
+
+    /// The largest ball all of whose motions settle in a regime, be it on one motion or on several of it.
+    pub fn largest_ball_of(&self, regime: Regime) -> Option<Clearing> {
+        let classes = self.classes.iter();
+        let own: Vec<bool> = classes
+            .map(|class| class.kind.regime() == Some(regime))
+            .collect();
+        clearing(&self.grid, |cell| own[usize::from(self.cells[cell])])
+    }
 }
 
 /// How to follow the cells' motions.

@@ -22,6 +22,12 @@ pub struct Regime {
 const LONGEST: u64 = 64;
 
 impl Regime {
+    /// z = 1.
+    pub const ONE: Self = Self {
+        impacts: 1,
+        periods: 1,
+    };
+
     /// The regime that a motion from `start` shows after `transient` drive periods; none if its state
     /// does not return within 64 periods, as in chaos.
     ///

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use softstop::basin::{Basins, Clearing, Establishing, Grid, Kind};
+use softstop::orbit::Regime;
 
 use crate::failure::Failure;
 use crate::output::Staged;
@@ -137,17 +138,12 @@ impl PlaceReport {
     fn new(place: &Establishing) -> Self {
         let basins = &place.basins;
         let classes = basins.classes.iter();
-        let one = classes
-            .clone()
-            .position(|class| class.kind.name() == "z = 1");
         Self {
             place: place.place,
             frequency: place.frequency,
             certainty: place.certainty,
             interval: place.interval,
-            integrity: one
-                .and_then(|one| basins.largest_ball(one))
-                .map(|ball| ball.radius),
+            integrity: basins.largest_ball_of(Regime::ONE).map(|ball| ball.radius),
             motions: classes
                 .map(|class| (class.kind.name(), class.share))
                 .collect(),

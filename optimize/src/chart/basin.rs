@@ -1,7 +1,7 @@
 //! Pictures of basins: cells of colour, the motions' own points, the largest ball inside a basin.
 
 use softstop::basin::{Axis, Basins, Clearing, Kind, Quantity};
-use softstop::orbit::Orbit;
+use softstop::orbit::{Orbit, Regime};
 
 use super::pen::{Align, Area, Pen};
 use super::plane::Plane;
@@ -22,8 +22,10 @@ pub struct BasinPicture<'a> {
 const OTHERS: [&str; 6] = [
     "#CC79A7", "#F0E442", "#0072B2", "#009E73", "#E69F00", "#D55E00",
 ];
-/// Pixels that the longer side of the grid has about.
-const SIDE: usize = 900;
+/// Length that the longer side of the grid has about; finer grids are longer.
+const SIDE: usize = 720;
+/// Pixels for each unit of length: the least side of a cell is half a unit.
+const SCALE: f32 = 2.0;
 /// Margins around the grid: left, top, right, bottom.
 const MARGINS: (f64, f64, f64, f64) = (86.0, 56.0, 340.0, 66.0);
 /// Size of letters.
@@ -66,7 +68,7 @@ impl<'a> BasinPicture<'a> {
         self.draw(&mut pen, (MARGINS.0, MARGINS.1, width, height), LETTERS);
         let place = (MARGINS.0 + width + 24.0, MARGINS.1 + 12.0);
         self.legend(&mut pen, place, LETTERS);
-        pen.png()
+        pen.png_at(SCALE)
     }
 
     pub(super) fn title(&self) -> &str {
@@ -76,7 +78,8 @@ impl<'a> BasinPicture<'a> {
     /// Width and height: whole pixels for each cell.
     fn size(&self) -> (f64, f64) {
         let grid = &self.basins.grid;
-        let cell = (SIDE / grid.across.cells.max(grid.up.cells)).max(1) as f64;
+        let cells = grid.across.cells.max(grid.up.cells);
+        let cell = 0.5 * (2 * SIDE / cells).max(1) as f64;
         (cell * grid.across.cells as f64, cell * grid.up.cells as f64)
     }
 
@@ -153,9 +156,7 @@ impl<'a> BasinPicture<'a> {
 
     /// The largest ball inside the basin of z = 1.
     fn ball(&self) -> Option<Clearing> {
-        let kinds = self.basins.classes.iter().map(|class| class.kind.name());
-        let one = kinds.into_iter().position(|name| name == "z = 1")?;
-        self.basins.largest_ball(one)
+        self.basins.largest_ball_of(Regime::ONE)
     }
 
     /// Colours, names and shares, downwards from a place.
@@ -223,9 +224,8 @@ const GRID: f64 = 600.0;
 const COLUMN: f64 = GRID + 96.0 + 290.0;
 const ROW: f64 = GRID + 60.0 + 78.0;
 const HEAD: f64 = 66.0;
-/// Letters and pixels for each unit.
+/// Letters.
 const PAGE_LETTERS: u32 = 17;
-const SCALE: f32 = 2.0;
 
 impl BasinPage<'_> {
     /// As PNG.

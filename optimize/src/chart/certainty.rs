@@ -72,7 +72,7 @@ pub struct CertaintyPoint {
 pub struct CertaintyCurve {
     /// What it is called in the legend.
     pub label: String,
-    /// Which colour.
+    /// Which colour of eight.
     pub color: usize,
     /// Dashed instead of solid.
     pub is_dashed: bool,
@@ -91,6 +91,8 @@ pub struct CertaintyPanel {
     pub curves: Vec<CertaintyCurve>,
     /// With the paper's claim: one at g0, zero at s_SN.
     pub has_claim: bool,
+    /// With a legend of its own; the first panel's stands for all others.
+    pub has_legend: bool,
 }
 
 /// Panels of curves over the hysteresis zone.
@@ -100,9 +102,9 @@ pub struct CertaintyPage {
     pub panels: Vec<CertaintyPanel>,
 }
 
-/// Okabe and Ito's colours in an order of growing darkness apart.
-const COLORS: [&str; 6] = [
-    "#E69F00", "#56B4E9", "#0072B2", "#009E73", "#D55E00", "#CC79A7",
+/// Okabe and Ito's colours, and a grey.
+const COLORS: [&str; 8] = [
+    "#E69F00", "#56B4E9", "#0072B2", "#009E73", "#D55E00", "#CC79A7", "#000000", "#8C8C8C",
 ];
 /// Size of a panel.
 const CELL: (f64, f64) = (640.0, 470.0);
@@ -158,16 +160,21 @@ impl CertaintyPanel {
     }
 
     fn layout(&self, plots: &[Plot]) -> Layout {
-        style::plain((-0.02, 1.02), (0.0, 1.02))
+        let layout = style::plain((-0.02, 1.02), (0.0, 1.02))
             .with_title(self.title.clone())
             .with_x_label("place in the hysteresis zone: 0 at g₀, 1 at s_SN")
             .with_y_label(self.up)
             .with_x_tick_step(0.2)
             .with_y_tick_step(0.2)
             .with_x_tick_format(TickFormat::Fixed(1))
-            .with_y_tick_format(TickFormat::Fixed(1))
-            .with_legend_entries(collect_legend_entries(plots))
-            .with_legend_position(LegendPosition::InsideTopRight)
+            .with_y_tick_format(TickFormat::Fixed(1));
+        if self.has_legend {
+            layout
+                .with_legend_entries(collect_legend_entries(plots))
+                .with_legend_position(LegendPosition::InsideTopRight)
+        } else {
+            layout
+        }
     }
 }
 
@@ -176,12 +183,17 @@ impl CertaintyPage {
     #[must_use]
     pub fn svg(&self) -> String {
         let plots: Vec<Vec<Plot>> = self.panels.iter().map(CertaintyPanel::plots).collect();
+        let shared = plots.first().map(|plots| collect_legend_entries(plots));
+        let shared = shared.unwrap_or_default();
         let panels = self.panels.iter().zip(&plots);
         let layouts = panels.map(|(panel, plots)| panel.layout(plots)).collect();
         let figure = Figure::new(self.panels.len().div_ceil(2), 2)
             .with_plots(plots)
             .with_layouts(layouts)
             .with_title("How certainly z = 1 establishes itself in its hysteresis zone")
+            .with_keep_panel_legends()
+            .with_shared_legend_right_top()
+            .with_shared_legend_entries(shared)
             .with_cell_size(CELL.0, CELL.1);
         SvgBackend::new().render_scene(&figure.render())
     }

@@ -75,7 +75,7 @@ pub struct NumberedChart<'a> {
     /// The bifurcations.
     pub bifurcations: &'a [Bifurcation],
     /// Letters of Fig. 9 and their frequencies.
-    pub letters: &'a [(&'static str, f64)],
+    pub letters: &'a [(String, f64)],
     /// How it was made.
     pub explanation: String,
 }

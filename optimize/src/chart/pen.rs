@@ -157,8 +157,8 @@ impl Pen {
     /// Text on a white ground, its middle at this place.
     pub(super) fn label(&mut self, (x, y): (f64, f64), size: u32, text: &str) {
         let letters = f64::from(size);
-        let width = 0.62 * letters * text.chars().count() as f64 + 8.0;
-        let height = 1.25 * letters;
+        let width = 0.6 * letters * text.chars().count() as f64 + 4.0;
+        let height = 1.15 * letters;
         self.fill(
             &[(x - 0.5 * width, y - 0.5 * height, width, height)],
             "#ffffff",
@@ -194,11 +194,6 @@ impl Pen {
         PngBackend::new()
             .with_scale(scale)
             .render_scene(&self.scene)
-    }
-
-    /// As pixels, one for each unit of length.
-    pub(super) fn png(&self) -> Result<Vec<u8>, String> {
-        self.png_at(1.0)
     }
 
     pub(super) fn svg(&self) -> String {

@@ -82,11 +82,18 @@ impl Plane {
         pen.text(beside, self.letters, Align::Upwards, up);
     }
 
-    /// The parts of a curve that lie inside; dashes as in SVG.
-    pub(super) fn curve(&self, pen: &mut Pen, points: &[Point], dashes: Option<&str>) {
+    /// The parts of a curve that lie inside; with lengths of dashes and gaps it is dashed.
+    pub(super) fn curve(&self, pen: &mut Pen, points: &[Point], dashes: Option<(f64, f64)>) {
         for piece in self.inside(points) {
             let places: Vec<Point> = piece.into_iter().map(|point| self.place(point)).collect();
-            pen.curve(&places, dashes);
+            match dashes {
+                None => pen.curve(&places, None),
+                Some(lengths) => {
+                    for dash in dashed(&places, lengths) {
+                        pen.curve(&dash, None);
+                    }
+                }
+            }
         }
     }
 
@@ -134,6 +141,33 @@ impl Plane {
         let end = if leave == 1.0 { to } else { at(leave) };
         (enter < leave).then_some((begin, end))
     }
+}
+
+/// The dashes of a line, evenly long however its points lie: the renderer begins anew at each of them.
+fn dashed(points: &[Point], (dash, gap): (f64, f64)) -> Vec<Vec<Point>> {
+    let mut dashes: Vec<Vec<Point>> = Vec::new();
+    let mut done = 0.0;
+    for pair in points.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        let way = (to.0 - from.0, to.1 - from.1);
+        let length = way.0.hypot(way.1);
+        let mut at = 0.0;
+        while at < length {
+            let phase = (done + at) % (dash + gap);
+            let rest = if phase < dash { dash } else { dash + gap } - phase;
+            let next = (at + rest.max(1e-6)).min(length);
+            let point = |at: f64| (from.0 + way.0 * at / length, from.1 + way.1 * at / length);
+            if phase < dash {
+                match dashes.last_mut() {
+                    Some(last) if phase > 0.0 && at == 0.0 => last.push(point(next)),
+                    _ => dashes.push(vec![point(at), point(next)]),
+                }
+            }
+            at = next;
+        }
+        done += length;
+    }
+    dashes
 }
 
 /// Where a value lies on an axis, from 0 to 1.

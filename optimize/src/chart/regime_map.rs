@@ -258,7 +258,7 @@ impl RegimePage {
         let classes = self.classes();
         let table = TOP + ROW * self.panels.len().div_ceil(2) as f64;
         let width = LEFT + 2.0 * MAP.0 + BETWEEN + RIGHT;
-        let height = table + LINE * (classes.len() as f64 + 1.6);
+        let height = table + LINE * (classes.len() as f64 + 2.0);
         let mut pen = Pen::new(width, height);
         pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
         let title = "Regimes z = p/n: p impacts in n drive periods";
@@ -349,11 +349,11 @@ impl RegimePanel {
     }
 }
 
-/// Dashes of a boundary.
-fn dashes(name: &str) -> Option<&'static str> {
+/// Dashes of a boundary and the gaps between them.
+fn dashes(name: &str) -> Option<(f64, f64)> {
     match name {
-        "g₀" => Some("3 4"),
-        "s_PD" => Some("10 5"),
+        "g₀" => Some((3.0, 4.0)),
+        "s_PD" => Some((9.0, 5.0)),
         _ => None,
     }
 }

@@ -1,6 +1,6 @@
 //! A bifurcation diagram: largest position and before-impact velocities along a swept parameter.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::legend::{LegendEntry, LegendPosition, LegendShape};
@@ -10,7 +10,7 @@ use kuva::render::figure::Figure;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
 use softstop::continuation::{Adjustable, Parameter};
-use softstop::sweep::{Chain, Direction, Jump, Plan, Step};
+use softstop::sweep::{Chain, Direction, Jump, Plan, Settled, Step};
 
 use super::continuation::axis;
 use super::style;
@@ -32,7 +32,9 @@ const WAYS: [(&str, &str); 3] = [
 
 /// Size of a panel in pixels, and of the dots.
 const PANEL: (f64, f64) = (1180.0, 470.0);
-const DOT: f64 = 0.9;
+const DOT: (f64, f64) = (0.9, 2.0);
+/// Share of the panel between two values that a dot fills.
+const FILLS: f64 = 0.45;
 /// Points in one square of this many pixels are one.
 const GRAIN: f64 = 0.8;
 /// Height of a jump, in units of the axis, that has an arrow.
@@ -138,6 +140,7 @@ impl<'a> SweepChart<'a> {
             .chunk_by(|a, b| a.direction != b.direction && a.direction == Direction::Up);
         for machine in machines {
             let mut seen = Points::new();
+            let shared = chaos_both_ways(machine);
             for chain in machine {
                 let way = if chain.direction == Direction::Up {
                     1
@@ -145,6 +148,8 @@ impl<'a> SweepChart<'a> {
                     2
                 };
                 for step in &chain.steps {
+                    let is_shared = shared.contains(&step.value.to_bits());
+                    let way = if is_shared { 3 } else { way };
                     for value in show(step) {
                         let place = (
                             (step.value / grain.0).round() as i64,
@@ -168,7 +173,7 @@ impl<'a> SweepChart<'a> {
                 ScatterPlot::new()
                     .with_data(points)
                     .with_color(color)
-                    .with_size(DOT),
+                    .with_size((FILLS * PANEL.0 / self.plan.steps as f64).clamp(DOT.0, DOT.1)),
             )
         };
         plots.map(plot).collect()
@@ -262,6 +267,20 @@ impl<'a> SweepChart<'a> {
             .filter(|(_, wanted)| *wanted)
             .map(|(way, _)| entry(way))
             .collect()
+    }
+}
+
+/// The values at which a machine moves chaotically both on the way up and on the way down: all points there belong
+/// to one motion.
+fn chaos_both_ways(machine: &[Chain<Model>]) -> BTreeSet<u64> {
+    let chaos = |chain: &Chain<Model>| -> BTreeSet<u64> {
+        let steps = chain.steps.iter();
+        let steps = steps.filter(|step| matches!(step.settled, Settled::Chaotic { .. }));
+        steps.map(|step| step.value.to_bits()).collect()
+    };
+    match machine {
+        [up, down] => chaos(up).intersection(&chaos(down)).copied().collect(),
+        _ => BTreeSet::new(),
     }
 }
 

@@ -10,7 +10,7 @@ use softstop::batch::{self, Job, Watch};
 use softstop::integrator::Start;
 use softstop::{Ratios, Scene};
 
-use super::{Detail, Drawn, Figure};
+use super::{Drawn, Figure, Studio};
 use crate::chart::{BasinPage, BasinPicture};
 use crate::failure::Failure;
 use crate::interrupt;
@@ -72,8 +72,8 @@ const PLANES: [Plane; 4] = [
         name: "coexistence",
         title: "(d) Three at once: η = 0.9875, ρ = 10, at drive angle 0",
         frequency: 0.9875,
-        across: position(-5.0, 15.0),
-        up: velocity(-15.0, 15.0),
+        across: position(5.0, 11.0),
+        up: velocity(-2.0, 10.0),
     },
 ];
 
@@ -92,7 +92,8 @@ impl Plane {
     }
 }
 
-fn draw(detail: Detail) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
     let cells = detail.pick(CELLS[0], CELLS[1]);
     let each = (cells * cells) as u64;
     let progress = Progress::new(each * PLANES.len() as u64, "cells");

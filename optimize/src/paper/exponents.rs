@@ -9,7 +9,7 @@ use softstop::zone::{ZoneError, hysteresis};
 use softstop::{MotionError, Ratios};
 
 use super::diagram::{self, Job};
-use super::{Detail, Drawn, Figure};
+use super::{Drawn, Figure, Studio};
 use crate::chart::{StabilityChart, StabilityPart, StabilityPoint};
 use crate::failure::Failure;
 use crate::progress::Progress;
@@ -25,7 +25,8 @@ pub(super) const FIGURE: Figure = Figure {
 const PARTS: [((f64, f64), (f64, f64)); 2] =
     [((0.8, 1.8), (-0.03, 0.008)), ((0.95, 1.0), (-0.03, 0.09))];
 
-fn draw(detail: Detail) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
     let plans = PARTS
         .iter()
         .zip(detail.pick([(1401, 200), (900, 200)], [(101, 100), (41, 100)]));

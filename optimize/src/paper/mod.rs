@@ -14,16 +14,20 @@ mod hardening;
 mod regimes;
 mod report;
 mod supply;
-mod table1;
+mod table;
 
+use std::cell::OnceCell;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::{Args, ValueEnum};
+use softstop::attractors::Options;
+use softstop::transitions::{Rules, Transition};
 
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::{self, Folder, Format};
+use crate::table1::{self, paper};
 use report::{FigureReport, PaperReport};
 
 const EXAMPLES: &str = "\
@@ -113,7 +117,7 @@ struct Figure {
     /// Names of its files: pictures and tables.
     files: &'static [&'static str],
     /// Makes them.
-    draw: fn(Detail) -> Result<Drawn, Failure>,
+    draw: fn(&Studio) -> Result<Drawn, Failure>,
 }
 
 /// What came out of a figure.
@@ -124,6 +128,13 @@ struct Drawn {
     findings: Vec<(String, f64)>,
 }
 
+/// What figures share.
+struct Studio {
+    detail: Detail,
+    /// All transitions along rho = 10, once they are asked for.
+    transitions: OnceCell<Vec<Transition>>,
+}
+
 /// How fine figures are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Detail {
@@ -131,6 +142,44 @@ enum Detail {
     Full,
     /// For a first look.
     Draft,
+}
+
+impl Studio {
+    fn new(detail: Detail) -> Self {
+        Self {
+            detail,
+            transitions: OnceCell::new(),
+        }
+    }
+
+    /// How transitions are looked for: with few motions and short runs for a first look.
+    fn rules(&self) -> Rules {
+        let full = Rules::default();
+        let draft = Rules {
+            survey: Options {
+                starts: 64,
+                patience: 20_000,
+                ..full.survey
+            },
+            motions: 8,
+            patience: 1000,
+            ..full
+        };
+        self.detail.pick(full, draft)
+    }
+
+    /// All transitions along rho = 10; for a first look only those of the last two rows of Table 1.
+    fn transitions(&self) -> Result<&[Transition], Failure> {
+        if let Some(known) = self.transitions.get() {
+            return Ok(known);
+        }
+        let (range, values) = match self.detail {
+            Detail::Full => (table1::RANGE, table1::values(&paper::INTERVALS)),
+            Detail::Draft => ((1.01, 1.8), vec![1.2]),
+        };
+        let found = table1::transitions(&self.rules(), range, &values)?;
+        Ok(self.transitions.get_or_init(|| found))
+    }
 }
 
 impl Detail {
@@ -152,7 +201,7 @@ impl Subject {
             Self::PointB => &figure7::POINT_B,
             Self::Diagram => &figure8::FIGURE,
             Self::Motions => &figure9::FIGURE,
-            Self::Table => &table1::FIGURE,
+            Self::Table => &table::FIGURE,
             Self::Regimes => &regimes::FIGURE,
             Self::Exponents => &exponents::FIGURE,
             Self::Basins => &basins::FIGURE,
@@ -178,11 +227,11 @@ const REPORT: &str = "paper.json";
 /// after Ctrl-C.
 pub fn run(arguments: &PaperArguments) -> Result<(), Failure> {
     let subjects = subjects(&arguments.figures);
-    let detail = if arguments.draft {
+    let studio = Studio::new(if arguments.draft {
         Detail::Draft
     } else {
         Detail::Full
-    };
+    });
     let mut names: Vec<&str> = subjects
         .iter()
         .flat_map(|subject| subject.figure().files)
@@ -193,7 +242,7 @@ pub fn run(arguments: &PaperArguments) -> Result<(), Failure> {
     let begin = Instant::now();
     let mut figures = Vec::new();
     for subject in subjects {
-        figures.push(draw(subject, detail, &folder)?);
+        figures.push(draw(subject, &studio, &folder)?);
     }
     let report = PaperReport {
         figures,
@@ -215,13 +264,13 @@ fn subjects(asked: &[Subject]) -> Vec<Subject> {
     all.filter(is_wanted).collect()
 }
 
-fn draw(subject: Subject, detail: Detail, folder: &Folder) -> Result<FigureReport, Failure> {
+fn draw(subject: Subject, studio: &Studio, folder: &Folder) -> Result<FigureReport, Failure> {
     if interrupt::requested() {
         return Err(Failure::Interrupted);
     }
     let figure = subject.figure();
     let begin = Instant::now();
-    let drawn = (figure.draw)(detail)?;
+    let drawn = (figure.draw)(studio)?;
     for (name, content) in figure.files.iter().zip(&drawn.files) {
         folder.stage(name, content)?;
     }

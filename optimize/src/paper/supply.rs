@@ -12,7 +12,7 @@ use softstop::basin::wilson;
 use softstop::orbit::{StroboscopicMap, find};
 use softstop::{PiercingRatios, Ratios, zone};
 
-use super::{Detail, Drawn, Figure};
+use super::{Detail, Drawn, Figure, Studio};
 use crate::chart::{SupplyChart, SupplyCurve};
 use crate::failure::Failure;
 use crate::output;
@@ -54,7 +54,8 @@ struct Press {
     is_supplied: bool,
 }
 
-fn draw(detail: Detail) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
     let clearance = Ratios::unloaded().clearance;
     let zones = zones(clearance)?;
     let count = detail.pick(55, 12);

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use softstop::Ratios;
 use softstop::attractors::SurveyError;
 use softstop::basin::{Axis, CertaintyError, Establishing, Grid, Options, establishing};
+use softstop::orbit::Regime;
 use softstop::zone::{self, Zone};
 
 use crate::failure::Failure;
@@ -117,10 +118,7 @@ impl Curve {
 impl Place {
     fn new(found: &Establishing) -> Self {
         let classes = found.basins.classes.iter();
-        let one = classes
-            .clone()
-            .position(|class| class.kind.name() == "z = 1");
-        let ball = one.and_then(|one| found.basins.largest_ball(one));
+        let ball = found.basins.largest_ball_of(Regime::ONE);
         let motions = classes.map(|class| format!("{}: {:.6}", class.kind.name(), class.share));
         Self {
             place: found.place,

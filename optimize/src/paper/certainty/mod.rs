@@ -8,7 +8,7 @@ mod findings;
 use anyhow::Context;
 use softstop::Ratios;
 
-use super::{Detail, Drawn, Figure};
+use super::{Drawn, Figure, Studio};
 use crate::chart::{CertaintyCurve, CertaintyPage, CertaintyPanel, CertaintyPoint};
 use crate::failure::Failure;
 use crate::progress::Progress;
@@ -34,8 +34,10 @@ const REGIONS: [Starts; 4] = [
     Starts::Square(REGION),
     Starts::Square(4.0),
 ];
+/// Their colours: that of clearance 10 where the region is the usual one.
+const REGION_COLORS: [usize; 4] = [5, 7, MIDDLE, 6];
 /// Cells on each side of the region.
-const CELLS: [usize; 2] = [64, 24];
+const CELLS: [usize; 2] = [52, 24];
 /// Places of the zone between its ends; at the ends themselves one of the motions is not stable.
 const STEPS: [usize; 2] = [20, 8];
 const ENDS: [f64; 3] = [0.001, 0.01, 0.025];
@@ -48,7 +50,8 @@ fn places(steps: usize) -> Vec<f64> {
     near.chain(inner).chain(far).collect()
 }
 
-fn draw(detail: Detail) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
     let places = places(detail.pick(STEPS[0], STEPS[1]));
     let cells = detail.pick(CELLS[0], CELLS[1]);
     let square = Starts::Square(REGION);
@@ -114,42 +117,37 @@ fn panels(curves: &[Curve]) -> Vec<CertaintyPanel> {
     };
     let mut regions: Vec<&Curve> = others.iter().collect();
     regions.insert(2, &unloaded[MIDDLE]);
-    let regions = regions.into_iter().enumerate();
-    let regions = regions.map(|(color, curve)| line(curve, curve.starts.label(), color, certainty));
-    let regions = regions.collect();
+    let regions = regions.into_iter().zip(REGION_COLORS);
+    let regions = regions.map(|(curve, color)| line(curve, curve.starts.label(), color, certainty));
+    let regions: Vec<CertaintyCurve> = regions.collect();
     let mut integrities = clearances(unloaded, integrity);
-    let mut extra = line(
-        &loaded[MIDDLE],
-        "ρ = 10, loaded".to_owned(),
-        MIDDLE,
-        integrity,
-    );
+    let mut extra = line(&loaded[MIDDLE], String::new(), MIDDLE, integrity);
     extra.is_dashed = true;
     integrities.push(extra);
-    let panel = |title: &str, up, curves, has_claim| CertaintyPanel {
+    let panel = |title: &str, curves, has_claim, has_legend| CertaintyPanel {
         title: title.to_owned(),
-        up,
+        up: if has_claim { SHARE } else { BALL },
         curves,
         has_claim,
+        has_legend,
     };
-    let (share, ball) = ("certainty of z = 1", "radius of the largest ball in z = 1");
+    let [free, pierced] = [unloaded, loaded].map(|curves| clearances(curves, certainty));
     vec![
+        panel("(a) unloaded, starts |X|, |X′| < 2ρ", free, true, false),
+        panel("(b) loaded, starts |X|, |X′| < 2ρ", pierced, true, false),
+        panel("(c) unloaded, ρ = 10, other starts", regions, true, true),
         panel(
-            "(a) unloaded, |X|, |X′| < 2ρ",
-            share,
-            clearances(unloaded, certainty),
-            true,
+            "(d) largest ball in the basins of (a); dashed: ρ = 10 of (b)",
+            integrities,
+            false,
+            false,
         ),
-        panel(
-            "(b) loaded, |X|, |X′| < 2ρ",
-            share,
-            clearances(loaded, certainty),
-            true,
-        ),
-        panel("(c) unloaded, ρ = 10: other starts", share, regions, true),
-        panel("(d) integrity, |X|, |X′| < 2ρ", ball, integrities, false),
     ]
 }
+
+/// What goes upwards in the panels.
+const SHARE: &str = "certainty of z = 1";
+const BALL: &str = "radius of the largest ball in z = 1";
 
 /// A row for each place of each curve.
 fn table(curves: &[Curve]) -> Result<Vec<u8>, Failure> {

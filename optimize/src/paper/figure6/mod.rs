@@ -18,14 +18,14 @@ use boundaries::Ends;
 pub(super) const UNLOADED: Figure = Figure {
     title: "Bifurcation diagrams of the unloaded machine over six clearances",
     files: &["figure-6a.png", "figure-6a.csv", "figure-6a-boundaries.csv"],
-    draw: |detail| draw(detail, Ratios::unloaded(), "A"),
+    draw: |studio| draw(studio.detail, Ratios::unloaded(), "A"),
 };
 
 /// Fig. 6(b).
 pub(super) const LOADED: Figure = Figure {
     title: "Bifurcation diagrams of the loaded machine over six clearances",
     files: &["figure-6b.png", "figure-6b.csv", "figure-6b-boundaries.csv"],
-    draw: |detail| draw(detail, Ratios::loaded(), "B"),
+    draw: |studio| draw(studio.detail, Ratios::loaded(), "B"),
 };
 
 /// The paper's clearances and frequencies.

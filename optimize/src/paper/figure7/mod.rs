@@ -17,14 +17,26 @@ use stroke::Stroke;
 pub(super) const POINT_A: Figure = Figure {
     title: "Point A: the z = 1 motion of the unloaded machine",
     files: &["figure-7a.svg", "figure-7a.csv"],
-    draw: |detail| draw(&Ratios::unloaded(), "Fig. 7(a), point A: unloaded", detail),
+    draw: |studio| {
+        draw(
+            &Ratios::unloaded(),
+            "Fig. 7(a), point A: unloaded",
+            studio.detail,
+        )
+    },
 };
 
 /// Point B: the loaded machine.
 pub(super) const POINT_B: Figure = Figure {
     title: "Point B: the z = 1 motion of the loaded machine",
     files: &["figure-7b.svg", "figure-7b.csv"],
-    draw: |detail| draw(&Ratios::loaded(), "Fig. 7(b), point B: loaded", detail),
+    draw: |studio| {
+        draw(
+            &Ratios::loaded(),
+            "Fig. 7(b), point B: loaded",
+            studio.detail,
+        )
+    },
 };
 
 /// A line of the table.

@@ -7,10 +7,9 @@ use anyhow::anyhow;
 use softstop::Ratios;
 use softstop::continuation::Parameter;
 use softstop::sweep::{Chain, Direction, Plan, Step};
-use softstop::transitions::Rules;
 
 use super::diagram::{self, Job};
-use super::{Detail, Drawn, Figure};
+use super::{Detail, Drawn, Figure, Studio, figure9};
 use crate::chart::{Bifurcation, Diagram, NumberedChart};
 use crate::failure::Failure;
 use crate::table1::matching::{self, Match};
@@ -59,18 +58,8 @@ const fn part(
 const FLEETING: Part = part("", (0.952_624, 0.952_656), (600, 40), (30, 40));
 const SIDE_BY_SIDE: usize = 8;
 
-/// Letters of Fig. 9 and their frequencies: those that the text of the paper gives, and our choice within the
-/// windows of (C), (F) and (J).
-const LETTERS: [(&str, f64); 6] = [
-    ("A, B", 0.952_647_5),
-    ("C", 0.952_66),
-    ("D, E", 0.953_65),
-    ("F", 0.955),
-    ("G, H, I", 0.9875),
-    ("J", 0.9887),
-];
-
-fn draw(detail: Detail) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
     let mut whole = [(plan(&WHOLE, detail)?, WAYS.map(chain).to_vec())];
     diagram::sweep(&mut whole, "steps of the sweeps")?;
     let [(_, chains)] = whole;
@@ -82,15 +71,9 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
     for diagram in zooms.iter_mut().chain([&mut overview]) {
         diagram.names = names::of(diagram, &isolated);
     }
-    let rules = rules(detail);
-    // A first look numbers the last two alone.
-    let (range, values) = match detail {
-        Detail::Full => (table1::RANGE, table1::values(&paper::INTERVALS)),
-        Detail::Draft => ((1.01, 1.8), vec![1.2]),
-    };
-    let transitions = table1::transitions(&rules, range, &values)?;
+    let transitions = studio.transitions()?;
     let rows = paper::ROWS.iter();
-    let matches = rows.filter_map(|row| Some((row.number, matching::find(row, &transitions)?)));
+    let matches = rows.filter_map(|row| Some((row.number, matching::find(row, transitions)?)));
     let bifurcations: Vec<Bifurcation> =
         matches.map(|(number, it)| numbered(number, &it)).collect();
     let chart = NumberedChart {
@@ -98,7 +81,7 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
         zooms: &zooms,
         isolated: &isolated,
         bifurcations: &bifurcations,
-        letters: &LETTERS,
+        letters: &figure9::letters(),
         explanation: explanation(detail),
     };
     Ok(Drawn {
@@ -109,17 +92,6 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
         ],
         findings: findings(&bifurcations),
     })
-}
-
-/// Few motions and short runs for a first look.
-fn rules(detail: Detail) -> Rules {
-    let full = Rules::default();
-    let mut draft = full;
-    draft.survey.starts = 64;
-    draft.survey.patience = 20_000;
-    draft.motions = 8;
-    draft.patience = 1000;
-    detail.pick(full, draft)
 }
 
 fn plan(part: &Part, detail: Detail) -> Result<Plan, Failure> {

@@ -110,6 +110,16 @@ const fn asked(
     }
 }
 
+/// The letters at each frequency, as "A, B".
+pub(in crate::paper) fn letters() -> Vec<(String, f64)> {
+    let same = |a: &Asked, b: &Asked| a.frequency == b.frequency;
+    let names = |group: &[Asked]| {
+        let letters: Vec<String> = group.iter().map(|it| it.letter.to_string()).collect();
+        (letters.join(", "), group[0].frequency)
+    };
+    MOTIONS.chunk_by(same).map(names).collect()
+}
+
 impl Asked {
     /// The machine.
     pub(super) fn scene(&self) -> Result<Scene, SceneError> {

@@ -10,12 +10,13 @@ use serde::Serialize;
 use softstop::Ratios;
 use softstop::attractors::{Options, Survey, SurveyError, attractors_watched};
 
-use super::{Detail, Drawn, Figure};
+use super::{Detail, Drawn, Figure, Studio};
 use crate::chart::{MotionPage, MotionRow};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output;
 use crate::progress::Progress;
+pub(super) use asked::letters;
 use asked::{Asked, MOTIONS};
 use found::Found;
 
@@ -56,7 +57,8 @@ struct SectionLine {
     velocity: f64,
 }
 
-fn draw(detail: Detail) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
     let found = found(detail)?;
     let mut files = Vec::new();
     let (mut series, mut sections) = (Vec::new(), Vec::new());

@@ -10,7 +10,7 @@ mod swept;
 use serde::Serialize;
 use softstop::sweep::Step;
 
-use super::{Detail, Drawn, Figure};
+use super::{Drawn, Figure, Studio};
 use crate::chart::{HardeningChart, StopDiagram, StopFolds, StopMap, StopOrders};
 use crate::failure::Failure;
 use crate::interrupt;
@@ -83,7 +83,8 @@ struct SubharmonicLine {
     beside_impactless_motion: bool,
 }
 
-fn draw(detail: Detail) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
     let drawn = sweep(&DRAWN, detail.pick(420, 120), detail.pick(200, 80))?;
     let rows = stiffnesses(detail.pick(51, 11));
     let laws: Vec<Law> = rows.iter().copied().map(Law::KelvinVoigt).collect();

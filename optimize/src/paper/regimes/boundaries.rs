@@ -17,7 +17,7 @@ use crate::interrupt;
 /// Points of g0.
 const POINTS: usize = 400;
 /// Most points of a branch or curve in each direction.
-const MOST: usize = 2000;
+const MOST: usize = 400;
 /// Steps along curves, in units of the parameters' scales, a fifth of their values.
 const STEP: f64 = 0.08;
 /// Least clearance of the curves: at 0 the scale of the motion changes.

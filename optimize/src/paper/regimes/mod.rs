@@ -11,7 +11,7 @@ use anyhow::anyhow;
 use softstop::Ratios;
 use softstop::sweep::Direction;
 
-use super::{Detail, Drawn, Figure};
+use super::{Detail, Drawn, Figure, Studio};
 use crate::chart::{RegimeMap, RegimePage, RegimePanel};
 use crate::failure::Failure;
 use crate::progress::Progress;
@@ -35,12 +35,16 @@ const ZOOM: Window = Window {
     eta: (0.9, 1.02),
     rho: (4.0, 24.0),
 };
-/// Cells across and up, for print and for a first look.
-const CELLS: [(usize, usize); 2] = [(600, 400), (120, 80)];
+/// Cells across and up, for print and for a first look: whole pixels each. The loaded machine costs more.
+const FREE: [(usize, usize); 2] = [(400, 400), (100, 80)];
+const NEAR: [(usize, usize); 2] = [(600, 400), (120, 80)];
+const LOADED: [(usize, usize); 2] = [(300, 200), (60, 40)];
+/// Those of the map of hardest motions.
+const MANY: [(usize, usize); 2] = [(240, 160), (60, 40)];
 /// Drive periods at each frequency.
 const PERIODS: u64 = 120;
 /// Starts at each cell of the map of hardest motions.
-const STARTS: [usize; 2] = [12, 8];
+const STARTS: usize = 12;
 
 /// A part of the plane of eta and rho.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,33 +69,10 @@ fn middle((from, to): (f64, f64), cell: usize, cells: usize) -> f64 {
     from + (cell as f64 + 0.5) / cells as f64 * (to - from)
 }
 
-fn draw(detail: Detail) -> Result<Drawn, Failure> {
-    let size = detail.pick(CELLS[0], CELLS[1]);
-    // The map of many starts is half as fine.
-    let coarse = (size.0 / 2, size.1 / 2);
-    let starts = detail.pick(STARTS[0], STARTS[1]);
-    let work = 5 * size.0 * size.1 + coarse.0 * coarse.1 * starts;
-    let progress = Progress::new(work as u64, "motions");
-    let swept = |machine, window, way| {
-        let sweep = Sweep {
-            machine,
-            window,
-            way,
-            size,
-        };
-        sweep.map(&progress)
-    };
-    let (free, loaded) = (Ratios::unloaded(), Ratios::loaded());
-    let maps = [
-        swept(free, ALL, Direction::Up)?,
-        swept(free, ALL, Direction::Down)?,
-        swept(free, ZOOM, Direction::Up)?,
-        starts::hardest(&free, ZOOM, coarse, starts, &progress)?,
-        swept(loaded, ALL, Direction::Up)?,
-        swept(loaded, ALL, Direction::Down)?,
-    ];
-    drop(progress);
-    let boundaries = [Boundaries::of(&free, &ALL)?, Boundaries::of(&loaded, &ALL)?];
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
+    let (maps, boundaries) = rayon::join(|| maps(detail), boundaries);
+    let (maps, boundaries) = (maps?, boundaries?);
     let findings = findings::of(&maps, &boundaries);
     let tables = [table::runs(&maps)?, table::boundaries(&boundaries)?];
     let png = RegimePage::new(panels(maps, &boundaries))
@@ -102,6 +83,39 @@ fn draw(detail: Detail) -> Result<Drawn, Failure> {
         files: vec![png, runs, lines],
         findings,
     })
+}
+
+/// The maps.
+fn maps(detail: Detail) -> Result<[RegimeMap; 6], Failure> {
+    let [all, near, many, less] =
+        [FREE, NEAR, MANY, LOADED].map(|[full, draft]| detail.pick(full, draft));
+    let cells = |size: (usize, usize)| size.0 * size.1;
+    let work = 2 * cells(all) + cells(near) + STARTS * cells(many) + 2 * cells(less);
+    let progress = Progress::new(work as u64, "motions");
+    let swept = |machine, window, way, size| {
+        let sweep = Sweep {
+            machine,
+            window,
+            way,
+            size,
+        };
+        sweep.map(&progress)
+    };
+    let (free, loaded) = (Ratios::unloaded(), Ratios::loaded());
+    Ok([
+        swept(free, ALL, Direction::Up, all)?,
+        swept(free, ALL, Direction::Down, all)?,
+        swept(free, ZOOM, Direction::Up, near)?,
+        starts::hardest(&free, ZOOM, many, STARTS, &progress)?,
+        swept(loaded, ALL, Direction::Up, less)?,
+        swept(loaded, ALL, Direction::Down, less)?,
+    ])
+}
+
+/// The boundaries of both machines.
+fn boundaries() -> Result<[Boundaries; 2], Failure> {
+    let [free, loaded] = [Ratios::unloaded(), Ratios::loaded()];
+    Ok([Boundaries::of(&free, &ALL)?, Boundaries::of(&loaded, &ALL)?])
 }
 
 /// What the panels are called.

@@ -14,6 +14,8 @@ use crate::progress::Progress;
 
 /// Chains that go together, and are forgotten together but for their regimes.
 const TOGETHER: usize = 8;
+/// Frequencies before the first column, in which the motion settles from rest.
+const AHEAD: usize = 6;
 
 /// What is swept, and which way.
 pub(super) struct Sweep {
@@ -28,11 +30,16 @@ impl Sweep {
     /// The regime in each cell.
     pub fn map(&self, progress: &Progress) -> Result<RegimeMap, Failure> {
         let (columns, rows) = self.size;
-        let ends = (
+        let (first, last) = (
             self.window.eta_at(0, columns),
             self.window.eta_at(columns - 1, columns),
         );
-        let plan = Plan::new(Parameter::Frequency, ends, columns, PERIODS)
+        let ahead = AHEAD as f64 * (last - first) / (columns - 1) as f64;
+        let range = match self.way {
+            Direction::Up => (first - ahead, last),
+            Direction::Down => (first, last + ahead),
+        };
+        let plan = Plan::new(Parameter::Frequency, range, columns + AHEAD, PERIODS)
             .map_err(|error| anyhow!(error))?;
         let rows: Vec<usize> = (0..rows).collect();
         let found: Vec<Vec<RegimeCell>> = rows
@@ -74,9 +81,10 @@ fn row(plan: &Plan, chain: &Chain<Ratios>) -> Vec<RegimeCell> {
     let mut cells: Vec<RegimeCell> = chain
         .steps
         .iter()
+        .skip(AHEAD)
         .map(|step| cell(&chain.machine, step))
         .collect();
-    cells.resize(plan.steps, RegimeCell::Lost);
+    cells.resize(plan.steps - AHEAD, RegimeCell::Lost);
     if chain.direction == Direction::Down {
         cells.reverse();
     }

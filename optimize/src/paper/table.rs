@@ -1,11 +1,10 @@
 //! The paper's Table 1.
 
-use softstop::transitions::Rules;
-
-use super::{Detail, Drawn, Figure};
+use super::{Drawn, Figure, Studio};
 use crate::failure::Failure;
 use crate::output;
-use crate::table1;
+use crate::table1::report::{RowReport, TableReport};
+use crate::table1::{paper, picture};
 
 /// Table 1.
 pub(super) const FIGURE: Figure = Figure {
@@ -14,12 +13,12 @@ pub(super) const FIGURE: Figure = Figure {
     draw,
 };
 
-fn draw(_: Detail) -> Result<Drawn, Failure> {
-    let report = table1::table(&Rules::default())?;
-    let finding = |row: &table1::report::RowReport| Some((format!("row {}", row.number), row.eta?));
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let report = TableReport::new(&paper::ROWS, studio.transitions()?, &studio.rules());
+    let finding = |row: &RowReport| Some((format!("row {:02}", row.number), row.eta?));
     Ok(Drawn {
         files: vec![
-            table1::picture(&report).svg().into_bytes(),
+            picture(&report).svg().into_bytes(),
             output::csv(&report.rows)?,
         ],
         findings: report.rows.iter().filter_map(finding).collect(),
