@@ -144,6 +144,12 @@ fn from_soft_to_rigid_the_papers_five_points_in_numbers() {
     assert_near(
         &findings,
         "(1) k2/k1 from which on z = 1 has folds",
+        1.92,
+        0.04,
+    );
+    assert_near(
+        &findings,
+        "(1) k2/k1 from which on s_SN lies beyond g0",
         2.31,
         0.05,
     );

@@ -1,5 +1,6 @@
 //! The branch of z = 1 from grazing to grazing: its folds and flips.
 
+use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use anyhow::anyhow;
@@ -74,7 +75,9 @@ pub(super) fn onsets(folds: &[StopFolds]) -> Result<Vec<(String, f64)>, Failure>
 }
 
 fn of(stiffness: f64) -> Result<StopFolds, OrbitError> {
-    let scene = Law::KelvinVoigt(stiffness).scene(FREQUENCY, CLEARANCE);
+    let mut scene = Law::KelvinVoigt(stiffness).scene(FREQUENCY, CLEARANCE);
+    // Time 0 where the mass is on its way far from the stop.
+    scene.excitation.phase = PI;
     let state = find(&scene)?.state();
     let family = Along::new(scene, [Parameter::Frequency])?;
     let limits = Limits {

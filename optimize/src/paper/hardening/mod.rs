@@ -13,6 +13,7 @@ use softstop::sweep::Step;
 use super::{Drawn, Figure, Studio};
 use crate::chart::{HardeningChart, StopDiagram, StopFolds, StopMap, StopOrders};
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::output;
 use orders::Subharmonic;
 use stops::{CLEARANCE, Law, RESTITUTION, grazing};
@@ -91,8 +92,12 @@ fn draw(studio: &Studio) -> Result<Drawn, Failure> {
     let folds = folds::folds(&stiffnesses(detail.pick(21, 6)))?;
     let (frequencies, starts) = detail.pick((72, 64), (18, 32));
     let subharmonics = orders::subharmonics(&SUBHARMONIC, frequencies, starts)?;
-    let chart = chart(&drawn, &map, &folds, &subharmonics);
     let mut findings = folds::onsets(&folds)?;
+    // A branch that was cut short would go unnoticed.
+    if interrupt::requested() {
+        return Err(Failure::Interrupted);
+    }
+    let chart = chart(&drawn, &map, &folds, &subharmonics);
     findings.extend(claims::of_stops(&drawn, &folds));
     findings.extend(claims::of_orders(&subharmonics));
     Ok(Drawn {
