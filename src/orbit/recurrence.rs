@@ -54,32 +54,40 @@ pub(crate) fn returns_within(frequency: f64, states: &[Start], share: f64) -> Op
     })
 }
 
-/// Share of its first size to which a difference must have fallen to count as one that dies out, and how large it
-/// may still be, in units of the distance within which states have returned.
-const DYING: (f64, f64) = (0.8, 10.0);
+/// Share of its first size to which a difference must fall within a row to count as one that dies out: of a motion
+/// that has returned, and of one that has not yet.
+const DYING: (f64, f64) = (0.8, 0.1);
+/// How large it may be by then, in units of the distance within which states have returned.
+const LEFT: f64 = 10.0;
 
-/// The period of what a row of states that returns after `periods` drive periods settles on: that, or the least
-/// divisor of it so many periods apart of which the states come ever nearer to each other. A motion that spirals
-/// onto its orbit may come back after several turns before it does after one. `share`: the distance within
-/// which states have returned, in units of the motion's size.
-pub(crate) fn settles_on(frequency: f64, states: &[Start], periods: usize, share: f64) -> usize {
-    let largest = DYING.1 * share * size(frequency, states);
-    let divisors = (1..periods).filter(|part| periods.is_multiple_of(*part));
-    let mut dying = divisors.filter(|part| dies_out(frequency, states, *part, largest));
-    dying.next().unwrap_or(periods)
+/// The period of what a row of states settles on; none if it does not.
+///
+/// That after which its states return or, if they come ever nearer to each other so many periods apart, the
+/// least divisor of it: a motion that spirals onto its orbit may come back after several turns before it does
+/// after one. If no state has returned yet, the least period after which they come nearer fast. `share`: the distance
+/// within which states have returned, in units of the motion's size.
+pub(crate) fn settles_on(frequency: f64, states: &[Start], share: f64) -> Option<usize> {
+    let most = LEFT * share * size(frequency, states);
+    let dies = |apart: usize, ratio: f64| {
+        let [first, second] = gaps(frequency, states, apart);
+        second < most.min(ratio * first)
+    };
+    match returns_within(frequency, states, share) {
+        Some(found) => {
+            let divisors = (1..found.periods).filter(|part| found.periods.is_multiple_of(*part));
+            let mut dying = divisors.filter(|part| dies(*part, DYING.0));
+            Some(dying.next().unwrap_or(found.periods))
+        }
+        None => (1..=(states.len() - 1) / 4).find(|apart| dies(*apart, DYING.1)),
+    }
 }
 
-/// True if states a number of periods apart come nearer to each other from the first half of a row to the second,
-/// and are no farther apart than `most` in the end.
-fn dies_out(frequency: f64, states: &[Start], apart: usize, most: f64) -> bool {
-    let gaps: Vec<f64> = states
-        .iter()
-        .zip(&states[apart..])
-        .map(|(a, b)| distance(frequency, a, b))
-        .collect();
+/// Largest distances of states so many periods apart, in both halves of a row.
+fn gaps(frequency: f64, states: &[Start], apart: usize) -> [f64; 2] {
+    let pairs = states.iter().zip(&states[apart..]);
+    let gaps: Vec<f64> = pairs.map(|(a, b)| distance(frequency, a, b)).collect();
     let (first, second) = gaps.split_at(gaps.len() / 2);
-    let largest = |gaps: &[f64]| gaps.iter().copied().fold(0.0, f64::max);
-    largest(second) < most.min(DYING.0 * largest(first))
+    [first, second].map(|half| half.iter().copied().fold(0.0, f64::max))
 }
 
 #[cfg(test)]
@@ -105,7 +113,11 @@ mod tests {
         let states = spiral(0.9);
         let found = returns_within(1.0, &states, 3e-5).expect("returns");
         assert!(found.periods > 1, "{found:?}");
-        assert_eq!(settles_on(1.0, &states, found.periods, 3e-5), 1);
+        assert_eq!(settles_on(1.0, &states, 3e-5), Some(1));
+        // So it does where it has not come back yet, if it is fast and near.
+        let fast = spiral(0.7);
+        assert!(returns_within(1.0, &fast, 1e-5).is_none());
+        assert_eq!(settles_on(1.0, &fast, 1e-5), Some(1));
     }
 
     #[test]
@@ -117,6 +129,6 @@ mod tests {
                 velocity: angle(k).sin(),
             })
             .collect();
-        assert_eq!(settles_on(1.0, &states, 3, 1e-4), 3);
+        assert_eq!(settles_on(1.0, &states, 1e-4), Some(3));
     }
 }

@@ -20,7 +20,7 @@
 //! let zones = hysteresis(&chains[0], &chains[1]);
 //! // Between g0 = 1.04444 and s_SN = 1.369036 the way matters.
 //! assert_eq!(zones.len(), 1);
-//! assert!((zones[0].from - 1.05).abs() < 1e-9 && (zones[0].to - 1.37).abs() < 1e-9);
+//! assert!((zones[0].from - 1.05).abs() < 1e-9 && (zones[0].to - 1.36).abs() < 1e-9);
 //! # Ok::<(), softstop::sweep::PlanError>(())
 //! ```
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::batch::Watch;
 use crate::error::MotionError;
 use crate::integrator::Start;
-use crate::orbit::recurrence::{returns_within, settles_on};
+use crate::orbit::recurrence::settles_on;
 use crate::orbit::{Regime, StroboscopicMap};
 use crate::scene::Scene;
 
@@ -83,10 +83,8 @@ impl Step {
         let Record { states, impacts } = record;
         let watched = states.len() - 1;
         let frequency = scene.excitation.frequency;
-        let found = returns_within(frequency, states, tolerance);
-        let periods = found.map_or(watched, |found| {
-            settles_on(frequency, states, found.periods, tolerance)
-        });
+        let found = settles_on(frequency, states, tolerance);
+        let periods = found.unwrap_or(watched);
         let first = (watched - periods) as u64;
         let own = impacts.iter().filter(|(cycle, _)| *cycle >= first);
         let mut velocities: Vec<f64> = own.map(|(_, velocity)| *velocity).collect();

@@ -12,7 +12,7 @@
 //! use softstop::transitions::{Explorer, Rules};
 //!
 //! let family = Along::new(Ratios::unloaded(), [Parameter::Frequency])?;
-//! let explorer = Explorer::new(&family, (1.0, 1.5), Rules::default(), &|_| true);
+//! let explorer = Explorer::new(&family, (1.0, 1.5), Rules::default(), &|| true);
 //! let transitions = explorer.explore(&[1.2])?;
 //! // The grazing of z = 0 at g0 and the fold of z = 1, both with hysteresis.
 //! let symbols: Vec<String> = transitions.iter().map(|it| it.symbols()).collect();

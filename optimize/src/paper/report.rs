@@ -31,6 +31,9 @@ pub(super) struct FigureReport {
     pub seconds: f64,
 }
 
+/// Figures up to which all numbers are printed, too.
+const FEW: usize = 3;
+
 impl PaperReport {
     /// For people.
     pub(super) fn text(&self) -> String {
@@ -43,9 +46,14 @@ impl PaperReport {
             for file in &figure.files {
                 text += &format!("{:12}{}\n", "", file.display());
             }
-            for (name, value) in &figure.findings {
-                text += &format!("{:12}{name:<28} {value}\n", "");
+            if self.figures.len() <= FEW {
+                for (name, value) in &figure.findings {
+                    text += &format!("{:12}{name:<28} {value}\n", "");
+                }
             }
+        }
+        if self.figures.len() > FEW {
+            text += "\nThe numbers that they show are in paper.json.\n";
         }
         text += &format!("\n{:.1} s\n", self.seconds);
         text

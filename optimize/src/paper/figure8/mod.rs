@@ -246,6 +246,6 @@ fn findings(bifurcations: &[Bifurcation]) -> Vec<(String, f64)> {
     let found = ("bifurcations found".to_owned(), bifurcations.len() as f64);
     let each = bifurcations
         .iter()
-        .map(|it| (format!("eta of bifurcation {}", it.number), it.eta));
+        .map(|it| (format!("eta of bifurcation {:02}", it.number), it.eta));
     std::iter::once(found).chain(each).collect()
 }
