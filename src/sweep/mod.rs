@@ -14,7 +14,7 @@
 //! use softstop::continuation::Parameter;
 //! use softstop::sweep::{Chain, Direction, Plan, hysteresis};
 //!
-//! let plan = Plan::new(Parameter::Frequency, (1.0, 1.4), 41, 100)?;
+//! let plan = Plan::new(Parameter::Frequency, (1.01, 1.4), 40, 200)?;
 //! let mut chains = [Direction::Up, Direction::Down].map(|way| Chain::new(Ratios::unloaded(), way));
 //! plan.run(&mut chains, &|_| true);
 //! let zones = hysteresis(&chains[0], &chains[1]);
