@@ -23,7 +23,7 @@ pub struct Chaos {
 }
 
 /// Drive periods over which impacts are counted.
-const COUNTED: u64 = 512;
+const COUNTED: u64 = 4096;
 
 impl Chaos {
     /// The motion from a state on it.

@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::cause::Cause;
-use super::departure::{Departure, is_doubled};
+use super::departure::Departure;
+use super::way::is_doubled;
 use super::window::Window;
 use super::{Motion, Rules, Transition, TransitionError};
 use crate::attractors::{Kind, attractors_watched};

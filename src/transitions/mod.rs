@@ -26,6 +26,7 @@ mod chaos;
 mod departure;
 mod explore;
 mod intermittent;
+mod way;
 mod window;
 
 pub use cause::Cause;
