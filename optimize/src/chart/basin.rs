@@ -5,7 +5,7 @@ use softstop::orbit::{Orbit, Regime};
 
 use super::pen::{Align, Area, Pen};
 use super::plane::Plane;
-use super::regime_map::{RegimeCell, RegimeClass};
+use super::regime_cells::{RegimeCell, RegimeClass};
 
 /// Basins as cells of colour.
 #[derive(Debug, Clone, Copy)]

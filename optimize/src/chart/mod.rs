@@ -4,6 +4,7 @@
 //! [`page`] a page of the failures atlas.
 
 mod atlas;
+mod band;
 mod basin;
 mod branch;
 mod certainty;
@@ -20,6 +21,7 @@ mod panel;
 mod pen;
 mod plane;
 mod precision;
+mod regime_cells;
 mod regime_map;
 mod regimes;
 mod stability;
@@ -43,7 +45,8 @@ pub use motion::{Drawing, MotionChart};
 pub use motions::{MotionPage, MotionRow};
 pub use numbered::{Bifurcation, Diagram, NumberedChart};
 pub use precision::PrecisionChart;
-pub use regime_map::{BoundaryCurve, RegimeCell, RegimeClass, RegimeMap, RegimePage, RegimePanel};
+pub use regime_cells::{RegimeCell, RegimeClass, RegimeMap};
+pub use regime_map::{BoundaryCurve, RegimePage, RegimePanel};
 pub use regimes::{RegimeChart, RegimeRow, Strip};
 pub use stability::{StabilityChart, StabilityPart, StabilityPoint};
 pub use stroke::{StrokeChart, StrokePoint};
