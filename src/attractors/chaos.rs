@@ -22,26 +22,27 @@ pub struct Chaos {
     pub watched: u64,
 }
 
-/// Drive periods over which impacts are counted.
+/// Drive periods over which impacts are counted, at most.
 const COUNTED: u64 = 4096;
 
 impl Chaos {
-    /// The motion from a state on it.
+    /// The motion from a state, that still wanders at the end of its exponents.
     pub(super) fn of(
         scene: &Scene,
         fleet: &Fleet<'_>,
-        state: Start,
+        (begin, state): (Start, Start),
         exponents: Exponents,
     ) -> Result<Self, SurveyError> {
-        let map = StroboscopicMap::new(scene, COUNTED)?;
-        let passage = map.apply(state.into())?;
-        fleet.note(COUNTED)?;
+        let counted = COUNTED.min(exponents.periods);
+        let map = StroboscopicMap::new(scene, counted)?;
+        let passage = map.apply(begin.into())?;
+        fleet.note(counted)?;
         let ends = |fold: fn(f64, f64) -> f64| passage.impacts.iter().copied().reduce(fold);
         let velocities = ends(f64::min).zip(ends(f64::max));
         Ok(Self {
             state,
             exponents,
-            impacts_per_period: passage.impacts.len() as f64 / COUNTED as f64,
+            impacts_per_period: passage.impacts.len() as f64 / counted as f64,
             velocities: velocities.map(|(least, largest)| [least, largest]),
             watched: 0,
         })

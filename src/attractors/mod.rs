@@ -11,6 +11,7 @@ mod chaos;
 pub(crate) mod fleet;
 mod group;
 pub(crate) mod known;
+mod lifetime;
 mod search;
 mod starts;
 

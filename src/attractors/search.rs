@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use super::chaos::Chaos;
 use super::fleet::{Fleet, Voyage};
 use super::known::{Book, Standing};
+use super::lifetime::Looks;
 use super::{Arrival, Kind, Options, Region, Survey, SurveyError, Watcher};
 use crate::integrator::Start;
 use crate::orbit::Exponents;
@@ -37,9 +38,8 @@ struct Member {
 struct Group {
     exponents: Option<Exponents>,
     chaos: Option<Chaos>,
-    /// Drive periods watched and motions that have settled elsewhere meanwhile.
-    watched: u64,
-    escaped: usize,
+    /// How long its motions were watched, and which had settled elsewhere then.
+    looks: Looks,
     /// Starts of the region that came here.
     entered: usize,
 }
@@ -199,8 +199,7 @@ impl<'a> Search<'a> {
                 let member = &self.members[index];
                 let gone = !member.is_afloat();
                 if let Some(group) = member.group.and_then(|group| self.groups.get_mut(&group)) {
-                    group.watched += periods;
-                    group.escaped += usize::from(gone);
+                    group.looks.note(periods, gone);
                 }
             }
             periods *= GROWTH;

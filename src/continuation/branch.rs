@@ -196,6 +196,17 @@ impl<F: Family> Follower<'_, F> {
                     {
                         return Ok(way);
                     }
+                    if let Some(stride) = self.over_corner(&walker) {
+                        let last = walker.node.clone();
+                        walker.set_out(stride);
+                        approach = Approach::of(&self.shooting, &walker.node)?;
+                        let end = self.record(&mut way, (&last, &walker.node), &origin, limits)?;
+                        if let Some(end) = end {
+                            way.end = end;
+                            return Ok(way);
+                        }
+                        continue;
+                    }
                     if !walker.shorten() {
                         let error = refused.err().unwrap_or(UNSTABLE);
                         self.give_up(&mut way, &walker, &approach, limits, error);

@@ -28,6 +28,7 @@
 mod arclength;
 mod branch;
 mod caution;
+mod corner;
 mod curve;
 mod detect;
 mod follower;

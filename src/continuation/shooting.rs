@@ -35,6 +35,11 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
         DVector::from_iterator(2 + N, raw).component_div(&self.scales)
     }
 
+    /// A position in units of its scale.
+    pub fn scaled_position(&self, position: f64) -> f64 {
+        position / self.scales[0]
+    }
+
     pub fn state(&self, at: &DVector<f64>) -> Vector2<f64> {
         Vector2::new(at[0] * self.scales[0], at[1] * self.scales[1])
     }

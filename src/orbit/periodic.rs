@@ -42,6 +42,9 @@ pub struct Orbit {
 /// Distance in units of 1 + |state| within which a state that has returned after n periods has also
 /// returned after a divisor of n. Newton's method leaves about 1e-13.
 const SAME: f64 = 1e-9;
+/// Impacts up to which orbits are sought from impact to impact: a mass that bounces more often chatters, and the
+/// work grows with the cube.
+const MOST_IMPACTS: usize = 128;
 /// Norm of a Jacobian beyond which impacts are looked at one by one.
 const STEEP: f64 = 1e3;
 
@@ -101,6 +104,11 @@ impl Orbit {
         let none = OrbitError::OtherRegime { impacts: 0 };
         if impacts.is_empty() {
             return Err(none);
+        }
+        if impacts.len() > MOST_IMPACTS {
+            return Err(OrbitError::OtherRegime {
+                impacts: impacts.len(),
+            });
         }
         let legs = Legs::new(scene, periods.max(1)).ok_or(none)?;
         let orbit = legs.settle(impacts)?;

@@ -77,16 +77,16 @@ impl Search<'_> {
 impl Group {
     fn chaotic(&self, chaos: Chaos) -> Kind {
         let chaos = Chaos {
-            watched: self.watched,
+            watched: self.looks.watched(),
             ..chaos
         };
-        if self.escaped == 0 {
-            return Kind::Chaotic(chaos);
-        }
-        Kind::TransientChaos {
-            chaos,
-            lifetime: self.watched as f64 / self.escaped as f64,
-            entered: self.entered,
+        match self.looks.lifetime() {
+            None => Kind::Chaotic(chaos),
+            Some(lifetime) => Kind::TransientChaos {
+                chaos,
+                lifetime,
+                entered: self.entered,
+            },
         }
     }
 }

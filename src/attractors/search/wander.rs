@@ -7,6 +7,7 @@ use super::super::chaos::Chaos;
 use super::super::fleet::Voyage;
 use super::super::group::groups;
 use super::super::known::Standing;
+use super::super::lifetime::Looks;
 use super::{GROWTH, Group, Search};
 use crate::integrator::Start;
 use crate::orbit::Exponents;
@@ -50,8 +51,7 @@ impl Search<'_> {
         let mut group = Group {
             exponents: None,
             chaos: None,
-            watched: 0,
-            escaped: 0,
+            looks: Looks::default(),
             entered: indices
                 .iter()
                 .filter(|index| self.members[**index].counts)
@@ -65,7 +65,7 @@ impl Search<'_> {
                 group.exponents = Some(exponents);
             }
             if wanders && exponents.is_positive() {
-                group.chaos = Some(Chaos::of(self.scene, &self.fleet, end, exponents)?);
+                group.chaos = Some(Chaos::of(self.scene, &self.fleet, (state, end), exponents)?);
                 break;
             }
         }

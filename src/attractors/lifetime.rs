@@ -1,0 +1,115 @@
+//! How long chaos lasts that ends.
+
+/// Looks at motions on one chaos after some drive periods each.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Looks(Vec<Look>);
+
+/// Motions that were watched for one length of time.
+#[derive(Debug, Clone, Copy)]
+struct Look {
+    periods: u64,
+    stayed: u64,
+    gone: u64,
+}
+
+/// Halvings of the range in which the logarithm of the rate is sought.
+const HALVINGS: usize = 100;
+/// Range of the logarithm of the rate per drive period.
+const RATES: (f64, f64) = (-40.0, 5.0);
+
+impl Looks {
+    /// A motion has been watched for so many drive periods, and is still there or has gone meanwhile.
+    pub fn note(&mut self, periods: u64, is_gone: bool) {
+        let (stayed, gone) = (u64::from(!is_gone), u64::from(is_gone));
+        match self.0.iter_mut().find(|look| look.periods == periods) {
+            Some(look) => {
+                look.stayed += stayed;
+                look.gone += gone;
+            }
+            None => self.0.push(Look {
+                periods,
+                stayed,
+                gone,
+            }),
+        }
+    }
+
+    /// Drive periods watched, all together.
+    pub fn watched(&self) -> u64 {
+        let watched = |look: &Look| look.periods * (look.stayed + look.gone);
+        self.0.iter().map(watched).sum()
+    }
+
+    /// The mean lifetime in drive periods; none if no motion has gone.
+    ///
+    /// Lifetimes on chaos that ends are exponential (Grebogi, Ott and Yorke 1983). Of a motion that has gone it is
+    /// known only that it went between two looks. The rate r of greatest likelihood solves
+    /// sum gone P / (e^(r P) - 1) = sum stayed P.
+    pub fn lifetime(&self) -> Option<f64> {
+        if self.0.iter().all(|look| look.gone == 0) {
+            return None;
+        }
+        let stayed: f64 = self
+            .0
+            .iter()
+            .map(|look| (look.periods * look.stayed) as f64)
+            .sum();
+        // Where none has stayed, half a motion is taken to have.
+        let least = self.0.iter().map(|look| look.periods).min().unwrap_or(1);
+        let stayed = stayed.max(0.5 * least as f64);
+        let excess = |rate: f64| {
+            let share = |look: &Look| {
+                let periods = look.periods as f64;
+                look.gone as f64 * periods / (rate * periods).exp_m1()
+            };
+            self.0.iter().map(share).sum::<f64>() - stayed
+        };
+        let (mut low, mut high) = RATES;
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if excess(middle.exp()) > 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Some((-low).exp())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Looks;
+
+    /// Exponential lifetimes at their quantiles, looked at after 500, 1000, 2000, ... drive periods.
+    #[test]
+    fn a_mean_life_is_found_however_rarely_it_is_looked_at() {
+        let (mean, motions) = (12_810.0, 4000);
+        let mut looks = Looks::default();
+        for motion in 0..motions {
+            let share = (f64::from(motion) + 0.5) / f64::from(motions);
+            let life = -mean * (1.0 - share).ln();
+            let (mut begin, mut periods) = (0.0, 500);
+            loop {
+                let end = begin + periods as f64;
+                looks.note(periods, life <= end);
+                if life <= end {
+                    break;
+                }
+                (begin, periods) = (end, 2 * periods);
+            }
+        }
+        let found = looks.lifetime().expect("all have gone");
+        assert!((found / mean - 1.0).abs() < 0.02, "{found}");
+    }
+
+    #[test]
+    fn what_nothing_leaves_has_no_lifetime() {
+        let mut looks = Looks::default();
+        looks.note(1000, false);
+        assert_eq!(looks.lifetime(), None);
+        assert_eq!(looks.watched(), 1000);
+        looks.note(1000, true);
+        assert!((looks.lifetime().expect("one has gone") - 1000.0 / 2_f64.ln()).abs() < 1e-6);
+    }
+}
