@@ -54,7 +54,7 @@ impl Orbit {
     /// # Errors
     /// [`OrbitError`] if Newton's method does not settle or settles on another regime.
     pub fn near(scene: &Scene, state: Vector2<f64>) -> Result<Self, OrbitError> {
-        let orbit = Self::periodic(scene, state, 1)?;
+        let orbit = Self::of_impacts(scene, state, 1, 1)?;
         match orbit.impacts[..] {
             [_] => Ok(orbit),
             _ => Err(OrbitError::OtherRegime {
@@ -72,7 +72,16 @@ impl Orbit {
     /// # Errors
     /// [`OrbitError`] if Newton's method does not settle or a motion cannot be computed.
     pub fn periodic(scene: &Scene, state: Vector2<f64>, periods: u64) -> Result<Self, OrbitError> {
-        let periods = periods.max(1);
+        Self::of_impacts(scene, state, periods.max(1), MOST_IMPACTS)
+    }
+
+    /// The same; from impact to impact it is sought with no more than `most` impacts.
+    fn of_impacts(
+        scene: &Scene,
+        state: Vector2<f64>,
+        periods: u64,
+        most: usize,
+    ) -> Result<Self, OrbitError> {
         match Self::on_map(scene, state, periods) {
             Ok(orbit) if orbit.is_weak() => {
                 let impacts: Vec<(f64, f64)> = orbit.timed_impacts();
@@ -83,6 +92,7 @@ impl Orbit {
                 let guesses = guesses(scene, state, periods)?;
                 let mut found = guesses
                     .iter()
+                    .filter(|impacts| impacts.len() <= most)
                     .filter_map(|impacts| Self::by_impacts(scene, periods, impacts).ok());
                 found.next().ok_or(error)
             }
@@ -104,11 +114,6 @@ impl Orbit {
         let none = OrbitError::OtherRegime { impacts: 0 };
         if impacts.is_empty() {
             return Err(none);
-        }
-        if impacts.len() > MOST_IMPACTS {
-            return Err(OrbitError::OtherRegime {
-                impacts: impacts.len(),
-            });
         }
         let legs = Legs::new(scene, periods.max(1)).ok_or(none)?;
         let orbit = legs.settle(impacts)?;

@@ -3,8 +3,8 @@
 use super::{Chain, Settled, Step};
 
 /// Change of the largest before-impact velocity from one step to the next, in units of the larger one, that
-/// is a jump.
-const LEAP: f64 = 0.1;
+/// is a jump if the steps before and after change it by less than a share of that.
+const LEAP: (f64, f64) = (0.1, 0.2);
 /// Difference of the largest before-impact velocities at one value, in units of the larger one, of two motions
 /// of the same regime that are not the same.
 const APART: f64 = 0.01;
@@ -46,8 +46,6 @@ impl<M> Chain<M> {
             .iter()
             .filter(|step| !step.settled.is_unsettled());
         let settled: Vec<&Step> = settled.collect();
-        let pairs = settled.windows(2);
-        let jumps = pairs.filter(|pair| differ(pair[0], pair[1], LEAP));
         let jump = |pair: &[&Step]| Jump {
             from: pair[0].value,
             to: pair[1].value,
@@ -55,8 +53,29 @@ impl<M> Chain<M> {
             after: pair[1].settled,
             velocities: (pair[0].hardest(), pair[1].hardest()),
         };
-        jumps.map(jump).collect()
+        let pairs = settled.windows(2).enumerate();
+        let jumps = pairs.filter(|(index, _)| leaps(&settled, *index));
+        jumps.map(|(_, pair)| jump(pair)).collect()
     }
+}
+
+/// True if the step after this one is another motion: of another kind or, of one regime, hit much harder or less
+/// hard than the course before and after leads to.
+fn leaps(steps: &[&Step], index: usize) -> bool {
+    let (before, after) = (steps[index], steps[index + 1]);
+    if !before.settled.is_like(&after.settled) {
+        return true;
+    }
+    let change = |a: &Step, b: &Step| (b.hardest() - a.hardest()).abs();
+    let leap = change(before, after);
+    let is_even =
+        |a: &Step, b: &Step| !a.settled.is_like(&b.settled) || change(a, b) < LEAP.1 * leap;
+    let earlier = index.checked_sub(1).map(|earlier| steps[earlier]);
+    differ(before, after, LEAP.0)
+        && earlier.is_none_or(|earlier| is_even(earlier, before))
+        && steps
+            .get(index + 2)
+            .is_none_or(|later| is_even(after, later))
 }
 
 /// True if the motions are of different kinds, or of one regime but not the same.

@@ -54,7 +54,7 @@ pub struct BasinArguments {
     /// Scene in SI units as for `softstop simulate`, instead of the paper's machine
     #[arg(value_name = "SCENE.toml", conflicts_with = "scene")]
     pub file: Option<PathBuf>,
-    /// Cells on each side of the plane, 2 to 10000
+    /// Cells on each side of the plane, 2 to 4000 (1.6 GB)
     #[arg(long, value_name = "N", default_value_t = 400)]
     pub size: usize,
     /// Plane of initial states: the quantity across, and the one upwards, of x, v and phi
@@ -146,12 +146,15 @@ fn name(machine: &Machine) -> String {
     )
 }
 
+/// Most cells on a side: each takes a hundred bytes.
+const LARGEST: u64 = 4000;
+
 fn options(arguments: &BasinArguments) -> Result<Options, Failure> {
     let within = |name, value: u64, least: u64, most: u64| {
         let fits = (least..=most).contains(&value);
         require(fits, name, value as f64, &format!("{least} to {most}"))
     };
-    within("size", arguments.size as u64, 2, 10_000)?;
+    within("size", arguments.size as u64, 2, LARGEST)?;
     within("transient", arguments.transient, 1, 1_000_000)?;
     within("longest", arguments.longest as u64, 1, 10_000)?;
     within(

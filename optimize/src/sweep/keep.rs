@@ -28,6 +28,9 @@ struct Content {
     chains: Vec<Vec<Step>>,
 }
 
+/// Bytes of the checksum at the file's end.
+const CHECK: usize = 4;
+
 impl Keep {
     pub(super) fn new(folder: &Path, plan: &Plan, chains: &[Chain<Model>]) -> Self {
         let machines = chains.iter().map(|chain| (&chain.machine, chain.direction));
@@ -45,7 +48,8 @@ impl Keep {
             chains: chains.iter().map(|chain| chain.steps.clone()).collect(),
         };
         let place = || format!("cannot write {}", self.path.display());
-        let bytes = rmp_serde::to_vec(&content).with_context(place)?;
+        let mut bytes = rmp_serde::to_vec(&content).with_context(place)?;
+        bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
         let folder = self.path.parent().unwrap_or(Path::new("."));
         let mut file = tempfile::NamedTempFile::new_in(folder).with_context(place)?;
         file.write_all(&bytes).with_context(place)?;
@@ -59,8 +63,12 @@ impl Keep {
         let place = self.path.display();
         let bytes = fs::read(&self.path)
             .map_err(|error| Failure::usage(format!("--resume: {place}: {error}")))?;
-        let content: Content = rmp_serde::from_slice(&bytes)
-            .map_err(|error| Failure::Run(anyhow!("{place}: cannot be read: {error}")))?;
+        let damaged = || Failure::Run(anyhow!("{place}: is damaged; sweep without --resume"));
+        let (content, check) = bytes.split_last_chunk::<CHECK>().ok_or_else(damaged)?;
+        if crc32fast::hash(content) != u32::from_le_bytes(*check) {
+            return Err(damaged());
+        }
+        let content: Content = rmp_serde::from_slice(content).map_err(|_| damaged())?;
         if content.of != self.of || content.chains.len() != chains.len() {
             return Err(Failure::usage(format!(
                 "--resume: {place} holds another sweep: all other arguments must be the same"

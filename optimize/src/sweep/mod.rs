@@ -31,8 +31,8 @@ Examples:
       its Fig. 6(a): six clearances, both ways, 1000 frequencies of 200 periods
   softstop sweep --from 0.8 --to 1.8 --clearances 2,6,10,14,18,22 --regime loaded
       its Fig. 6(b)
-  softstop sweep --from 1.3 --to 1.4 --steps 1001 --periods 5 --tolerance 0.01 --direction up
-      a fast sweep: it loses z = 1 later than at the fold, 1.369036
+  softstop sweep --from 1 --to 1.4 --steps 401 --periods 50 --tolerance 0.01 --direction up
+      a fast sweep: it loses z = 1 at 1.371, later than at the fold, 1.369036
   softstop sweep --parameter clearance --from 4 --to 20 --frequency 1.15
       along another parameter
   softstop sweep docs/scenes/rigid.toml --parameter frequency --from 1 --to 3

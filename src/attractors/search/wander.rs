@@ -65,8 +65,12 @@ impl Search<'_> {
                 group.exponents = Some(exponents);
             }
             if wanders && exponents.is_positive() {
-                group.chaos = Some(Chaos::of(self.scene, &self.fleet, (state, end), exponents)?);
-                break;
+                let chaos = Chaos::of(self.scene, &self.fleet, (state, end), exponents)?;
+                // Without impacts the motion is linear and damped: it settles, if slowly.
+                if chaos.velocities.is_some() {
+                    group.chaos = Some(chaos);
+                    break;
+                }
             }
         }
         Ok(group)
