@@ -155,7 +155,7 @@ fn threads_change_nothing() {
 
 #[test]
 fn chaos_is_one_set_beside_the_isolated_motions() {
-    // model.md: at 0.9875 chaos, 2/3 and (2/4)B.
+    // Peterka 2003, section 4: at 0.9875 chaos, 2/3 and (2/4)B.
     let found = on(&scene(0.9875), &states(24));
     assert_eq!(names(&found), ["z = 2/3", "z = 2/4", "chaos"]);
     let pattern = |class: usize| match &found.classes[class].kind {

@@ -3,10 +3,11 @@
 use rayon::ThreadPoolBuilder;
 use softstop::Ratios;
 use softstop::continuation::Parameter;
+use softstop::integrator::Start;
 use softstop::orbit::{self, Regime};
 use softstop::sweep::{Chain, Direction, Plan, PlanError, Settled, Step, hysteresis};
 
-/// Frequency at which the impact-less motion grazes, rho = 10 (model.md).
+/// Frequency at which the impact-less motion grazes, rho = 10.
 const G0: f64 = 1.04444;
 /// Frequency of the fold of z = 1, rho = 10.
 const FOLD: f64 = 1.369_036;
@@ -80,7 +81,7 @@ fn between_grazing_and_fold_the_way_matters() {
 
 #[test]
 fn a_sweep_loses_the_motion_after_its_end() {
-    // The paper's 1.37083; an independent integrator loses it at 1.371 at both rates (model.md).
+    // The paper's 1.37083; an independent integrator loses it at 1.371 at both rates.
     let slow = frequencies((1.3, 1.4), 101, 50);
     // Which motion it is on is told by its impacts alone: nothing settles within 5 periods.
     let fine = frequencies((1.3, 1.4), 1001, 5);
@@ -248,4 +249,22 @@ fn plans_and_parameters_that_cannot_be_are_refused() {
     assert!(chains[0].steps.is_empty() && chains[0].error.is_some());
     assert_eq!(chains[1].steps.len(), 1);
     assert!(chains[1].error.is_some());
+}
+
+/// The paper's (2/4)B, impacts 1-1-0-0, and its z = 1/2, on sweeps over the same frequencies.
+#[test]
+fn steps_tell_the_order_of_impacts() {
+    let order_from = |position: f64, velocity: f64| {
+        let plan = Plan::new(Parameter::Frequency, (0.9886, 0.9888), 3, 2000).expect("a plan");
+        let start = Start { position, velocity };
+        let plan = Plan { start, ..plan };
+        let mut chain = [Chain::new(Ratios::unloaded(), Direction::Up)];
+        assert!(plan.run(&mut chain, &|_| true));
+        let orders = chain[0].steps.iter().map(|step| step.order.clone());
+        orders
+            .map(|order| order.map_or_else(String::new, |order| order.to_string()))
+            .collect::<Vec<String>>()
+    };
+    assert_eq!(order_from(9.360_532, 3.830_784), ["1-1-0-0"; 3]);
+    assert_eq!(order_from(9.214_320, 3.694_000), ["1-0"; 3]);
 }

@@ -112,7 +112,7 @@ fn an_isolated_motion_is_followed_to_its_ends() -> Outcome {
     assert_eq!(report["branches"][0]["periods"], 3);
     near(found[0].1, 0.986_778_9, 5e-8);
     assert_eq!((found[0].0, found[1].0), ("G", "PD"));
-    // model.md gives 1.005452 by simulation.
+    // An independent simulation sees it at 1.005452.
     near(found[1].1, 1.005_452, 5e-6);
     Ok(())
 }

@@ -34,7 +34,7 @@ impl Findings {
 fn the_fold_strikes_hardest_near_clearance_seven() -> Outcome {
     let folder = tempfile::tempdir()?;
     let found = Findings::of("regimes", folder.path())?;
-    // model.md: 17.34 at rho = 6 and 17.27 at rho = 8.
+    // An independent integrator: 17.34 at rho = 6 and 17.27 at rho = 8.
     let velocity = found.get("unloaded: largest velocity on s_SN");
     assert!(velocity > 17.34 && velocity < 17.5, "{velocity}");
     let rho = found.get("unloaded: its clearance rho");

@@ -143,6 +143,15 @@ fn an_interrupted_sweep_goes_on_to_the_same_result() -> Outcome {
     // Other arguments are another sweep.
     let other = [&line[..7], &["1999", "--resume"]].concat();
     assert_eq!(sweep(&part, &other)?.status.code(), Some(2));
+    // A damaged file is no sweep at all.
+    let bytes = fs::read(&kept)?;
+    let mut damaged = bytes.clone();
+    damaged[bytes.len() / 2] ^= 1;
+    fs::write(&kept, damaged)?;
+    let refused = sweep(&part, &[&line[..], &["--resume"]].concat())?;
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("is damaged"));
+    fs::write(&kept, bytes)?;
     let resumed = sweep(&part, &[&line[..], &["--resume"]].concat())?;
     let message = String::from_utf8_lossy(&resumed.stderr);
     assert!(resumed.status.success(), "{message}");

@@ -61,7 +61,7 @@ fn rest_ends_by_grazing_and_impacts_by_a_fold_beyond_it() -> Outcome {
         (grazing.hysteresis, fold.hysteresis),
         (Some(true), Some(true))
     );
-    // model.md: a sweep by 1e-3 per 50 periods.
+    // As an independent integrator swept so.
     assert!(
         fold.remark
             .contains("1e-3 per 50 drive periods loses the motion at 1.371"),

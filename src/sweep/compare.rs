@@ -1,6 +1,7 @@
 //! Where a sweep jumps, and where up and down differ.
 
 use super::{Chain, Settled, Step};
+use crate::orbit::ImpactPattern;
 
 /// Change of the largest before-impact velocity from one step to the next, in units of the larger one, that
 /// is a jump if the steps before and after change it by less than a share of that.
@@ -10,7 +11,7 @@ const LEAP: (f64, f64) = (0.1, 0.2);
 const APART: f64 = 0.01;
 
 /// A change of the motion from one step to the next that has settled.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Jump {
     /// Value of the last step before.
     pub from: f64,
@@ -20,12 +21,14 @@ pub struct Jump {
     pub before: Settled,
     /// What it is now.
     pub after: Settled,
+    /// Orders of impacts before and after.
+    pub orders: [Option<ImpactPattern>; 2],
     /// Largest before-impact velocities in m/s before and after.
     pub velocities: (f64, f64),
 }
 
 /// Neighbouring values of the parameter at which the motions up and down differ.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Coexistence {
     /// Least of them.
     pub from: f64,
@@ -35,6 +38,8 @@ pub struct Coexistence {
     pub up: Settled,
     /// The motion on the way down.
     pub down: Settled,
+    /// Orders of impacts on the way up and down.
+    pub orders: [Option<ImpactPattern>; 2],
 }
 
 impl<M> Chain<M> {
@@ -51,6 +56,7 @@ impl<M> Chain<M> {
             to: pair[1].value,
             before: pair[0].settled,
             after: pair[1].settled,
+            orders: [pair[0], pair[1]].map(|step| step.order.clone()),
             velocities: (pair[0].hardest(), pair[1].hardest()),
         };
         let pairs = settled.windows(2).enumerate();
@@ -63,13 +69,12 @@ impl<M> Chain<M> {
 /// hard than the course before and after leads to.
 fn leaps(steps: &[&Step], index: usize) -> bool {
     let (before, after) = (steps[index], steps[index + 1]);
-    if !before.settled.is_like(&after.settled) {
+    if !is_like(before, after) {
         return true;
     }
     let change = |a: &Step, b: &Step| (b.hardest() - a.hardest()).abs();
     let leap = change(before, after);
-    let is_even =
-        |a: &Step, b: &Step| !a.settled.is_like(&b.settled) || change(a, b) < LEAP.1 * leap;
+    let is_even = |a: &Step, b: &Step| !is_like(a, b) || change(a, b) < LEAP.1 * leap;
     let earlier = index.checked_sub(1).map(|earlier| steps[earlier]);
     differ(before, after, LEAP.0)
         && earlier.is_none_or(|earlier| is_even(earlier, before))
@@ -78,11 +83,16 @@ fn leaps(steps: &[&Step], index: usize) -> bool {
             .is_none_or(|later| is_even(after, later))
 }
 
+/// True if both are of one kind: of the same regime with the same order of impacts, or chaos.
+fn is_like(a: &Step, b: &Step) -> bool {
+    a.settled.is_like(&b.settled) && a.order == b.order
+}
+
 /// True if the motions are of different kinds, or of one regime but not the same.
 fn differ(a: &Step, b: &Step, share: f64) -> bool {
     let (low, high) = (a.hardest().min(b.hardest()), a.hardest().max(b.hardest()));
     let periodic = a.settled.regime().is_some();
-    !a.settled.is_like(&b.settled) || (periodic && high - low > share * high)
+    !is_like(a, b) || (periodic && high - low > share * high)
 }
 
 /// The steps of both at the same values, in rising order.
@@ -103,7 +113,8 @@ pub fn hysteresis<M>(up: &Chain<M>, down: &Chain<M>) -> Vec<Coexistence> {
         let settled = !a.settled.is_unsettled() && !b.settled.is_unsettled();
         let apart = settled && differ(a, b, APART);
         let last = zones.last_mut().filter(|zone| {
-            open && apart && zone.up.is_like(&a.settled) && zone.down.is_like(&b.settled)
+            let same = zone.up.is_like(&a.settled) && zone.down.is_like(&b.settled);
+            open && apart && same && zone.orders == [a.order.clone(), b.order.clone()]
         });
         match last {
             Some(zone) => zone.to = a.value,
@@ -112,6 +123,7 @@ pub fn hysteresis<M>(up: &Chain<M>, down: &Chain<M>) -> Vec<Coexistence> {
                 to: a.value,
                 up: a.settled,
                 down: b.settled,
+                orders: [a, b].map(|step| step.order.clone()),
             }),
             None => {}
         }

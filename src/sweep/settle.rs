@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::batch::Watch;
 use crate::error::MotionError;
-use crate::integrator::Start;
+use crate::integrator::{Instant, Start};
 use crate::orbit::recurrence::settles_on;
-use crate::orbit::{Regime, StroboscopicMap};
+use crate::orbit::{ImpactPattern, Regime, StroboscopicMap};
 use crate::scene::Scene;
 
 /// The kind of motion at the end of a step.
@@ -62,6 +62,8 @@ pub struct Step {
     pub value: f64,
     /// What the motion has come to.
     pub settled: Settled,
+    /// The order of its impacts, if it returns after several drive periods.
+    pub order: Option<ImpactPattern>,
     /// Mean number of impacts per drive period: p/n of what returns, else over the watched periods.
     pub impacts_per_period: f64,
     /// Before-impact velocities in m/s, ascending: of one period of what returns, else of all watched drive
@@ -85,9 +87,19 @@ impl Step {
         let frequency = scene.excitation.frequency;
         let found = settles_on(frequency, states, tolerance);
         let periods = found.unwrap_or(watched);
-        let first = (watched - periods) as u64;
-        let own = impacts.iter().filter(|(cycle, _)| *cycle >= first);
-        let mut velocities: Vec<f64> = own.map(|(_, velocity)| *velocity).collect();
+        let first = (watched - periods) as f64;
+        let own = impacts
+            .iter()
+            .filter(|(instant, _)| instant.cycles >= first);
+        let mut velocities: Vec<f64> = own.clone().map(|(_, velocity)| *velocity).collect();
+        let order = found.filter(|periods| *periods > 1).map(|periods| {
+            let since = |(instant, _): &(Instant, f64)| Instant {
+                cycles: instant.cycles - first,
+                ..*instant
+            };
+            let instants: Vec<Instant> = own.map(since).collect();
+            ImpactPattern::new(&instants, &[], periods as u64, scene.period())
+        });
         velocities.sort_by(f64::total_cmp);
         let regime = Regime {
             impacts: velocities.len() as u64,
@@ -102,6 +114,7 @@ impl Step {
         Ok(Self {
             value,
             settled,
+            order,
             impacts_per_period: regime.impacts as f64 / periods as f64,
             velocities,
             max_position: map.max_position(from.into())?,
@@ -131,8 +144,8 @@ fn restless(map: &StroboscopicMap, from: Start, watched: usize) -> Result<Settle
 pub(super) struct Record {
     /// States at drive angle phi: that at the beginning, and one after each drive period.
     pub states: Vec<Start>,
-    /// Drive period and before-impact velocity in m/s of each impact.
-    pub impacts: Vec<(u64, f64)>,
+    /// When, from the beginning on, and before-impact velocity in m/s of each impact.
+    pub impacts: Vec<(Instant, f64)>,
 }
 
 /// Keeps records.
@@ -156,8 +169,12 @@ impl Watch for Log {
     const IMPACTS: bool = true;
     const PERIODS: bool = true;
 
-    fn impact(&mut self, job: usize, cycle: u64, _: f64, velocity: f64) {
-        self.records[job].impacts.push((cycle, velocity));
+    fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
+        let instant = Instant {
+            cycles: cycle as f64,
+            offset,
+        };
+        self.records[job].impacts.push((instant, velocity));
     }
 
     fn period(&mut self, job: usize, _: u64, state: Start) {

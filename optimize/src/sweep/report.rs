@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use softstop::continuation::{Adjustable, Parameter};
+use softstop::orbit::ImpactPattern;
 use softstop::sweep::{Chain, Coexistence, Direction, Jump, Plan, Settled, Step, hysteresis};
 
 use crate::continuation::model::Model;
@@ -147,8 +148,8 @@ impl JumpReport {
         Self {
             from: jump.from,
             to: jump.to,
-            before: name(&jump.before),
-            after: name(&jump.after),
+            before: name(&jump.before, jump.orders[0].as_ref()),
+            after: name(&jump.after, jump.orders[1].as_ref()),
             velocity_before: jump.velocities.0,
             velocity_after: jump.velocities.1,
         }
@@ -161,8 +162,8 @@ impl ZoneReport {
             clearance,
             from: zone.from,
             to: zone.to,
-            up: name(&zone.up),
-            down: name(&zone.down),
+            up: name(&zone.up, zone.orders[0].as_ref()),
+            down: name(&zone.down, zone.orders[1].as_ref()),
         }
     }
 }
@@ -173,8 +174,17 @@ fn clearance(plan: &Plan, chain: &Chain<Model>) -> Option<f64> {
     chain.machine.value(Parameter::Clearance).filter(|_| !swept)
 }
 
-/// A motion in a word.
-pub(super) fn name(settled: &Settled) -> String {
+/// A motion in a word, with the order of its impacts.
+pub(super) fn name(settled: &Settled, order: Option<&ImpactPattern>) -> String {
+    match (settled, order) {
+        (Settled::Periodic(regime), Some(order)) if regime.impacts > 1 => {
+            format!("z = {regime} ({order})")
+        }
+        _ => kind(settled),
+    }
+}
+
+fn kind(settled: &Settled) -> String {
     match settled {
         Settled::Periodic(regime) => format!("z = {regime}"),
         Settled::Chaotic { .. } => "chaos".to_owned(),
@@ -183,11 +193,12 @@ pub(super) fn name(settled: &Settled) -> String {
 }
 
 /// Columns of the table.
-const COLUMNS: [&str; 12] = [
+const COLUMNS: [&str; 13] = [
     "clearance",
     "direction",
     "value",
     "motion",
+    "order",
     "impacts_per_period",
     "growth_per_period",
     "least_velocity",
@@ -228,7 +239,8 @@ fn row(clearance: Option<f64>, direction: Direction, step: &Step) -> impl Serial
         clearance,
         direction.name(),
         step.value,
-        name(&step.settled).trim_start_matches("z = ").to_owned(),
+        kind(&step.settled).trim_start_matches("z = ").to_owned(),
+        step.order.as_ref().map(ToString::to_string),
         step.impacts_per_period,
         growth,
         step.velocities.first().copied(),

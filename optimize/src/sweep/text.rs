@@ -17,8 +17,10 @@ pub(super) fn text(report: &SweepReport) -> String {
         report.periods,
         report.rate_per_period,
     );
+    let step = (report.range[1] - report.range[0]) / (report.steps - 1) as f64;
+    let digits = (1.0 - step.log10()).clamp(6.0, 15.0) as usize;
     for sweep in &report.sweeps {
-        chain(&mut text, sweep);
+        chain(&mut text, sweep, digits);
     }
     if !report.hysteresis.is_empty() {
         text.push_str("\nHysteresis (up | down)\n");
@@ -28,7 +30,7 @@ pub(super) fn text(report: &SweepReport) -> String {
         let (from, to) = (zone.from, zone.to);
         let _ = writeln!(
             text,
-            "  {clearance}{from:.6} to {to:.6}: {} | {}",
+            "  {clearance}{from:.digits$} to {to:.digits$}: {} | {}",
             zone.up, zone.down
         );
     }
@@ -43,7 +45,7 @@ fn clearance(clearance: Option<f64>) -> String {
     clearance.map_or_else(String::new, |clearance| format!("rho = {clearance}, "))
 }
 
-fn chain(text: &mut String, sweep: &ChainReport) {
+fn chain(text: &mut String, sweep: &ChainReport, digits: usize) {
     let clearance = clearance(sweep.clearance);
     let _ = writeln!(
         text,
@@ -53,7 +55,7 @@ fn chain(text: &mut String, sweep: &ChainReport) {
     for jump in sweep.jumps.iter().take(MOST) {
         let _ = writeln!(
             text,
-            "  {:.6} -> {:.6}  {} -> {}  velocity {:.4} -> {:.4}",
+            "  {:.digits$} -> {:.digits$}  {} -> {}  velocity {:.4} -> {:.4}",
             jump.from, jump.to, jump.before, jump.after, jump.velocity_before, jump.velocity_after
         );
     }
