@@ -115,7 +115,7 @@ fn refuses(arguments: &[&str], words: &[&str]) {
 
 #[test]
 fn bad_values_are_named() {
-    refuses(&["--size", "1"], &["size", "2 to 10000"]);
+    refuses(&["--size", "1"], &["size", "2 to 4000"]);
     refuses(&["--transient", "0"], &["transient", "1 to 1000000"]);
     refuses(&["--longest", "0"], &["longest"]);
     refuses(&["--x", "3,1"], &["--x", "the first below the second"]);
