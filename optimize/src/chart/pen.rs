@@ -30,6 +30,18 @@ pub(super) enum Align {
     Upwards,
 }
 
+impl Align {
+    /// The end of the text that stands at its place, and its turn in degrees.
+    fn anchor(self) -> (TextAnchor, Option<f64>) {
+        match self {
+            Self::Left => (TextAnchor::Start, None),
+            Self::Middle => (TextAnchor::Middle, None),
+            Self::Right => (TextAnchor::End, None),
+            Self::Upwards => (TextAnchor::Middle, Some(-90.0)),
+        }
+    }
+}
+
 /// A rectangle: left, top, width, height.
 pub(super) type Area = (f64, f64, f64, f64);
 
@@ -49,12 +61,7 @@ impl Pen {
     }
 
     fn write(&mut self, (x, y): (f64, f64), size: u32, align: Align, bold: bool, text: &str) {
-        let (anchor, rotate) = match align {
-            Align::Left => (TextAnchor::Start, None),
-            Align::Middle => (TextAnchor::Middle, None),
-            Align::Right => (TextAnchor::End, None),
-            Align::Upwards => (TextAnchor::Middle, Some(-90.0)),
-        };
+        let (anchor, rotate) = align.anchor();
         self.scene.add(Primitive::Text {
             x,
             y,

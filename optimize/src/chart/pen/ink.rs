@@ -1,6 +1,6 @@
 //! Coloured shapes: dots, lines with dashes that go on over corners, arrows, words on a plate, badges.
 
-use kuva::render::render::{PathData, Primitive, TextAnchor};
+use kuva::render::render::{PathData, Primitive};
 
 use super::{Align, Pen};
 
@@ -141,12 +141,7 @@ impl Pen {
                 0.82,
             );
         }
-        let (anchor, rotate) = match align {
-            Align::Left => (TextAnchor::Start, None),
-            Align::Middle => (TextAnchor::Middle, None),
-            Align::Right => (TextAnchor::End, None),
-            Align::Upwards => (TextAnchor::Middle, Some(-90.0)),
-        };
+        let (anchor, rotate) = align.anchor();
         self.scene.add(Primitive::Text {
             x,
             y,
