@@ -6,8 +6,8 @@
 //!
 //! The data flows through the modules in this order: [`scene`] (plain data) → [`phases`] (the few
 //! smooth laws that a scene can reach) → [`flow`] (closed form per phase) → [`events`] (first
-//! crossing, guaranteed) → [`integrator`] (the loop) → [`trajectory`] → [`orbit`] →
-//! [`continuation`] → [`zone`].
+//! crossing, guaranteed) → [`integrator`] (the loop) → [`trajectory`], with its derivatives in [`tangent`].
+//! Periodic motions and all that follows from them are in the crate `softstop-dynamics`.
 //!
 //! ```
 //! use softstop::{Ratios, Start};
@@ -18,30 +18,23 @@
 //! assert!((last.before_impact_velocity - 6.494_627_429_363).abs() < 1e-10);
 //! assert!(motion.energy_defect().abs() < 1e-11 * motion.work.supplied);
 //!
-//! let orbit = softstop::orbit::find(&scene)?;
+//! let orbit = softstop_dynamics::orbit::find(&scene)?;
 //! assert!(orbit.is_stable());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![forbid(unsafe_code)]
 
-pub mod attractors;
-pub mod basin;
-pub mod batch;
-pub mod continuation;
 pub mod error;
 pub mod events;
-pub mod fidelity;
 pub mod flow;
 pub mod integrator;
-pub mod methods;
-pub mod orbit;
+
 pub mod phases;
+pub mod root;
 pub mod samples;
 pub mod scene;
-pub mod sweep;
+pub mod tangent;
 pub mod trajectory;
-pub mod transitions;
-pub mod zone;
 
 pub use error::{MotionError, SceneError};
 pub use integrator::{Clock, Energy, Impact, Instant, Motion, Sample, Simulation, Snapshot, Start};

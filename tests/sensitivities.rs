@@ -8,7 +8,7 @@ mod random;
 use machines::{machines, start_below};
 use proptest::prelude::*;
 use softstop::integrator::{Crossing, CrossingKind, Observer};
-use softstop::orbit::{Perturbation, Sensitivity};
+use softstop::tangent::{Perturbation, Sensitivity};
 use softstop::{Clock, Scene, Simulation, Start};
 
 /// Position, velocity, acceleration, contact force, energies, and time and velocity of the last impact.

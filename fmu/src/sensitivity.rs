@@ -5,7 +5,7 @@
 //! the initial state. If `force` has been set since, the step behind is over and what is left is its
 //! direct feedthrough. In initialisation all real parameters are knowns as well.
 
-use softstop::orbit::{Perturbation, Sensitivity};
+use softstop::tangent::{Perturbation, Sensitivity};
 
 use crate::error::{Fault, argument};
 use crate::instance::{Instance, Lifecycle};

@@ -9,7 +9,7 @@ mod table;
 use std::cell::OnceCell;
 
 use softstop::integrator::Rates;
-use softstop::orbit::Sensitivity;
+use softstop::tangent::Sensitivity;
 use softstop::{Energy, PhaseKind, Sample, Simulation};
 
 use crate::start::Slot;

@@ -1,6 +1,9 @@
 //! `softstop optimize`: the hardest impact inside the hysteresis zone.
 
 mod best;
+mod branch;
+mod chart;
+mod configuration;
 mod fmu;
 mod task;
 
@@ -9,16 +12,16 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::Args;
-use softstop::orbit::{self, Orbit};
+use softstop_dynamics::orbit::{self, Orbit};
 
-use crate::arguments::{Regime, SceneSettings};
-use crate::chart::Chart;
 use crate::design::search::{self, SearchError};
 use crate::design::{Design, Problem};
-use crate::failure::Failure;
-use crate::output::{self, Folder, Format};
+use crate::optimize::chart::Chart;
 use crate::report::{self, DesignReport, OptimizeReport, ReferenceReport, SearchReport};
 use best::Best;
+use softstop_console::failure::Failure;
+use softstop_console::machine::{Regime, SceneSettings};
+use softstop_console::output::{self, Folder, Format};
 use task::{Job, Named};
 
 const EXAMPLES: &str = "\

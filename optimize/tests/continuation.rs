@@ -6,7 +6,7 @@ use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 use softstop::Ratios;
-use softstop::zone::grazing_frequencies;
+use softstop_dynamics::zone::grazing_frequencies;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 

@@ -1,6 +1,6 @@
 //! The optimum against dense grids, and the promises of the search.
 
-use softstop_optimize::arguments::{Machine, Preload, SceneSettings};
+use softstop_console::machine::{Machine, Preload, SceneSettings};
 use softstop_optimize::design::search::{SearchError, Settings, Unwatched, Watch, search};
 use softstop_optimize::design::space::Interval;
 use softstop_optimize::design::{Design, Problem};
@@ -46,7 +46,7 @@ fn grid(range: Interval, count: usize) -> impl Iterator<Item = f64> {
 /// The velocity at one point, with the places of the zone taken from a grid too.
 fn on_grid(problem: &Problem, stiffness: f64, clearance: f64, places: usize) -> f64 {
     let ratios = problem.machine.at(stiffness, clearance);
-    let Ok(zone) = softstop::zone::hysteresis(&ratios) else {
+    let Ok(zone) = softstop_dynamics::zone::hysteresis(&ratios) else {
         return f64::NEG_INFINITY;
     };
     let window = Interval {

@@ -90,7 +90,7 @@ impl Guard {
     }
 
     /// g at a state, for a guard that does not ask for the push.
-    pub(crate) fn value(&self, position: f64, velocity: f64) -> f64 {
+    pub fn value(&self, position: f64, velocity: f64) -> f64 {
         self.position * position + self.velocity * velocity - self.level
     }
 

@@ -119,6 +119,11 @@ impl Course {
         }
     }
 
+    /// Whether it is the last bounces on a rigid stop, summed.
+    pub fn is_chattering(&self) -> bool {
+        self.chatter().is_some()
+    }
+
     /// The bounces summed.
     pub(crate) fn chatter(&self) -> Option<&Chatter> {
         match &self.form {

@@ -30,7 +30,7 @@ pub(crate) use change::Change;
 pub(crate) use chatter::{Chatter, Pressing};
 pub use course::{Course, Departure};
 pub use hertz::Hertz;
-pub(crate) use modes::Modes;
+pub use modes::{Fundamental, Modes};
 pub use node::Node;
 pub use polynomial::{HIGHEST_ORDER, Polynomial};
 pub(crate) use segment::{Finer, Segment};
@@ -44,11 +44,12 @@ const LARGEST_LOSS: f64 = 64.0;
 /// One linear law under the harmonic drive, per unit of mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flow {
-    pub(crate) modes: Modes,
+    /// The free motion.
+    pub modes: Modes,
     /// A = F0/m in m/s^2.
-    pub(crate) amplitude: f64,
+    pub amplitude: f64,
     /// w in rad/s.
-    pub(crate) frequency: f64,
+    pub frequency: f64,
     /// Steady state per drive, x = .0 cos(angle) + .1 sin(angle), where it is well conditioned.
     steady: Option<(f64, f64)>,
     /// The same wherever it exists, and the time in s after which nothing else is left.
@@ -91,7 +92,7 @@ impl Flow {
 
     /// The steady state under the drive alone, x = .0 cos(angle) + .1 sin(angle), where it is well
     /// conditioned.
-    pub(crate) fn steady(&self) -> Option<(f64, f64)> {
+    pub fn steady(&self) -> Option<(f64, f64)> {
         self.steady
     }
 
@@ -102,12 +103,12 @@ impl Flow {
     }
 
     /// Damping over mass in 1/s.
-    pub(crate) fn damping(&self) -> f64 {
+    pub fn damping(&self) -> f64 {
         2.0 * self.modes.decay
     }
 
     /// x'' in m/s^2 of a state under `push` per mass.
-    pub(crate) fn acceleration(&self, x: f64, v: f64, push: f64) -> f64 {
+    pub fn acceleration(&self, x: f64, v: f64, push: f64) -> f64 {
         push - 2.0 * self.modes.decay * v - self.modes.stiffness * x
     }
 }

@@ -2,7 +2,7 @@
 
 /// Fundamental solutions of x'' + 2 a x' + b x = 0 for a >= 0 and any real b.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Modes {
+pub struct Modes {
     /// a in 1/s.
     pub decay: f64,
     /// b in 1/s^2.
@@ -20,7 +20,7 @@ enum Kind {
 
 /// Values of the fundamental solutions at one time: C(0) = 1, C'(0) = 0; S(0) = 0, S'(0) = 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Fundamental {
+pub struct Fundamental {
     /// C(t).
     pub cosine: f64,
     /// S(t) in s.
@@ -51,6 +51,7 @@ impl Fundamental {
 }
 
 impl Modes {
+    /// The free motion of this decay in 1/s and this stiffness in 1/s^2.
     pub fn new(decay: f64, stiffness: f64) -> Self {
         // fma: b - a^2 rounded once, so that a near-double root keeps its digits.
         let discriminant = (-decay).mul_add(decay, stiffness);

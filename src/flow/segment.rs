@@ -242,7 +242,7 @@ impl Segment {
     }
 
     /// 2 a + kappa lambda d^n.
-    pub(super) fn damping(&self) -> Series {
+    pub fn damping(&self) -> Series {
         let factor = self.hertz.rate() * self.hertz.dissipation;
         let mut damping = self.power.map(|w| factor * w);
         damping[0] += 2.0 * self.flow.modes.decay;

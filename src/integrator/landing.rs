@@ -111,7 +111,7 @@ impl Motion {
     }
 
     /// Acceleration in m/s^2 in a mode.
-    pub(super) fn acceleration(&self, mode: Mode, position: f64, velocity: f64, push: f64) -> f64 {
+    pub fn acceleration(&self, mode: Mode, position: f64, velocity: f64, push: f64) -> f64 {
         match mode {
             Mode::Held { .. } | Mode::Chattering { .. } => 0.0,
             Mode::Moving(phase) => {

@@ -144,7 +144,7 @@ impl Motion {
     }
 
     /// Which phase holds, or what holds the mass.
-    pub(crate) fn mode(&self) -> Mode {
+    pub fn mode(&self) -> Mode {
         self.mode
     }
 

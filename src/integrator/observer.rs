@@ -68,7 +68,7 @@ pub struct Crossing {
 
 impl Crossing {
     /// Kinetic energy in J that a mass loses: at a rebound, or when its bounce counts as rest.
-    pub(crate) fn lost_energy(&self, mass: f64) -> f64 {
+    pub fn lost_energy(&self, mass: f64) -> f64 {
         // What summed bounces lose they lose on their way.
         if self.kind == CrossingKind::Rest {
             return 0.0;

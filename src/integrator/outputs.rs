@@ -1,9 +1,9 @@
 //! What a running machine shows.
 
+use super::mechanical_energy;
 use super::motion::Start;
 use super::simulation::Simulation;
 use crate::phases::PhaseKind;
-use crate::trajectory::mechanical_energy;
 
 /// Outputs at the present time.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,13 +3,13 @@
 use super::clock::{Clock, Instant};
 use super::effort::Effort;
 use super::force::polynomial;
+use super::mechanical_energy;
 use super::motion::{Motion, Start};
 use super::stretch::{Mark, Origin};
 use super::tallies::{Counts, Tallies};
 use crate::error::MotionError;
 use crate::flow::Polynomial;
 use crate::scene::Scene;
-use crate::trajectory::mechanical_energy;
 
 /// A running machine, SI units, absolute time in s.
 #[derive(Debug, Clone)]

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::clock::Instant;
 use super::motion::Motion;
 use super::observer::{Arc, Crossing, Observer};
+use super::{Work, work};
 use crate::phases::Law;
-use crate::trajectory::{Work, work};
 
 /// Impacts, pierced strips and energies since the start.
 #[derive(Debug, Clone)]

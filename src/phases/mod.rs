@@ -182,10 +182,11 @@ pub struct Phases {
     /// The surfaces between them.
     pub surfaces: Vec<Surface>,
     /// The drive alone, for a mass that is held.
-    pub(crate) held: Flow,
-    pub(crate) mass: f64,
+    pub held: Flow,
+    /// The mass in kg.
+    pub mass: f64,
     /// The suspension and its damping alone.
-    pub(crate) free: Law,
+    pub free: Law,
     fed: Stack,
     unfed: Stack,
 }

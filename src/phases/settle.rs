@@ -86,7 +86,7 @@ impl Phases {
 
     /// The phases whose laws hold at a state, wherever it is: of the way forward and of the way back under
     /// dry friction at rest, twice the same one else.
-    pub(crate) fn laws_at(&self, position: f64, velocity: f64, fed: bool) -> [usize; 2] {
+    pub fn laws_at(&self, position: f64, velocity: f64, fed: bool) -> [usize; 2] {
         let stack = if fed { &self.fed } else { &self.unfed };
         let mut below = stack.layers.iter().rev();
         let Some(layer) = below.find(|layer| position >= layer.from) else {
@@ -115,7 +115,7 @@ impl Phases {
     }
 
     /// What lies above a surface.
-    pub(crate) fn beyond(&self, at: &Surface, fed: bool) -> Beyond {
+    pub fn beyond(&self, at: &Surface, fed: bool) -> Beyond {
         if fed {
             at.above
         } else {

@@ -1,12 +1,10 @@
 //! A motion kept: its arcs, its crossings, its energies.
 
-mod work;
-
-pub use work::{Work, work};
-
 use crate::error::MotionError;
 use crate::flow::Course;
-use crate::integrator::{Arc, Clock, Crossing, Instant, Motion, Observer, Start};
+use crate::integrator::{
+    Arc, Clock, Crossing, Instant, Motion, Observer, Start, Work, mechanical_energy, work,
+};
 use crate::phases::{Law, PhaseKind};
 use crate::scene::Scene;
 
@@ -77,14 +75,6 @@ impl Trajectory {
     pub fn energy_defect(&self) -> f64 {
         self.work.supplied - self.work.dissipated - self.stored
     }
-}
-
-/// Mechanical energy in J: kinetic, suspension and what the stop stores.
-pub fn mechanical_energy(scene: &Scene, motion: &Motion) -> f64 {
-    let Start { position, velocity } = motion.state();
-    let kinetic = 0.5 * scene.mass * velocity * velocity;
-    let spring = 0.5 * scene.stiffness * position * position;
-    kinetic + spring + motion.store().energy_at(position)
 }
 
 impl Scene {

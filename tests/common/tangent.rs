@@ -1,7 +1,7 @@
 //! The derivative of a map by central differences.
 
 use nalgebra::{Matrix2, Vector2};
-use softstop::orbit::StroboscopicMap;
+use softstop_dynamics::orbit::StroboscopicMap;
 
 /// Distance in m and m/s of the states that are compared.
 const WIDTH: f64 = 1e-6;

@@ -4,8 +4,8 @@ use std::cell::RefCell;
 
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentOpt;
-use softstop::orbit::Orbit;
-use softstop::zone::Zone;
+use softstop_dynamics::orbit::Orbit;
+use softstop_dynamics::zone::Zone;
 
 use super::Infeasible;
 use super::space::Interval;

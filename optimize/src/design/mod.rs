@@ -10,10 +10,10 @@ pub mod search;
 pub mod space;
 
 use softstop::Ratios;
-use softstop::orbit::Orbit;
-use softstop::zone::{self, Zone};
+use softstop_dynamics::orbit::Orbit;
+use softstop_dynamics::zone::{self, Zone};
 
-use crate::arguments::Machine;
+use softstop_console::machine::Machine;
 use space::Interval;
 
 /// What is searched, and where.

@@ -3,8 +3,8 @@
 use std::sync::Mutex;
 
 use crate::design::search::Watch;
-use crate::interrupt;
-use crate::progress::Progress;
+use softstop_console::interrupt;
+use softstop_console::progress::Progress;
 
 /// Watches a search.
 pub(super) struct Best {

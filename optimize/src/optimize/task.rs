@@ -4,13 +4,14 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use super::OptimizeArguments;
-use crate::arguments::{Machine, SceneSettings, finite, not_negative, positive, require};
-use crate::configuration::{self, Task};
+use super::configuration::Task;
 use crate::design::Problem;
 use crate::design::search::{LEAST_EVALUATIONS, Settings};
 use crate::design::space::Interval;
-use crate::failure::Failure;
-use crate::output::Format;
+use softstop_console::failure::Failure;
+use softstop_console::machine::{Machine, SceneSettings, finite, not_negative, positive, require};
+use softstop_console::output::Format;
+use softstop_console::scene_file;
 
 const MARGIN: f64 = 0.25;
 const STIFFNESS: Interval = Interval {
@@ -125,7 +126,7 @@ impl Job {
     /// Joins command line, file and defaults.
     pub(super) fn new(arguments: &OptimizeArguments) -> Result<Self, Failure> {
         let task: Task = match &arguments.config {
-            Some(path) => configuration::read(path)?,
+            Some(path) => scene_file::read_toml(path)?,
             None => Task::default(),
         };
         let scene = scene(&task)?;

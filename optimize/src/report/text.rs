@@ -1,37 +1,9 @@
-//! The reports as tables for people.
+//! The report as a table for people.
 
-use super::{
-    DesignReport, MachineReport, MotionReport, OptimizeReport, OrbitReport, ReferenceReport,
-    ZoneReport,
-};
+use softstop_console::report::{MachineReport, MotionReport};
+use softstop_console::table::{Row, heading, number, row, table};
 
-/// A row: what it is, and a cell for each column.
-pub(crate) type Row = (String, Vec<String>);
-
-/// The orbit, one quantity a line.
-#[must_use]
-pub fn orbit(report: &OrbitReport) -> String {
-    let mut rows = machine(&report.machine);
-    rows.push(row(
-        "drive frequency eta",
-        [number(report.motion.frequency)],
-    ));
-    rows.extend(motion(&report.motion));
-    heading("Stable motion with one impact per drive period (z = 1)") + &table(&rows)
-}
-
-/// The zone, one quantity a line.
-#[must_use]
-pub fn zone(report: &ZoneReport) -> String {
-    let mut rows = machine(&report.machine);
-    rows.push(row("grazing frequency g0", [number(report.frequency_g0)]));
-    rows.push(row("fold frequency s_SN", [number(report.frequency_sn)]));
-    rows.push(row(
-        "velocity X'- at the fold",
-        [number(report.velocity_sn)],
-    ));
-    heading("Hysteresis zone of the z = 1 motion") + &table(&rows)
-}
+use super::{DesignReport, OptimizeReport, ReferenceReport};
 
 /// The design beside the paper's points, then what holds it back and where the files are.
 #[must_use]
@@ -120,103 +92,4 @@ fn largest(motion: &MotionReport) -> f64 {
         .iter()
         .map(|multiplier| multiplier.modulus)
         .fold(0.0, f64::max)
-}
-
-fn machine(report: &MachineReport) -> Vec<Row> {
-    let strip = [
-        ("strip stiffness k2/k1", report.piercing_stiffness),
-        ("strip friction k3/k1", report.piercing_friction),
-        ("strip thickness sigma", report.thickness),
-        ("travel to the stop nu", report.travel),
-    ];
-    let mut rows = vec![
-        row("regime", [report.regime.name().to_owned()]),
-        row("clearance rho", [number(report.clearance)]),
-        row("stiffness k4/k1", [number(report.stiffness)]),
-        row("preload Fp/F0", [number(report.preload)]),
-        row("damping beta1", [number(report.damping)]),
-        row("contact damping beta", [number(report.contact_damping)]),
-    ];
-    rows.extend(
-        strip
-            .into_iter()
-            .filter_map(|(label, value)| Some(row(label, [number(value?)]))),
-    );
-    rows
-}
-
-fn motion(report: &MotionReport) -> Vec<Row> {
-    let multipliers = report.multipliers.map(|multiplier| {
-        if multiplier.im == 0.0 {
-            number(multiplier.re)
-        } else {
-            format!("{} {:+.6}i", number(multiplier.re), multiplier.im)
-        }
-    });
-    let [first, second] = multipliers;
-    vec![
-        row(
-            "before-impact velocity X'-",
-            [number(report.before_impact_velocity)],
-        ),
-        row("greatest position X_m", [number(report.max_position)]),
-        row("position X at drive angle 0", [number(report.position)]),
-        row("velocity X' at drive angle 0", [number(report.velocity)]),
-        row("trace of the monodromy", [number(report.trace)]),
-        row("its determinant", [number(report.determinant)]),
-        row("Floquet multipliers", [first]),
-        row("", [second]),
-    ]
-}
-
-/// A row with this label.
-pub(crate) fn row(label: &str, cells: impl IntoIterator<Item = String>) -> Row {
-    (label.to_owned(), cells.into_iter().collect())
-}
-
-/// An underlined title.
-pub(crate) fn heading(title: &str) -> String {
-    format!("{title}\n{}\n", "-".repeat(title.chars().count()))
-}
-
-fn number(value: f64) -> String {
-    format!("{value:.6}")
-}
-
-/// Labels to the left, cells to the right, every column as wide as its widest cell.
-pub(crate) fn table(rows: &[Row]) -> String {
-    let label_width = rows.iter().map(|(label, _)| label.len()).max().unwrap_or(0);
-    let columns = rows.iter().map(|(_, cells)| cells.len()).max().unwrap_or(0);
-    let width = |column: usize| {
-        rows.iter()
-            .filter_map(|(_, cells)| cells.get(column))
-            .map(String::len)
-            .max()
-            .unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    let mut text = String::new();
-    for (label, cells) in rows {
-        let mut line = format!("{label:label_width$}");
-        for (cell, width) in cells.iter().zip(&widths) {
-            line += &format!("   {cell:>width$}");
-        }
-        text += line.trim_end();
-        text.push('\n');
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{row, table};
-
-    #[test]
-    fn columns_line_up() {
-        let rows = [
-            row("a", ["1.5".to_owned()]),
-            row("long", ["12.25".to_owned(), "x".to_owned()]),
-        ];
-        assert_eq!(table(&rows), "a        1.5\nlong   12.25   x\n");
-    }
 }

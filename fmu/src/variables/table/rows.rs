@@ -1,6 +1,6 @@
 //! What the rows of the table are made of.
 
-use softstop::orbit::Sensitivity;
+use softstop::tangent::Sensitivity;
 
 use crate::start::{SLOPES, Slot};
 use crate::units::{Enumeration, Quantity};

@@ -1,0 +1,68 @@
+//! The ways in which a run ends without its result, and their exit codes.
+
+use std::fmt;
+use std::process::ExitCode;
+
+use softstop::MotionError;
+
+/// Why there is no result.
+#[derive(Debug)]
+pub enum Failure {
+    /// The user's values cannot be used; the message names parameter, value and range.
+    Usage(String),
+    /// The values are good, but the run could not do the job.
+    Run(anyhow::Error),
+    /// Ctrl-C or a termination signal.
+    Interrupted,
+    /// The same, but what is done is kept; the message says how to go on.
+    Suspended(String),
+}
+
+impl Failure {
+    /// A usage failure with this message.
+    pub fn usage(message: impl Into<String>) -> Self {
+        Self::Usage(message.into())
+    }
+
+    /// 2 for bad usage (as clap does), 1 for a failed run, 130 for an interrupt (128 + SIGINT).
+    #[must_use]
+    pub fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Usage(_) => 2,
+            Self::Run(_) => 1,
+            Self::Interrupted | Self::Suspended(_) => 130,
+        })
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Usage(message) => write!(
+                formatter,
+                "error: {message}\n\nFor more information, try '--help'."
+            ),
+            Self::Run(error) => write!(formatter, "error: {error:#}"),
+            Self::Interrupted => write!(formatter, "interrupted: no files were written"),
+            Self::Suspended(message) => write!(formatter, "interrupted: {message}"),
+        }
+    }
+}
+
+impl From<anyhow::Error> for Failure {
+    fn from(error: anyhow::Error) -> Self {
+        Self::Run(error)
+    }
+}
+
+// Values that cannot be are the user's, the rest is the run's.
+impl From<MotionError> for Failure {
+    fn from(error: MotionError) -> Self {
+        match error {
+            MotionError::Scene(_)
+            | MotionError::NotFinite { .. }
+            | MotionError::BeyondStop { .. } => Self::usage(error.to_string()),
+            error => Self::Run(error.into()),
+        }
+    }
+}

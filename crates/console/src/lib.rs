@@ -1,0 +1,31 @@
+//! What the programs share: the [`machine`] as the user states it, [`scene_file`]s, [`progress`],
+//! [`interrupt`], [`failure`], [`output`] that is there whole or not at all, and text [`table`]s.
+#![forbid(unsafe_code)]
+
+pub mod failure;
+pub mod interrupt;
+pub mod machine;
+pub mod model;
+pub mod output;
+pub mod progress;
+pub mod report;
+pub mod scene_file;
+pub mod table;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use failure::Failure;
+
+/// Runs a program's command; says what went wrong and turns the outcome into an exit code.
+pub fn main(command: impl FnOnce() -> Result<(), Failure>) -> ExitCode {
+    interrupt::install();
+    match command() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            // A reader that has gone away (`2>&1 | head`) is no reason to panic.
+            let _ = writeln!(io::stderr(), "{failure}");
+            failure.exit_code()
+        }
+    }
+}

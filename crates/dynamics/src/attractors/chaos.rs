@@ -1,0 +1,50 @@
+//! What a chaotic motion is like.
+
+use super::SurveyError;
+use super::fleet::Fleet;
+use crate::orbit::{Exponents, StroboscopicMap};
+use softstop::integrator::Start;
+use softstop::scene::Scene;
+
+/// A motion that never repeats, as far as it was watched.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chaos {
+    /// A state of it at drive angle phi.
+    pub state: Start,
+    /// Its exponents.
+    pub exponents: Exponents,
+    /// Mean number of impacts per drive period.
+    pub impacts_per_period: f64,
+    /// Least and largest before-impact velocity in m/s seen; none without impacts.
+    pub velocities: Option<[f64; 2]>,
+    /// Drive periods for which motions on it were watched, all together. Without an escape, its mean
+    /// lifetime exceeds a third of this with 95 % confidence.
+    pub watched: u64,
+}
+
+/// Drive periods over which impacts are counted, at most.
+const COUNTED: u64 = 4096;
+
+impl Chaos {
+    /// The motion from a state, that still wanders at the end of its exponents.
+    pub(super) fn of(
+        scene: &Scene,
+        fleet: &Fleet<'_>,
+        (begin, state): (Start, Start),
+        exponents: Exponents,
+    ) -> Result<Self, SurveyError> {
+        let counted = COUNTED.min(exponents.periods);
+        let map = StroboscopicMap::new(scene, counted)?;
+        let passage = map.apply(begin.into())?;
+        fleet.note(counted)?;
+        let ends = |fold: fn(f64, f64) -> f64| passage.impacts.iter().copied().reduce(fold);
+        let velocities = ends(f64::min).zip(ends(f64::max));
+        Ok(Self {
+            state,
+            exponents,
+            impacts_per_period: passage.impacts.len() as f64 / counted as f64,
+            velocities: velocities.map(|(least, largest)| [least, largest]),
+            watched: 0,
+        })
+    }
+}

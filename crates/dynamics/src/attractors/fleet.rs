@@ -1,0 +1,157 @@
+//! Many motions of one scene, carried on together.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use rayon::prelude::*;
+
+use super::{SurveyError, Watcher};
+use softstop::error::MotionError;
+use softstop::integrator::Start;
+use softstop::scene::Scene;
+use softstop_lanes::{Job, Machine, Watch};
+
+/// Motions that one thread follows at a time: several times as many as there are lanes.
+const AT_ONCE: usize = 64;
+
+/// Drive periods for which they are followed before the watcher is asked again, where many motions cost little and
+/// where they do not: a third of a second.
+const STRETCH: (u64, u64) = (1 << 16, 256);
+
+/// One motion.
+#[derive(Debug, Clone)]
+pub(crate) struct Voyage {
+    /// Its latest state at drive angle phi.
+    pub state: Start,
+    /// Its last states there, in order of time; the latest is the last.
+    pub log: Vec<Start>,
+    /// Why it ended.
+    pub error: Option<MotionError>,
+}
+
+impl Voyage {
+    pub(crate) fn new(state: Start) -> Self {
+        Self {
+            state,
+            log: Vec::new(),
+            error: None,
+        }
+    }
+}
+
+/// The machine they share, and how much work has been done.
+pub(crate) struct Fleet<'a> {
+    machine: [Machine; 1],
+    watcher: Watcher<'a>,
+    done: AtomicU64,
+    /// Drive periods that will be done at most.
+    pub planned: u64,
+}
+
+impl<'a> Fleet<'a> {
+    pub(crate) fn new(scene: &Scene, watcher: Watcher<'a>) -> Result<Self, SurveyError> {
+        Ok(Self {
+            machine: [Machine::new(scene)?],
+            watcher,
+            done: AtomicU64::new(0),
+            planned: 0,
+        })
+    }
+
+    /// True if many motions cost little.
+    pub(crate) fn is_fast(&self) -> bool {
+        self.machine[0].is_for_lanes()
+    }
+
+    pub(crate) fn done(&self) -> u64 {
+        self.done.load(Ordering::Relaxed)
+    }
+
+    /// Counts work; an error if the watcher wants to stop.
+    pub(crate) fn note(&self, periods: u64) -> Result<(), SurveyError> {
+        let done = self.done.fetch_add(periods, Ordering::Relaxed) + periods;
+        if (self.watcher)(done, self.planned.max(done)) {
+            Ok(())
+        } else {
+            Err(SurveyError::Stopped)
+        }
+    }
+
+    /// Carries all on for `periods` drive periods and keeps a log of the last `logged` of them.
+    pub(crate) fn sail(
+        &self,
+        voyages: &mut [&mut Voyage],
+        periods: u64,
+        logged: usize,
+    ) -> Result<(), SurveyError> {
+        voyages
+            .par_chunks_mut(AT_ONCE)
+            .try_for_each(|chunk| self.sail_together(chunk, periods, logged))
+    }
+
+    /// Carries motions on in stretches, so that the watcher is asked often.
+    fn sail_together(
+        &self,
+        voyages: &mut [&mut Voyage],
+        periods: u64,
+        logged: usize,
+    ) -> Result<(), SurveyError> {
+        let stretch = if self.is_fast() { STRETCH.0 } else { STRETCH.1 };
+        for voyage in voyages.iter_mut() {
+            voyage.log = Vec::with_capacity(logged);
+        }
+        let mut left = periods;
+        while left > 0 {
+            let now = left.min(stretch);
+            let from = left.saturating_sub(logged as u64);
+            self.sail_stretch(voyages, now, from)?;
+            left -= now;
+        }
+        Ok(())
+    }
+
+    /// Carries those on that can be, and logs their states after more than `from` drive periods.
+    fn sail_stretch(
+        &self,
+        voyages: &mut [&mut Voyage],
+        periods: u64,
+        from: u64,
+    ) -> Result<(), SurveyError> {
+        let mut afloat: Vec<&mut &mut Voyage> = voyages
+            .iter_mut()
+            .filter(|voyage| voyage.error.is_none())
+            .collect();
+        let jobs: Vec<Job> = afloat
+            .iter()
+            .map(|voyage| Job {
+                machine: 0,
+                start: voyage.state,
+                periods,
+            })
+            .collect();
+        let logs = vec![Vec::new(); jobs.len()];
+        let mut log = Log { from, logs };
+        let outcomes = softstop_lanes::run(&self.machine, &jobs, &mut log);
+        for ((voyage, outcome), log) in afloat.iter_mut().zip(outcomes).zip(log.logs) {
+            voyage.state = outcome.end;
+            voyage.error = outcome.error;
+            voyage.log.extend(log);
+        }
+        self.note(periods * jobs.len() as u64)
+    }
+}
+
+/// Keeps the states from one drive period on.
+struct Log {
+    from: u64,
+    logs: Vec<Vec<Start>>,
+}
+
+impl Watch for Log {
+    const PERIODS: bool = true;
+
+    fn period(&mut self, job: usize, cycle: u64, state: Start) {
+        if cycle > self.from {
+            self.logs[job].push(state);
+        }
+    }
+}

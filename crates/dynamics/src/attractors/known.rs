@@ -1,0 +1,168 @@
+//! The stable orbits that are known, and how motions are told to have arrived at them.
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::{Certainty, SurveyError};
+use crate::orbit::recurrence::{distance, returns, size};
+use crate::orbit::{Orbit, StroboscopicMap};
+use softstop::integrator::Start;
+use softstop::scene::Scene;
+
+/// Distance from an orbit at which a motion has arrived, in units of the orbit's size.
+const ARRIVED: f64 = 1e-6;
+/// Two orbits of the same period are one if two of their states are as near as the first of these, and the
+/// others as near as the second, in units of their size: on a strongly unstable stretch rounding grows.
+const SAME: (f64, f64) = (1e-7, 1e-3);
+/// Distance from 1 of the multiplier of a mass that creeps to rest.
+const CREEP: f64 = 1e-6;
+/// Distance at which a motion that returns is believed to return to an orbit at once.
+const NEAR: f64 = 1e-3;
+
+/// A stable orbit.
+#[derive(Debug, Clone)]
+pub(crate) struct Known {
+    pub orbit: Orbit,
+    pub certainty: Certainty,
+    states: Vec<Start>,
+    size: f64,
+}
+
+/// All of them.
+pub(crate) struct Book<'a> {
+    scene: &'a Scene,
+    pub orbits: Vec<Known>,
+}
+
+/// How it stands with a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Standing {
+    /// It has arrived at this orbit.
+    Arrived(usize),
+    /// It has come to rest for good.
+    AtRest,
+    /// It returns, more and more closely, to this orbit.
+    Approaching(usize),
+    /// It does not repeat.
+    Wandering,
+}
+
+impl<'a> Book<'a> {
+    pub(crate) fn new(scene: &'a Scene) -> Self {
+        Self {
+            scene,
+            orbits: Vec::new(),
+        }
+    }
+
+    fn frequency(&self) -> f64 {
+        self.scene.excitation.frequency
+    }
+
+    /// The orbit at which one of the last states of a log lies; the motion has been through all of its
+    /// period since.
+    fn reached(&self, log: &[Start]) -> Option<usize> {
+        self.orbits.iter().position(|known| {
+            let recent = log.iter().rev().take(known.states.len());
+            let mut gaps = recent.map(|state| self.gap(known, state));
+            gaps.any(|gap| gap <= ARRIVED * known.size)
+        })
+    }
+
+    /// Distance of a state from an orbit.
+    fn gap(&self, known: &Known, state: &Start) -> f64 {
+        let gaps = known
+            .states
+            .iter()
+            .map(|other| distance(self.frequency(), state, other));
+        gaps.fold(f64::INFINITY, f64::min)
+    }
+
+    /// How it stands with a motion whose last states are these; what it turns up is entered.
+    pub(crate) fn judge(&mut self, log: &[Start]) -> Result<Standing, SurveyError> {
+        let Some(last) = log.last() else {
+            return Ok(Standing::Wandering);
+        };
+        if let Some(orbit) = self.reached(log) {
+            return Ok(Standing::Arrived(orbit));
+        }
+        let Some(found) = returns(self.frequency(), log) else {
+            return Ok(Standing::Wandering);
+        };
+        if self.is_at_rest(last)? {
+            return Ok(Standing::AtRest);
+        }
+        let orbit = match Orbit::periodic(self.scene, (*last).into(), found.periods as u64) {
+            Ok(orbit) if orbit.is_stable() => orbit,
+            _ => return Ok(Standing::Wandering),
+        };
+        if self.is_at_rest(&orbit.state().into())? {
+            return Ok(Standing::AtRest);
+        }
+        let orbit = self.enter(orbit, found.distance)?;
+        let known = &self.orbits[orbit];
+        let gap = self.gap(known, last);
+        Ok(
+            if self.reached(log).is_some()
+                || (found.distance <= ARRIVED && gap <= NEAR * known.size)
+            {
+                Standing::Arrived(orbit)
+            } else {
+                Standing::Approaching(orbit)
+            },
+        )
+    }
+
+    /// True if a mass is held where it is for all of a drive period, or creeps there ever more slowly: not one
+    /// orbit among others, but any place where dry friction holds it.
+    fn is_at_rest(&self, state: &Start) -> Result<bool, SurveyError> {
+        let map = StroboscopicMap::new(self.scene, 1)?;
+        let passage = map.apply((*state).into())?;
+        let held = Matrix2::new(1.0, 0.0, 0.0, 0.0);
+        let gap = Start {
+            position: state.position - passage.end.x,
+            velocity: state.velocity,
+        };
+        let creep = distance(self.frequency(), &gap, &Start::from(Vector2::zeros()));
+        let size = size(self.frequency(), [state]);
+        Ok((passage.monodromy - held).norm() <= CREEP && creep <= ARRIVED * size)
+    }
+
+    /// The known orbit that another one is.
+    fn twin(&self, periods: u64, states: &[Start]) -> Option<usize> {
+        let apart = |known: &Known, shift: usize| {
+            let pairs = states.iter().zip(known.states.iter().cycle().skip(shift));
+            let gaps = pairs.map(|(a, b)| distance(self.frequency(), a, b) / known.size);
+            gaps.fold((f64::INFINITY, 0.0f64), |(least, largest), gap| {
+                (least.min(gap), largest.max(gap))
+            })
+        };
+        self.orbits.iter().position(|known| {
+            known.orbit.periods == periods
+                && (0..known.states.len()).any(|shift| {
+                    let (least, largest) = apart(known, shift);
+                    // At rest at the origin there is no size to compare with.
+                    known.size == 0.0 || (least <= SAME.0 && largest <= SAME.1)
+                })
+        })
+    }
+
+    /// Enters a stable orbit, unless it is known.
+    fn enter(&mut self, orbit: Orbit, returned: f64) -> Result<usize, SurveyError> {
+        let states: Vec<Start> = orbit.states()?.into_iter().map(Start::from).collect();
+        if let Some(index) = self.twin(orbit.periods, &states) {
+            return Ok(index);
+        }
+        let (residual, rounding) = orbit.residual()?;
+        self.orbits.push(Known {
+            size: size(self.frequency(), &states),
+            states,
+            orbit,
+            certainty: Certainty {
+                returned,
+                residual,
+                rounding,
+            },
+        });
+        Ok(self.orbits.len() - 1)
+    }
+}

@@ -1,0 +1,214 @@
+//! All motions on which one scene settles, found from starts spread over the plane of states.
+//!
+//! Nothing is told of where they are. Starts first from far and wide (a pilot) show where motions stay;
+//! then quasi-random starts fill that region. What returns is polished by Newton's method on the exact map:
+//! a stable orbit found so exists, however it was met, and two are the same if their states are. What
+//! does not return and has a positive exponent is chaos; motions on the same cells of the plane belong
+//! to one. They are watched on for millions of drive periods: if some settle elsewhere, the chaos is
+//! transient, and its mean lifetime is told.
+
+mod chaos;
+pub(crate) mod fleet;
+mod group;
+pub(crate) mod known;
+mod lifetime;
+mod search;
+mod starts;
+
+pub use chaos::Chaos;
+pub use starts::Region;
+
+use thiserror::Error;
+
+use crate::orbit::{Exponents, Orbit};
+use softstop::error::{MotionError, SceneError};
+use softstop::integrator::Start;
+use softstop::scene::Scene;
+
+/// What a motion settles on.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kind {
+    /// It repeats.
+    Periodic {
+        /// The orbit, polished by Newton's method; stable.
+        orbit: Box<Orbit>,
+        /// How certain it is.
+        certainty: Certainty,
+    },
+    /// It comes to rest for good, wherever dry friction holds it.
+    AtRest {
+        /// Least and largest position in m at which motions were seen to end.
+        positions: [f64; 2],
+    },
+    /// It never repeats, and small differences grow.
+    Chaotic(Chaos),
+    /// It looks chaotic for long, but settles on something else in the end.
+    TransientChaos {
+        /// What it is like before.
+        chaos: Chaos,
+        /// Mean number of drive periods before it ends.
+        lifetime: f64,
+        /// Starts of the region that came to it; those that it has let go count where they ended.
+        entered: usize,
+    },
+    /// It neither repeats nor is its exponent positive beyond doubt: it settles too slowly, or is
+    /// quasi-periodic.
+    Unsettled {
+        /// Its state at drive angle phi when it was left.
+        state: Start,
+        /// Its exponents.
+        exponents: Exponents,
+    },
+}
+
+/// How certain a periodic motion is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Certainty {
+    /// Largest distance between states of the simulated motion one of its periods apart, in units of its
+    /// size, when it was first met.
+    pub returned: f64,
+    /// |P(s) - s| of the polished orbit in m and m/s.
+    pub residual: f64,
+    /// What rounding alone may leave of it.
+    pub rounding: f64,
+}
+
+/// A motion on which starts settle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Attractor {
+    /// What it is.
+    pub kind: Kind,
+    /// Starts of the region that were on it in the end.
+    pub starts: usize,
+    /// Their share of all starts of the region: a rough measure of its basin.
+    pub share: f64,
+}
+
+/// All motions found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Survey {
+    /// The motions, that with the largest share first.
+    pub attractors: Vec<Attractor>,
+    /// Where the starts lay that the shares count.
+    pub region: Region,
+    /// How many there were.
+    pub starts: usize,
+    /// Starts whose motion could not be carried on, and why the first of them could not.
+    pub lost: Option<(usize, MotionError)>,
+    /// Drive periods computed.
+    pub periods: u64,
+}
+
+/// How to look for motions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Starts in the region.
+    pub starts: usize,
+    /// Shifts the starts.
+    pub seed: u64,
+    /// Drive periods before a motion is looked at.
+    pub transient: u64,
+    /// Longest period looked for, in drive periods.
+    pub longest: usize,
+    /// Drive periods for which the motions that do not settle are watched, all together.
+    pub patience: u64,
+    /// Where the starts lie; where motions stay if not given.
+    pub region: Option<Region>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            starts: 256,
+            seed: 0,
+            transient: 500,
+            longest: 64,
+            patience: 4_000_000,
+            region: None,
+        }
+    }
+}
+
+/// Why there is no survey.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SurveyError {
+    /// The watcher asked to stop.
+    #[error("the search for motions was stopped")]
+    Stopped,
+    /// The scene is invalid, or a start cannot be.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+}
+
+impl From<SceneError> for SurveyError {
+    fn from(error: SceneError) -> Self {
+        Self::Motion(error.into())
+    }
+}
+
+/// Told of the drive periods done and of those that will be done at most; goes on while it says true.
+pub type Watcher<'a> = &'a (dyn Fn(u64, u64) -> bool + Sync);
+
+/// All motions on which a scene settles. The result depends on scene and options alone, not on the number of
+/// threads.
+///
+/// ```
+/// use softstop::Ratios;
+/// use crate::attractors::{Options, attractors};
+///
+/// let options = Options { starts: 64, ..Options::default() };
+/// let survey = attractors(&Ratios::unloaded().scene()?, &options)?;
+/// // Point A: with impacts and without, by turns of the start.
+/// assert_eq!(survey.attractors.len(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`SurveyError::Motion`] if the scene is invalid.
+pub fn attractors(scene: &Scene, options: &Options) -> Result<Survey, SurveyError> {
+    attractors_watched(scene, options, &|_, _| true)
+}
+
+/// The same, stopped when the watcher says so.
+///
+/// # Errors
+/// As [`attractors`]; [`SurveyError::Stopped`].
+pub fn attractors_watched(
+    scene: &Scene,
+    options: &Options,
+    watcher: Watcher<'_>,
+) -> Result<Survey, SurveyError> {
+    search::survey(scene, options, watcher)
+}
+
+/// What the motion from one start settles on.
+///
+/// # Errors
+/// [`SurveyError::Motion`] if the scene is invalid or the motion cannot be computed.
+pub fn classify(scene: &Scene, start: Start, options: &Options) -> Result<Kind, SurveyError> {
+    search::classify(scene, start, options)
+}
+
+/// Where a motion is after the transient.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Arrival {
+    /// Its state at drive angle phi.
+    pub state: Start,
+    /// The stable orbit to which it returns; none if it wanders (or rests).
+    pub orbit: Option<Orbit>,
+}
+
+/// Where motions from several starts are after the transient, in their order: cheaper than
+/// [`classify`], as a motion that has not settled then is not looked at any farther.
+///
+/// # Errors
+/// [`SurveyError::Motion`] if the scene is invalid or a motion cannot be computed;
+/// [`SurveyError::Stopped`].
+pub fn settle(
+    scene: &Scene,
+    starts: &[Start],
+    options: &Options,
+    watcher: Watcher<'_>,
+) -> Result<Vec<Arrival>, SurveyError> {
+    search::settle(scene, starts, options, watcher)
+}

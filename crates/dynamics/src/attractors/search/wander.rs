@@ -1,0 +1,128 @@
+//! Motions that do not settle: which belong together, their exponents, and whether they return after all.
+
+use std::collections::BTreeMap;
+
+use super::super::SurveyError;
+use super::super::chaos::Chaos;
+use super::super::fleet::Voyage;
+use super::super::group::groups;
+use super::super::known::Standing;
+use super::super::lifetime::Looks;
+use super::{GROWTH, Group, Search};
+use crate::orbit::Exponents;
+use softstop::integrator::Start;
+
+/// Drive periods in each of the 32 batches of an exponent: at first, and at most.
+const BATCH: (u64, u64) = (100, 1600);
+/// Relative error of an exponent that is small enough.
+const SHARP: f64 = 0.05;
+/// Motions of a group whose exponent is tried before it is given up.
+const TRIES: usize = 6;
+/// Longest period looked for at last, in units of the usual one.
+const LAST_LOOK: usize = 8;
+
+impl Search<'_> {
+    /// Groups the wandering motions and asks for their exponents.
+    pub(super) fn gather(&mut self) -> Result<(), SurveyError> {
+        let wandering: Vec<usize> = self
+            .afloat()
+            .filter(|index| self.members[*index].standing == Standing::Wandering)
+            .collect();
+        let logs: Vec<&[Start]> = wandering
+            .iter()
+            .map(|index| self.members[*index].voyage.log.as_slice())
+            .collect();
+        let numbers = groups(&logs);
+        let mut of_group: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (index, number) in wandering.into_iter().zip(numbers) {
+            self.members[index].group = Some(number);
+            of_group.entry(number).or_default().push(index);
+        }
+        for (number, indices) in of_group {
+            let group = self.measure(&indices)?;
+            self.groups.insert(number, group);
+        }
+        Ok(())
+    }
+
+    /// The exponents of a group: of the first of its motions with a positive one that does not settle
+    /// meanwhile.
+    fn measure(&mut self, indices: &[usize]) -> Result<Group, SurveyError> {
+        let mut group = Group {
+            exponents: None,
+            chaos: None,
+            looks: Looks::default(),
+            entered: indices
+                .iter()
+                .filter(|index| self.members[**index].counts)
+                .count(),
+        };
+        for &index in indices.iter().take(TRIES) {
+            let state = self.members[index].voyage.state;
+            let (exponents, end, wanders) = self.exponents(state)?;
+            let larger = |best: &Exponents| exponents.per_period[0] > best.per_period[0];
+            if group.exponents.as_ref().is_none_or(larger) {
+                group.exponents = Some(exponents);
+            }
+            if wanders && exponents.is_positive() {
+                let chaos = Chaos::of(self.scene, &self.fleet, (state, end), exponents)?;
+                // Without impacts the motion is linear and damped: it settles, if slowly.
+                if chaos.velocities.is_some() {
+                    group.chaos = Some(chaos);
+                    break;
+                }
+            }
+        }
+        Ok(group)
+    }
+
+    /// The exponents along the motion from a state, over ever longer times until they are sharp, or the
+    /// motion settles; the state then, and whether the motion still wandered.
+    fn exponents(&mut self, state: Start) -> Result<(Exponents, Start, bool), SurveyError> {
+        let mut batch = BATCH.0;
+        let mut best = None;
+        loop {
+            let (exponents, end) = Exponents::along(self.scene, state.into(), batch)?;
+            self.fleet.note(exponents.periods)?;
+            let mut after = Voyage::new(end.into());
+            let logged = self.logged();
+            self.fleet.sail(&mut [&mut after], logged as u64, logged)?;
+            let wanders = self.book.judge(&after.log)? == Standing::Wandering;
+            let found = (exponents, after.state, wanders);
+            if !wanders {
+                return Ok(best.unwrap_or(found));
+            }
+            let largest = exponents.per_period[0];
+            let sharp = exponents.error < SHARP * largest;
+            let hopeless = largest <= exponents.error;
+            batch *= GROWTH;
+            if sharp || hopeless || batch > BATCH.1 {
+                return Ok(found);
+            }
+            best = exponents.is_positive().then_some(found).or(best);
+        }
+    }
+
+    /// A last look at motions without a positive exponent: do they return after very many periods?
+    pub(super) fn look_far(&mut self) -> Result<(), SurveyError> {
+        let logged = LAST_LOOK * self.logged();
+        let unsettled: Vec<usize> = self
+            .afloat()
+            .filter(|index| !self.is_chaotic(*index))
+            .collect();
+        for index in unsettled {
+            let voyage = &mut self.members[index].voyage;
+            self.fleet.sail(&mut [voyage], logged as u64, logged)?;
+            let standing = self.book.judge(&self.members[index].voyage.log)?;
+            self.members[index].standing = standing;
+        }
+        Ok(())
+    }
+
+    fn is_chaotic(&self, index: usize) -> bool {
+        let group = self.members[index]
+            .group
+            .and_then(|group| self.groups.get(&group));
+        group.is_some_and(|group| group.chaos.is_some())
+    }
+}

@@ -1,0 +1,104 @@
+//! Where starts lie.
+
+use softstop::integrator::Start;
+use softstop::scene::Scene;
+
+/// A rectangle of states at drive angle phi.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Region {
+    /// Least and largest position in m.
+    pub position: [f64; 2],
+    /// Least and largest velocity in m/s.
+    pub velocity: [f64; 2],
+}
+
+/// Half-size of the pilot's region, in units of the motion's length (and of w times it).
+const FAR: f64 = 3.0;
+/// What is added on each side of the region in which motions stay, as a share of it.
+const MARGIN: f64 = 0.5;
+/// Least half-size of a region, in units of the motion's length.
+const LEAST: f64 = 0.1;
+/// 1/g and 1/g^2 with g^3 = g + 1: of all pairs the one whose multiples fill a square most evenly
+/// (Roberts 2018).
+const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
+
+impl Region {
+    /// Far and wide about the origin.
+    pub(super) fn far(scene: &Scene) -> Self {
+        let (w, length) = scales(scene);
+        let (x, v) = (FAR * length, FAR * w * length);
+        Self {
+            position: [-x, x],
+            velocity: [-v, v],
+        }
+        .before(scene)
+    }
+
+    /// About all these states; none if there is none.
+    pub(super) fn about<'a>(
+        scene: &Scene,
+        states: impl IntoIterator<Item = &'a Start>,
+    ) -> Option<Self> {
+        let nothing = [f64::INFINITY, f64::NEG_INFINITY];
+        let (mut position, mut velocity) = (nothing, nothing);
+        let include = |range: &mut [f64; 2], value: f64| {
+            *range = [range[0].min(value), range[1].max(value)];
+        };
+        for state in states {
+            include(&mut position, state.position);
+            include(&mut velocity, state.velocity);
+        }
+        let (w, length) = scales(scene);
+        let widen = |[low, high]: [f64; 2], least: f64| {
+            let margin = (MARGIN * (high - low)).max(least);
+            [low - margin, high + margin]
+        };
+        let region = Self {
+            position: widen(position, LEAST * length),
+            velocity: widen(velocity, LEAST * w * length),
+        };
+        position[0].is_finite().then(|| region.before(scene))
+    }
+
+    /// The part before a rigid stop.
+    fn before(mut self, scene: &Scene) -> Self {
+        if let Some((wall, _)) = scene.wall() {
+            let width = self.position[1] - self.position[0];
+            self.position[1] = self.position[1].min(wall);
+            if self.position[0] >= wall {
+                self.position[0] = wall - width;
+            }
+        }
+        self
+    }
+
+    /// Quasi-random starts.
+    pub(super) fn starts(&self, count: usize, seed: u64) -> Vec<Start> {
+        let shifts = [scramble(seed), scramble(!seed)];
+        let within = |range: [f64; 2], which: usize, index: usize| {
+            let share = (shifts[which] + STEPS[which] * (index + 1) as f64).fract();
+            range[0] + share * (range[1] - range[0])
+        };
+        let start = |index| Start {
+            position: within(self.position, 0, index),
+            velocity: within(self.velocity, 1, index),
+        };
+        (0..count).map(start).collect()
+    }
+}
+
+/// The drive's frequency in rad/s and the length of the motion in m.
+fn scales(scene: &Scene) -> (f64, f64) {
+    let w = scene.excitation.frequency;
+    let drive = scene.excitation.amplitude / scene.mass / (w * w);
+    let length = scene.clearance.abs().max(drive);
+    (w, if length > 0.0 { length } else { 1.0 })
+}
+
+/// A number in 0..1 from a seed (SplitMix64, Steele et al. 2014).
+fn scramble(seed: u64) -> f64 {
+    let mut z = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+}

@@ -1,0 +1,135 @@
+//! Balls about the points of a stable orbit in which its map contracts.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Matrix2, Vector2};
+
+use crate::orbit::{Orbit, StroboscopicMap, multipliers};
+use softstop::error::MotionError;
+use softstop::integrator::Start;
+
+/// Where a motion has arrived: |L (s - c)| <= r.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ball {
+    centre: Vector2<f64>,
+    shape: Matrix2<f64>,
+    /// r^2.
+    square: f64,
+}
+
+/// Shares of the radius on which the Jacobian is looked at, and points on each of these rings.
+const RINGS: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
+const POINTS: usize = 24;
+/// What a radius that is too large is multiplied by.
+const SHRINK: f64 = 0.7;
+/// Least radius, in units of the orbit's size.
+const LEAST: f64 = 1e-5;
+/// Most terms of the series of the norm.
+const TERMS: usize = 20_000;
+
+impl Ball {
+    pub(super) fn holds(&self, state: Start) -> bool {
+        let gap = Vector2::new(state.position, state.velocity) - self.centre;
+        (self.shape * gap).norm_squared() <= self.square
+    }
+
+    /// The balls about all points of an orbit; points about which none was found have none.
+    pub(super) fn all(orbit: &Orbit) -> Result<Vec<Self>, MotionError> {
+        let map = StroboscopicMap::new(&orbit.scene, orbit.periods)?;
+        let states = orbit.states()?;
+        let w = orbit.scene.excitation.frequency;
+        let lengths = states.iter().map(|state| (w * state.x).hypot(state.y));
+        let size = lengths.fold(0.0, f64::max);
+        let ball = |centre| Self::about(&map, centre, orbit.impacts.len(), w, size).transpose();
+        states.into_iter().filter_map(ball).collect()
+    }
+
+    /// The ball about one point, the largest tried in which the map contracts.
+    fn about(
+        map: &StroboscopicMap,
+        centre: Vector2<f64>,
+        impacts: usize,
+        w: f64,
+        size: f64,
+    ) -> Result<Option<Self>, MotionError> {
+        let Some((shape, rate)) = contracting(&map.apply(centre)?.monodromy, w) else {
+            return Ok(None);
+        };
+        let Some(back) = shape.try_inverse() else {
+            return Ok(None);
+        };
+        let mut radius = size;
+        while radius > LEAST * size {
+            let contracts = |point: Vector2<f64>| {
+                map.apply(centre + back * point).is_ok_and(|passage| {
+                    let tangent = shape * passage.monodromy * back;
+                    passage.impacts.len() == impacts && largest(&tangent) <= 0.5 * (1.0 + rate)
+                })
+            };
+            if ring_points(radius).all(contracts) {
+                return Ok(Some(Self {
+                    centre,
+                    shape,
+                    square: radius * radius,
+                }));
+            }
+            radius *= SHRINK;
+        }
+        Ok(None)
+    }
+}
+
+fn ring_points(radius: f64) -> impl Iterator<Item = Vector2<f64>> {
+    RINGS.into_iter().flat_map(move |share| {
+        (0..POINTS).map(move |k| {
+            let (sin, cos) = (TAU * k as f64 / POINTS as f64).sin_cos();
+            share * radius * Vector2::new(cos, sin)
+        })
+    })
+}
+
+/// The largest singular value.
+fn largest(matrix: &Matrix2<f64>) -> f64 {
+    multipliers(&(matrix.transpose() * matrix))[0]
+        .re
+        .max(0.0)
+        .sqrt()
+}
+
+/// A matrix L such that |L M s| <= g |L s| with g half-way between M's largest multiplier and 1:
+/// L^T L = P, the sum of (M/g)^jT diag(w^2, 1) (M/g)^j. None unless M contracts in the end.
+fn contracting(matrix: &Matrix2<f64>, w: f64) -> Option<(Matrix2<f64>, f64)> {
+    let spectral = multipliers(matrix)[0].norm();
+    let rate = 0.5 * (1.0 + spectral);
+    if spectral.is_nan() || spectral >= 1.0 {
+        return None;
+    }
+    let slower = matrix / rate;
+    let first = Matrix2::new(w * w, 0.0, 0.0, 1.0);
+    let (mut sum, mut term) = (first, first);
+    for _ in 0..TERMS {
+        term = slower.transpose() * term * slower;
+        sum += term;
+        if term.norm() <= f64::EPSILON * sum.norm() {
+            let shape = sum.cholesky()?.l().transpose();
+            return Some((shape, rate));
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn in_its_norm_a_matrix_contracts() {
+        // Far from normal: its plain norm is 50.
+        let matrix = Matrix2::new(0.9, 50.0, 0.0, -0.8);
+        let (shape, rate) = contracting(&matrix, 1.3).expect("stable");
+        let back = shape.try_inverse().expect("regular");
+        let norm = largest(&(shape * matrix * back));
+        assert!(norm < rate && rate < 1.0, "{norm} {rate}");
+        assert!(contracting(&Matrix2::new(1.01, 0.0, 0.0, 0.1), 1.0).is_none());
+    }
+}

@@ -1,0 +1,77 @@
+//! How certainly the z = 1 motion establishes itself along the hysteresis zone.
+
+use thiserror::Error;
+
+use super::{Basins, Grid, Options, basins_watched};
+use crate::attractors::{SurveyError, Watcher};
+use crate::orbit::Regime;
+use crate::zone::{Zone, ZoneError};
+use softstop::scene::Ratios;
+
+/// The basins at one place of the zone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Establishing {
+    /// Place s: 0 at g0, 1 at s_SN.
+    pub place: f64,
+    /// Frequency ratio eta.
+    pub frequency: f64,
+    /// Share of the cells that lead to z = 1: the establishing certainty.
+    pub certainty: f64,
+    /// Wilson's 95 % interval of it.
+    pub interval: [f64; 2],
+    /// All basins there.
+    pub basins: Basins,
+}
+
+/// Why there is no establishing certainty.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum CertaintyError {
+    /// A place outside the zone.
+    #[error(transparent)]
+    Zone(#[from] ZoneError),
+    /// Basins that could not be computed.
+    #[error(transparent)]
+    Survey(#[from] SurveyError),
+}
+
+/// The establishing certainty of z = 1 at places s of a hysteresis zone (Peterka 2003, section 3: it is said to
+/// rise from 0 at s_SN to 1 at g0): the share of the initial states of a grid that lead to it, or to any of several
+/// z = 1 motions, a weak and a strong one say. The watcher is
+/// told of the cells done at all places.
+///
+/// # Errors
+/// [`CertaintyError`] if a place lies outside the zone, the basins cannot be computed or the watcher says stop.
+pub fn establishing(
+    zone: &Zone,
+    places: &[f64],
+    grid: &Grid,
+    options: &Options,
+    watcher: Watcher<'_>,
+) -> Result<Vec<Establishing>, CertaintyError> {
+    let each = grid.cells() as u64;
+    let at = |(index, place): (usize, &f64)| {
+        if !(0.0..=1.0).contains(place) {
+            return Err(ZoneError::Outside { share: *place }.into());
+        }
+        let before = each * index as u64;
+        let all = each * places.len() as u64;
+        let frequency = zone.frequency_at(*place);
+        let ratios = Ratios {
+            frequency,
+            ..zone.ratios
+        };
+        let scene = ratios.scene().map_err(ZoneError::from)?;
+        let basins = basins_watched(&scene, grid, options, &|done, _| {
+            watcher(before + done, all)
+        })?;
+        let (certainty, interval) = basins.share(Regime::ONE);
+        Ok(Establishing {
+            place: *place,
+            frequency,
+            certainty,
+            interval,
+            basins,
+        })
+    };
+    places.iter().enumerate().map(at).collect()
+}

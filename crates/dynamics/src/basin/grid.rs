@@ -1,0 +1,120 @@
+//! Where initial states lie.
+
+use serde::{Deserialize, Serialize};
+
+use softstop::integrator::Start;
+
+/// What changes along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// Position in m.
+    Position,
+    /// Velocity in m/s.
+    Velocity,
+    /// Drive angle in rad.
+    Angle,
+}
+
+/// An axis, cut into cells of equal length.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Axis {
+    /// What changes.
+    pub quantity: Quantity,
+    /// Where the first cell begins and the last one ends.
+    pub range: [f64; 2],
+    /// Number of cells.
+    pub cells: usize,
+}
+
+impl Axis {
+    /// Positions in m.
+    pub const fn position(from: f64, to: f64, cells: usize) -> Self {
+        Self {
+            quantity: Quantity::Position,
+            range: [from, to],
+            cells,
+        }
+    }
+
+    /// Velocities in m/s.
+    pub const fn velocity(from: f64, to: f64, cells: usize) -> Self {
+        Self {
+            quantity: Quantity::Velocity,
+            range: [from, to],
+            cells,
+        }
+    }
+
+    /// Drive angles in rad.
+    pub const fn angle(from: f64, to: f64, cells: usize) -> Self {
+        Self {
+            quantity: Quantity::Angle,
+            range: [from, to],
+            cells,
+        }
+    }
+
+    /// The middle of a cell.
+    pub fn value(&self, cell: usize) -> f64 {
+        let [from, to] = self.range;
+        from + (cell as f64 + 0.5) / self.cells as f64 * (to - from)
+    }
+
+    /// Length of a cell in units of half the axis.
+    pub(super) fn spacing(&self) -> f64 {
+        2.0 / self.cells as f64
+    }
+}
+
+/// Cells in a plane of initial states; cell `row * across.cells + column`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Grid {
+    /// The axis of the columns.
+    pub across: Axis,
+    /// The axis of the rows.
+    pub up: Axis,
+    /// State at all cells, as far as no axis says otherwise.
+    pub state: Start,
+    /// Drive angle in rad at time 0, as far as no axis says otherwise.
+    pub angle: f64,
+}
+
+impl Grid {
+    /// A plane of states at a drive angle in rad.
+    pub const fn states(across: Axis, up: Axis, angle: f64) -> Self {
+        let state = Start {
+            position: 0.0,
+            velocity: 0.0,
+        };
+        Self {
+            across,
+            up,
+            state,
+            angle,
+        }
+    }
+
+    /// Number of cells.
+    pub fn cells(&self) -> usize {
+        self.across.cells * self.up.cells
+    }
+
+    /// The initial state of a cell and its drive angle in rad.
+    pub fn start(&self, cell: usize) -> (Start, f64) {
+        let (mut state, mut angle) = (self.state, self.angle);
+        let places = [
+            (&self.across, cell % self.across.cells),
+            (&self.up, cell / self.across.cells),
+        ];
+        for (axis, place) in places {
+            let value = axis.value(place);
+            match axis.quantity {
+                Quantity::Position => state.position = value,
+                Quantity::Velocity => state.velocity = value,
+                Quantity::Angle => angle = value,
+            }
+        }
+        (state, angle)
+    }
+}

@@ -1,0 +1,168 @@
+//! Basins of attraction: on which motion each of many initial states settles.
+//!
+//! The cells of a [`Grid`] lie on a plane of position, velocity and drive angle, any two of them. Each cell's
+//! motion is first brought to drive angle phi, then followed in the lanes of the batch engine, a few drive
+//! periods at a time. It has arrived once its state lies in a ball about a point of a known stable orbit in
+//! which the map contracts: in a norm in which the orbit's own Jacobian does, the Jacobian at all of many points
+//! of the ball stays below 1, with the orbit's number of impacts. What is not caught by any ball is looked at
+//! one by one: a state that returns is polished by Newton's method and is a new motion; what never returns
+//! belongs to one set, chaos.
+//!
+//! The result depends on scene, grid and options alone, not on the number of threads.
+//!
+//! ```
+//! use softstop::Ratios;
+//! use crate::basin::{Axis, Grid, Options, basins};
+//!
+//! let scene = Ratios::unloaded().scene()?;
+//! let grid = Grid::states(Axis::position(-20.0, 10.0, 30), Axis::velocity(-25.0, 25.0, 30), 0.0);
+//! let basins = basins(&scene, &grid, &Options::default())?;
+//! // Point A: without impacts, and z = 1.
+//! let names: Vec<String> = basins.classes.iter().map(|class| class.kind.name()).collect();
+//! assert_eq!(names, ["z = 0", "z = 1"]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod ball;
+mod certainty;
+mod grid;
+mod integrity;
+mod share;
+mod survey;
+
+pub use certainty::{CertaintyError, Establishing, establishing};
+pub use grid::{Axis, Grid, Quantity};
+pub use integrity::{Clearing, clearing};
+pub use share::wilson;
+
+use crate::attractors::{SurveyError, Watcher};
+use crate::orbit::{Exponents, Orbit, Regime};
+use softstop::error::MotionError;
+use softstop::scene::Scene;
+
+/// What the motions of a basin settle on.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kind {
+    /// A stable periodic motion, polished by Newton's method.
+    Periodic(Box<Orbit>),
+    /// Rest for good, wherever dry friction holds the mass.
+    AtRest,
+    /// Nothing that returns, with a positive exponent. The exponents are those of the first such motion.
+    Chaotic(Exponents),
+    /// Nothing that returns, without a positive exponent beyond doubt.
+    Unsettled(Exponents),
+    /// Their motion could not be computed; why the first could not.
+    Lost(MotionError),
+}
+
+impl Kind {
+    /// The regime, if it is periodic.
+    pub fn regime(&self) -> Option<Regime> {
+        match self {
+            Self::Periodic(orbit) => Some(orbit.regime()),
+            _ => None,
+        }
+    }
+
+    /// In a word.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Periodic(orbit) => format!("z = {}", orbit.regime()),
+            Self::AtRest => "at rest".to_owned(),
+            Self::Chaotic(_) => "chaos".to_owned(),
+            Self::Unsettled(_) => "unsettled".to_owned(),
+            Self::Lost(_) => "lost".to_owned(),
+        }
+    }
+}
+
+/// One basin.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Class {
+    /// What its motions settle on.
+    pub kind: Kind,
+    /// How many cells belong to it.
+    pub cells: usize,
+    /// Their share of all.
+    pub share: f64,
+    /// Wilson's 95 % interval of the share, as if the cells were drawn at random.
+    pub interval: [f64; 2],
+}
+
+/// All basins on a grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Basins {
+    /// Where the cells lie.
+    pub grid: Grid,
+    /// The basins: periodic motions by period, impacts and hardest impact; then rest, chaos, what is unsettled,
+    /// and what is lost.
+    pub classes: Vec<Class>,
+    /// The basin of each cell, row by row.
+    pub cells: Vec<u16>,
+}
+
+impl Basins {
+    /// Share of the cells whose motions settle in a regime, and its 95 % interval.
+    pub fn share(&self, regime: Regime) -> (f64, [f64; 2]) {
+        let own = self
+            .classes
+            .iter()
+            .filter(|class| class.kind.regime() == Some(regime));
+        let cells = own.map(|class| class.cells).sum();
+        let all = self.cells.len();
+        (cells as f64 / all as f64, wilson(cells, all))
+    }
+
+    /// The largest ball that lies inside a basin and inside the grid; none if the basin is not there.
+    pub fn largest_ball(&self, class: usize) -> Option<Clearing> {
+        clearing(&self.grid, |cell| usize::from(self.cells[cell]) == class)
+    }
+
+    /// The largest ball all of whose motions settle in a regime, be it on one motion or on several of it.
+    pub fn largest_ball_of(&self, regime: Regime) -> Option<Clearing> {
+        let classes = self.classes.iter();
+        let own: Vec<bool> = classes
+            .map(|class| class.kind.regime() == Some(regime))
+            .collect();
+        clearing(&self.grid, |cell| own[usize::from(self.cells[cell])])
+    }
+}
+
+/// How to follow the cells' motions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Drive periods after which a motion that no ball has caught is looked at.
+    pub transient: u64,
+    /// Longest period looked for, in drive periods.
+    pub longest: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            transient: 512,
+            longest: 64,
+        }
+    }
+}
+
+/// The basins of a scene on a grid.
+///
+/// # Errors
+/// [`SurveyError::Motion`] if the scene is invalid.
+pub fn basins(scene: &Scene, grid: &Grid, options: &Options) -> Result<Basins, SurveyError> {
+    basins_watched(scene, grid, options, &|_, _| true)
+}
+
+/// The same, told of the cells done and of all cells; stopped when the watcher says so.
+///
+/// # Errors
+/// As [`basins`]; [`SurveyError::Stopped`].
+pub fn basins_watched(
+    scene: &Scene,
+    grid: &Grid,
+    options: &Options,
+    watcher: Watcher<'_>,
+) -> Result<Basins, SurveyError> {
+    survey::run(scene, grid, options, watcher)
+}

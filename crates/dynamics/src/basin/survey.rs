@@ -1,0 +1,342 @@
+//! Following the motions of all cells.
+
+use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use super::ball::Ball;
+use super::{Basins, Class, Grid, Kind, Options, wilson};
+use crate::attractors::fleet::{Fleet, Voyage};
+use crate::attractors::known::{Book, Standing};
+use crate::attractors::{SurveyError, Watcher};
+use crate::orbit::Exponents;
+use softstop::error::MotionError;
+use softstop::integrator::{Clock, Motion, Start};
+use softstop::scene::Scene;
+use softstop_lanes::{Job, Machine};
+
+/// Cells that go together: enough for all lanes to be busy. The tiles may not depend on how many threads
+/// there are.
+const TILE: usize = 4096;
+/// Drive periods between two looks at where the motions are.
+const STRETCH: u64 = 16;
+/// Scouts on each axis of the grid: these cells are looked at first.
+const SCOUTS: usize = 16;
+/// Drive periods in each of the 32 batches of an exponent.
+const BATCH: u64 = 100;
+
+/// How it stands with a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Fate {
+    /// On its way.
+    Afloat,
+    /// On this orbit of the book.
+    Orbit(usize),
+    AtRest,
+    /// It has not returned.
+    Wandering,
+    Lost,
+}
+
+struct Survey<'a> {
+    scene: &'a Scene,
+    grid: &'a Grid,
+    options: Options,
+    machine: [Machine; 1],
+    book: Book<'a>,
+    /// Balls of the orbits in the book.
+    balls: Vec<(usize, Ball)>,
+    states: Vec<Start>,
+    fates: Vec<Fate>,
+    /// Why the first lost cell is lost.
+    lost: Option<(usize, MotionError)>,
+    watcher: Watcher<'a>,
+    done: AtomicUsize,
+}
+
+/// A cell that was followed: its number, its fate, its state.
+type Followed = (usize, Fate, Start, Option<MotionError>);
+
+pub(super) fn run(
+    scene: &Scene,
+    grid: &Grid,
+    options: &Options,
+    watcher: Watcher<'_>,
+) -> Result<Basins, SurveyError> {
+    let machine = [Machine::new(scene)?];
+    let mut survey = Survey {
+        scene,
+        grid,
+        options: *options,
+        machine,
+        book: Book::new(scene),
+        balls: Vec::new(),
+        states: Vec::new(),
+        fates: Vec::new(),
+        lost: None,
+        watcher,
+        done: AtomicUsize::new(0),
+    };
+    survey.bring()?;
+    survey.scout()?;
+    survey.settle()?;
+    survey.judge_all()?;
+    survey.report()
+}
+
+impl Survey<'_> {
+    /// Brings all cells to drive angle phi.
+    fn bring(&mut self) -> Result<(), SurveyError> {
+        let brought: Vec<Result<Start, MotionError>> = (0..self.grid.cells())
+            .into_par_iter()
+            .map(|cell| {
+                if cell % TILE == 0 {
+                    self.note(0)?;
+                }
+                Ok(self.at_section(cell))
+            })
+            .collect::<Result<_, SurveyError>>()?;
+        for (cell, result) in brought.into_iter().enumerate() {
+            let (state, fate) = match result {
+                Ok(state) => (state, Fate::Afloat),
+                Err(error) => {
+                    self.lost.get_or_insert((cell, error));
+                    (self.grid.start(cell).0, Fate::Lost)
+                }
+            };
+            self.states.push(state);
+            self.fates.push(fate);
+        }
+        Ok(())
+    }
+
+    /// The state of a cell when the drive angle next is phi.
+    fn at_section(&self, cell: usize) -> Result<Start, MotionError> {
+        let (start, angle) = self.grid.start(cell);
+        start.validate()?;
+        let drive = self.scene.excitation;
+        let turn = (drive.phase - angle).rem_euclid(TAU);
+        if turn == 0.0 {
+            return Ok(start);
+        }
+        let clock = Clock::new(drive.frequency, angle);
+        let phases = self.machine[0].shared_phases();
+        let mut motion = Motion::new(phases, clock, Clock::at_cycle(0), start)?;
+        motion.advance(clock.instant(turn / drive.frequency), &mut ())?;
+        Ok(motion.state())
+    }
+
+    /// A few cells, spread over the grid, fill the book.
+    fn scout(&mut self) -> Result<(), SurveyError> {
+        let (columns, rows) = (self.grid.across.cells, self.grid.up.cells);
+        let along = |cells: usize| cells.div_ceil(SCOUTS);
+        let rows = (along(rows) / 2..rows).step_by(along(rows));
+        let cells: Vec<usize> = rows
+            .flat_map(|row| {
+                let columns_here = (along(columns) / 2..columns).step_by(along(columns));
+                columns_here.map(move |column| row * columns + column)
+            })
+            .filter(|cell| self.fates[*cell] == Fate::Afloat)
+            .collect();
+        self.look(&cells, self.options.transient)
+    }
+
+    /// Follows all cells that are afloat until a ball catches them or the transient is over.
+    fn settle(&mut self) -> Result<(), SurveyError> {
+        let afloat: Vec<usize> = self.afloat().collect();
+        let followed: Vec<Vec<Followed>> = afloat
+            .par_chunks(TILE)
+            .map(|tile| self.follow(tile))
+            .collect::<Result<_, _>>()?;
+        for (cell, fate, state, error) in followed.into_iter().flatten() {
+            self.states[cell] = state;
+            self.set(cell, fate, error);
+        }
+        Ok(())
+    }
+
+    fn set(&mut self, cell: usize, fate: Fate, error: Option<MotionError>) {
+        self.fates[cell] = fate;
+        if let Some(error) = error
+            && self.lost.as_ref().is_none_or(|(first, _)| cell < *first)
+        {
+            self.lost = Some((cell, error));
+        }
+    }
+
+    fn afloat(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.fates.len()).filter(|cell| self.fates[*cell] == Fate::Afloat)
+    }
+
+    fn follow(&self, tile: &[usize]) -> Result<Vec<Followed>, SurveyError> {
+        let mut followed = Vec::with_capacity(tile.len());
+        let mut left: Vec<(usize, Start)> = tile
+            .iter()
+            .map(|cell| (*cell, self.states[*cell]))
+            .collect();
+        let mut periods = 0;
+        while periods < self.options.transient && !left.is_empty() {
+            let stretch = STRETCH.min(self.options.transient - periods);
+            periods += stretch;
+            let job = |(_, start): &(usize, Start)| Job {
+                machine: 0,
+                start: *start,
+                periods: stretch,
+            };
+            let jobs: Vec<Job> = left.iter().map(job).collect();
+            let outcomes = softstop_lanes::run(&self.machine, &jobs, &mut ());
+            let before = left.len();
+            let ends = std::mem::take(&mut left).into_iter().zip(outcomes);
+            for ((cell, _), outcome) in ends {
+                if outcome.error.is_some() {
+                    followed.push((cell, Fate::Lost, outcome.end, outcome.error));
+                } else if let Some(orbit) = self.caught(outcome.end) {
+                    followed.push((cell, Fate::Orbit(orbit), outcome.end, None));
+                } else {
+                    left.push((cell, outcome.end));
+                }
+            }
+            self.note(before - left.len())?;
+        }
+        followed.extend(
+            left.into_iter()
+                .map(|(cell, end)| (cell, Fate::Afloat, end, None)),
+        );
+        Ok(followed)
+    }
+
+    /// The orbit in one of whose balls a state lies.
+    fn caught(&self, state: Start) -> Option<usize> {
+        let ball = self.balls.iter().find(|(_, ball)| ball.holds(state));
+        ball.map(|(orbit, _)| *orbit)
+    }
+
+    /// Counts cells.
+    fn note(&self, cells: usize) -> Result<(), SurveyError> {
+        let done = self.done.fetch_add(cells, Ordering::Relaxed) + cells;
+        if (self.watcher)(done as u64, self.grid.cells() as u64) {
+            Ok(())
+        } else {
+            Err(SurveyError::Stopped)
+        }
+    }
+
+    /// Looks at all cells that no ball has caught.
+    fn judge_all(&mut self) -> Result<(), SurveyError> {
+        let afloat: Vec<usize> = self.afloat().collect();
+        for cells in afloat.chunks(TILE) {
+            self.look(cells, 0)?;
+        }
+        Ok(())
+    }
+
+    /// Follows cells for so many drive periods, and says of each what it has come to.
+    fn look(&mut self, cells: &[usize], periods: u64) -> Result<(), SurveyError> {
+        let logged = 2 * self.options.longest + 1;
+        let states = cells.iter().map(|cell| Voyage::new(self.states[*cell]));
+        let mut voyages: Vec<Voyage> = states.collect();
+        let go_on = |_, _| self.note(0).is_ok();
+        let fleet = Fleet::new(self.scene, &go_on)?;
+        let mut all: Vec<&mut Voyage> = voyages.iter_mut().collect();
+        fleet.sail(&mut all, periods + logged as u64, logged)?;
+        for (cell, voyage) in cells.iter().zip(voyages) {
+            self.states[*cell] = voyage.state;
+            let fate = match voyage.error {
+                Some(_) => Fate::Lost,
+                None => self.judge(&voyage.log)?,
+            };
+            self.set(*cell, fate, voyage.error);
+            self.note(1)?;
+        }
+        Ok(())
+    }
+
+    fn judge(&mut self, log: &[Start]) -> Result<Fate, SurveyError> {
+        let known = self.book.orbits.len();
+        let standing = self.book.judge(log)?;
+        for (index, entry) in self.book.orbits.iter().enumerate().skip(known) {
+            let balls = Ball::all(&entry.orbit)?;
+            self.balls
+                .extend(balls.into_iter().map(|ball| (index, ball)));
+        }
+        Ok(match standing {
+            Standing::Arrived(orbit) | Standing::Approaching(orbit) => Fate::Orbit(orbit),
+            Standing::AtRest => Fate::AtRest,
+            Standing::Wandering => Fate::Wandering,
+        })
+    }
+
+    fn report(mut self) -> Result<Basins, SurveyError> {
+        let mut kinds = Vec::new();
+        let mut order: Vec<usize> = (0..self.book.orbits.len()).collect();
+        let key = |orbit: &usize| {
+            let orbit = &self.book.orbits[*orbit].orbit;
+            (
+                orbit.periods,
+                orbit.impacts.len(),
+                orbit.before_impact_velocity(),
+            )
+        };
+        order.sort_by(|a, b| {
+            let (a, b) = (key(a), key(b));
+            (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
+        });
+        for orbit in order {
+            let kind = Kind::Periodic(Box::new(self.book.orbits[orbit].orbit.clone()));
+            kinds.push((Fate::Orbit(orbit), kind));
+        }
+        kinds.push((Fate::AtRest, Kind::AtRest));
+        if let Some(kind) = self.wandering()? {
+            kinds.push((Fate::Wandering, kind));
+        }
+        if let Some((_, error)) = self.lost.take() {
+            kinds.push((Fate::Lost, Kind::Lost(error)));
+        }
+        Ok(self.count(kinds))
+    }
+
+    /// What the cells are that have not returned.
+    fn wandering(&self) -> Result<Option<Kind>, SurveyError> {
+        let first = self.fates.iter().position(|fate| *fate == Fate::Wandering);
+        let Some(cell) = first else {
+            return Ok(None);
+        };
+        let (exponents, _) = Exponents::along(self.scene, self.states[cell].into(), BATCH)?;
+        Ok(Some(if exponents.is_positive() {
+            Kind::Chaotic(exponents)
+        } else {
+            Kind::Unsettled(exponents)
+        }))
+    }
+
+    fn count(self, kinds: Vec<(Fate, Kind)>) -> Basins {
+        let mut cells = vec![0; self.fates.len()];
+        let mut classes = Vec::new();
+        for (fate, kind) in kinds {
+            let mut own = 0;
+            for (cell, _) in self
+                .fates
+                .iter()
+                .enumerate()
+                .filter(|(_, other)| **other == fate)
+            {
+                cells[cell] = classes.len() as u16;
+                own += 1;
+            }
+            if own > 0 {
+                classes.push(Class {
+                    kind,
+                    cells: own,
+                    share: own as f64 / self.fates.len() as f64,
+                    interval: wilson(own, self.fates.len()),
+                });
+            }
+        }
+        Basins {
+            grid: *self.grid,
+            classes,
+            cells,
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! Curves of solutions of any system with one unknown more than equations, by pseudo-arclength
+//! (Keller 1977).
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::orbit::OrbitError;
+use softstop::root::narrow;
+
+/// A system in scaled unknowns. To add one, implement the two methods.
+pub(crate) trait Equations {
+    /// What an evaluation brings to light besides the residual.
+    type Point: Clone;
+
+    /// Residual and more.
+    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Self::Point>, OrbitError>;
+
+    /// Derivatives of the residual, a row for each equation. Their error slows the convergence; the
+    /// residual alone decides the result.
+    fn jacobian(
+        &self,
+        at: &DVector<f64>,
+        here: &Evaluation<Self::Point>,
+    ) -> Result<DMatrix<f64>, OrbitError>;
+}
+
+/// A system at one place.
+#[derive(Debug, Clone)]
+pub(crate) struct Evaluation<P> {
+    pub residual: DVector<f64>,
+    /// The norm of the residual that rounding alone may leave.
+    pub tolerance: f64,
+    pub point: P,
+}
+
+/// A solution.
+#[derive(Debug, Clone)]
+pub(crate) struct Node<P> {
+    pub at: DVector<f64>,
+    pub here: Evaluation<P>,
+}
+
+/// Newton steps of one correction.
+const CORRECTIONS: usize = 12;
+/// Scaled half-width of the central differences.
+pub(crate) const DIFFERENCE: f64 = 1e-6;
+
+/// Newton's method from `guess`: in the plane across `normal` for a curve, with no normal for a system
+/// with as many equations as unknowns. It ends when a step no longer makes a residual smaller that is
+/// at round-off.
+pub(crate) fn correct<E: Equations>(
+    equations: &E,
+    guess: &DVector<f64>,
+    normal: Option<&DVector<f64>>,
+) -> Result<Node<E::Point>, OrbitError> {
+    let mut at = guess.clone();
+    let mut last = f64::INFINITY;
+    for _ in 0..CORRECTIONS {
+        let here = equations.evaluate(&at)?;
+        let size = here.residual.norm();
+        if size <= here.tolerance && size >= 0.1 * last {
+            return Ok(Node { at, here });
+        }
+        last = size;
+        let mut right = here.residual.clone();
+        let mut matrix = -equations.jacobian(&at, &here)?;
+        if let Some(normal) = normal {
+            right = right.push(normal.dot(&(guess - &at)));
+            matrix = bordered(matrix, normal);
+        }
+        match matrix.lu().solve(&right) {
+            Some(step) if step.iter().all(|part| part.is_finite()) => at += step,
+            _ => return Err(OrbitError::Diverged { residual: size }),
+        }
+    }
+    let here = equations.evaluate(&at)?;
+    let residual = here.residual.norm();
+    if residual <= here.tolerance {
+        return Ok(Node { at, here });
+    }
+    Err(OrbitError::Diverged { residual })
+}
+
+fn bordered(matrix: DMatrix<f64>, normal: &DVector<f64>) -> DMatrix<f64> {
+    let rows = matrix.nrows();
+    let mut matrix = matrix.insert_row(rows, 0.0);
+    matrix.row_mut(rows).copy_from(&normal.transpose());
+    matrix
+}
+
+/// Unit direction of a curve at a node, on the side of `along`.
+pub(crate) fn tangent<E: Equations>(
+    equations: &E,
+    node: &Node<E::Point>,
+    along: &DVector<f64>,
+) -> Result<DVector<f64>, OrbitError> {
+    let matrix = bordered(equations.jacobian(&node.at, &node.here)?, along);
+    let mut right = DVector::zeros(node.at.len());
+    right[node.at.len() - 1] = 1.0;
+    match matrix.lu().solve(&right).map(|found| found.normalize()) {
+        Some(direction) if direction.iter().all(|part| part.is_finite()) => Ok(direction),
+        _ => Err(OrbitError::Diverged { residual: 0.0 }),
+    }
+}
+
+/// Columns of central differences of a residual, one for each unknown from `first` on; of one-sided ones where
+/// there is no machine on the other side.
+pub(crate) fn differences<E: Equations>(
+    equations: &E,
+    at: &DVector<f64>,
+    first: usize,
+) -> Result<DMatrix<f64>, OrbitError> {
+    let mut columns = Vec::new();
+    for unknown in first..at.len() {
+        let beside = |shift: f64| {
+            let mut at = at.clone();
+            at[unknown] += shift;
+            equations.evaluate(&at).map(|found| found.residual)
+        };
+        columns.push(match (beside(DIFFERENCE), beside(-DIFFERENCE)) {
+            (Ok(ahead), Ok(behind)) => (ahead - behind) / (2.0 * DIFFERENCE),
+            (Ok(ahead), Err(_)) => (ahead - equations.evaluate(at)?.residual) / DIFFERENCE,
+            (Err(_), Ok(behind)) => (equations.evaluate(at)?.residual - behind) / DIFFERENCE,
+            (Err(error), Err(_)) => return Err(error),
+        });
+    }
+    Ok(DMatrix::from_columns(&columns))
+}
+
+/// The node between two neighbours at which `test` changes its sign, and its share of the way: trials
+/// along the chord, each corrected onto the curve, until they are `width` apart on it.
+pub(crate) fn locate<E: Equations>(
+    equations: &E,
+    (from, to): (&Node<E::Point>, &Node<E::Point>),
+    width: f64,
+    test: impl Fn(&Node<E::Point>) -> f64,
+) -> Result<(Node<E::Point>, f64), OrbitError> {
+    let way = &to.at - &from.at;
+    let chord = way.normalize();
+    let mut best: Option<(Node<E::Point>, f64, f64)> = None;
+    let ends = ((0.0, test(from)), (1.0, test(to)));
+    narrow(ends.0, ends.1, width / way.norm(), |share| {
+        let node = correct(equations, &(&from.at + share * &way), Some(&chord))?;
+        let value = test(&node);
+        if best
+            .as_ref()
+            .is_none_or(|known| value.abs() <= known.2.abs())
+        {
+            best = Some((node, share, value));
+        }
+        Ok::<f64, OrbitError>(value)
+    })?;
+    let near = if ends.0.1.abs() < ends.1.1.abs() {
+        (from.clone(), 0.0)
+    } else {
+        (to.clone(), 1.0)
+    };
+    Ok(best.map_or(near, |(node, share, _)| (node, share)))
+}
+
+/// First, smallest and largest arclength steps.
+const FIRST_STEP: f64 = 0.02;
+const SMALLEST_STEP: f64 = 1e-9;
+pub(crate) const LARGEST_STEP: f64 = 0.25;
+/// Largest turn of the direction per step, as a cosine, and that up to which steps grow.
+const LARGEST_TURN: f64 = 0.96;
+const GENTLE_TURN: f64 = 0.995;
+
+/// Goes along a curve with adaptive steps.
+pub(crate) struct Walker<'a, E: Equations> {
+    equations: &'a E,
+    pub node: Node<E::Point>,
+    pub direction: DVector<f64>,
+    pub step: f64,
+    largest: f64,
+}
+
+/// A step that can be taken.
+pub(crate) struct Stride<P> {
+    pub node: Node<P>,
+    direction: DVector<f64>,
+    grows: bool,
+}
+
+impl<P> Stride<P> {
+    /// A step onto a node found otherwise.
+    pub fn onto(node: Node<P>, direction: DVector<f64>) -> Self {
+        Self {
+            node,
+            direction,
+            grows: false,
+        }
+    }
+}
+
+impl<'a, E: Equations> Walker<'a, E> {
+    /// From a node on the side of `along`, with steps of at most `largest`.
+    pub fn new(
+        equations: &'a E,
+        node: Node<E::Point>,
+        along: &DVector<f64>,
+        largest: f64,
+    ) -> Result<Self, OrbitError> {
+        let direction = tangent(equations, &node, along)?;
+        Ok(Self {
+            equations,
+            node,
+            direction,
+            step: FIRST_STEP.min(largest),
+            largest,
+        })
+    }
+
+    /// The next node at the present length of step.
+    pub fn attempt(&self) -> Result<Stride<E::Point>, OrbitError> {
+        let guess = &self.node.at + self.step * &self.direction;
+        let node = correct(self.equations, &guess, Some(&self.direction))?;
+        let direction = tangent(self.equations, &node, &self.direction)?;
+        let turn = direction.dot(&self.direction);
+        if turn <= LARGEST_TURN {
+            return Err(OrbitError::Diverged { residual: 0.0 });
+        }
+        Ok(Stride {
+            node,
+            direction,
+            grows: turn > GENTLE_TURN,
+        })
+    }
+
+    /// Goes there.
+    pub fn take(&mut self, stride: Stride<E::Point>) {
+        self.node = stride.node;
+        self.direction = stride.direction;
+        if stride.grows {
+            self.step = (1.6 * self.step).min(self.largest);
+        }
+    }
+
+    /// Goes there, and on with steps as from a start.
+    pub fn set_out(&mut self, stride: Stride<E::Point>) {
+        self.take(stride);
+        self.step = FIRST_STEP.min(self.largest);
+    }
+
+    /// Shortens the step; false if it is the shortest already.
+    pub fn shorten(&mut self) -> bool {
+        let possible = self.step > SMALLEST_STEP;
+        self.step *= 0.4;
+        possible
+    }
+}

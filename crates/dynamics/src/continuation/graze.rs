@@ -1,0 +1,115 @@
+//! How near to grazing an orbit is, and the grazing orbit ahead of it.
+
+use std::f64::consts::TAU;
+
+use nalgebra::DVector;
+
+use super::Family;
+use super::arclength::{Node, correct};
+use super::point::{BranchPoint, Graze, Special, SpecialKind};
+use super::round::{Round, Touch, nearest_turn};
+use super::shooting::Shooting;
+use super::touching::{Contact, Touching};
+use crate::orbit::OrbitError;
+use softstop::error::MotionError;
+use softstop::scene::Stop;
+
+/// An orbit's slowest crossing and its nearest turning point.
+#[derive(Debug, Clone)]
+pub(crate) struct Approach {
+    dying: Option<Touch>,
+    rising: Option<Touch>,
+    /// Crossings of the orbit, and those that a dying impact takes along.
+    crossings: (usize, usize),
+    parameter: f64,
+    drive: (f64, f64),
+    speed: f64,
+}
+
+impl Approach {
+    /// That of an orbit.
+    pub fn of<F: Family>(
+        shooting: &Shooting<'_, F, 1>,
+        node: &Node<Round>,
+    ) -> Result<Self, MotionError> {
+        let scene = shooting.scene(&node.at)?;
+        let round = &node.here.point;
+        let total = round.sequence.surfaces + round.sequence.reversals;
+        let bounces = matches!(scene.stop, Stop::Rigid { .. });
+        Ok(Self {
+            dying: round.slowest,
+            rising: nearest_turn(&scene, shooting.periods, shooting.state(&node.at))?,
+            crossings: (total, if bounces { 1 } else { 2 }),
+            parameter: shooting.parameters(&node.at)[0],
+            drive: (scene.excitation.phase, scene.excitation.frequency),
+            speed: shooting.velocity_scale(),
+        })
+    }
+
+    /// True if neither distance to grazing has shrunk below `share` of what it was, or both are still
+    /// more than `near`.
+    pub fn leaves(&self, before: &Self, share: f64, near: f64) -> bool {
+        let leaves = |now: Option<Touch>, then: Option<Touch>| match (now, then) {
+            (Some(now), Some(then)) => {
+                now.amount >= share * then.amount || now.amount < near * self.speed
+            }
+            _ => true,
+        };
+        leaves(self.dying, before.dying) && leaves(self.rising, before.rising)
+    }
+
+    /// The grazing orbits that Newton's method reaches from here.
+    pub fn grazes<F: Family>(&self, shooting: &Shooting<'_, F, 1>) -> Vec<Special> {
+        let (total, taken) = self.crossings;
+        let dying = self.dying.zip(total.checked_sub(taken));
+        let rising = self
+            .rising
+            .map(|touch| (touch, total - usize::from(touch.reverses)));
+        [(dying, true), (rising, false)]
+            .into_iter()
+            .filter_map(|(touch, dies)| touch.map(|(touch, crossings)| (touch, crossings, dies)))
+            .filter_map(|(touch, crossings, dies)| {
+                self.graze(shooting, &touch, crossings, dies).ok()
+            })
+            .collect()
+    }
+
+    fn graze<F: Family>(
+        &self,
+        shooting: &Shooting<'_, F, 1>,
+        touch: &Touch,
+        crossings: usize,
+        dies: bool,
+    ) -> Result<Special, OrbitError> {
+        let touching = Touching {
+            family: shooting.family,
+            periods: shooting.periods,
+            crossings,
+            face: touch.face,
+        };
+        let (phase, frequency) = self.drive;
+        let angle = phase + frequency * touch.time;
+        let guess: DVector<f64> = touching.scaled(angle, [self.parameter]);
+        let node = correct(&touching, &guess, None)?;
+        let [parameter] = touching.parameters(&node.at);
+        let state = touching.state(&node)?;
+        let Contact { monodromy, impacts } = node.here.point;
+        let graze = Graze {
+            angle: phase + (node.at[0] - phase).rem_euclid(TAU * shooting.periods as f64),
+            impacts: impacts.len(),
+            dies,
+            face: touch.face,
+            crossings,
+        };
+        Ok(Special {
+            kind: SpecialKind::Grazing(graze),
+            point: BranchPoint {
+                parameter,
+                position: state.x,
+                velocity: state.y,
+                impacts,
+                monodromy,
+            },
+        })
+    }
+}

@@ -1,0 +1,68 @@
+//! Branches of periodic orbits in one parameter, by pseudo-arclength (Keller 1977), their
+//! bifurcations, and curves of bifurcations in two parameters.
+//!
+//! A [`Family`] is a machine with one parameter or two left open: [`Along`] makes one of any machine and
+//! any [`Parameter`]. A [`Follower`] follows its orbits over a number of drive periods, whether stable or
+//! not, through folds; [`Follower::branch`] finds every fold, flip and grazing on the way,
+//! [`Follower::doubled`] goes on to the orbits of twice the period, and [`curve`] follows a special point
+//! in two parameters.
+//!
+//! ```
+//! use std::ops::ControlFlow;
+//!
+//! use nalgebra::Vector2;
+//! use crate::continuation::{Along, Follower, Limits, Parameter};
+//! use softstop::Ratios;
+//!
+//! let family = Along::new(Ratios::unloaded(), [Parameter::Frequency])?;
+//! let limits = Limits { range: (1.1, 1.5), points: 500 };
+//! let state = Vector2::new(6.9, 9.5);
+//! let branch =
+//!     Follower::new(&family, 1).branch(1.15, state, &limits, |_| ControlFlow::Continue(()))?;
+//! let fold = &branch.specials[0];
+//! assert_eq!(fold.kind.symbol(), "SN");
+//! assert!((fold.point.parameter - 1.369036).abs() < 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod arclength;
+mod branch;
+mod caution;
+mod corner;
+mod curve;
+mod detect;
+mod follower;
+mod graze;
+mod parameter;
+mod point;
+mod round;
+mod shooting;
+mod switch;
+mod test;
+mod touching;
+
+pub use branch::{Branch, End, Limits};
+pub use curve::{Curve, CurveEnd, CurvePoint, Region, curve};
+pub use follower::{Follower, Heading};
+pub use parameter::{Adjustable, Along, Parameter};
+pub use point::{BranchPoint, Graze, Special, SpecialKind};
+pub use round::Face;
+pub use test::Test;
+
+use softstop::error::MotionError;
+use softstop::scene::Scene;
+
+/// Scenes along one or more parameters. To add one, implement the three methods.
+pub trait Family<const PARAMETERS: usize = 1> {
+    /// The scene at values of the parameters.
+    ///
+    /// # Errors
+    /// [`MotionError`] if there is no such scene.
+    fn scene(&self, parameters: [f64; PARAMETERS]) -> Result<Scene, MotionError>;
+
+    /// Typical sizes of position in m and velocity in m/s.
+    fn state_scales(&self) -> [f64; 2];
+
+    /// Typical changes of the parameters: with the sizes of the state, the units of the arclength.
+    fn parameter_scales(&self) -> [f64; PARAMETERS];
+}

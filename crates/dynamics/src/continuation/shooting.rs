@@ -1,0 +1,129 @@
+//! The equations of a periodic orbit: P(s) = s over a number of drive periods.
+
+use nalgebra::{DMatrix, DVector, Vector2};
+
+use super::Family;
+use super::arclength::{Equations, Evaluation, differences};
+use super::round::Round;
+use super::test::Test;
+use crate::orbit::OrbitError;
+use softstop::error::MotionError;
+use softstop::scene::Scene;
+
+/// Orbits of a family over a number of drive periods, in scaled unknowns: position, velocity,
+/// parameters.
+#[derive(Debug)]
+pub(crate) struct Shooting<'a, F, const N: usize> {
+    pub family: &'a F,
+    pub periods: u64,
+    scales: DVector<f64>,
+}
+
+impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
+    pub fn new(family: &'a F, periods: u64) -> Self {
+        let scales = family.state_scales().into_iter();
+        let scales = scales.chain(family.parameter_scales());
+        Self {
+            family,
+            periods,
+            scales: DVector::from_iterator(2 + N, scales),
+        }
+    }
+
+    pub fn scaled(&self, state: Vector2<f64>, parameters: [f64; N]) -> DVector<f64> {
+        let raw = [state.x, state.y].into_iter().chain(parameters);
+        DVector::from_iterator(2 + N, raw).component_div(&self.scales)
+    }
+
+    /// A position in units of its scale.
+    pub fn scaled_position(&self, position: f64) -> f64 {
+        position / self.scales[0]
+    }
+
+    pub fn state(&self, at: &DVector<f64>) -> Vector2<f64> {
+        Vector2::new(at[0] * self.scales[0], at[1] * self.scales[1])
+    }
+
+    pub fn parameters(&self, at: &DVector<f64>) -> [f64; N] {
+        std::array::from_fn(|index| at[2 + index] * self.scales[2 + index])
+    }
+
+    pub fn scene(&self, at: &DVector<f64>) -> Result<Scene, MotionError> {
+        self.family.scene(self.parameters(at))
+    }
+
+    /// Typical size of the velocity in m/s.
+    pub fn velocity_scale(&self) -> f64 {
+        self.scales[1]
+    }
+}
+
+impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
+    type Point = Round;
+
+    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Round>, OrbitError> {
+        let state = self.state(at);
+        let round = Round::of(&self.scene(at)?, self.periods, state)?;
+        let gap = round.end() - state;
+        Ok(Evaluation {
+            residual: DVector::from_vec(vec![gap.x / self.scales[0], gap.y / self.scales[1]]),
+            tolerance: round_off(&state, round.monodromy.norm()) / self.scales.rows(0, 2).min(),
+            point: round,
+        })
+    }
+
+    /// The exact Jacobian of the map, and central differences for the parameters.
+    fn jacobian(
+        &self,
+        at: &DVector<f64>,
+        here: &Evaluation<Round>,
+    ) -> Result<DMatrix<f64>, OrbitError> {
+        let (m, ratio) = (&here.point.monodromy, self.scales[1] / self.scales[0]);
+        let own = DMatrix::from_row_slice(
+            2,
+            2,
+            &[m.m11 - 1.0, m.m12 * ratio, m.m21 / ratio, m.m22 - 1.0],
+        );
+        let slopes = differences(self, at, 2)?;
+        let mut jacobian = own.resize_horizontally(2 + N, 0.0);
+        jacobian.columns_mut(2, N).copy_from(&slopes);
+        Ok(jacobian)
+    }
+}
+
+/// The residual that rounding alone may leave: that of the state, as the map stretches it.
+pub(crate) fn round_off(state: &Vector2<f64>, stretch: f64) -> f64 {
+    1e-13 * (1.0 + state.norm()) * (1.0 + stretch)
+}
+
+/// Periodic orbits on which a test function vanishes besides.
+#[derive(Debug)]
+pub(crate) struct Critical<'a, F, const N: usize> {
+    pub shooting: Shooting<'a, F, N>,
+    pub test: Test,
+}
+
+impl<F: Family<N>, const N: usize> Equations for Critical<'_, F, N> {
+    type Point = Round;
+
+    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Round>, OrbitError> {
+        let orbit = self.shooting.evaluate(at)?;
+        let value = self.test.value(&orbit.point.monodromy);
+        Ok(Evaluation {
+            residual: orbit.residual.push(value),
+            tolerance: orbit.tolerance.max(TEST_TOLERANCE),
+            point: orbit.point,
+        })
+    }
+
+    fn jacobian(
+        &self,
+        at: &DVector<f64>,
+        _: &Evaluation<Round>,
+    ) -> Result<DMatrix<f64>, OrbitError> {
+        differences(self, at, 0)
+    }
+}
+
+/// What rounding leaves of a test function on orbits that stretch little.
+const TEST_TOLERANCE: f64 = 1e-12;

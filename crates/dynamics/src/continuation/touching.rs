@@ -1,0 +1,170 @@
+//! Orbits that graze a surface: with the touch at their beginning, all that follows is smooth.
+//!
+//! Near grazing the map over whole periods has a derivative without bounds (saltation with 1/v), but
+//! the orbit that just touches solves a regular system: from rest at a surface at a drive angle, over
+//! whole periods back to it, the last arc taken on as if the stop were not there. (Arclength and Newton near
+//! grazing: arXiv 2506.18379, arXiv 2510.16218.)
+
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+
+use super::Family;
+use super::arclength::{Equations, Evaluation, Node, differences};
+use super::round::{Face, begin, carry_on, finish};
+use super::shooting::round_off;
+use crate::orbit::OrbitError;
+use softstop::integrator::{Arc, Clock, Crossing, Effort, Instant, Observer};
+use softstop::scene::Scene;
+use softstop::tangent::Tangent;
+
+/// Grazing orbits of a family, in unknowns: drive angle of the touch, scaled parameters.
+#[derive(Debug)]
+pub(crate) struct Touching<'a, F, const N: usize> {
+    pub family: &'a F,
+    pub periods: u64,
+    /// Crossings of the orbit, the touch left out.
+    pub crossings: usize,
+    /// The surface that is touched.
+    pub face: Face,
+}
+
+/// A grazing orbit.
+#[derive(Debug, Clone)]
+pub(crate) struct Contact {
+    /// Jacobian of the map as if the stop were not there, from touch to touch.
+    pub monodromy: Matrix2<f64>,
+    /// Before-impact velocities in m/s, that of the touch left out.
+    pub impacts: Vec<f64>,
+}
+
+/// Work between two looks whether an orbit has made its crossings, in scan windows: a few crossings.
+const FEW: Effort = Effort::windows(64);
+
+/// The orbit does not cross as often as it should, or there is no such surface.
+const LOST: OrbitError = OrbitError::Diverged {
+    residual: f64::INFINITY,
+};
+
+impl<F: Family<N>, const N: usize> Touching<'_, F, N> {
+    pub fn scaled(&self, angle: f64, parameters: [f64; N]) -> DVector<f64> {
+        let spans = self.family.parameter_scales();
+        let scaled = parameters
+            .iter()
+            .zip(spans)
+            .map(|(value, span)| value / span);
+        DVector::from_iterator(1 + N, [angle].into_iter().chain(scaled))
+    }
+
+    pub fn parameters(&self, at: &DVector<f64>) -> [f64; N] {
+        let spans = self.family.parameter_scales();
+        std::array::from_fn(|index| at[1 + index] * spans[index])
+    }
+
+    /// The scene with time 0 at the touch, and the state there.
+    fn scene(&self, at: &DVector<f64>) -> Result<(Scene, Vector2<f64>), OrbitError> {
+        let mut scene = self.family.scene(self.parameters(at))?;
+        scene.excitation.phase = at[0];
+        let position = self.face.position(&scene).ok_or(LOST)?;
+        Ok((scene, Vector2::new(position, 0.0)))
+    }
+
+    /// The state of a grazing orbit at time 0 of its family's scene.
+    pub fn state(&self, node: &Node<Contact>) -> Result<Vector2<f64>, OrbitError> {
+        let parameters = self.parameters(&node.at);
+        let phase = self.family.scene(parameters)?.excitation.phase;
+        let (scene, touch) = self.scene(&node.at)?;
+        let turn = std::f64::consts::TAU;
+        let touched = ((node.at[0] - phase) / turn).rem_euclid(self.periods as f64);
+        let mut motion = begin(&scene, touch)?;
+        let clock = *motion.clock();
+        let duration = (self.periods as f64 - touched) * clock.period();
+        for period in 1..=duration.div_euclid(clock.period()) as u64 {
+            carry_on(&mut motion, Clock::at_cycle(period), &mut ())?;
+        }
+        carry_on(&mut motion, clock.instant(duration), &mut ())?;
+        Ok(Vector2::new(
+            motion.state().position,
+            motion.state().velocity,
+        ))
+    }
+}
+
+impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
+    type Point = Contact;
+
+    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Contact>, OrbitError> {
+        let (scene, touch) = self.scene(at)?;
+        let mut motion = begin(&scene, touch)?;
+        let until = Clock::at_cycle(self.periods);
+        let mut watch = LastArc {
+            clock: *motion.clock(),
+            left: self.crossings,
+            tangent: Tangent::default(),
+            impacts: Vec::new(),
+            until,
+            found: None,
+        };
+        // What comes after the last crossing of the orbit is not looked at: without the touch the mass may
+        // bounce without end.
+        while watch.found.is_none() && !motion.advance_within(until, &mut watch, FEW)? {}
+        finish(&motion, &mut watch);
+        let end = watch.found.ok_or(LOST)?;
+        let monodromy = watch.tangent.matrix;
+        let drift = end - touch;
+        let [length, speed] = self.family.state_scales();
+        Ok(Evaluation {
+            residual: DVector::from_vec(vec![drift.x / length, drift.y / speed]),
+            tolerance: round_off(&touch, monodromy.norm()) / length.min(speed),
+            point: Contact {
+                monodromy,
+                impacts: watch.impacts,
+            },
+        })
+    }
+
+    fn jacobian(
+        &self,
+        at: &DVector<f64>,
+        _: &Evaluation<Contact>,
+    ) -> Result<DMatrix<f64>, OrbitError> {
+        differences(self, at, 0)
+    }
+}
+
+/// Takes the arc after a number of crossings on to the end, whether or not something comes in between.
+struct LastArc {
+    clock: Clock,
+    left: usize,
+    tangent: Tangent,
+    impacts: Vec<f64>,
+    until: Instant,
+    /// State in the end.
+    found: Option<Vector2<f64>>,
+}
+
+impl LastArc {
+    fn extend(&mut self, arc: &Arc<'_>) {
+        let elapsed = self.clock.elapsed(arc.start, self.until);
+        let drive = self.clock.drive(self.until);
+        let (position, velocity) = arc.course.at(elapsed, drive);
+        self.tangent.arc(arc, elapsed);
+        self.found = Some(Vector2::new(position, velocity));
+    }
+}
+
+impl Observer for LastArc {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        match (self.left, self.found) {
+            (0, None) => self.extend(arc),
+            (0, Some(_)) => {}
+            _ => self.tangent.arc(arc, elapsed),
+        }
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        if self.found.is_none() {
+            self.tangent.crossing(crossing);
+            self.impacts.extend(crossing.impact_velocity());
+            self.left = self.left.saturating_sub(1);
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! No more model than a scene needs: one machine with ever simpler stops, and how far each simpler model
+//! is from it.
+//!
+//! A [`Ladder`] holds the models of one scene, each derived from it by the formulas of [`matching`] so that
+//! it agrees with the scene's own contact ([`Contact`]) at one velocity, the *operating velocity*. What a
+//! model gives is an [`Observation`] of its motion, or one of the bounds of its z = 1 motion ([`Bounds`]);
+//! a [`Quantity`] tells how far it is from that of the scene itself.
+
+mod bounds;
+mod contact;
+mod ladder;
+pub mod matching;
+mod observation;
+mod operating;
+mod quantity;
+
+pub use bounds::{Bounds, bounds};
+pub use contact::Contact;
+pub use ladder::{Ladder, Likeness, Model, Rung};
+pub use observation::Observation;
+pub use operating::{from_model, from_truth};
+pub use quantity::{Answers, Quantity, cheapest};
+
+use thiserror::Error;
+
+use softstop::error::{MotionError, SceneError};
+
+/// Why a rung has no model, or a model no answer.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum FidelityError {
+    /// No contact of this law behaves like the scene's own.
+    #[error("no {rung} contact matches: {reason}")]
+    Unmatched {
+        /// The rung.
+        rung: Rung,
+        /// Why not.
+        reason: String,
+    },
+    /// The motion never touches the stop, so there is no velocity to match at.
+    #[error("the motion has no impact, so there is no velocity at which to match")]
+    NoImpact,
+    /// Matching at a model's own velocity does not settle.
+    #[error("matching at the model's own velocity does not settle: last {velocity} m/s")]
+    Unsettled {
+        /// The last before-impact velocity in m/s.
+        velocity: f64,
+    },
+    /// A motion cannot be computed.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+}
+
+impl From<SceneError> for FidelityError {
+    fn from(error: SceneError) -> Self {
+        Self::Motion(error.into())
+    }
+}

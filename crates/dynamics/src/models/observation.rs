@@ -1,0 +1,203 @@
+//! What a motion gives: impacts, forces, contacts, energies.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector2;
+use serde::Serialize;
+
+use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
+use softstop::error::MotionError;
+use softstop::integrator::{Arc, Clock, Crossing, CrossingKind, Observer, Start};
+use softstop::integrator::{Work, work};
+use softstop::phases::{Law, PhaseKind};
+use softstop::scene::Scene;
+
+/// What the settled motion of a machine gives.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Observation {
+    /// Position in m and velocity in m/s at drive angle phi with which it was observed from.
+    #[serde(serialize_with = "pair")]
+    pub start: Start,
+    /// Drive periods over which it was observed.
+    pub periods: u64,
+    /// Its regime; none if it does not repeat.
+    pub regime: Option<Regime>,
+    /// Impacts while it was observed.
+    pub impacts: u64,
+    /// Mean before-impact velocity in m/s; none without impacts, as all that follows but the position and
+    /// the power.
+    pub before_impact_velocity: Option<f64>,
+    /// Mean drive angle at an impact in rad, 0 to 2 pi.
+    pub impact_phase: Option<f64>,
+    /// Largest contact force in N; none if a rigid stop is hit, where it has no bound.
+    pub peak_force: Option<f64>,
+    /// Mean time in s in contact per impact.
+    pub contact_time: Option<f64>,
+    /// Mean energy in J that is lost in contact per impact.
+    pub energy_per_impact: Option<f64>,
+    /// Largest position in m.
+    pub max_position: f64,
+    /// Mean power in W that the drive supplies.
+    pub mean_power: f64,
+}
+
+fn pair<S: serde::Serializer>(start: &Start, serializer: S) -> Result<S::Ok, S::Error> {
+    (start.position, start.velocity).serialize(serializer)
+}
+
+/// Drive periods after which a motion that is not z = 1 counts as settled.
+const TRANSIENT: u64 = 400;
+/// Drive periods over which a motion is observed that does not repeat.
+const LONG: u64 = 200;
+
+impl Observation {
+    /// The stable z = 1 motion of a scene: the one that Newton's method reaches from `hint`, else the one
+    /// that a search finds. If there is none, what the motion from `start` has settled on.
+    ///
+    /// # Errors
+    /// [`MotionError`] if no motion can be computed.
+    pub fn settled(scene: &Scene, hint: Option<Start>, start: Start) -> Result<Self, MotionError> {
+        let near = |hint: Start| {
+            let orbit = Orbit::near(scene, Vector2::new(hint.position, hint.velocity)).ok()?;
+            orbit.is_stable().then_some(orbit)
+        };
+        let orbit = match hint.and_then(near) {
+            Some(orbit) => Ok(orbit),
+            None => find(scene),
+        };
+        match orbit {
+            Ok(orbit) => {
+                let start = Start {
+                    position: orbit.position,
+                    velocity: orbit.velocity,
+                };
+                let regime = Regime {
+                    impacts: 1,
+                    periods: 1,
+                };
+                Self::over(scene, start, Some(regime))
+            }
+            Err(OrbitError::Motion(error)) => Err(error),
+            Err(_) => {
+                let (regime, settled) = Regime::after(scene, start, TRANSIENT)?;
+                Self::over(scene, settled, regime)
+            }
+        }
+    }
+
+    /// A settled motion, observed over the periods in which it repeats.
+    fn over(scene: &Scene, start: Start, regime: Option<Regime>) -> Result<Self, MotionError> {
+        let periods = regime.map_or(LONG, |regime| regime.periods);
+        let mut motion = scene.motion(start)?;
+        let mut watch = Watch {
+            clock: *motion.clock(),
+            free: motion.phases().free,
+            mass: scene.mass,
+            sums: Sums::default(),
+        };
+        let end = Clock::at_cycle(periods);
+        motion.advance(end, &mut watch)?;
+        let arc = motion.arc();
+        watch.arc(&arc, motion.clock().elapsed(arc.start, end));
+        let map = StroboscopicMap::new(scene, periods)?;
+        let max_position = map.max_position(Vector2::new(start.position, start.velocity))?;
+        let sums = watch.sums;
+        let mean = |sum: f64| (sums.impacts > 0).then(|| sum / sums.impacts as f64);
+        Ok(Self {
+            start,
+            periods,
+            regime,
+            impacts: sums.impacts,
+            before_impact_velocity: mean(sums.velocity),
+            impact_phase: (sums.impacts > 0).then(|| sums.sine.atan2(sums.cosine).rem_euclid(TAU)),
+            peak_force: sums.peak_force.filter(|_| sums.rebounds == 0),
+            contact_time: mean(sums.contact_time),
+            energy_per_impact: mean(sums.lost),
+            max_position,
+            mean_power: sums.work.supplied / watch.clock.time(end),
+        })
+    }
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    impacts: u64,
+    rebounds: u64,
+    velocity: f64,
+    cosine: f64,
+    sine: f64,
+    peak_force: Option<f64>,
+    contact_time: f64,
+    lost: f64,
+    work: Work,
+}
+
+struct Watch {
+    clock: Clock,
+    free: Law,
+    mass: f64,
+    sums: Sums,
+}
+
+/// Points of an arc among which the largest force is looked for first.
+const POINTS: u32 = 64;
+
+impl Watch {
+    /// The largest contact force in N on an arc: the largest of its samples, made sharper by a golden
+    /// section between its neighbours.
+    fn peak(&self, arc: &Arc<'_>, elapsed: f64) -> Option<f64> {
+        let phase = arc.phase?;
+        let force = |time: f64| {
+            let drive = self.clock.drive(self.clock.after(arc.start, time));
+            let (position, velocity) = arc.course.at(time, drive);
+            phase.contact_force(&self.free, position, velocity)
+        };
+        let time = |point: f64| elapsed * point.clamp(0.0, f64::from(POINTS)) / f64::from(POINTS);
+        let highest = (0..=POINTS)
+            .map(|point| (force(time(f64::from(point))), f64::from(point)))
+            .max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let (mut low, mut high) = (time(highest.1 - 1.0), time(highest.1 + 1.0));
+        let mut best = highest.0;
+        for _ in 0..40 {
+            let section = 0.381_966_011_250_105 * (high - low);
+            let (left, right) = (low + section, high - section);
+            let (at_left, at_right) = (force(left), force(right));
+            best = best.max(at_left).max(at_right);
+            if at_left > at_right {
+                high = right;
+            } else {
+                low = left;
+            }
+        }
+        Some(best)
+    }
+}
+
+impl Observer for Watch {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        let work = work(arc, self.mass, &self.free, elapsed);
+        self.sums.work += work;
+        if arc.kind == PhaseKind::Free {
+            return;
+        }
+        self.sums.contact_time += elapsed;
+        self.sums.lost += work.dissipated;
+        let peak = self.peak(arc, elapsed);
+        self.sums.peak_force = match (self.sums.peak_force, peak) {
+            (Some(a), Some(b)) => Some(a.max(b)),
+            (a, b) => a.or(b),
+        };
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.sums.lost += crossing.lost_energy(self.mass);
+        self.sums.rebounds += u64::from(matches!(crossing.kind, CrossingKind::Rebound { .. }));
+        if let Some(velocity) = crossing.impact_velocity() {
+            let (cosine, sine) = self.clock.drive(crossing.instant);
+            self.sums.impacts += 1;
+            self.sums.velocity += velocity;
+            self.sums.cosine += cosine;
+            self.sums.sine += sine;
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! The velocity at which models are matched.
+
+use super::{FidelityError, Ladder, Model, Observation, Rung};
+use softstop::integrator::Start;
+
+/// The before-impact velocity in m/s of the scene's own motion.
+///
+/// # Errors
+/// [`FidelityError::NoImpact`] if it has no impact.
+pub fn from_truth(observed: &Observation) -> Result<f64, FidelityError> {
+    observed
+        .before_impact_velocity
+        .filter(|velocity| *velocity > 0.0)
+        .ok_or(FidelityError::NoImpact)
+}
+
+/// Rounds of the fixed-point iteration.
+const ROUNDS: usize = 60;
+/// Relative change of the velocity at which it has settled.
+const SETTLED: f64 = 1e-9;
+
+/// The model of a rung that is matched at the velocity of its own motion: all that it needs of the scene
+/// is its contact, not its motion. Found by iteration from the speed that the drive alone could give.
+///
+/// # Errors
+/// [`FidelityError::Unsettled`] if the iteration does not settle, [`FidelityError::NoImpact`] if the
+/// model's motion loses its impacts, and what [`Ladder::model`] gives.
+pub fn from_model(
+    ladder: &Ladder,
+    rung: Rung,
+    start: Start,
+) -> Result<(Model, Observation), FidelityError> {
+    let truth = &ladder.truth;
+    let w = truth.excitation.frequency;
+    let mut velocity = w * truth
+        .clearance
+        .abs()
+        .max(truth.excitation.amplitude / truth.mass / (w * w));
+    let mut hint = None;
+    for _ in 0..ROUNDS {
+        let model = ladder.model(rung, velocity)?;
+        let observed = Observation::settled(&model.scene, hint, start)?;
+        if rung == Rung::Linear || model.scene == *truth {
+            return Ok((model, observed));
+        }
+        let next = from_truth(&observed)?;
+        if (next - velocity).abs() <= SETTLED * velocity {
+            return Ok((model, observed));
+        }
+        hint = Some(observed.start);
+        velocity = next;
+    }
+    Err(FidelityError::Unsettled { velocity })
+}

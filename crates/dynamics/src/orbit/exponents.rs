@@ -1,0 +1,115 @@
+//! Lyapunov exponents of a motion, by the exact tangent.
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::{Orbit, StroboscopicMap};
+use softstop::error::MotionError;
+use softstop::scene::Scene;
+
+/// Batches whose means tell how uncertain the exponents are.
+const BATCHES: u32 = 32;
+/// Student's t of 31 degrees of freedom for a two-sided 95 % interval.
+const STUDENT: f64 = 2.039_5;
+/// Errors by which an exponent has to lie above zero to count as positive: beyond 3 half-widths of the
+/// 95 % interval chance is out of question.
+const SURE: f64 = 3.0;
+
+/// Both Lyapunov exponents of a motion of the state (x, x'): mean rates at which small differences grow.
+///
+/// Saltation matrices at the crossings are part of the tangent (Mueller 1995); differences are made
+/// orthogonal anew after each drive period (Benettin et al. 1980). Along the motion itself nothing grows:
+/// time adds a third exponent, 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exponents {
+    /// Of the map, per drive period, the larger first. Minus infinity where sticking wipes out all
+    /// differences.
+    pub per_period: [f64; 2],
+    /// Half-width of the 95 % interval of the larger one, by batch means; 0 on a periodic motion.
+    pub error: f64,
+    /// Drive periods that they are the mean over.
+    pub periods: u64,
+    /// The drive period in s.
+    pub period: f64,
+}
+
+impl Exponents {
+    /// The exponents of the motion from a state over 32 batches of `batch` drive periods, and the state at
+    /// its end.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the motion cannot be computed.
+    pub fn along(
+        scene: &Scene,
+        state: Vector2<f64>,
+        batch: u64,
+    ) -> Result<(Self, Vector2<f64>), MotionError> {
+        let map = StroboscopicMap::new(scene, 1)?;
+        let batch = batch.max(1);
+        let mut state = state;
+        let mut frame = Matrix2::identity();
+        let mut means = Vec::with_capacity(BATCHES as usize);
+        for _ in 0..BATCHES {
+            let mut sums = [0.0; 2];
+            for _ in 0..batch {
+                let passage = map.apply(state)?;
+                state = passage.end;
+                let [first, second] = stretch(&mut frame, &passage.monodromy);
+                sums[0] += first;
+                sums[1] += second;
+            }
+            means.push(sums.map(|sum| sum / batch as f64));
+        }
+        let mean =
+            |which: usize| means.iter().map(|batch| batch[which]).sum::<f64>() / f64::from(BATCHES);
+        let exponents = [mean(0), mean(1)];
+        let squares = means.iter().map(|batch| (batch[0] - exponents[0]).powi(2));
+        let variance = squares.sum::<f64>() / f64::from(BATCHES - 1);
+        let error = STUDENT * (variance / f64::from(BATCHES)).sqrt();
+        let found = Self {
+            per_period: exponents,
+            error: if error.is_nan() { 0.0 } else { error },
+            periods: u64::from(BATCHES) * batch,
+            period: map.clock().period(),
+        };
+        Ok((found, state))
+    }
+
+    /// The exponents of a periodic motion: ln |mu| / n of its multipliers.
+    pub fn of(orbit: &Orbit) -> Self {
+        let rate = |multiplier: nalgebra::Complex<f64>| {
+            multiplier.re.hypot(multiplier.im).ln() / orbit.periods as f64
+        };
+        Self {
+            per_period: orbit.multipliers().map(rate),
+            error: 0.0,
+            periods: orbit.periods,
+            period: orbit.scene.period(),
+        }
+    }
+
+    /// Of the flow, in 1/s: those of the map over the drive period.
+    pub fn per_second(&self) -> [f64; 2] {
+        self.per_period.map(|exponent| exponent / self.period)
+    }
+
+    /// True if the larger one is positive beyond doubt.
+    pub fn is_positive(&self) -> bool {
+        self.per_period[0] > SURE * self.error
+    }
+}
+
+/// Carries an orthonormal frame through a Jacobian: M Q = Q' R. Gives ln |R| on the diagonal.
+fn stretch(frame: &mut Matrix2<f64>, jacobian: &Matrix2<f64>) -> [f64; 2] {
+    let image = jacobian * *frame;
+    let first = image.column(0).into_owned();
+    let length = first.norm();
+    if length == 0.0 {
+        return [f64::NEG_INFINITY; 2];
+    }
+    let along = first / length;
+    let across = Vector2::new(-along.y, along.x);
+    // |R22| from the determinant: free of the cancellation of a projection.
+    let other = jacobian.determinant().abs() / length;
+    *frame = Matrix2::from_columns(&[along, across]);
+    [length.ln(), other.ln()]
+}

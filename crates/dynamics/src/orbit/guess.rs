@@ -1,0 +1,101 @@
+//! Which impacts a periodic motion near a state may have.
+
+use nalgebra::Vector2;
+
+use softstop::error::MotionError;
+use softstop::events::{Guard, Outlook, first_crossing};
+use softstop::integrator::{Arc, Clock, Crossing, Observer};
+use softstop::phases::PhaseKind;
+use softstop::scene::Scene;
+
+/// Distance from the face, in units of the largest position, within which a mass nearly hits it.
+const NEAR: f64 = 0.01;
+
+/// Time in s and before-impact velocity in m/s of each impact.
+pub(super) type Impacts = Vec<(f64, f64)>;
+
+/// The impacts of the motion from a state over some drive periods; then with the nearest miss as one more, and
+/// without the weakest one.
+pub(super) fn guesses(
+    scene: &Scene,
+    state: Vector2<f64>,
+    periods: u64,
+) -> Result<Vec<Impacts>, MotionError> {
+    let mut motion = scene.motion(state.into())?;
+    let mut seen = Seen {
+        clock: *motion.clock(),
+        face: scene.clearance,
+        impacts: Impacts::new(),
+        miss: None,
+    };
+    let end = Clock::at_cycle(periods);
+    motion.advance(end, &mut seen)?;
+    let arc = motion.arc();
+    seen.arc(&arc, motion.clock().elapsed(arc.start, end));
+    let Seen { impacts, miss, .. } = seen;
+    let mut guesses = Vec::new();
+    if !impacts.is_empty() {
+        guesses.push(impacts.clone());
+    }
+    if let Some((depth, miss)) = miss
+        && depth <= NEAR * (scene.clearance.abs() + depth)
+    {
+        let at = impacts.partition_point(|impact| impact.0 < miss.0);
+        let mut more = impacts.clone();
+        more.insert(at, miss);
+        guesses.push(more);
+    }
+    if impacts.len() > 1 {
+        let weakest = (0..impacts.len()).min_by(|a, b| impacts[*a].1.total_cmp(&impacts[*b].1));
+        let mut fewer = impacts;
+        fewer.remove(weakest.unwrap_or(0));
+        guesses.push(fewer);
+    }
+    Ok(guesses)
+}
+
+/// Watches for impacts and near misses.
+struct Seen {
+    clock: Clock,
+    face: f64,
+    impacts: Impacts,
+    /// How near the nearest miss comes in m, when, and how fast an impact there would be if the face stood
+    /// as much nearer.
+    miss: Option<(f64, (f64, f64))>,
+}
+
+impl Observer for Seen {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        if arc.kind != PhaseKind::Free {
+            return;
+        }
+        let mut node = arc.course.start();
+        let mut guard = Guard::turning_back();
+        while let Outlook::Crossing(found) = first_crossing(arc.course, &[guard], node, elapsed) {
+            if found.elapsed > elapsed {
+                break;
+            }
+            node = arc.course.node(found.elapsed);
+            if guard == Guard::turning_back() {
+                let at = self.clock.after(arc.start, found.elapsed);
+                let push = arc.course.flow.amplitude * self.clock.drive(at).0;
+                let acceleration = arc.course.flow.acceleration(found.position, 0.0, push);
+                let depth = self.face - found.position;
+                if self.miss.is_none_or(|(least, _)| depth < least) {
+                    let speed = (2.0 * acceleration.abs() * depth.max(0.0)).sqrt();
+                    self.miss = Some((depth, (self.clock.time(at), speed)));
+                }
+                guard = Guard::turning_forward();
+            } else {
+                guard = Guard::turning_back();
+            }
+        }
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        if let Some(velocity) = crossing.impact_velocity() {
+            self.impacts
+                .push((self.clock.time(crossing.instant), velocity));
+        }
+    }
+}

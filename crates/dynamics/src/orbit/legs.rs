@@ -1,0 +1,275 @@
+//! Newton's method from impact to impact, regular at grazing.
+//!
+//! Where a periodic motion grazes the stop, its stroboscopic map has a square root: the time of an impact, as
+//! a function of the state before, and with it the saltation matrix, grows without bound as the
+//! before-impact velocity goes to zero. Newton's method on the map then leaps out of the domain of the
+//! square root (Ghosh and Simpson, arXiv 2510.16218). From impact to impact there is none: the unknowns are
+//! the time t and the before-impact velocity v of each impact, and what has to vanish is how far the free motion
+//! after each contact, followed to the time of the next impact as if there were no stop, is then from
+//! the face, and its velocity from the next v. All of it is smooth in t and v down to v = 0: contact
+//! lasts about 2 v / |a|, and its own tangent takes the factor 1/v of the saltation away again. Nothing is
+//! linearised about the face, so no saltation is wrong for a weak impact (Chawla et al., arXiv 2506.18379).
+
+use std::sync::Arc as Shared;
+
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+
+use super::contact::{Face, Passing};
+use super::{Orbit, OrbitError, StroboscopicMap};
+use softstop::events::{Outlook, first_crossing};
+use softstop::integrator::{Clock, Instant, Motion, Observer};
+use softstop::scene::Scene;
+use softstop::tangent::Tangent;
+use softstop::trajectory::Touch;
+
+/// Newton steps before giving up.
+const STEPS: usize = 60;
+/// Halvings of a step that leads nowhere.
+const HALVINGS: u32 = 30;
+/// Share of a before-impact velocity that a step may take away.
+const LARGEST_FALL: f64 = 0.9;
+/// Share of the drive period by which a step may move an impact.
+const LARGEST_SHIFT: f64 = 0.1;
+/// Share of the drive period by which an impact found by its crossing may differ from the one looked for.
+const EARLY: f64 = 1e-4;
+
+/// Impacts: times in s from drive period 0 on and before-impact velocities in m/s, by turns.
+type Unknowns = DVector<f64>;
+
+/// The impacts of a periodic motion to be.
+pub(super) struct Legs<'a> {
+    scene: &'a Scene,
+    face: Face,
+    periods: u64,
+}
+
+/// The legs that belong to impacts, with what does not fit yet and how it changes with them.
+struct Attempt {
+    passings: Vec<Passing>,
+    residual: DVector<f64>,
+    jacobian: DMatrix<f64>,
+}
+
+impl<'a> Legs<'a> {
+    /// None if the scene has no stop.
+    pub(super) fn new(scene: &'a Scene, periods: u64) -> Option<Self> {
+        let drive = scene.excitation;
+        let clock = Clock::new(drive.frequency, drive.phase);
+        let face = Face::new(Shared::new(scene.phases()), clock)?;
+        Some(Self {
+            scene,
+            face,
+            periods,
+        })
+    }
+
+    fn span(&self) -> f64 {
+        self.face.clock.time(Clock::at_cycle(self.periods))
+    }
+
+    /// The orbit with as many impacts as the guess has, by Newton's method from there.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if it does not settle, or settles on impacts between which there are others.
+    pub(super) fn settle(&self, guess: &[(f64, f64)]) -> Result<Orbit, OrbitError> {
+        let flat = guess.iter().flat_map(|&(time, velocity)| [time, velocity]);
+        let mut at = Unknowns::from_iterator(2 * guess.len(), flat);
+        let mut attempt = self.attempt(&at).ok_or(diverged(f64::NAN))?;
+        for _ in 0..STEPS {
+            let step = attempt.jacobian.clone().lu().solve(&attempt.residual);
+            let step = -step.ok_or(diverged(attempt.residual.norm()))?;
+            let (share, next, tried) = self.step(&at, &step).ok_or(diverged(step.norm()))?;
+            let shrinks = tried.residual.norm() < attempt.residual.norm();
+            let settled = attempt.residual.norm() <= self.rounding(&at, &attempt);
+            if share == 1.0 && !shrinks && settled {
+                return self.orbit(&at, &attempt);
+            }
+            (at, attempt) = (next, tried);
+        }
+        Err(diverged(attempt.residual.norm()))
+    }
+
+    /// The residual that rounding alone may leave.
+    fn rounding(&self, at: &Unknowns, attempt: &Attempt) -> f64 {
+        let velocities = at.iter().skip(1).step_by(2);
+        let fastest = velocities.fold(0.0, |fastest: f64, velocity| fastest.max(*velocity));
+        1e-14 * (1.0 + self.face.position().abs() + fastest) * (1.0 + attempt.jacobian.norm())
+    }
+
+    /// The unknowns after as much of a step as can be taken.
+    fn step(&self, at: &Unknowns, step: &Unknowns) -> Option<(f64, Unknowns, Attempt)> {
+        let mut share = 1.0f64;
+        for (index, (value, change)) in at.iter().zip(step).enumerate() {
+            let (most, taken) = if index % 2 == 0 {
+                (LARGEST_SHIFT * self.face.clock.period(), change.abs())
+            } else {
+                (LARGEST_FALL * value, -change)
+            };
+            if taken > most {
+                share = share.min(most / taken);
+            }
+        }
+        (0..HALVINGS).find_map(|halvings| {
+            let share = share / f64::from(1 << halvings);
+            let next = at + share * step;
+            let attempt = self.attempt(&next)?;
+            Some((share, next, attempt))
+        })
+    }
+
+    /// All legs; none where there is no such motion.
+    fn attempt(&self, at: &Unknowns) -> Option<Attempt> {
+        let count = at.len() / 2;
+        let mut attempt = Attempt {
+            passings: Vec::with_capacity(count),
+            residual: DVector::zeros(2 * count),
+            jacobian: DMatrix::zeros(2 * count, 2 * count),
+        };
+        for leg in 0..count {
+            let next = (leg + 1) % count;
+            let around = if next <= leg { self.span() } else { 0.0 };
+            let clock = &self.face.clock;
+            let (from, to) = (clock.instant(at[2 * leg]), at[2 * next] + around);
+            let longest = to - at[2 * leg];
+            let passing = self.face.pass(from, at[2 * leg + 1], longest).ok()??;
+            let to = clock.instant(to);
+            let flight = clock.elapsed(passing.free_from, to);
+            if flight <= 0.0 {
+                return None;
+            }
+            let drive = clock.drive(to);
+            let (position, velocity) = passing.course.at(flight, drive);
+            let course = &passing.course;
+            let push = course.flow.amplitude * drive.0;
+            let acceleration = course.flow.acceleration(position, velocity, push);
+            let through = course.flow.transition(flight) * passing.tangent.matrix;
+            let (rows, column, ahead) = (2 * leg, 2 * leg, 2 * next);
+            attempt.residual[rows] = position - self.face.position();
+            attempt.residual[rows + 1] = velocity - at[ahead + 1];
+            let mut add = |column: usize, by: Vector2<f64>| {
+                attempt.jacobian[(rows, column)] += by.x;
+                attempt.jacobian[(rows + 1, column)] += by.y;
+            };
+            add(column, through * passing.by_time);
+            add(column + 1, through * passing.by_velocity);
+            add(ahead, Vector2::new(velocity, acceleration));
+            add(ahead + 1, Vector2::new(0.0, -1.0));
+            attempt.passings.push(passing);
+        }
+        Some(attempt)
+    }
+
+    /// The orbit through impacts that fit.
+    fn orbit(&self, at: &Unknowns, attempt: &Attempt) -> Result<Orbit, OrbitError> {
+        self.check(at, attempt)?;
+        let clock = self.face.clock;
+        let mut impacts: Vec<(f64, f64, &Passing)> = attempt
+            .passings
+            .iter()
+            .enumerate()
+            .map(|(leg, passing)| {
+                (
+                    at[2 * leg].rem_euclid(self.span()),
+                    at[2 * leg + 1],
+                    passing,
+                )
+            })
+            .collect();
+        impacts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (time, _, last) = impacts[impacts.len() - 1];
+        let free = self.span() - time - last.lasting;
+        let (state, tail) = self.tail(time, last)?;
+        let mut factors = vec![self.head(impacts[0].0, free, state)?];
+        for pair in impacts.windows(2) {
+            let (time, _, passing) = pair[0];
+            let flight = passing
+                .course
+                .flow
+                .transition(pair[1].0 - time - passing.lasting);
+            factors.extend([passing.entry, passing.tangent.matrix, flight]);
+        }
+        factors.push(last.entry);
+        if free >= 0.0 {
+            factors.extend([last.tangent.matrix, last.course.flow.transition(free)]);
+        } else {
+            factors.push(tail);
+        }
+        let product = |product: Matrix2<f64>, factor: &Matrix2<f64>| factor * product;
+        let contacts = impacts.iter().map(|(_, _, passing)| passing);
+        let touched: f64 = contacts.clone().map(|passing| passing.lasting).sum();
+        let lost: f64 = contacts
+            .map(|passing| passing.tangent.damping_integral)
+            .sum();
+        let touch = |&(time, velocity, _): &(f64, f64, &Passing)| Touch {
+            instant: clock.instant(time),
+            before_impact_velocity: velocity,
+        };
+        let map = StroboscopicMap::new(self.scene, self.periods)?;
+        Ok(Orbit {
+            scene: self.scene.clone(),
+            periods: self.periods,
+            position: state.x,
+            velocity: state.y,
+            impacts: impacts.iter().map(touch).collect(),
+            rests: Vec::new(),
+            max_position: map.max_position(state)?.max(self.face.position()),
+            monodromy: factors.iter().fold(Matrix2::identity(), product),
+            determinant: factors.iter().map(Matrix2::determinant).product(),
+            damping_integral: lost + last.course.flow.damping() * (self.span() - touched),
+        })
+    }
+
+    /// Refuses impacts between which the free motion hits the stop.
+    fn check(&self, at: &Unknowns, attempt: &Attempt) -> Result<(), OrbitError> {
+        let count = attempt.passings.len();
+        for (leg, passing) in attempt.passings.iter().enumerate() {
+            let next = (leg + 1) % count;
+            let around = if next <= leg { self.span() } else { 0.0 };
+            let flight = at[2 * next] + around - at[2 * leg] - passing.lasting;
+            let (course, guards) = (&passing.course, &self.face.phases.phases[0].guards);
+            let early = flight - EARLY * self.face.clock.period();
+            if let Outlook::Crossing(found) = first_crossing(course, guards, course.start(), flight)
+                && found.elapsed < early
+            {
+                return Err(OrbitError::OtherRegime { impacts: count + 1 });
+            }
+        }
+        Ok(())
+    }
+
+    /// From right after the last impact to the end of the period: the state there, and the tangent.
+    fn tail(&self, time: f64, last: &Passing) -> Result<(Vector2<f64>, Matrix2<f64>), OrbitError> {
+        let from = self.face.clock.instant(time);
+        let mut motion = self.face.motion(from, last.velocity_after)?;
+        let tangent = advanced(&mut motion, Clock::at_cycle(self.periods))?;
+        Ok((motion.state().into(), tangent.matrix))
+    }
+
+    /// From the beginning of the period to the first impact. If `free` is negative, contact lasts on for so
+    /// many seconds.
+    fn head(&self, time: f64, free: f64, state: Vector2<f64>) -> Result<Matrix2<f64>, OrbitError> {
+        let flow = self.face.phases.phases[0].flow;
+        if free >= 0.0 {
+            return Ok(flow.transition(time));
+        }
+        let (phases, clock) = (self.face.phases.clone(), self.face.clock);
+        let mut motion = Motion::new(phases, clock, Clock::at_cycle(0), state.into())?;
+        // The mass may leave a little later than it did by the contact that began before.
+        let between = 0.5 * (time - free);
+        let tangent = advanced(&mut motion, clock.instant(between))?;
+        Ok(flow.transition(time - between) * tangent.matrix)
+    }
+}
+
+/// Advances a motion: the tangent of the way.
+fn advanced(motion: &mut Motion, until: Instant) -> Result<Tangent, OrbitError> {
+    let mut tangent = Tangent::default();
+    motion.advance(until, &mut tangent)?;
+    let arc = motion.arc();
+    tangent.arc(&arc, motion.clock().elapsed(arc.start, until));
+    Ok(tangent)
+}
+
+fn diverged(residual: f64) -> OrbitError {
+    OrbitError::Diverged { residual }
+}

@@ -1,0 +1,191 @@
+//! The stroboscopic map: from drive angle to the same drive angle, whole periods later.
+
+use std::sync::Arc as Shared;
+
+use nalgebra::{Matrix2, Vector2};
+
+use softstop::error::MotionError;
+use softstop::events::{Guard, Outlook, first_crossing};
+use softstop::flow::Course;
+use softstop::integrator::{Arc, Clock, Crossing, CrossingKind, Instant, Motion, Observer, Start};
+use softstop::phases::Phases;
+use softstop::scene::Scene;
+use softstop::tangent::Tangent;
+
+/// The map of one scene over a number of drive periods, from time 0.
+#[derive(Debug, Clone)]
+pub struct StroboscopicMap {
+    phases: Shared<Phases>,
+    clock: Clock,
+    periods: u64,
+}
+
+/// One application of the map.
+#[derive(Debug, Clone)]
+pub struct Passage {
+    /// Position and velocity after the periods.
+    pub end: Vector2<f64>,
+    /// Exact Jacobian of the map.
+    pub monodromy: Matrix2<f64>,
+    /// Integral of damping over mass along the way.
+    pub damping_integral: f64,
+    /// Before-impact velocities in m/s, in order of time.
+    pub impacts: Vec<f64>,
+    /// When they happen.
+    pub instants: Vec<Instant>,
+    /// Ends of complete chatter: infinitely many ever weaker impacts that end in rest, of which `impacts`
+    /// holds only those before the summed ones.
+    pub rests: Vec<Instant>,
+}
+
+impl StroboscopicMap {
+    /// The map of `scene` over `periods` drive periods.
+    ///
+    /// # Errors
+    /// [`MotionError::Scene`] if the scene is invalid.
+    pub fn new(scene: &Scene, periods: u64) -> Result<Self, MotionError> {
+        scene.validate()?;
+        let clock = Clock::new(scene.excitation.frequency, scene.excitation.phase);
+        Ok(Self {
+            phases: scene.phases().into(),
+            clock,
+            periods,
+        })
+    }
+
+    /// The drive periods of one application.
+    pub fn periods(&self) -> u64 {
+        self.periods
+    }
+
+    /// The clock of the drive.
+    pub fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
+    /// The image of a state, with the Jacobian.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the state is not finite or the motion unbounded.
+    pub fn apply(&self, state: Vector2<f64>) -> Result<Passage, MotionError> {
+        let mut watch = Watch::default();
+        let end = self.run(state, self.periods, &mut watch)?;
+        Ok(Passage {
+            end,
+            monodromy: watch.tangent.matrix,
+            damping_integral: watch.tangent.damping_integral,
+            impacts: watch.impacts,
+            instants: watch.instants,
+            rests: watch.rests,
+        })
+    }
+
+    /// The image of a state alone.
+    ///
+    /// # Errors
+    /// As [`StroboscopicMap::apply`].
+    pub fn image(&self, state: Vector2<f64>) -> Result<Vector2<f64>, MotionError> {
+        self.run(state, self.periods, &mut ())
+    }
+
+    /// The state after `times` applications.
+    ///
+    /// # Errors
+    /// As [`StroboscopicMap::apply`].
+    pub fn iterate(&self, state: Vector2<f64>, times: u64) -> Result<Vector2<f64>, MotionError> {
+        self.run(state, times * self.periods, &mut ())
+    }
+
+    /// The largest position in m on the way from a state.
+    ///
+    /// # Errors
+    /// As [`StroboscopicMap::apply`].
+    pub fn max_position(&self, state: Vector2<f64>) -> Result<f64, MotionError> {
+        let mut highest = Highest(state.x);
+        let end = self.run(state, self.periods, &mut highest)?;
+        Ok(highest.0.max(end.x))
+    }
+
+    fn run(
+        &self,
+        state: Vector2<f64>,
+        periods: u64,
+        observer: &mut impl Observer,
+    ) -> Result<Vector2<f64>, MotionError> {
+        let start = Start {
+            position: state.x,
+            velocity: state.y,
+        };
+        start.validate()?;
+        let mut motion = Motion::new(self.phases.clone(), self.clock, Clock::at_cycle(0), start)?;
+        let end = Clock::at_cycle(periods);
+        motion.advance(end, observer)?;
+        let arc = motion.arc();
+        observer.arc(&arc, self.clock.elapsed(arc.start, end));
+        let Start { position, velocity } = motion.state();
+        Ok(Vector2::new(position, velocity))
+    }
+}
+
+#[derive(Default)]
+struct Watch {
+    tangent: Tangent,
+    impacts: Vec<f64>,
+    instants: Vec<Instant>,
+    rests: Vec<Instant>,
+}
+
+impl Observer for Watch {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.tangent.arc(arc, elapsed);
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.tangent.crossing(crossing);
+        if let Some(velocity) = crossing.impact_velocity() {
+            self.impacts.push(velocity);
+            self.instants.push(crossing.instant);
+        }
+        if crossing.kind == CrossingKind::Rest {
+            self.rests.push(crossing.instant);
+        }
+    }
+}
+
+/// Keeps the largest position.
+struct Highest(f64);
+
+impl Observer for Highest {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.0 = self.0.max(highest_on(arc.course, elapsed));
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.0 = self.0.max(crossing.position);
+    }
+}
+
+/// The largest position on a course within `duration` seconds, its ends left out.
+fn highest_on(course: &Course, duration: f64) -> f64 {
+    let mut highest = f64::NEG_INFINITY;
+    if course.is_held() {
+        return highest;
+    }
+    let mut node = course.start();
+    let mut guard = Guard::turning_back();
+    loop {
+        match first_crossing(course, &[guard], node, duration) {
+            Outlook::Crossing(found) if found.elapsed <= duration => {
+                highest = highest.max(found.position);
+                node = course.node(found.elapsed);
+            }
+            _ => return highest,
+        }
+        let turned_back = guard == Guard::turning_back();
+        guard = if turned_back {
+            Guard::turning_forward()
+        } else {
+            Guard::turning_back()
+        };
+    }
+}

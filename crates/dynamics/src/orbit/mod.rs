@@ -1,0 +1,93 @@
+//! Periodic motions: shooting on the exact map, multipliers, stability.
+
+mod contact;
+mod exponents;
+mod guess;
+mod legs;
+mod map;
+mod newton;
+mod pattern;
+mod periodic;
+pub(crate) mod recurrence;
+mod regime;
+mod search;
+
+pub use exponents::Exponents;
+pub use map::{Passage, StroboscopicMap};
+pub use newton::fixed_point;
+pub use pattern::{Count, ImpactPattern};
+pub use periodic::Orbit;
+pub use regime::Regime;
+pub use search::find;
+
+use nalgebra::{Complex, Matrix2};
+use thiserror::Error;
+
+use softstop::error::{MotionError, SceneError};
+
+/// Why there is no orbit.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum OrbitError {
+    /// The search found none.
+    #[error(
+        "no stable z = 1 motion found at frequency {frequency} rad/s with clearance {clearance} m"
+    )]
+    NotFound {
+        /// The drive's frequency in rad/s.
+        frequency: f64,
+        /// The clearance in m.
+        clearance: f64,
+    },
+    /// Newton's method did not settle.
+    #[error("Newton's method did not settle: residual {residual}")]
+    Diverged {
+        /// The last residual, in m and m/s.
+        residual: f64,
+    },
+    /// The periodic motion has another number of impacts.
+    #[error("the periodic motion has {impacts} impacts in its period, not one")]
+    OtherRegime {
+        /// Impacts in the period.
+        impacts: usize,
+    },
+    /// The motion cannot be computed.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+}
+
+impl From<SceneError> for OrbitError {
+    fn from(error: SceneError) -> Self {
+        Self::Motion(error.into())
+    }
+}
+
+/// Eigenvalues of a 2x2 matrix, the one of larger modulus first.
+pub fn multipliers(matrix: &Matrix2<f64>) -> [Complex<f64>; 2] {
+    roots(matrix.trace(), matrix.determinant())
+}
+
+/// The roots of mu^2 - trace mu + determinant, the one of larger modulus first.
+fn roots(trace: f64, determinant: f64) -> [Complex<f64>; 2] {
+    let half = 0.5 * trace;
+    let discriminant = half * half - determinant;
+    if discriminant < 0.0 {
+        let imaginary = (-discriminant).sqrt();
+        return [
+            Complex::new(half, imaginary),
+            Complex::new(half, -imaginary),
+        ];
+    }
+    let large = half + discriminant.sqrt().copysign(half);
+    let small = if large == 0.0 {
+        0.0
+    } else {
+        determinant / large
+    };
+    [Complex::new(large, 0.0), Complex::new(small, 0.0)]
+}
+
+/// Jury's conditions: 1 - tr + det > 0 (no fold), 1 + tr + det > 0 (no flip), det < 1.
+pub fn is_stable(matrix: &Matrix2<f64>) -> bool {
+    let (trace, determinant) = (matrix.trace(), matrix.determinant());
+    1.0 - trace + determinant > 0.0 && 1.0 + trace + determinant > 0.0 && determinant < 1.0
+}

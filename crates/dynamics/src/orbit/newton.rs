@@ -1,0 +1,71 @@
+//! Newton's method on the exact map.
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::{OrbitError, Passage, StroboscopicMap};
+use softstop::error::MotionError;
+
+/// Newton steps before giving up.
+const NEWTON_STEPS: usize = 30;
+
+/// Newton's method for P(s) = s with the exact Jacobian. It ends when a step no longer makes the
+/// residual smaller and the residual is at round-off.
+///
+/// # Errors
+/// [`OrbitError::Diverged`] if it does not settle, [`OrbitError::Motion`] if a motion on the way
+/// cannot be computed.
+pub fn fixed_point(
+    map: &StroboscopicMap,
+    start: Vector2<f64>,
+) -> Result<(Vector2<f64>, Passage), OrbitError> {
+    let mut state = start;
+    let mut passage = map.apply(state)?;
+    let mut residual = passage.end - state;
+    for _ in 0..NEWTON_STEPS {
+        let matrix = Matrix2::identity() - passage.monodromy;
+        let Some(step) = matrix.lu().solve(&residual) else {
+            break;
+        };
+        let (next, next_passage) = within_walls(map, state, step)?;
+        let next_residual = next_passage.end - next;
+        let shrinks = next_residual.norm() < residual.norm();
+        if !shrinks && residual.norm() <= round_off(&state, &passage) {
+            return Ok((state, passage));
+        }
+        (state, passage, residual) = (next, next_passage, next_residual);
+    }
+    if residual.norm() <= round_off(&state, &passage) {
+        return Ok((state, passage));
+    }
+    Err(OrbitError::Diverged {
+        residual: residual.norm(),
+    })
+}
+
+/// Halvings of a step that leads beyond a rigid stop.
+const HALVINGS: i32 = 40;
+
+/// The state after a step and its image; the step is shortened where it leads beyond a rigid stop.
+fn within_walls(
+    map: &StroboscopicMap,
+    state: Vector2<f64>,
+    step: Vector2<f64>,
+) -> Result<(Vector2<f64>, Passage), MotionError> {
+    let mut last = None;
+    for halvings in 0..HALVINGS {
+        let next = state + step * 0.5f64.powi(halvings);
+        match map.apply(next) {
+            Err(error @ MotionError::BeyondStop { .. }) => last = Some(error),
+            passage => return Ok((next, passage?)),
+        }
+    }
+    Err(last.unwrap_or(MotionError::NotFinite {
+        name: "Newton step",
+        value: step.norm(),
+    }))
+}
+
+/// The residual that rounding alone may leave: that of the state, as the map stretches it.
+pub(crate) fn round_off(state: &Vector2<f64>, passage: &Passage) -> f64 {
+    1e-13 * (1.0 + state.norm()) * (1.0 + passage.monodromy.norm())
+}

@@ -1,0 +1,292 @@
+//! A periodic motion of any regime, stable or not.
+
+use nalgebra::{Complex, Matrix2, Vector2};
+
+use super::guess::guesses;
+use super::legs::Legs;
+use super::newton::{fixed_point, round_off};
+use super::{ImpactPattern, OrbitError, Passage, Regime, StroboscopicMap, is_stable, roots};
+use softstop::error::MotionError;
+use softstop::integrator::{Clock, Instant};
+use softstop::scene::Scene;
+use softstop::trajectory::Touch;
+
+/// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orbit {
+    /// The scene it belongs to.
+    pub scene: Scene,
+    /// Drive periods after which it repeats: the n of z = p/n.
+    pub periods: u64,
+    /// Position in m at time 0, that is at drive angle phi.
+    pub position: f64,
+    /// Velocity in m/s at time 0.
+    pub velocity: f64,
+    /// Its impacts within the period, in order of time from 0 on.
+    pub impacts: Vec<Touch>,
+    /// When complete chatter ends within the period: infinitely many ever weaker impacts, of which
+    /// [`Orbit::impacts`] holds those before the summed ones.
+    pub rests: Vec<Instant>,
+    /// Largest position in m.
+    pub max_position: f64,
+    /// Jacobian of the map over the period, saltation included.
+    pub monodromy: Matrix2<f64>,
+    /// Integral of damping over mass along the period: det = exp(-integral), times R^2 for each rebound
+    /// from a rigid stop, unless the mass turns or sticks under dry friction.
+    pub damping_integral: f64,
+    /// Determinant of the monodromy matrix, free of the cancellation between entries that a weak impact makes
+    /// large.
+    pub(super) determinant: f64,
+}
+
+/// Distance in units of 1 + |state| within which a state that has returned after n periods has also
+/// returned after a divisor of n. Newton's method leaves about 1e-13.
+const SAME: f64 = 1e-9;
+/// Impacts up to which orbits are sought from impact to impact: a mass that bounces more often chatters, and the
+/// work grows with the cube.
+const MOST_IMPACTS: usize = 128;
+/// Norm of a Jacobian beyond which impacts are looked at one by one.
+const STEEP: f64 = 1e3;
+
+impl Orbit {
+    /// The z = 1 orbit, stable or not, that Newton's method reaches from a state near it.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if Newton's method does not settle or settles on another regime.
+    pub fn near(scene: &Scene, state: Vector2<f64>) -> Result<Self, OrbitError> {
+        let orbit = Self::of_impacts(scene, state, 1, 1)?;
+        match orbit.impacts[..] {
+            [_] => Ok(orbit),
+            _ => Err(OrbitError::OtherRegime {
+                impacts: orbit.impacts.len(),
+            }),
+        }
+    }
+
+    /// The periodic orbit, stable or not and of whatever impacts, that Newton's method reaches from a state
+    /// near it. Its own period may be a part of `periods`.
+    ///
+    /// Newton's method on the map comes first. Where that fails, as it does near grazing, or an impact is weak,
+    /// it goes from impact to impact ([`Orbit::by_impacts`]).
+    ///
+    /// # Errors
+    /// [`OrbitError`] if Newton's method does not settle or a motion cannot be computed.
+    pub fn periodic(scene: &Scene, state: Vector2<f64>, periods: u64) -> Result<Self, OrbitError> {
+        Self::of_impacts(scene, state, periods.max(1), MOST_IMPACTS)
+    }
+
+    /// The same; from impact to impact it is sought with no more than `most` impacts.
+    fn of_impacts(
+        scene: &Scene,
+        state: Vector2<f64>,
+        periods: u64,
+        most: usize,
+    ) -> Result<Self, OrbitError> {
+        match Self::on_map(scene, state, periods) {
+            Ok(orbit) if orbit.is_weak() => {
+                let impacts: Vec<(f64, f64)> = orbit.timed_impacts();
+                Ok(Self::by_impacts(scene, orbit.periods, &impacts).unwrap_or(orbit))
+            }
+            Ok(orbit) => Ok(orbit),
+            Err(error) => {
+                let guesses = guesses(scene, state, periods)?;
+                let mut found = guesses
+                    .iter()
+                    .filter(|impacts| impacts.len() <= most)
+                    .filter_map(|impacts| Self::by_impacts(scene, periods, impacts).ok());
+                found.next().ok_or(error)
+            }
+        }
+    }
+
+    /// The periodic orbit, stable or not, that Newton's method from impact to impact reaches from times in s
+    /// and before-impact velocities in m/s of all impacts near its own. It is regular down to grazing,
+    /// where the map is not. No impact may come to rest.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if it does not settle, or on impacts between which there are others.
+    pub fn by_impacts(
+        scene: &Scene,
+        periods: u64,
+        impacts: &[(f64, f64)],
+    ) -> Result<Self, OrbitError> {
+        scene.validate()?;
+        let none = OrbitError::OtherRegime { impacts: 0 };
+        if impacts.is_empty() {
+            return Err(none);
+        }
+        let legs = Legs::new(scene, periods.max(1)).ok_or(none)?;
+        let orbit = legs.settle(impacts)?;
+        let all = orbit.timed_impacts();
+        for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
+            let share = all.len() as u64 * part;
+            if share.is_multiple_of(periods) && orbit.repeats(&all, part) {
+                let first = &all[..(share / periods) as usize];
+                return Self::by_impacts(scene, part, first);
+            }
+        }
+        Ok(orbit)
+    }
+
+    /// True if the impacts are the same after `part` drive periods.
+    fn repeats(&self, impacts: &[(f64, f64)], part: u64) -> bool {
+        let period = self.clock().period();
+        let shift = impacts.len() * part as usize / self.periods as usize;
+        let span = period * part as f64;
+        let pairs = impacts.iter().zip(&impacts[shift..]);
+        let mut pairs = pairs.map(|(a, b)| ((b.0 - a.0 - span) / period, b.1 - a.1));
+        pairs.all(|(time, velocity)| time.hypot(velocity) <= SAME * (1.0 + self.velocity.abs()))
+    }
+
+    /// Times in s and before-impact velocities in m/s of its impacts.
+    fn timed_impacts(&self) -> Vec<(f64, f64)> {
+        let clock = self.clock();
+        let timed = |touch: &Touch| (clock.time(touch.instant), touch.before_impact_velocity);
+        self.impacts.iter().map(timed).collect()
+    }
+
+    /// True if the map is steep by a weak impact, so that rounding of the state tells in that impact.
+    fn is_weak(&self) -> bool {
+        !self.impacts.is_empty() && self.rests.is_empty() && self.monodromy.norm() > STEEP
+    }
+
+    /// The same by Newton's method on the map.
+    fn on_map(scene: &Scene, state: Vector2<f64>, periods: u64) -> Result<Self, OrbitError> {
+        let map = StroboscopicMap::new(scene, periods)?;
+        let (state, passage) = fixed_point(&map, state)?;
+        for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
+            let shorter = StroboscopicMap::new(scene, part)?;
+            let gap = (shorter.image(state)? - state).norm();
+            if gap > SAME * (1.0 + state.norm()) {
+                continue;
+            }
+            if let Ok((state, passage)) = fixed_point(&shorter, state) {
+                return Self::on(scene, &shorter, state, &passage);
+            }
+        }
+        Self::on(scene, &map, state, &passage)
+    }
+
+    /// The orbit through a fixed point of the map over its own period that is already known.
+    pub(crate) fn on(
+        scene: &Scene,
+        map: &StroboscopicMap,
+        state: Vector2<f64>,
+        passage: &Passage,
+    ) -> Result<Self, OrbitError> {
+        let touch = |(instant, velocity): (&Instant, &f64)| Touch {
+            instant: *instant,
+            before_impact_velocity: *velocity,
+        };
+        Ok(Self {
+            scene: scene.clone(),
+            periods: map.periods(),
+            position: state.x,
+            velocity: state.y,
+            impacts: passage
+                .instants
+                .iter()
+                .zip(&passage.impacts)
+                .map(touch)
+                .collect(),
+            rests: passage.rests.clone(),
+            max_position: map.max_position(state)?,
+            monodromy: passage.monodromy,
+            damping_integral: passage.damping_integral,
+            determinant: passage.monodromy.determinant(),
+        })
+    }
+
+    /// z = p/n. Of complete chatter only the impacts before the summed ones count.
+    pub fn regime(&self) -> Regime {
+        Regime {
+            impacts: self.impacts.len() as u64,
+            periods: self.periods,
+        }
+    }
+
+    /// The order of its impacts.
+    pub fn pattern(&self) -> ImpactPattern {
+        let instants: Vec<Instant> = self.impacts.iter().map(|touch| touch.instant).collect();
+        ImpactPattern::new(&instants, &self.rests, self.periods, self.clock().period())
+    }
+
+    /// True if there are infinitely many impacts in its period, ever weaker ones that end in rest.
+    pub fn chatters(&self) -> bool {
+        !self.rests.is_empty()
+    }
+
+    /// Before-impact velocity in m/s of its hardest impact; 0 if it has none.
+    pub fn before_impact_velocity(&self) -> f64 {
+        self.before_impact_velocities().fold(0.0, f64::max)
+    }
+
+    /// Before-impact velocities in m/s, in order of time.
+    pub fn before_impact_velocities(&self) -> impl Iterator<Item = f64> + '_ {
+        self.impacts
+            .iter()
+            .map(|touch| touch.before_impact_velocity)
+    }
+
+    /// Drive angles of its impacts in rad, w t + phi with t within the drive period of each.
+    pub fn impact_angles(&self) -> impl Iterator<Item = f64> + '_ {
+        let drive = self.scene.excitation;
+        let angle = move |touch: &Touch| drive.frequency * touch.instant.offset + drive.phase;
+        self.impacts.iter().map(angle)
+    }
+
+    /// Its states at drive angle phi, one for each drive period.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the motion cannot be computed.
+    pub fn states(&self) -> Result<Vec<Vector2<f64>>, MotionError> {
+        let map = StroboscopicMap::new(&self.scene, 1)?;
+        let mut states = vec![self.state()];
+        for _ in 1..self.periods {
+            let next = map.image(states[states.len() - 1])?;
+            states.push(next);
+        }
+        Ok(states)
+    }
+
+    /// Its state at time 0.
+    pub fn state(&self) -> Vector2<f64> {
+        Vector2::new(self.position, self.velocity)
+    }
+
+    fn clock(&self) -> Clock {
+        Clock::new(self.scene.excitation.frequency, self.scene.excitation.phase)
+    }
+
+    /// How far its state is from where it began after the period, in m and m/s, and what rounding alone
+    /// may leave.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the motion cannot be computed.
+    pub fn residual(&self) -> Result<(f64, f64), MotionError> {
+        let map = StroboscopicMap::new(&self.scene, self.periods)?;
+        let passage = map.apply(self.state())?;
+        let gap = (passage.end - self.state()).norm();
+        Ok((gap, round_off(&self.state(), &passage)))
+    }
+
+    /// Trace of the monodromy matrix.
+    pub fn trace(&self) -> f64 {
+        self.monodromy.trace()
+    }
+
+    /// Determinant of the monodromy matrix.
+    pub fn determinant(&self) -> f64 {
+        self.determinant
+    }
+
+    /// Floquet multipliers, the roots of mu^2 - trace mu + determinant.
+    pub fn multipliers(&self) -> [Complex<f64>; 2] {
+        roots(self.trace(), self.determinant)
+    }
+
+    /// True if both multipliers lie inside the unit circle.
+    pub fn is_stable(&self) -> bool {
+        is_stable(&self.monodromy)
+    }
+}

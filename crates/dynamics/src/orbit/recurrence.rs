@@ -1,0 +1,134 @@
+//! Whether a row of stroboscopic states repeats.
+
+use softstop::integrator::Start;
+
+/// Distance within which a state has returned, in units of the motion's size.
+const RETURN: f64 = 1e-4;
+
+/// A motion that returns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Return {
+    /// Drive periods after which it does.
+    pub periods: usize,
+    /// The largest distance between states so many periods apart, in units of the motion's size.
+    pub distance: f64,
+}
+
+/// Distance in m/s of two states, positions counted times the drive's frequency in rad/s.
+pub(crate) fn distance(frequency: f64, a: &Start, b: &Start) -> f64 {
+    (frequency * (a.position - b.position)).hypot(a.velocity - b.velocity)
+}
+
+/// The size of a motion in m/s: its largest state.
+pub(crate) fn size<'a>(frequency: f64, states: impl IntoIterator<Item = &'a Start>) -> f64 {
+    let zero = Start {
+        position: 0.0,
+        velocity: 0.0,
+    };
+    let sizes = states
+        .into_iter()
+        .map(|state| distance(frequency, state, &zero));
+    sizes.fold(0.0, f64::max)
+}
+
+/// The least number of drive periods, up to half of the row's length, after which each state of the first
+/// half of the row returns.
+pub(crate) fn returns(frequency: f64, states: &[Start]) -> Option<Return> {
+    returns_within(frequency, states, RETURN)
+}
+
+/// The same with another distance, in units of the motion's size.
+pub(crate) fn returns_within(frequency: f64, states: &[Start], share: f64) -> Option<Return> {
+    let longest = states.len().checked_sub(1)? / 2;
+    let size = size(frequency, states);
+    (1..=longest).find_map(|periods| {
+        let mut largest = 0.0f64;
+        for j in 0..=longest {
+            largest = largest.max(distance(frequency, &states[j], &states[j + periods]));
+            if largest > share * size {
+                return None;
+            }
+        }
+        let distance = if size > 0.0 { largest / size } else { 0.0 };
+        Some(Return { periods, distance })
+    })
+}
+
+/// Share of its first size to which a difference must fall within a row to count as one that dies out: of a motion
+/// that has returned, and of one that has not yet.
+const DYING: (f64, f64) = (0.8, 0.1);
+/// How large it may be by then, in units of the distance within which states have returned.
+const LEFT: f64 = 10.0;
+
+/// The period of what a row of states settles on; none if it does not.
+///
+/// That after which its states return or, if they come ever nearer to each other so many periods apart, the
+/// least divisor of it: a motion that spirals onto its orbit may come back after several turns before it does
+/// after one. If no state has returned yet, the least period after which they come nearer fast. `share`: the distance
+/// within which states have returned, in units of the motion's size.
+pub(crate) fn settles_on(frequency: f64, states: &[Start], share: f64) -> Option<usize> {
+    let most = LEFT * share * size(frequency, states);
+    let dies = |apart: usize, ratio: f64| {
+        let [first, second] = gaps(frequency, states, apart);
+        second < most.min(ratio * first)
+    };
+    match returns_within(frequency, states, share) {
+        Some(found) => {
+            let divisors = (1..found.periods).filter(|part| found.periods.is_multiple_of(*part));
+            let mut dying = divisors.filter(|part| dies(*part, DYING.0));
+            Some(dying.next().unwrap_or(found.periods))
+        }
+        None => (1..=(states.len() - 1) / 4).find(|apart| dies(*apart, DYING.1)),
+    }
+}
+
+/// Largest distances of states so many periods apart, in both halves of a row.
+fn gaps(frequency: f64, states: &[Start], apart: usize) -> [f64; 2] {
+    let pairs = states.iter().zip(&states[apart..]);
+    let gaps: Vec<f64> = pairs.map(|(a, b)| distance(frequency, a, b)).collect();
+    let (first, second) = gaps.split_at(gaps.len() / 2);
+    [first, second].map(|half| half.iter().copied().fold(0.0, f64::max))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{returns_within, settles_on};
+    use softstop::integrator::Start;
+
+    /// A spiral onto the origin, a third of a turn and a little more at each step.
+    fn spiral(decay: f64) -> Vec<Start> {
+        let state = |k: i32| {
+            let (sin, cos) = (f64::from(k) * 2.1).sin_cos();
+            let size = 1e-4 * decay.powi(k);
+            Start {
+                position: 1.0 + size * cos,
+                velocity: size * sin,
+            }
+        };
+        (0..=24).map(state).collect()
+    }
+
+    #[test]
+    fn a_spiral_settles_on_its_centre() {
+        let states = spiral(0.9);
+        let found = returns_within(1.0, &states, 3e-5).expect("returns");
+        assert!(found.periods > 1, "{found:?}");
+        assert_eq!(settles_on(1.0, &states, 3e-5), Some(1));
+        // So it does where it has not come back yet, if it is fast and near.
+        let fast = spiral(0.7);
+        assert!(returns_within(1.0, &fast, 1e-5).is_none());
+        assert_eq!(settles_on(1.0, &fast, 1e-5), Some(1));
+    }
+
+    #[test]
+    fn a_true_period_is_kept() {
+        let angle = |k: usize| (k % 3) as f64 * std::f64::consts::TAU / 3.0;
+        let states: Vec<Start> = (0..=24)
+            .map(|k| Start {
+                position: angle(k).cos(),
+                velocity: angle(k).sin(),
+            })
+            .collect();
+        assert_eq!(settles_on(1.0, &states, 1e-4), Some(3));
+    }
+}

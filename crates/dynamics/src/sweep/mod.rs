@@ -1,0 +1,188 @@
+//! Sweeps: a parameter goes up or down in steps, and the motion goes on through all of them.
+//!
+//! The rule: each value of the parameter holds for a whole number of drive periods. The state at the end of a
+//! step, at drive angle phi, is the start of the next one. So position, velocity and drive angle are continuous;
+//! the parameter alone jumps, each time at drive angle phi. A sweep loses a motion later than the motion itself
+//! ends, by so much the more as it goes faster: where it does is told with the rate ([`Plan::rate`]).
+//!
+//! Many sweeps, of several machines and both directions, go side by side in the lanes of the batch engine.
+//! What comes out depends on plan and chains alone, not on the number of threads, nor on whether the sweep was
+//! interrupted and taken up again.
+//!
+//! ```
+//! use softstop::Ratios;
+//! use crate::continuation::Parameter;
+//! use crate::sweep::{Chain, Direction, Plan, hysteresis};
+//!
+//! let plan = Plan::new(Parameter::Frequency, (1.01, 1.4), 40, 200)?;
+//! let mut chains = [Direction::Up, Direction::Down].map(|way| Chain::new(Ratios::unloaded(), way));
+//! plan.run(&mut chains, &|_| true);
+//! let zones = hysteresis(&chains[0], &chains[1]);
+//! // Between g0 = 1.04444 and s_SN = 1.369036 the way matters.
+//! assert_eq!(zones.len(), 1);
+//! assert!((zones[0].from - 1.05).abs() < 1e-9 && (zones[0].to - 1.36).abs() < 1e-9);
+//! # Ok::<(), crate::sweep::PlanError>(())
+//! ```
+
+mod compare;
+mod run;
+mod settle;
+
+pub use compare::{Coexistence, Jump, hysteresis};
+pub use settle::{Settled, Step};
+
+use thiserror::Error;
+
+use crate::continuation::Parameter;
+use softstop::error::MotionError;
+use softstop::integrator::Start;
+
+/// Which way the parameter goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// It rises.
+    Up,
+    /// It falls.
+    Down,
+}
+
+impl Direction {
+    /// In a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Up => "up",
+            Self::Down => "down",
+        }
+    }
+}
+
+/// How a parameter is swept.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plan {
+    /// What changes.
+    pub parameter: Parameter,
+    /// Its least and largest value.
+    pub range: (f64, f64),
+    /// Number of values, evenly spaced, both ends included; at least 2.
+    pub steps: usize,
+    /// Drive periods for each; at least 1.
+    pub periods: u64,
+    /// Distance within which a state has returned, in units of the motion's size. Where each step is too
+    /// short to settle, it has to be larger than what a step changes.
+    pub tolerance: f64,
+    /// State before the first step.
+    pub start: Start,
+}
+
+/// A plan that cannot be.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum PlanError {
+    /// The range is empty or not finite.
+    #[error("range = {from} to {to}: must be finite, and rising")]
+    Range {
+        /// Its beginning.
+        from: f64,
+        /// Its end.
+        to: f64,
+    },
+    /// Too few values.
+    #[error("steps = {0}: must be >= 2")]
+    Steps(usize),
+    /// No time.
+    #[error("periods = {0}: must be >= 1")]
+    Periods(u64),
+}
+
+/// Distance within which a state has returned unless the plan says otherwise.
+const RETURN: f64 = 1e-4;
+
+impl Plan {
+    /// A plan that starts from rest at the origin.
+    ///
+    /// # Errors
+    /// [`PlanError`] if it cannot be.
+    pub fn new(
+        parameter: Parameter,
+        range: (f64, f64),
+        steps: usize,
+        periods: u64,
+    ) -> Result<Self, PlanError> {
+        let (from, to) = range;
+        if !(from.is_finite() && to.is_finite() && from < to) {
+            return Err(PlanError::Range { from, to });
+        }
+        if steps < 2 {
+            return Err(PlanError::Steps(steps));
+        }
+        if periods == 0 {
+            return Err(PlanError::Periods(periods));
+        }
+        Ok(Self {
+            parameter,
+            range,
+            steps,
+            periods,
+            tolerance: RETURN,
+            start: Start {
+                position: 0.0,
+                velocity: 0.0,
+            },
+        })
+    }
+
+    /// The parameter's value at a step, counted from 0 in the direction of the sweep.
+    pub fn value(&self, step: usize, direction: Direction) -> f64 {
+        let last = self.steps - 1;
+        let place = match direction {
+            Direction::Up => step,
+            Direction::Down => last - step,
+        };
+        let share = place as f64 / last as f64;
+        self.range.0 + share * (self.range.1 - self.range.0)
+    }
+
+    /// Mean change of the parameter per drive period.
+    pub fn rate(&self) -> f64 {
+        (self.range.1 - self.range.0) / (self.steps - 1) as f64 / self.periods as f64
+    }
+
+    /// The last drive periods of a step, in which it is looked at: half of them, but no more than 128, and
+    /// no fewer than 16 unless there are none.
+    pub fn watched(&self) -> u64 {
+        (self.periods / 2).clamp(16.min(self.periods), 128)
+    }
+}
+
+/// One machine on its way through the values of the parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chain<M> {
+    /// The machine; its own value of the parameter plays no part.
+    pub machine: M,
+    /// Which way.
+    pub direction: Direction,
+    /// The steps that are complete, in the order in which they were made.
+    pub steps: Vec<Step>,
+    /// Why it cannot go on.
+    pub error: Option<MotionError>,
+}
+
+impl<M> Chain<M> {
+    /// A chain that has not begun.
+    pub fn new(machine: M, direction: Direction) -> Self {
+        Self {
+            machine,
+            direction,
+            steps: Vec::new(),
+            error: None,
+        }
+    }
+
+    /// The steps in rising order of the parameter.
+    pub fn rising(&self) -> Vec<&Step> {
+        let mut steps: Vec<&Step> = self.steps.iter().collect();
+        if self.direction == Direction::Down {
+            steps.reverse();
+        }
+        steps
+    }
+}

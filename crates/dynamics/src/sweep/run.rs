@@ -1,0 +1,144 @@
+//! Sweeps side by side in the lanes.
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use rayon::prelude::*;
+
+use super::settle::{Log, Step};
+use super::{Chain, Plan};
+use crate::continuation::Adjustable;
+use softstop::error::MotionError;
+use softstop::integrator::Start;
+use softstop::scene::Scene;
+use softstop_lanes::{Job, Machine};
+
+/// Most chains that go together. Lanes that go together round together, so the groups may not depend on
+/// how many threads there are.
+const TOGETHER: usize = 8;
+
+/// One chain's next step.
+struct Leg {
+    /// Its place in the group.
+    chain: usize,
+    value: f64,
+    scene: Scene,
+    state: Start,
+}
+
+impl Plan {
+    /// Carries all chains on to their ends, from wherever they are, as long as `go_on`, told after every step
+    /// how many more are done, says so. True if all came to their ends.
+    pub fn run<M>(&self, chains: &mut [Chain<M>], go_on: &(dyn Fn(u64) -> bool + Sync)) -> bool
+    where
+        M: Adjustable + Clone + Send,
+    {
+        let groups = chains.len().div_ceil(TOGETHER).max(1);
+        let size = chains.len().div_ceil(groups).max(1);
+        let stopped = AtomicBool::new(false);
+        let done = AtomicU64::new(0);
+        chains.par_chunks_mut(size).for_each(|group| {
+            while !stopped.load(Ordering::Relaxed) {
+                let steps = self.step(group);
+                if steps == 0 {
+                    break;
+                }
+                done.fetch_add(steps, Ordering::Relaxed);
+                if !go_on(steps) {
+                    stopped.store(true, Ordering::Relaxed);
+                }
+            }
+        });
+        chains.iter().all(|chain| self.is_complete(chain))
+    }
+
+    fn is_complete<M>(&self, chain: &Chain<M>) -> bool {
+        chain.steps.len() >= self.steps || chain.error.is_some()
+    }
+
+    /// Makes the next step of those chains of a group that are the farthest behind; how many there are.
+    fn step<M: Adjustable + Clone>(&self, group: &mut [Chain<M>]) -> u64 {
+        let afloat = group.iter().filter(|chain| !self.is_complete(chain));
+        let Some(step) = afloat.map(|chain| chain.steps.len()).min() else {
+            return 0;
+        };
+        let (mut legs, mut machines) = (Vec::new(), Vec::new());
+        for (index, chain) in group.iter_mut().enumerate() {
+            if self.is_complete(chain) || chain.steps.len() != step {
+                continue;
+            }
+            match self.leg(index, chain) {
+                Ok((leg, machine)) => {
+                    legs.push(leg);
+                    machines.push(machine);
+                }
+                Err(error) => chain.error = Some(error),
+            }
+        }
+        let count = legs.len() as u64;
+        for (index, outcome) in self.follow(legs, &machines) {
+            match outcome {
+                Ok(step) => group[index].steps.push(step),
+                Err(error) => group[index].error = Some(error),
+            }
+        }
+        // A group of failures alone has moved as well.
+        count.max(1)
+    }
+
+    fn leg<M: Adjustable + Clone>(
+        &self,
+        index: usize,
+        chain: &Chain<M>,
+    ) -> Result<(Leg, Machine), MotionError> {
+        let value = self.value(chain.steps.len(), chain.direction);
+        let mut machine = chain.machine.clone();
+        machine.set(self.parameter, value);
+        let scene = machine.scene()?;
+        let machine = Machine::new(&scene)?;
+        let state = chain.steps.last().map_or(self.start, |step| step.end);
+        let leg = Leg {
+            chain: index,
+            value,
+            scene,
+            state,
+        };
+        Ok((leg, machine))
+    }
+
+    /// Follows all legs: first unwatched, then watched.
+    fn follow(
+        &self,
+        mut legs: Vec<Leg>,
+        machines: &[Machine],
+    ) -> Vec<(usize, Result<Step, MotionError>)> {
+        let mut errors: Vec<Option<MotionError>> = vec![None; legs.len()];
+        let watched = self.watched();
+        let settling = jobs(&legs, self.periods - watched);
+        let outcomes = softstop_lanes::run(machines, &settling, &mut ());
+        for ((leg, outcome), error) in legs.iter_mut().zip(outcomes).zip(&mut errors) {
+            leg.state = outcome.end;
+            *error = outcome.error;
+        }
+        let watching = jobs(&legs, watched);
+        let mut log = Log::new(legs.iter().map(|leg| leg.state));
+        let outcomes = softstop_lanes::run(machines, &watching, &mut log);
+        let results = legs.into_iter().zip(outcomes).zip(log.records).zip(errors);
+        let results = results.map(|(((leg, outcome), record), error)| {
+            let step = match error.or(outcome.error) {
+                Some(error) => Err(error),
+                None => Step::new(leg.value, &leg.scene, &record, self.tolerance),
+            };
+            (leg.chain, step)
+        });
+        results.collect()
+    }
+}
+
+fn jobs(legs: &[Leg], periods: u64) -> Vec<Job> {
+    let job = |(machine, leg): (usize, &Leg)| Job {
+        machine,
+        start: leg.state,
+        periods,
+    };
+    legs.iter().enumerate().map(job).collect()
+}

@@ -1,0 +1,91 @@
+//! Where chaos ends: by its lifetime.
+
+use super::departure::Gathering;
+use super::explore::Stage;
+use super::{Motion, TransitionError};
+use crate::attractors::Arrival;
+use crate::continuation::Family;
+use crate::orbit::Orbit;
+use softstop::integrator::Start;
+
+/// Largest step of the parameter on the way, as a share of it.
+const STRIDE: f64 = 2e-4;
+
+/// An end of chaos.
+pub(super) struct ChaosEnd {
+    /// Within this, half of the motions on it settle in the time given.
+    pub value: f64,
+    /// On what most of them settle.
+    pub gathering: Gathering,
+    /// Where that was seen.
+    pub after: f64,
+}
+
+impl<F: Family + Sync> Stage<'_, F> {
+    /// Motions that still wander at a value after the time given; none if half of them do not.
+    pub fn lasting(
+        &self,
+        value: f64,
+        states: &[Start],
+    ) -> Result<Option<Vec<Start>>, TransitionError> {
+        let arrivals = self.hold(value, &self.fill(states), self.rules.lifetime)?;
+        let wandering: Vec<Start> = arrivals
+            .iter()
+            .filter(|it| it.orbit.is_none())
+            .map(|it| it.state)
+            .collect();
+        Ok((2 * wandering.len() >= arrivals.len()).then_some(wandering))
+    }
+
+    /// Follows chaos from a value on until it ends, or the range does.
+    pub fn end_of_chaos(
+        &self,
+        value: f64,
+        states: &[Start],
+        rising: bool,
+    ) -> Result<(f64, Option<ChaosEnd>), TransitionError> {
+        let sign = if rising { 1.0 } else { -1.0 };
+        let unit = value.abs();
+        let width = self.rules.width * unit;
+        let (mut good, mut states) = (value, states.to_vec());
+        let mut step = 16.0 * width;
+        let mut bad = None;
+        while bad.is_none_or(|bad: f64| (bad - good).abs() > width) {
+            let next = match bad {
+                Some(bad) => 0.5 * (good + bad),
+                None => good + sign * step,
+            };
+            if !(self.range.0..=self.range.1).contains(&next) {
+                return Ok((good, None));
+            }
+            match self.lasting(next, &states)? {
+                Some(wandering) => {
+                    (good, states) = (next, wandering);
+                    step = (2.0 * step).min(STRIDE * unit);
+                }
+                None => bad = Some(next),
+            }
+        }
+        let Some(after) = bad else {
+            return Ok((good, None));
+        };
+        let arrivals: Vec<Arrival> = self.hold(after, &self.fill(&states), self.rules.patience)?;
+        let settled = arrivals.into_iter().filter(|it| it.orbit.is_some());
+        let end = ChaosEnd {
+            value: 0.5 * (good + after),
+            gathering: super::departure::most(settled.collect()),
+            after,
+        };
+        Ok((good, Some(end)))
+    }
+}
+
+impl ChaosEnd {
+    /// The orbit on which most settle.
+    pub fn target(&self) -> Option<(&Motion, &Orbit)> {
+        self.gathering
+            .motion
+            .as_ref()
+            .zip(self.gathering.orbit.as_ref())
+    }
+}

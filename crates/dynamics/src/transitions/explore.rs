@@ -1,0 +1,209 @@
+//! From a few values of the parameter to all transitions.
+
+use rayon::prelude::*;
+
+use super::cause::Cause;
+use super::departure::Departure;
+use super::way::is_doubled;
+use super::window::Window;
+use super::{Motion, Rules, Transition, TransitionError};
+use crate::attractors::{Kind, attractors_watched};
+use crate::continuation::Family;
+use crate::orbit::Orbit;
+use softstop::integrator::Start;
+
+/// What all parts of the search share.
+pub(super) struct Stage<'a, F> {
+    pub family: &'a F,
+    pub range: (f64, f64),
+    pub rules: Rules,
+    pub watcher: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// Finds transitions of a family's motions.
+pub struct Explorer<'a, F> {
+    stage: Stage<'a, F>,
+}
+
+/// A periodic motion to follow: where it was met, and its orbit.
+type Met = (f64, Orbit);
+/// Chaos to follow: where it was met, and states on it.
+type Seed = (f64, Vec<Start>);
+
+/// What is known so far.
+#[derive(Default)]
+struct Atlas {
+    windows: Vec<Window>,
+    /// Values over which chaos has been followed.
+    chaos: Vec<(f64, f64)>,
+    transitions: Vec<Transition>,
+}
+
+/// Rounds of new motions after which no more are followed.
+const ROUNDS: usize = 6;
+/// Distance of an end of chaos from that of a window, as a share of the parameter, at which they are one.
+const SAME: f64 = 1e-4;
+
+impl<'a, F: Family + Sync> Explorer<'a, F> {
+    /// A search in a range of the parameter. It stops when `watcher`, asked often, says false.
+    pub fn new(
+        family: &'a F,
+        range: (f64, f64),
+        rules: Rules,
+        watcher: &'a (dyn Fn() -> bool + Sync),
+    ) -> Self {
+        let stage = Stage {
+            family,
+            range,
+            rules,
+            watcher,
+        };
+        Self { stage }
+    }
+
+    /// All transitions of the motions found at `values`, and of those to which they lead, in rising order
+    /// of the parameter.
+    ///
+    /// # Errors
+    /// [`TransitionError`] if a scene cannot be, or the watcher stopped it.
+    pub fn explore(&self, values: &[f64]) -> Result<Vec<Transition>, TransitionError> {
+        let mut atlas = Atlas::default();
+        let (mut met, mut seeds) = (Vec::new(), Vec::new());
+        for value in values {
+            self.survey(*value, &mut met, &mut seeds)?;
+        }
+        for _ in 0..ROUNDS {
+            if met.is_empty() && seeds.is_empty() {
+                break;
+            }
+            let departures = self.follow(&mut atlas, std::mem::take(&mut met))?;
+            for departure in departures {
+                if let Some(orbit) = departure.gathering.orbit {
+                    met.push((departure.value, orbit));
+                } else if departure.transition.to() == &Motion::Chaos {
+                    seeds.push((departure.value, departure.gathering.states));
+                }
+                atlas.transitions.push(departure.transition);
+            }
+            for seed in std::mem::take(&mut seeds) {
+                self.follow_chaos(&mut atlas, &seed, &mut met)?;
+            }
+        }
+        atlas
+            .transitions
+            .sort_by(|a, b| a.value.total_cmp(&b.value));
+        Ok(atlas.transitions)
+    }
+
+    /// The motions at one value.
+    fn survey(
+        &self,
+        value: f64,
+        met: &mut Vec<Met>,
+        seeds: &mut Vec<Seed>,
+    ) -> Result<(), TransitionError> {
+        let scene = self.stage.family.scene([value])?;
+        let watcher = |_, _| (self.stage.watcher)();
+        let survey = attractors_watched(&scene, &self.stage.rules.survey, &watcher)?;
+        for attractor in survey.attractors {
+            match attractor.kind {
+                Kind::Periodic { orbit, .. } => met.push((value, *orbit)),
+                Kind::Chaotic(chaos) | Kind::TransientChaos { chaos, .. } => {
+                    seeds.push((value, vec![chaos.state]));
+                }
+                Kind::AtRest { .. } | Kind::Unsettled { .. } => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Follows new motions to their ends and beyond.
+    fn follow(&self, atlas: &mut Atlas, met: Vec<Met>) -> Result<Vec<Departure>, TransitionError> {
+        let mut fresh = Vec::new();
+        for (value, orbit) in met {
+            let motion = Motion::of(&orbit);
+            let known = |window: &Window| window.motion == motion && window.contains(value);
+            if atlas.windows.iter().chain(&fresh).any(known) {
+                continue;
+            }
+            let stage = &self.stage;
+            // An orbit so near an end of its window that it cannot be followed is met again elsewhere.
+            if let Ok(window) = Window::of(stage.family, value, &orbit, stage.range, &stage.rules) {
+                fresh.push(window);
+            }
+        }
+        let ends: Vec<(&Window, bool)> = fresh
+            .iter()
+            .flat_map(|window| [(window, false), (window, true)])
+            .collect();
+        let departures: Result<Vec<Option<Departure>>, TransitionError> = ends
+            .into_par_iter()
+            .map(|(window, upper)| self.stage.depart(window, upper))
+            .collect();
+        let departures = departures?.into_iter().flatten().collect();
+        atlas.windows.extend(fresh);
+        Ok(departures)
+    }
+
+    /// Follows chaos both ways.
+    fn follow_chaos(
+        &self,
+        atlas: &mut Atlas,
+        (value, states): &Seed,
+        met: &mut Vec<Met>,
+    ) -> Result<(), TransitionError> {
+        if atlas
+            .chaos
+            .iter()
+            .any(|(low, high)| (*low..=*high).contains(value))
+        {
+            return Ok(());
+        }
+        let Some(states) = self.stage.lasting(*value, states)? else {
+            return Ok(());
+        };
+        let mut ends = [*value; 2];
+        for rising in [false, true] {
+            let (last, end) = self.stage.end_of_chaos(*value, &states, rising)?;
+            ends[usize::from(rising)] = last;
+            let Some(end) = end else { continue };
+            let Some((target, orbit)) = end.target() else {
+                continue;
+            };
+            met.push((end.after, orbit.clone()));
+            let stage = &self.stage;
+            let window = Window::of(stage.family, end.after, orbit, stage.range, &stage.rules);
+            let before = end.value + (end.value - end.after) * 4.0;
+            let hysteresis = window.is_ok_and(|window| window.contains(before));
+            if !atlas.has_reverse(target, end.value) {
+                atlas.transitions.push(Transition {
+                    value: end.value,
+                    doubled_until: None,
+                    settled_at: None,
+                    from: Motion::Chaos,
+                    state: None,
+                    path: vec![target.clone()],
+                    causes: vec![Cause::OutOfChaos],
+                    rising,
+                    hysteresis,
+                    beyond: (end.after - end.value).abs(),
+                });
+            }
+        }
+        atlas.chaos.push((ends[0], ends[1]));
+        Ok(())
+    }
+}
+
+impl Atlas {
+    /// True if chaos is known to follow on a motion, or on one of which it is doubled, near a value, without
+    /// hysteresis.
+    fn has_reverse(&self, motion: &Motion, value: f64) -> bool {
+        self.transitions.iter().any(|known| {
+            !known.hysteresis
+                && known.to() == &Motion::Chaos
+                && (&known.from == motion || is_doubled(&known.from, motion))
+                && (known.value - value).abs() <= SAME * value.abs()
+        })
+    }
+}

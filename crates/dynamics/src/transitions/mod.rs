@@ -1,0 +1,196 @@
+//! Transitions of motions along one parameter: where each stable motion ends, by what, what follows,
+//! and whether the way back leads over the same value.
+//!
+//! Nothing is told of the motions. [`crate::attractors`] finds them at a few values of the parameter;
+//! [`Window`] follows each periodic one to both ends of its stability (grazing, fold, flip); beyond each
+//! end [`Explorer::explore`] lets the motion go and sees where it settles; motions found so are followed
+//! in turn. Chaos is followed by its lifetime until it ends.
+//!
+//! ```
+//! use softstop::Ratios;
+//! use crate::continuation::{Along, Parameter};
+//! use crate::transitions::{Explorer, Rules};
+//!
+//! let family = Along::new(Ratios::unloaded(), [Parameter::Frequency])?;
+//! let explorer = Explorer::new(&family, (1.0, 1.5), Rules::default(), &|| true);
+//! let transitions = explorer.explore(&[1.2])?;
+//! // The grazing of z = 0 at g0 and the fold of z = 1, both with hysteresis.
+//! let symbols: Vec<String> = transitions.iter().map(|it| it.symbols()).collect();
+//! assert_eq!(symbols, ["G", "SN"]);
+//! assert!(transitions.iter().all(|transition| transition.hysteresis));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod cause;
+mod chaos;
+mod departure;
+mod explore;
+mod intermittent;
+mod way;
+mod window;
+
+pub use cause::Cause;
+pub use explore::Explorer;
+pub use window::{EndKind, Window, WindowEnd};
+
+use std::fmt;
+
+use thiserror::Error;
+
+use crate::attractors::{Options, SurveyError};
+use crate::orbit::{Orbit, OrbitError};
+use softstop::error::MotionError;
+use softstop::integrator::Start;
+
+/// A motion, by what tells it from others.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Motion {
+    /// It repeats.
+    Periodic {
+        /// Impacts in its period.
+        impacts: u64,
+        /// Drive periods of it.
+        periods: u64,
+        /// The order of its impacts, as 1-1-0-0.
+        pattern: String,
+    },
+    /// It wanders.
+    Chaos,
+}
+
+impl Motion {
+    fn of(orbit: &Orbit) -> Self {
+        let regime = orbit.regime();
+        Self::Periodic {
+            impacts: regime.impacts,
+            periods: regime.periods,
+            pattern: orbit.pattern().to_string(),
+        }
+    }
+
+    /// Drive periods after which it repeats, if it does.
+    pub fn periods(&self) -> Option<u64> {
+        match self {
+            Self::Periodic { periods, .. } => Some(*periods),
+            Self::Chaos => None,
+        }
+    }
+}
+
+impl fmt::Display for Motion {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Periodic {
+                impacts, periods, ..
+            } if *periods == 1 => write!(formatter, "z = {impacts}"),
+            Self::Periodic {
+                impacts, periods, ..
+            } => write!(formatter, "z = {impacts}/{periods}"),
+            Self::Chaos => formatter.write_str("chaos"),
+        }
+    }
+}
+
+/// A transition from one motion to another.
+#[derive(Debug, Clone)]
+pub struct Transition {
+    /// The parameter where the first motion ends.
+    pub value: f64,
+    /// What ends there.
+    pub from: Motion,
+    /// Its state there at drive angle phi, if it repeats.
+    pub state: Option<Start>,
+    /// The parameter where the last doubled motion after it ends, if there is one.
+    pub doubled_until: Option<f64>,
+    /// The parameter where the last motion on the way first follows, if others come before it.
+    pub settled_at: Option<f64>,
+    /// What is met after it, in order, doubled motions among them; the last is where it settles.
+    pub path: Vec<Motion>,
+    /// Why, in order.
+    pub causes: Vec<Cause>,
+    /// True if the motion goes on, on rising values.
+    pub rising: bool,
+    /// True if going back does not lead to the first motion again.
+    pub hysteresis: bool,
+    /// How far beyond the value the last motion was seen.
+    pub beyond: f64,
+}
+
+impl Transition {
+    /// What follows in the end.
+    pub fn to(&self) -> &Motion {
+        self.path.last().unwrap_or(&self.from)
+    }
+
+    /// The parameter where the first motion is lost: where it ends or, if it ends by a soft doubling and what
+    /// follows is another motion for good, where that takes over.
+    pub fn lost_at(&self) -> f64 {
+        let is_soft = self
+            .doubled_until
+            .is_some_and(|until| (until > self.value) == self.rising);
+        match self.settled_at {
+            Some(settled) if is_soft && self.hysteresis => settled,
+            _ => self.value,
+        }
+    }
+
+    /// The causes by the paper's symbols: `PD -> ISN -> OCH`.
+    pub fn symbols(&self) -> String {
+        let symbols: Vec<&str> = self.causes.iter().map(|cause| cause.symbol()).collect();
+        symbols.join(" -> ")
+    }
+}
+
+/// How it is decided what follows on what.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rules {
+    /// How motions are searched for at the values given.
+    pub survey: Options,
+    /// Motions started beside an end or on chaos.
+    pub motions: usize,
+    /// Drive periods for which they go on beside an end before they are looked at.
+    pub patience: u64,
+    /// Chaos has ended where half of the motions on it settle within so many drive periods.
+    pub lifetime: u64,
+    /// First and largest distance beyond an end at which is looked what follows, as shares of the
+    /// parameter.
+    pub beyond: (f64, f64),
+    /// Width to which an end of chaos is bracketed, as a share of the parameter.
+    pub width: f64,
+    /// Points of a branch in each direction.
+    pub points: usize,
+}
+
+impl Default for Rules {
+    fn default() -> Self {
+        Self {
+            survey: Options {
+                patience: 400_000,
+                ..Options::default()
+            },
+            motions: 64,
+            patience: 5000,
+            lifetime: 500,
+            beyond: (1e-8, 1e-3),
+            width: 1e-8,
+            points: 4000,
+        }
+    }
+}
+
+/// Why transitions cannot be told.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum TransitionError {
+    /// Motions cannot be found, or the watcher asked to stop.
+    #[error(transparent)]
+    Survey(#[from] SurveyError),
+    /// An orbit cannot be followed.
+    #[error(transparent)]
+    Orbit(#[from] OrbitError),
+}
+
+impl From<MotionError> for TransitionError {
+    fn from(error: MotionError) -> Self {
+        Self::Survey(error.into())
+    }
+}

@@ -1,0 +1,104 @@
+//! What a motion meets beyond the end of its window.
+
+use super::Motion;
+use super::departure::Gathering;
+use super::window::{EndKind, Window};
+use crate::orbit::Orbit;
+use softstop::integrator::Start;
+
+/// What a motion has met beyond the end of its window.
+pub(super) struct Way {
+    pub from: Motion,
+    pub states: Vec<Start>,
+    pub path: Vec<Motion>,
+    /// The last doubled motion and its distance.
+    pub doubled: Option<(f64, Orbit)>,
+    /// The last distance at which it is known what the motion does.
+    pub last: Option<(f64, Gathering)>,
+    /// Motion that is believed if it is met once more.
+    pub tentative: Option<Motion>,
+    /// The distance at which the last motion was first met, and the motion.
+    pub first: Option<(f64, Motion)>,
+    /// The last distance before that at which something else was, and the states there.
+    pub before: Option<(f64, Vec<Start>)>,
+    pub last_seen: Option<(f64, Vec<Start>)>,
+}
+
+impl Way {
+    pub fn new(states: Vec<Start>, window: &Window) -> Self {
+        Self {
+            from: window.motion.clone(),
+            states,
+            path: Vec::new(),
+            doubled: None,
+            last: None,
+            tentative: None,
+            first: None,
+            before: None,
+            last_seen: None,
+        }
+    }
+
+    /// Enters what is met at a distance; true if that is where it settles.
+    pub fn meet(&mut self, gathering: Gathering, distance: f64, end: EndKind) -> bool {
+        if !gathering.states.is_empty() {
+            self.states.clone_from(&gathering.states);
+        }
+        let Some(motion) = gathering.motion.clone() else {
+            return false;
+        };
+        if motion == self.from {
+            return false;
+        }
+        if self.first.as_ref().is_none_or(|(_, last)| *last != motion) {
+            self.before = self.last_seen.take();
+            self.first = Some((distance, motion.clone()));
+        }
+        self.last_seen = Some((distance, self.states.clone()));
+        let doubles = is_doubled(&self.from, &motion);
+        let settles = match (end, &motion) {
+            (EndKind::Flip, Motion::Chaos) => false,
+            (EndKind::Flip, _) if doubles => false,
+            // A window within chaos is narrow.
+            (EndKind::Flip, _) if self.path.contains(&Motion::Chaos) => {
+                if self.tentative.as_ref() != Some(&motion) {
+                    self.tentative = Some(motion);
+                    return false;
+                }
+                true
+            }
+            _ => true,
+        };
+        self.tentative = None;
+        if doubles && let Some(orbit) = &gathering.orbit {
+            self.doubled = Some((distance, orbit.clone()));
+        }
+        if self.path.last() != Some(&motion) {
+            self.path.push(motion);
+        }
+        self.last = Some((distance, gathering));
+        settles
+    }
+}
+
+/// True if one motion is another with its period doubled once or several times.
+pub(super) fn is_doubled(simple: &Motion, other: &Motion) -> bool {
+    let (
+        Motion::Periodic {
+            impacts, periods, ..
+        },
+        Motion::Periodic {
+            impacts: more,
+            periods: longer,
+            ..
+        },
+    ) = (simple, other)
+    else {
+        return false;
+    };
+    let times = longer / periods;
+    longer.is_multiple_of(*periods)
+        && times > 1
+        && times.is_power_of_two()
+        && *more == times * impacts
+}

@@ -1,0 +1,241 @@
+//! Basins against the scalar engine and against what is known of the machine.
+
+use nalgebra::Vector2;
+use rayon::ThreadPoolBuilder;
+use softstop::{Clock, Ratios, Scene, Start};
+use softstop_dynamics::attractors::SurveyError;
+use softstop_dynamics::basin::{
+    Axis, Basins, Grid, Kind, Options, basins, basins_watched, establishing,
+};
+use softstop_dynamics::orbit::{Orbit, Regime, StroboscopicMap};
+use softstop_dynamics::zone;
+
+const NONE: Regime = Regime {
+    impacts: 0,
+    periods: 1,
+};
+const ONE: Regime = Regime {
+    impacts: 1,
+    periods: 1,
+};
+
+fn scene(frequency: f64) -> Scene {
+    Ratios {
+        frequency,
+        ..Ratios::unloaded()
+    }
+    .scene()
+    .expect("there is one")
+}
+
+fn states(size: usize) -> Grid {
+    Grid::states(
+        Axis::position(-25.0, 20.0, size),
+        Axis::velocity(-30.0, 30.0, size),
+        0.0,
+    )
+}
+
+fn on(scene: &Scene, grid: &Grid) -> Basins {
+    let found = basins(scene, grid, &Options::default()).expect("there is one");
+    assert_eq!(found.cells.len(), grid.cells());
+    let cells: usize = found.classes.iter().map(|class| class.cells).sum();
+    assert_eq!(cells, grid.cells());
+    found
+}
+
+fn names(basins: &Basins) -> Vec<String> {
+    basins
+        .classes
+        .iter()
+        .map(|class| class.kind.name())
+        .collect()
+}
+
+/// The orbits of all classes.
+fn orbits(basins: &Basins) -> Vec<&Orbit> {
+    basins
+        .classes
+        .iter()
+        .map(|class| orbit(&class.kind))
+        .collect()
+}
+
+fn orbit(kind: &Kind) -> &Orbit {
+    match kind {
+        Kind::Periodic(orbit) => orbit,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// The class on whose orbit the scalar engine ends.
+fn by_scalar(scene: &Scene, basins: &Basins, cell: usize) -> usize {
+    let (start, angle) = basins.grid.start(cell);
+    let mut turned = scene.clone();
+    turned.excitation.phase = angle;
+    let wait = (-angle).rem_euclid(std::f64::consts::TAU) / turned.excitation.frequency;
+    let mut motion = turned.motion(start).expect("there is one");
+    let clock = Clock::new(turned.excitation.frequency, angle);
+    let at = clock.instant(wait + 250.0 * scene.period());
+    motion.advance(at, &mut ()).expect("there is one");
+    let end = Vector2::from([motion.state().position, motion.state().velocity]);
+    let near = |orbit: &&Orbit| (orbit.state() - end).norm() < 1e-3;
+    orbits(basins).iter().position(near).expect("there is one")
+}
+
+#[test]
+fn every_cell_is_where_the_scalar_engine_ends() {
+    let scene = scene(1.15);
+    let found = on(&scene, &states(40));
+    assert_eq!(names(&found), ["z = 0", "z = 1"]);
+    for (cell, class) in found.cells.iter().enumerate() {
+        assert_eq!(
+            by_scalar(&scene, &found, cell),
+            usize::from(*class),
+            "cell {cell}"
+        );
+    }
+}
+
+#[test]
+fn planes_with_a_drive_angle_are_where_the_scalar_engine_ends() {
+    let scene = scene(1.15);
+    let turn = std::f64::consts::TAU;
+    for (across, up) in [
+        (Axis::angle(0.0, turn, 16), Axis::velocity(-25.0, 25.0, 16)),
+        (
+            Axis::position(-20.0, 10.0, 16),
+            Axis::angle(-turn, turn, 16),
+        ),
+    ] {
+        let state = Start {
+            position: 3.0,
+            velocity: -2.0,
+        };
+        let grid = Grid {
+            state,
+            ..Grid::states(across, up, 0.3)
+        };
+        let found = on(&scene, &grid);
+        assert_eq!(names(&found), ["z = 0", "z = 1"]);
+        for (cell, class) in found.cells.iter().enumerate() {
+            assert_eq!(
+                by_scalar(&scene, &found, cell),
+                usize::from(*class),
+                "cell {cell}"
+            );
+        }
+    }
+}
+
+#[test]
+fn z_1_has_all_below_grazing_and_nothing_beyond_the_fold() {
+    // g0 = 1.04444, s_SN = 1.369036.
+    let below = on(&scene(1.02), &states(24));
+    assert_eq!(below.share(ONE).0, 1.0);
+    // Just below g0 some starts lead to an isolated motion, none to rest.
+    let near = on(&scene(1.043), &states(24));
+    assert_eq!(names(&near), ["z = 1", "z = 3/4"]);
+    assert!(near.share(ONE).0 > 0.95 && near.share(NONE).0 == 0.0);
+    let beyond = on(&scene(1.4), &states(24));
+    assert_eq!(beyond.share(ONE).0, 0.0);
+    assert_eq!(beyond.share(NONE).0, 1.0);
+}
+
+#[test]
+fn threads_change_nothing() {
+    let scene = scene(1.2);
+    let grid = states(80);
+    let with = |threads| {
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("there is one");
+        pool.install(|| on(&scene, &grid))
+    };
+    assert_eq!(with(1), with(2));
+}
+
+#[test]
+fn chaos_is_one_set_beside_the_isolated_motions() {
+    // Peterka 2003, section 4: at 0.9875 chaos, 2/3 and (2/4)B.
+    let found = on(&scene(0.9875), &states(24));
+    assert_eq!(names(&found), ["z = 2/3", "z = 2/4", "chaos"]);
+    let pattern = |class: usize| match &found.classes[class].kind {
+        Kind::Periodic(orbit) => orbit.pattern().to_string(),
+        _ => String::new(),
+    };
+    assert_eq!(pattern(1), "1-1-0-0");
+}
+
+#[test]
+fn cells_in_a_basin_go_to_its_orbit_and_the_largest_ball_is_inside() {
+    let scene = scene(1.15);
+    let found = on(&scene, &states(60));
+    let ball = found.largest_ball(1).expect("there is one");
+    let map = StroboscopicMap::new(&scene, 250).expect("there is one");
+    let orbit = orbits(&found)[1];
+    for k in 0..12 {
+        let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_6).sin_cos();
+        let within = 0.9 * ball.radius;
+        let state = Vector2::new(
+            ball.centre[0] + within * 22.5 * cos,
+            ball.centre[1] + within * 30.0 * sin,
+        );
+        assert!((map.image(state).expect("there is one") - orbit.state()).norm() < 1e-6);
+    }
+    assert!(ball.radius > 0.02 && ball.radius < 1.0, "{ball:?}");
+    assert_eq!(found.largest_ball(2), None);
+}
+
+#[test]
+fn the_certainty_falls_along_the_zone() {
+    let zone = zone::hysteresis(&Ratios::unloaded()).expect("there is one");
+    let places = [0.0, 0.25, 0.5, 0.75, 0.98];
+    let found = establishing(&zone, &places, &states(30), &Options::default(), &|_, _| {
+        true
+    })
+    .expect("there is one");
+    let shares: Vec<f64> = found.iter().map(|place| place.certainty).collect();
+    // The paper says from 1 at g0 to 0 at s_SN. A few starts at g0 lead to z = 3/4, and near the fold a share
+    // above zero is left; in between the certainty hardly falls.
+    assert!(shares[0] > 0.98 && shares[1] < 0.75, "{shares:?}");
+    assert!((shares[2] - shares[1]).abs() < 0.15, "{shares:?}");
+    assert!(
+        shares[4] > 0.02 && shares[4] < 0.5 * shares[3],
+        "{shares:?}"
+    );
+    assert!(
+        found
+            .iter()
+            .all(|place| place.interval[0] <= place.certainty)
+    );
+}
+
+#[test]
+fn it_stops_when_told() {
+    let stopped = basins_watched(
+        &scene(1.15),
+        &states(80),
+        &Options::default(),
+        &|done, all| {
+            assert!(done <= all && all == 6400);
+            done < 1000
+        },
+    );
+    assert_eq!(stopped, Err(SurveyError::Stopped));
+}
+
+#[test]
+fn cells_that_cannot_be_are_lost() {
+    let mut ratios = Ratios::unloaded();
+    ratios.rigid = Some(softstop::scene::RigidStop {
+        travel: 2.0,
+        restitution: 0.6,
+    });
+    let found = on(&ratios.scene().expect("there is one"), &states(24));
+    let beyond = (0..found.grid.cells()).filter(|cell| found.grid.start(*cell).0.position > 12.0);
+    let lost = found.classes.last().expect("there is one");
+    assert_eq!(lost.kind.name(), "lost");
+    assert_eq!(lost.cells, beyond.count());
+}

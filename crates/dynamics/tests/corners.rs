@@ -1,0 +1,97 @@
+//! Branches on which the state at drive angle phi comes to lie on a surface, against the same branches seen at other
+//! drive angles: where the section lies has no part in what an orbit is.
+
+use std::ops::ControlFlow;
+
+use softstop::{Ratios, Scene, Stop};
+use softstop_dynamics::continuation::{Along, Branch, Follower, Limits, Parameter};
+use softstop_dynamics::orbit::{Orbit, find};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// The branch of z = 1 over the frequency, seen at a drive angle.
+fn branch(
+    scene: &Scene,
+    angle: f64,
+    range: (f64, f64),
+) -> Result<Branch, Box<dyn std::error::Error>> {
+    let mut scene = scene.clone();
+    scene.excitation.phase += angle;
+    let orbit: Orbit = find(&scene)?;
+    let eta = scene.excitation.frequency;
+    let family = Along::new(scene, [Parameter::Frequency])?;
+    let limits = Limits {
+        range,
+        points: 2000,
+    };
+    let follower = Follower::new(&family, 1);
+    Ok(follower.branch(eta, orbit.state(), &limits, |_| ControlFlow::Continue(()))?)
+}
+
+/// Symbols and frequencies of all special points.
+fn specials(branch: &Branch) -> Vec<(&'static str, f64)> {
+    let mut found: Vec<(&'static str, f64)> = branch
+        .specials
+        .iter()
+        .map(|special| (special.kind.symbol(), special.point.parameter))
+        .collect();
+    found.sort_by(|a, b| a.1.total_cmp(&b.1));
+    found
+}
+
+fn assert_section_does_not_matter(scene: &Scene, range: (f64, f64)) -> Outcome {
+    let expected = specials(&branch(scene, 0.0, range)?);
+    assert!(!expected.is_empty());
+    for angle in [1.0, 2.5, 4.0, 5.5] {
+        let found = specials(&branch(scene, angle, range)?);
+        let same = found.len() == expected.len()
+            && found
+                .iter()
+                .zip(&expected)
+                .all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() < 1e-9);
+        assert!(same, "at {angle}: {found:?} and {expected:?}");
+    }
+    Ok(())
+}
+
+fn loaded(clearance: f64) -> Result<Scene, softstop::SceneError> {
+    let ratios = Ratios {
+        clearance,
+        ..Ratios::loaded()
+    };
+    ratios.scene()
+}
+
+#[test]
+fn a_strip_met_at_drive_angle_phi() -> Outcome {
+    for clearance in [1.5, 2.0, 3.0] {
+        assert_section_does_not_matter(&loaded(clearance)?, (0.8, 1.4))?;
+    }
+    Ok(())
+}
+
+#[test]
+fn a_preloaded_stop_met_at_drive_angle_phi() -> Outcome {
+    for clearance in [1.0, 1.5] {
+        let ratios = Ratios {
+            clearance,
+            ..Ratios::unloaded()
+        };
+        assert_section_does_not_matter(&ratios.scene()?, (0.7, 1.5))?;
+    }
+    Ok(())
+}
+
+#[test]
+fn a_rigid_stop_met_at_drive_angle_phi() -> Outcome {
+    let ratios = Ratios {
+        clearance: 2.0,
+        frequency: 1.2,
+        ..Ratios::unloaded()
+    };
+    let scene = Scene {
+        stop: Stop::Rigid { restitution: 0.7 },
+        ..ratios.scene()?
+    };
+    assert_section_does_not_matter(&scene, (0.6, 2.0))
+}

@@ -1,0 +1,96 @@
+//! Lyapunov exponents: the laws that they obey.
+
+use nalgebra::Vector2;
+use softstop::{Ratios, Scene, Stop};
+use softstop_dynamics::orbit::{Exponents, Orbit, StroboscopicMap};
+
+fn unloaded(frequency: f64) -> Scene {
+    let ratios = Ratios {
+        frequency,
+        ..Ratios::unloaded()
+    };
+    ratios.scene().expect("valid")
+}
+
+/// Periodic motions: z = 1, z = 2/3, (2/4)B, the impact-less one; soft and rigid stops.
+fn orbits() -> Vec<Orbit> {
+    let settle = |scene: &Scene, from: Vector2<f64>, periods: u64| {
+        let map = StroboscopicMap::new(scene, 600).expect("valid");
+        let state = map.image(from).expect("bounded");
+        Orbit::periodic(scene, state, periods).expect("an orbit")
+    };
+    let flung = Vector2::new(0.0, 14.0);
+    let mut rigid = unloaded(1.15);
+    rigid.stop = Stop::Rigid { restitution: 0.8 };
+    vec![
+        settle(&unloaded(1.15), flung, 1),
+        settle(&unloaded(1.15), Vector2::zeros(), 1),
+        settle(&unloaded(0.9526), Vector2::new(9.0, 3.3), 12),
+        settle(&rigid, flung, 1),
+    ]
+}
+
+#[test]
+fn on_periodic_motions_they_are_the_logarithms_of_the_multipliers() {
+    for orbit in orbits() {
+        let exact = Exponents::of(&orbit);
+        let (along, _) = Exponents::along(&orbit.scene, orbit.state(), 200).expect("bounded");
+        for (exact, along) in exact.per_period.iter().zip(along.per_period) {
+            // Complex multipliers turn the frame: the mean is off by a fraction of a turn over 6,400 periods.
+            assert!((exact - along).abs() < 1e-3, "{exact} {along}");
+        }
+        let period = orbit.scene.period();
+        for (map, flow) in exact.per_period.iter().zip(exact.per_second()) {
+            assert!((map - period * flow).abs() < 1e-14);
+        }
+        let sum: f64 = exact.per_period.iter().sum();
+        let divergence = orbit.determinant().abs().ln() / orbit.periods as f64;
+        assert!((sum - divergence).abs() < 1e-12, "{sum} {divergence}");
+    }
+}
+
+#[test]
+fn their_sum_is_the_mean_divergence_in_chaos_too() {
+    let mut rigid = unloaded(0.9875);
+    rigid.stop = Stop::Rigid { restitution: 0.8 };
+    for (scene, restitution) in [(unloaded(0.9875), 1.0f64), (rigid, 0.8)] {
+        let state = Vector2::new(9.258_494_864, 3.539_666_112);
+        let (exponents, _) = Exponents::along(&scene, state, 20).expect("bounded");
+        let map = StroboscopicMap::new(&scene, 1).expect("valid");
+        let (mut state, mut divergence, mut impacts) = (state, 0.0, 0);
+        for _ in 0..exponents.periods {
+            let passage = map.apply(state).expect("bounded");
+            state = passage.end;
+            // Liouville: what dampers take, and R^2 at each rebound; forces that jump take nothing.
+            let rebounds = passage.impacts.len();
+            divergence += 2.0 * rebounds as f64 * restitution.ln() - passage.damping_integral;
+            impacts += rebounds;
+        }
+        assert!(impacts > 100, "{impacts}");
+        let sum: f64 = exponents.per_period.iter().sum();
+        let off = sum - divergence / exponents.periods as f64;
+        assert!(off.abs() < 1e-9, "{off:e}");
+    }
+}
+
+#[test]
+fn chaos_has_a_positive_one_beyond_its_error() {
+    let state = Vector2::new(9.258_494_864, 3.539_666_112);
+    let (chaos, end) = Exponents::along(&unloaded(0.9875), state, 100).expect("bounded");
+    assert!(chaos.is_positive(), "{chaos:?}");
+    assert!(chaos.error > 0.0 && chaos.error < 0.02, "{chaos:?}");
+    // Another stretch of the same motion agrees within both errors, doubled.
+    let (again, _) = Exponents::along(&unloaded(0.9875), end, 100).expect("bounded");
+    let off = (again.per_period[0] - chaos.per_period[0]).abs();
+    assert!(off < 2.0 * (again.error + chaos.error), "{off}");
+}
+
+#[test]
+fn sticking_wipes_out_all_differences() {
+    let mut scene = unloaded(0.3);
+    scene.stop = Stop::Rigid { restitution: 0.6 };
+    scene.clearance = 0.0;
+    let (found, _) = Exponents::along(&scene, Vector2::new(-0.5, 0.1), 2).expect("bounded");
+    assert_eq!(found.per_period, [f64::NEG_INFINITY; 2]);
+    assert!(!found.is_positive());
+}

@@ -1,0 +1,333 @@
+//! What holds for every motion: independence of the way a run is divided, the energy balance,
+//! Liouville's theorem, dimensional similarity.
+
+#[path = "../../../tests/common/random.rs"]
+mod random;
+#[path = "../../../tests/common/tangent.rs"]
+mod tangent;
+
+use nalgebra::Vector2;
+use proptest::prelude::*;
+use softstop::integrator::{Crossing, Observer};
+use softstop::{Clock, PhaseKind, PiercingRatios, Ratios, Simulation, Start, Units};
+use softstop_dynamics::orbit::StroboscopicMap;
+
+/// Machines around the paper's, loaded or not, away from the degenerate.
+fn machines() -> impl Strategy<Value = Ratios> {
+    (
+        0.3..2.5f64,
+        -1.0..12.0f64,
+        0.01..0.2f64,
+        0.02..0.5f64,
+        1.0..200.0f64,
+        0.0..100.0f64,
+        any::<bool>(),
+    )
+        .prop_map(
+            |(frequency, clearance, damping, contact_damping, stiffness, preload, loaded)| Ratios {
+                frequency,
+                clearance,
+                damping,
+                contact_damping,
+                stiffness,
+                preload,
+                rigid: None,
+                piercing: loaded.then_some(PiercingRatios::PAPER),
+            },
+        )
+}
+
+fn starts() -> impl Strategy<Value = Start> {
+    (-15.0..5.0f64, -10.0..15.0f64).prop_map(|(position, velocity)| Start { position, velocity })
+}
+
+#[test]
+fn two_hundred_periods_do_not_depend_on_the_division() {
+    for ratios in [Ratios::unloaded(), Ratios::loaded()] {
+        let scene = ratios.scene().expect("valid");
+        for start in [
+            (0.0, 14.0),
+            (-3.0, 2.0),
+            (9.9, 6.0),
+            (12.0, -3.0),
+            (-20.0, 0.0),
+        ] {
+            let start = Start {
+                position: start.0,
+                velocity: start.1,
+            };
+            let end = 200.0 * scene.period();
+            let mut whole = Simulation::new(&scene, start).expect("valid");
+            whole.advance(end).expect("bounded");
+            let mut divided = Simulation::new(&scene, start).expect("valid");
+            for step in 1..=200_000u32 {
+                divided
+                    .advance(end * f64::from(step) / 200_000.0)
+                    .expect("bounded");
+            }
+            assert_eq!(whole.impact_count(), divided.impact_count());
+            assert_eq!(whole.sample(), divided.sample(), "bit for bit");
+            assert_eq!(whole.last_impact(), divided.last_impact());
+        }
+    }
+}
+
+#[test]
+fn energy_balances_over_a_thousand_periods() {
+    for ratios in [Ratios::unloaded(), Ratios::loaded()] {
+        let scene = ratios.scene().expect("valid");
+        let start = Start {
+            position: 0.0,
+            velocity: 14.0,
+        };
+        let trajectory = scene.trajectory(start, 1000).expect("bounded");
+        let relative = trajectory.energy_defect() / trajectory.work.supplied;
+        assert!(relative.abs() < 1e-11, "{relative:e}");
+        assert!(trajectory.work.dissipated > 10_000.0);
+    }
+}
+
+#[test]
+fn energy_balances_in_a_running_machine_that_is_pushed_and_tuned() {
+    let mut scene = Ratios::loaded().scene().expect("valid");
+    let mut machine = Simulation::new(
+        &scene,
+        Start {
+            position: 0.0,
+            velocity: 14.0,
+        },
+    )
+    .expect("valid");
+    let before = machine.energy().mechanical;
+    for step in 1..=400 {
+        machine.advance(0.37 * f64::from(step)).expect("bounded");
+        machine
+            .set_force(&[0.3 * f64::from(step % 5), -0.1])
+            .expect("finite");
+        if step % 50 == 0 {
+            scene.excitation.frequency = 1.1 + 0.001 * f64::from(step % 7);
+            scene.clearance = 9.0 + 0.1 * f64::from(step % 11);
+            machine.tune(&scene).expect("valid");
+        }
+        let energy = machine.energy();
+        let defect = energy.supplied - energy.dissipated - (energy.mechanical - before);
+        assert!(
+            defect.abs() < 1e-10 * energy.dissipated.max(1.0),
+            "{defect:e} at step {step}"
+        );
+    }
+}
+
+/// Counts crossings and remembers the slowest.
+#[derive(Default)]
+struct Slowest {
+    crossings: usize,
+    speed: Option<f64>,
+}
+
+impl Observer for Slowest {
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.crossings += 1;
+        let speed = crossing.velocity.abs();
+        self.speed = Some(self.speed.map_or(speed, |least| least.min(speed)));
+    }
+}
+
+proptest! {
+    #![proptest_config(random::cases(256))]
+
+    #[test]
+    fn energy_balances_in_every_machine(ratios in machines(), start in starts()) {
+        let scene = ratios.scene().expect("valid");
+        let trajectory = scene.trajectory(start, 10).expect("bounded");
+        let scale = trajectory.work.supplied.abs() + trajectory.work.dissipated.abs() + 100.0;
+        prop_assert!(trajectory.energy_defect().abs() < 1e-11 * scale);
+    }
+
+    #[test]
+    fn determinant_follows_liouville(ratios in machines(), start in starts()) {
+        let unloaded = Ratios { piercing: None, ..ratios };
+        let map = StroboscopicMap::new(&unloaded.scene().expect("valid"), 3).expect("valid");
+        let mut slowest = Slowest::default();
+        let mut motion = unloaded.scene().expect("valid").motion(start).expect("valid");
+        motion.advance(Clock::at_cycle(3), &mut slowest).expect("bounded");
+        // A graze makes the entries of the product huge against its determinant.
+        prop_assume!(slowest.speed.is_none_or(|speed| speed > 1e-2) && slowest.crossings < 50);
+        let passage = map.apply(Vector2::new(start.position, start.velocity)).expect("bounded");
+        let expected = (-passage.damping_integral).exp();
+        let size = passage.monodromy.norm_squared();
+        prop_assert!((passage.monodromy.determinant() - expected).abs() < 1e-12 * (1.0 + size));
+    }
+
+    #[test]
+    fn tangent_is_the_derivative_of_the_map(ratios in machines(), start in starts()) {
+        let scene = ratios.scene().expect("valid");
+        let mut slowest = Slowest::default();
+        let mut motion = scene.motion(start).expect("valid");
+        motion.advance(Clock::at_cycle(2), &mut slowest).expect("bounded");
+        prop_assume!(slowest.speed.is_none_or(|speed| speed > 0.3) && slowest.crossings < 20);
+        let map = StroboscopicMap::new(&scene, 2).expect("valid");
+        let state = Vector2::new(start.position, start.velocity);
+        let passage = map.apply(state).expect("bounded");
+        let differences = tangent::differences(&map, state);
+        let size = 1.0 + passage.monodromy.norm();
+        for (found, exact) in differences.column_iter().zip(passage.monodromy.column_iter()) {
+            prop_assert!((found - exact).norm() < 1e-3 * size * size, "{found} {exact}");
+        }
+    }
+
+    #[test]
+    fn dimensional_machines_move_alike(
+        ratios in machines(),
+        mass in 0.01..100.0f64,
+        stiffness in 0.1..1e4f64,
+        force in 0.01..1e3f64,
+    ) {
+        let ratios = Ratios { clearance: ratios.clearance + 2.0, ..ratios };
+        let units = Units { mass, stiffness, force };
+        let one = ratios.scene().expect("valid");
+        let other = ratios.dimensional(units).expect("valid");
+        let length = force / stiffness;
+        let rate = (stiffness / mass).sqrt();
+        let plain = one.trajectory(Start { position: 0.5, velocity: 1.0 }, 2).expect("bounded");
+        let start = Start { position: 0.5 * length, velocity: length * rate };
+        let scaled = other.trajectory(start, 2).expect("bounded");
+        prop_assert_eq!(plain.crossings.len(), scaled.crossings.len());
+        prop_assert!((plain.end.position - scaled.end.position / length).abs() < 1e-7);
+        prop_assert!((plain.end.velocity - scaled.end.velocity / length / rate).abs() < 1e-7);
+    }
+}
+
+/// A mass pressed onto a preloaded stop with less than its preload bounces ever lower and comes to
+/// rest on it, after a bounded number of crossings.
+#[test]
+fn endless_bounces_end_in_rest() {
+    let mut scene = Ratios {
+        clearance: 1.0,
+        ..Ratios::unloaded()
+    }
+    .scene()
+    .expect("valid");
+    scene.excitation.amplitude = 0.2;
+    scene.contact_damping = 4.0;
+    let mut machine = Simulation::new(
+        &scene,
+        Start {
+            position: 0.0,
+            velocity: 0.0,
+        },
+    )
+    .expect("valid");
+    machine.set_force(&[20.0, 0.0]).expect("finite");
+    machine.advance(60.0).expect("bounded");
+    let sample = machine.sample();
+    assert_eq!(sample.phase, PhaseKind::Resting);
+    assert_eq!((sample.position, sample.velocity), (1.0, 0.0));
+    assert!((sample.contact_force - 19.0).abs() <= 0.2);
+    assert!(machine.impact_count() < 2_000_000);
+}
+
+/// A creeping contact costs no more evaluations than an ordinary one, whatever its damping: the
+/// impact is found and the creep follows (x - r) b / (stiffness) in closed form.
+#[test]
+fn heavy_damping_creeps() {
+    for damping in [1e4, 1e6, 1e8] {
+        let mut scene = Ratios {
+            clearance: 1.0,
+            ..Ratios::unloaded()
+        }
+        .scene()
+        .expect("valid");
+        scene.excitation.amplitude = 0.0;
+        scene.contact_damping = damping;
+        let mut machine = Simulation::new(
+            &scene,
+            Start {
+                position: 0.0,
+                velocity: 3.0,
+            },
+        )
+        .expect("valid");
+        machine.set_force(&[90.0, 0.0]).expect("finite");
+        machine.advance(10.0).expect("bounded");
+        let touched = machine.last_impact().expect("an impact");
+        // Slow mode: damping x' + 8 x = 90 - 70 + 7, so x' = 19 / damping at x = 1; the speed of
+        // the impact is lost within v m / damping.
+        let dead = touched.velocity / damping;
+        let time = 10.0 - touched.time;
+        let depth = dead + 19.0 / 8.0 * -(-8.0 * time / damping).exp_m1();
+        let error = machine.sample().position - 1.0 - depth;
+        assert!(error.abs() < 1e-3 * depth, "{damping}: {error}");
+        let energy = machine.energy();
+        let defect = energy.supplied - energy.dissipated - energy.mechanical + 4.5;
+        assert!(
+            defect.abs() < 1e-9 * energy.supplied,
+            "{damping}: {defect:e}"
+        );
+    }
+}
+
+/// Without a drive its frequency has no influence: the mass bounces on, and its energy is kept.
+#[test]
+fn a_silent_drive_has_no_influence() {
+    let machine = |frequency: f64| {
+        let mut scene = Ratios {
+            frequency,
+            clearance: 0.0,
+            ..Ratios::unloaded()
+        }
+        .scene()
+        .expect("ok");
+        (scene.damping, scene.contact_damping) = (0.0, 0.0);
+        scene.excitation.amplitude = 0.0;
+        let start = Start {
+            position: -1e-9,
+            velocity: 5e-3,
+        };
+        let mut machine = Simulation::new(&scene, start).expect("valid");
+        machine.set_force(&[20.0, 0.0]).expect("finite");
+        machine.advance(1.0).expect("bounded");
+        machine
+    };
+    let usual = machine(1.15);
+    assert!(usual.impact_count() > 1000);
+    for frequency in [1e-6, 1e-3, 50.0] {
+        let other = machine(frequency);
+        assert_eq!(usual.impact_count(), other.impact_count());
+        let gap = usual.energy().mechanical - other.energy().mechanical;
+        assert!(gap.abs() < 1e-9 * usual.energy().mechanical);
+    }
+}
+
+/// A step of the external force that frees a stuck mass gives it its full acceleration at once, as if
+/// it had started from rest under that force.
+#[test]
+fn a_step_of_force_frees_a_stuck_mass() {
+    let mut scene = Ratios::loaded().scene().expect("valid");
+    scene.clearance = 0.0;
+    scene.excitation.amplitude = 0.0;
+    let rest = Start {
+        position: 0.2,
+        velocity: 0.0,
+    };
+    for force in [15.0, -3.0] {
+        let mut held = Simulation::new(&scene, rest).expect("valid");
+        held.set_force(&[0.2 * 20.0, 0.0]).expect("finite");
+        held.advance(1.0).expect("bounded");
+        assert_eq!(held.sample().phase, PhaseKind::Stuck);
+        held.set_force(&[force, 0.0]).expect("finite");
+        let freed = held.sample();
+        let mut fresh = Simulation::new_at(&scene, rest, 1.0).expect("valid");
+        fresh.set_force(&[force, 0.0]).expect("finite");
+        assert_ne!(freed.phase, PhaseKind::Stuck);
+        for step in 1..=100 {
+            let time = 1.0 + 0.01 * f64::from(step);
+            held.advance(time).expect("bounded");
+            fresh.advance(time).expect("bounded");
+            let (a, b) = (held.sample(), fresh.sample());
+            let start = 0.5 * freed.acceleration * 1e-4;
+            assert!((a.position - b.position).abs() < 1e-13 && a.phase == b.phase);
+            assert!(step > 1 || ((a.position - 0.2) / start - 1.0).abs() < 0.05);
+        }
+    }
+}

@@ -1,0 +1,270 @@
+//! Sweeps against the figures of the paper and of the continuation.
+
+use rayon::ThreadPoolBuilder;
+use softstop::Ratios;
+use softstop::integrator::Start;
+use softstop_dynamics::continuation::Parameter;
+use softstop_dynamics::orbit::{self, Regime};
+use softstop_dynamics::sweep::{Chain, Direction, Plan, PlanError, Settled, Step, hysteresis};
+
+/// Frequency at which the impact-less motion grazes, rho = 10.
+const G0: f64 = 1.04444;
+/// Frequency of the fold of z = 1, rho = 10.
+const FOLD: f64 = 1.369_036;
+const ONE: Settled = Settled::Periodic(Regime {
+    impacts: 1,
+    periods: 1,
+});
+const NONE: Settled = Settled::Periodic(Regime {
+    impacts: 0,
+    periods: 1,
+});
+
+fn both(ratios: Ratios) -> Vec<Chain<Ratios>> {
+    [Direction::Up, Direction::Down]
+        .map(|way| Chain::new(ratios, way))
+        .into()
+}
+
+/// Runs a plan to its end.
+fn run(plan: &Plan, mut chains: Vec<Chain<Ratios>>) -> Vec<Chain<Ratios>> {
+    assert!(plan.run(&mut chains, &|_| true));
+    assert!(chains.iter().all(|chain| chain.error.is_none()));
+    assert!(chains.iter().all(|chain| chain.steps.len() == plan.steps));
+    chains
+}
+
+fn frequencies(range: (f64, f64), steps: usize, periods: u64) -> Plan {
+    Plan::new(Parameter::Frequency, range, steps, periods).expect("there is one")
+}
+
+/// Value of the first step with fewer impacts than one per drive period, after at least one with one.
+fn lost(chain: &Chain<Ratios>) -> f64 {
+    let strikes = |step: &&Step| step.impacts_per_period == 1.0;
+    let first = chain
+        .steps
+        .iter()
+        .position(|step| strikes(&step))
+        .expect("there is one");
+    let rest = &chain.steps[first..];
+    rest.iter()
+        .find(|step| !strikes(step))
+        .expect("there is one")
+        .value
+}
+
+#[test]
+fn between_grazing_and_fold_the_way_matters() {
+    // 1e-3 per 50 drive periods.
+    let mut plan = frequencies((0.99, 1.42), 431, 50);
+    // A step of 1e-3 moves the orbit by some 5e-3 of its size, and the map contracts by sqrt(0.786) per period:
+    // 25 periods, from which on it is looked at, leave 5 % of that. At the fold, where it contracts less, some steps
+    // do not settle.
+    plan.tolerance = 1e-3;
+    let chains = run(&plan, both(Ratios::unloaded()));
+    let zones = hysteresis(&chains[0], &chains[1]);
+    let zone = zones
+        .iter()
+        .find(|zone| zone.from > 1.03)
+        .expect("there is one");
+    assert!(
+        zone.up.is_like(&ONE) && zone.down.is_like(&NONE),
+        "{zone:?}"
+    );
+    assert!(zone.from >= G0 && zone.from < G0 + 5e-3, "{zone:?}");
+    assert!((zone.to - FOLD).abs() < 2e-3, "{zone:?}");
+    let up = chains[0].jumps();
+    let jump = up.last().expect("there is one");
+    assert!(jump.before.is_like(&ONE) && jump.after.is_like(&NONE));
+    assert!(jump.velocities.0 > 16.0 && jump.velocities.1 == 0.0);
+}
+
+#[test]
+fn a_sweep_loses_the_motion_after_its_end() {
+    // The paper's 1.37083; an independent integrator loses it at 1.371 at both rates.
+    let slow = frequencies((1.3, 1.4), 101, 50);
+    // Which motion it is on is told by its impacts alone: nothing settles within 5 periods.
+    let fine = frequencies((1.3, 1.4), 1001, 5);
+    for plan in [slow, fine] {
+        assert!((plan.rate() - 2e-5).abs() < 1e-12);
+        // From the motion with impacts, as a sweep from below comes.
+        let orbit = orbit::find(
+            &Ratios {
+                frequency: 1.3,
+                ..Ratios::unloaded()
+            }
+            .scene()
+            .expect("there is one"),
+        );
+        let plan = Plan {
+            start: orbit.expect("there is one").state().into(),
+            ..plan
+        };
+        let chains = run(&plan, vec![Chain::new(Ratios::unloaded(), Direction::Up)]);
+        let lost = lost(&chains[0]);
+        assert!(lost > FOLD && (lost - 1.371).abs() < 2e-3, "{lost}");
+    }
+}
+
+#[test]
+fn a_slower_sweep_loses_it_nearer_to_the_fold() {
+    let at = |periods| {
+        let plan = frequencies((1.36, 1.38), 41, periods);
+        let scene = Ratios {
+            frequency: 1.36,
+            ..Ratios::unloaded()
+        }
+        .scene()
+        .expect("there is one");
+        let start = orbit::find(&scene).expect("there is one").state().into();
+        let chains = run(
+            &Plan { start, ..plan },
+            vec![Chain::new(Ratios::unloaded(), Direction::Up)],
+        );
+        lost(&chains[0])
+    };
+    let (fast, slow) = (at(10), at(1000));
+    assert!(
+        fast > slow && slow > FOLD && slow < FOLD + 1e-3,
+        "{fast} {slow}"
+    );
+}
+
+#[test]
+fn steps_have_the_motions_of_newtons_method() {
+    let plan = frequencies((1.05, 1.15), 3, 300);
+    // From rest the first value may lead to either motion.
+    let mut plan = plan;
+    plan.start = orbit::find(
+        &Ratios {
+            frequency: 1.05,
+            ..Ratios::unloaded()
+        }
+        .scene()
+        .expect("there is one"),
+    )
+    .expect("there is one")
+    .state()
+    .into();
+    let chains = run(&plan, vec![Chain::new(Ratios::unloaded(), Direction::Up)]);
+    for step in &chains[0].steps {
+        let scene = Ratios {
+            frequency: step.value,
+            ..Ratios::unloaded()
+        }
+        .scene()
+        .expect("there is one");
+        let orbit = orbit::find(&scene).expect("there is one");
+        assert!(step.settled.is_like(&ONE));
+        assert!((step.hardest() - orbit.before_impact_velocity()).abs() < 1e-8);
+        assert!((step.max_position - orbit.max_position).abs() < 1e-8);
+    }
+}
+
+#[test]
+fn chaos_is_told_from_rest_and_order() {
+    // Between grazing at 0.95265 and the first windows of order.
+    let plan = frequencies((0.96, 0.975), 4, 200);
+    let chains = run(&plan, both(Ratios::unloaded()));
+    let chaotic = |step: &Step| match step.settled {
+        Settled::Chaotic { growth } => growth > 0.05 && step.velocities.len() > 10,
+        _ => false,
+    };
+    assert!(chains[0].steps.iter().any(chaotic));
+}
+
+#[test]
+fn any_parameter_can_be_swept() {
+    let plan = Plan::new(Parameter::Clearance, (8.0, 12.0), 9, 100).expect("there is one");
+    let chains = run(
+        &plan,
+        both(Ratios {
+            frequency: 1.0,
+            ..Ratios::unloaded()
+        }),
+    );
+    let values: Vec<f64> = chains[1].steps.iter().map(|step| step.value).collect();
+    assert_eq!(values[0], 12.0);
+    assert!(values.is_sorted_by(|a, b| a > b));
+    // Farther away, the mass swings farther.
+    let far = chains[0].steps.windows(2);
+    assert!(
+        far.into_iter()
+            .all(|pair| pair[0].max_position < pair[1].max_position)
+    );
+}
+
+/// Several chains with different numbers of phases.
+fn fleet() -> Vec<Chain<Ratios>> {
+    [2.0, 6.0, 10.0, 14.0, 18.0, 22.0]
+        .into_iter()
+        .flat_map(|clearance| {
+            both(Ratios {
+                clearance,
+                ..Ratios::unloaded()
+            })
+        })
+        .collect()
+}
+
+#[test]
+fn threads_and_interruptions_change_nothing() {
+    let plan = frequencies((0.8, 1.8), 21, 50);
+    let on = |threads| {
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("there is one");
+        pool.install(|| run(&plan, fleet()))
+    };
+    let whole = on(1);
+    assert_eq!(whole, on(2));
+    let mut parts = fleet();
+    let mut rounds = 0;
+    // Stopped after each step of each group.
+    while !plan.run(&mut parts, &|_| false) {
+        rounds += 1;
+    }
+    assert!(rounds >= plan.steps / 2);
+    assert_eq!(whole, parts);
+}
+
+#[test]
+fn plans_and_parameters_that_cannot_be_are_refused() {
+    let plan = |range, steps, periods| Plan::new(Parameter::Frequency, range, steps, periods);
+    assert!(matches!(
+        plan((1.0, 1.0), 3, 3),
+        Err(PlanError::Range { .. })
+    ));
+    assert!(matches!(
+        plan((f64::NAN, 1.0), 3, 3),
+        Err(PlanError::Range { .. })
+    ));
+    assert!(matches!(plan((1.0, 2.0), 1, 3), Err(PlanError::Steps(1))));
+    assert!(matches!(plan((1.0, 2.0), 3, 0), Err(PlanError::Periods(0))));
+    let plan = plan((-1.0, 1.0), 3, 3).expect("there is one");
+    let mut chains = both(Ratios::unloaded());
+    assert!(plan.run(&mut chains, &|_| true));
+    // A frequency below zero: one chain cannot begin, the other cannot end.
+    assert!(chains[0].steps.is_empty() && chains[0].error.is_some());
+    assert_eq!(chains[1].steps.len(), 1);
+    assert!(chains[1].error.is_some());
+}
+
+/// The paper's (2/4)B, impacts 1-1-0-0, and its z = 1/2, on sweeps over the same frequencies.
+#[test]
+fn steps_tell_the_order_of_impacts() {
+    let order_from = |position: f64, velocity: f64| {
+        let plan = Plan::new(Parameter::Frequency, (0.9886, 0.9888), 3, 2000).expect("a plan");
+        let start = Start { position, velocity };
+        let plan = Plan { start, ..plan };
+        let mut chain = [Chain::new(Ratios::unloaded(), Direction::Up)];
+        assert!(plan.run(&mut chain, &|_| true));
+        let orders = chain[0].steps.iter().map(|step| step.order.clone());
+        orders
+            .map(|order| order.map_or_else(String::new, |order| order.to_string()))
+            .collect::<Vec<String>>()
+    };
+    assert_eq!(order_from(9.360_532, 3.830_784), ["1-1-0-0"; 3]);
+    assert_eq!(order_from(9.214_320, 3.694_000), ["1-0"; 3]);
+}

@@ -1,0 +1,263 @@
+//! `softstop basin`: which initial states lead to which motion.
+
+pub mod cells;
+pub mod certainty;
+pub mod picture;
+mod plane;
+mod report;
+mod text;
+
+use std::path::PathBuf;
+
+use anyhow::{Context, anyhow};
+use clap::Args;
+use softstop::{Ratios, Scene};
+use softstop_dynamics::attractors::SurveyError;
+use softstop_dynamics::basin::{CertaintyError, Options, basins_watched, establishing};
+use softstop_dynamics::zone;
+
+use crate::basin::certainty::CertaintyChart;
+use crate::basin::picture::BasinPicture;
+use plane::Plane;
+use report::{BasinReport, CertaintyReport};
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::machine::{self, Machine, SceneSettings, require};
+use softstop_console::output::{self, Folder, Format};
+use softstop_console::progress::Progress;
+use softstop_console::scene_file;
+
+const EXAMPLES: &str = "\
+Examples:
+  softstop basin --size 1000
+      the paper's point A: which of a million initial states lead to z = 1
+  softstop basin --frequency 0.9875 --x 0,15 --v=-20,20
+      chaos, z = 2/3 and z = (2/4)B side by side
+  softstop basin --plane phi,v --at 0
+      over drive angle and velocity, from position 0
+  softstop basin --along-zone 21 --size 200
+      establishing certainty of z = 1 at 21 places from g0 to s_SN: the share of initial states
+      that lead to it, for the same plane at all of them
+  softstop basin docs/scenes/rigid.toml --size 400 --format json
+      any machine with any stop, in SI units
+
+Each cell's motion is followed until it lies in a ball about a stable orbit in which the map
+contracts; what no ball has caught after --transient drive periods is looked at one by one: what
+returns is polished by Newton's method, what does not is chaos. Shares come with Wilson's 95 %
+interval, as if cells were drawn at random. The integrity of a basin is the radius of the
+largest ball inside it, in units of half of each axis of the plane: 1 would fill the plane.
+
+Files, whole or not at all: basin.png (white spots: the motions at drive angle 0), basin.csv with
+a row for each basin, basin.json; with --along-zone certainty.svg, certainty.csv, certainty.json.";
+
+/// Arguments of `softstop basin`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub struct BasinArguments {
+    /// Scene in SI units as for `softstop simulate`, instead of the paper's machine
+    #[arg(value_name = "SCENE.toml", conflicts_with = "scene")]
+    pub file: Option<PathBuf>,
+    /// Cells on each side of the plane, 2 to 4000 (1.6 GB)
+    #[arg(long, value_name = "N", default_value_t = 400)]
+    pub size: usize,
+    /// Plane of initial states: the quantity across, and the one upwards, of x, v and phi
+    #[arg(long, value_name = "ACROSS,UP", default_value = "x,v")]
+    pub plane: Plane,
+    /// The third quantity, which all cells share
+    #[arg(long, value_name = "VALUE", default_value_t = 0.0)]
+    pub at: f64,
+    /// Range of the initial position [default: twice the clearance both ways]
+    #[arg(long, value_name = "FROM,TO", value_parser = plane::range, allow_hyphen_values = true)]
+    pub x: Option<[f64; 2]>,
+    /// Range of the initial velocity [default: that of x times the drive frequency]
+    #[arg(long, value_name = "FROM,TO", value_parser = plane::range, allow_hyphen_values = true)]
+    pub v: Option<[f64; 2]>,
+    /// Range of the drive angle in rad [default: a whole turn]
+    #[arg(long, value_name = "FROM,TO", value_parser = plane::range, allow_hyphen_values = true)]
+    pub phi: Option<[f64; 2]>,
+    /// Drive periods after which what has not arrived is looked at, 1 to 1000000
+    #[arg(long, value_name = "N", default_value_t = Options::default().transient)]
+    pub transient: u64,
+    /// Longest period looked for, in drive periods, 1 to 10000
+    #[arg(long, value_name = "N", default_value_t = Options::default().longest)]
+    pub longest: usize,
+    /// Instead of one picture: the certainty of z = 1 at so many places of the hysteresis zone,
+    /// 2 to 1000; not for scene files
+    #[arg(long, value_name = "N", conflicts_with = "file")]
+    pub along_zone: Option<usize>,
+    /// Folder for the files
+    #[arg(long, value_name = "DIR", default_value = "softstop-basin")]
+    pub output: PathBuf,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// Machine in a TOML file, by the names below; the command line has the last word
+    #[arg(long, value_name = "FILE.toml")]
+    pub scene: Option<PathBuf>,
+    /// The machine.
+    #[command(flatten)]
+    pub machine: SceneSettings,
+}
+
+const PICTURE: [&str; 3] = ["basin.png", "basin.csv", "basin.json"];
+const ALONG: [&str; 3] = ["certainty.svg", "certainty.csv", "certainty.json"];
+
+/// Finds the basins, draws them and says how large they are.
+///
+/// # Errors
+/// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if there is no zone or the folder cannot be
+/// written, [`Failure::Interrupted`] after Ctrl-C.
+pub fn run(arguments: &BasinArguments) -> Result<(), Failure> {
+    let options = options(arguments)?;
+    let text = match (&arguments.file, arguments.along_zone) {
+        (Some(path), _) if arguments.machine == SceneSettings::default() => {
+            let scene = scene_file::read(path)?.scene;
+            picture(arguments, &options, &path.display().to_string(), &scene)?
+        }
+        (Some(path), _) => {
+            return Err(Failure::usage(format!(
+                "{}: a scene file says all of the machine; it goes with none of the paper's ratios",
+                path.display()
+            )));
+        }
+        (None, places) => {
+            let machine = machine::machine(arguments.scene.as_ref(), &arguments.machine)?;
+            match places {
+                Some(places) => along(arguments, &options, &machine, places)?,
+                None => {
+                    let scene = machine
+                        .ratios
+                        .scene()
+                        .map_err(|error| Failure::usage(error.to_string()))?;
+                    picture(arguments, &options, &name(&machine), &scene)?
+                }
+            }
+        }
+    };
+    output::print(&text)
+}
+
+fn name(machine: &Machine) -> String {
+    let Ratios {
+        frequency,
+        clearance,
+        ..
+    } = machine.ratios;
+    format!(
+        "{} machine, η = {frequency}, ρ = {clearance}",
+        machine.regime.name()
+    )
+}
+
+/// Most cells on a side: each takes a hundred bytes.
+const LARGEST: u64 = 4000;
+
+fn options(arguments: &BasinArguments) -> Result<Options, Failure> {
+    let within = |name, value: u64, least: u64, most: u64| {
+        let fits = (least..=most).contains(&value);
+        require(fits, name, value as f64, &format!("{least} to {most}"))
+    };
+    within("size", arguments.size as u64, 2, LARGEST)?;
+    within("transient", arguments.transient, 1, 1_000_000)?;
+    within("longest", arguments.longest as u64, 1, 10_000)?;
+    within(
+        "along-zone",
+        arguments.along_zone.unwrap_or(2) as u64,
+        2,
+        1000,
+    )?;
+    Ok(Options {
+        transient: arguments.transient,
+        longest: arguments.longest,
+    })
+}
+
+/// Why there are no basins.
+fn failure(error: SurveyError) -> Failure {
+    match error {
+        SurveyError::Stopped => Failure::Interrupted,
+        SurveyError::Motion(error) => Failure::Run(anyhow!(error)),
+    }
+}
+
+/// The basins of one machine.
+fn picture(
+    arguments: &BasinArguments,
+    options: &Options,
+    name: &str,
+    scene: &Scene,
+) -> Result<String, Failure> {
+    let grid = plane::grid(arguments, scene)?;
+    let folder = Folder::open(&arguments.output, &PICTURE)?;
+    let progress = Progress::new(grid.cells() as u64, "cells");
+    let watcher = |done, _| {
+        progress.at(done);
+        !interrupt::requested()
+    };
+    let basins = basins_watched(scene, &grid, options, &watcher).map_err(failure)?;
+    drop(progress);
+    let title = format!("Basins: {name}");
+    let png = BasinPicture::new(&basins, &title, scene.excitation.phase)
+        .png()
+        .map_err(|error| anyhow!("cannot draw basin.png: {error}"))?;
+    folder.stage(PICTURE[0], &png)?;
+    let report = BasinReport::new(name, &basins, &PICTURE.map(|name| folder.place(name)));
+    report::table(&report, folder.create(PICTURE[1])?)?;
+    let json = output::json(&report)?;
+    folder.stage(PICTURE[2], json.as_bytes())?;
+    folder.commit(&PICTURE)?;
+    Ok(match arguments.format {
+        Format::Json => json,
+        Format::Text => text::basins(&report),
+    })
+}
+
+/// The certainty of z = 1 along the hysteresis zone.
+fn along(
+    arguments: &BasinArguments,
+    options: &Options,
+    machine: &Machine,
+    places: usize,
+) -> Result<String, Failure> {
+    let zone = zone::hysteresis(&machine.ratios).context("no hysteresis zone found")?;
+    let scene = Ratios {
+        frequency: zone.frequency_g0,
+        ..machine.ratios
+    }
+    .scene()
+    .map_err(|error| Failure::usage(error.to_string()))?;
+    let grid = plane::grid(arguments, &scene)?;
+    let folder = Folder::open(&arguments.output, &ALONG)?;
+    let shares: Vec<f64> = (0..places)
+        .map(|k| k as f64 / (places - 1) as f64)
+        .collect();
+    let progress = Progress::new((grid.cells() * places) as u64, "cells");
+    let watcher = |done, _| {
+        progress.at(done);
+        !interrupt::requested()
+    };
+    let found =
+        establishing(&zone, &shares, &grid, options, &watcher).map_err(|error| match error {
+            CertaintyError::Survey(error) => failure(error),
+            CertaintyError::Zone(error) => Failure::Run(anyhow!(error)),
+        })?;
+    drop(progress);
+    let title = format!(
+        "Establishing certainty: {} machine, ρ = {}",
+        machine.regime.name(),
+        machine.ratios.clearance
+    );
+    folder.stage(
+        ALONG[0],
+        CertaintyChart::new(&found, &title).svg().as_bytes(),
+    )?;
+    let report = CertaintyReport::new(&grid, &found, &ALONG.map(|name| folder.place(name)));
+    report::certainty_table(&report, folder.create(ALONG[1])?)?;
+    let json = output::json(&report)?;
+    folder.stage(ALONG[2], json.as_bytes())?;
+    folder.commit(&ALONG)?;
+    Ok(match arguments.format {
+        Format::Json => json,
+        Format::Text => text::certainty(&report),
+    })
+}

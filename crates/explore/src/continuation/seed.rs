@@ -1,0 +1,115 @@
+//! The orbit to start from.
+
+use std::str::FromStr;
+
+use anyhow::anyhow;
+use nalgebra::Vector2;
+use softstop::Scene;
+use softstop_dynamics::attractors::{Kind, Options, SurveyError, attractors_watched};
+use softstop_dynamics::orbit::Orbit;
+
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::progress::Progress;
+
+/// The regime z = p/n that is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Wanted {
+    /// Impacts p.
+    pub impacts: u64,
+    /// Drive periods n.
+    pub periods: u64,
+}
+
+impl FromStr for Wanted {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (impacts, periods) = text.split_once('/').unwrap_or((text, "1"));
+        let number = |text: &str| text.trim().parse::<u64>().ok();
+        match (number(impacts), number(periods)) {
+            (Some(impacts), Some(periods)) if (1..=LONGEST).contains(&periods) => {
+                Ok(Self { impacts, periods })
+            }
+            _ => Err(format!(
+                "must be p/n: p impacts in n drive periods, n from 1 to {LONGEST}"
+            )),
+        }
+    }
+}
+
+/// Most drive periods of an orbit.
+pub const LONGEST: u64 = 64;
+/// Drive periods for which motions that do not settle are watched: stable orbits alone are wanted.
+const PATIENCE: u64 = 20_000;
+
+/// A state X,V.
+///
+/// # Errors
+/// What is allowed.
+pub fn state(text: &str) -> Result<Vector2<f64>, String> {
+    let numbers = text.split_once(',').and_then(|(x, v)| {
+        let number = |text: &str| text.trim().parse::<f64>().ok();
+        Some(Vector2::new(number(x)?, number(v)?))
+    });
+    numbers
+        .filter(|state| state.iter().all(|part| part.is_finite()))
+        .ok_or_else(|| "must be X,V: two finite numbers".to_owned())
+}
+
+/// The stable orbit of this regime with the largest share of starts.
+///
+/// # Errors
+/// [`Failure::Run`] naming the motions that there are instead, [`Failure::Interrupted`] after Ctrl-C.
+pub fn find(scene: &Scene, wanted: Wanted) -> Result<Orbit, Failure> {
+    if wanted
+        == (Wanted {
+            impacts: 1,
+            periods: 1,
+        })
+        && let Ok(orbit) = softstop_dynamics::orbit::find(scene)
+    {
+        return Ok(orbit);
+    }
+    let options = Options {
+        longest: LONGEST as usize,
+        patience: PATIENCE,
+        ..Options::default()
+    };
+    let bar = Progress::new(1, "drive periods at most, in search of the orbit");
+    let survey = attractors_watched(scene, &options, &|done, planned| {
+        bar.at_of(done, planned);
+        !interrupt::requested()
+    });
+    drop(bar);
+    let survey = survey.map_err(|error| match error {
+        SurveyError::Stopped => Failure::Interrupted,
+        other => Failure::Run(anyhow!(other)),
+    })?;
+    let mut others = Vec::new();
+    for attractor in survey.attractors {
+        match attractor.kind {
+            Kind::Periodic { orbit, .. } => {
+                let regime = orbit.regime();
+                if (regime.impacts, regime.periods) == (wanted.impacts, wanted.periods) {
+                    return Ok(*orbit);
+                }
+                others.push(match (orbit.chatters(), regime.impacts) {
+                    (true, _) => format!("complete chatter every {} drive periods", regime.periods),
+                    (false, 0) => "z = 0".to_owned(),
+                    (false, impacts) => format!("z = {impacts}/{}", regime.periods),
+                });
+            }
+            Kind::AtRest { .. } => others.push("rest".to_owned()),
+            Kind::Chaotic(_) | Kind::TransientChaos { .. } => others.push("chaos".to_owned()),
+            Kind::Unsettled { .. } => others.push("a motion that has not settled".to_owned()),
+        }
+    }
+    Err(Failure::Run(anyhow!(
+        "no stable z = {}/{} motion found to start from; found: {}. Start from another machine, ask for one of \
+         these with --orbit p/n, or give a state with --state",
+        wanted.impacts,
+        wanted.periods,
+        others.join(", ")
+    )))
+}

@@ -1,0 +1,193 @@
+//! `softstop fidelity`: how simple a model of a scene may be.
+
+pub mod chart;
+mod cost;
+mod options;
+pub mod regimes;
+mod report;
+mod structure;
+mod study;
+mod text;
+
+use std::path::PathBuf;
+
+use clap::Args;
+use softstop::{Ratios, Start};
+use softstop_dynamics::models::{Likeness, Quantity};
+
+use crate::fidelity::chart::FidelityChart;
+use crate::fidelity::regimes::RegimeChart;
+use options::{Matched, Sweep};
+use report::FidelityReport;
+use softstop_console::failure::Failure;
+use softstop_console::machine::require;
+use softstop_console::output::{self, Folder, Format};
+use softstop_console::scene_file::{self, SceneFile};
+use structure::Structure;
+use study::{Study, Task};
+
+const EXAMPLES: &str = "\
+Examples:
+  softstop fidelity B --quantity before-impact-velocity --tolerance 1e-3
+      the paper's piercing machine: which model gives the velocity to a thousandth?
+  softstop fidelity A --quantity impact-phase --tolerance 1e-3
+      the unloaded machine; the answer depends on what is asked
+  softstop fidelity docs/scenes/stiff.toml --tolerance 0.02 --format json
+      any scene; a stiff stop may well be taken as rigid
+  softstop fidelity B --predictive
+      models matched at the velocity of their own motion, as if that of B were unknown
+  softstop fidelity A --structure
+      also the regimes z = p/n of all models over 91 frequencies, from two starts
+
+The models, simple ones first: linear (no stop), rigid (with the contact's restitution),
+kelvin-voigt (a spring beside a damper), preloaded (the scene's own stop without the strip before
+it), hertz (a sphere with Hunt and Crossley's dissipation), full (the scene itself). Each agrees
+with the scene's contact at one velocity: in its restitution and, if it is soft, in its largest
+penetration or its duration. docs/fidelity.md has the formulas and where they come from.
+
+The error is that of the model, not of computing: all motions are exact. The cost that decides is
+the number of evaluations of the law of force, which is the same on every machine; times are
+medians, measured turn and turn about. Files, whole or not at all: fidelity.csv, fidelity.svg and,
+with --structure, structure.csv and structure.svg.";
+
+/// Arguments of `softstop fidelity`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub struct FidelityArguments {
+    /// Machine in a TOML file, SI units; or A or B, the paper's points
+    #[arg(value_name = "SCENE")]
+    pub scene: PathBuf,
+    /// What the model is wanted for
+    #[arg(long, value_name = "QUANTITY", value_parser = options::quantity(),
+          default_value = Quantity::BeforeImpactVelocity.name())]
+    pub quantity: Quantity,
+    /// Largest error of the quantity, relative to the scene's own, >= 0
+    #[arg(long, value_name = "SHARE", default_value_t = 1e-3)]
+    pub tolerance: f64,
+    /// What soft models have in common with the contact, besides the restitution
+    #[arg(long = "match", value_enum, value_name = "WHAT", default_value_t)]
+    pub matched: Matched,
+    /// Match each model at the velocity of its own motion, not of the scene's
+    #[arg(long)]
+    pub predictive: bool,
+    /// Compare the regimes of all models over a range of drive frequencies
+    #[arg(long)]
+    pub structure: bool,
+    /// Drive frequencies of --structure, in units of sqrt(k1/m)
+    #[arg(
+        long,
+        value_name = "LOW:HIGH",
+        default_value = "0.95:1.4",
+        requires = "structure"
+    )]
+    pub sweep: Sweep,
+    /// How many of them, 2 to 10000
+    #[arg(long, value_name = "N", default_value_t = 91, requires = "structure")]
+    pub points: u64,
+    /// Drive periods that are timed, 1 to 1000000
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub periods: u64,
+    /// How often they are timed, 1 to 1000
+    #[arg(long, value_name = "N", default_value_t = 9)]
+    pub repeats: u64,
+    /// Folder for the files
+    #[arg(long, value_name = "DIR", default_value = "softstop-fidelity")]
+    pub output: PathBuf,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+const TABLE: &str = "fidelity.csv";
+const CHART: &str = "fidelity.svg";
+const REGIMES: &str = "structure.csv";
+const STRIPS: &str = "structure.svg";
+
+/// Compares the models, writes the files and prints the result.
+///
+/// # Errors
+/// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if the scene has no such quantity or the
+/// folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
+pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
+    check(arguments)?;
+    let SceneFile { scene, start } = scene(arguments)?;
+    let names: &[&str] = if arguments.structure {
+        &[TABLE, CHART, REGIMES, STRIPS]
+    } else {
+        &[TABLE, CHART]
+    };
+    let folder = Folder::open(&arguments.output, names)?;
+    let task = Task {
+        start,
+        quantity: arguments.quantity,
+        likenesses: arguments.matched.likenesses(),
+        predictive: arguments.predictive,
+        bounded: arguments.structure || arguments.quantity.is_bound(),
+        periods: arguments.periods,
+        repeats: arguments.repeats,
+    };
+    let study = Study::new(&scene, &task)?;
+    let structure = match arguments.structure {
+        true => Some(Structure::new(&study, arguments.sweep, arguments.points)?),
+        false => None,
+    };
+    let report = FidelityReport::new(arguments, &study, structure.as_ref(), &folder);
+    folder.stage(TABLE, report.csv()?.as_bytes())?;
+    folder.stage(
+        CHART,
+        FidelityChart::new(&report.picture()).svg().as_bytes(),
+    )?;
+    if let Some(structure) = &structure {
+        folder.stage(REGIMES, structure.csv()?.as_bytes())?;
+        let title = format!("Regimes of the models of {}", report.scene());
+        let chart = RegimeChart::new(title, structure.rows());
+        folder.stage(STRIPS, chart.svg().as_bytes())?;
+    }
+    folder.commit(names)?;
+    output::print(&match arguments.format {
+        Format::Json => output::json(&report)?,
+        Format::Text => text::text(&report),
+    })
+}
+
+fn check(arguments: &FidelityArguments) -> Result<(), Failure> {
+    let tolerance = arguments.tolerance;
+    let fits = tolerance.is_finite() && tolerance >= 0.0;
+    require(fits, "tolerance", tolerance, "finite and >= 0")?;
+    for (name, value, least, most) in [
+        ("points", arguments.points, 2, 10_000),
+        ("periods", arguments.periods, 1, 1_000_000),
+        ("repeats", arguments.repeats, 1, 1000),
+    ] {
+        if !(least..=most).contains(&value) {
+            let message = format!("{name} = {value}: must be {least} to {most}");
+            return Err(Failure::usage(message));
+        }
+    }
+    Ok(())
+}
+
+/// The scene of a file, or one of the paper's points.
+fn scene(arguments: &FidelityArguments) -> Result<SceneFile, Failure> {
+    let ratios = match arguments.scene.to_str() {
+        Some("A") => Ratios::unloaded(),
+        Some("B") => Ratios::loaded(),
+        _ => return scene_file::read(&arguments.scene),
+    };
+    let scene = ratios
+        .scene()
+        .map_err(|error| Failure::usage(error.to_string()))?;
+    let start = Start {
+        position: 0.0,
+        velocity: 14.0,
+    };
+    Ok(SceneFile { scene, start })
+}
+
+/// What a model has in common with the contact, in a word.
+const fn word(likeness: Likeness) -> &'static str {
+    match likeness {
+        Likeness::Penetration => "penetration",
+        Likeness::Duration => "duration",
+    }
+}

@@ -1,0 +1,242 @@
+//! The regimes of all models over a range of drive frequencies, from two starts.
+
+use anyhow::{Context, anyhow};
+use serde::Serialize;
+use softstop::{Scene, Start};
+use softstop_dynamics::models::{Bounds, Likeness, Rung};
+use softstop_dynamics::orbit::Regime;
+
+use super::options::Sweep;
+use super::study::{Entry, Study};
+use super::word;
+use crate::fidelity::regimes::{RegimeRow, Strip};
+use softstop_console::failure::Failure;
+use softstop_console::progress::Progress;
+
+/// Drive periods after which a motion counts as settled.
+const TRANSIENT: u64 = 200;
+/// Velocity of the second start, from position 0, in units of the clearance times sqrt(k1/m): the paper's
+/// (0, 14) at rho = 10.
+const FLUNG: f64 = 1.4;
+
+/// Where a motion of the sweep starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Origin {
+    /// At rest.
+    Rest,
+    /// Towards the stop.
+    Flung,
+}
+
+const ORIGINS: [Origin; 2] = [Origin::Rest, Origin::Flung];
+
+/// The regimes of one model from both starts, at every frequency; none where nothing repeats.
+#[derive(Debug, Clone)]
+pub(super) struct Track {
+    pub(super) rung: Rung,
+    pub(super) likeness: Option<Likeness>,
+    pub(super) is_truth: bool,
+    name: String,
+    pub(super) bounds: Option<Bounds>,
+    regimes: [Vec<Option<Regime>>; 2],
+}
+
+/// The regimes of all models.
+#[derive(Debug, Clone)]
+pub(super) struct Structure {
+    /// sqrt(k1/m) in rad/s.
+    unit: f64,
+    /// In units of it.
+    pub(super) frequencies: Vec<f64>,
+    pub(super) tracks: Vec<Track>,
+}
+
+/// What a regime is, coarsely.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Impactless,
+    EveryPeriod,
+    Other,
+    Irregular,
+}
+
+/// How much of a model's regimes are those of the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub(super) struct Agreement {
+    /// Share of frequencies and starts with the same z = p/n, or without one in both.
+    pub(super) same_regime: f64,
+    /// Share with the same kind: no impacts, z = 1, another period, none.
+    pub(super) same_kind: f64,
+}
+
+impl Structure {
+    /// Runs all models of a study from both starts at so many frequencies.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] if the scene has no suspension to measure frequencies by, [`Failure::Run`] if a
+    /// motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
+    pub(super) fn new(study: &Study, sweep: Sweep, points: u64) -> Result<Self, Failure> {
+        let scene = &study.entries[0].scene;
+        let unit = (scene.stiffness / scene.mass).sqrt();
+        if unit == 0.0 {
+            return Err(Failure::usage(
+                "stiffness = 0: must be > 0 with --structure, whose frequencies are in units of \
+                 sqrt(stiffness/mass)",
+            ));
+        }
+        let frequencies = sweep.frequencies(points);
+        let count = ORIGINS.len() * frequencies.len() * study.entries.len();
+        let progress = Progress::new(count as u64, "motions");
+        let mut track = |entry: &Entry| -> Result<Track, Failure> {
+            let regimes = |origin: Origin| -> Result<Vec<Option<Regime>>, Failure> {
+                let each = frequencies.iter().map(|frequency| {
+                    let regime = regime(&entry.scene, frequency * unit, origin)?;
+                    progress.step()?;
+                    Ok(regime)
+                });
+                each.collect()
+            };
+            Ok(Track {
+                rung: entry.rung,
+                likeness: entry.likeness,
+                is_truth: entry.is_truth,
+                name: entry.name(),
+                bounds: entry.answers.bounds,
+                regimes: [regimes(ORIGINS[0])?, regimes(ORIGINS[1])?],
+            })
+        };
+        let tracks = study
+            .entries
+            .iter()
+            .map(&mut track)
+            .collect::<Result<_, _>>()?;
+        Ok(Self {
+            unit,
+            frequencies,
+            tracks,
+        })
+    }
+
+    fn truth(&self) -> Option<&Track> {
+        self.tracks.iter().find(|track| track.is_truth)
+    }
+
+    /// How far a model agrees with the scene itself.
+    pub(super) fn agreement(&self, model: &Track) -> Option<Agreement> {
+        let truth = self.truth()?;
+        let pairs = || {
+            let all = |track: &Track| track.regimes.concat();
+            all(truth).into_iter().zip(all(model))
+        };
+        let share = |same: fn(&(Option<Regime>, Option<Regime>)) -> bool| {
+            pairs().filter(same).count() as f64 / pairs().count() as f64
+        };
+        Some(Agreement {
+            same_regime: share(|(a, b)| a == b),
+            same_kind: share(|(a, b)| kind(*a) == kind(*b)),
+        })
+    }
+
+    /// The regimes of a model in order of frequency, each once where it is the same at neighbours.
+    pub(super) fn sequence(track: &Track, origin: Origin) -> Vec<String> {
+        let mut names: Vec<String> = track.regimes[origin as usize]
+            .iter()
+            .map(|regime| regime.map_or("irregular".to_owned(), |regime| regime.to_string()))
+            .collect();
+        names.dedup();
+        names
+    }
+
+    /// A bound in units of sqrt(k1/m).
+    pub(super) fn scaled(&self, bound: Option<f64>) -> Option<f64> {
+        bound.map(|frequency| frequency / self.unit)
+    }
+
+    /// All motions as a table.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] if it cannot be written.
+    pub(super) fn csv(&self) -> Result<String, Failure> {
+        let mut table = csv::Writer::from_writer(Vec::new());
+        for track in &self.tracks {
+            for origin in ORIGINS {
+                let regimes = &track.regimes[origin as usize];
+                for (frequency, regime) in self.frequencies.iter().zip(regimes) {
+                    table
+                        .serialize(Row {
+                            rung: track.rung,
+                            matched: track.likeness.map(word),
+                            start: origin,
+                            frequency: *frequency,
+                            impacts: regime.map(|regime| regime.impacts),
+                            periods: regime.map(|regime| regime.periods),
+                        })
+                        .context("cannot write a table")?;
+                }
+            }
+        }
+        let bytes = table
+            .into_inner()
+            .map_err(|error| anyhow!("cannot write a table: {error}"))?;
+        Ok(String::from_utf8(bytes).context("cannot write a table")?)
+    }
+
+    /// The rows of the chart.
+    pub(super) fn rows(&self) -> Vec<RegimeRow> {
+        let strip = |track: &Track, origin: Origin| Strip {
+            frequencies: self.frequencies.clone(),
+            regimes: track.regimes[origin as usize].clone(),
+        };
+        self.tracks
+            .iter()
+            .map(|track| RegimeRow {
+                name: match track.is_truth {
+                    true => format!("{} = the scene", track.name),
+                    false => track.name.clone(),
+                },
+                from_rest: strip(track, Origin::Rest),
+                flung: strip(track, Origin::Flung),
+            })
+            .collect()
+    }
+}
+
+#[derive(Serialize)]
+struct Row {
+    rung: Rung,
+    matched: Option<&'static str>,
+    start: Origin,
+    frequency: f64,
+    impacts: Option<u64>,
+    periods: Option<u64>,
+}
+
+fn regime(scene: &Scene, frequency: f64, origin: Origin) -> Result<Option<Regime>, Failure> {
+    let mut scene = scene.clone();
+    scene.excitation.frequency = frequency;
+    let unit = (scene.stiffness / scene.mass).sqrt();
+    let length = scene
+        .clearance
+        .abs()
+        .max(scene.excitation.amplitude / scene.stiffness);
+    let velocity = match origin {
+        Origin::Rest => 0.0,
+        Origin::Flung => FLUNG * length * unit,
+    };
+    // With interference the mass would stand beyond a rigid stop.
+    let position = scene.clearance.min(0.0);
+    let start = Start { position, velocity };
+    let (regime, _) = Regime::after(&scene, start, TRANSIENT)
+        .with_context(|| format!("cannot run the sweep at {frequency} rad/s"))?;
+    Ok(regime)
+}
+
+fn kind(regime: Option<Regime>) -> Kind {
+    match regime.map(|regime| (regime.impacts, regime.periods)) {
+        None => Kind::Irregular,
+        Some((0, _)) => Kind::Impactless,
+        Some((1, 1)) => Kind::EveryPeriod,
+        Some(_) => Kind::Other,
+    }
+}

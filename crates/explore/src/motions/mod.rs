@@ -1,0 +1,149 @@
+//! `softstop motions`: all motions on which a machine settles.
+
+mod report;
+mod text;
+
+use std::path::PathBuf;
+
+use anyhow::anyhow;
+use clap::Args;
+use softstop::Scene;
+use softstop_dynamics::attractors::{Options, SurveyError, attractors_watched};
+
+pub use report::{ExponentReport, MotionsReport, SettledReport};
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::machine::{Machine, SceneSettings};
+use softstop_console::output::{self, Format};
+use softstop_console::progress::Progress;
+use softstop_console::scene_file;
+
+const EXAMPLES: &str = "\
+Examples:
+  softstop motions --frequency 0.9875 --clearance 10
+      three motions coexist: chaos, z = 2/3 and (2/4)B of the paper's Fig. 9
+  softstop motions --frequency 0.9526475
+      below g0: z = 0, and chaos that ends after some 15,000 periods
+  softstop motions docs/scenes/rigid.toml --starts 1000
+      any machine with any stop, in SI units; more starts find smaller basins
+  softstop motions --regime loaded --frequency 1.15 --format json
+      for programs
+
+How they are found: starts from far and wide show where motions stay; then --starts quasi-random
+starts fill that region and settle. What returns is polished by Newton's method on the exact
+map, so each periodic motion listed exists and is stable (both multipliers inside the unit
+circle). What does not return and has a Lyapunov exponent above zero by more than three
+half-widths of its 95 % interval is chaos. It is watched for --patience more periods: if motions
+leave it meanwhile, it is transient, and its mean lifetime is told.
+
+z = p/n: p impacts in n drive periods. The order of impacts tells them apart: 1-0-1-0 is the
+paper's (2/4)A, 1-1-0-0 its (2/4)B. The share of starts is a rough measure of the basin.
+A motion whose basin is a share p of the region is missed by n random starts with probability
+(1 - p)^n: 1 % by 256 in 8 of 100 searches, by 1000 in 4 of 100,000. The quasi-random starts do no
+worse. Where three motions coexist, at eta = 0.9875, 16 starts found all in 100 of 100 searches.";
+
+/// Arguments of `softstop motions`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct MotionsArguments {
+    /// Machine in a TOML file, SI units; instead of the paper's ratios below
+    #[arg(value_name = "SCENE.toml")]
+    pub scene: Option<PathBuf>,
+    /// Starts, 1 to 1000000
+    #[arg(long, value_name = "N", default_value_t = Options::default().starts)]
+    pub starts: usize,
+    /// Shifts the starts: another seed, other starts
+    #[arg(long, value_name = "SEED", default_value_t = 0)]
+    pub seed: u64,
+    /// Drive periods before a motion is looked at, 1 to 1000000
+    #[arg(long, value_name = "N", default_value_t = Options::default().transient)]
+    pub transient: u64,
+    /// Longest period looked for, in drive periods, 1 to 10000
+    #[arg(long, value_name = "N", default_value_t = Options::default().longest)]
+    pub longest: usize,
+    /// Drive periods for which motions that do not repeat are watched, all together; 20 times
+    /// fewer for stops with power laws
+    #[arg(long, value_name = "N", default_value_t = Options::default().patience)]
+    pub patience: u64,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// The machine.
+    #[command(flatten)]
+    pub machine: SceneSettings,
+}
+
+/// Finds the motions and prints them.
+///
+/// # Errors
+/// [`Failure::Usage`] for values no machine can have, [`Failure::Run`] if nothing can be computed,
+/// [`Failure::Interrupted`] after Ctrl-C.
+pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
+    let options = options(arguments)?;
+    let (name, scene) = scene(arguments)?;
+    let progress = Progress::new(1, "drive periods at most");
+    let watcher = |done, planned| {
+        progress.at_of(done, planned);
+        !interrupt::requested()
+    };
+    let survey = attractors_watched(&scene, &options, &watcher).map_err(|error| match error {
+        SurveyError::Stopped => Failure::Interrupted,
+        SurveyError::Motion(error) => Failure::Run(anyhow!(error)),
+    })?;
+    drop(progress);
+    let report = MotionsReport::new(name, &scene, &options, &survey);
+    output::print(&match arguments.format {
+        Format::Json => output::json(&report)?,
+        Format::Text => text::text(&report),
+    })
+}
+
+fn options(arguments: &MotionsArguments) -> Result<Options, Failure> {
+    let within = |name: &str, value: u64, most: u64| {
+        if (1..=most).contains(&value) {
+            return Ok(());
+        }
+        Err(Failure::usage(format!(
+            "{name} = {value}: must be 1 to {most}"
+        )))
+    };
+    within("starts", arguments.starts as u64, 1_000_000)?;
+    within("transient", arguments.transient, 1_000_000)?;
+    within("longest", arguments.longest as u64, 10_000)?;
+    within("patience", arguments.patience, 1_000_000_000_000)?;
+    Ok(Options {
+        starts: arguments.starts,
+        seed: arguments.seed,
+        transient: arguments.transient,
+        longest: arguments.longest,
+        patience: arguments.patience,
+        region: None,
+    })
+}
+
+/// The machine and its name.
+fn scene(arguments: &MotionsArguments) -> Result<(String, Scene), Failure> {
+    let settings = &arguments.machine;
+    let Some(path) = &arguments.scene else {
+        let machine = Machine::from_layers(&[settings])?;
+        let ratios = machine.ratios;
+        let scene = ratios
+            .scene()
+            .map_err(|error| Failure::usage(error.to_string()))?;
+        let name = format!(
+            "the {} machine at eta = {}, rho = {}",
+            machine.regime.name(),
+            ratios.frequency,
+            ratios.clearance
+        );
+        return Ok((name, scene));
+    };
+    if *settings != SceneSettings::default() {
+        return Err(Failure::usage(format!(
+            "{}: a scene file says all of the machine; it goes with none of the paper's ratios",
+            path.display()
+        )));
+    }
+    let name = path.display().to_string();
+    Ok((name, scene_file::read(path)?.scene))
+}

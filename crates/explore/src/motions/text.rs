@@ -1,0 +1,165 @@
+//! The report for people.
+
+use super::report::{
+    ChaosReport, ExponentReport, MotionsReport, PeriodicReport, SettledReport, What,
+};
+use softstop_console::table::{Row, heading, row, table};
+
+/// Before-impact velocities that are written out.
+const MOST_VELOCITIES: usize = 8;
+
+/// One motion after the other, then where they were looked for.
+pub(super) fn text(report: &MotionsReport) -> String {
+    let mut text = heading(&format!("All motions of {}", report.machine));
+    for motion in &report.motions {
+        text += &format!(
+            "\n{} ({:.1} % of starts)\n",
+            name(&motion.what),
+            100.0 * motion.share
+        );
+        text += &table(&rows(motion));
+    }
+    let ([x0, x1], [v0, v1]) = (report.region_position, report.region_velocity);
+    text += &format!(
+        "\n{} starts with {x0:.4} <= x <= {x1:.4} m and {v0:.4} <= x' <= {v1:.4} m/s; {} drive periods computed.\n",
+        report.starts, report.periods_computed
+    );
+    if let Some(reason) = &report.reason {
+        text += &format!("{} starts were lost: {reason}\n", report.lost);
+    }
+    text
+}
+
+fn name(what: &What) -> String {
+    match what {
+        What::Periodic(orbit) if orbit.impacts == 0 => "z = 0, no impacts".to_owned(),
+        What::Periodic(orbit) if orbit.chatter => {
+            format!("complete chatter every {} drive periods", orbit.periods)
+        }
+        What::Periodic(orbit) => format!("z = {}", orbit.z),
+        What::Rest { .. } => "rest".to_owned(),
+        What::Chaos(_) => "chaos".to_owned(),
+        What::TransientChaos { .. } => "chaos that ends".to_owned(),
+        What::Unsettled { .. } => "not settled".to_owned(),
+    }
+}
+
+fn rows(motion: &SettledReport) -> Vec<Row> {
+    match &motion.what {
+        What::Periodic(orbit) => periodic(orbit),
+        What::Rest {
+            positions: [low, high],
+        } => {
+            vec![line("held at x", format!("{low:.6} to {high:.6} m"))]
+        }
+        What::Chaos(chaos) => {
+            let mut rows = self::chaos(chaos);
+            let least = chaos.watched / 3;
+            rows.push(line(
+                "lifetime",
+                format!("> {least} periods (95 %): none left it"),
+            ));
+            rows
+        }
+        What::TransientChaos {
+            lifetime,
+            entered,
+            chaos,
+        } => {
+            let mut rows = self::chaos(chaos);
+            let lifetime =
+                format!("{lifetime:.0} periods on average; {entered} starts came here first");
+            rows.push(line("lifetime", lifetime));
+            rows
+        }
+        What::Unsettled { exponents, .. } => vec![exponent(exponents)],
+    }
+}
+
+fn line(label: &str, value: String) -> Row {
+    row(&format!("  {label}"), [value])
+}
+
+fn periodic(orbit: &PeriodicReport) -> Vec<Row> {
+    let mut rows = Vec::new();
+    if orbit.impacts > 0 {
+        rows.push(line("order of impacts", orbit.order.clone()));
+        rows.push(line(
+            "before impact, m/s",
+            velocities(&orbit.before_impact_velocities),
+        ));
+    }
+    let (x, v) = (orbit.position, orbit.velocity);
+    rows.push(line(
+        "state at drive angle phi",
+        format!("x = {x:.9} m, x' = {v:.9} m/s"),
+    ));
+    rows.push(line(
+        "largest position",
+        format!("{:.6} m", orbit.max_position),
+    ));
+    let [first, second] = orbit.multipliers;
+    let multipliers = if first.im == 0.0 {
+        format!("{:.6}, {:.6}", first.re, second.re)
+    } else {
+        format!(
+            "{:.6} +- {:.6} i, modulus {:.6}",
+            first.re, first.im, first.modulus
+        )
+    };
+    rows.push(line("multipliers", multipliers));
+    let [first, second] = orbit.exponents.per_period;
+    let exponents = format!("{}, {} per drive period", rate(first), rate(second));
+    rows.push(line("Lyapunov exponents", exponents));
+    let returned = format!(
+        "{:.1e} when met, {:.1e} m and m/s when polished",
+        orbit.returned, orbit.residual
+    );
+    rows.push(line("returns to within", returned));
+    rows
+}
+
+/// An exponent: that of a multiplier zero is minus infinity.
+fn rate(exponent: f64) -> String {
+    if exponent.is_finite() {
+        format!("{exponent:.6}")
+    } else {
+        "-infinity".to_owned()
+    }
+}
+
+fn velocities(velocities: &[f64]) -> String {
+    let shown = velocities
+        .iter()
+        .take(MOST_VELOCITIES)
+        .map(|velocity| format!("{velocity:.6}"));
+    let mut text = shown.collect::<Vec<_>>().join(", ");
+    if velocities.len() > MOST_VELOCITIES {
+        text += &format!(", ... ({} in all)", velocities.len());
+    }
+    text
+}
+
+fn chaos(chaos: &ChaosReport) -> Vec<Row> {
+    let mut rows = vec![exponent(&chaos.exponents)];
+    rows.push(line(
+        "impacts per drive period",
+        format!("{:.3}", chaos.impacts_per_period),
+    ));
+    if let Some([least, largest]) = chaos.velocities {
+        rows.push(line(
+            "before impact, m/s",
+            format!("{least:.4} to {largest:.4}"),
+        ));
+    }
+    rows
+}
+
+fn exponent(exponents: &ExponentReport) -> Row {
+    let ([period, _], [second, _]) = (exponents.per_period, exponents.per_second);
+    let error = exponents.error;
+    line(
+        "Lyapunov exponent",
+        format!("{period:.4} +- {error:.4} per drive period ({second:.5} 1/s)"),
+    )
+}

@@ -1,0 +1,158 @@
+//! `softstop simulate`: any scene, from a start, over whole drive periods.
+
+pub mod chart;
+mod record;
+mod report;
+mod run;
+mod tally;
+
+use std::path::PathBuf;
+
+use clap::Args;
+use softstop::{PhaseKind, Start};
+
+use crate::simulate::chart::MotionChart;
+use report::SimulateReport;
+use softstop_console::failure::Failure;
+use softstop_console::machine::require;
+use softstop_console::output::{self, Folder, Format};
+use softstop_console::scene_file::{self, SceneFile};
+
+const EXAMPLES: &str = "\
+Examples:
+  softstop simulate docs/scenes/preloaded.toml
+      the paper's unloaded machine at point A over 100 drive periods
+  softstop simulate docs/scenes/chatter.toml --periods 5 --samples-per-period 1000
+      bounces on a rigid stop that pile up to rest
+  softstop simulate docs/scenes/hertz.toml --position 0 --velocity 14 --format json
+      another start; the summary for programs
+  softstop simulate machine.toml
+      with machine.toml holding, in SI units, say
+          mass = 1.0
+          stiffness = 1.0
+          damping = 0.04
+          clearance = 10.0
+          contact_damping = 0.18
+          [excitation]
+          amplitude = 1.0
+          frequency = 1.15
+          [stop]
+          model = \"preloaded\"
+          stiffness = 7.0
+          preload = 70.0
+          [start]
+          position = 6.9
+          velocity = 9.5
+
+Three files are written, whole or not at all: motion.csv (time, position, velocity, contact
+force, phase), crossings.csv (every impact, rebound, reversal, rest and release with the exact
+states on both sides) and motion.svg (the last periods). docs/stops.md explains all stops.";
+
+/// Arguments of `softstop simulate`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub struct SimulateArguments {
+    /// Machine in a TOML file, SI units
+    #[arg(value_name = "SCENE.toml")]
+    pub scene: PathBuf,
+    /// Whole drive periods to run, 1 to 1000000
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    pub periods: u64,
+    /// Position in m to start from [default: that of the file, else 0]
+    #[arg(long, value_name = "X")]
+    pub position: Option<f64>,
+    /// Velocity in m/s to start with [default: that of the file, else 0]
+    #[arg(long, value_name = "V")]
+    pub velocity: Option<f64>,
+    /// Rows of motion.csv in each period, 1 to 100000; they change nothing in the motion
+    #[arg(long, value_name = "K", default_value_t = 200)]
+    pub samples_per_period: u64,
+    /// Folder for motion.csv, crossings.csv and motion.svg
+    #[arg(long, value_name = "DIR", default_value = "softstop-motion")]
+    pub output: PathBuf,
+    /// How to print the summary
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+const MOTION: &str = "motion.csv";
+const CROSSINGS: &str = "crossings.csv";
+const CHART: &str = "motion.svg";
+/// Rows of motion.csv at most.
+const MOST_ROWS: u64 = 20_000_000;
+
+/// Runs the scene, writes the files and prints the summary.
+///
+/// # Errors
+/// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if the motion cannot be carried
+/// on or the folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
+pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
+    check(arguments)?;
+    let SceneFile { scene, start } = scene_file::read(&arguments.scene)?;
+    let start = Start {
+        position: arguments.position.unwrap_or(start.position),
+        velocity: arguments.velocity.unwrap_or(start.velocity),
+    };
+    let motion = scene.motion(start)?;
+    let folder = Folder::open(&arguments.output, &[MOTION, CROSSINGS, CHART])?;
+    let crossings = folder.create(CROSSINGS)?;
+    let samples = folder.create(MOTION)?;
+    let plan = run::Plan {
+        scene: &scene,
+        periods: arguments.periods,
+        samples: arguments.samples_per_period,
+    };
+    let outcome = plan.run(motion, samples, crossings)?;
+    let report = SimulateReport::new(arguments, &scene, start, &outcome, &folder);
+    let chart = MotionChart {
+        drawing: outcome.drawing,
+        title: report.title(),
+        faces: run::faces(&scene),
+    };
+    folder.stage(CHART, chart.svg().as_bytes())?;
+    folder.commit(&[MOTION, CROSSINGS, CHART])?;
+    output::print(&match arguments.format {
+        Format::Json => output::json(&report)?,
+        Format::Text => report.text(),
+    })
+}
+
+fn check(arguments: &SimulateArguments) -> Result<(), Failure> {
+    let within = |name: &str, value: u64, most: u64| {
+        if (1..=most).contains(&value) {
+            Ok(())
+        } else {
+            Err(Failure::usage(format!(
+                "{name} = {value}: must be 1 to {most}"
+            )))
+        }
+    };
+    within("periods", arguments.periods, 1_000_000)?;
+    within("samples-per-period", arguments.samples_per_period, 100_000)?;
+    let rows = arguments.periods * arguments.samples_per_period;
+    within("periods x samples-per-period", rows, MOST_ROWS)?;
+    for (name, value) in [
+        ("position", arguments.position),
+        ("velocity", arguments.velocity),
+    ] {
+        let value = value.unwrap_or(0.0);
+        require(value.is_finite(), name, value, "finite")?;
+    }
+    Ok(())
+}
+
+/// A phase's name in the tables, as in the library's own JSON.
+#[must_use]
+pub const fn name(kind: PhaseKind) -> &'static str {
+    match kind {
+        PhaseKind::Free => "free",
+        PhaseKind::Pierce => "pierce",
+        PhaseKind::Cut => "cut",
+        PhaseKind::Gap => "gap",
+        PhaseKind::Stop => "stop",
+        PhaseKind::Released => "released",
+        PhaseKind::Chatter => "chatter",
+        PhaseKind::Stuck => "stuck",
+        PhaseKind::Resting => "resting",
+    }
+}

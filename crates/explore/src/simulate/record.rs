@@ -1,0 +1,183 @@
+//! Who watches the motion: tallies, the table of crossings, what is drawn.
+
+use softstop::PhaseKind;
+use softstop::Scene;
+use softstop::integrator::work;
+use softstop::integrator::{Arc, Clock, Crossing, CrossingKind, Motion, Observer};
+use softstop::phases::{Law, Phase};
+
+use super::name;
+use super::tally::{Rest, Tally};
+use crate::simulate::chart::Drawing;
+use softstop_console::failure::Failure;
+use softstop_console::output::Staged;
+
+/// Points that one period is drawn with, at least.
+const FINENESS: f64 = 250.0;
+/// Steps that an arc is drawn with, at least.
+const FEWEST: f64 = 8.0;
+/// Points drawn at most.
+const MOST_POINTS: usize = 200_000;
+
+/// Watches a motion.
+pub(super) struct Recorder<'a> {
+    scene: &'a Scene,
+    clock: Clock,
+    /// The law of free flight.
+    free: Law,
+    crossings: Staged,
+    /// The first thing that went wrong while writing.
+    failure: Option<Failure>,
+    /// Phase of the arc that ended last.
+    before: PhaseKind,
+    pub(super) tally: Tally,
+    pub(super) drawing: Drawing,
+    /// Time in s from which on the motion is drawn.
+    drawn_from: f64,
+}
+
+impl<'a> Recorder<'a> {
+    pub(super) fn new(
+        scene: &'a Scene,
+        motion: &Motion,
+        mut crossings: Staged,
+        drawn_from: f64,
+    ) -> Result<Self, Failure> {
+        crossings.header(&[
+            "time",
+            "kind",
+            "phase_before",
+            "position",
+            "velocity_before",
+            "velocity_after",
+            "acceleration_before",
+            "acceleration_after",
+            "impact",
+            "pierces",
+        ])?;
+        Ok(Self {
+            scene,
+            clock: *motion.clock(),
+            free: motion.phases().phases[0].law,
+            crossings,
+            failure: None,
+            before: motion.kind(),
+            tally: Tally::default(),
+            drawing: Drawing::default(),
+            drawn_from,
+        })
+    }
+
+    /// Passes on what went wrong while writing.
+    pub(super) fn check(&mut self) -> Result<(), Failure> {
+        self.failure.take().map_or(Ok(()), Err)
+    }
+
+    /// Takes up the arc that is under way at the end.
+    pub(super) fn finish(mut self, motion: &Motion) -> Result<(Tally, Drawing), Failure> {
+        let arc = motion.arc();
+        let elapsed = motion.clock().elapsed(arc.start, motion.now());
+        self.take(&arc, elapsed, true);
+        self.crossings.close()?;
+        Ok((self.tally, self.drawing))
+    }
+
+    fn take(&mut self, arc: &Arc<'_>, elapsed: f64, last: bool) {
+        self.before = arc.kind;
+        self.tally.work += work(arc, self.scene.mass, &self.free, elapsed);
+        let begin = self.clock.time(arc.start);
+        if elapsed > 0.0 {
+            self.tally.arc(arc.kind, elapsed);
+        }
+        if elapsed > 0.0 && matches!(arc.kind, PhaseKind::Resting | PhaseKind::Stuck) {
+            self.tally.rest(Rest {
+                phase: arc.kind,
+                begin,
+                end: (!last).then_some(begin + elapsed),
+                position: arc.course.departure.position,
+            });
+        }
+        if begin + elapsed > self.drawn_from && self.drawing.points.len() < MOST_POINTS {
+            self.draw(arc, begin, elapsed);
+        }
+    }
+
+    fn draw(&mut self, arc: &Arc<'_>, begin: f64, elapsed: f64) {
+        let skipped = (self.drawn_from - begin).max(0.0);
+        let shown = elapsed - skipped;
+        let steps = (FINENESS * shown / self.clock.period()).ceil().max(FEWEST);
+        for step in 0..=steps as u32 {
+            let after = skipped + shown * f64::from(step) / steps;
+            let drive = self.clock.drive(self.clock.after(arc.start, after));
+            let (position, velocity) = arc.course.at(after, drive);
+            let force = force(
+                self.scene,
+                &self.free,
+                arc.phase,
+                (position, velocity),
+                drive,
+            );
+            self.drawing
+                .points
+                .push([begin + after, position, velocity, force]);
+        }
+        let (from, to) = (begin + skipped, begin + elapsed);
+        match self.drawing.phases.last_mut() {
+            Some((kind, _, end)) if *kind == arc.kind => *end = to,
+            _ => self.drawing.phases.push((arc.kind, from, to)),
+        }
+    }
+}
+
+impl Observer for Recorder<'_> {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.take(arc, elapsed, false);
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        let time = self.clock.time(crossing.instant);
+        self.tally.crossing(crossing, time, self.scene.mass);
+        let line = self.crossings.row(&(
+            time,
+            kind(crossing),
+            name(self.before),
+            crossing.position,
+            crossing.velocity,
+            crossing.velocity_after,
+            crossing.acceleration_before,
+            crossing.acceleration_after,
+            u8::from(crossing.impact_velocity().is_some()),
+            u8::from(crossing.pierces()),
+        ));
+        if let Err(failure) = line {
+            self.failure.get_or_insert(failure);
+        }
+    }
+}
+
+/// Force in N of stop and strip in a state; on a mass that is held, the one that holds it.
+pub(super) fn force(
+    scene: &Scene,
+    free: &Law,
+    phase: Option<&Phase>,
+    (position, velocity): (f64, f64),
+    (cos, _): (f64, f64),
+) -> f64 {
+    match phase {
+        Some(phase) => phase.contact_force(free, position, velocity),
+        None => scene.excitation.amplitude * cos - scene.stiffness * position,
+    }
+}
+
+/// A crossing's kind as in the table.
+fn kind(crossing: &Crossing) -> &'static str {
+    match crossing.kind {
+        CrossingKind::Surface { forward: true, .. } => "forward",
+        CrossingKind::Surface { forward: false, .. } => "backward",
+        CrossingKind::Rebound { .. } => "rebound",
+        CrossingKind::Reversal => "reversal",
+        CrossingKind::Switch => "switch",
+        CrossingKind::Rest => "rest",
+        CrossingKind::Release => "release",
+    }
+}

@@ -1,0 +1,266 @@
+//! The summary of a run: plain data whose field names are the keys of the JSON, and its text.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use softstop::{PhaseKind, Scene, Start};
+
+use super::run::{DRAWN, Outcome};
+use super::tally::{Impact, Rest};
+use super::{CHART, CROSSINGS, MOTION, SimulateArguments, name};
+use softstop_console::output::Folder;
+use softstop_console::table::{Row, heading, row, table};
+
+/// A state.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub(super) struct State {
+    position: f64,
+    velocity: f64,
+}
+
+/// What the impacts were.
+#[derive(Debug, Clone, Serialize)]
+struct ImpactsReport {
+    count: u64,
+    per_period: f64,
+    lowest_velocity: Option<f64>,
+    mean_velocity: Option<f64>,
+    highest_velocity: Option<f64>,
+    /// The last ones; all stand in crossings.csv.
+    last: Vec<Impact>,
+}
+
+/// supplied = dissipated + stored, but for the defect of rounding; in J.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct EnergyReport {
+    supplied: f64,
+    dissipated: f64,
+    stored: f64,
+    defect: f64,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct PhaseReport {
+    phase: PhaseKind,
+    visits: u64,
+    /// In s.
+    time: f64,
+    share: f64,
+}
+
+/// The summary, SI units.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct SimulateReport {
+    scene: String,
+    stop: String,
+    periods: u64,
+    period: f64,
+    duration: f64,
+    start: State,
+    end: State,
+    impacts: ImpactsReport,
+    pierced: u64,
+    rest_count: u64,
+    rests: Vec<Rest>,
+    energy: EnergyReport,
+    phases: Vec<PhaseReport>,
+    files: BTreeMap<&'static str, String>,
+}
+
+impl SimulateReport {
+    pub(super) fn new(
+        arguments: &SimulateArguments,
+        scene: &Scene,
+        start: Start,
+        outcome: &Outcome,
+        folder: &Folder,
+    ) -> Self {
+        let tally = &outcome.tally;
+        let files = [("motion", MOTION), ("crossings", CROSSINGS), ("svg", CHART)];
+        Self {
+            scene: arguments.scene.display().to_string(),
+            stop: model(scene),
+            periods: arguments.periods,
+            period: scene.period(),
+            duration: outcome.duration,
+            start: state(start),
+            end: state(outcome.end),
+            impacts: impacts(outcome, arguments.periods),
+            pierced: tally.pierced,
+            rest_count: tally.rest_count,
+            rests: tally.rests.clone(),
+            energy: energy(outcome),
+            phases: phases(outcome),
+            files: files
+                .map(|(kind, name)| (kind, folder.place(name).display().to_string()))
+                .into(),
+        }
+    }
+
+    /// The chart's title.
+    pub(super) fn title(&self) -> String {
+        let drawn = self.periods.min(DRAWN);
+        let file = std::path::Path::new(&self.scene);
+        let file = file
+            .file_stem()
+            .map_or(self.scene.as_str().into(), |stem| stem.to_string_lossy());
+        if drawn == self.periods {
+            format!("{file}: {drawn} drive periods")
+        } else {
+            format!("{file}: the last {drawn} of {} drive periods", self.periods)
+        }
+    }
+
+    /// The summary for people.
+    pub(super) fn text(&self) -> String {
+        let title = format!("Motion of {} (stop: {})", self.scene, self.stop);
+        let mut text = heading(&title);
+        text += &table(&self.overview());
+        text += "\nPhases visited\n";
+        text += &table(&self.visited());
+        text += &self.rests_text();
+        text += &self.last_impacts();
+        text.push('\n');
+        for path in self.files.values() {
+            text += &format!("Written: {path}\n");
+        }
+        text
+    }
+
+    fn overview(&self) -> Vec<Row> {
+        let impacts = &self.impacts;
+        let or_none = |value: Option<f64>| value.map_or_else(|| "-".into(), figure);
+        let pair = |state: State| [figure(state.position), figure(state.velocity)];
+        let energy = &self.energy;
+        vec![
+            row("drive periods", [self.periods.to_string()]),
+            row("time (s)", [figure(self.duration)]),
+            row("start: position (m), velocity (m/s)", pair(self.start)),
+            row("end: position (m), velocity (m/s)", pair(self.end)),
+            row("impacts", [impacts.count.to_string()]),
+            row("  per period", [figure(impacts.per_period)]),
+            row(
+                "  lowest before-impact velocity (m/s)",
+                [or_none(impacts.lowest_velocity)],
+            ),
+            row("  mean (m/s)", [or_none(impacts.mean_velocity)]),
+            row("  highest (m/s)", [or_none(impacts.highest_velocity)]),
+            row("strips pierced", [self.pierced.to_string()]),
+            row("rests", [self.rest_count.to_string()]),
+            row("energy supplied (J)", [figure(energy.supplied)]),
+            row("  dissipated (J)", [figure(energy.dissipated)]),
+            row("  stored (J)", [figure(energy.stored)]),
+            row(
+                "  balance, zero but for rounding (J)",
+                [figure(energy.defect)],
+            ),
+        ]
+    }
+
+    fn visited(&self) -> Vec<Row> {
+        let head = row("  phase", ["visits", "time (s)", "share"].map(String::from));
+        let rows = self.phases.iter().map(|seen| {
+            let share = format!("{:.3} %", 100.0 * seen.share);
+            let cells = [seen.visits.to_string(), figure(seen.time), share];
+            row(&format!("  {}", name(seen.phase)), cells)
+        });
+        std::iter::once(head).chain(rows).collect()
+    }
+
+    fn rests_text(&self) -> String {
+        if self.rests.is_empty() {
+            return String::new();
+        }
+        let head = row(
+            "  held by",
+            ["begin (s)", "end (s)", "position (m)"].map(String::from),
+        );
+        let rows = self.rests.iter().take(SHOWN).map(|rest| {
+            let end = rest.end.map_or_else(|| "lasts".into(), figure);
+            let cells = [figure(rest.begin), end, figure(rest.position)];
+            row(&format!("  {}", name(rest.phase)), cells)
+        });
+        let rows: Vec<Row> = std::iter::once(head).chain(rows).collect();
+        let more = if self.rest_count > SHOWN as u64 {
+            format!(" (the first {SHOWN} of {})", self.rest_count)
+        } else {
+            String::new()
+        };
+        format!("\nRests{more}\n{}", table(&rows))
+    }
+
+    fn last_impacts(&self) -> String {
+        if self.impacts.last.is_empty() {
+            return String::new();
+        }
+        let head = row("  time (s)", ["velocity (m/s)".to_owned()]);
+        let rows = self.impacts.last.iter().map(|impact| {
+            let velocity = figure(impact.before_impact_velocity);
+            row(&format!("  {}", figure(impact.time)), [velocity])
+        });
+        let rows: Vec<Row> = std::iter::once(head).chain(rows).collect();
+        format!("\nLast impacts\n{}", table(&rows))
+    }
+}
+
+/// Rests that the text lists.
+const SHOWN: usize = 10;
+
+const fn state(state: Start) -> State {
+    State {
+        position: state.position,
+        velocity: state.velocity,
+    }
+}
+
+/// The stop's model as in TOML.
+fn model(scene: &Scene) -> String {
+    let value = serde_json::to_value(&scene.stop).unwrap_or_default();
+    value["model"].as_str().unwrap_or_default().to_owned()
+}
+
+fn impacts(outcome: &Outcome, periods: u64) -> ImpactsReport {
+    let impacts = &outcome.tally.impacts;
+    ImpactsReport {
+        count: impacts.count,
+        per_period: impacts.count as f64 / periods as f64,
+        lowest_velocity: impacts.range.map(|range| range.0),
+        mean_velocity: impacts.mean(),
+        highest_velocity: impacts.range.map(|range| range.1),
+        last: impacts.recent.clone(),
+    }
+}
+
+fn energy(outcome: &Outcome) -> EnergyReport {
+    let work = outcome.tally.work;
+    EnergyReport {
+        supplied: work.supplied,
+        dissipated: work.dissipated,
+        stored: outcome.stored,
+        defect: work.supplied - work.dissipated - outcome.stored,
+    }
+}
+
+fn phases(outcome: &Outcome) -> Vec<PhaseReport> {
+    let seen = outcome.tally.phases.iter();
+    seen.map(|visit| PhaseReport {
+        phase: visit.kind,
+        visits: visit.visits,
+        time: visit.time,
+        share: visit.time / outcome.duration,
+    })
+    .collect()
+}
+
+/// Seven significant digits.
+fn figure(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e7).contains(&size) {
+        let decimals = 6 - size.log10().floor() as i32;
+        format!("{value:.*}", usize::try_from(decimals).unwrap_or(0))
+    } else {
+        format!("{value:.3e}")
+    }
+}

@@ -1,0 +1,104 @@
+//! The run itself: from sample to sample, exactly.
+
+use softstop::integrator::mechanical_energy;
+use softstop::integrator::{Instant, Motion};
+use softstop::phases::Law;
+use softstop::{Scene, Start};
+
+use super::name;
+use super::record::{Recorder, force};
+use super::tally::Tally;
+use crate::simulate::chart::Drawing;
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::output::Staged;
+use softstop_console::progress::Progress;
+
+/// Periods that are drawn, the last ones.
+pub(super) const DRAWN: u64 = 4;
+
+/// What to run.
+pub(super) struct Plan<'a> {
+    pub scene: &'a Scene,
+    pub periods: u64,
+    pub samples: u64,
+}
+
+/// What came of it.
+pub(super) struct Outcome {
+    pub tally: Tally,
+    pub drawing: Drawing,
+    /// Energy in J stored at the end less that at the start.
+    pub stored: f64,
+    pub end: Start,
+    /// In s.
+    pub duration: f64,
+}
+
+impl Plan<'_> {
+    /// Runs the motion and writes its tables.
+    pub(super) fn run(
+        &self,
+        mut motion: Motion,
+        mut table: Staged,
+        crossings: Staged,
+    ) -> Result<Outcome, Failure> {
+        let period = motion.clock().period();
+        let drawn_from = self.periods.saturating_sub(DRAWN) as f64 * period;
+        let before = mechanical_energy(self.scene, &motion);
+        let mut recorder = Recorder::new(self.scene, &motion, crossings, drawn_from)?;
+        table.header(&["time", "position", "velocity", "contact_force", "phase"])?;
+        let progress = Progress::new(self.periods, "periods");
+        for sample in 0..=self.periods * self.samples {
+            let (cycle, part) = (sample / self.samples, sample % self.samples);
+            if part == 0 {
+                progress.at(cycle);
+            }
+            if interrupt::requested() {
+                return Err(Failure::Interrupted);
+            }
+            let instant = Instant {
+                cycles: cycle as f64,
+                offset: period * (part as f64 / self.samples as f64),
+            };
+            motion.advance(instant, &mut recorder)?;
+            recorder.check()?;
+            self.row(&motion, &mut table)?;
+        }
+        drop(progress);
+        table.close()?;
+        let (tally, drawing) = recorder.finish(&motion)?;
+        Ok(Outcome {
+            tally,
+            drawing,
+            stored: mechanical_energy(self.scene, &motion) - before,
+            end: motion.state(),
+            duration: motion.clock().time(motion.now()),
+        })
+    }
+
+    /// One row of motion.csv.
+    fn row(&self, motion: &Motion, table: &mut Staged) -> Result<(), Failure> {
+        let Start { position, velocity } = motion.state();
+        let free: &Law = &motion.phases().phases[0].law;
+        let drive = motion.clock().drive(motion.now());
+        let state = (position, velocity);
+        let force = force(self.scene, free, motion.phase(), state, drive);
+        let time = motion.clock().time(motion.now());
+        let phase = name(motion.kind());
+        table.row(&(time, position, velocity, force, phase))
+    }
+}
+
+/// The positions in m at which the law of force changes.
+pub(super) fn faces(scene: &Scene) -> Vec<f64> {
+    let mut faces: Vec<f64> = scene
+        .phases()
+        .surfaces
+        .iter()
+        .map(|surface| surface.position)
+        .collect();
+    faces.sort_by(f64::total_cmp);
+    faces.dedup();
+    faces
+}

@@ -1,0 +1,137 @@
+//! What a motion adds up to: impacts, rests, phases, energies.
+
+use serde::Serialize;
+use softstop::PhaseKind;
+use softstop::integrator::Work;
+use softstop::integrator::{Crossing, CrossingKind};
+
+/// Impacts kept one by one; all of them stand in crossings.csv.
+const RECENT: usize = 10;
+/// Rests kept one by one.
+const MOST_RESTS: usize = 1000;
+
+/// An impact.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Impact {
+    /// In s.
+    pub time: f64,
+    /// In m/s.
+    pub before_impact_velocity: f64,
+}
+
+/// The impacts of a motion.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Impacts {
+    /// How many.
+    pub count: u64,
+    sum: f64,
+    /// Lowest and highest before-impact velocity in m/s.
+    pub range: Option<(f64, f64)>,
+    /// The last ones.
+    pub recent: Vec<Impact>,
+}
+
+impl Impacts {
+    /// Mean before-impact velocity in m/s.
+    pub fn mean(&self) -> Option<f64> {
+        self.range.map(|_| self.sum / self.count as f64)
+    }
+
+    fn add(&mut self, impact: Impact) {
+        let velocity = impact.before_impact_velocity;
+        let (low, high) = self.range.unwrap_or((velocity, velocity));
+        self.range = Some((low.min(velocity), high.max(velocity)));
+        self.count += 1;
+        self.sum += velocity;
+        if self.recent.len() == RECENT {
+            self.recent.remove(0);
+        }
+        self.recent.push(impact);
+    }
+}
+
+/// A stretch of time during which the mass is held.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Rest {
+    /// By what: a face or dry friction.
+    pub phase: PhaseKind,
+    /// In s.
+    pub begin: f64,
+    /// In s; none if it lasts beyond the end of the run.
+    pub end: Option<f64>,
+    /// In m.
+    pub position: f64,
+}
+
+/// What was seen of one phase.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Visit {
+    /// The phase.
+    pub kind: PhaseKind,
+    /// How often it was entered.
+    pub visits: u64,
+    /// Seconds spent in it.
+    pub time: f64,
+}
+
+/// All sums of a motion.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Tally {
+    /// Its impacts.
+    pub impacts: Impacts,
+    /// Strips pierced through.
+    pub pierced: u64,
+    /// Rests counted.
+    pub rest_count: u64,
+    /// The first of them.
+    pub rests: Vec<Rest>,
+    /// Phases in order of their first visit.
+    pub phases: Vec<Visit>,
+    /// Energies in J.
+    pub work: Work,
+    /// The phase of the last arc; none after a rebound, which begins a new visit.
+    last: Option<PhaseKind>,
+}
+
+impl Tally {
+    /// Counts an arc of a phase.
+    pub fn arc(&mut self, kind: PhaseKind, elapsed: f64) {
+        let entered = u64::from(self.last != Some(kind));
+        self.last = Some(kind);
+        match self.phases.iter_mut().find(|seen| seen.kind == kind) {
+            Some(seen) => {
+                seen.visits += entered;
+                seen.time += elapsed;
+            }
+            None => self.phases.push(Visit {
+                kind,
+                visits: entered,
+                time: elapsed,
+            }),
+        }
+    }
+
+    /// Counts a rest.
+    pub fn rest(&mut self, rest: Rest) {
+        self.rest_count += 1;
+        if self.rests.len() < MOST_RESTS {
+            self.rests.push(rest);
+        }
+    }
+
+    /// Counts a crossing at `time` of a body of `mass`, with the energy that it takes.
+    pub fn crossing(&mut self, crossing: &Crossing, time: f64, mass: f64) {
+        let (before, after) = (crossing.velocity, crossing.velocity_after);
+        self.work.dissipated += 0.5 * mass * (before * before - after * after);
+        self.pierced += u64::from(crossing.pierces());
+        if matches!(crossing.kind, CrossingKind::Rebound { .. }) {
+            self.last = None;
+        }
+        if let Some(before_impact_velocity) = crossing.impact_velocity() {
+            self.impacts.add(Impact {
+                time,
+                before_impact_velocity,
+            });
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! The zoo: which scenes are drawn, at which speed, under which name.
+
+use softstop::Scene;
+
+use softstop_console::failure::Failure;
+use softstop_console::scene_file;
+
+/// One picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exhibit {
+    /// The picture's file, without `.svg`.
+    pub name: &'static str,
+    /// Its title.
+    pub title: &'static str,
+    /// Speed of the first touch in m/s.
+    pub speed: f64,
+    /// Whether the damping that contact adds is part of the law that is drawn.
+    pub damped: bool,
+    /// The laws in it.
+    pub laws: &'static [Specimen],
+}
+
+/// One law in a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Specimen {
+    /// Its name in the legend.
+    pub label: &'static str,
+    /// Its scene, a file of `docs/scenes`.
+    pub scene: &'static str,
+}
+
+macro_rules! specimen {
+    ($file:literal, $label:literal) => {
+        Specimen {
+            label: $label,
+            scene: include_str!(concat!("../../../../docs/scenes/", $file, ".toml")),
+        }
+    };
+}
+
+/// All pictures of the zoo.
+pub const ZOO: [Exhibit; 6] = [
+    Exhibit {
+        name: "kelvin-voigt",
+        title: "Kelvin-Voigt: spring beside damper",
+        speed: 6.0,
+        damped: true,
+        laws: &[
+            specimen!("kelvin-voigt", "release at the clearance"),
+            specimen!("kelvin-voigt-zero-force", "release at zero force"),
+        ],
+    },
+    Exhibit {
+        name: "piecewise-linear",
+        title: "Piecewise linear: a chain of slopes",
+        speed: 6.0,
+        damped: false,
+        laws: &[
+            specimen!("piecewise-linear", "one chain for both ways"),
+            specimen!("piecewise-linear-unloading", "another chain on the way out"),
+        ],
+    },
+    Exhibit {
+        name: "hertz",
+        title: "Hertz: the power law of contact",
+        speed: 6.0,
+        damped: false,
+        laws: &[
+            specimen!("hertz", "Hertz"),
+            specimen!("hunt-crossley", "with Hunt and Crossley's dissipation"),
+        ],
+    },
+    Exhibit {
+        name: "preloaded",
+        title: "Preloaded: a pre-stressed spring",
+        speed: 20.0,
+        damped: false,
+        laws: &[specimen!("preloaded", "preload and spring")],
+    },
+    Exhibit {
+        name: "piercing",
+        title: "Piercing: strip, preloaded stop, rigid stop",
+        speed: 8.0,
+        damped: false,
+        laws: &[specimen!("piercing", "phases I to IV")],
+    },
+    Exhibit {
+        name: "rigid",
+        title: "Rigid: Newton's restitution",
+        speed: 6.0,
+        damped: false,
+        laws: &[specimen!("rigid", "rigid stop")],
+    },
+];
+
+impl Specimen {
+    /// The scene.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] if the file in `docs/scenes` does not describe a machine.
+    pub fn scene(&self) -> Result<Scene, Failure> {
+        let file = scene_file::parse(self.scene)
+            .map_err(|error| Failure::usage(format!("{}: {error}", self.label)))?;
+        Ok(file.scene)
+    }
+}

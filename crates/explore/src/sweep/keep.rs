@@ -1,0 +1,87 @@
+//! What is done of a sweep, kept for `--resume`.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, anyhow};
+use serde::{Deserialize, Serialize};
+use softstop_dynamics::sweep::{Chain, Plan, Step};
+
+use softstop_console::failure::Failure;
+use softstop_console::model::Model;
+
+/// The file, beside those of the result.
+const NAME: &str = "sweep.part";
+
+/// Where it is kept, and of what.
+pub(super) struct Keep {
+    path: PathBuf,
+    /// What is swept, in full.
+    of: String,
+}
+
+/// The file's content.
+#[derive(Serialize, Deserialize)]
+struct Content {
+    of: String,
+    chains: Vec<Vec<Step>>,
+}
+
+/// Bytes of the checksum at the file's end.
+const CHECK: usize = 4;
+
+impl Keep {
+    pub(super) fn new(folder: &Path, plan: &Plan, chains: &[Chain<Model>]) -> Self {
+        let machines = chains.iter().map(|chain| (&chain.machine, chain.direction));
+        let machines: Vec<_> = machines.collect();
+        Self {
+            path: folder.join(NAME),
+            of: format!("{} {plan:?} {machines:?}", env!("CARGO_PKG_VERSION")),
+        }
+    }
+
+    /// Puts what is done into the file, whole or not at all.
+    pub(super) fn store(&self, chains: &[Chain<Model>]) -> Result<(), Failure> {
+        let content = Content {
+            of: self.of.clone(),
+            chains: chains.iter().map(|chain| chain.steps.clone()).collect(),
+        };
+        let place = || format!("cannot write {}", self.path.display());
+        let mut bytes = rmp_serde::to_vec(&content).with_context(place)?;
+        bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+        let folder = self.path.parent().unwrap_or(Path::new("."));
+        let mut file = tempfile::NamedTempFile::new_in(folder).with_context(place)?;
+        file.write_all(&bytes).with_context(place)?;
+        file.as_file().sync_all().with_context(place)?;
+        file.persist(&self.path).with_context(place)?;
+        Ok(())
+    }
+
+    /// Gives the chains the steps that the file holds.
+    pub(super) fn restore(&self, chains: &mut [Chain<Model>]) -> Result<(), Failure> {
+        let place = self.path.display();
+        let bytes = fs::read(&self.path)
+            .map_err(|error| Failure::usage(format!("--resume: {place}: {error}")))?;
+        let damaged = || Failure::Run(anyhow!("{place}: is damaged; sweep without --resume"));
+        let (content, check) = bytes.split_last_chunk::<CHECK>().ok_or_else(damaged)?;
+        if crc32fast::hash(content) != u32::from_le_bytes(*check) {
+            return Err(damaged());
+        }
+        let content: Content = rmp_serde::from_slice(content).map_err(|_| damaged())?;
+        if content.of != self.of || content.chains.len() != chains.len() {
+            return Err(Failure::usage(format!(
+                "--resume: {place} holds another sweep: all other arguments must be the same"
+            )));
+        }
+        for (chain, steps) in chains.iter_mut().zip(content.chains) {
+            chain.steps = steps;
+        }
+        Ok(())
+    }
+
+    /// Takes the file away.
+    pub(super) fn forget(&self) {
+        let _ = fs::remove_file(&self.path);
+    }
+}

@@ -1,0 +1,239 @@
+//! The runs of an atlas: every method at every step and stiffness, judged by the true motion.
+
+use crate::methods::{Exact, Integrator, Judge, MethodError, Solution, Task, Verdict};
+use anyhow::Context;
+use rayon::prelude::*;
+
+use super::family::Family;
+use super::view::{View, contact_mode, shortest_contact};
+use crate::{interrupt, reference};
+use softstop_console::failure::Failure;
+use softstop_console::progress::Progress;
+
+/// Steps that events may cost a run beyond those that its duration needs. To locate one crossing takes some ten.
+const SPARE_STEPS: u64 = 1000;
+
+/// How often the reference may ask whether to go on: some ten seconds.
+const MOST_DIGITS: u32 = 40_000;
+
+/// Where the atlas looks: both axes are logarithmic and in rising order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axes {
+    /// Stiffness of the stop in N/m.
+    pub stiffness: Vec<f64>,
+    /// Step as a share of the drive period.
+    pub step: Vec<f64>,
+}
+
+/// What stands above one stiffness: the machine, its true motion and the limits that theory sets.
+#[derive(Debug, Clone)]
+pub struct Column {
+    /// The task; its machine has the column's stiffness.
+    pub task: Task,
+    /// The true motion: in 67 digits, or else the exact method's own.
+    pub truth: Solution,
+    /// Angular frequency in rad/s and damping ratio of the linear contact, if it is linear.
+    pub mode: Option<(f64, f64)>,
+    /// Shortest whole contact as a share of the drive period, if there is one.
+    pub contact: Option<f64>,
+    /// The exact method, judged as all others are, if the true motion is not its own.
+    pub exact: Option<Cell>,
+}
+
+/// One run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cell {
+    /// What became of it.
+    pub verdict: Verdict,
+    /// Error of the state at the end over the motion's size, if it got there.
+    pub error: Option<f64>,
+    /// Impacts that it found, if it got there.
+    pub impacts: Option<usize>,
+}
+
+/// All runs of one method on one view.
+#[derive(Debug, Clone)]
+pub struct Map {
+    /// The method.
+    pub family: Family,
+    /// One column for each stiffness, one cell in it for each step.
+    pub columns: Vec<Vec<Cell>>,
+    /// For each stiffness the longest stable step in contact as a share of the drive period; none where there is no such limit.
+    pub limit: Vec<Option<f64>>,
+}
+
+/// One view with all its maps.
+#[derive(Debug, Clone)]
+pub struct Atlas {
+    /// The machine.
+    pub view: View,
+    /// Where it was looked at.
+    pub axes: Axes,
+    /// What stands above each stiffness.
+    pub columns: Vec<Column>,
+    /// Error at the end over the motion's size up to which a run has converged.
+    pub tolerance: f64,
+    /// A map for each method.
+    pub maps: Vec<Map>,
+}
+
+impl Axes {
+    /// So many points on both axes: stiffness 1 to 1e8 N/m, step 1e-5 to 0.3 of the drive period.
+    #[must_use]
+    pub fn new(points: usize) -> Self {
+        Self {
+            stiffness: logarithmic(1.0, 1e8, points),
+            step: logarithmic(1e-5, 0.3, points),
+        }
+    }
+}
+
+fn logarithmic(low: f64, high: f64, points: usize) -> Vec<f64> {
+    let last = points.saturating_sub(1).max(1) as f64;
+    let ratio = high / low;
+    (0..points)
+        .map(|index| low * ratio.powf(index as f64 / last))
+        .collect()
+}
+
+impl Atlas {
+    /// Runs everything; a method that is unsuited for all of it has no map. An error at the end of up to `tolerance` times the motion's size counts as none.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] if the true motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
+    pub fn new(
+        view: View,
+        axes: Axes,
+        families: &[Family],
+        tolerance: f64,
+        progress: &Progress,
+    ) -> Result<Self, Failure> {
+        let columns = axes
+            .stiffness
+            .par_iter()
+            .map(|&stiffness| Column::new(&view, stiffness, tolerance, progress))
+            .collect::<Result<Vec<_>, _>>()?;
+        let map = |family: &Family| {
+            let cells = columns
+                .par_iter()
+                .map(|column| column.judge(*family, &axes.step, tolerance, progress))
+                .collect::<Result<_, _>>()?;
+            Ok(Map {
+                family: *family,
+                columns: cells,
+                limit: columns.iter().map(|column| column.limit(*family)).collect(),
+            })
+        };
+        let mut maps = families
+            .iter()
+            .map(map)
+            .collect::<Result<Vec<Map>, Failure>>()?;
+        maps.retain(Map::says_something);
+        Ok(Self {
+            view,
+            axes,
+            columns,
+            tolerance,
+            maps,
+        })
+    }
+}
+
+impl Map {
+    /// Whether the method is made for one of the machines at least.
+    fn says_something(&self) -> bool {
+        let mut cells = self.columns.iter().flatten();
+        cells.any(|cell| cell.verdict != Verdict::Unsuited)
+    }
+}
+
+impl Cell {
+    fn new(judge: &Judge<'_>, outcome: Result<Solution, MethodError>) -> Self {
+        let verdict = judge.verdict(&outcome);
+        let solution = outcome.ok();
+        let error = solution.as_ref().map(|solution| judge.error(solution));
+        Self {
+            verdict,
+            error: error.filter(|error| error.is_finite()),
+            impacts: solution.map(|solution| solution.impacts.len()),
+        }
+    }
+}
+
+impl Column {
+    fn new(
+        view: &View,
+        stiffness: f64,
+        tolerance: f64,
+        progress: &Progress,
+    ) -> Result<Self, Failure> {
+        let task = view.task(stiffness);
+        let lost = || format!("no true motion at a stiffness of {stiffness} N/m");
+        let own = Exact.integrate(&task).with_context(lost)?;
+        let contact = shortest_contact(&task).with_context(lost)?;
+        let (truth, exact) = match in_digits(&task, progress)? {
+            Some(truth) => {
+                let judge = Judge::new(&task, &truth, tolerance);
+                let cell = Cell::new(&judge, Ok(own));
+                (truth, Some(cell))
+            }
+            None => (own, None),
+        };
+        progress.one();
+        Ok(Self {
+            contact: contact.map(|contact| contact / task.scene.period()),
+            mode: contact_mode(&task.scene),
+            task,
+            truth,
+            exact,
+        })
+    }
+
+    /// One method with each step.
+    fn judge(
+        &self,
+        family: Family,
+        steps: &[f64],
+        tolerance: f64,
+        progress: &Progress,
+    ) -> Result<Vec<Cell>, Failure> {
+        let judge = Judge::new(&self.task, &self.truth, tolerance);
+        let period = self.task.scene.period();
+        let cell = |step: &f64| {
+            progress.step()?;
+            let task = Task {
+                most_steps: (self.task.periods / step).ceil() as u64 + SPARE_STEPS,
+                ..self.task.clone()
+            };
+            let outcome = family.method(step * period).integrate(&task);
+            Ok(Cell::new(&judge, outcome))
+        };
+        steps.iter().map(cell).collect()
+    }
+
+    /// Longest stable step in contact as a share of the drive period.
+    fn limit(&self, family: Family) -> Option<f64> {
+        let (frequency, ratio) = self.mode?;
+        let limit = family.limit(ratio)?;
+        Some(limit / frequency / self.task.scene.period())
+    }
+}
+
+/// The motion in 67 digits, unless there is none or it would take too long.
+fn in_digits(task: &Task, progress: &Progress) -> Result<Option<Solution>, Failure> {
+    let asked = std::cell::Cell::new(0);
+    let go_on = |_| {
+        asked.set(asked.get() + 1);
+        progress.beat();
+        asked.get() < MOST_DIGITS && !interrupt::requested()
+    };
+    let found = reference::solve(task, &go_on).ok();
+    if interrupt::requested() {
+        return Err(Failure::Interrupted);
+    }
+    Ok(found.map(|found| Solution {
+        end: found.end,
+        impacts: found.impacts,
+        ..Solution::default()
+    }))
+}

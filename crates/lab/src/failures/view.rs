@@ -1,0 +1,217 @@
+//! What the atlas looks at: machines whose stop's stiffness is swept.
+
+use std::path::Path;
+
+use crate::methods::Task;
+use softstop::scene::Slope;
+use softstop::{MotionError, PhaseKind, Scene, Start, Stop};
+
+use softstop_console::failure::Failure;
+use softstop_console::scene_file::{self, SceneFile};
+
+/// A machine of the atlas with its start and its duration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct View {
+    /// Its name: that of its files.
+    pub name: String,
+    /// What it shows.
+    pub title: String,
+    /// Machine and start; the stop's stiffness is swept.
+    pub file: SceneFile,
+    /// Whether it starts in contact, near the position where the stop carries the suspension's load.
+    pub settling: bool,
+    /// Drive periods to run.
+    pub periods: f64,
+}
+
+/// One that comes with the program.
+struct BuiltIn {
+    name: &'static str,
+    title: &'static str,
+    scene: &'static str,
+    periods: f64,
+}
+
+macro_rules! built_in {
+    ($name:literal, $periods:literal, $title:literal) => {
+        BuiltIn {
+            name: $name,
+            title: $title,
+            scene: include_str!(concat!("../../../../docs/failures/", $name, ".toml")),
+            periods: $periods,
+        }
+    };
+}
+
+const BUILT_IN: [BuiltIn; 5] = [
+    built_in!("pressed", 1.0, "Pressed onto the stop: pure stability"),
+    built_in!("bounce", 1.0, "A bounce without losses: energy"),
+    built_in!("graze", 2.0, "A graze: short contacts"),
+    built_in!("chatter", 1.0, "Bounces to rest: endlessly many events"),
+    built_in!("driven", 3.0, "The driven machine: everything at once"),
+];
+
+/// The one whose start depends on the stiffness: a start at a fixed depth would throw the mass off a stiff stop.
+const PRESSED: &str = "pressed";
+
+/// Its depth at the start over that at rest.
+const SETTLED: f64 = 0.9;
+
+/// Drive periods that a user's scene runs unless the user says otherwise.
+const PERIODS: f64 = 3.0;
+
+impl View {
+    /// All that come with the program.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] if one of their files does not describe a machine.
+    pub fn built_in() -> Result<Vec<Self>, Failure> {
+        BUILT_IN.iter().map(BuiltIn::view).collect()
+    }
+
+    /// The one of this name, or of the scene file at this path, with another duration if one is given.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] if there is neither, or nothing to sweep.
+    pub fn find(place: &str, periods: Option<f64>) -> Result<Self, Failure> {
+        let mut view = match BUILT_IN.iter().find(|known| known.name == place) {
+            Some(known) => known.view()?,
+            None => Self::read(place)?,
+        };
+        view.periods = periods.unwrap_or(view.periods);
+        Ok(view)
+    }
+
+    fn read(place: &str) -> Result<Self, Failure> {
+        let path = Path::new(place);
+        if !path.exists() {
+            let names: Vec<&str> = BUILT_IN.iter().map(|known| known.name).collect();
+            return Err(Failure::usage(format!(
+                "scene = {place}: must be a scene file or one of {}",
+                names.join(", ")
+            )));
+        }
+        let file = scene_file::read(path)?;
+        if with_stiffness(&file.scene.stop, 1.0).is_none() {
+            return Err(Failure::usage(format!(
+                "{place}: stop.model: must have a stiffness to sweep: kelvinVoigt, piecewiseLinear, hertz or \
+                 preloaded"
+            )));
+        }
+        let name = path.file_stem().unwrap_or(path.as_os_str());
+        let name = name.to_string_lossy().into_owned();
+        Ok(Self {
+            title: name.clone(),
+            name,
+            file,
+            settling: false,
+            periods: PERIODS,
+        })
+    }
+
+    /// The task with a stop of this stiffness in N/m.
+    #[must_use]
+    pub fn task(&self, stiffness: f64) -> Task {
+        let scene = &self.file.scene;
+        let stop = with_stiffness(&scene.stop, stiffness);
+        Task {
+            scene: Scene {
+                stop: stop.unwrap_or_else(|| scene.stop.clone()),
+                ..scene.clone()
+            },
+            start: self.start(stiffness),
+            periods: self.periods,
+            most_steps: u64::MAX,
+        }
+    }
+
+    fn start(&self, stiffness: f64) -> Start {
+        let Start { position, velocity } = self.file.start;
+        let scene = &self.file.scene;
+        let load = -scene.stiffness * scene.clearance;
+        let carried = load / (scene.stiffness + stiffness);
+        let depth = if self.settling {
+            SETTLED * carried
+        } else {
+            0.0
+        };
+        Start {
+            position: position + depth,
+            velocity,
+        }
+    }
+}
+
+impl BuiltIn {
+    fn view(&self) -> Result<View, Failure> {
+        let file = scene_file::parse(self.scene)
+            .map_err(|error| Failure::usage(format!("{}: {error}", self.name)))?;
+        Ok(View {
+            name: self.name.to_owned(),
+            title: self.title.to_owned(),
+            file,
+            settling: self.name == PRESSED,
+            periods: self.periods,
+        })
+    }
+}
+
+/// The law with another stiffness: of several slopes the first gets it, the others keep their ratios to it.
+fn with_stiffness(stop: &Stop, stiffness: f64) -> Option<Stop> {
+    let mut stop = stop.clone();
+    match &mut stop {
+        Stop::KelvinVoigt { stiffness: old, .. }
+        | Stop::Preloaded { stiffness: old, .. }
+        | Stop::Hertz { stiffness: old, .. } => *old = stiffness,
+        Stop::PiecewiseLinear { loading, unloading } => {
+            let first = loading.first().map(|slope| slope.stiffness);
+            let factor = stiffness / first.filter(|first| *first > 0.0)?;
+            let scale = |slope: &mut Slope| slope.stiffness *= factor;
+            loading.iter_mut().chain(unloading).for_each(scale);
+        }
+        Stop::None | Stop::Rigid { .. } => return None,
+    }
+    Some(stop)
+}
+
+/// Angular frequency in rad/s and damping ratio of the machine on its stop, if contact is linear: on the
+/// steepest slope, if there are several.
+#[must_use]
+pub fn contact_mode(scene: &Scene) -> Option<(f64, f64)> {
+    let stiffness = match &scene.stop {
+        Stop::KelvinVoigt { stiffness, .. } | Stop::Preloaded { stiffness, .. } => *stiffness,
+        Stop::PiecewiseLinear { loading, unloading } => loading
+            .iter()
+            .chain(unloading)
+            .map(|slope| slope.stiffness)
+            .fold(0.0, f64::max),
+        Stop::None | Stop::Hertz { .. } | Stop::Rigid { .. } => return None,
+    };
+    let frequency = ((scene.stiffness + stiffness) / scene.mass).sqrt();
+    let ratio = 0.5 * scene.contact_damping / (scene.mass * frequency);
+    (frequency > 0.0).then_some((frequency, ratio))
+}
+
+/// Duration in s of the shortest whole contact of the true motion, if there is one.
+///
+/// # Errors
+/// [`MotionError`] if the motion cannot be carried on.
+pub fn shortest_contact(task: &Task) -> Result<Option<f64>, MotionError> {
+    let cycles = task.periods.floor();
+    let offset = (task.periods - cycles) * task.scene.period();
+    let end = softstop::Instant { cycles, offset };
+    let trajectory = task.scene.trajectory_until(task.start, end)?;
+    let arcs = &trajectory.arcs;
+    let contacts = arcs.split(|arc| arc.kind == PhaseKind::Free);
+    // The first and the last group touch the ends of the run: they may be parts of contacts.
+    let groups: Vec<f64> = contacts
+        .map(|contact| contact.iter().map(|arc| arc.duration).sum())
+        .collect();
+    let inner = groups.get(1..groups.len().saturating_sub(1));
+    Ok(inner
+        .unwrap_or_default()
+        .iter()
+        .copied()
+        .filter(|duration| *duration > 0.0)
+        .min_by(f64::total_cmp))
+}

@@ -1,0 +1,63 @@
+//! The exact method, as one among others.
+
+use super::{Integrator, MethodError, Solution, Task, Work};
+use softstop::integrator::{Arc, Clock, Crossing, Evaluations, Impact, Instant, Observer};
+
+/// Closed forms from crossing to crossing, Taylor steps where a law is not linear.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Exact;
+
+impl Integrator for Exact {
+    fn name(&self) -> String {
+        "exact".to_owned()
+    }
+
+    fn integrate(&self, task: &Task) -> Result<Solution, MethodError> {
+        let mut motion = task.scene.motion(task.start)?;
+        let mut watcher = Watcher {
+            clock: *motion.clock(),
+            impacts: Vec::new(),
+            taken: Evaluations::default(),
+        };
+        let end = end_of(task, motion.clock());
+        motion
+            .advance(end, &mut watcher)
+            .map_err(|error| MethodError::from(error).after(watcher.taken.steps))?;
+        watcher.taken.finish(&motion);
+        let state = motion.state();
+        Ok(Solution {
+            end: (state.position, state.velocity),
+            impacts: watcher.impacts,
+            work: Work {
+                steps: watcher.taken.steps,
+                evaluations: watcher.taken.evaluations,
+            },
+        })
+    }
+}
+
+/// Whole periods and the rest of them.
+fn end_of(task: &Task, clock: &Clock) -> Instant {
+    let cycles = task.periods.floor();
+    let offset = (task.periods - cycles) * clock.period();
+    Instant { cycles, offset }
+}
+
+struct Watcher {
+    clock: Clock,
+    impacts: Vec<Impact>,
+    taken: Evaluations,
+}
+
+impl Observer for Watcher {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.taken.arc(arc, elapsed);
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        if let Some(velocity) = crossing.impact_velocity() {
+            let time = self.clock.time(crossing.instant);
+            self.impacts.push(Impact { time, velocity });
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! Steps on a fixed grid that take the law as it is where the state is, whatever they step over.
+
+use super::machine::{Machine, State, Steps};
+use super::rise::{Fineness, Probe, rise};
+use super::step::Step;
+use super::{MethodError, Task};
+use softstop::integrator::Impact;
+
+/// The places that end or count a motion onwards.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Places {
+    /// The clearance, if something stands there.
+    pub clearance: Option<f64>,
+    /// The rigid stop and its restitution.
+    pub wall: Option<(f64, f64)>,
+}
+
+impl Places {
+    pub fn of(task: &Task, machine: &Machine) -> Self {
+        let any = !machine.phases.surfaces.is_empty();
+        Self {
+            clearance: any.then_some(task.scene.clearance),
+            wall: task.scene.wall(),
+        }
+    }
+
+    /// True if nothing stands before the rigid stop.
+    pub fn wall_is_clearance(&self) -> bool {
+        self.wall
+            .is_some_and(|(wall, _)| self.clearance == Some(wall))
+    }
+}
+
+/// Runs all steps. A mass that is beyond the rigid stop at the end of one is put on it and sent back with
+/// restitution: time and energy of the flight behind it are not given back.
+pub(super) fn run(
+    machine: &mut Machine,
+    places: Places,
+    steps: Steps,
+    start: Step,
+) -> Result<State, MethodError> {
+    let mut state = start.restarted(machine);
+    for index in 0..steps.count {
+        let (time, next) = (steps.time(index), steps.time(index + 1));
+        let step = Step {
+            time,
+            from: state,
+            ..start
+        };
+        let to = step.taken(machine, next - time)?;
+        let span = Span {
+            time,
+            length: next - time,
+            from: state,
+            to,
+        };
+        state = span.land(machine, places, &step)?;
+    }
+    Ok(state)
+}
+
+/// A step that has been made.
+pub(super) struct Span {
+    pub time: f64,
+    pub length: f64,
+    pub from: State,
+    pub to: State,
+}
+
+impl Span {
+    fn land(
+        &self,
+        machine: &mut Machine,
+        places: Places,
+        step: &Step,
+    ) -> Result<State, MethodError> {
+        let hit = places.wall.filter(|(wall, _)| self.to.position > *wall);
+        if !places.wall_is_clearance() {
+            self.note_passing(machine, places);
+        }
+        let Some((wall, restitution)) = hit else {
+            return Ok(self.to);
+        };
+        if places.wall_is_clearance() {
+            machine.impacts.push(self.impact_at(wall));
+        }
+        let velocity = self.to.velocity;
+        let landed = State {
+            position: wall,
+            velocity: if velocity > 0.0 {
+                -restitution * velocity
+            } else {
+                velocity
+            },
+            ..self.to
+        };
+        let restart = Step {
+            time: self.time + self.length,
+            from: landed,
+            ..*step
+        };
+        Ok(restart.restarted(machine))
+    }
+
+    /// Counts an impact if the clearance is passed onwards between both ends.
+    pub fn note_passing(&self, machine: &mut Machine, places: Places) {
+        let passed = |at: &f64| self.from.position < *at && self.to.position >= *at;
+        if let Some(clearance) = places.clearance.filter(passed) {
+            machine.impacts.push(self.impact_at(clearance));
+        }
+    }
+
+    /// Time and velocity at a position between both ends, by the cubic that has their positions and velocities.
+    fn impact_at(&self, position: f64) -> Impact {
+        let probe = |share: f64| {
+            let (x, velocity) = self.cubic(share);
+            (x - position, velocity)
+        };
+        let end = |at: f64, state: &State| Probe {
+            at,
+            value: state.position - position,
+            what: state.velocity,
+        };
+        let (low, high) = (end(0.0, &self.from), end(1.0, &self.to));
+        if low.value >= 0.0 {
+            return Impact {
+                time: self.time,
+                velocity: self.from.velocity.max(0.0),
+            };
+        }
+        let fine = Fineness {
+            width: f64::EPSILON,
+            value: f64::EPSILON * position.abs(),
+        };
+        let tried = rise(low, high, fine, |share| {
+            Ok::<_, std::convert::Infallible>(probe(share))
+        });
+        let Probe { at, what, .. } = tried.unwrap_or(high);
+        Impact {
+            time: self.time + at * self.length,
+            velocity: what,
+        }
+    }
+
+    fn cubic(&self, s: f64) -> (f64, f64) {
+        let (h, from, to) = (self.length, &self.from, &self.to);
+        let rise = to.position - from.position;
+        // Newton's form of the interpolant with both ends taken twice.
+        let first = rise - h * from.velocity;
+        let second = h * (from.velocity + to.velocity) - 2.0 * rise;
+        let position = from.position + s * (h * from.velocity + s * (first + (s - 1.0) * second));
+        let slope = h * from.velocity + s * (2.0 * first + (3.0 * s - 2.0) * second);
+        (position, slope / h)
+    }
+}

@@ -1,0 +1,218 @@
+//! Steps that end where the law changes.
+
+use std::borrow::Cow;
+
+use super::machine::{Laws, Machine, State, Steps};
+use super::rise::{Fineness, Probe, rise};
+use super::step::Step;
+use super::{MethodError, Task};
+use softstop::events::Guard;
+use softstop::integrator::{Start, Walk};
+
+/// How often a step is halved in the search for the side that a guard begins from.
+const HALVINGS: u32 = 60;
+
+/// A motion under way, from crossing to crossing.
+pub(super) struct Located<'a, 'b> {
+    machine: &'a mut Machine<'b>,
+    walk: Walk<'b>,
+    /// The present step's start.
+    at: Step,
+}
+
+/// A guard that has risen, and where.
+#[derive(Clone, Copy)]
+struct Risen {
+    guard: usize,
+    elapsed: f64,
+    state: State,
+}
+
+impl<'a, 'b> Located<'a, 'b> {
+    pub fn new(machine: &'a mut Machine<'b>, task: &'b Task, start: Step) -> Self {
+        let mut motion = Self {
+            walk: Walk::through(&task.scene, task.start, Cow::Borrowed(machine.phases)),
+            machine,
+            at: start,
+        };
+        motion.depart();
+        motion
+    }
+
+    pub fn run(mut self, steps: Steps) -> Result<State, MethodError> {
+        for index in 1..=steps.count {
+            let until = steps.time(index);
+            while self.at.time < until {
+                self.advance(until)?;
+            }
+        }
+        self.machine.impacts = self.walk.into_impacts();
+        Ok(self.at.from)
+    }
+
+    /// One step to `until`, or to the first crossing before.
+    fn advance(&mut self, until: f64) -> Result<(), MethodError> {
+        let span = until - self.at.time;
+        let risen = if self.walk.index().is_some() {
+            let to = self.at.taken(self.machine, span)?;
+            let risen = self.first_rise(span, to)?;
+            if risen.is_none() {
+                self.at.from = to;
+            }
+            risen
+        } else {
+            self.first_release(span)?
+        };
+        match risen {
+            Some(risen) => self.cross(risen),
+            None => {
+                self.at.time = until;
+                Ok(())
+            }
+        }
+    }
+
+    /// The first of a phase's guards to be above zero at the end of a step, where it rises.
+    fn first_rise(&mut self, span: f64, to: State) -> Result<Option<Risen>, MethodError> {
+        let mut end = (span, to);
+        let mut first = None;
+        for (guard, law) in self.walk.guards().iter().enumerate() {
+            let start = value(law, &self.at.from);
+            let noise = if start >= 0.0 {
+                self.noise(law, &end)
+            } else {
+                0.0
+            };
+            if value(law, &end.1) <= noise {
+                continue;
+            }
+            let at = self.at;
+            let machine = &mut *self.machine;
+            let mut probe = |elapsed: f64| {
+                let state = at.taken(machine, elapsed)?;
+                Ok((value(law, &state), state))
+            };
+            let ends = [(0.0, at.from), end].map(|(at, state)| Probe {
+                at,
+                value: value(law, &state),
+                what: state,
+            });
+            let rounding = 2.0 * f64::EPSILON * law.level.abs();
+            let found = locate(ends, rounding, &mut probe)?;
+            end = (found.at, found.what);
+            first = Some(Risen {
+                guard,
+                elapsed: found.at,
+                state: found.what,
+            });
+        }
+        Ok(first)
+    }
+
+    /// What rounding may leave of a guard that begins on zero.
+    fn noise(&self, guard: &Guard, (span, to): &(f64, State)) -> f64 {
+        let speed = to.velocity.abs().max(self.at.from.velocity.abs());
+        let push = self.machine.phases.held.amplitude;
+        let gained = span * (push + to.acceleration.abs());
+        let position = (guard.position * to.position).abs() + guard.level.abs();
+        let velocity = guard.velocity.abs() * (speed.min(gained));
+        8.0 * f64::EPSILON * (position + velocity)
+    }
+
+    /// When a held mass is let go within the next `span` seconds, by the push at their end.
+    fn first_release(&mut self, span: f64) -> Result<Option<Risen>, MethodError> {
+        let time = self.at.time;
+        self.machine.count_step(time)?;
+        let (from, machine) = (self.at.from, &mut *self.machine);
+        let mut end = span;
+        let mut first = None;
+        for (guard, law) in self.walk.guards().iter().enumerate() {
+            let mut probe = |elapsed: f64| {
+                machine.work.evaluations += 1;
+                let value = law.push * machine.push(time + elapsed) - law.level;
+                Ok((value, ()))
+            };
+            let [start, end_value] = [probe(0.0)?.0, probe(end)?.0];
+            if end_value <= 0.0 {
+                continue;
+            }
+            let ends = [(0.0, start), (end, end_value)].map(|(at, value)| Probe {
+                at,
+                value,
+                what: (),
+            });
+            let rounding = 2.0 * f64::EPSILON * law.level.abs();
+            end = locate(ends, rounding, &mut probe)?.at;
+            first = Some(Risen {
+                guard,
+                elapsed: end,
+                state: from,
+            });
+        }
+        Ok(first)
+    }
+
+    fn cross(&mut self, risen: Risen) -> Result<(), MethodError> {
+        let State {
+            position,
+            velocity,
+            acceleration,
+        } = risen.state;
+        let time = self.at.time + risen.elapsed;
+        let crossed = self
+            .walk
+            .cross(risen.guard, time, Start { position, velocity });
+        crossed.map_err(|error| MethodError::from(error).after(self.machine.work.steps))?;
+        let Start { position, velocity } = self.walk.state();
+        self.at.time = time;
+        self.at.from = State {
+            position,
+            velocity,
+            acceleration,
+        };
+        self.depart();
+        Ok(())
+    }
+
+    /// Begins a phase.
+    fn depart(&mut self) {
+        if let Some(phase) = self.walk.index() {
+            self.at.laws = Laws::One(phase);
+            self.at.from = self.at.restarted(self.machine);
+        }
+    }
+}
+
+fn value(guard: &Guard, state: &State) -> f64 {
+    guard.value(state.position, state.velocity)
+}
+
+/// Where a function rises through zero between two ends, the later one above zero. If it begins on zero, it is
+/// taken to dip below first; if no dip is found, it rises at once.
+fn locate<T: Copy>(
+    [mut low, mut high]: [Probe<T>; 2],
+    rounding: f64,
+    probe: &mut impl FnMut(f64) -> Result<(f64, T), MethodError>,
+) -> Result<Probe<T>, MethodError> {
+    let (begin, width) = (low, high.at);
+    let mut halvings = 0;
+    while low.value >= 0.0 {
+        if halvings == HALVINGS {
+            return Ok(begin);
+        }
+        halvings += 1;
+        let at = 0.5 * high.at;
+        let (value, what) = probe(at)?;
+        let tried = Probe { at, value, what };
+        if value < 0.0 {
+            low = tried;
+        } else {
+            high = tried;
+        }
+    }
+    let fine = Fineness {
+        width: 2.0 * f64::EPSILON * width,
+        value: rounding.max(f64::EPSILON * (high.value - low.value)),
+    };
+    rise(low, high, fine, probe)
+}

@@ -1,0 +1,192 @@
+//! A task as the stepping methods see it: forces at a time and a state, and what asking for them costs.
+
+use super::{MethodError, Solution, Task, Work};
+use softstop::error::{MotionError, SceneError};
+use softstop::integrator::Impact;
+use softstop::phases::Phases;
+
+/// Which law of force a step goes by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Laws {
+    /// That of one phase, smoothly continued beyond its ends.
+    One(usize),
+    /// Whichever holds where the state is; sign(0) = 0 under dry friction.
+    All,
+}
+
+/// Positions in m beyond which a motion has blown up.
+const FARTHEST: f64 = 1e100;
+
+/// A state between two steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct State {
+    pub position: f64,
+    pub velocity: f64,
+    /// The acceleration that the schemes of the alpha family carry on; the last one's guess for others.
+    pub acceleration: f64,
+}
+
+impl State {
+    pub fn is_finite(&self) -> bool {
+        self.position.abs() <= FARTHEST && self.velocity.is_finite()
+    }
+}
+
+/// Forces, and counts of what was asked.
+pub(super) struct Machine<'a> {
+    pub phases: &'a Phases,
+    pub work: Work,
+    pub impacts: Vec<Impact>,
+    angle: f64,
+    most_steps: u64,
+}
+
+/// The first part of a run, before any step.
+pub(super) struct Prepared {
+    pub phases: Phases,
+    pub steps: Steps,
+}
+
+/// A duration divided into equal steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Steps {
+    pub duration: f64,
+    pub count: u64,
+}
+
+impl Steps {
+    /// The least number of equal steps that are no longer than `longest` but by rounding.
+    fn new(task: &Task, longest: f64) -> Result<Self, MethodError> {
+        let duration = task.duration();
+        if !(duration >= 0.0 && duration.is_finite()) {
+            let (until, present) = (duration, 0.0);
+            return Err(MotionError::TimeBackwards { until, present }.into());
+        }
+        let count = (duration / longest * (1.0 - 1e-12)).ceil();
+        if count > task.most_steps as f64 {
+            let reason = format!("{count} steps are needed, {} are allowed", task.most_steps);
+            let (time, steps) = (0.0, 0);
+            return Err(MethodError::Stuck {
+                time,
+                steps,
+                reason,
+            });
+        }
+        let count = count as u64;
+        Ok(Self { duration, count })
+    }
+
+    /// The time in s at which a step begins.
+    pub fn time(&self, index: u64) -> f64 {
+        if index == self.count {
+            self.duration
+        } else {
+            self.duration * (index as f64 / self.count as f64)
+        }
+    }
+}
+
+/// Checks a task and a step, and lowers the scene.
+pub(super) fn prepare(task: &Task, step: f64) -> Result<Prepared, MethodError> {
+    in_range(
+        "step",
+        step,
+        step.is_finite() && step > 0.0,
+        "finite and > 0",
+    )?;
+    // A motion refuses all that is wrong with a scene and a start.
+    task.scene.motion(task.start)?;
+    Ok(Prepared {
+        phases: task.scene.phases(),
+        steps: Steps::new(task, step)?,
+    })
+}
+
+/// Refuses a setting that is not as `allowed`.
+pub(super) fn in_range(
+    name: &'static str,
+    value: f64,
+    holds: bool,
+    allowed: &'static str,
+) -> Result<(), MethodError> {
+    if holds {
+        return Ok(());
+    }
+    let error = SceneError::OutOfRange {
+        name,
+        value,
+        allowed,
+    };
+    Err(MotionError::Scene(error).into())
+}
+
+impl<'a> Machine<'a> {
+    pub fn new(task: &Task, phases: &'a Phases) -> Self {
+        Self {
+            phases,
+            work: Work::default(),
+            impacts: Vec::new(),
+            angle: task.scene.excitation.phase,
+            most_steps: task.most_steps,
+        }
+    }
+
+    /// Push of the drive per mass in m/s^2.
+    pub fn push(&self, time: f64) -> f64 {
+        let drive = &self.phases.held;
+        drive.amplitude * (drive.frequency * time + self.angle).cos()
+    }
+
+    /// Acceleration in m/s^2; counted.
+    pub fn acceleration(&mut self, laws: Laws, time: f64, position: f64, velocity: f64) -> f64 {
+        self.work.evaluations += 1;
+        let (push, mass) = (self.push(time), self.phases.mass);
+        let of =
+            |phase: usize| self.phases.phases[phase].acceleration(position, velocity, push, mass);
+        match self.laws(laws, position, velocity) {
+            [one, other] if one == other => of(one),
+            [one, other] => 0.5 * (of(one) + of(other)),
+        }
+    }
+
+    /// -d(acceleration)/d(position) in 1/s^2 and -d(acceleration)/d(velocity) in 1/s. They come with an
+    /// evaluation.
+    pub fn slopes(&self, laws: Laws, position: f64, velocity: f64) -> (f64, f64) {
+        let of = |phase: usize| self.phases.phases[phase].slopes(position, velocity);
+        let [one, other] = self.laws(laws, position, velocity).map(of);
+        let per_mass = 0.5 / self.phases.mass;
+        ((one.0 + other.0) * per_mass, (one.1 + other.1) * per_mass)
+    }
+
+    fn laws(&self, laws: Laws, position: f64, velocity: f64) -> [usize; 2] {
+        match laws {
+            Laws::One(phase) => [phase; 2],
+            Laws::All => self.phases.laws_at(position, velocity, true),
+        }
+    }
+
+    /// Counts a step that begins at `time`.
+    pub fn count_step(&mut self, time: f64) -> Result<(), MethodError> {
+        if self.work.steps >= self.most_steps {
+            return Err(self.stuck(time, "more steps are needed than are allowed"));
+        }
+        self.work.steps += 1;
+        Ok(())
+    }
+
+    pub fn stuck(&self, time: f64, reason: &str) -> MethodError {
+        MethodError::Stuck {
+            time,
+            steps: self.work.steps,
+            reason: reason.to_owned(),
+        }
+    }
+
+    pub fn finish(self, end: State) -> Solution {
+        Solution {
+            end: (end.position, end.velocity),
+            impacts: self.impacts,
+            work: self.work,
+        }
+    }
+}

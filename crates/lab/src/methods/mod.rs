@@ -1,0 +1,162 @@
+//! Ways to compute a motion, all behind one trait: the exact one and those it is measured against.
+//!
+//! Everything outside this module asks the exact method alone; the others are here to chart speed
+//! against accuracy and to show where they fail.
+
+mod balance;
+mod exact;
+mod fixed;
+mod ignored;
+mod located;
+mod machine;
+mod moreau;
+mod rise;
+mod scheme;
+mod stability;
+mod step;
+mod verdict;
+
+pub use exact::Exact;
+pub use fixed::{Events, FixedStep};
+pub use moreau::Moreau;
+pub use rise::{Fineness, Probe, rise};
+pub use scheme::Scheme;
+pub use verdict::{Judge, Verdict};
+
+use thiserror::Error;
+
+use softstop::error::MotionError;
+use softstop::integrator::{Impact, Start, Walk};
+use softstop::scene::Scene;
+
+/// A motion to be computed, from time 0 on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Task {
+    /// The machine.
+    pub scene: Scene,
+    /// State at time 0.
+    pub start: Start,
+    /// Drive periods to cover, >= 0.
+    pub periods: f64,
+    /// Steps after which a method gives up.
+    pub most_steps: u64,
+}
+
+impl Task {
+    /// Time to cover, in s.
+    pub fn duration(&self) -> f64 {
+        self.periods * self.scene.period()
+    }
+
+    /// The motion, to be walked from phase to phase.
+    ///
+    /// # Errors
+    /// [`MethodError::Task`] if the scene, the start or the duration make no sense.
+    pub fn walk(&self) -> Result<Walk<'_>, MethodError> {
+        let walk = Walk::new(&self.scene, self.start)?;
+        let until = self.duration();
+        if until >= 0.0 && until.is_finite() {
+            return Ok(walk);
+        }
+        let present = 0.0;
+        Err(MethodError::Task(MotionError::TimeBackwards {
+            until,
+            present,
+        }))
+    }
+}
+
+/// What a method found.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Solution {
+    /// Position in m and velocity in m/s at the end.
+    pub end: (f64, f64),
+    /// The impacts in order of time: the clearance is passed onwards, or the rigid stop at it is hit.
+    pub impacts: Vec<Impact>,
+    /// What it took.
+    pub work: Work,
+}
+
+/// What a computation took.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Work {
+    /// Steps in time.
+    pub steps: u64,
+    /// Evaluations of the law of force. One state of a closed form counts as one, one Taylor polynomial as
+    /// its degree.
+    pub evaluations: u64,
+}
+
+/// Why a method has no answer.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MethodError {
+    /// It is not made for this machine.
+    #[error("{method} cannot do this: {reason}")]
+    Unsuited {
+        /// The method.
+        method: String,
+        /// What it cannot do.
+        reason: String,
+    },
+    /// The numbers left all bounds.
+    #[error("blown up near t = {time} s")]
+    BlownUp {
+        /// Time in s up to which they were finite.
+        time: f64,
+    },
+    /// It does not get on.
+    #[error("stuck at t = {time} s after {steps} steps: {reason}")]
+    Stuck {
+        /// Time in s that it reached.
+        time: f64,
+        /// Steps it had made.
+        steps: u64,
+        /// What holds it up.
+        reason: String,
+    },
+    /// The task makes no sense.
+    #[error(transparent)]
+    Task(MotionError),
+}
+
+impl From<MotionError> for MethodError {
+    fn from(error: MotionError) -> Self {
+        match error {
+            MotionError::Unbounded { time, .. } => Self::BlownUp { time },
+            MotionError::Stalled { time, .. } => Self::Stuck {
+                time,
+                steps: 0,
+                reason: error.to_string(),
+            },
+            other => Self::Task(other),
+        }
+    }
+}
+
+impl MethodError {
+    /// The same, said by a method that had made so many steps.
+    #[must_use]
+    pub fn after(self, steps: u64) -> Self {
+        match self {
+            Self::Stuck { time, reason, .. } => Self::Stuck {
+                time,
+                steps,
+                reason,
+            },
+            other => other,
+        }
+    }
+}
+
+/// A way to compute motions, with all its settings. To add one, implement the two methods: `integrate` asks
+/// [`Scene::phases`] for the laws, ends at the task's duration exactly, and counts its work honestly.
+pub trait Integrator: Sync {
+    /// What it is, with its settings, for a table or a legend.
+    fn name(&self) -> String;
+
+    /// The motion of a task.
+    ///
+    /// # Errors
+    /// [`MethodError`] if the method is not made for the task, or fails.
+    fn integrate(&self, task: &Task) -> Result<Solution, MethodError>;
+}

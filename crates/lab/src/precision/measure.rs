@@ -1,0 +1,229 @@
+//! Running a method and taking its time.
+
+use std::time::{Duration, Instant};
+
+use crate::methods::{MethodError, Solution, Task, Work};
+
+use super::errors::{Errors, Scale};
+use super::family::{Family, Setting};
+use super::truth::Truth;
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+
+/// How much is run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Longest run that is begun, in s, as far as can be foreseen.
+    pub longest: f64,
+    /// Runs are repeated until they have taken so much together, in s.
+    pub repeat: f64,
+    /// Most runs.
+    pub most: usize,
+}
+
+/// What came of a setting.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outcome {
+    /// It has an answer.
+    Done {
+        /// Median time of a run, in s.
+        seconds: f64,
+        /// Runs that the median is of.
+        runs: usize,
+        /// What a run took.
+        work: Work,
+        /// Impacts found.
+        impacts: usize,
+        /// What it is off by.
+        errors: Errors,
+    },
+    /// The method gave up, or ended with numbers that are none.
+    Failed(String),
+    /// It was not run, or not to its end, since it takes too long.
+    Skipped(String),
+}
+
+/// One setting of a method and what came of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// The method's name.
+    pub method: String,
+    /// Its knob.
+    pub knob: Option<f64>,
+    /// What came of it.
+    pub outcome: Outcome,
+}
+
+/// Time in s that a step is taken to last before any has been measured.
+const STEP: f64 = 1e-6;
+/// Steps that are always allowed.
+const FEW_STEPS: u64 = 100_000;
+
+/// A method at work on a task.
+pub struct Bench<'a> {
+    /// What to compute.
+    pub task: &'a Task,
+    /// What is true.
+    pub truth: &'a Truth,
+    /// How large the motion is.
+    pub scale: Scale,
+    /// How much to run.
+    pub effort: Effort,
+}
+
+impl Bench<'_> {
+    /// Runs all settings of a family, as far as they do not take too long; `done` hears of each.
+    ///
+    /// # Errors
+    /// [`Failure::Interrupted`] after Ctrl-C.
+    pub fn family(&self, family: &Family, done: &dyn Fn()) -> Result<Vec<Row>, Failure> {
+        let mut pace = Pace::default();
+        let mut rows = Vec::new();
+        for setting in &family.settings {
+            if interrupt::requested() {
+                return Err(Failure::Interrupted);
+            }
+            let outcome = self.outcome(setting, &mut pace);
+            done();
+            rows.push(Row {
+                method: family.name.clone(),
+                knob: setting.knob,
+                outcome,
+            });
+        }
+        Ok(rows)
+    }
+
+    fn outcome(&self, setting: &Setting, pace: &mut Pace) -> Outcome {
+        let longest = self.effort.longest;
+        let foreseen = pace.foreseen();
+        if foreseen > longest {
+            return Outcome::Skipped(format!(
+                "would take some {foreseen:.1e} s, more than {longest} s"
+            ));
+        }
+        let most_steps = (2.0 * longest / pace.step.unwrap_or(STEP)) as u64;
+        let most_steps = most_steps.max(FEW_STEPS);
+        let task = Task {
+            most_steps,
+            ..self.task.clone()
+        };
+        let begin = Instant::now();
+        let first = setting.method.integrate(&task);
+        let taken = begin.elapsed();
+        match first {
+            Err(error) => {
+                pace.failed(taken);
+                failed(&error, most_steps)
+            }
+            Ok(solution) => {
+                pace.ran(taken, &solution.work);
+                self.repeated(setting, &task, &solution, taken)
+            }
+        }
+    }
+
+    fn repeated(
+        &self,
+        setting: &Setting,
+        task: &Task,
+        solution: &Solution,
+        first: Duration,
+    ) -> Outcome {
+        let errors = self.truth.errors_of(solution, &self.scale);
+        if !errors.end.is_finite() {
+            return Outcome::Failed("ends in numbers that are none".into());
+        }
+        let mut times = vec![first.as_secs_f64()];
+        while times.iter().sum::<f64>() < self.effort.repeat && times.len() < self.effort.most {
+            let begin = Instant::now();
+            let again = setting.method.integrate(task);
+            times.push(begin.elapsed().as_secs_f64());
+            std::hint::black_box(&again);
+        }
+        Outcome::Done {
+            runs: times.len(),
+            seconds: median(&mut times),
+            work: solution.work,
+            impacts: self.scale.told(&solution.impacts).len(),
+            errors,
+        }
+    }
+}
+
+/// How long the runs of a family take.
+#[derive(Debug, Default)]
+struct Pace {
+    last: Option<f64>,
+    /// The last run over the one before.
+    growth: Option<f64>,
+    /// Time of a step, in s.
+    step: Option<f64>,
+}
+
+impl Pace {
+    /// What the next run will take, in s.
+    fn foreseen(&self) -> f64 {
+        let growth = self.growth.unwrap_or(2.0).clamp(1.0, 4.0);
+        self.last.map_or(0.0, |last| growth * last)
+    }
+
+    fn ran(&mut self, taken: Duration, work: &Work) {
+        let seconds = taken.as_secs_f64();
+        self.step = Some(seconds / work.steps.max(1) as f64);
+        self.growth = self.last.map(|last| seconds / last);
+        self.last = Some(seconds);
+    }
+
+    /// A run that broke off says little about the next; one that took long says enough.
+    fn failed(&mut self, taken: Duration) {
+        let seconds = taken.as_secs_f64();
+        self.growth = None;
+        self.last = Some(self.last.unwrap_or(0.0).max(seconds));
+    }
+}
+
+fn failed(error: &MethodError, most_steps: u64) -> Outcome {
+    match error {
+        MethodError::Stuck { steps, .. } if *steps >= most_steps => {
+            Outcome::Skipped(format!("broken off after {steps} steps: takes too long"))
+        }
+        _ => Outcome::Failed(error.to_string()),
+    }
+}
+
+fn median(times: &mut [f64]) -> f64 {
+    times.sort_by(f64::total_cmp);
+    let middle = times.len() / 2;
+    if times.len().is_multiple_of(2) {
+        f64::midpoint(times[middle - 1], times[middle])
+    } else {
+        times[middle]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Duration, Pace, Work, median};
+
+    #[test]
+    fn the_median_is_in_the_middle() {
+        assert_eq!(median(&mut [3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median(&mut [4.0, 1.0, 2.0, 100.0]), 3.0);
+    }
+
+    #[test]
+    fn the_next_run_is_foreseen_from_the_last_two() {
+        let mut pace = Pace::default();
+        assert_eq!(pace.foreseen(), 0.0);
+        let work = Work {
+            steps: 10,
+            evaluations: 40,
+        };
+        pace.ran(Duration::from_millis(100), &work);
+        assert!((pace.foreseen() - 0.2).abs() < 1e-12);
+        pace.ran(Duration::from_millis(300), &work);
+        assert!((pace.foreseen() - 0.9).abs() < 1e-12);
+        assert!((pace.step.expect("a value") - 0.03).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,204 @@
+//! `softstop chart precision`: what each method's accuracy costs on a scene.
+//!
+//! [`case`] says what is computed, [`truth`] what comes of it in truth, [`family`] by which methods it is
+//! computed; [`measure`] runs them and [`errors`] compares; [`lead`] and [`report`] say what came of it.
+
+pub mod case;
+mod chart;
+pub mod errors;
+pub mod family;
+pub mod lead;
+pub mod machine;
+pub mod measure;
+pub mod report;
+mod text;
+pub mod truth;
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::filter::Filter;
+use crate::precision::chart::PrecisionChart;
+use case::Case;
+use errors::Scale;
+use family::Family;
+use machine::Machine;
+use measure::{Bench, Effort, Row};
+use report::{COLUMNS, PrecisionReport, SceneReport};
+use softstop_console::failure::Failure;
+use softstop_console::machine::require;
+use softstop_console::output::{self, Folder, Format};
+use softstop_console::progress::Progress;
+use truth::Truth;
+
+const EXAMPLES: &str = "\
+Examples:
+  softstop chart precision periodic
+      the paper's machine at point A over 200 drive periods, all methods
+  softstop chart precision machine.toml --periods 50
+      your own machine (the file is that of `softstop simulate`)
+  softstop chart precision stiff --method rk4 --method bdf --budget 5
+      some methods, with time for finer settings
+  softstop chart precision all --output docs/accuracy
+      the charts of docs/accuracy.md, and the lead of the exact method as a table
+
+Every method runs with its knob (step or tolerance) turned from coarse to fine. Errors are those
+against a reference in 67 digits (for a Hertz stop, two methods that agree): of the state at the
+end, of the times of impacts and of their velocities, all relative to the motion's size, and
+impacts missed or invented. Times are medians of repeated runs. SCENE.svg draws time and force
+evaluations over errors; a method is the better the further to the lower left it is; a hollow
+circle is a run with a wrong number of impacts. SCENE.csv has one row per run, SCENE.json adds
+machine, reference and lead. The files are written whole or not at all. docs/accuracy.md
+explains them.";
+
+/// Arguments of `softstop chart precision`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub struct PrecisionArguments {
+    /// A built-in scene (periodic, chaotic, stiff, chatter, hertz, grazing, sticking, loaded), `all` of
+    /// them, or a machine in a TOML file, SI units
+    #[arg(value_name = "SCENE")]
+    pub scene: String,
+    /// Drive periods to run, above 0 to 100000 [default: that of a built-in scene, 20 for a file]
+    #[arg(long, value_name = "N")]
+    pub periods: Option<f64>,
+    /// Longest run of a method in s, 0.001 to 3600: finer settings are left out
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.5)]
+    pub budget: f64,
+    /// Only methods with this in their name; the exact one always runs. May be given several times
+    #[arg(long, value_name = "NAME")]
+    pub method: Vec<String>,
+    /// Every other setting, fewer repetitions and a tenth of the budget
+    #[arg(long)]
+    pub quick: bool,
+    /// Folder for SCENE.svg, SCENE.csv and SCENE.json
+    #[arg(long, value_name = "DIR", default_value = "softstop-precision")]
+    pub output: PathBuf,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// Measures the methods, draws the charts and says who leads.
+///
+/// # Errors
+/// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if there is no reference or the
+/// folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
+pub fn run(arguments: &PrecisionArguments) -> Result<(), Failure> {
+    check(arguments)?;
+    let cases = case::cases(&arguments.scene, arguments.periods)?;
+    let families: Vec<Vec<Family>> = cases
+        .iter()
+        .map(|case| chosen(case, arguments))
+        .collect::<Result<_, _>>()?;
+    let names: Vec<String> = cases.iter().flat_map(|case| files(&case.name)).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let folder = Folder::open(&arguments.output, &names)?;
+    let machine = Machine::this();
+    let settings = families
+        .iter()
+        .flatten()
+        .map(|family| family.settings.len());
+    let runs = cases.len() + settings.sum::<usize>();
+    let progress = Progress::new(runs as u64, "settings");
+    let mut charts = Vec::new();
+    for (case, families) in cases.iter().zip(&families) {
+        let mut report = measured(case, families, &machine, arguments, &progress)?;
+        write(&mut report, families, &folder)?;
+        charts.push(report);
+    }
+    drop(progress);
+    folder.commit(&names)?;
+    let report = PrecisionReport { machine, charts };
+    output::print(&match arguments.format {
+        Format::Json => output::json(&report)?,
+        Format::Text => text::text(&report),
+    })
+}
+
+fn check(arguments: &PrecisionArguments) -> Result<(), Failure> {
+    let periods = arguments.periods.unwrap_or(case::PERIODS);
+    let good = periods > 0.0 && periods <= 1e5;
+    require(good, "periods", periods, "above 0 to 100000")?;
+    let budget = arguments.budget;
+    let good = (1e-3..=3600.0).contains(&budget);
+    require(good, "budget", budget, "0.001 to 3600")
+}
+
+/// The methods that the user wants, the exact one first.
+fn chosen(case: &Case, arguments: &PrecisionArguments) -> Result<Vec<Family>, Failure> {
+    let all = family::all(&case.task.scene, arguments.quick);
+    let names: Vec<String> = all.iter().map(|family| family.name.clone()).collect();
+    let filter = Filter::new(&arguments.method, &names)?;
+    let is_chosen = |(index, family): &(usize, Family)| *index == 0 || filter.wants(&family.name);
+    let chosen = all.into_iter().enumerate().filter(is_chosen);
+    Ok(chosen.map(|(_, family)| family).collect())
+}
+
+/// The files of a scene.
+fn files(name: &str) -> [String; 3] {
+    ["svg", "csv", "json"].map(|kind| format!("{name}.{kind}"))
+}
+
+const fn effort(arguments: &PrecisionArguments) -> Effort {
+    if arguments.quick {
+        Effort {
+            longest: 0.1 * arguments.budget,
+            repeat: 0.01,
+            most: 5,
+        }
+    } else {
+        Effort {
+            longest: arguments.budget,
+            repeat: 0.2,
+            most: 101,
+        }
+    }
+}
+
+fn measured(
+    case: &Case,
+    families: &[Family],
+    machine: &Machine,
+    arguments: &PrecisionArguments,
+    progress: &Progress,
+) -> Result<SceneReport, Failure> {
+    let name = &case.name;
+    let scale = Scale::of(&case.task)?;
+    let truth = Truth::of(&case.task, &scale, &|share| {
+        progress.say(&format!("{name}: reference, {:.0} %", 100.0 * share));
+    })?;
+    progress.one();
+    let bench = Bench {
+        task: &case.task,
+        truth: &truth,
+        scale,
+        effort: effort(arguments),
+    };
+    let mut rows: Vec<Row> = Vec::new();
+    for family in families {
+        progress.say(&format!("{name}: {}", family.name));
+        rows.extend(bench.family(family, &|| progress.one())?);
+    }
+    Ok(SceneReport::new(case, machine, &truth, scale, &rows))
+}
+
+/// Stages chart, table and JSON.
+fn write(report: &mut SceneReport, families: &[Family], folder: &Folder) -> Result<(), Failure> {
+    let [svg, csv, json] = files(&report.scene);
+    for (kind, name) in [("svg", &svg), ("csv", &csv), ("json", &json)] {
+        let place = folder.place(name).display().to_string();
+        report.files.insert(kind, place);
+    }
+    let looks = families.iter().map(|family| family.look).collect();
+    let chart = PrecisionChart::new(report, looks);
+    folder.stage(&svg, chart.svg().as_bytes())?;
+    let mut table = folder.create(&csv)?;
+    table.header(&COLUMNS)?;
+    for row in &report.rows {
+        table.row(row)?;
+    }
+    table.close()?;
+    folder.stage(&json, output::json(report)?.as_bytes())
+}

@@ -1,0 +1,197 @@
+//! The measurement as tables for people.
+
+use super::lead::{Lead, Quantity, TARGETS};
+use super::report::{PrecisionReport, RowReport, SceneReport};
+use softstop_console::table::{Row, heading, row, table};
+
+/// All charts of a run.
+#[must_use]
+pub fn text(report: &PrecisionReport) -> String {
+    let mut text = String::new();
+    for chart in &report.charts {
+        text += &scene(chart);
+        text.push('\n');
+    }
+    if report.charts.len() > 1 {
+        text += &summary(report);
+    }
+    text + &format!("Machine: {}\n", report.machine.line())
+}
+
+fn scene(chart: &SceneReport) -> String {
+    let mut text = heading(&format!(
+        "Precision on {}: {}, {} drive periods, {} impacts",
+        chart.scene, chart.title, chart.periods, chart.reference.impacts
+    ));
+    text += &format!(
+        "Reference: {}; certain to {} digits\n",
+        chart.reference.method, chart.reference.digits
+    );
+    text += "\nMost accurate setting of each method; errors relative to the motion\n";
+    text += &table(&methods(&chart.rows));
+    text += "\nTime of the next best over that of the exact method\n";
+    text += &leads(&chart.lead.at);
+    text += &failures(&chart.rows);
+    text.push('\n');
+    for (kind, path) in &chart.files {
+        text += &format!("Written: {path} ({kind})\n");
+    }
+    text
+}
+
+/// The names of the methods, in order.
+pub(super) fn names(rows: &[RowReport]) -> Vec<&str> {
+    let mut names: Vec<&str> = rows.iter().map(|row| row.method.as_str()).collect();
+    names.dedup();
+    names
+}
+
+fn methods(rows: &[RowReport]) -> Vec<Row> {
+    let head = [
+        "knob",
+        "time (s)",
+        "evaluations",
+        "end",
+        "impact time",
+        "velocity",
+        "impacts",
+    ];
+    let head = row("  method", head.map(String::from));
+    let line = |name: &&str| {
+        let own = rows
+            .iter()
+            .filter(|row| row.method == **name && row.end_error.is_some());
+        let best = own.min_by(|a, b| {
+            let error = |row: &RowReport| row.end_error.unwrap_or(f64::INFINITY);
+            error(a).total_cmp(&error(b))
+        });
+        let cells = best.map_or_else(|| vec!["no answer".to_owned()], cells);
+        row(&format!("  {name}"), cells)
+    };
+    std::iter::once(head)
+        .chain(names(rows).iter().map(line))
+        .collect()
+}
+
+fn cells(row: &RowReport) -> Vec<String> {
+    let count = |count: u64| format!("{count}");
+    let mut cells: Vec<String> = vec![figure(row.knob), figure(row.seconds)];
+    cells.push(row.evaluations.map_or_else(dash, count));
+    let errors = [
+        row.end_error,
+        row.impact_time_error,
+        row.impact_velocity_error,
+    ];
+    cells.extend(errors.map(figure));
+    cells.push(match row.impact_difference {
+        Some(0) => "all".to_owned(),
+        difference => difference.map_or_else(dash, |difference| format!("{difference:+}")),
+    });
+    cells
+}
+
+fn leads(leads: &[Lead]) -> String {
+    let line = |lead: &Lead| {
+        let what = name(lead.quantity);
+        let (accuracy, ratio, next) = (lead.accuracy, ratio(lead), next(lead));
+        format!("  {what:19}   {accuracy:>5.0e}   {ratio:>7}   {next}\n")
+    };
+    leads.iter().map(line).collect()
+}
+
+/// The lead as a factor.
+fn ratio(lead: &Lead) -> String {
+    lead.next
+        .as_ref()
+        .map_or_else(dash, |next| format!("{:.1}", next.ratio))
+}
+
+fn next(lead: &Lead) -> String {
+    match (&lead.next, &lead.closest) {
+        (Some(next), _) => next.method.clone(),
+        (None, Some(closest)) => format!(
+            "none gets there; {} has {:.0e} in {:.1} times the time",
+            closest.method, closest.error, closest.ratio
+        ),
+        (None, None) => "none has an answer".to_owned(),
+    }
+}
+
+/// Failures, counted by reason, and methods cut short.
+fn failures(rows: &[RowReport]) -> String {
+    let mut lines: Vec<(String, usize)> = Vec::new();
+    for row in rows {
+        if let Some(reason) = &row.reason {
+            let line = format!("  {} {}: {reason}", row.method, row.status);
+            match lines.last_mut() {
+                Some((last, count)) if *last == line => *count += 1,
+                _ => lines.push((line, 1)),
+            }
+        }
+    }
+    if lines.is_empty() {
+        return String::new();
+    }
+    let line = |(line, count): &(String, usize)| match count {
+        1 => format!("{line}\n"),
+        _ => format!("{line} ({count} settings)\n"),
+    };
+    let lines: String = lines.iter().map(line).collect();
+    format!("\nSettings without an answer\n{lines}")
+}
+
+/// The lead at each scene, as a table in Markdown for docs/accuracy.md.
+fn summary(report: &PrecisionReport) -> String {
+    let accuracies: Vec<String> = TARGETS.map(|target| format!("{target:.0e}")).into();
+    let mut text = format!(
+        "Lead at equal accuracy\n\n| scene | exact: time, worst error | by | {} |\n",
+        accuracies.join(" | ")
+    );
+    text += &format!("|---|---|---|{}\n", "---|".repeat(TARGETS.len()));
+    for chart in &report.charts {
+        for quantity in Quantity::ALL {
+            text += &summary_line(chart, quantity);
+        }
+    }
+    text + "\n"
+}
+
+fn summary_line(chart: &SceneReport, quantity: Quantity) -> String {
+    let own = chart
+        .lead
+        .at
+        .iter()
+        .filter(|lead| lead.quantity == quantity);
+    let cells: Vec<String> = own
+        .map(|lead| match &lead.next {
+            Some(next) => format!("{} {}", ratio(lead), next.method),
+            None => "none gets there".to_owned(),
+        })
+        .collect();
+    let exact = chart.rows.first();
+    let (time, worst) = exact.map_or((None, None), |row| (row.seconds, row.worst_error()));
+    format!(
+        "| {} | {} s, {} | {} | {} |\n",
+        chart.scene,
+        figure(time),
+        figure(worst),
+        name(quantity),
+        cells.join(" | ")
+    )
+}
+
+const fn name(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::End => "error at the end",
+        Quantity::Worst => "worst of all errors",
+    }
+}
+
+fn dash() -> String {
+    "-".to_owned()
+}
+
+/// Two significant digits.
+fn figure(value: Option<f64>) -> String {
+    value.map_or_else(dash, |value| format!("{value:.1e}"))
+}

@@ -1,0 +1,120 @@
+//! The motion that all are measured against.
+
+use crate::methods::{Exact, Integrator, Solution, Task, Work};
+use anyhow::{Context, anyhow};
+
+use super::errors::{Errors, Scale};
+use crate::reference::{self, Reference, ReferenceError};
+use crate::solvers::{Adaptive, AdaptiveScheme};
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+
+/// How piecewise linear motions are found.
+const DIGITS: &str = "Taylor series in 67 decimal digits, checked in 48";
+/// How motions with a power law are found.
+const AGREED: &str = "the exact method, borne out by Dormand and Prince's 8(5,3) at a tolerance of 1e-13; errors \
+    below their difference cannot be told";
+/// That tolerance.
+const FINEST: f64 = 1e-13;
+/// Least error of doubles: half a unit in the last place, relative.
+const ROUNDING: f64 = 0.5 * f64::EPSILON;
+
+/// The true motion.
+#[derive(Debug, Clone)]
+pub struct Truth {
+    /// End and impacts, rounded to doubles.
+    pub solution: Solution,
+    /// How it was found.
+    pub method: &'static str,
+    /// How far two computations of it are apart: smaller errors cannot be told.
+    pub doubt: Errors,
+}
+
+impl Truth {
+    /// The true motion of a task of this size; `progress` hears which share of the work is done.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] if it cannot be found, [`Failure::Interrupted`] after Ctrl-C.
+    pub fn of(task: &Task, scale: &Scale, progress: &dyn Fn(f64)) -> Result<Self, Failure> {
+        let go_on = |share| {
+            progress(share);
+            !interrupt::requested()
+        };
+        match reference::solve(task, &go_on) {
+            Ok(reference) => Ok(Self::rounded(reference, scale)),
+            Err(ReferenceError::PowerLaw { .. }) => Self::agreed(task, scale),
+            Err(ReferenceError::Interrupted) => Err(Failure::Interrupted),
+            Err(ReferenceError::Task(error)) => Err(error.into()),
+            Err(error) => Err(Failure::Run(error.into())),
+        }
+    }
+
+    fn rounded(reference: Reference, scale: &Scale) -> Self {
+        let doubt = reference.doubt;
+        Self {
+            solution: Solution {
+                end: reference.end,
+                impacts: reference.impacts,
+                work: Work::default(),
+            },
+            method: DIGITS,
+            doubt: Errors {
+                end: doubt.end / scale.position.min(scale.velocity),
+                impact_time: Some(doubt.time / scale.period),
+                impact_velocity: Some(doubt.velocity / scale.velocity),
+                impact_difference: 0,
+            },
+        }
+    }
+
+    /// The exact method's answer, if a method that shares no code with it agrees.
+    fn agreed(task: &Task, scale: &Scale) -> Result<Self, Failure> {
+        let other = Adaptive {
+            scheme: AdaptiveScheme::Dop853,
+            relative: FINEST,
+            absolute: FINEST,
+        };
+        let solution = Exact.integrate(task).context("no reference")?;
+        let other = other.integrate(task).context("no reference")?;
+        let doubt = Errors::between(&other, &solution, scale);
+        if doubt.impact_difference != 0 {
+            return Err(Failure::Run(anyhow!(
+                "no reference: two methods differ by {} impacts; take fewer periods",
+                doubt.impact_difference.abs()
+            )));
+        }
+        Ok(Self {
+            solution,
+            method: AGREED,
+            doubt,
+        })
+    }
+
+    /// Decimal digits, relative to the motion's size, in which both computations agree; 48 at most.
+    #[must_use]
+    pub fn digits(&self) -> u32 {
+        (-self.doubt.worst().log10()).clamp(0.0, 48.0) as u32
+    }
+
+    /// What a solution is off by; not less than what can be told, if that is more than rounding.
+    #[must_use]
+    pub fn errors_of(&self, found: &Solution, scale: &Scale) -> Errors {
+        let errors = Errors::between(found, &self.solution, scale);
+        let told = |error: f64, doubt: f64| {
+            if doubt > ROUNDING {
+                error.max(doubt)
+            } else {
+                error
+            }
+        };
+        let both = |error: Option<f64>, doubt: Option<f64>| {
+            error.map(|error| told(error, doubt.unwrap_or(0.0)))
+        };
+        Errors {
+            end: told(errors.end, self.doubt.end),
+            impact_time: both(errors.impact_time, self.doubt.impact_time),
+            impact_velocity: both(errors.impact_velocity, self.doubt.impact_velocity),
+            ..errors
+        }
+    }
+}

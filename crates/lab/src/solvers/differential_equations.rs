@@ -1,0 +1,189 @@
+//! The solvers of the crate `differential-equations`, with guards sought by steps of the same scheme.
+//!
+//! Its own events and its dense output are not used. In version 0.7.0 the Brent search for an event loses its bracket
+//! (the far end is set to the last place tried in every pass), and the interpolants of both schemes are not those of
+//! their authors (that of dopri5 lacks its last term, its coefficients standing in another row than the one
+//! that is read; that of dop853 has the factors s and 1 - s of its last four terms swapped): together they report
+//! crossings at which the event function is as far as 0.05 from zero.
+
+use crate::methods::{Fineness, Probe, rise};
+use differential_equations::control::ControlFlag;
+use differential_equations::error::Error;
+use differential_equations::interpolate::Interpolation;
+use differential_equations::ivp::IVP;
+use differential_equations::methods::{DormandPrince, ExplicitRungeKutta, Ordinary};
+use differential_equations::ode::ODE;
+use differential_equations::solout::Solout;
+use differential_equations::solution::Solution as Points;
+
+use super::Tolerance;
+use super::leg::{Leg, State};
+use super::span::{Halt, Reached, Span, bounded};
+
+/// A scheme of the crate with O coefficients of its interpolant, S stages and I with those of the interpolant.
+type Scheme<const O: usize, const S: usize, const I: usize> =
+    ExplicitRungeKutta<Ordinary, DormandPrince, f64, State, O, S, I>;
+
+/// Follows a leg by Dormand and Prince's scheme of order 5.
+pub(super) fn dopri5(leg: &Leg<'_>, span: &Span, allowed: Tolerance) -> Result<Reached, Halt> {
+    follow(ExplicitRungeKutta::dopri5, leg, span, allowed)
+}
+
+/// Follows a leg by the scheme of order 8.
+pub(super) fn dop853(leg: &Leg<'_>, span: &Span, allowed: Tolerance) -> Result<Reached, Halt> {
+    follow(ExplicitRungeKutta::dop853, leg, span, allowed)
+}
+
+impl ODE<f64, State> for Leg<'_> {
+    fn diff(&self, time: f64, state: &State, rate: &mut State) {
+        *rate = self.rate(time, *state);
+    }
+}
+
+/// Steps until a guard has risen, then seeks the place by shorter steps from where that step began.
+fn follow<const O: usize, const S: usize, const I: usize>(
+    scheme: fn() -> Scheme<O, S, I>,
+    leg: &Leg<'_>,
+    span: &Span,
+    allowed: Tolerance,
+) -> Result<Reached, Halt> {
+    let most = usize::try_from(span.most_steps).unwrap_or(usize::MAX);
+    let method = || {
+        let method = scheme().rtol(allowed.relative).atol(allowed.absolute);
+        method.max_steps(most)
+    };
+    let mut watch = Watch::new(leg, span);
+    let outcome = IVP::ode(leg, span.from, span.until, span.state)
+        .method(method())
+        .solout(&mut watch)
+        .solve();
+    let Watch {
+        before,
+        reached,
+        steps,
+        risen,
+        ..
+    } = watch;
+    let (time, state) = reached;
+    let failed = |error: Error<f64, State>| Halt {
+        time,
+        steps,
+        reason: format!("{error:?}"),
+        blown_up: false,
+    };
+    outcome.map_err(failed)?;
+    bounded(time, steps, state)?;
+    if !risen {
+        return Ok(Reached {
+            time,
+            state,
+            guard: None,
+            steps,
+        });
+    }
+    let found = first_rise(leg, before, reached, |at| {
+        let steps = IVP::ode(leg, before.0, at, before.1)
+            .method(method().h0(at - before.0))
+            .solve()
+            .map_err(failed)?;
+        Ok(steps.y.last().copied().unwrap_or(before.1))
+    })?;
+    Ok(Reached {
+        time: found.at,
+        state: found.what,
+        guard: leg.highest(found.what).map(|(index, _)| index),
+        steps,
+    })
+}
+
+/// Watches the steps of a leg.
+struct Watch<'a> {
+    leg: &'a Leg<'a>,
+    /// Where the last step began and where it ended.
+    before: (f64, State),
+    reached: (f64, State),
+    steps: u64,
+    /// A guard was above zero at its end.
+    risen: bool,
+}
+
+impl<'a> Watch<'a> {
+    fn new(leg: &'a Leg<'a>, span: &Span) -> Self {
+        let start = (span.from, span.state);
+        Self {
+            leg,
+            before: start,
+            reached: start,
+            steps: 0,
+            risen: false,
+        }
+    }
+}
+
+impl Solout<f64, State> for &mut Watch<'_> {
+    fn solout<I>(
+        &mut self,
+        time: f64,
+        before: f64,
+        state: &State,
+        from: &State,
+        _: &mut I,
+        _: &mut Points<f64, State>,
+    ) -> ControlFlag<f64, State>
+    where
+        I: Interpolation<f64, State> + ?Sized,
+    {
+        // The start is shown too.
+        if time <= before {
+            return ControlFlag::Continue;
+        }
+        (self.before, self.reached) = ((before, *from), (time, *state));
+        self.steps += 1;
+        self.risen = self.leg.height(*state) > 0.0;
+        if self.risen || bounded(time, self.steps, *state).is_err() {
+            ControlFlag::Terminate
+        } else {
+            ControlFlag::Continue
+        }
+    }
+}
+
+/// Where a guard rises through zero before one is above zero at the end of a step: the first zero of the highest. If
+/// that begins on zero, as on a surface that was just left, it dips below first; if no dip is found, it rises
+/// at once.
+fn first_rise(
+    leg: &Leg<'_>,
+    before: (f64, State),
+    after: (f64, State),
+    mut step: impl FnMut(f64) -> Result<State, Halt>,
+) -> Result<Probe<State>, Halt> {
+    let probe = |(at, what)| Probe {
+        at,
+        value: leg.height(what),
+        what,
+    };
+    let begin = probe(before);
+    let (mut low, mut high) = (begin, probe(after));
+    // What rounding leaves of position and of time.
+    let slope = (high.value - low.value) / (high.at - low.at);
+    let fine = Fineness {
+        width: 4.0 * f64::EPSILON * high.at.abs(),
+        value: 2.0 * f64::EPSILON * (leg.size() + slope * high.at.abs()),
+    };
+    while low.value >= -fine.value {
+        let at = begin.at + 0.5 * (high.at - begin.at);
+        if at <= begin.at || at >= high.at {
+            return Ok(begin);
+        }
+        let tried = probe((at, step(at)?));
+        if tried.value < -fine.value {
+            low = tried;
+        } else {
+            high = tried;
+        }
+    }
+    rise(low, high, fine, |at| {
+        let state = step(at)?;
+        Ok((leg.height(state), state))
+    })
+}

@@ -1,0 +1,220 @@
+//! Adaptive solvers of other crates behind [`Integrator`]: what one reaches with a good library and an event
+//! function.
+//!
+//! | scheme | crate | source |
+//! |---|---|---|
+//! | [`tsit45`](AdaptiveScheme::Tsit45) | diffsol | Tsitouras, Comput. Math. Appl. 62 (2011) 770-775: explicit, order 5(4) |
+//! | [`esdirk34`](AdaptiveScheme::Esdirk34) | diffsol | Jorgensen, Kristensen and Thomsen (2018), arXiv:1803.01613: diagonally implicit, order 3(4) |
+//! | [`bdf`](AdaptiveScheme::Bdf) | diffsol | backward differences of orders 1 to 5; Shampine and Reichelt, SIAM J. Sci. Comput. 18 (1997) 1-22 |
+//! | [`dopri5`](AdaptiveScheme::Dopri5) | differential-equations | Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19-26: explicit, order 5(4) |
+//! | [`dop853`](AdaptiveScheme::Dop853) | differential-equations | Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I (1993), II.5: explicit, order 8(5,3) |
+//!
+//! The smooth law of one phase is followed with that phase's guards as the solver's event functions; at an
+//! event the core's rules of landing choose state and phase, and the solver begins anew there. All settings but
+//! the tolerances are the crates' own. While the mass is held the solver follows the drive instead, which
+//! has to let it go.
+//!
+//! A contact that begins and ends within one step is passed over by all of them. diffsol's roots are its own: it looks
+//! for a change of sign between the ends of a step, so it does not see a crossing in the first step of a leg
+//! that begins on the very surface, where the event function is zero. A step that ends beyond its phase without
+//! a root reported is an error, not mended. The events of differential-equations 0.7.0 do not work (its file says
+//! why), so there the crossing is sought by steps of the same scheme from the start of the step that passed it,
+//! each counted.
+//!
+//! Evaluations count calls of the law of force, those along the Jacobian included. Steps are accepted ones.
+
+mod differential_equations;
+mod diffsol;
+mod leg;
+mod span;
+
+use crate::methods::{Integrator, MethodError, Solution, Task, Work};
+use softstop::integrator::Walk;
+use softstop::{MotionError, SceneError, Start};
+
+use leg::{Leg, drive};
+use span::{Halt, Reached, Span};
+
+/// A scheme of a crate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AdaptiveScheme {
+    /// diffsol's Tsitouras 5(4).
+    Tsit45,
+    /// diffsol's diagonally implicit scheme of order 3(4).
+    Esdirk34,
+    /// diffsol's backward differences.
+    Bdf,
+    /// differential-equations' Dormand and Prince 5(4).
+    Dopri5,
+    /// differential-equations' Dormand and Prince 8(5,3).
+    Dop853,
+}
+
+impl AdaptiveScheme {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Tsit45,
+        Self::Esdirk34,
+        Self::Bdf,
+        Self::Dopri5,
+        Self::Dop853,
+    ];
+
+    /// The crate and its name for the scheme.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tsit45 => "diffsol tsit45",
+            Self::Esdirk34 => "diffsol esdirk34",
+            Self::Bdf => "diffsol bdf",
+            Self::Dopri5 => "differential-equations dopri5",
+            Self::Dop853 => "differential-equations dop853",
+        }
+    }
+}
+
+/// A crate's solver with its tolerances.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Adaptive {
+    /// The scheme.
+    pub scheme: AdaptiveScheme,
+    /// Error allowed in a step, relative to position and velocity, > 0.
+    pub relative: f64,
+    /// Error allowed in a step beside that, in m and in m/s, > 0.
+    pub absolute: f64,
+}
+
+/// All schemes with the same tolerances.
+pub fn adaptive(relative: f64, absolute: f64) -> [Adaptive; 5] {
+    AdaptiveScheme::ALL.map(|scheme| Adaptive {
+        scheme,
+        relative,
+        absolute,
+    })
+}
+
+impl Adaptive {
+    fn tolerance(&self) -> Result<Tolerance, MethodError> {
+        let checked = |name, value: f64| {
+            if value > 0.0 && value.is_finite() {
+                return Ok(value);
+            }
+            let allowed = "finite and > 0";
+            let error = SceneError::OutOfRange {
+                name,
+                value,
+                allowed,
+            };
+            Err(MotionError::Scene(error))
+        };
+        Ok(Tolerance {
+            relative: checked("relative tolerance", self.relative)?,
+            absolute: checked("absolute tolerance", self.absolute)?,
+        })
+    }
+}
+
+impl Integrator for Adaptive {
+    fn name(&self) -> String {
+        let (scheme, relative, absolute) = (self.scheme.name(), self.relative, self.absolute);
+        format!("{scheme}, tolerances {relative:e} and {absolute:e}")
+    }
+
+    fn integrate(&self, task: &Task) -> Result<Solution, MethodError> {
+        let tolerance = self.tolerance()?;
+        let follow = match self.scheme {
+            AdaptiveScheme::Tsit45 => diffsol::tsit45,
+            AdaptiveScheme::Esdirk34 => diffsol::esdirk34,
+            AdaptiveScheme::Bdf => diffsol::bdf,
+            AdaptiveScheme::Dopri5 => differential_equations::dopri5,
+            AdaptiveScheme::Dop853 => differential_equations::dop853,
+        };
+        let journey = Journey {
+            task,
+            walk: task.walk()?,
+            work: Work::default(),
+        };
+        journey.run(|leg, span| follow(leg, span, tolerance))
+    }
+}
+
+/// Error allowed in a step.
+#[derive(Debug, Clone, Copy)]
+struct Tolerance {
+    /// Relative to the state.
+    relative: f64,
+    /// Beside that, in the state's units.
+    absolute: f64,
+}
+
+/// A task on its way, leg by leg.
+struct Journey<'a> {
+    task: &'a Task,
+    walk: Walk<'a>,
+    work: Work,
+}
+
+impl Journey<'_> {
+    fn run(
+        mut self,
+        follow: impl Fn(&Leg<'_>, &Span) -> Result<Reached, Halt>,
+    ) -> Result<Solution, MethodError> {
+        let until = self.task.duration();
+        let mut end = self.walk.state();
+        // Within rounding of the end no solver can make a step.
+        while until - self.walk.time() > 1e3 * f64::EPSILON * until {
+            let span = self.span(until);
+            let leg = Leg::new(&self.task.scene, self.walk.phase(), self.walk.guards());
+            let outcome = match span.most_steps {
+                0 => Err(Halt::out_of_steps(span.from, 0)),
+                _ => follow(&leg, &span),
+            };
+            self.work.evaluations += leg.evaluations();
+            let reached = outcome.map_err(|halt| self.failure(halt))?;
+            self.work.steps += reached.steps;
+            let moving = self.walk.phase().is_some();
+            let [position, velocity] = reached.state;
+            end = if moving {
+                Start { position, velocity }
+            } else {
+                end
+            };
+            let Some(guard) = reached.guard else { break };
+            let crossed = self.walk.cross(guard, reached.time, end);
+            crossed.map_err(|error| MethodError::from(error).after(self.work.steps))?;
+            end = self.walk.state();
+        }
+        Ok(Solution {
+            end: (end.position, end.velocity),
+            impacts: self.walk.impacts().to_vec(),
+            work: self.work,
+        })
+    }
+
+    fn span(&self, until: f64) -> Span {
+        let (from, start) = (self.walk.time(), self.walk.state());
+        let (push, rate) = drive(&self.task.scene, from);
+        let state = match self.walk.phase() {
+            Some(_) => [start.position, start.velocity],
+            None => [push, rate],
+        };
+        Span {
+            from,
+            state,
+            until,
+            most_steps: self.task.most_steps.saturating_sub(self.work.steps),
+        }
+    }
+
+    fn failure(&self, halt: Halt) -> MethodError {
+        let Halt { time, reason, .. } = halt;
+        if halt.blown_up {
+            return MethodError::BlownUp { time };
+        }
+        let steps = self.work.steps + halt.steps;
+        MethodError::Stuck {
+            time,
+            steps,
+            reason,
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Whether rounding can change the number of impacts of a motion.
+//!
+//! The covariance of the rounding errors is carried along with the exact tangent of the motion,
+//! C -> T C T' + [`ROUNDING`]^2 I for each arc and C -> S C S' at each crossing with saltation matrix S,
+//! so that errors count from where they are made on. A number of impacts can change where the mass turns as
+//! near to a surface of impact as the errors go, where it passes one so slowly that it goes no further beyond
+//! it than that, and wherever the errors have grown so far that the tangent says nothing of them.
+
+use nalgebra::Matrix2;
+use softstop::events::{Guard, Outlook, first_crossing};
+use softstop::flow::Course;
+use softstop::integrator::{Arc, Crossing, CrossingKind, Observer};
+use softstop::tangent::Tangent;
+use softstop::{Clock, MotionError, Scene, Start};
+
+/// Errors of position (m) and velocity (m/s) made on one arc. An arc has some ten windows and the motions are
+/// up to 20 m and 30 m/s large: rounding makes at most some 10 * 4e-15, the 4th differences of both
+/// engines' tables less than 1e-12. The tests of the batch engine ask for 1e-10.
+pub const ROUNDING: f64 = 1e-10;
+/// Growth of errors beyond which a motion counts as chaotic: with [`ROUNDING`] they are 1e-4 of a length of 1,
+/// no longer small against what the tangent leaves out.
+pub const CHAOS: f64 = 1e6;
+
+/// What is known of a motion's impacts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Verdict {
+    /// How many there are.
+    pub impacts: u64,
+    /// Rounding can change that.
+    pub doubtful: bool,
+}
+
+/// Follows a motion with the scalar engine and judges it.
+///
+/// # Errors
+/// [`MotionError`] if it cannot be computed.
+pub fn judge(scene: &Scene, start: Start, periods: u64) -> Result<Verdict, MotionError> {
+    let wall = scene.wall().map_or(f64::INFINITY, |(wall, _)| wall);
+    let mut doubt = Doubt {
+        levels: [scene.clearance, wall],
+        covariance: Matrix2::identity() * (ROUNDING * ROUNDING),
+        tangent: Tangent::default(),
+        verdict: Verdict {
+            impacts: 0,
+            doubtful: false,
+        },
+    };
+    let mut motion = scene.motion(start)?;
+    let end = Clock::at_cycle(periods);
+    motion.advance(end, &mut doubt)?;
+    let arc = motion.arc();
+    doubt.arc(&arc, motion.clock().elapsed(arc.start, end));
+    Ok(doubt.verdict)
+}
+
+struct Doubt {
+    /// Where impacts happen, and where the mass can go no further, in m.
+    levels: [f64; 2],
+    covariance: Matrix2<f64>,
+    tangent: Tangent,
+    verdict: Verdict,
+}
+
+impl Doubt {
+    /// Errors as large as they may be.
+    fn errors(&self) -> f64 {
+        self.covariance.trace().sqrt()
+    }
+
+    /// Carries the errors over the last stretch.
+    fn carry(&mut self) {
+        let stretch = std::mem::take(&mut self.tangent).matrix;
+        self.covariance = stretch * self.covariance * stretch.transpose();
+        // NaN is doubtful too.
+        let small = self.errors() < CHAOS * ROUNDING;
+        self.verdict.doubtful |= !small;
+    }
+
+    fn passes_near(&self, position: f64, errors: f64) -> bool {
+        self.levels
+            .iter()
+            .any(|level| (position - level).abs() <= errors)
+    }
+}
+
+impl Observer for Doubt {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        if self.verdict.doubtful {
+            return;
+        }
+        let before = self.errors();
+        self.tangent.arc(arc, elapsed);
+        self.carry();
+        self.covariance += Matrix2::identity() * (ROUNDING * ROUNDING);
+        let errors = before.max(self.errors());
+        let mut near = false;
+        turns(arc.course, elapsed, |position| {
+            near |= self.passes_near(position, errors);
+        });
+        self.verdict.doubtful |= near;
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.verdict.impacts += u64::from(crossing.impact_velocity().is_some());
+        if self.verdict.doubtful {
+            return;
+        }
+        let errors = self.errors();
+        let (before, after) = (crossing.acceleration_before, crossing.acceleration_after);
+        let depth = 0.5 * crossing.velocity.powi(2) / before.abs().max(after.abs());
+        self.verdict.doubtful |= match crossing.kind {
+            CrossingKind::Surface { impact: true, .. } | CrossingKind::Rebound { .. } => {
+                depth <= errors
+            }
+            CrossingKind::Reversal => self.passes_near(crossing.position, errors),
+            _ => false,
+        };
+        self.tangent.crossing(crossing);
+        self.carry();
+    }
+}
+
+/// Tells the positions at which the mass turns within `duration` seconds.
+fn turns(course: &Course, duration: f64, mut tell: impl FnMut(f64)) {
+    if course.is_held() {
+        return;
+    }
+    let guards = [Guard::turning_back(), Guard::turning_forward()];
+    let mut node = course.start();
+    let heading = match node.velocity {
+        0.0 => course.node(1e-6 * duration).velocity,
+        velocity => velocity,
+    };
+    let mut next = usize::from(heading < 0.0);
+    while let Outlook::Crossing(found) =
+        first_crossing(course, &guards[next..=next], node, duration)
+    {
+        if found.elapsed > duration {
+            return;
+        }
+        tell(found.position);
+        node = course.node(found.elapsed);
+        next = 1 - next;
+    }
+}

@@ -1,0 +1,162 @@
+//! What is run: the paper's unloaded machine at a thousand frequencies, by either engine.
+
+use rayon::prelude::*;
+use serde::Serialize;
+use softstop::integrator::{Crossing, Observer};
+use softstop::{Clock, MotionError, Ratios, Scene, SceneError, Start};
+use softstop_lanes::{Instructions, Job, Machine, Outcome, run_parallel, run_with};
+
+/// The motions.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Range {
+    /// The machine.
+    pub machine: &'static str,
+    /// Lowest and highest frequency ratio eta.
+    pub frequencies: (f64, f64),
+    /// Frequencies, evenly over the range.
+    pub motions: u32,
+    /// Drive periods of each.
+    pub periods: u64,
+    /// Position and velocity at time 0.
+    pub start: (f64, f64),
+}
+
+/// The range that softstop's figures are given for.
+pub const RANGE: Range = Range {
+    machine: "unloaded",
+    frequencies: (0.95, 1.4),
+    motions: 1000,
+    periods: 200,
+    start: (0.0, 14.0),
+};
+
+/// The machines of a range, not yet lowered.
+#[derive(Debug, Clone)]
+pub struct Fleet {
+    range: Range,
+    scenes: Vec<Scene>,
+    jobs: Vec<Job>,
+}
+
+/// Impacts of all motions together.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Count {
+    /// Impacts.
+    pub impacts: u64,
+    /// Drive periods that lanes left to the scalar engine.
+    pub handed_over: u64,
+}
+
+impl Range {
+    /// Its machines.
+    ///
+    /// # Errors
+    /// [`SceneError`] if a frequency is none.
+    pub fn fleet(self) -> Result<Fleet, SceneError> {
+        let (low, high) = self.frequencies;
+        let step = (high - low) / f64::from(self.motions.max(2) - 1);
+        let scene = |number| {
+            let frequency = low + step * f64::from(number);
+            let ratios = Ratios::unloaded();
+            Ratios {
+                frequency,
+                ..ratios
+            }
+            .scene()
+        };
+        let scenes: Vec<Scene> = (0..self.motions).map(scene).collect::<Result<_, _>>()?;
+        let job = |machine| Job {
+            machine,
+            start: self.start(),
+            periods: self.periods,
+        };
+        Ok(Fleet {
+            range: self,
+            jobs: (0..scenes.len()).map(job).collect(),
+            scenes,
+        })
+    }
+
+    fn start(&self) -> Start {
+        let (position, velocity) = self.start;
+        Start { position, velocity }
+    }
+
+    /// Drive periods of all motions together.
+    #[must_use]
+    pub fn all_periods(&self) -> u64 {
+        u64::from(self.motions) * self.periods
+    }
+}
+
+/// Counts impacts.
+#[derive(Default)]
+struct Impacts(u64);
+
+impl Observer for Impacts {
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.0 += u64::from(crossing.impact_velocity().is_some());
+    }
+}
+
+impl Fleet {
+    /// One motion after the other by the safe engine, each machine lowered first.
+    ///
+    /// # Errors
+    /// [`MotionError`] if a motion cannot be computed.
+    pub fn safe(&self) -> Result<Count, MotionError> {
+        let mut impacts = Impacts::default();
+        let end = Clock::at_cycle(self.range.periods);
+        for scene in &self.scenes {
+            scene
+                .motion(self.range.start())?
+                .advance(end, &mut impacts)?;
+        }
+        Ok(Count {
+            impacts: impacts.0,
+            handed_over: 0,
+        })
+    }
+
+    /// All in lanes on this thread, each machine lowered first.
+    ///
+    /// # Errors
+    /// As [`Fleet::safe`].
+    pub fn batch(&self, instructions: Instructions) -> Result<Count, MotionError> {
+        let machines = self.machines()?;
+        Count::of(&run_with(instructions, &machines, &self.jobs, &mut ()))
+    }
+
+    /// All in lanes, `rounds` times over, on the threads of the pool that this is called in.
+    ///
+    /// # Errors
+    /// As [`Fleet::safe`].
+    pub fn parallel(&self, rounds: usize) -> Result<Count, MotionError> {
+        let machines: Vec<_> = self
+            .scenes
+            .par_iter()
+            .map(Machine::new)
+            .collect::<Result<_, _>>()?;
+        let jobs = self.jobs.repeat(rounds);
+        let (outcomes, _) = run_parallel(Instructions::Widest, &machines, &jobs, |_| ());
+        Count::of(&outcomes)
+    }
+
+    fn machines(&self) -> Result<Vec<Machine>, SceneError> {
+        self.scenes.iter().map(Machine::new).collect()
+    }
+}
+
+impl Count {
+    fn of(outcomes: &[Outcome]) -> Result<Self, MotionError> {
+        let mut count = Self::default();
+        for outcome in outcomes {
+            if let Some(error) = &outcome.error {
+                return Err(error.clone());
+            }
+            count.impacts += outcome.impacts;
+            count.handed_over += outcome.handed_over;
+        }
+        Ok(count)
+    }
+}

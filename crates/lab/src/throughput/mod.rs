@@ -1,0 +1,88 @@
+//! `softstop throughput`: how fast the engines are, and whether the fast one counts the same impacts.
+//!
+//! [`fleet`] says what is run, [`measure`] takes the times; [`draw`] makes random machines, [`doubt`] says which
+//! of their motions can be compared, [`check`] compares; [`report`] says what came of it.
+
+pub mod check;
+pub mod doubt;
+pub mod draw;
+pub mod fleet;
+pub mod measure;
+pub mod report;
+mod text;
+
+use anyhow::{Context, anyhow};
+use clap::Args;
+
+use fleet::RANGE;
+use report::ThroughputReport;
+use softstop_console::failure::Failure;
+use softstop_console::machine::require;
+use softstop_console::output::{self, Format};
+use softstop_console::progress::Progress;
+
+const EXAMPLES: &str = "\
+Examples:
+  softstop throughput
+      the speed of the safe engine, of one lane and of all, on one core and more
+  softstop throughput --format json
+      the same for programs
+  softstop throughput --check 1000000 --repeats 5
+      and whether both count the same impacts in a million random motions
+
+The engines take turns, each round a measurement of each; a round ahead of them
+is not counted. Lowering the machines is part of the time. The random machines of
+--check are the paper's without and with a strip, and others with linear stops; a
+motion is compared if no rounding error can change its number of impacts, which
+the growth of such errors along the safe engine's motion tells. Exit code 1 if one
+differs.";
+
+/// Arguments of `softstop throughput`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct ThroughputArguments {
+    /// Random motions to compare both engines on, 0 to 1000000000
+    #[arg(long, value_name = "N", default_value_t = 10_000)]
+    pub check: u64,
+    /// Seed of the random machines
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+    /// Measurements that the medians are of, 1 to 1000
+    #[arg(long, value_name = "R", default_value_t = 11)]
+    pub repeats: usize,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// Measures, compares and says what came of it.
+///
+/// # Errors
+/// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if the engines differ,
+/// [`Failure::Interrupted`] after Ctrl-C.
+pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
+    let ThroughputArguments { check, repeats, .. } = *arguments;
+    let good = check <= 1_000_000_000;
+    require(good, "check", check as f64, "0 to 1000000000")?;
+    let good = (1..=1000).contains(&repeats);
+    require(good, "repeats", repeats as f64, "1 to 1000")?;
+    let fleet = RANGE.fleet().context("the machines of the measurement")?;
+    let sets = measure::narrower();
+    let progress = Progress::new(measure::measurements(&sets, repeats), "measurements");
+    let timings = measure::measure(&fleet, &sets, repeats, &progress)?;
+    drop(progress);
+    let mut report = ThroughputReport::new(RANGE, repeats, &timings);
+    if check > 0 {
+        report.check = Some(check::check(check, arguments.seed)?);
+    }
+    output::print(&match arguments.format {
+        Format::Json => output::json(&report)?,
+        Format::Text => text::text(&report),
+    })?;
+    match report.check.map_or(0, |check| check.tally.different) {
+        0 => Ok(()),
+        different => Err(Failure::Run(anyhow!(
+            "{different} of {check} random motions have other impacts in lanes than by the safe engine"
+        ))),
+    }
+}

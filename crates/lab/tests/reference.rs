@@ -1,0 +1,309 @@
+//! The many-digit reference against independent integrations in 56 digits (tests/reference/stops.py), a closed
+//! form and the exact method.
+
+#[path = "../../../tests/common/mod.rs"]
+mod common;
+#[path = "../../../tests/common/scenes.rs"]
+mod scenes;
+
+use std::cell::RefCell;
+use std::str::FromStr;
+
+use common::{list, number};
+use dashu_float::FBig;
+use dashu_float::round::mode::HalfEven;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rand_xoshiro::rand_core::{RngCore, SeedableRng};
+use serde_json::Value;
+use softstop::scene::{Release, RigidStop, Slope};
+use softstop::{Excitation, Impact, Piercing, Scene, Start, Stop};
+use softstop_lab::methods::{Exact, Integrator, Task};
+use softstop_lab::reference::number::{Digits, Real, float, size};
+use softstop_lab::reference::walk::Walk;
+use softstop_lab::reference::{ReferenceError, solve};
+
+/// Half a unit in the 30th digit of numbers up to 1000, to which stops.json is written, ten times over.
+const ALLOWED: f64 = 1e-26;
+
+/// Impacts slower than this, in m/s, are not told by every method.
+const SLOW: f64 = 1e-6;
+
+/// A number that stops.json holds as text, with all its digits.
+fn real(value: &Value, key: &str) -> Real {
+    let text = value[key].as_str().expect("a number as text");
+    let decimal = FBig::<HalfEven, 10>::from_str(text).expect("a number");
+    decimal.with_base_and_precision::<2>(160).value()
+}
+
+fn task(scene: Scene, start: (f64, f64), periods: f64) -> Task {
+    let start = Start {
+        position: start.0,
+        velocity: start.1,
+    };
+    Task {
+        scene,
+        start,
+        periods,
+        most_steps: u64::MAX,
+    }
+}
+
+fn apart(a: &Real, b: &Real) -> f64 {
+    float(&size(&(a - b)))
+}
+
+/// The worst difference of the end and of the impacts up to it from a record.
+fn error(case: &Value) -> f64 {
+    let name = &case["name"];
+    let last = list(case, "samples").last().expect("samples");
+    let start = (number(case, "position"), number(case, "velocity"));
+    let scene = scenes::scene(&case["scene"]);
+    let task = task(scene, start, number(last, "periods"));
+    let course = Walk::new(&task, Digits(160)).and_then(|walk| walk.run(&|_| true));
+    let course = course.unwrap_or_else(|error| panic!("{name}: {error}"));
+    let mut worst = apart(&course.position, &real(last, "position"))
+        .max(apart(&course.velocity, &real(last, "velocity")));
+    let expected = list(case, "impacts");
+    let fast = |impact: &&(Real, Real)| float(&impact.1) > SLOW;
+    let found: Vec<_> = course.impacts.iter().filter(fast).collect();
+    // Only the first 40 impacts are on record.
+    assert_eq!(found.len().min(40), expected.len(), "impacts of {name}");
+    for (impact, expected) in found.iter().zip(expected) {
+        worst = worst.max(apart(&impact.0, &real(expected, "time")));
+        worst = worst.max(apart(&impact.1, &real(expected, "velocity")));
+    }
+    worst
+}
+
+fn agrees(family: &str, count: usize) {
+    let text = include_str!("../../../tests/reference/stops.json");
+    let reference: Value = serde_json::from_str(text).expect("stops.json");
+    let cases = list(&reference, "cases").iter();
+    let cases: Vec<_> = cases.filter(|case| case["family"] == family).collect();
+    assert_eq!(cases.len(), count);
+    for case in cases {
+        let error = error(case);
+        assert!(error < ALLOWED, "{}: {error:e}", case["name"]);
+    }
+}
+
+#[test]
+fn rigid_stops_agree_with_56_digits() {
+    agrees("rigid", 21);
+}
+
+#[test]
+fn stiff_stops_agree_with_56_digits() {
+    agrees("stiff", 2);
+}
+
+#[test]
+fn preloaded_stops_agree_with_56_digits() {
+    agrees("preloaded", 21);
+}
+
+#[test]
+fn kelvin_voigt_stops_agree_with_56_digits() {
+    agrees("kelvinVoigt", 21);
+}
+
+#[test]
+fn piecewise_linear_stops_agree_with_56_digits() {
+    agrees("piecewiseLinear", 14);
+}
+
+/// The machine of points A and B without a strip.
+fn machine() -> Scene {
+    Scene {
+        mass: 1.0,
+        stiffness: 1.0,
+        damping: 0.04,
+        excitation: Excitation {
+            amplitude: 1.0,
+            frequency: 1.15,
+            phase: 0.0,
+        },
+        clearance: 10.0,
+        contact_damping: 0.18,
+        stop: Stop::Preloaded {
+            stiffness: 7.0,
+            preload: 70.0,
+        },
+        piercing: None,
+        rigid: None,
+    }
+}
+
+/// x'' + x = cos 2t from (1, 0): x = (4 cos t - cos 2t)/3.
+#[test]
+fn a_machine_without_a_stop_has_its_closed_form() {
+    let scene = Scene {
+        damping: 0.0,
+        excitation: Excitation {
+            amplitude: 1.0,
+            frequency: 2.0,
+            phase: 0.0,
+        },
+        stop: Stop::None,
+        ..machine()
+    };
+    // 7.5 periods of pi: cos t = 0, sin t = -1, cos 2t = -1, sin 2t = 0.
+    let reference = solve(&task(scene, (1.0, 0.0), 7.5), &|_| true).expect("a reference");
+    assert!((reference.end.0 - 1.0 / 3.0).abs() < 1e-16, "{reference:?}");
+    assert!((reference.end.1 - 4.0 / 3.0).abs() < 3e-16, "{reference:?}");
+    assert!(reference.doubt.end < 1e-44, "{reference:?}");
+    assert!(reference.impacts.is_empty() && reference.crossings == 0);
+}
+
+/// In chaos the 48 digits shrink, and the reference tells by how much.
+#[test]
+fn chaos_shows_in_the_doubt() {
+    let mut scene = machine();
+    let calm = solve(&task(scene.clone(), (0.0, 14.0), 20.0), &|_| true).expect("a reference");
+    scene.excitation.frequency = 0.9875;
+    let chaos = solve(&task(scene, (0.0, 14.0), 60.0), &|_| true).expect("a reference");
+    assert!(calm.doubt.end < 1e-43, "{:?}", calm.doubt);
+    assert!(chaos.doubt.end < 1e-30, "{:?}", chaos.doubt);
+    assert!(
+        chaos.doubt.end > 100.0 * calm.doubt.end,
+        "{:?}",
+        chaos.doubt
+    );
+}
+
+#[test]
+fn progress_is_told_and_a_refusal_ends_the_run() {
+    let task = task(machine(), (0.0, 14.0), 2.0);
+    let shares = RefCell::new(vec![0.0]);
+    let note = |share| {
+        shares.borrow_mut().push(share);
+        true
+    };
+    solve(&task, &note).expect("a reference");
+    let shares = shares.into_inner();
+    assert!(shares.is_sorted() && shares.len() > 10 && shares[shares.len() - 1] > 0.9);
+    assert_eq!(
+        solve(&task, &|share| share < 0.3),
+        Err(ReferenceError::Interrupted)
+    );
+}
+
+#[test]
+fn power_laws_and_starts_beyond_a_wall_are_refused() {
+    let mut scene = machine();
+    scene.stop = Stop::Hertz {
+        stiffness: 50.0,
+        exponent: 1.5,
+        dissipation: 0.0,
+    };
+    let refused = solve(&task(scene.clone(), (0.0, 14.0), 1.0), &|_| true);
+    let power = ReferenceError::PowerLaw {
+        exponent: 1.5,
+        dissipation: 0.0,
+    };
+    assert_eq!(refused, Err(power));
+    scene.stop = Stop::Rigid { restitution: 0.5 };
+    let refused = solve(&task(scene, (11.0, 0.0), 1.0), &|_| true);
+    assert!(
+        matches!(refused, Err(ReferenceError::Task(_))),
+        "{refused:?}"
+    );
+}
+
+/// Random numbers, the same on every run.
+struct Dice(Xoshiro256PlusPlus);
+
+impl Dice {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn choice(&mut self, of: u64) -> u64 {
+        self.0.next_u64() % of
+    }
+
+    fn stop(&mut self) -> Stop {
+        let stiffness = 10f64.powf(self.between(-1.0, 4.0));
+        let slope = |from: f64, share: f64| Slope {
+            from,
+            stiffness: share * stiffness,
+        };
+        match self.choice(6) {
+            0 => Stop::None,
+            1 => Stop::Rigid {
+                restitution: self.between(0.0, 0.9),
+            },
+            2 => Stop::Preloaded {
+                stiffness,
+                preload: self.between(0.0, 20.0),
+            },
+            3 => Stop::KelvinVoigt {
+                stiffness,
+                release: Release::ZeroForce,
+            },
+            4 => Stop::PiecewiseLinear {
+                loading: vec![slope(0.0, 1.0), slope(0.2, 4.0)],
+                unloading: vec![slope(0.0, 0.5), slope(0.3, 2.0)],
+            },
+            _ => Stop::KelvinVoigt {
+                stiffness,
+                release: Release::Clearance,
+            },
+        }
+    }
+
+    fn scene(&mut self) -> Scene {
+        Scene {
+            mass: self.between(0.5, 3.0),
+            stiffness: self.between(0.2, 3.0),
+            damping: self.between(0.02, 0.3),
+            excitation: Excitation {
+                amplitude: self.between(0.5, 2.0),
+                frequency: self.between(0.5, 2.0),
+                phase: self.between(-3.0, 3.0),
+            },
+            clearance: self.between(0.1, 4.0),
+            contact_damping: self.between(0.02, 3.0),
+            stop: self.stop(),
+            piercing: (self.choice(3) == 0).then(|| Piercing {
+                stiffness: self.between(0.0, 20.0),
+                friction: self.between(0.0, 20.0),
+                thickness: self.between(0.05, 0.4),
+                travel: self.between(0.0, 0.4),
+            }),
+            rigid: (self.choice(3) == 0).then(|| RigidStop {
+                travel: self.between(0.05, 0.5),
+                restitution: self.between(0.0, 0.9),
+            }),
+        }
+    }
+}
+
+fn fast(impacts: &[Impact]) -> usize {
+    impacts
+        .iter()
+        .filter(|impact| impact.velocity > SLOW)
+        .count()
+}
+
+/// Neither has code of the other; both are right to rounding, so that only the growth of rounding tells them
+/// apart.
+#[test]
+fn the_exact_method_agrees_on_random_machines() {
+    let mut dice = Dice(Xoshiro256PlusPlus::seed_from_u64(2003));
+    let mut impacts = 0;
+    for index in 0..60 {
+        let task = task(dice.scene(), (0.0, dice.between(-8.0, 8.0)), 4.0);
+        let exact = Exact.integrate(&task).expect("a motion");
+        let reference = solve(&task, &|_| true);
+        let reference = reference.unwrap_or_else(|error| panic!("{index}: {error}\n{task:?}"));
+        let counts = [fast(&exact.impacts), fast(&reference.impacts)];
+        assert_eq!(counts[0], counts[1], "{index}: {task:?}");
+        let error = (exact.end.0 - reference.end.0)
+            .abs()
+            .max((exact.end.1 - reference.end.1).abs());
+        assert!(error < 1e-9, "{index}: {error:e}\n{task:?}");
+        impacts += counts[0];
+    }
+    assert!(impacts > 100, "{impacts} impacts");
+}

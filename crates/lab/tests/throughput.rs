@@ -1,0 +1,182 @@
+//! `softstop throughput` as users and scripts meet it. Times are not looked at.
+
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use softstop::{Ratios, Scene, Start};
+use softstop_lab::throughput::check::check;
+use softstop_lab::throughput::doubt::judge;
+use softstop_lab::throughput::draw::{Draw, Kind};
+use softstop_lab::throughput::fleet::Range;
+use softstop_lab::throughput::measure::narrower;
+use softstop_lanes::Instructions;
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+fn softstop(arguments: &[&str]) -> std::io::Result<Output> {
+    Command::new(env!("CARGO_BIN_EXE_softstop-lab"))
+        .arg("throughput")
+        .args(arguments)
+        .output()
+}
+
+#[test]
+fn the_report_holds_what_scripts_look_for() -> Outcome {
+    let arguments = ["--format", "json", "--repeats", "1", "--check", "300"];
+    let output = softstop(&arguments)?;
+    assert!(output.status.success());
+    let report: Value = serde_json::from_slice(&output.stdout)?;
+    for key in ["cpu", "cores", "os"] {
+        assert!(!report["machine"][key].is_null(), "{key}");
+    }
+    assert_eq!(report["scene"]["motions"], 1000);
+    assert_eq!(report["scene"]["periods"], 200);
+    let registers = Instructions::Widest.registers();
+    assert_eq!(report["batch"]["lanes"], registers.lanes);
+    assert_eq!(report["batch"]["instructions"], registers.name);
+    let mut engines = vec!["safe", "scalar", "batch"];
+    for set in narrower() {
+        let name = if set == Instructions::Avx2 {
+            "avx2"
+        } else {
+            "portable"
+        };
+        assert_eq!(report[name]["lanes"], set.registers().lanes);
+        engines.push(name);
+    }
+    for engine in engines {
+        let rate = &report[engine]["periods_per_second_per_core"];
+        assert!(rate.as_f64().ok_or("rate")? > 0.0, "{engine}");
+    }
+    let cores = &report["both_cores"];
+    assert!(cores["threads"].as_u64().ok_or("threads")? >= 1);
+    assert!(cores["periods_per_second"].is_f64() && cores["factor"].is_f64());
+    let check = &report["check"];
+    assert_eq!(check["trajectories"], 300);
+    assert_eq!(check["different"], 0);
+    assert!(check["chaotic"].is_u64() && check["handed_over"].is_u64());
+    Ok(())
+}
+
+#[test]
+fn the_table_is_for_people_and_the_check_can_be_left_out() -> Outcome {
+    let output = softstop(&["--repeats", "1", "--check", "0"])?;
+    let text = String::from_utf8(output.stdout)?;
+    let name = Instructions::Widest.registers().name;
+    assert!(text.contains("scalar") && text.contains(&format!("batch, {name}")));
+    assert!(!text.contains("random motions"));
+    Ok(())
+}
+
+#[test]
+fn values_out_of_range_are_named() -> Outcome {
+    for (arguments, message) in [
+        (["--repeats", "0"], "repeats = 0: must be 1 to 1000"),
+        (
+            ["--check", "2000000000"],
+            "check = 2000000000: must be 0 to 1000000000",
+        ),
+        (["--seed", "x"], "--seed"),
+    ] {
+        let output = softstop(&arguments)?;
+        assert_eq!(output.status.code(), Some(2));
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(error.contains(message), "{error}");
+    }
+    Ok(())
+}
+
+#[test]
+fn both_engines_count_the_same_impacts_on_random_machines() -> Outcome {
+    let check = check(2000, 7).map_err(|failure| failure.to_string())?;
+    let tally = check.tally;
+    assert_eq!((tally.trajectories, tally.different), (2000, 0));
+    assert!(tally.chaotic < 20, "{} left out", tally.chaotic);
+    assert!(tally.impacts > 5000, "{} impacts", tally.impacts);
+    Ok(())
+}
+
+#[test]
+fn engines_agree_on_the_motions_that_are_timed() -> Outcome {
+    let range = Range {
+        machine: "unloaded",
+        frequencies: (1.1, 1.4),
+        motions: 20,
+        periods: 30,
+        start: (0.0, 14.0),
+    };
+    let fleet = range.fleet()?;
+    let safe = fleet.safe()?.impacts;
+    assert!(safe > 100);
+    for set in [
+        Instructions::Widest,
+        Instructions::Avx2,
+        Instructions::Portable,
+    ] {
+        assert_eq!(fleet.batch(set)?.impacts, safe);
+    }
+    assert_eq!(fleet.parallel(3)?.impacts, 3 * safe);
+    Ok(())
+}
+
+#[test]
+fn draws_repeat_themselves_and_are_of_all_kinds() -> Outcome {
+    let mut kinds = [0; 3];
+    let (mut one, mut same, mut other) = (Draw::new(3, 0), Draw::new(3, 0), Draw::new(3, 1));
+    for _ in 0..90 {
+        let drawn = one.machine()?;
+        assert_eq!(drawn, same.machine()?);
+        assert_ne!(drawn.1, other.machine()?.1);
+        kinds[match drawn.0 {
+            Kind::Unloaded => 0,
+            Kind::Loaded => 1,
+            Kind::Other => 2,
+        }] += 1;
+    }
+    assert!(kinds.iter().all(|count| *count > 10), "{kinds:?}");
+    Ok(())
+}
+
+/// A motion without drive that swings to a height: it turns there.
+fn swing(clearance: f64) -> Result<Scene, Box<dyn std::error::Error>> {
+    let mut scene = Ratios {
+        clearance,
+        damping: 0.0,
+        ..Ratios::unloaded()
+    }
+    .scene()?;
+    scene.excitation.amplitude = 0.0;
+    Ok(scene)
+}
+
+#[test]
+fn only_what_rounding_can_change_is_left_out() -> Outcome {
+    let from = Start {
+        position: -5.0,
+        velocity: 0.0,
+    };
+    for (clearance, impacts, doubtful) in [
+        (5.0 + 1e-12, 0, true),
+        (5.0 - 1e-12, 1, true),
+        (5.0 + 1e-6, 0, false),
+        (5.0 - 1e-4, 1, false),
+        (6.0, 0, false),
+        (4.0, 1, false),
+    ] {
+        let verdict = judge(&swing(clearance)?, from, 1)?;
+        assert_eq!(verdict.doubtful, doubtful, "{clearance}");
+        assert!(doubtful || verdict.impacts == impacts, "{clearance}");
+    }
+    let chaotic = Ratios {
+        frequency: 0.9875,
+        ..Ratios::unloaded()
+    }
+    .scene()?;
+    let from = Start {
+        position: 0.0,
+        velocity: 14.0,
+    };
+    assert!(!judge(&chaotic, from, 5)?.doubtful);
+    assert!(judge(&chaotic, from, 400)?.doubtful);
+    Ok(())
+}

@@ -1,0 +1,300 @@
+//! The lock-step loop over the lanes.
+
+use pulp::{Simd, WithSimd};
+
+use super::lanes::{Lanes, Mask};
+use super::law::Law;
+use super::machine::Machine;
+use super::safe::{self, Place, Resumed};
+use super::state::State;
+use super::watch::Listener;
+use super::{Instructions, Job, Outcome};
+use softstop::integrator::Start;
+
+/// Registers that go side by side.
+pub(super) const ABREAST: usize = 2;
+
+/// Follows all jobs with the instruction set asked for, or the widest below it.
+pub(super) fn run<'a>(
+    machines: &'a [Machine],
+    jobs: &'a [Job],
+    watch: Listener<'a>,
+    instructions: Instructions,
+) -> Vec<Outcome> {
+    let plain = machines.iter().all(Machine::is_plain);
+    let task = Task {
+        machines,
+        jobs,
+        watch,
+        at_once: match instructions {
+            Instructions::OneByOne => 1,
+            _ => usize::MAX,
+        },
+    };
+    match (plain, instructions) {
+        (true, Instructions::OneByOne) => dispatch(Plain::<1>(task), instructions),
+        (true, _) => dispatch(Plain::<ABREAST>(task), instructions),
+        (false, Instructions::OneByOne) => dispatch(Guarded::<1>(task), instructions),
+        (false, _) => dispatch(Guarded::<ABREAST>(task), instructions),
+    }
+}
+
+/// Does a task with an instruction set, or the widest below it that the processor has.
+pub(super) fn dispatch<T: WithSimd>(task: T, instructions: Instructions) -> T::Output {
+    match instructions {
+        Instructions::Widest => pulp::Arch::new().dispatch(task),
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        Instructions::Avx2 | Instructions::OneByOne => match pulp::x86::V3::try_new() {
+            Some(simd) => Simd::vectorize(simd, task),
+            None => Simd::vectorize(pulp::Scalar, task),
+        },
+        _ => Simd::vectorize(pulp::Scalar, task),
+    }
+}
+
+pub(super) struct Task<'a> {
+    machines: &'a [Machine],
+    jobs: &'a [Job],
+    pub watch: Listener<'a>,
+    /// Most lanes to use.
+    at_once: usize,
+}
+
+/// One position ends a phase.
+struct Plain<'a, const N: usize>(Task<'a>);
+/// Phases may end by two positions and a further guard.
+struct Guarded<'a, const N: usize>(Task<'a>);
+
+impl<const N: usize> WithSimd for Plain<'_, N> {
+    type Output = Vec<Outcome>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        Engine::<S, false, N>::new(simd, self.0).run()
+    }
+}
+
+impl<const N: usize> WithSimd for Guarded<'_, N> {
+    type Output = Vec<Outcome>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        Engine::<S, true, N>::new(simd, self.0).run()
+    }
+}
+
+/// All lanes and what they work at. `GUARDED`: phases may end by more than one position.
+pub(super) struct Engine<'a, S: Simd, const GUARDED: bool, const N: usize> {
+    pub task: Task<'a>,
+    laws: Vec<Law<S, N>>,
+    pub state: State<S, N>,
+    /// The job of each lane.
+    lanes: Vec<Option<usize>>,
+    next: usize,
+    outcomes: Vec<Outcome>,
+}
+
+impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N> {
+    #[inline(always)]
+    fn new(simd: S, task: Task<'a>) -> Self {
+        let laws = task.machines.iter().flat_map(|machine| &machine.laws);
+        let most = laws.map(Vec::len).max().unwrap_or(1);
+        let outcomes = task.jobs.iter().map(|job| Outcome {
+            end: job.start,
+            impacts: 0,
+            handed_over: 0,
+            error: None,
+        });
+        Self {
+            laws: vec![Law::new(simd); most],
+            state: State::idle(simd),
+            lanes: vec![None; Lanes::<S, N>::COUNT],
+            next: 0,
+            outcomes: outcomes.collect(),
+            task,
+        }
+    }
+
+    #[inline(always)]
+    fn run(mut self) -> Vec<Outcome> {
+        for lane in 0..Lanes::<S, N>::COUNT.min(self.task.at_once) {
+            self.take_next(lane);
+        }
+        while self.lanes.iter().any(Option::is_some) {
+            let law = self.law();
+            let due = self.due();
+            let reached = self.scan(&law, (due * law.per_window).floor());
+            let (ended, doubtful) = self.look(&law, &reached, due);
+            if (ended | doubtful).any() {
+                self.serve(ended, doubtful);
+            }
+        }
+        self.outcomes
+    }
+
+    fn serve(&mut self, ended: Mask<S, N>, doubtful: Mask<S, N>) {
+        for lane in 0..Lanes::<S, N>::COUNT {
+            if doubtful.get(lane) {
+                self.hand_over(lane);
+            } else if ended.get(lane) {
+                self.finish(lane);
+            }
+        }
+    }
+
+    /// Time in s until a lane has to stop: at the end of its job or, if periods are watched, of the period.
+    #[inline(always)]
+    fn due(&self) -> Lanes<S, N> {
+        let State {
+            left,
+            offset,
+            drive,
+            ..
+        } = self.state;
+        let periods = if self.task.watch.periods {
+            left.like(1.0)
+        } else {
+            left
+        };
+        periods.mul_add(drive.period, -offset)
+    }
+
+    /// The law of each lane's phase.
+    #[inline(always)]
+    pub fn law(&self) -> Law<S, N> {
+        let mut law = self.laws[0];
+        for (index, other) in self.laws.iter().enumerate().skip(1) {
+            let here = self.state.phase.equals(self.state.phase.like(index as f64));
+            law = Law::choose(here, other, &law);
+        }
+        law
+    }
+
+    /// The job of a lane and how many of its periods are complete.
+    pub fn progress(&self, lane: usize) -> Option<(usize, u64)> {
+        let job = self.lanes[lane]?;
+        let left = self.state.left.get(lane) as u64;
+        Some((job, self.task.jobs[job].periods - left))
+    }
+
+    /// Puts the next job into a lane.
+    fn take_next(&mut self, lane: usize) {
+        self.lanes[lane] = None;
+        self.state.stop(lane);
+        while self.next < self.task.jobs.len() {
+            let job = self.next;
+            self.next += 1;
+            let Job { machine, start, .. } = self.task.jobs[job];
+            let place = Place {
+                job,
+                cycle: 0,
+                offset: 0.0,
+                state: start,
+            };
+            if self.task.jobs[job].periods == 0 {
+                continue;
+            }
+            let begun = safe::begin(&self.task.machines[machine], start);
+            let resumed = match begun {
+                Ok(Some(phase)) => Some(Resumed {
+                    cycle: 0,
+                    state: start,
+                    phase,
+                }),
+                Ok(None) => self.follow(place),
+                Err(error) => {
+                    self.outcomes[job].error = Some(error);
+                    None
+                }
+            };
+            if let Some(resumed) = resumed {
+                self.install(lane, job);
+                self.resume(lane, job, &resumed);
+                return;
+            }
+        }
+    }
+
+    /// Gives a lane the laws of a job's machine.
+    fn install(&mut self, lane: usize, job: usize) {
+        let machine = &self.task.machines[self.task.jobs[job].machine];
+        let constants = machine.laws.iter().flatten();
+        for (law, constants) in self.laws.iter_mut().zip(constants) {
+            if GUARDED {
+                law.set(lane, &constants.of_position());
+            } else {
+                law.set(lane, constants);
+            }
+        }
+        self.state.install(lane, machine);
+        self.lanes[lane] = Some(job);
+    }
+
+    fn resume(&mut self, lane: usize, job: usize, resumed: &Resumed) {
+        let left = self.task.jobs[job].periods - resumed.cycle;
+        self.state.resume(lane, resumed.state, resumed.phase, left);
+    }
+
+    /// Lets the safe engine follow a job; where it can go on in a lane, unless it has come to its end.
+    fn follow(&mut self, place: Place) -> Option<Resumed> {
+        let Job {
+            machine, periods, ..
+        } = self.task.jobs[place.job];
+        let outcome = &mut self.outcomes[place.job];
+        let machine = &self.task.machines[machine];
+        match safe::follow(machine, place, periods, &mut self.task.watch, outcome) {
+            Ok(resumed) => resumed,
+            Err(error) => {
+                outcome.error = Some(error);
+                None
+            }
+        }
+    }
+
+    /// Hands a lane to the safe engine for the rest of the period.
+    fn hand_over(&mut self, lane: usize) {
+        let Some((job, cycle)) = self.progress(lane) else {
+            return;
+        };
+        let offset = self.state.offset.get(lane);
+        let begun = cycle > 0 || offset > 0.0;
+        let place = Place {
+            job,
+            cycle,
+            offset,
+            state: if begun {
+                self.within_phase(lane)
+            } else {
+                self.state.state(lane)
+            },
+        };
+        self.outcomes[job].impacts += self.state.take_impacts(lane);
+        match self.follow(place) {
+            Some(resumed) => self.resume(lane, job, &resumed),
+            None => self.take_next(lane),
+        }
+    }
+
+    /// The state of a lane, on its own side of the ends of its phase: one that moves on and has come to an end
+    /// by rounding is put beside it, or the safe engine would take the crossing for done.
+    fn within_phase(&self, lane: usize) -> Start {
+        let Start { position, velocity } = self.state.state(lane);
+        let law = self.law();
+        let position = if velocity > 0.0 {
+            position.min(law.high.get(lane).next_down())
+        } else if velocity < 0.0 {
+            position.max(law.low.get(lane).next_up())
+        } else {
+            position
+        };
+        Start { position, velocity }
+    }
+
+    fn finish(&mut self, lane: usize) {
+        if let Some(job) = self.lanes[lane] {
+            self.outcomes[job].end = self.state.state(lane);
+            self.outcomes[job].impacts += self.state.take_impacts(lane);
+        }
+        self.take_next(lane);
+    }
+}

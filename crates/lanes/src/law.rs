@@ -1,0 +1,270 @@
+//! What a lane must know of a phase.
+
+use std::f64::consts::TAU;
+
+use pulp::Simd;
+
+use super::lanes::{Lanes, Mask};
+use softstop::flow::Modes;
+use softstop::phases::{Beyond, Exit, Phase, Phases};
+
+macro_rules! law {
+    ($($(#[$doc:meta])* $field:ident,)*) => {
+        /// The constants of one phase of one machine.
+        #[derive(Debug, Clone, Copy, Default, PartialEq)]
+        pub(super) struct Constants {
+            $($(#[$doc])* pub $field: f64,)*
+        }
+
+        /// The same in all lanes.
+        #[derive(Debug, Clone, Copy)]
+        pub(super) struct Law<S: Simd, const N: usize> {
+            $(pub $field: Lanes<S, N>,)*
+        }
+
+        impl<S: Simd, const N: usize> Law<S, N> {
+            #[inline(always)]
+            pub fn new(simd: S) -> Self {
+                let none = Lanes::splat(simd, 0.0);
+                Self { $($field: none,)* }
+            }
+
+            #[inline(always)]
+            pub fn set(&mut self, lane: usize, constants: &Constants) {
+                $(self.$field.set(lane, constants.$field);)*
+            }
+
+            /// `yes` where true, `no` elsewhere.
+            #[inline(always)]
+            pub fn choose(mask: Mask<S, N>, yes: &Self, no: &Self) -> Self {
+                Self { $($field: mask.choose(yes.$field, no.$field),)* }
+            }
+        }
+    };
+}
+
+law! {
+    /// - 2 a.
+    damping,
+    /// - b.
+    stiffness,
+    /// Particular solution: offset + cosine cos + sine sin; its velocity: cosine_rate cos + sine_rate sin.
+    offset,
+    cosine,
+    sine,
+    cosine_rate,
+    sine_rate,
+    /// Free motion over one window, and the drive's turn.
+    xx,
+    xv,
+    vx,
+    vv,
+    turn,
+    turn_by_velocity,
+    turn_by_position,
+    /// Length of a window, and 1/3 and the reciprocal of it.
+    window,
+    third,
+    per_window,
+    /// The guard of a phase that only one position ends: side (x - offset) rising through edge.
+    side,
+    edge,
+    /// Bound on |x''''| window^4 / 384: steady + |fourth_x y + fourth_v y'| + |fifth_x y + fifth_v y'|.
+    steady,
+    fourth_x,
+    fourth_v,
+    fifth_x,
+    fifth_v,
+    /// The same for |v''''|: rate_steady + |fifth_x y + ...| times bounds + ...
+    rate_steady,
+    rate_fifth_x,
+    rate_fifth_v,
+    rate_sixth_x,
+    rate_sixth_v,
+    /// The phase holds between these positions.
+    low,
+    high,
+    /// A further guard: by_position x + by_velocity v - level rising through zero.
+    by_position,
+    by_velocity,
+    level,
+    /// Size of that guard against a position's.
+    guard_scale,
+    /// Phases beyond high, low and the further guard.
+    beyond_high,
+    beyond_low,
+    beyond_guard,
+    /// v+ = bounce v- at high: 1, or minus the restitution.
+    bounce,
+    /// 1 where passing high is an impact.
+    impact,
+    /// Positions closer than this to a guard are not decided here, nor velocities below `slow`.
+    grain,
+    slow,
+}
+
+/// Largest product of window and fastest rate.
+pub(super) const SPAN: f64 = 0.6;
+/// Most windows per drive period.
+const FINEST: f64 = 65_536.0;
+/// Least stiffness per mass, in units of the drive's w^2, with which a constant force is described by a static
+/// deflection: a larger one would cost the motion its digits.
+const SOFTEST: f64 = 1e-2;
+/// Where the safe engine has to decide, relative to the size of the motion.
+const GRAIN: f64 = 1e-10;
+/// Relative to the size of the velocity.
+const SLOW: f64 = 1e-5;
+
+impl Constants {
+    /// The constants of a phase, unless it is one that only the safe engine follows.
+    pub fn of(phases: &Phases, index: usize) -> Option<Self> {
+        let phase = &phases.phases[index];
+        let mut constants = Self::of_flow(phases, phase)?;
+        let mut guarded = false;
+        (constants.low, constants.high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for (guard, exit) in phase.guards.iter().zip(&phase.exits) {
+            match *exit {
+                Exit::Forward(surface) => constants.end_above(phases, surface),
+                Exit::Backward(surface) => {
+                    let surface = &phases.surfaces[surface];
+                    constants.low = surface.position;
+                    constants.beyond_low = surface.below as f64;
+                }
+                Exit::Reversal { .. } | Exit::Switch(_) if guarded || guard.push != 0.0 => {
+                    return None;
+                }
+                Exit::Reversal { forward, backward } => {
+                    let to = if guard.velocity < 0.0 {
+                        backward
+                    } else {
+                        forward
+                    };
+                    (guarded, constants.beyond_guard) = (true, to as f64);
+                }
+                Exit::Switch(to) => (guarded, constants.beyond_guard) = (true, to as f64),
+            }
+            if matches!(exit, Exit::Reversal { .. } | Exit::Switch(_)) {
+                constants.by_position = guard.position;
+                constants.by_velocity = guard.velocity;
+                constants.level = guard.level;
+            }
+        }
+        if !guarded {
+            constants.level = f64::INFINITY;
+        }
+        let flow = &phase.flow;
+        constants.set_side();
+        constants.set_grain(flow.frequency.max(flow.modes.fastest_rate()));
+        constants.set_bounds(&flow.modes, flow.frequency);
+        Some(constants)
+    }
+
+    /// True if one position and nothing else ends the phase, and its free motion never grows.
+    pub fn is_plain(&self) -> bool {
+        let one_sided = self.low.is_finite() != self.high.is_finite();
+        one_sided && self.level == f64::INFINITY && self.stiffness < 0.0
+    }
+
+    /// The same with x itself in the place of the guard.
+    pub fn of_position(&self) -> Self {
+        Self {
+            side: 1.0,
+            edge: -self.offset,
+            ..*self
+        }
+    }
+
+    fn end_above(&mut self, phases: &Phases, surface: usize) {
+        let at = &phases.surfaces[surface];
+        self.high = at.position;
+        self.impact = f64::from(u8::from(at.is_clearance));
+        (self.beyond_high, self.bounce) = match phases.beyond(at, true) {
+            Beyond::Phase(above) => (above as f64, 1.0),
+            Beyond::Wall { restitution } => (at.below as f64, -restitution),
+        };
+    }
+
+    fn of_flow(phases: &Phases, phase: &Phase) -> Option<Self> {
+        let flow = &phase.flow;
+        let (cosine, sine) = flow.steady()?;
+        if phase.hertz.is_some() {
+            return None;
+        }
+        let w = flow.frequency;
+        let fastest = w.max(flow.modes.fastest_rate());
+        let window = SPAN / fastest;
+        let soft = flow.modes.stiffness.abs() < SOFTEST * w * w;
+        if TAU / w > FINEST * window || (soft && phase.law.force != 0.0) {
+            return None;
+        }
+        let [[xx, xv], [vx, vv]] = flow.modes.at(window).rows();
+        let (sin, cos) = (w * window).sin_cos();
+        let force = phase.law.force / phases.mass;
+        Some(Self {
+            damping: -2.0 * flow.modes.decay,
+            stiffness: -flow.modes.stiffness,
+            offset: force / flow.modes.stiffness,
+            cosine,
+            sine,
+            cosine_rate: w * sine,
+            sine_rate: -w * cosine,
+            xx,
+            xv,
+            vx,
+            vv,
+            turn: cos,
+            turn_by_velocity: sin / w,
+            turn_by_position: -w * sin,
+            window,
+            third: window / 3.0,
+            per_window: 1.0 / window,
+            ..Self::default()
+        })
+    }
+
+    /// Chooses the one end of a phase.
+    fn set_side(&mut self) {
+        let is_low = self.high == f64::INFINITY && self.low > f64::NEG_INFINITY;
+        (self.side, self.edge) = if is_low {
+            (-1.0, self.offset - self.low)
+        } else {
+            (1.0, self.high - self.offset)
+        };
+    }
+
+    /// |x''''| <= |y''''| C + |y'''''| S for the free part y, with the bounds C and S on the fundamental
+    /// solutions over one window, or over all time in a plain phase, plus w^4 times the steady amplitude; |v''''| likewise.
+    fn set_bounds(&mut self, modes: &Modes, w: f64) {
+        let scale = self.window.powi(4) / 384.0;
+        let reach = if self.is_plain() {
+            f64::INFINITY
+        } else {
+            self.window
+        };
+        let (c, s) = modes.bounds(reach);
+        let amplitude = self.cosine.hypot(self.sine) * scale;
+        // Rows of derivatives: y^(n) = row.0 y + row.1 y'.
+        let next = |(x, v): (f64, f64)| (self.stiffness * v, x + self.damping * v);
+        let fourth = next(next(next((0.0, 1.0))));
+        let fifth = next(fourth);
+        let sixth = next(fifth);
+        self.steady = amplitude * w.powi(4);
+        self.rate_steady = self.steady * w;
+        (self.fourth_x, self.fourth_v) = (scale * c * fourth.0, scale * c * fourth.1);
+        (self.fifth_x, self.fifth_v) = (scale * s * fifth.0, scale * s * fifth.1);
+        (self.rate_fifth_x, self.rate_fifth_v) = (scale * c * fifth.0, scale * c * fifth.1);
+        (self.rate_sixth_x, self.rate_sixth_v) = (scale * s * sixth.0, scale * s * sixth.1);
+    }
+
+    /// Sets below what the safe engine has to decide: differences that rounding may have made.
+    fn set_grain(&mut self, fastest: f64) {
+        let finite = |level: f64| if level.is_finite() { level.abs() } else { 0.0 };
+        let steady = self.cosine.hypot(self.sine);
+        let size = finite(self.low)
+            .max(finite(self.high))
+            .max(steady + self.offset.abs());
+        self.grain = GRAIN * size;
+        self.slow = SLOW * size * fastest;
+        self.guard_scale = self.by_position.abs() + self.by_velocity.abs() * fastest;
+    }
+}

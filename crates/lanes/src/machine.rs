@@ -1,0 +1,96 @@
+//! A machine made ready for the lanes.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use super::law::Constants;
+use softstop::error::SceneError;
+use softstop::integrator::Clock;
+use softstop::phases::{Beyond, Phases};
+use softstop::scene::Scene;
+
+/// A machine, lowered once for any number of motions.
+#[derive(Debug, Clone)]
+pub struct Machine {
+    pub(super) phases: Arc<Phases>,
+    pub(super) clock: Clock,
+    pub(super) laws: Option<Vec<Constants>>,
+    /// The drive: frequency in rad/s, cos and sin of its angle at time 0.
+    pub(super) frequency: f64,
+    pub(super) angle: (f64, f64),
+}
+
+/// Most phases that lanes choose between.
+const MOST_PHASES: usize = 16;
+
+impl Machine {
+    /// Lowers a scene.
+    ///
+    /// # Errors
+    /// [`SceneError`] if the scene is invalid.
+    pub fn new(scene: &Scene) -> Result<Self, SceneError> {
+        scene.validate()?;
+        let phases = scene.phases();
+        let count = phases.phases.len();
+        let laws = (0..count).map(|index| Constants::of(&phases, index));
+        let drive = scene.excitation;
+        let for_lanes = count <= MOST_PHASES && !may_hum(&phases, drive.amplitude);
+        let (sin, cos) = drive.phase.sin_cos();
+        Ok(Self {
+            laws: if for_lanes { laws.collect() } else { None },
+            clock: Clock::new(drive.frequency, drive.phase),
+            phases: Arc::new(phases),
+            frequency: drive.frequency,
+            angle: (cos, sin),
+        })
+    }
+
+    /// True if its motions can be followed in lanes: all its laws are linear, none is much stiffer than the
+    /// drive is slow, and none can hold the mass at a face that throws it back for thousands of bounces.
+    pub fn is_for_lanes(&self) -> bool {
+        self.laws.is_some()
+    }
+
+    /// Its phases, shared.
+    pub fn shared_phases(&self) -> Arc<Phases> {
+        self.phases.clone()
+    }
+
+    /// True if each phase is ended by one position alone.
+    pub(super) fn is_plain(&self) -> bool {
+        self.laws.iter().flatten().all(Constants::is_plain)
+    }
+
+    /// A drive period in s.
+    pub(super) fn period(&self) -> f64 {
+        TAU / self.frequency
+    }
+}
+
+/// Restitution above which bounces go on beyond counting.
+const ELASTIC: f64 = 1.0 - 1.0 / 65_536.0;
+
+/// True if the drive can press the mass onto a surface that throws it back with hardly any loss: a jump of the force
+/// that is larger than the press, or a wall that is nearly elastic. Bounces there form rows without end, whose
+/// end the safe engine decides from the whole row.
+fn may_hum(phases: &Phases, amplitude: f64) -> bool {
+    let at_rest = |phase: usize, position: f64| {
+        let law = &phases.phases[phase].law;
+        law.force - law.stiffness * position
+    };
+    phases.surfaces.iter().any(|surface| {
+        let pressed = at_rest(surface.below, surface.position) + amplitude > 0.0;
+        let [fed, unfed] = [Some(surface.above), surface.above_unfed];
+        let elastic = [fed, unfed].into_iter().flatten().any(|above| match above {
+            Beyond::Phase(above) => {
+                let (before, after) = (
+                    at_rest(surface.below, surface.position),
+                    at_rest(above, surface.position),
+                );
+                after - amplitude < 0.0 && after < before
+            }
+            Beyond::Wall { restitution } => restitution > ELASTIC,
+        });
+        pressed && elastic
+    })
+}

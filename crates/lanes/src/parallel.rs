@@ -1,0 +1,60 @@
+//! A batch on all threads.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::{Instructions, Job, Machine, Outcome, Watch, run_with};
+use softstop::integrator::Start;
+
+/// Jobs of a part. Lanes that go together round together, so the parts may not depend on how many threads
+/// there are; and they are long enough for all lanes to be busy nearly to the end.
+const PART: usize = 128;
+
+/// Follows all jobs on the threads of rayon's pool, part by part, with the same result for any number of
+/// threads. Each part has a watcher of its own, which `watch` makes for the jobs in this range; they come
+/// back in order. They hear of jobs by their number in `jobs`.
+///
+/// # Panics
+/// If a job names a machine that is not there.
+pub fn run_parallel<W: Watch + Send>(
+    instructions: Instructions,
+    machines: &[Machine],
+    jobs: &[Job],
+    watch: impl Fn(Range<usize>) -> W + Sync,
+) -> (Vec<Outcome>, Vec<W>) {
+    let parts: Vec<(Vec<Outcome>, W)> = jobs
+        .par_chunks(PART)
+        .enumerate()
+        .map(|(part, jobs)| {
+            let first = part * PART;
+            let mut numbered = Numbered {
+                first,
+                watch: watch(first..first + jobs.len()),
+            };
+            let outcomes = run_with(instructions, machines, jobs, &mut numbered);
+            (outcomes, numbered.watch)
+        })
+        .collect();
+    let (outcomes, watches): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+    (outcomes.concat(), watches)
+}
+
+/// Tells a watcher of jobs by their number in the whole.
+struct Numbered<W> {
+    first: usize,
+    watch: W,
+}
+
+impl<W: Watch> Watch for Numbered<W> {
+    const IMPACTS: bool = W::IMPACTS;
+    const PERIODS: bool = W::PERIODS;
+
+    fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
+        self.watch.impact(self.first + job, cycle, offset, velocity);
+    }
+
+    fn period(&mut self, job: usize, cycle: u64, state: Start) {
+        self.watch.period(self.first + job, cycle, state);
+    }
+}

@@ -1,0 +1,109 @@
+//! Where the safe engine takes over.
+
+use super::Outcome;
+use super::machine::Machine;
+use super::watch::Listener;
+use softstop::error::MotionError;
+use softstop::integrator::{Clock, Crossing, Instant, Motion, Observer, Start};
+use softstop::phases::Mode;
+
+/// A motion somewhere on its way.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub job: usize,
+    /// Whole drive periods so far, and seconds into the present one.
+    pub cycle: u64,
+    pub offset: f64,
+    pub state: Start,
+}
+
+/// A motion at the beginning of a drive period.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Resumed {
+    pub cycle: u64,
+    pub state: Start,
+    /// The phase it moves in.
+    pub phase: usize,
+}
+
+/// The phase in which a motion starts, if it moves in one that lanes can follow.
+///
+/// # Errors
+/// [`MotionError`] if it cannot start there.
+pub(super) fn begin(machine: &Machine, start: Start) -> Result<Option<usize>, MotionError> {
+    start.validate()?;
+    let at = Clock::at_cycle(0);
+    let motion = Motion::new(machine.phases.clone(), machine.clock, at, start)?;
+    Ok(lane_phase(machine, &motion))
+}
+
+fn lane_phase(machine: &Machine, motion: &Motion) -> Option<usize> {
+    match motion.mode() {
+        Mode::Moving(phase) if machine.is_for_lanes() => Some(phase),
+        _ => None,
+    }
+}
+
+/// Follows a motion to the next beginning of a drive period at which it moves in a phase that lanes can
+/// follow; none if that is not before its end after `periods`.
+pub(super) fn follow(
+    machine: &Machine,
+    place: Place,
+    periods: u64,
+    watch: &mut Listener<'_>,
+    outcome: &mut Outcome,
+) -> Result<Option<Resumed>, MotionError> {
+    let at = Instant {
+        cycles: place.cycle as f64,
+        offset: place.offset,
+    };
+    let mut motion = Motion::new(machine.phases.clone(), machine.clock, at, place.state)?;
+    let mut counter = Counter {
+        job: place.job,
+        watch,
+        impacts: 0,
+    };
+    let mut followed = Ok(None);
+    for cycle in place.cycle + 1..=periods {
+        if let Err(error) = motion.advance(Clock::at_cycle(cycle), &mut counter) {
+            followed = Err(error);
+            break;
+        }
+        outcome.handed_over += 1;
+        let state = motion.state();
+        outcome.end = state;
+        if counter.watch.periods {
+            counter.watch.period(place.job, cycle, state);
+        }
+        if cycle < periods
+            && let Some(phase) = lane_phase(machine, &motion)
+        {
+            followed = Ok(Some(Resumed {
+                cycle,
+                state,
+                phase,
+            }));
+            break;
+        }
+    }
+    outcome.impacts += counter.impacts;
+    followed
+}
+
+struct Counter<'a, 'b> {
+    job: usize,
+    watch: &'a mut Listener<'b>,
+    impacts: u64,
+}
+
+impl Observer for Counter<'_, '_> {
+    fn crossing(&mut self, crossing: &Crossing) {
+        if let Some(velocity) = crossing.impact_velocity() {
+            self.impacts += 1;
+            if self.watch.impacts {
+                let Instant { cycles, offset } = crossing.instant;
+                self.watch.impact(self.job, cycles as u64, offset, velocity);
+            }
+        }
+    }
+}

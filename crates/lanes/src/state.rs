@@ -1,0 +1,132 @@
+//! Where all lanes are.
+
+use pulp::Simd;
+
+use super::lanes::{Lanes, Mask};
+use super::machine::Machine;
+use super::taylor::cos_sin;
+use softstop::integrator::Start;
+
+/// The state of all lanes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct State<S: Simd, const N: usize> {
+    pub x: Lanes<S, N>,
+    pub v: Lanes<S, N>,
+    /// Seconds since the beginning of the drive period.
+    pub offset: Lanes<S, N>,
+    /// Drive periods left, the present one included; none in a lane without a job.
+    pub left: Lanes<S, N>,
+    /// The phase each is in.
+    pub phase: Lanes<S, N>,
+    /// Impacts so far.
+    pub impacts: Lanes<S, N>,
+    /// Share of a window that is looked at next: 1, or less where a whole one could not be decided.
+    pub share: Lanes<S, N>,
+    pub drive: Drive<S, N>,
+}
+
+/// The drive's clock.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Drive<S: Simd, const N: usize> {
+    pub frequency: Lanes<S, N>,
+    /// A drive period in s, and its reciprocal.
+    pub period: Lanes<S, N>,
+    pub per_period: Lanes<S, N>,
+    /// cos and sin of the angle at the beginning of a period.
+    pub begin: (Lanes<S, N>, Lanes<S, N>),
+}
+
+impl<S: Simd, const N: usize> State<S, N> {
+    /// No lane has a job.
+    #[inline(always)]
+    pub fn idle(simd: S) -> Self {
+        let (none, one) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0));
+        Self {
+            x: none,
+            v: none,
+            offset: none,
+            left: none,
+            phase: none,
+            impacts: none,
+            share: one,
+            drive: Drive {
+                frequency: one,
+                period: one,
+                per_period: one,
+                begin: (one, none),
+            },
+        }
+    }
+
+    /// Gives a lane the drive of a machine.
+    #[inline(always)]
+    pub fn install(&mut self, lane: usize, machine: &Machine) {
+        let drive = &mut self.drive;
+        drive.frequency.set(lane, machine.frequency);
+        drive.period.set(lane, machine.period());
+        drive.per_period.set(lane, 1.0 / machine.period());
+        drive.begin.0.set(lane, machine.angle.0);
+        drive.begin.1.set(lane, machine.angle.1);
+    }
+
+    /// Puts a lane at the beginning of a period.
+    #[inline(always)]
+    pub fn resume(&mut self, lane: usize, state: Start, phase: usize, left: u64) {
+        self.x.set(lane, state.position);
+        self.v.set(lane, state.velocity);
+        self.offset.set(lane, 0.0);
+        self.left.set(lane, left as f64);
+        self.phase.set(lane, phase as f64);
+        self.share.set(lane, 1.0);
+    }
+
+    /// Takes a lane out of the work.
+    #[inline(always)]
+    pub fn stop(&mut self, lane: usize) {
+        self.left.set(lane, 0.0);
+    }
+
+    /// The lanes that have a job.
+    #[inline(always)]
+    pub fn busy(&self) -> Mask<S, N> {
+        self.left.like(0.0).below(self.left)
+    }
+
+    /// Position and velocity of a lane.
+    #[inline(always)]
+    pub fn state(&self, lane: usize) -> Start {
+        Start {
+            position: self.x.get(lane),
+            velocity: self.v.get(lane),
+        }
+    }
+
+    /// The impacts that a lane has counted, once.
+    #[inline(always)]
+    pub fn take_impacts(&mut self, lane: usize) -> u64 {
+        let impacts = self.impacts.get(lane) as u64;
+        self.impacts.set(lane, 0.0);
+        impacts
+    }
+
+    /// cos and sin of the drive angle.
+    #[inline(always)]
+    pub fn angle(&self) -> (Lanes<S, N>, Lanes<S, N>) {
+        let (c, s) = cos_sin(self.offset * self.drive.per_period);
+        let (c0, s0) = self.drive.begin;
+        (c0 * c - s0 * s, s0 * c + c0 * s)
+    }
+
+    /// Lets time pass; `wraps`: across the ends of periods.
+    #[inline(always)]
+    pub fn pass(&mut self, time: Lanes<S, N>, wraps: bool) {
+        self.offset = self.offset + time;
+        if wraps {
+            let (zero, one) = (time.like(0.0), time.like(1.0));
+            let periods = (self.offset * self.drive.per_period).floor();
+            let periods = periods.min(self.left - one).max(zero);
+            self.left = self.left - periods;
+            self.offset = (self.offset - periods * self.drive.period).max(zero);
+        }
+    }
+}

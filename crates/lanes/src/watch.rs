@@ -1,0 +1,69 @@
+//! Who hears of impacts and of the ends of drive periods.
+
+use softstop::integrator::Start;
+
+/// Watches the motions of a batch. To add one, implement what it needs and say so in the constants.
+pub trait Watch {
+    /// True if it wants to know of impacts.
+    const IMPACTS: bool = false;
+    /// True if it wants to know of the ends of drive periods.
+    const PERIODS: bool = false;
+
+    /// A mass touches, `offset` seconds into the drive period `cycle`.
+    fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
+        let _ = (job, cycle, offset, velocity);
+    }
+
+    /// Drive period `cycle` has begun.
+    fn period(&mut self, job: usize, cycle: u64, state: Start) {
+        let _ = (job, cycle, state);
+    }
+}
+
+/// Watches nothing.
+impl Watch for () {}
+
+/// A watcher of any kind, so that the engine is compiled once for all.
+pub(super) struct Listener<'a> {
+    watch: &'a mut dyn Hear,
+    /// What it wants to hear of.
+    pub impacts: bool,
+    pub periods: bool,
+}
+
+impl<'a> Listener<'a> {
+    /// What the engine tells a watcher.
+    pub fn of<W: Watch>(watch: &'a mut W) -> Self {
+        Self {
+            watch,
+            impacts: W::IMPACTS,
+            periods: W::PERIODS,
+        }
+    }
+
+    /// As [`Watch::impact`].
+    pub fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
+        self.watch.hear_impact(job, cycle, offset, velocity);
+    }
+
+    /// As [`Watch::period`].
+    pub fn period(&mut self, job: usize, cycle: u64, state: Start) {
+        self.watch.hear_period(job, cycle, state);
+    }
+}
+
+/// [`Watch`] without its constants.
+trait Hear {
+    fn hear_impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64);
+    fn hear_period(&mut self, job: usize, cycle: u64, state: Start);
+}
+
+impl<W: Watch> Hear for W {
+    fn hear_impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
+        self.impact(job, cycle, offset, velocity);
+    }
+
+    fn hear_period(&mut self, job: usize, cycle: u64, state: Start) {
+        self.period(job, cycle, state);
+    }
+}

@@ -1,0 +1,373 @@
+//! The lanes against the scalar engine: the same impacts, the same states, whatever the instruction set.
+
+use std::collections::HashMap;
+
+use softstop::integrator::{Crossing, Observer};
+use softstop::scene::{Release, RigidStop, Slope};
+use softstop::{Clock, Ratios, Scene, Start, Stop};
+use softstop_lanes::{Instructions, Job, Machine, Watch, run, run_with};
+
+const PERIODS: u64 = 20;
+
+/// Numbers in 0..1 without a pattern of their own (Weyl sequences of independent irrationals).
+fn spread(index: usize, which: u32) -> f64 {
+    let step = f64::from(2 + which * which).sqrt() * 1.618_033_988_749_895;
+    (0.5 + step * index as f64).fract()
+}
+
+fn between(low: f64, high: f64, share: f64) -> f64 {
+    low + (high - low) * share
+}
+
+/// Machines of all kinds that have linear laws, by turns.
+fn scene(index: usize) -> Scene {
+    let mut ratios = if index.is_multiple_of(3) {
+        Ratios::loaded()
+    } else {
+        Ratios::unloaded()
+    };
+    ratios.frequency = between(0.5, 2.0, spread(index, 1));
+    ratios.clearance = between(0.5, 20.0, spread(index, 2));
+    let mut scene = ratios.scene().expect("valid");
+    let stiffness = 10f64.powf(between(0.5, 4.0, spread(index, 3)));
+    let slope = |from, stiffness| Slope { from, stiffness };
+    if index % 3 == 1 {
+        scene.stop = match index % 5 {
+            0 => Stop::Rigid { restitution: 0.8 },
+            1 => Stop::KelvinVoigt {
+                stiffness,
+                release: Release::Clearance,
+            },
+            2 => Stop::KelvinVoigt {
+                stiffness,
+                release: Release::ZeroForce,
+            },
+            3 => Stop::PiecewiseLinear {
+                loading: vec![slope(0.0, stiffness), slope(0.3, 2.0 * stiffness)],
+                unloading: vec![slope(0.0, 0.5 * stiffness)],
+            },
+            _ => Stop::Preloaded {
+                stiffness,
+                preload: 10.0,
+            },
+        };
+    }
+    if index % 7 == 1 && !matches!(scene.stop, Stop::Rigid { .. }) {
+        scene.rigid = Some(RigidStop {
+            travel: 0.5,
+            restitution: 0.5,
+        });
+    }
+    scene
+}
+
+fn start(index: usize, scene: &Scene) -> Start {
+    let wall = scene.wall().map_or(f64::INFINITY, |(wall, _)| wall);
+    Start {
+        position: between(-12.0, 12.0, spread(index, 4)).min(wall),
+        velocity: between(-15.0, 15.0, spread(index, 5)),
+    }
+}
+
+#[derive(Default)]
+struct Impacts(u64);
+
+impl Observer for Impacts {
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.0 += u64::from(crossing.impact_velocity().is_some());
+    }
+}
+
+fn scalar(scene: &Scene, start: Start) -> (Start, u64) {
+    let mut motion = scene.motion(start).expect("valid");
+    let mut impacts = Impacts::default();
+    motion
+        .advance(Clock::at_cycle(PERIODS), &mut impacts)
+        .expect("bounded");
+    (motion.state(), impacts.0)
+}
+
+fn distance(a: Start, b: Start) -> f64 {
+    assert!(
+        a.position.is_finite() && a.velocity.is_finite(),
+        "{a:?} for {b:?}"
+    );
+    (a.position - b.position)
+        .abs()
+        .max((a.velocity - b.velocity).abs())
+}
+
+/// How much a difference of the start grows: chaos cannot be compared.
+fn growth(scene: &Scene, from: Start, end: Start) -> f64 {
+    let small = 1e-9;
+    let beside = Start {
+        position: from.position - small,
+        ..from
+    };
+    distance(scalar(scene, beside).0, end) / small
+}
+
+struct Batch {
+    machines: Vec<Machine>,
+    jobs: Vec<Job>,
+    scenes: Vec<Scene>,
+}
+
+/// Machines whose phases are each ended by one position alone.
+fn is_plain(scene: &Scene) -> bool {
+    let linear = matches!(
+        scene.stop,
+        Stop::Rigid { .. }
+            | Stop::Preloaded { .. }
+            | Stop::KelvinVoigt {
+                release: Release::Clearance,
+                ..
+            }
+    );
+    linear && scene.rigid.is_none()
+}
+
+fn batch(count: usize) -> Batch {
+    batch_of((0..count).map(scene).collect())
+}
+
+fn batch_of(scenes: Vec<Scene>) -> Batch {
+    let machines = scenes
+        .iter()
+        .map(|scene| Machine::new(scene).expect("valid"));
+    let jobs = scenes.iter().enumerate().map(|(machine, scene)| Job {
+        machine,
+        start: start(machine, scene),
+        periods: PERIODS,
+    });
+    Batch {
+        machines: machines.collect(),
+        jobs: jobs.collect(),
+        scenes: scenes.clone(),
+    }
+}
+
+#[test]
+fn lanes_find_the_impacts_and_states_of_the_scalar_engine() {
+    compare(batch(6000));
+}
+
+#[test]
+fn plain_machines_among_themselves_do_too() {
+    let plain: Vec<Scene> = (0..12_000).map(scene).filter(is_plain).collect();
+    assert!(plain.len() > 4000, "{}", plain.len());
+    compare(batch_of(plain));
+}
+
+fn compare(batch: Batch) {
+    let Batch {
+        machines,
+        jobs,
+        scenes,
+    } = batch;
+    let outcomes = run(&machines, &jobs, &mut ());
+    let (mut compared, mut handed) = (0, 0);
+    for (index, (outcome, job)) in outcomes.iter().zip(&jobs).enumerate() {
+        assert_eq!(outcome.error, None, "{index}");
+        let (end, impacts) = scalar(&scenes[index], job.start);
+        handed += outcome.handed_over;
+        let off = distance(outcome.end, end);
+        if outcome.impacts != impacts || off > 1e-9 {
+            let growth = growth(&scenes[index], job.start, end);
+            let chaotic = growth > 1e6;
+            assert!(
+                chaotic || (outcome.impacts == impacts && off < 1e-10 * growth),
+                "{index}: {} impacts for {impacts}, off by {off:e}, growth {growth:e}",
+                outcome.impacts,
+            );
+        } else {
+            compared += 1;
+        }
+    }
+    let share = compared as f64 / jobs.len() as f64;
+    assert!(share > 0.9, "{compared} compared");
+    let handed = handed as f64 / (jobs.len() as f64 * PERIODS as f64);
+    assert!(handed < 0.1, "{handed} of the periods handed over");
+}
+
+#[test]
+fn every_instruction_set_gives_the_same_motions() {
+    let Batch { machines, jobs, .. } = batch(600);
+    let widest = run(&machines, &jobs, &mut ());
+    let others = [
+        Instructions::Avx2,
+        Instructions::Portable,
+        Instructions::OneByOne,
+    ];
+    for instructions in others {
+        let others = run_with(instructions, &machines, &jobs, &mut ());
+        let agree = widest
+            .iter()
+            .zip(&others)
+            .filter(|(a, b)| a.impacts == b.impacts && distance(a.end, b.end) < 1e-8)
+            .count();
+        assert!(agree > 570, "{instructions:?}: {agree}");
+    }
+}
+
+#[test]
+fn the_watcher_hears_of_every_impact_and_period() {
+    #[derive(Default)]
+    struct Heard {
+        impacts: HashMap<usize, Vec<(f64, f64)>>,
+        periods: HashMap<usize, Vec<(u64, Start)>>,
+        period: f64,
+    }
+    impl Watch for Heard {
+        const IMPACTS: bool = true;
+        const PERIODS: bool = true;
+        fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
+            let time = cycle as f64 * self.period + offset;
+            self.impacts.entry(job).or_default().push((time, velocity));
+        }
+        fn period(&mut self, job: usize, cycle: u64, state: Start) {
+            self.periods.entry(job).or_default().push((cycle, state));
+        }
+    }
+    let scene = Ratios::unloaded().scene().expect("valid");
+    let machines = [Machine::new(&scene).expect("valid")];
+    let jobs: Vec<Job> = (0..40)
+        .map(|index| Job {
+            machine: 0,
+            start: start(index, &scene),
+            periods: PERIODS,
+        })
+        .collect();
+    let mut heard = Heard {
+        period: scene.period(),
+        ..Heard::default()
+    };
+    run(&machines, &jobs, &mut heard);
+    for (index, job) in jobs.iter().enumerate() {
+        let motion = scene.trajectory(job.start, PERIODS).expect("bounded");
+        let expected: Vec<_> = motion.impacts().collect();
+        let found = heard.impacts.remove(&index).unwrap_or_default();
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!((found.0 - motion.clock.time(expected.instant)).abs() < 1e-9);
+            assert!((found.1 - expected.before_impact_velocity).abs() < 1e-8);
+        }
+        let periods = &heard.periods[&index];
+        assert_eq!(periods.len() as u64, PERIODS);
+        for (place, (cycle, state)) in periods.iter().enumerate() {
+            assert_eq!(*cycle, place as u64 + 1);
+            let exact = motion.at(Clock::at_cycle(*cycle)).unwrap_or(motion.end);
+            assert!(distance(*state, exact) < 1e-8);
+        }
+    }
+}
+
+#[test]
+fn what_lanes_cannot_follow_the_scalar_engine_does() {
+    let mut scene = Ratios::unloaded().scene().expect("valid");
+    scene.stop = Stop::Hertz {
+        stiffness: 100.0,
+        exponent: 1.5,
+        dissipation: 0.1,
+    };
+    let machine = Machine::new(&scene).expect("valid");
+    assert!(!machine.is_for_lanes());
+    let from = Start {
+        position: 0.0,
+        velocity: 14.0,
+    };
+    let job = |start, periods| Job {
+        machine: 0,
+        start,
+        periods,
+    };
+    let bad = Start {
+        position: f64::NAN,
+        velocity: 0.0,
+    };
+    let jobs = [job(from, PERIODS), job(bad, 1), job(from, 0)];
+    let outcomes = run(&[machine], &jobs, &mut ());
+    assert_eq!((outcomes[0].end, outcomes[0].impacts), scalar(&scene, from));
+    assert!(outcomes[1].error.is_some());
+    assert_eq!((outcomes[2].end, outcomes[2].impacts), (from, 0));
+}
+
+fn one_by_one(scene: &Scene, start: Start, periods: u64, watch: &mut impl Watch) -> (Start, u64) {
+    let machines = [Machine::new(scene).expect("valid")];
+    let jobs = [Job {
+        machine: 0,
+        start,
+        periods,
+    }];
+    let outcome = run(&machines, &jobs, watch).remove(0);
+    assert_eq!(outcome.error, None);
+    (outcome.end, outcome.impacts)
+}
+
+#[test]
+fn a_machine_without_a_stop_moves_on() {
+    let mut scene = Ratios::unloaded().scene().expect("valid");
+    scene.stop = Stop::None;
+    for index in 0..50 {
+        let start = start(index, &scene);
+        let (end, impacts) = one_by_one(&scene, start, PERIODS, &mut ());
+        assert_eq!(impacts, 0);
+        assert!(distance(end, scalar(&scene, start).0) < 1e-11);
+    }
+}
+
+/// Hears of periods, so that lanes stop at their ends.
+struct Periods;
+
+impl Watch for Periods {
+    const PERIODS: bool = true;
+}
+
+#[test]
+fn an_impact_at_the_very_end_of_a_period_is_counted_once() {
+    for index in 0..400 {
+        let mut scene = Ratios::unloaded().scene().expect("valid");
+        scene.stop = Stop::KelvinVoigt {
+            stiffness: 10.0,
+            release: Release::Clearance,
+        };
+        scene.excitation.frequency = between(0.5, 2.0, spread(index, 1));
+        scene.clearance = 1e3;
+        let start = start(index, &scene);
+        let mut motion = scene.motion(start).expect("valid");
+        motion
+            .advance(Clock::at_cycle(1), &mut ())
+            .expect("bounded");
+        let there = motion.state();
+        if there.position <= start.position.max(0.5) || there.velocity <= 0.1 {
+            continue;
+        }
+        scene.clearance = there.position;
+        let (_, impacts) = one_by_one(&scene, start, 3, &mut Periods);
+        let mut counter = Impacts::default();
+        let mut motion = scene.motion(start).expect("valid");
+        motion
+            .advance(Clock::at_cycle(3), &mut counter)
+            .expect("bounded");
+        assert_eq!(impacts, counter.0, "{index}: {scene:?} from {start:?}");
+    }
+}
+
+#[test]
+fn endless_bounces_on_a_pressed_face_are_left_to_the_safe_engine() {
+    let mut ratios = Ratios::unloaded();
+    (ratios.clearance, ratios.frequency) = (0.5, 0.002);
+    let scene = ratios.scene().expect("valid");
+    let start = Start {
+        position: 5.75,
+        velocity: -6.6,
+    };
+    let mut counter = Impacts::default();
+    let mut motion = scene.motion(start).expect("valid");
+    motion
+        .advance(Clock::at_cycle(1), &mut counter)
+        .expect("bounded");
+    let (end, impacts) = one_by_one(&scene, start, 1, &mut ());
+    assert_eq!((end, impacts), (motion.state(), counter.0));
+    assert!(impacts > 10_000, "{impacts}");
+}

@@ -1,0 +1,152 @@
+//! One machine and one region of starts along the hysteresis zone.
+
+use std::f64::consts::TAU;
+
+use anyhow::{Context, anyhow};
+use rayon::prelude::*;
+use softstop::Ratios;
+use softstop_dynamics::attractors::SurveyError;
+use softstop_dynamics::basin::{Axis, CertaintyError, Establishing, Grid, Options, establishing};
+use softstop_dynamics::orbit::Regime;
+use softstop_dynamics::zone::{self, Zone};
+
+use softstop_console::failure::Failure;
+use softstop_console::progress::Progress;
+
+/// Which states are asked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Starts {
+    /// Anywhere within the clearance on both sides, without velocity, at any drive angle.
+    AtRest,
+    /// At drive angle 0: positions and velocities up to so many clearances.
+    Square(f64),
+}
+
+impl Starts {
+    /// In the paper's symbols.
+    pub fn label(self) -> String {
+        match self {
+            Self::AtRest => "|X| < ρ, X′ = 0, any φ".to_owned(),
+            Self::Square(1.0) => "|X|, |X′| < ρ".to_owned(),
+            Self::Square(half) => format!("|X|, |X′| < {half}ρ"),
+        }
+    }
+
+    fn grid(self, clearance: f64, cells: usize) -> Grid {
+        match self {
+            Self::AtRest => Grid::states(
+                Axis::angle(0.0, TAU, cells),
+                Axis::position(-clearance, clearance, cells),
+                0.0,
+            ),
+            Self::Square(half) => {
+                let far = half * clearance;
+                Grid::states(
+                    Axis::position(-far, far, cells),
+                    Axis::velocity(-far, far, cells),
+                    0.0,
+                )
+            }
+        }
+    }
+}
+
+/// The certainty along a zone.
+pub(super) struct Curve {
+    zone: Zone,
+    pub starts: Starts,
+    pub places: Vec<Place>,
+}
+
+/// The certainty at one place.
+pub(super) struct Place {
+    /// 0 at g0, 1 at s_SN.
+    pub place: f64,
+    /// eta.
+    pub frequency: f64,
+    pub certainty: f64,
+    /// Wilson's 95 % interval of it.
+    pub interval: [f64; 2],
+    /// Radius of the largest ball inside the basin of z = 1, in units of half of the region; 0 if there is none.
+    pub integrity: f64,
+    /// All motions and their shares.
+    pub motions: String,
+}
+
+impl Curve {
+    pub fn new(machine: Ratios, clearance: f64, starts: Starts) -> Result<Self, Failure> {
+        let machine = Ratios {
+            clearance,
+            ..machine
+        };
+        let zone = zone::hysteresis(&machine)
+            .with_context(|| format!("no hysteresis zone at rho = {clearance}"))?;
+        Ok(Self {
+            zone,
+            starts,
+            places: Vec::new(),
+        })
+    }
+
+    pub fn clearance(&self) -> f64 {
+        self.zone.ratios.clearance
+    }
+
+    /// Which of the paper's machines.
+    pub fn machine(&self) -> &'static str {
+        if self.zone.ratios.piercing.is_some() {
+            "loaded"
+        } else {
+            "unloaded"
+        }
+    }
+
+    fn at(&self, place: f64, cells: usize, progress: &Progress) -> Result<Place, Failure> {
+        let grid = self.starts.grid(self.clearance(), cells);
+        let watcher = |_, _| progress.steps(0).is_ok();
+        let found = establishing(&self.zone, &[place], &grid, &Options::default(), &watcher);
+        let found = found.map_err(|error| match error {
+            CertaintyError::Survey(SurveyError::Stopped) => Failure::Interrupted,
+            other => Failure::Run(anyhow!(other)),
+        })?;
+        progress.steps((cells * cells) as u64)?;
+        let place = found.first().map(Place::new);
+        Ok(place.context("no place")?)
+    }
+}
+
+impl Place {
+    fn new(found: &Establishing) -> Self {
+        let classes = found.basins.classes.iter();
+        let ball = found.basins.largest_ball_of(Regime::ONE);
+        let motions = classes.map(|class| format!("{}: {:.6}", class.kind.name(), class.share));
+        Self {
+            place: found.place,
+            frequency: found.frequency,
+            certainty: found.certainty,
+            interval: found.interval,
+            integrity: ball.map_or(0.0, |ball| ball.radius),
+            motions: motions.collect::<Vec<_>>().join(", "),
+        }
+    }
+}
+
+/// Fills all curves, places side by side.
+pub(super) fn fill(
+    curves: &mut [Curve],
+    places: &[f64],
+    cells: usize,
+    progress: &Progress,
+) -> Result<(), Failure> {
+    let tasks: Vec<(usize, f64)> = (0..curves.len())
+        .flat_map(|curve| places.iter().map(move |place| (curve, *place)))
+        .collect();
+    let found: Vec<Place> = tasks
+        .par_iter()
+        .map(|(curve, place)| curves[*curve].at(*place, cells, progress))
+        .collect::<Result<_, _>>()?;
+    for ((curve, _), place) in tasks.into_iter().zip(found) {
+        curves[curve].places.push(place);
+    }
+    Ok(())
+}

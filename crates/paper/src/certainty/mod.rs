@@ -1,0 +1,190 @@
+//! Establishing certainty of z = 1 along the hysteresis zone. The paper (section 3): it "increases from zero, on
+//! stability boundary s_SN, to one on grazing boundary g0". It is a share of initial states, so it depends on
+//! which states are asked: that dependence is shown beside it.
+
+mod curve;
+mod findings;
+
+use anyhow::Context;
+use softstop::Ratios;
+
+use super::{Drawn, Figure, Studio};
+use curve::{Curve, Place, Starts};
+use softstop_console::failure::Failure;
+use softstop_console::progress::Progress;
+use softstop_explore::basin::certainty::{
+    CertaintyCurve, CertaintyPage, CertaintyPanel, CertaintyPoint,
+};
+
+/// Establishing certainty along the hysteresis zone.
+pub(super) const FIGURE: Figure = Figure {
+    title: "Establishing certainty of z = 1 from g0 to s_SN, and its integrity",
+    files: &["certainty.svg", "certainty.csv"],
+    draw,
+};
+
+/// Clearances.
+const CLEARANCES: [f64; 5] = [2.0, 6.0, 10.0, 14.0, 18.0];
+/// The clearance of points A and B among them.
+const MIDDLE: usize = 2;
+/// Half of the region of starts, in units of the clearance, where nothing else is said.
+const REGION: f64 = 2.0;
+/// Smaller and larger regions.
+const REGIONS: [Starts; 4] = [
+    Starts::AtRest,
+    Starts::Square(1.0),
+    Starts::Square(REGION),
+    Starts::Square(4.0),
+];
+/// Their colours: that of clearance 10 where the region is the usual one.
+const REGION_COLORS: [usize; 4] = [5, 7, MIDDLE, 6];
+/// Cells on each side of the region.
+const CELLS: [usize; 2] = [52, 24];
+/// Places of the zone between its ends; at the ends themselves one of the motions is not stable.
+const STEPS: [usize; 2] = [20, 8];
+const ENDS: [f64; 3] = [0.001, 0.01, 0.025];
+
+/// Places from near g0 to near s_SN, closer at the ends.
+fn places(steps: usize) -> Vec<f64> {
+    let inner = (1..steps).map(|k| k as f64 / steps as f64);
+    let near = ENDS.iter().copied();
+    let far = ENDS.iter().rev().map(|end| 1.0 - end);
+    near.chain(inner).chain(far).collect()
+}
+
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
+    let places = places(detail.pick(STEPS[0], STEPS[1]));
+    let cells = detail.pick(CELLS[0], CELLS[1]);
+    let square = Starts::Square(REGION);
+    let mut curves: Vec<Curve> = Vec::new();
+    for machine in [Ratios::unloaded(), Ratios::loaded()] {
+        for clearance in CLEARANCES {
+            curves.push(Curve::new(machine, clearance, square)?);
+        }
+    }
+    for starts in REGIONS.into_iter().filter(|starts| *starts != square) {
+        curves.push(Curve::new(Ratios::unloaded(), CLEARANCES[MIDDLE], starts)?);
+    }
+    let work = curves.len() * places.len() * cells * cells;
+    let progress = Progress::new(work as u64, "cells");
+    curve::fill(&mut curves, &places, cells, &progress)?;
+    drop(progress);
+    let svg = CertaintyPage {
+        panels: panels(&curves),
+    }
+    .svg();
+    Ok(Drawn {
+        files: vec![svg.into_bytes(), table(&curves)?],
+        findings: findings::of(&curves),
+    })
+}
+
+/// What is shown of a place.
+type Show = fn(&Place) -> CertaintyPoint;
+
+fn certainty(place: &Place) -> CertaintyPoint {
+    CertaintyPoint {
+        place: place.place,
+        value: place.certainty,
+        interval: Some(place.interval),
+    }
+}
+
+fn integrity(place: &Place) -> CertaintyPoint {
+    CertaintyPoint {
+        place: place.place,
+        value: place.integrity,
+        interval: None,
+    }
+}
+
+fn line(curve: &Curve, label: String, color: usize, show: Show) -> CertaintyCurve {
+    CertaintyCurve {
+        label,
+        color,
+        is_dashed: false,
+        points: curve.places.iter().map(show).collect(),
+    }
+}
+
+fn panels(curves: &[Curve]) -> Vec<CertaintyPanel> {
+    let (unloaded, rest) = curves.split_at(CLEARANCES.len());
+    let (loaded, others) = rest.split_at(CLEARANCES.len());
+    let clearances = |curves: &[Curve], show: Show| -> Vec<CertaintyCurve> {
+        let line = |(color, curve): (usize, &Curve)| {
+            line(curve, format!("ρ = {}", curve.clearance()), color, show)
+        };
+        curves.iter().enumerate().map(line).collect()
+    };
+    let mut regions: Vec<&Curve> = others.iter().collect();
+    regions.insert(2, &unloaded[MIDDLE]);
+    let regions = regions.into_iter().zip(REGION_COLORS);
+    let regions = regions.map(|(curve, color)| line(curve, curve.starts.label(), color, certainty));
+    let regions: Vec<CertaintyCurve> = regions.collect();
+    let mut integrities = clearances(unloaded, integrity);
+    let mut extra = line(&loaded[MIDDLE], String::new(), MIDDLE, integrity);
+    extra.is_dashed = true;
+    integrities.push(extra);
+    let panel = |title: &str, curves, has_claim, has_legend| CertaintyPanel {
+        title: title.to_owned(),
+        up: if has_claim { SHARE } else { BALL },
+        curves,
+        has_claim,
+        has_legend,
+    };
+    let [free, pierced] = [unloaded, loaded].map(|curves| clearances(curves, certainty));
+    vec![
+        panel("(a) unloaded, starts |X|, |X′| < 2ρ", free, true, false),
+        panel("(b) loaded, starts |X|, |X′| < 2ρ", pierced, true, false),
+        panel("(c) unloaded, ρ = 10, other starts", regions, true, true),
+        panel(
+            "(d) largest ball in the basins of (a); dashed: ρ = 10 of (b)",
+            integrities,
+            false,
+            false,
+        ),
+    ]
+}
+
+/// What goes upwards in the panels.
+const SHARE: &str = "certainty of z = 1";
+const BALL: &str = "radius of the largest ball in z = 1";
+
+/// A row for each place of each curve.
+fn table(curves: &[Curve]) -> Result<Vec<u8>, Failure> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    let header = [
+        "machine",
+        "rho",
+        "starts",
+        "place",
+        "eta",
+        "certainty",
+        "certainty_low",
+        "certainty_high",
+        "integrity",
+        "motions",
+    ];
+    let failed = "cannot write certainty.csv";
+    table.write_record(header).context(failed)?;
+    for curve in curves {
+        for place in &curve.places {
+            let row = (
+                curve.machine(),
+                curve.clearance(),
+                curve.starts.label(),
+                place.place,
+                place.frequency,
+                place.certainty,
+                place.interval[0],
+                place.interval[1],
+                place.integrity,
+                &place.motions,
+            );
+            table.serialize(row).context(failed)?;
+        }
+    }
+    let content = table.into_inner().map_err(csv::IntoInnerError::into_error);
+    Ok(content.context(failed)?)
+}

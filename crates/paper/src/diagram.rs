@@ -1,0 +1,91 @@
+//! Sweeps for the figures, and their tables.
+
+use anyhow::{Context, anyhow};
+use rayon::prelude::*;
+use softstop::Ratios;
+use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
+
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::progress::Progress;
+
+/// Sweeps that go together: a plan and its chains.
+pub(super) type Job = (Plan, Vec<Chain<Ratios>>);
+
+/// Carries all chains of all plans to their ends.
+///
+/// # Errors
+/// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
+pub(super) fn sweep(jobs: &mut [Job], what: &str) -> Result<(), Failure> {
+    let steps = jobs.iter().map(|(plan, chains)| plan.steps * chains.len());
+    let progress = Progress::new(steps.sum::<usize>() as u64, what);
+    let finished = jobs.par_iter_mut().map(|(plan, chains)| {
+        plan.run(chains, &|steps| {
+            progress.more(steps);
+            !interrupt::requested()
+        })
+    });
+    if !finished.collect::<Vec<bool>>().into_iter().all(|it| it) {
+        return Err(Failure::Interrupted);
+    }
+    let mut errors = jobs
+        .iter()
+        .flat_map(|job| &job.1)
+        .filter_map(|chain| chain.error.clone());
+    match errors.next() {
+        Some(error) => Err(Failure::Run(anyhow!(error))),
+        None => Ok(()),
+    }
+}
+
+/// The plan of one way over a part of a sweep's range, going on from where that is when it comes there.
+pub(super) fn part_of(sweep: &Chain<Ratios>, plan: &Plan) -> Plan {
+    let rising = sweep.rising();
+    let before = match sweep.direction {
+        Direction::Up => rising.iter().rfind(|step| step.value <= plan.range.0),
+        Direction::Down => rising.iter().find(|step| step.value >= plan.range.1),
+    };
+    Plan {
+        start: before.map_or(plan.start, |step| step.end),
+        ..*plan
+    }
+}
+
+/// A motion in a word.
+pub(super) fn name(settled: &Settled) -> String {
+    match settled {
+        Settled::Periodic(regime) => regime.to_string(),
+        Settled::Chaotic { .. } => "chaos".to_owned(),
+        Settled::Unsettled { .. } => "unsettled".to_owned(),
+    }
+}
+
+/// Before-impact velocities in a field.
+pub(super) fn velocities(step: &Step) -> String {
+    let written: Vec<String> = step
+        .velocities
+        .iter()
+        .map(|it| format!("{it:.6}"))
+        .collect();
+    written.join(" ")
+}
+
+/// A table of these columns.
+///
+/// # Errors
+/// [`Failure::Run`] if it cannot be written.
+pub(super) fn table<R: serde::Serialize>(
+    columns: &[&str],
+    rows: impl Iterator<Item = R>,
+) -> Result<Vec<u8>, Failure> {
+    let mut table = csv::WriterBuilder::new()
+        .has_headers(false)
+        .from_writer(Vec::new());
+    table
+        .write_record(columns)
+        .context("cannot write a table")?;
+    for row in rows {
+        table.serialize(row).context("cannot write a table")?;
+    }
+    Ok(table.into_inner().context("cannot write a table")?)
+}

@@ -1,0 +1,266 @@
+//! The largest Lyapunov exponent under the diagram of rho = 10: is the harder motion the more stable one?
+
+mod chart;
+
+use anyhow::anyhow;
+use rayon::prelude::*;
+use softstop::{MotionError, Ratios};
+use softstop_dynamics::continuation::{Adjustable, Parameter};
+use softstop_dynamics::orbit::{Exponents, Orbit, find};
+use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
+use softstop_dynamics::zone::{ZoneError, hysteresis};
+
+use super::diagram::{self, Job};
+use super::{Drawn, Figure, Studio};
+use crate::exponents::chart::{StabilityChart, StabilityPart, StabilityPoint};
+use softstop_console::failure::Failure;
+use softstop_console::progress::Progress;
+
+/// Lyapunov exponent under the diagram.
+pub(super) const FIGURE: Figure = Figure {
+    title: "Lyapunov exponent under the diagram",
+    files: &["exponents.png", "exponents.csv"],
+    draw,
+};
+
+/// Both ranges of eta, and the exponents that their panels show.
+const PARTS: [((f64, f64), (f64, f64)); 2] =
+    [((0.8, 1.8), (-0.03, 0.008)), ((0.95, 1.0), (-0.03, 0.09))];
+
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
+    let plans = PARTS
+        .iter()
+        .zip(detail.pick([(1401, 200), (900, 200)], [(101, 100), (41, 100)]));
+    let plans = plans.map(|((range, _), (steps, periods))| {
+        Plan::new(Parameter::Frequency, *range, steps, periods)
+            .map_err(|error| Failure::Run(anyhow!(error)))
+    });
+    let plans = plans.collect::<Result<Vec<Plan>, Failure>>()?;
+    let chain = |way| Chain::new(Ratios::unloaded(), way);
+    let ways = [Direction::Up, Direction::Down].map(chain).to_vec();
+    let mut whole = [(plans[0], ways)];
+    diagram::sweep(&mut whole, "steps of the sweeps")?;
+    let [(_, whole)] = whole;
+    let zoom = whole.iter().map(|sweep| {
+        let plan = diagram::part_of(sweep, &plans[1]);
+        (plan, vec![chain(sweep.direction)])
+    });
+    let mut zoom: Vec<Job> = zoom.collect();
+    diagram::sweep(&mut zoom, "steps of the zoom")?;
+    let sweeps = [whole, zoom.into_iter().flat_map(|job| job.1).collect()];
+    let steps: usize = plans.iter().map(|plan| 2 * plan.steps).sum();
+    let progress = Progress::new(steps as u64, "exponents");
+    let batch = detail.pick(40, 4);
+    let mut parts = Vec::new();
+    for (chains, (range, exponents)) in sweeps.iter().zip(PARTS) {
+        let ways = [
+            points(&chains[0], batch, &progress)?,
+            points(&chains[1], batch, &progress)?,
+        ];
+        parts.push(StabilityPart {
+            range,
+            exponents,
+            ways,
+        });
+    }
+    let parts: [StabilityPart; 2] = parts
+        .try_into()
+        .map_err(|_| Failure::usage("two parts are drawn"))?;
+    let branch = branch(detail.pick(400, 80))?;
+    let summary = Summary::new(&parts, &branch)?;
+    let chart = StabilityChart {
+        parts: &parts,
+        branch: &branch,
+        marks: &summary.marks(),
+        explanation: explanation(&plans, batch),
+    };
+    Ok(Drawn {
+        files: vec![
+            chart.png().map_err(|error| Failure::Run(anyhow!(error)))?,
+            table(&parts)?,
+        ],
+        findings: summary.findings(),
+    })
+}
+
+fn explanation(plans: &[Plan], batch: u64) -> String {
+    let sweeps: Vec<String> = plans
+        .iter()
+        .map(|plan| {
+            format!(
+                "{} frequencies × {} drive periods",
+                plan.steps, plan.periods
+            )
+        })
+        .collect();
+    format!(
+        "Left {}, right {}. Periodic motion: λ = ln|μ|/(nT); else the mean over {} drive periods",
+        sweeps[0],
+        sweeps[1],
+        32 * batch
+    )
+}
+
+/// The steps of a sweep with their exponents, in rising order.
+fn points(
+    chain: &Chain<Ratios>,
+    batch: u64,
+    progress: &Progress,
+) -> Result<Vec<StabilityPoint>, Failure> {
+    chain
+        .rising()
+        .into_par_iter()
+        .map(|step| {
+            progress.step()?;
+            let exponent = exponent(chain.machine, step, batch);
+            Ok(StabilityPoint {
+                eta: step.value,
+                velocities: step.velocities.clone(),
+                regime: step.settled.regime().map(|it| (it.impacts, it.periods)),
+                is_settled: !step.settled.is_unsettled(),
+                exponent: exponent.map_err(|error| Failure::Run(anyhow!(error)))?,
+            })
+        })
+        .collect()
+}
+
+/// The largest exponent per unit of tau, and the half-width of its 95 % interval.
+fn exponent(mut machine: Ratios, step: &Step, batch: u64) -> Result<(f64, f64), MotionError> {
+    machine.set(Parameter::Frequency, step.value);
+    let scene = machine.scene()?;
+    if let Settled::Periodic(regime) = step.settled
+        && let Ok(orbit) = Orbit::periodic(&scene, step.end.into(), regime.periods)
+        && orbit.is_stable()
+    {
+        return Ok((Exponents::of(&orbit).per_second()[0], 0.0));
+    }
+    let (found, _) = Exponents::along(&scene, step.end.into(), batch)?;
+    Ok((found.per_second()[0], found.error / found.period))
+}
+
+/// z = 1 from the grazing g0 to its fold, ever denser towards the fold: eta, X'-, exponent.
+fn branch(count: u32) -> Result<Vec<[f64; 3]>, Failure> {
+    let failed = |error: ZoneError| Failure::Run(anyhow!(error));
+    let zone = hysteresis(&Ratios::unloaded()).map_err(failed)?;
+    let shares = (0..=count).map(|index| 1.0 - (1.0 - f64::from(index) / f64::from(count)).powi(3));
+    let at = |share: f64| {
+        let orbit = zone.orbit_at(share).map_err(failed)?;
+        let exponent = Exponents::of(&orbit).per_second()[0];
+        Ok([
+            zone.frequency_at(share),
+            orbit.before_impact_velocity(),
+            exponent,
+        ])
+    };
+    shares
+        .collect::<Vec<f64>>()
+        .into_par_iter()
+        .map(at)
+        .collect()
+}
+
+/// What the figure says about z = 1: eta, X'-, exponent.
+struct Summary {
+    point: [f64; 3],
+    hardest: [f64; 3],
+    most_stable: [f64; 3],
+    most_chaotic: Option<[f64; 3]>,
+    /// z = 1 at its fold.
+    fold: [f64; 3],
+    /// Exponent of the impact-less motion.
+    rest: f64,
+}
+
+impl Summary {
+    fn new(parts: &[StabilityPart], branch: &[[f64; 3]]) -> Result<Self, Failure> {
+        let machine = Ratios::unloaded();
+        let failed = |error: &dyn std::fmt::Display| Failure::Run(anyhow!("{error}"));
+        let scene = machine.scene().map_err(|error| failed(&error))?;
+        let orbit = find(&scene).map_err(|error| failed(&error))?;
+        let ways = parts.iter().flat_map(|part| &part.ways);
+        let hardest = branch.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
+        let stable = branch.iter().min_by(|a, b| a[2].total_cmp(&b[2]));
+        let none = || failed(&"z = 1 was not met");
+        let chaotic = ways.flatten().map(triple).filter(|it| it[2] > 0.0);
+        Ok(Self {
+            point: [
+                machine.frequency,
+                orbit.before_impact_velocity(),
+                Exponents::of(&orbit).per_second()[0],
+            ],
+            hardest: *hardest.ok_or_else(none)?,
+            most_stable: *stable.ok_or_else(none)?,
+            most_chaotic: chaotic.max_by(|a, b| a[2].total_cmp(&b[2])),
+            fold: *branch.last().ok_or_else(none)?,
+            rest: -machine.damping,
+        })
+    }
+
+    fn marks(&self) -> Vec<(String, [f64; 3])> {
+        let named =
+            |name: &str, at: [f64; 3]| (format!("{name}: λ = {:.4}", at[2]).replace('-', "−"), at);
+        vec![
+            named("A", self.point),
+            named("lowest", self.most_stable),
+            ("λ → 0 at the fold s_SN".to_owned(), self.fold),
+        ]
+    }
+
+    fn findings(&self) -> Vec<(String, f64)> {
+        let mut findings = vec![
+            ("lambda at A".to_owned(), self.point[2]),
+            ("lambda without impacts".to_owned(), self.rest),
+        ];
+        let mut add = |what: &str, at: [f64; 3]| {
+            findings.push((format!("{what}: eta"), at[0]));
+            findings.push((format!("{what}: velocity"), at[1]));
+            findings.push((format!("{what}: lambda"), at[2]));
+        };
+        add("least lambda on z = 1", self.most_stable);
+        add("hardest impact on z = 1", self.hardest);
+        if let Some(at) = self.most_chaotic {
+            add("largest lambda", at);
+        }
+        findings
+    }
+}
+
+fn triple(point: &StabilityPoint) -> [f64; 3] {
+    let velocity = point.velocities.last().copied().unwrap_or(0.0);
+    [point.eta, velocity, point.exponent.0]
+}
+
+fn table(parts: &[StabilityPart]) -> Result<Vec<u8>, Failure> {
+    let columns = [
+        "direction",
+        "eta",
+        "impacts",
+        "periods",
+        "lambda",
+        "lambda_half_width",
+        "largest_before_impact_velocity",
+    ];
+    let rows = parts.iter().flat_map(|part| {
+        part.ways
+            .iter()
+            .zip(["up", "down"])
+            .flat_map(|(points, way)| {
+                points.iter().map(move |point| {
+                    let (impacts, periods) = point.regime.unzip();
+                    let (lambda, width) = point.exponent;
+                    let velocity = point.velocities.last().copied().unwrap_or(0.0);
+                    (
+                        way,
+                        format!("{:.9}", point.eta),
+                        impacts,
+                        periods,
+                        lambda,
+                        width,
+                        velocity,
+                    )
+                })
+            })
+    });
+    diagram::table(&columns, rows)
+}

@@ -1,0 +1,297 @@
+//! The boundaries g0, s_SN and s_PD across the clearances.
+
+use std::ops::ControlFlow;
+
+use anyhow::anyhow;
+use rayon::prelude::*;
+use softstop::{Ratios, Scene};
+use softstop_dynamics::continuation::{
+    Along, BranchPoint, Curve, Family, Follower, Limits, Parameter, Region, SpecialKind, Test,
+    curve,
+};
+use softstop_dynamics::orbit::{StroboscopicMap, find};
+use softstop_dynamics::zone::{grazing_frequencies, hysteresis};
+
+use crate::diagram;
+use crate::figure6::chart::Boundaries;
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::progress::Progress;
+
+/// Frequencies within which z = 1 is followed.
+const RANGE: (f64, f64) = (0.7, 1.9);
+/// Clearances of the curves.
+const CLEARANCES: (f64, f64) = (1.0, 24.5);
+/// Clearances from one point of g0 to the next.
+const SPACING: f64 = 0.5;
+/// Most points of a branch and of a curve in each direction: a curve that comes to an orbit that grazes creeps.
+const POINTS: usize = 4000;
+const CURVE_POINTS: usize = 300;
+/// Width to which the best clearance is found.
+const WIDTH: f64 = 1e-3;
+
+/// A special point of z = 1, and its eta, X_m, X'-.
+pub(super) type Critical = (BranchPoint, [f64; 3]);
+
+/// The ends of z = 1 of one machine.
+pub(super) struct Ends {
+    /// rho.
+    pub clearance: f64,
+    /// z = 1 at the upper grazing frequency g0: eta, X_m, X'-.
+    pub grazing: [f64; 3],
+    /// Its fold s_SN.
+    pub fold: Option<Critical>,
+    /// Its flip s_PD.
+    pub flip: Option<Critical>,
+}
+
+/// The ends of z = 1 at each clearance.
+///
+/// # Errors
+/// [`Failure::Run`] if z = 1 is not there, [`Failure::Interrupted`] after Ctrl-C.
+pub(super) fn ends(
+    machine: &Ratios,
+    clearances: &[f64],
+    progress: &Progress,
+) -> Result<Vec<Ends>, Failure> {
+    clearances
+        .par_iter()
+        .map(|clearance| {
+            progress.step()?;
+            let machine = Ratios {
+                clearance: *clearance,
+                ..*machine
+            };
+            ends_of(&machine).map_err(|error| Failure::Run(anyhow!("rho = {clearance}: {error}")))
+        })
+        .collect()
+}
+
+fn ends_of(machine: &Ratios) -> Result<Ends, Box<dyn std::error::Error>> {
+    let grazing = grazing(machine)?;
+    let machine = Ratios {
+        frequency: grazing[0],
+        ..*machine
+    };
+    let family = Along::new(machine, [Parameter::Frequency])?;
+    let state = find(&machine.scene()?)?.state();
+    let limits = Limits {
+        range: RANGE,
+        points: POINTS,
+    };
+    // Unstable stretches between two folds are passed over: the last fold counts. The first flip is the end.
+    let watch = |point: &BranchPoint| {
+        let is_flipped = !point.is_stable() && point.fold_test() > 0.0;
+        match is_flipped || point.fold_test() < -1.0 {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    };
+    let branch = Follower::new(&family, 1).branch(grazing[0], state, &limits, watch)?;
+    let of_test = |test: Test| {
+        let all = branch.specials.iter();
+        all.filter(move |special| special.kind == SpecialKind::Critical(test))
+            .map(|special| &special.point)
+    };
+    let folds = of_test(Test::Fold).filter(|point| point.parameter > grazing[0]);
+    let fold = folds.max_by(|a, b| a.parameter.total_cmp(&b.parameter));
+    let flips = of_test(Test::Flip).filter(|point| point.parameter < grazing[0]);
+    let flip = flips.max_by(|a, b| a.parameter.total_cmp(&b.parameter));
+    let described = |point: Option<&BranchPoint>| -> Result<_, Box<dyn std::error::Error>> {
+        let Some(point) = point else { return Ok(None) };
+        let scene = family.scene([point.parameter])?;
+        Ok(Some((
+            point.clone(),
+            describe(&scene, point.parameter, point)?,
+        )))
+    };
+    Ok(Ends {
+        clearance: machine.clearance,
+        grazing,
+        fold: described(fold)?,
+        flip: described(flip)?,
+    })
+}
+
+/// z = 1 at g0: eta, X_m, X'-.
+fn grazing(machine: &Ratios) -> Result<[f64; 3], Box<dyn std::error::Error>> {
+    let (_, frequency) = grazing_frequencies(machine)?;
+    let scene = Ratios {
+        frequency,
+        ..*machine
+    }
+    .scene()?;
+    let orbit = find(&scene)?;
+    Ok([
+        frequency,
+        orbit.max_position,
+        orbit.before_impact_velocity(),
+    ])
+}
+
+fn describe(
+    scene: &Scene,
+    eta: f64,
+    point: &BranchPoint,
+) -> Result<[f64; 3], softstop::MotionError> {
+    let highest = StroboscopicMap::new(scene, 1)?.max_position(point.state())?;
+    Ok([eta, highest, point.before_impact_velocity()])
+}
+
+/// The curves across the clearances, from the points at some of them; `step` as in [`Region`].
+///
+/// # Errors
+/// [`Failure::Interrupted`] after Ctrl-C.
+pub(super) fn across(
+    machine: &Ratios,
+    ends: &[Ends],
+    step: f64,
+    progress: &Progress,
+) -> Result<Boundaries, Failure> {
+    let follow = |test: Test, pick: fn(&Ends) -> Option<&Critical>| {
+        let found = ends
+            .iter()
+            .filter_map(|end| Some((end.clearance, &pick(end)?.0)));
+        let found: Vec<(f64, &BranchPoint)> = found.collect();
+        let pieces = (0..found.len()).into_par_iter().map(|index| {
+            progress.step()?;
+            let (clearance, point) = found[index];
+            let half_way = |other: &(f64, &BranchPoint)| f64::midpoint(clearance, other.0);
+            let before = index.checked_sub(1).map(|before| half_way(&found[before]));
+            let after = found.get(index + 1).map(half_way);
+            let range = (
+                before.unwrap_or(CLEARANCES.0),
+                after.unwrap_or(CLEARANCES.1),
+            );
+            Ok(piece(machine, clearance, (test, point), range, step))
+        });
+        pieces.collect::<Result<Vec<_>, Failure>>()
+    };
+    let count = ((CLEARANCES.1 - CLEARANCES.0) / SPACING) as usize;
+    let clearances = (0..=count).map(|index| CLEARANCES.0 + SPACING * index as f64);
+    let at_grazing = clearances
+        .collect::<Vec<f64>>()
+        .into_par_iter()
+        .map(|clearance| {
+            let machine = Ratios {
+                clearance,
+                ..*machine
+            };
+            grazing(&machine).ok()
+        });
+    Ok(Boundaries {
+        response: response(machine),
+        grazing: at_grazing.flatten().collect(),
+        folds: follow(Test::Fold, |ends| ends.fold.as_ref())?,
+        flips: follow(Test::Flip, |ends| ends.flip.as_ref())?,
+    })
+}
+
+/// The curve through a special point, within a range of clearances.
+fn piece(
+    machine: &Ratios,
+    clearance: f64,
+    (test, point): (Test, &BranchPoint),
+    range: (f64, f64),
+    step: f64,
+) -> Vec<[f64; 3]> {
+    let machine = Ratios {
+        clearance,
+        frequency: point.parameter,
+        ..*machine
+    };
+    let region = Region {
+        ranges: [RANGE, range],
+        points: CURVE_POINTS,
+        step,
+    };
+    let Ok(family) = Along::new(machine, [Parameter::Frequency, Parameter::Clearance]) else {
+        return Vec::new();
+    };
+    let start = (SpecialKind::Critical(test), point);
+    let parameters = [point.parameter, clearance];
+    let watch = |_: &_| match interrupt::requested() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
+    let found = curve(&family, 1, start, parameters, &region, watch);
+    let described = |curve: Curve| {
+        let points = curve.points.iter().filter_map(|at| {
+            let scene = family.scene(at.parameters).ok()?;
+            let point = BranchPoint {
+                parameter: at.parameters[0],
+                position: at.position,
+                velocity: at.velocity,
+                impacts: at.impacts.clone(),
+                monodromy: at.monodromy,
+            };
+            describe(&scene, at.parameters[0], &point).ok()
+        });
+        points.collect()
+    };
+    found.map(described).unwrap_or_default()
+}
+
+/// Amplitude of the free mass, 1 / sqrt((1 - eta^2)^2 + (2 beta1 eta)^2), over eta.
+fn response(machine: &Ratios) -> Vec<(f64, f64)> {
+    let amplitude = |eta: f64| 1.0 / (1.0 - eta * eta).hypot(2.0 * machine.damping * eta);
+    let etas = (0..=2400).map(|index| RANGE.0 + (RANGE.1 - RANGE.0) * f64::from(index) / 2400.0);
+    etas.map(|eta| (eta, amplitude(eta))).collect()
+}
+
+/// The clearance of the highest velocity at the fold, and that velocity, by golden section between the
+/// neighbours of the best of those given.
+pub(super) fn optimum(machine: &Ratios, ends: &[Ends]) -> Option<(f64, f64)> {
+    let best = ends
+        .iter()
+        .enumerate()
+        .filter_map(|(index, end)| Some((index, end.fold.as_ref()?.1[2])))
+        .max_by(|a, b| a.1.total_cmp(&b.1))?
+        .0;
+    let velocity = |clearance: f64| {
+        let machine = Ratios {
+            clearance,
+            ..*machine
+        };
+        hysteresis(&machine).map_or(f64::NEG_INFINITY, |zone| zone.velocity_sn)
+    };
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let mut low = ends.get(best.wrapping_sub(1))?.clearance;
+    let mut high = ends.get(best + 1)?.clearance;
+    let mut inner = [high - golden * (high - low), low + golden * (high - low)];
+    let mut values = inner.map(velocity);
+    while high - low > WIDTH {
+        if values[0] > values[1] {
+            high = inner[1];
+            inner = [high - golden * (high - low), inner[0]];
+            values = [velocity(inner[0]), values[0]];
+        } else {
+            low = inner[0];
+            inner = [inner[1], low + golden * (high - low)];
+            values = [values[1], velocity(inner[1])];
+        }
+    }
+    Some((inner[0], values[0]))
+}
+
+/// The curves as a table.
+///
+/// # Errors
+/// [`Failure::Run`] if it cannot be written.
+pub(super) fn table(boundaries: &Boundaries) -> Result<Vec<u8>, Failure> {
+    let columns = ["boundary", "eta", "max_position", "before_impact_velocity"];
+    let named = |name: &'static str, points: &[[f64; 3]]| {
+        let rows = points
+            .iter()
+            .map(move |[eta, highest, velocity]| (name, *eta, *highest, *velocity));
+        rows.collect::<Vec<_>>()
+    };
+    let mut rows = named("z = 1 at g0", &boundaries.grazing);
+    for piece in &boundaries.folds {
+        rows.extend(named("s_SN", piece));
+    }
+    for piece in &boundaries.flips {
+        rows.extend(named("s_PD", piece));
+    }
+    diagram::table(&columns, rows.into_iter())
+}

@@ -1,0 +1,169 @@
+//! Motions that no sweep from rest reaches: found from starts spread over the plane, and swept from there.
+
+use anyhow::anyhow;
+use softstop::{Ratios, Start};
+use softstop_dynamics::attractors::{Kind, Options, SurveyError, attractors_watched};
+use softstop_dynamics::continuation::Parameter;
+use softstop_dynamics::orbit::Orbit;
+use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
+
+use super::Detail;
+use crate::diagram::{self, Job};
+use crate::figure8::chart::Diagram;
+use crate::table1::{paper, values};
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::progress::Progress;
+
+/// How far from where they are found they are swept, at most.
+const REACH: f64 = 0.02;
+/// Fewest steps on which a motion is followed to be one of its own.
+const SHORTEST: usize = 10;
+/// Difference of velocities, as a share, of motions that are not the same.
+const APART: f64 = 0.01;
+
+/// An orbit and the frequency at which it was found.
+type Seed = (f64, Orbit);
+
+/// Steps of all isolated motions.
+///
+/// # Errors
+/// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
+pub(super) fn find(known: &[&Diagram], detail: Detail) -> Result<Vec<Step>, Failure> {
+    let mut found: Vec<Step> = Vec::new();
+    for (eta, orbit) in seeds(known, detail)? {
+        let motion = Like::of(&orbit);
+        if near(&found, eta).is_some_and(|step| motion.is(step)) {
+            continue;
+        }
+        let mut jobs = [
+            job(eta, &orbit, Direction::Down, detail)?,
+            job(eta, &orbit, Direction::Up, detail)?,
+        ];
+        diagram::sweep(&mut jobs, "steps of isolated motions")?;
+        for (_, chains) in jobs {
+            let steps = chains.into_iter().flat_map(|chain| chain.steps);
+            let apart = steps.take_while(|step| {
+                let wanders = matches!(step.settled, Settled::Chaotic { .. });
+                !wanders && known.iter().all(|diagram| !is_on(diagram, step))
+            });
+            let apart: Vec<Step> = apart.collect();
+            if apart.len() >= detail.pick(SHORTEST, 2) {
+                found.extend(apart);
+            }
+        }
+        found.sort_by(|a, b| a.value.total_cmp(&b.value));
+    }
+    Ok(found)
+}
+
+/// Stable orbits at frequencies inside the paper's intervals that are on no sweep.
+fn seeds(known: &[&Diagram], detail: Detail) -> Result<Vec<Seed>, Failure> {
+    let options = Options {
+        starts: detail.pick(128, 32),
+        patience: 20_000,
+        ..Options::default()
+    };
+    let all = values(&paper::INTERVALS);
+    let some = detail.pick(all.clone(), vec![0.9875]);
+    let progress = Progress::new(
+        some.len() as u64,
+        "frequencies searched for isolated motions",
+    );
+    let mut seeds: Vec<Seed> = Vec::new();
+    for eta in some {
+        let machine = Ratios {
+            frequency: eta,
+            ..Ratios::unloaded()
+        };
+        let scene = machine
+            .scene()
+            .map_err(|error| Failure::Run(anyhow!(error)))?;
+        let survey = attractors_watched(&scene, &options, &|_, _| !interrupt::requested());
+        let survey = survey.map_err(|error| match error {
+            SurveyError::Stopped => Failure::Interrupted,
+            other => Failure::Run(anyhow!(other)),
+        })?;
+        for attractor in survey.attractors {
+            let Kind::Periodic { orbit, .. } = attractor.kind else {
+                continue;
+            };
+            let motion = Like::of(&orbit);
+            let is_known = known
+                .iter()
+                .flat_map(|diagram| at(diagram, eta))
+                .any(|step| motion.is(step));
+            if !is_known {
+                seeds.push((eta, *orbit));
+            }
+        }
+        progress.step()?;
+    }
+    // Those in the middle of what was found lead farthest.
+    let middle = 0.5 * (seeds.first().map_or(0.0, |it| it.0) + seeds.last().map_or(0.0, |it| it.0));
+    seeds.sort_by(|a, b| (a.0 - middle).abs().total_cmp(&(b.0 - middle).abs()));
+    Ok(seeds)
+}
+
+fn job(eta: f64, orbit: &Orbit, way: Direction, detail: Detail) -> Result<Job, Failure> {
+    let range = match way {
+        Direction::Up => (eta, eta + REACH),
+        Direction::Down => (eta - REACH, eta),
+    };
+    let (steps, periods) = detail.pick((1000, 200), (60, 100));
+    let plan = Plan::new(Parameter::Frequency, range, steps, periods)
+        .map_err(|error| Failure::Run(anyhow!(error)))?;
+    let start = Start::from(orbit.state());
+    let chain = Chain::new(Ratios::unloaded(), way);
+    Ok((Plan { start, ..plan }, vec![chain]))
+}
+
+/// What tells a periodic motion.
+struct Like {
+    impacts: u64,
+    periods: u64,
+    hardest: f64,
+}
+
+impl Like {
+    fn of(orbit: &Orbit) -> Self {
+        let regime = orbit.regime();
+        Self {
+            impacts: regime.impacts,
+            periods: regime.periods,
+            hardest: orbit.before_impact_velocity(),
+        }
+    }
+
+    fn is(&self, step: &Step) -> bool {
+        let regime = step.settled.regime();
+        regime.is_some_and(|it| (it.impacts, it.periods) == (self.impacts, self.periods))
+            && (step.hardest() - self.hardest).abs() <= APART * self.hardest.max(step.hardest())
+    }
+}
+
+/// The steps of both sweeps nearest to a frequency, if the diagram shows it.
+fn at(diagram: &Diagram, eta: f64) -> impl Iterator<Item = &Step> {
+    let inside = (diagram.range.0..=diagram.range.1).contains(&eta);
+    let ways = diagram.ways.iter().filter(move |_| inside);
+    ways.filter_map(move |chain| near(&chain.steps, eta))
+}
+
+fn near(steps: &[Step], eta: f64) -> Option<&Step> {
+    let gap = |step: &&Step| (step.value - eta).abs();
+    steps.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)))
+}
+
+/// True if a step is on one of the sweeps of a diagram.
+fn is_on(diagram: &Diagram, step: &Step) -> bool {
+    at(diagram, step.value).any(
+        |other| match (step.settled.regime(), other.settled.regime()) {
+            (Some(own), Some(others)) => {
+                let (a, b) = (step.hardest(), other.hardest());
+                own == others && (a - b).abs() <= APART * a.max(b)
+            }
+            (None, None) => true,
+            _ => false,
+        },
+    )
+}

@@ -1,0 +1,57 @@
+//! Where the names of motions stand in a diagram.
+
+use softstop::Ratios;
+use softstop_dynamics::orbit::Orbit;
+use softstop_dynamics::sweep::Step;
+
+use crate::figure8::chart::Diagram;
+
+/// Share of the range that a motion has to fill to be named.
+const LEAST: f64 = 0.02;
+
+/// Each motion once: eta, X'- and its name, in the middle of its longest stretch.
+pub(super) fn of(diagram: &Diagram, isolated: &[Step]) -> Vec<(f64, f64, String)> {
+    let inside = |step: &&Step| (diagram.range.0..=diagram.range.1).contains(&step.value);
+    let apart: Vec<&Step> = isolated.iter().filter(inside).collect();
+    let mut names: Vec<(f64, (f64, f64, String))> = Vec::new();
+    for steps in [diagram.ways[0].rising(), diagram.ways[1].rising(), apart] {
+        for run in runs(&steps) {
+            let span = run[run.len() - 1].value - run[0].value;
+            if span < LEAST * (diagram.range.1 - diagram.range.0) {
+                continue;
+            }
+            let step = run[run.len() / 2];
+            let Some(name) = name(step) else { continue };
+            let entry = (span, (step.value, step.hardest(), name));
+            match names.iter_mut().find(|known| known.1.2 == entry.1.2) {
+                Some(known) if known.0 < span => *known = entry,
+                Some(_) => {}
+                None => names.push(entry),
+            }
+        }
+    }
+    names.into_iter().map(|entry| entry.1).collect()
+}
+
+/// Neighbouring steps of one regime.
+fn runs<'a>(steps: &'a [&'a Step]) -> impl Iterator<Item = &'a [&'a Step]> {
+    steps.chunk_by(|a, b| a.settled.regime() == b.settled.regime())
+}
+
+/// A periodic motion's name; the two of z = 2/4 differ by the order of their impacts.
+fn name(step: &Step) -> Option<String> {
+    let regime = step.settled.regime()?;
+    if (regime.impacts, regime.periods) != (2, 4) {
+        return Some(format!("z = {regime}"));
+    }
+    let machine = Ratios {
+        frequency: step.value,
+        ..Ratios::unloaded()
+    };
+    let orbit = Orbit::periodic(&machine.scene().ok()?, step.end.into(), 4).ok()?;
+    let letter = match orbit.pattern().to_string().as_str() {
+        "1-1-0-0" => 'B',
+        _ => 'A',
+    };
+    Some(format!("z = (2/4){letter}"))
+}

@@ -1,0 +1,132 @@
+//! Which motions the figure shows.
+
+use softstop::{Ratios, Scene, SceneError};
+
+/// A motion that the figure shows.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked {
+    /// Its letter.
+    pub(super) letter: char,
+    /// Its frequency eta.
+    pub(super) frequency: f64,
+    /// Whether the paper's text gives that frequency.
+    pub(super) is_given: bool,
+    /// Which of the motions there.
+    pub(super) motion: Wanted,
+    /// What else there is to say.
+    pub(super) remark: &'static str,
+}
+
+/// Which of the motions at a frequency.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Wanted {
+    /// The one that does not repeat.
+    Chaos,
+    /// The one with this order of impacts.
+    Impacts(&'static str),
+}
+
+use Wanted::{Chaos, Impacts};
+
+/// The motions. Sections 4 and the legend of Fig. 9 name (A) and (B), (D) and (E), (G) to (I) with their
+/// frequencies; (C), (F) and (J) without, and (K) and (L) not at all: those here lie in the subintervals of
+/// Fig. 8 in which the paper has them.
+pub(super) const MOTIONS: [Asked; 12] = [
+    asked('A', 0.952_647_5, true, Impacts("0"), "coexists with (B)"),
+    asked(
+        'B',
+        0.952_647_5,
+        true,
+        Chaos,
+        "coexists with (A); shown while it lasts",
+    ),
+    asked(
+        'C',
+        0.952_66,
+        false,
+        Impacts("1-0-0-0-0-0-0-0-0-0-1-0-0-0-0-0-0-0-0-0-0"),
+        "",
+    ),
+    asked(
+        'D',
+        0.953_65,
+        true,
+        Impacts("1-0-0-0-0-0-0-0-0-0"),
+        "coexists with (E)",
+    ),
+    asked('E', 0.953_65, true, Chaos, "coexists with (D)"),
+    asked('F', 0.955_8, false, Impacts("1-0-0-0-0-0-0-0-0"), ""),
+    asked('G', 0.987_5, true, Chaos, "coexists with (H) and (I)"),
+    asked(
+        'H',
+        0.987_5,
+        true,
+        Impacts("1-1-0-0"),
+        "the paper's (2/4)B; coexists with (G) and (I)",
+    ),
+    asked(
+        'I',
+        0.987_5,
+        true,
+        Impacts("1-1-0"),
+        "coexists with (G) and (H)",
+    ),
+    asked(
+        'J',
+        0.988_5,
+        false,
+        Impacts("1-0"),
+        "the paper's (2/4)A: one impact in 2 T",
+    ),
+    asked(
+        'K',
+        1.005_6,
+        false,
+        Chaos,
+        "beyond the doubling of z = 2/3 (bifurcation 17)",
+    ),
+    asked(
+        'L',
+        1.369,
+        false,
+        Impacts("1"),
+        "just below s_SN (bifurcation 19)",
+    ),
+];
+
+const fn asked(
+    letter: char,
+    frequency: f64,
+    is_given: bool,
+    motion: Wanted,
+    remark: &'static str,
+) -> Asked {
+    Asked {
+        letter,
+        frequency,
+        is_given,
+        motion,
+        remark,
+    }
+}
+
+/// The letters at each frequency, as "A, B".
+pub(crate) fn letters() -> Vec<(String, f64)> {
+    let same = |a: &Asked, b: &Asked| a.frequency == b.frequency;
+    let names = |group: &[Asked]| {
+        let letters: Vec<String> = group.iter().map(|it| it.letter.to_string()).collect();
+        (letters.join(", "), group[0].frequency)
+    };
+    MOTIONS.chunk_by(same).map(names).collect()
+}
+
+impl Asked {
+    /// The machine.
+    pub(super) fn scene(&self) -> Result<Scene, SceneError> {
+        let ratios = Ratios {
+            frequency: self.frequency,
+            ..Ratios::unloaded()
+        };
+        ratios.scene()
+    }
+}

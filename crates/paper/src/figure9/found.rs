@@ -1,0 +1,224 @@
+//! A motion of the figure as it was found.
+
+use serde::Serialize;
+use softstop::{MotionError, Start};
+use softstop_dynamics::attractors::{Attractor, Chaos, Kind, Survey};
+use softstop_dynamics::orbit::{Exponents, Orbit, StroboscopicMap};
+
+use super::asked::{Asked, Wanted};
+use super::path::Path;
+use super::section::Section;
+
+/// Drive periods of the phase trajectory of what does not repeat.
+const WANDERING: u64 = 60;
+
+/// A motion and what was asked for.
+pub(super) struct Found {
+    pub(super) asked: Asked,
+    attractor: Attractor,
+    /// A state of it at drive angle 0; of transient chaos one from which it lasts.
+    start: Start,
+    /// States at drive angle 0 from there on.
+    pub(super) section: Vec<(f64, f64)>,
+    impacts_per_period: f64,
+}
+
+/// A line of the table.
+#[derive(Serialize)]
+pub(super) struct Line {
+    motion: char,
+    eta: f64,
+    eta_is_the_papers: bool,
+    impacts: Option<u64>,
+    periods: Option<u64>,
+    impacts_per_period: f64,
+    order_of_impacts: String,
+    largest_multiplier_modulus: Option<f64>,
+    lyapunov_exponent_per_period: f64,
+    max_position: Option<f64>,
+    before_impact_velocity: Option<f64>,
+    mean_life_periods: Option<f64>,
+    share_of_starts: f64,
+}
+
+impl Found {
+    /// The motion that is asked for, if it is among those found, with so many states of what does not repeat.
+    pub(super) fn among(
+        asked: Asked,
+        survey: &Survey,
+        most: u64,
+    ) -> Result<Option<Self>, MotionError> {
+        let fits = |attractor: &&Attractor| match (&attractor.kind, asked.motion) {
+            (Kind::Periodic { orbit, .. }, Wanted::Impacts(order)) => {
+                orbit.pattern().to_string() == order
+            }
+            (Kind::Chaotic(_) | Kind::TransientChaos { .. }, Wanted::Chaos) => true,
+            _ => false,
+        };
+        let Some(attractor) = survey.attractors.iter().find(fits).cloned() else {
+            return Ok(None);
+        };
+        let map = StroboscopicMap::new(&asked.scene()?, 1)?;
+        let (start, section) = match &attractor.kind {
+            Kind::Periodic { orbit, .. } => {
+                let start = Start::from(orbit.state());
+                (start, Section::periodic(&map, start, orbit.periods)?)
+            }
+            Kind::Chaotic(chaos) | Kind::TransientChaos { chaos, .. } => {
+                Section::lasting(&map, chaos.state, most)?
+            }
+            Kind::AtRest { .. } | Kind::Unsettled { .. } => return Ok(None),
+        };
+        Ok(Some(Self {
+            asked,
+            attractor,
+            start,
+            impacts_per_period: section.impacts_per_period(),
+            section: section.states,
+        }))
+    }
+
+    fn orbit(&self) -> Option<&Orbit> {
+        match &self.attractor.kind {
+            Kind::Periodic { orbit, .. } => Some(orbit),
+            _ => None,
+        }
+    }
+
+    fn chaos(&self) -> Option<&Chaos> {
+        match &self.attractor.kind {
+            Kind::Chaotic(chaos) | Kind::TransientChaos { chaos, .. } => Some(chaos),
+            _ => None,
+        }
+    }
+
+    fn lifetime(&self) -> Option<f64> {
+        match &self.attractor.kind {
+            Kind::TransientChaos { lifetime, .. } => Some(*lifetime),
+            _ => None,
+        }
+    }
+
+    pub(super) fn is_chaotic(&self) -> bool {
+        self.orbit().is_none()
+    }
+
+    /// Drive periods after which it repeats.
+    pub(super) fn period(&self) -> Option<u64> {
+        self.orbit().map(|orbit| orbit.periods)
+    }
+
+    /// Drive periods of its phase trajectory.
+    pub(super) fn repeats(&self) -> u64 {
+        self.period().unwrap_or(WANDERING)
+    }
+
+    /// The motion over drive periods, with so many points in each.
+    pub(super) fn path(&self, periods: u64, fineness: u32) -> Result<Path, MotionError> {
+        Path::of(&self.asked.scene()?, self.start, periods, fineness)
+    }
+
+    fn exponents(&self) -> Option<Exponents> {
+        let chaos = self.chaos().map(|chaos| chaos.exponents);
+        chaos.or_else(|| self.orbit().map(Exponents::of))
+    }
+
+    fn exponent(&self) -> f64 {
+        self.exponents()
+            .map_or(f64::NAN, |exponents| exponents.per_period[0])
+    }
+
+    fn modulus(&self) -> Option<f64> {
+        self.orbit().map(|orbit| orbit.multipliers()[0].norm())
+    }
+
+    /// Frequency, regime and how stable it is.
+    pub(super) fn title(&self) -> String {
+        let eta = format!("η = {}", self.asked.frequency);
+        let Some(orbit) = self.orbit() else {
+            let name = if self.lifetime().is_some() {
+                "transient chaos"
+            } else {
+                "chaos"
+            };
+            return format!(
+                "{eta} · {name}, z = {:.3}, λ = {:+.3}/T",
+                self.impacts_per_period,
+                self.exponent()
+            );
+        };
+        let modulus = self.modulus().unwrap_or(0.0);
+        let order = match orbit.periods {
+            2..=6 => format!(", impacts {}", orbit.pattern()),
+            _ => String::new(),
+        };
+        let regime = match orbit.impacts.len() {
+            0 => "0".to_owned(),
+            _ => orbit.regime().to_string(),
+        };
+        format!("{eta} · z = {regime}{order}, |μ| = {modulus:.3}")
+    }
+
+    /// What else there is to say.
+    pub(super) fn remark(&self) -> String {
+        let ours = if self.asked.is_given {
+            ""
+        } else {
+            "η chosen here"
+        };
+        let life = self.lifetime().map(|periods| {
+            let hundreds = 100.0 * (periods / 100.0).round();
+            format!("mean life {hundreds} T")
+        });
+        let parts = [ours, self.asked.remark].map(str::to_owned);
+        let said: Vec<String> = parts
+            .into_iter()
+            .chain(life)
+            .filter(|part| !part.is_empty())
+            .collect();
+        said.join("; ")
+    }
+
+    pub(super) fn line(&self) -> Line {
+        let orbit = self.orbit();
+        let chaos = self.chaos();
+        let hardest = chaos.and_then(|chaos| chaos.velocities).map(|ends| ends[1]);
+        let velocity = orbit.map(Orbit::before_impact_velocity);
+        Line {
+            motion: self.asked.letter,
+            eta: self.asked.frequency,
+            eta_is_the_papers: self.asked.is_given,
+            impacts: orbit.map(|orbit| orbit.impacts.len() as u64),
+            periods: self.period(),
+            impacts_per_period: self.impacts_per_period,
+            order_of_impacts: orbit.map_or_else(String::new, |orbit| orbit.pattern().to_string()),
+            largest_multiplier_modulus: self.modulus(),
+            lyapunov_exponent_per_period: self.exponent(),
+            max_position: orbit.map(|orbit| orbit.max_position),
+            before_impact_velocity: velocity.or(hardest),
+            mean_life_periods: self.lifetime(),
+            share_of_starts: self.attractor.share,
+        }
+    }
+
+    pub(super) fn findings(&self) -> Vec<(String, f64)> {
+        let name = |what: &str| format!("({}) {what}", self.asked.letter);
+        let mut findings = vec![
+            (name("eta"), self.asked.frequency),
+            (name("Lyapunov exponent per period"), self.exponent()),
+            (name("share of starts"), self.attractor.share),
+        ];
+        match self.orbit() {
+            Some(orbit) => findings.extend([
+                (name("impacts p"), orbit.impacts.len() as f64),
+                (name("periods n"), orbit.periods as f64),
+            ]),
+            None => findings.push((name("impacts per period"), self.impacts_per_period)),
+        }
+        let modulus = self.modulus();
+        findings.extend(modulus.map(|modulus| (name("largest multiplier, modulus"), modulus)));
+        let lifetime = self.lifetime();
+        findings.extend(lifetime.map(|periods| (name("mean life, periods"), periods)));
+        findings
+    }
+}

@@ -1,0 +1,221 @@
+//! The transition of the stop's stiffness k2 from 0 to infinity (Peterka 2003, Fig. 1 and the five points of
+//! its introduction).
+
+mod chart;
+mod claims;
+mod folds;
+mod orders;
+mod stops;
+mod swept;
+
+use serde::Serialize;
+use softstop_dynamics::sweep::Step;
+
+use super::{Drawn, Figure, Studio};
+use crate::hardening::chart::{HardeningChart, StopDiagram, StopFolds, StopMap, StopOrders};
+use orders::Subharmonic;
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::output;
+use stops::{CLEARANCE, Law, RESTITUTION, grazing};
+use swept::{RANGE, Swept, regime, sweep};
+
+/// From a soft to a rigid stop.
+pub(super) const FIGURE: Figure = Figure {
+    title: "From a soft to a rigid stop",
+    files: &[
+        "hardening.svg",
+        "hardening.csv",
+        "hardening-map.csv",
+        "hardening-folds.csv",
+        "hardening-subharmonics.csv",
+    ],
+    draw,
+};
+
+/// The stops whose diagrams are drawn.
+const DRAWN: [Law; 8] = [
+    Law::KelvinVoigt(0.0),
+    Law::KelvinVoigt(1.0),
+    Law::KelvinVoigt(3.0),
+    Law::KelvinVoigt(10.0),
+    Law::KelvinVoigt(100.0),
+    Law::Rigid,
+    Law::TwoSlopes(10.0),
+    Law::Hertz(10.0),
+];
+/// log10 of k2/k1 in the map.
+const DECADES: (f64, f64) = (-1.0, 4.0);
+/// Stiffnesses k2/k1 whose subharmonic motions are looked for.
+const SUBHARMONIC: [f64; 3] = [1.0, 10.0, 100.0];
+
+/// A step of a sweep in the tables.
+#[derive(Serialize)]
+struct StepLine {
+    stop: String,
+    direction: &'static str,
+    eta: f64,
+    motion: &'static str,
+    impacts_per_period: f64,
+    max_position: f64,
+    largest_before_impact_velocity: f64,
+}
+
+/// The branch of z = 1 of a stiffness.
+#[derive(Serialize)]
+struct FoldLine {
+    stiffness: f64,
+    eta_grazing: f64,
+    eta_strong_fold: Option<f64>,
+    velocity_strong_fold: Option<f64>,
+    eta_weak_fold: Option<f64>,
+    velocity_weak_fold: Option<f64>,
+    eta_first_flip: Option<f64>,
+    eta_flip: Option<f64>,
+}
+
+/// A subharmonic motion.
+#[derive(Serialize)]
+struct SubharmonicLine {
+    stiffness: f64,
+    eta: f64,
+    impacts: u64,
+    periods: u64,
+    beside_impactless_motion: bool,
+}
+
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
+    let drawn = sweep(&DRAWN, detail.pick(420, 120), detail.pick(200, 80))?;
+    let rows = stiffnesses(detail.pick(51, 11));
+    let laws: Vec<Law> = rows.iter().copied().map(Law::KelvinVoigt).collect();
+    let map = sweep(&laws, detail.pick(240, 60), detail.pick(120, 60))?;
+    let folds = folds::folds(&stiffnesses(detail.pick(21, 6)))?;
+    let (frequencies, starts) = detail.pick((72, 64), (18, 32));
+    let subharmonics = orders::subharmonics(&SUBHARMONIC, frequencies, starts)?;
+    let mut findings = folds::onsets(&folds)?;
+    // A branch that was cut short would go unnoticed.
+    if interrupt::requested() {
+        return Err(Failure::Interrupted);
+    }
+    let chart = chart(&drawn, &map, &folds, &subharmonics);
+    findings.extend(claims::of_stops(&drawn, &folds));
+    findings.extend(claims::of_orders(&subharmonics));
+    Ok(Drawn {
+        files: vec![
+            chart.svg().into_bytes(),
+            output::csv(drawn.iter().flat_map(lines))?,
+            output::csv(map.iter().flat_map(lines))?,
+            output::csv(folds.iter().map(fold_line))?,
+            output::csv(subharmonics.iter().map(subharmonic_line))?,
+        ],
+        findings,
+    })
+}
+
+/// So many stiffnesses with equal ratios.
+fn stiffnesses(count: usize) -> Vec<f64> {
+    let share = |index: usize| index as f64 / (count - 1) as f64;
+    let power = |index| DECADES.0 + share(index) * (DECADES.1 - DECADES.0);
+    (0..count).map(|index| 10f64.powf(power(index))).collect()
+}
+
+fn chart(
+    drawn: &[Swept],
+    map: &[Swept],
+    folds: &[StopFolds],
+    subharmonics: &[Subharmonic],
+) -> HardeningChart {
+    let impacts = |steps: &[Step]| {
+        let of = |step: &Step| {
+            let value = step.value;
+            let velocities = step.velocities.clone();
+            velocities
+                .into_iter()
+                .map(move |velocity| (value, velocity))
+        };
+        steps.iter().flat_map(of).collect()
+    };
+    let diagram = |swept: &Swept| StopDiagram {
+        title: swept.law.name(),
+        up: impacts(&swept.up),
+        down: impacts(&swept.down),
+    };
+    let row = |swept: &Swept| {
+        let pairs = swept.up.iter().zip(&swept.down);
+        pairs.map(|(up, down)| (regime(up), regime(down))).collect()
+    };
+    HardeningChart {
+        explanation: format!(
+            "clearance ρ = {CLEARANCE}, β₁ = 0.02, contact damping for a restitution of {RESTITUTION}; dashed: \
+             grazing of the impact-less motion, g₀"
+        ),
+        grazing: grazing(CLEARANCE),
+        frequencies: RANGE,
+        diagrams: drawn.iter().map(diagram).collect(),
+        map: StopMap {
+            decades: DECADES,
+            rows: map.iter().map(row).collect(),
+        },
+        folds: folds.to_vec(),
+        orders: orders(subharmonics),
+    }
+}
+
+/// Motions z = 1/n over the frequency.
+fn orders(found: &[Subharmonic]) -> StopOrders {
+    let of = |stiffness: f64| {
+        let own = found
+            .iter()
+            .filter(|motion| motion.stiffness == stiffness && motion.impacts == 1);
+        let points = own.map(|motion| (motion.frequency, motion.periods as f64));
+        (format!("k₂/k₁ = {stiffness}"), points.collect())
+    };
+    StopOrders {
+        title: format!("Motions z = 1/n found at clearance ρ = {}", orders::NARROW),
+        frequencies: orders::RANGE,
+        grazing: grazing(orders::NARROW).1,
+        found: SUBHARMONIC.into_iter().map(of).collect(),
+    }
+}
+
+fn lines(swept: &Swept) -> impl Iterator<Item = StepLine> + '_ {
+    let line = |(step, direction): (&Step, &'static str)| StepLine {
+        stop: match swept.law {
+            Law::KelvinVoigt(stiffness) => format!("{stiffness}"),
+            law => law.name(),
+        },
+        direction,
+        eta: step.value,
+        motion: regime(step).name(),
+        impacts_per_period: step.impacts_per_period,
+        max_position: step.max_position,
+        largest_before_impact_velocity: step.hardest(),
+    };
+    let up = swept.up.iter().map(|step| (step, "up"));
+    up.chain(swept.down.iter().map(|step| (step, "down")))
+        .map(line)
+}
+
+fn fold_line(fold: &StopFolds) -> FoldLine {
+    FoldLine {
+        stiffness: fold.stiffness,
+        eta_grazing: grazing(CLEARANCE).1,
+        eta_strong_fold: fold.strong.map(|fold| fold.0),
+        velocity_strong_fold: fold.strong.map(|fold| fold.1),
+        eta_weak_fold: fold.weak.map(|fold| fold.0),
+        velocity_weak_fold: fold.weak.map(|fold| fold.1),
+        eta_first_flip: fold.first_flip,
+        eta_flip: fold.flip,
+    }
+}
+
+fn subharmonic_line(motion: &Subharmonic) -> SubharmonicLine {
+    SubharmonicLine {
+        stiffness: motion.stiffness,
+        eta: motion.frequency,
+        impacts: motion.impacts,
+        periods: motion.periods,
+        beside_impactless_motion: motion.beside_rest,
+    }
+}

@@ -1,0 +1,95 @@
+//! Subharmonic motions of soft stops and where they lie.
+
+use anyhow::anyhow;
+use rayon::prelude::*;
+use softstop_dynamics::attractors::{Kind, Options, SurveyError, attractors_watched};
+
+use super::stops::{Law, grazing};
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::progress::Progress;
+
+/// The frequencies eta.
+pub(super) const RANGE: (f64, f64) = (1.5, 10.0);
+/// The clearance rho: so small that impacts go on far above the resonance.
+pub(super) const NARROW: f64 = 0.1;
+
+/// A stable subharmonic motion that was found.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Subharmonic {
+    pub(super) stiffness: f64,
+    pub(super) frequency: f64,
+    pub(super) impacts: u64,
+    pub(super) periods: u64,
+    /// Whether the impact-less motion exists there too.
+    pub(super) beside_rest: bool,
+}
+
+/// All that are found from scratch at so many frequencies, from so many starts each.
+pub(super) fn subharmonics(
+    stiffnesses: &[f64],
+    frequencies: usize,
+    starts: usize,
+) -> Result<Vec<Subharmonic>, Failure> {
+    let places: Vec<(f64, f64)> = stiffnesses
+        .iter()
+        .flat_map(|&stiffness| {
+            (0..frequencies).map(move |index| (stiffness, at(index, frequencies)))
+        })
+        .collect();
+    let progress = Progress::new(places.len() as u64, "searches for subharmonic motions");
+    let found = places.into_par_iter().map(|(stiffness, frequency)| {
+        progress.step()?;
+        found(stiffness, frequency, starts)
+    });
+    Ok(found.collect::<Result<Vec<_>, Failure>>()?.concat())
+}
+
+/// Frequencies with equal ratios.
+fn at(index: usize, frequencies: usize) -> f64 {
+    let share = index as f64 / (frequencies - 1) as f64;
+    RANGE.0 * (RANGE.1 / RANGE.0).powf(share)
+}
+
+fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmonic>, Failure> {
+    let (lower, upper) = grazing(NARROW);
+    let options = Options {
+        starts,
+        transient: 300,
+        patience: 2_000,
+        ..Options::default()
+    };
+    let scene = Law::KelvinVoigt(stiffness).scene(frequency, NARROW);
+    let survey = attractors_watched(&scene, &options, &|_, _| !interrupt::requested());
+    let survey = survey.map_err(|error| match error {
+        SurveyError::Stopped => Failure::Interrupted,
+        SurveyError::Motion(error) => Failure::Run(anyhow!(error)),
+    })?;
+    let subharmonic = |kind: &Kind| match kind {
+        Kind::Periodic { orbit, .. } if orbit.periods > 1 && !orbit.impacts.is_empty() => {
+            Some(Subharmonic {
+                stiffness,
+                frequency,
+                impacts: orbit.impacts.len() as u64,
+                periods: orbit.periods,
+                beside_rest: frequency < lower || frequency > upper,
+            })
+        }
+        _ => None,
+    };
+    let attractors = survey.attractors.iter();
+    Ok(attractors
+        .filter_map(|found| subharmonic(&found.kind))
+        .collect())
+}
+
+/// Longest period in drive periods of one impact among those beside the impact-less motion, and among the
+/// others; 0 if there is none.
+pub(super) fn longest(found: &[Subharmonic]) -> (u64, u64) {
+    let longest = |beside: bool| {
+        let fits = |motion: &&Subharmonic| motion.impacts == 1 && motion.beside_rest == beside;
+        let periods = found.iter().filter(fits).map(|motion| motion.periods);
+        periods.max().unwrap_or(0)
+    };
+    (longest(true), longest(false))
+}

@@ -1,0 +1,147 @@
+//! The boundaries of the z = 1 motion: where it grazes first, doubles its period, and turns back.
+
+use std::ops::ControlFlow;
+
+use anyhow::{Context, anyhow};
+use softstop::Ratios;
+use softstop_dynamics::continuation::{
+    Along, Curve, CurvePoint, Follower, Limits, Parameter, Region, Special, SpecialKind, Test,
+    curve,
+};
+
+use super::Window;
+use crate::regimes::chart::BoundaryCurve;
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+
+/// Points of g0.
+const POINTS: usize = 400;
+/// Most points of a branch or curve in each direction.
+const MOST: usize = 400;
+/// Steps along curves, in units of the parameters' scales, a fifth of their values.
+const STEP: f64 = 0.08;
+/// Least clearance of the curves: at 0 the scale of the motion changes.
+const LEAST: f64 = 0.1;
+
+/// The boundaries of one machine.
+pub(super) struct Boundaries {
+    /// eta and rho of the grazing of the motion without impacts.
+    pub grazing: Vec<(f64, f64)>,
+    /// Period doubling of z = 1.
+    pub flips: Vec<Curve>,
+    /// Folds of z = 1.
+    pub folds: Vec<Curve>,
+}
+
+impl Boundaries {
+    /// Those in a window: g0 in closed form, the others by continuation, located to 1e-10.
+    pub fn of(machine: &Ratios, window: &Window) -> Result<Self, Failure> {
+        let start = machine.frequency;
+        let scene = machine.scene().map_err(|error| anyhow!(error))?;
+        let orbit =
+            softstop_dynamics::orbit::find(&scene).context("no z = 1 motion to start from")?;
+        let family =
+            Along::new(*machine, [Parameter::Frequency]).map_err(|error| anyhow!(error))?;
+        let limits = Limits {
+            range: window.eta,
+            points: MOST,
+        };
+        let branch = Follower::new(&family, 1)
+            .with_steps(STEP)
+            .branch(start, orbit.state(), &limits, |_| go_on())
+            .context("the z = 1 motion cannot be followed")?;
+        let of = |test| {
+            let kind = SpecialKind::Critical(test);
+            let own = branch.specials.iter();
+            let own = own.filter(move |special| special.kind == kind);
+            own.map(|special| follow(machine, window, special))
+                .collect::<Result<Vec<Curve>, Failure>>()
+        };
+        let boundaries = Self {
+            grazing: grazing(machine, window),
+            flips: of(Test::Flip)?,
+            folds: of(Test::Fold)?,
+        };
+        if interrupt::requested() {
+            return Err(Failure::Interrupted);
+        }
+        Ok(boundaries)
+    }
+
+    /// As lines of the map.
+    pub fn curves(&self) -> Vec<BoundaryCurve> {
+        let lines = |name: &'static str, curves: &[Curve]| -> Vec<BoundaryCurve> {
+            let line = |curve: &Curve| BoundaryCurve {
+                name,
+                points: points(curve),
+            };
+            curves.iter().map(line).collect()
+        };
+        let grazing = BoundaryCurve {
+            name: "g₀",
+            points: self.grazing.clone(),
+        };
+        let mut all = vec![grazing];
+        all.extend(lines("s_PD", &self.flips));
+        all.extend(lines("s_SN", &self.folds));
+        all
+    }
+
+    /// The point of s_SN with the hardest impact: the optimum clearance of the paper's section 3.
+    pub fn hardest(&self) -> Option<&CurvePoint> {
+        let all = self.folds.iter().flat_map(|curve| &curve.points);
+        all.max_by(|a, b| hardest(a).total_cmp(&hardest(b)))
+    }
+}
+
+/// The largest before-impact velocity of a point.
+pub(super) fn hardest(point: &CurvePoint) -> f64 {
+    point.impacts.iter().copied().fold(0.0, f64::max)
+}
+
+fn points(curve: &Curve) -> Vec<(f64, f64)> {
+    curve
+        .points
+        .iter()
+        .map(|point| point.parameters.into())
+        .collect()
+}
+
+fn go_on() -> ControlFlow<()> {
+    if interrupt::requested() {
+        ControlFlow::Break(())
+    } else {
+        ControlFlow::Continue(())
+    }
+}
+
+fn follow(machine: &Ratios, window: &Window, special: &Special) -> Result<Curve, Failure> {
+    let parameters = [Parameter::Frequency, Parameter::Clearance];
+    let family = Along::new(*machine, parameters).map_err(|error| anyhow!(error))?;
+    let region = Region {
+        ranges: [window.eta, (window.rho.0.max(LEAST), window.rho.1)],
+        points: MOST,
+        step: STEP,
+    };
+    let at = [special.point.parameter, machine.clearance];
+    let found = curve(
+        &family,
+        1,
+        (special.kind, &special.point),
+        at,
+        &region,
+        |_| go_on(),
+    );
+    Ok(found.with_context(|| format!("no curve of the {}", special.kind.name()))?)
+}
+
+/// rho = 1 / sqrt((1 - eta^2)^2 + (2 beta1 eta)^2): the amplitude of the linear oscillator.
+fn grazing(machine: &Ratios, window: &Window) -> Vec<(f64, f64)> {
+    let amplitude = |eta: f64| {
+        let square = (1.0 - eta * eta).powi(2) + (2.0 * machine.damping * eta).powi(2);
+        1.0 / square.sqrt()
+    };
+    let (from, to) = window.eta;
+    let points = (0..=POINTS).map(|k| from + k as f64 / POINTS as f64 * (to - from));
+    points.map(|eta| (eta, amplitude(eta))).collect()
+}

@@ -1,0 +1,144 @@
+//! The map of the regimes z = p/n over drive frequency and clearance, that the paper speaks of at the beginning
+//! of its section 3, with its boundaries g0, s_PD and s_SN.
+
+mod boundaries;
+mod chart;
+mod findings;
+mod starts;
+mod swept;
+mod table;
+
+use anyhow::anyhow;
+use softstop::Ratios;
+use softstop_dynamics::sweep::Direction;
+
+use super::{Detail, Drawn, Figure, Studio};
+use crate::regimes::chart::{RegimePage, RegimePanel};
+use boundaries::Boundaries;
+use softstop_console::failure::Failure;
+use softstop_console::progress::Progress;
+use softstop_explore::basin::cells::RegimeMap;
+use swept::Sweep;
+
+/// Regimes over eta and rho.
+pub(super) const FIGURE: Figure = Figure {
+    title: "Regimes over eta and rho, and their boundaries g0, s_PD, s_SN",
+    files: &["regimes.png", "regimes.csv", "regimes-boundaries.csv"],
+    draw,
+};
+
+/// The paper's range of frequencies, and clearances up to the resonance peak of the free motion, 25.005.
+const ALL: Window = Window {
+    eta: (0.8, 1.8),
+    rho: (0.0, 24.0),
+};
+/// Where subharmonic and chaotic motions are.
+const ZOOM: Window = Window {
+    eta: (0.9, 1.02),
+    rho: (4.0, 24.0),
+};
+/// Cells across and up, for print and for a first look: whole pixels each. The loaded machine costs more.
+const FREE: [(usize, usize); 2] = [(400, 400), (100, 80)];
+const NEAR: [(usize, usize); 2] = [(600, 400), (120, 80)];
+const LOADED: [(usize, usize); 2] = [(300, 200), (60, 40)];
+/// Those of the map of hardest motions.
+const MANY: [(usize, usize); 2] = [(240, 160), (60, 40)];
+/// Drive periods at each frequency.
+const PERIODS: u64 = 120;
+/// Starts at each cell of the map of hardest motions.
+const STARTS: usize = 12;
+
+/// A part of the plane of eta and rho.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Window {
+    eta: (f64, f64),
+    rho: (f64, f64),
+}
+
+impl Window {
+    /// The middle of a column.
+    fn eta_at(&self, column: usize, columns: usize) -> f64 {
+        middle(self.eta, column, columns)
+    }
+
+    /// The middle of a row.
+    fn rho_at(&self, row: usize, rows: usize) -> f64 {
+        middle(self.rho, row, rows)
+    }
+}
+
+fn middle((from, to): (f64, f64), cell: usize, cells: usize) -> f64 {
+    from + (cell as f64 + 0.5) / cells as f64 * (to - from)
+}
+
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
+    let (maps, boundaries) = rayon::join(|| maps(detail), boundaries);
+    let (maps, boundaries) = (maps?, boundaries?);
+    let findings = findings::of(&maps, &boundaries);
+    let tables = [table::runs(&maps)?, table::boundaries(&boundaries)?];
+    let png = RegimePage::new(panels(maps, &boundaries))
+        .png()
+        .map_err(|error| anyhow!("cannot draw regimes.png: {error}"))?;
+    let [runs, lines] = tables;
+    Ok(Drawn {
+        files: vec![png, runs, lines],
+        findings,
+    })
+}
+
+/// The maps.
+fn maps(detail: Detail) -> Result<[RegimeMap; 6], Failure> {
+    let [all, near, many, less] =
+        [FREE, NEAR, MANY, LOADED].map(|[full, draft]| detail.pick(full, draft));
+    let cells = |size: (usize, usize)| size.0 * size.1;
+    let work = 2 * cells(all) + cells(near) + STARTS * cells(many) + 2 * cells(less);
+    let progress = Progress::new(work as u64, "motions");
+    let swept = |machine, window, way, size| {
+        let sweep = Sweep {
+            machine,
+            window,
+            way,
+            size,
+        };
+        sweep.map(&progress)
+    };
+    let (free, loaded) = (Ratios::unloaded(), Ratios::loaded());
+    Ok([
+        swept(free, ALL, Direction::Up, all)?,
+        swept(free, ALL, Direction::Down, all)?,
+        swept(free, ZOOM, Direction::Up, near)?,
+        starts::hardest(&free, ZOOM, many, STARTS, &progress)?,
+        swept(loaded, ALL, Direction::Up, less)?,
+        swept(loaded, ALL, Direction::Down, less)?,
+    ])
+}
+
+/// The boundaries of both machines.
+fn boundaries() -> Result<[Boundaries; 2], Failure> {
+    let [free, loaded] = [Ratios::unloaded(), Ratios::loaded()];
+    Ok([Boundaries::of(&free, &ALL)?, Boundaries::of(&loaded, &ALL)?])
+}
+
+/// What the panels are called.
+const NAMES: [&str; 6] = [
+    "unloaded, rising frequency",
+    "unloaded, falling frequency",
+    "unloaded, rising frequency: the subharmonic region",
+    "unloaded: the hardest periodic motion of 12 starts each",
+    "loaded, rising frequency",
+    "loaded, falling frequency",
+];
+
+fn panels(maps: [RegimeMap; 6], boundaries: &[Boundaries; 2]) -> Vec<RegimePanel> {
+    let panel = |(index, (map, name)): (usize, (RegimeMap, &str))| {
+        let is_loaded = index >= 4;
+        RegimePanel {
+            name: name.to_owned(),
+            map,
+            curves: boundaries[usize::from(is_loaded)].curves(),
+            point: (if is_loaded { "B" } else { "A" }, (1.15, 10.0)),
+        }
+    };
+    maps.into_iter().zip(NAMES).enumerate().map(panel).collect()
+}

@@ -1,0 +1,106 @@
+//! The hardest periodic motion that starts spread over the plane of states reach. Sweeps do not come upon the
+//! motions z = 2/3 and z = (2/4)B, which "belong to impact motion with higher level of kinetic energy" (Peterka
+//! 2003, section 4).
+
+use anyhow::anyhow;
+use rayon::prelude::*;
+use softstop::{Ratios, Scene, Start};
+use softstop_dynamics::attractors::{Arrival, Options, SurveyError, settle};
+use softstop_dynamics::orbit::{Orbit, StroboscopicMap};
+
+use super::Window;
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::progress::Progress;
+use softstop_explore::basin::cells::{RegimeCell, RegimeMap};
+
+/// Half of the ranges of position and velocity in which starts lie, in units of the clearance.
+const REGION: (f64, f64) = (1.5, 2.0);
+/// 1/g and 1/g^2 with g^3 = g + 1: multiples that fill a square evenly (Roberts 2018).
+const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
+/// Drive periods before motions are looked at, and the longest period looked for.
+const OPTIONS: (u64, usize) = (250, 12);
+/// Drive periods in which small differences have to grow a hundredfold in chaos.
+const WATCHED: u64 = 64;
+const MUCH: f64 = 100.0;
+
+/// The map of the hardest periodic motion among those from `count` starts in each cell.
+pub(super) fn hardest(
+    machine: &Ratios,
+    window: Window,
+    (columns, rows): (usize, usize),
+    count: usize,
+    progress: &Progress,
+) -> Result<RegimeMap, Failure> {
+    let cell = |index: usize| {
+        let machine = Ratios {
+            frequency: window.eta_at(index % columns, columns),
+            clearance: window.rho_at(index / columns, rows),
+            ..*machine
+        };
+        let found = of_one(&machine, count)?;
+        progress.steps(count as u64)?;
+        Ok::<RegimeCell, Failure>(found)
+    };
+    let cells = (0..columns * rows)
+        .into_par_iter()
+        .map(cell)
+        .collect::<Result<_, _>>()?;
+    Ok(RegimeMap {
+        eta: window.eta,
+        rho: window.rho,
+        columns,
+        cells,
+    })
+}
+
+fn of_one(machine: &Ratios, count: usize) -> Result<RegimeCell, Failure> {
+    let scene = machine.scene().map_err(|error| anyhow!(error))?;
+    let options = Options {
+        transient: OPTIONS.0,
+        longest: OPTIONS.1,
+        ..Options::default()
+    };
+    let starts = starts(machine, count);
+    let arrivals = settle(&scene, &starts, &options, &|_, _| !interrupt::requested());
+    let arrivals = match arrivals {
+        Ok(arrivals) => arrivals,
+        Err(SurveyError::Stopped) => return Err(Failure::Interrupted),
+        Err(SurveyError::Motion(_)) => return Ok(RegimeCell::Lost),
+    };
+    let orbits = arrivals.iter().filter_map(|arrival| arrival.orbit.as_ref());
+    let hardest = orbits.max_by(|a, b| {
+        let velocity = Orbit::before_impact_velocity;
+        velocity(a).total_cmp(&velocity(b))
+    });
+    Ok(match hardest {
+        Some(orbit) if orbit.regime().impacts > 0 => RegimeCell::of(orbit),
+        // Chaos strikes harder than no impact at all.
+        rest => wandering(&scene, &arrivals)
+            .unwrap_or(rest.map_or(RegimeCell::Unsettled, RegimeCell::of)),
+    })
+}
+
+/// Starts that fill the region evenly, the same for all machines.
+fn starts(machine: &Ratios, count: usize) -> Vec<Start> {
+    let within = |half: f64, which: usize, index: usize| {
+        let share = (STEPS[which] * (index + 1) as f64).fract();
+        machine.clearance * half * (2.0 * share - 1.0)
+    };
+    let start = |index| Start {
+        position: within(REGION.0, 0, index),
+        velocity: within(REGION.1, 1, index),
+    };
+    (0..count).map(start).collect()
+}
+
+/// Chaos, if small differences grow along a motion that has not settled.
+fn wandering(scene: &Scene, arrivals: &[Arrival]) -> Option<RegimeCell> {
+    let mut restless = arrivals.iter().filter(|arrival| arrival.orbit.is_none());
+    let map = StroboscopicMap::new(scene, WATCHED).ok()?;
+    let grows = |arrival: &Arrival| {
+        let passage = map.apply(arrival.state.into());
+        passage.is_ok_and(|passage| passage.monodromy.norm() > MUCH)
+    };
+    restless.any(grows).then_some(RegimeCell::Chaos)
+}

@@ -1,0 +1,220 @@
+//! Does an interrupted supply of strips end the z = 1 motion?
+//!
+//! At the end of each drive period, while the mass is short of the strip, the supply breaks off or sets in again
+//! by chance, so that strips come and fail in runs of a mean length. The motion begins as z = 1; in the end the
+//! supply is steady once more, and it is counted whether each period has its impact still.
+
+mod chart;
+
+use nalgebra::Vector2;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rand_xoshiro::rand_core::{RngCore, SeedableRng};
+use rayon::prelude::*;
+use softstop::{PiercingRatios, Ratios};
+use softstop_dynamics::basin::wilson;
+use softstop_dynamics::orbit::{StroboscopicMap, find};
+use softstop_dynamics::zone;
+
+use super::{Detail, Drawn, Figure, Studio};
+use crate::supply::chart::{SupplyChart, SupplyCurve};
+use softstop_console::failure::Failure;
+use softstop_console::output;
+use softstop_console::progress::Progress;
+
+/// The figure.
+pub(super) const FIGURE: Figure = Figure {
+    title: "z = 1 under an interrupted supply of strips",
+    files: &["supply.svg", "supply.csv"],
+    draw,
+};
+
+/// Mean lengths of runs with and without strips, in drive periods.
+const RUNS: [f64; 3] = [2.0, 5.0, 25.0];
+/// Drive periods for which a motion settles in the end, and in which its impacts are counted then.
+const CLOSE: (usize, usize) = (250, 64);
+/// Shares of the range from g0 to the loaded machine's fold, that fold being 1; the unloaded one's lies beyond.
+const SHARES: (f64, f64) = (0.02, 1.1);
+
+/// What became of many motions at one frequency.
+#[derive(Debug, Clone, Copy, serde::Serialize)]
+struct Outcome {
+    eta: f64,
+    mean_run: f64,
+    motions: usize,
+    /// Motions with at least one drive period without an impact.
+    missed: usize,
+    /// Motions that are no longer z = 1 in the end.
+    ended: usize,
+}
+
+/// One machine with and without strips.
+struct Press {
+    clearance: f64,
+    /// Without, and with.
+    maps: [StroboscopicMap; 2],
+    start: Vector2<f64>,
+    /// Whether it starts and ends with strips.
+    is_supplied: bool,
+}
+
+fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+    let detail = studio.detail;
+    let clearance = Ratios::unloaded().clearance;
+    let zones = zones(clearance)?;
+    let count = detail.pick(55, 12);
+    let etas = etas(zones, count);
+    let progress = Progress::new((etas.len() * RUNS.len()) as u64, "frequencies");
+    let outcomes = survey(clearance, zones, &etas, detail, &progress)?;
+    let curve = |mean: &f64| SupplyCurve {
+        name: format!("runs of {mean} periods"),
+        points: of_run(&outcomes, *mean).map(point).collect(),
+    };
+    let chart = SupplyChart {
+        curves: RUNS.iter().map(curve).collect(),
+        folds: [zones.loaded, zones.unloaded],
+        grazing: zones.grazing,
+        clearance,
+    };
+    let mut findings = vec![
+        ("eta_SN loaded".to_owned(), zones.loaded),
+        ("eta_SN unloaded".to_owned(), zones.unloaded),
+    ];
+    for mean in RUNS {
+        let first = of_run(&outcomes, mean).find(|it| it.ended > 0);
+        let safe = first.map_or(zones.unloaded, |it| it.eta);
+        findings.push((
+            format!("first eta at which a motion ends, runs of {mean}"),
+            safe,
+        ));
+    }
+    Ok(Drawn {
+        files: vec![chart.svg().into_bytes(), output::csv(&outcomes)?],
+        findings,
+    })
+}
+
+/// The frequencies between which z = 1 is.
+#[derive(Debug, Clone, Copy)]
+struct Zones {
+    grazing: f64,
+    loaded: f64,
+    unloaded: f64,
+}
+
+fn zones(clearance: f64) -> Result<Zones, Failure> {
+    let zone = |ratios: Ratios| {
+        let ratios = Ratios {
+            clearance,
+            ..ratios
+        };
+        zone::hysteresis(&ratios).map_err(|error| Failure::Run(error.into()))
+    };
+    let (unloaded, loaded) = (zone(Ratios::unloaded())?, zone(Ratios::loaded())?);
+    Ok(Zones {
+        grazing: unloaded.frequency_g0,
+        loaded: loaded.frequency_sn,
+        unloaded: unloaded.frequency_sn,
+    })
+}
+
+fn etas(zones: Zones, count: usize) -> Vec<f64> {
+    let at = |share: f64| zones.grazing + share * (zones.loaded - zones.grazing);
+    let (low, high) = (at(SHARES.0), at(SHARES.1).min(zones.unloaded));
+    let step = (high - low) / (count - 1) as f64;
+    (0..count).map(|index| low + step * index as f64).collect()
+}
+
+fn survey(
+    clearance: f64,
+    zones: Zones,
+    etas: &[f64],
+    detail: Detail,
+    progress: &Progress,
+) -> Result<Vec<Outcome>, Failure> {
+    let cases: Vec<(f64, f64)> = RUNS
+        .iter()
+        .flat_map(|mean| etas.iter().map(move |eta| (*eta, *mean)))
+        .collect();
+    let (motions, periods) = detail.pick((64, 400), (16, 200));
+    let outcome = |&(eta, mean): &(f64, f64)| {
+        let press = Press::new(clearance, eta, eta < zones.loaded)?;
+        let mut outcome = Outcome {
+            eta,
+            mean_run: mean,
+            motions,
+            missed: 0,
+            ended: 0,
+        };
+        for motion in 0..motions {
+            let (missed, ended) = press.run(mean, periods, motion as u64)?;
+            outcome.missed += usize::from(missed);
+            outcome.ended += usize::from(ended);
+        }
+        progress.step()?;
+        Ok(outcome)
+    };
+    cases.par_iter().map(outcome).collect()
+}
+
+impl Press {
+    fn new(clearance: f64, frequency: f64, is_supplied: bool) -> Result<Self, Failure> {
+        let ratios = |piercing: Option<PiercingRatios>| Ratios {
+            clearance,
+            frequency,
+            piercing,
+            ..Ratios::unloaded()
+        };
+        let machines = [None, Some(PiercingRatios::PAPER)].map(ratios);
+        let scene = |ratios: &Ratios| ratios.scene().map_err(|error| Failure::Run(error.into()));
+        let map = |ratios: &Ratios| {
+            StroboscopicMap::new(&scene(ratios)?, 1).map_err(|error| Failure::Run(error.into()))
+        };
+        let orbit = find(&scene(&machines[usize::from(is_supplied)])?);
+        Ok(Self {
+            clearance,
+            maps: [map(&machines[0])?, map(&machines[1])?],
+            start: orbit.map_err(|error| Failure::Run(error.into()))?.state(),
+            is_supplied,
+        })
+    }
+
+    /// Whether a drive period was without an impact, and whether z = 1 has ended.
+    fn run(&self, mean: f64, periods: usize, seed: u64) -> Result<(bool, bool), Failure> {
+        let mut chance = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let (mut state, mut is_supplied, mut missed) = (self.start, self.is_supplied, false);
+        for _ in 0..periods {
+            let drawn = chance.next_u64() as f64 / u64::MAX as f64;
+            if drawn * mean < 1.0 && state.x < self.clearance {
+                is_supplied = !is_supplied;
+            }
+            missed |= self.step(&mut state, is_supplied)? == 0;
+        }
+        let mut impacts = 0;
+        for period in 0..CLOSE.0 + CLOSE.1 {
+            let count = self.step(&mut state, self.is_supplied)?;
+            impacts += if period < CLOSE.0 { 0 } else { count };
+        }
+        Ok((missed, impacts != CLOSE.1))
+    }
+
+    /// One drive period: how many impacts it has.
+    fn step(&self, state: &mut Vector2<f64>, is_supplied: bool) -> Result<usize, Failure> {
+        let passage = self.maps[usize::from(is_supplied)]
+            .apply(*state)
+            .map_err(|error| Failure::Run(error.into()))?;
+        *state = passage.end;
+        Ok(passage.impacts.len())
+    }
+}
+
+fn of_run(outcomes: &[Outcome], mean: f64) -> impl Iterator<Item = &Outcome> {
+    outcomes.iter().filter(move |it| it.mean_run == mean)
+}
+
+/// eta, the share of motions that stay z = 1, and its 95 % interval.
+fn point(outcome: &Outcome) -> [f64; 4] {
+    let stay = outcome.motions - outcome.ended;
+    let [low, high] = wilson(stay, outcome.motions);
+    let share = stay as f64 / outcome.motions as f64;
+    [outcome.eta, share, low, high]
+}

@@ -1,0 +1,56 @@
+//! Which transition is which row of the paper.
+
+use softstop_dynamics::transitions::{Motion, Transition};
+
+use super::paper::{Name, PaperRow};
+
+/// A transition as a row: where it is nearest to what the paper prints.
+#[derive(Debug)]
+pub struct Match<'a> {
+    /// The transition.
+    pub transition: &'a Transition,
+    /// Our figure: where the motion is lost.
+    pub eta: f64,
+    /// True if the paper names it the other way about, which is the same where there is no hysteresis.
+    pub is_reversed: bool,
+}
+
+/// Largest difference between our figure and the paper's, as a share of it: row 19 is a swept loss.
+const NEAR: f64 = 2e-3;
+
+/// The transition of a row that is nearest, if there is one.
+#[must_use]
+pub fn find<'a>(row: &PaperRow, transitions: &'a [Transition]) -> Option<Match<'a>> {
+    let matches = transitions.iter().filter_map(|transition| {
+        let (from, to) = (&transition.from, transition.to());
+        let forward = is(row.from, from) && is(row.to, to);
+        let reverse = !transition.hysteresis && is(row.from, to) && is(row.to, from);
+        (forward || reverse).then(|| Match {
+            transition,
+            eta: transition.lost_at(),
+            is_reversed: !forward,
+        })
+    });
+    matches
+        .filter(|found| (found.eta - row.eta).abs() <= NEAR * row.eta)
+        .min_by(|a, b| {
+            let gap = |found: &Match<'_>| (found.eta - row.eta).abs();
+            gap(a).total_cmp(&gap(b))
+        })
+}
+
+/// True if a motion is what the paper names so.
+fn is(name: Name, motion: &Motion) -> bool {
+    match (name, motion) {
+        (Name::Chaos, Motion::Chaos) => true,
+        (
+            Name::Periodic(p, n, order),
+            Motion::Periodic {
+                impacts,
+                periods,
+                pattern,
+            },
+        ) => (p, n) == (*impacts, *periods) && order.is_none_or(|order| order == pattern),
+        _ => false,
+    }
+}

@@ -1,0 +1,191 @@
+//! The table as data.
+
+use serde::Serialize;
+use softstop_dynamics::transitions::{Cause, Motion, Rules, Transition};
+
+use super::matching::{Match, find};
+use super::paper::PaperRow;
+use super::swept::{self, Swept};
+
+/// The table.
+#[derive(Debug, Serialize)]
+pub struct TableReport {
+    /// Its rows, in the paper's order.
+    pub rows: Vec<RowReport>,
+}
+
+/// One row. Of a row that was not found only the number, the paper's figure and the remark are there.
+#[derive(Debug, Serialize)]
+pub struct RowReport {
+    /// The paper's number.
+    pub number: usize,
+    /// The paper's frequency ratio.
+    pub paper: f64,
+    /// Ours.
+    pub eta: Option<f64>,
+    /// What it is, in the paper's symbols.
+    #[serde(rename = "type")]
+    pub kind: Option<String>,
+    /// True if going back does not lead to the first motion again.
+    pub hysteresis: Option<bool>,
+    /// What ends.
+    pub from: Option<String>,
+    /// What follows, everything on the way named.
+    pub to: Option<String>,
+    /// How the figure was found, and why it differs.
+    pub remark: String,
+}
+
+/// Difference from the paper's figure that its digits explain.
+const ROUNDING: f64 = 1e-5;
+
+impl TableReport {
+    /// The rows of the paper that are among some transitions.
+    #[must_use]
+    pub fn new(rows: &[PaperRow], transitions: &[Transition], rules: &Rules) -> Self {
+        let report = |row: &PaperRow| match find(row, transitions) {
+            Some(found) => RowReport::new(row, &found, rules),
+            None => RowReport::missing(row),
+        };
+        Self {
+            rows: rows.iter().map(report).collect(),
+        }
+    }
+}
+
+impl RowReport {
+    fn new(row: &PaperRow, found: &Match<'_>, rules: &Rules) -> Self {
+        let transition = found.transition;
+        let names: Vec<String> = std::iter::once(&transition.from)
+            .chain(&transition.path)
+            .map(name)
+            .collect();
+        let (from, to) = if found.is_reversed {
+            (name(transition.to()), name(&transition.from))
+        } else {
+            (names[0].clone(), names[1..].join(" -> "))
+        };
+        Self {
+            number: row.number,
+            paper: row.eta,
+            eta: Some(found.eta),
+            kind: Some(transition.symbols()),
+            hysteresis: Some(transition.hysteresis),
+            from: Some(from),
+            to: Some(to),
+            remark: remark(row, found, rules),
+        }
+    }
+
+    fn missing(row: &PaperRow) -> Self {
+        Self {
+            number: row.number,
+            paper: row.eta,
+            eta: None,
+            kind: None,
+            hysteresis: None,
+            from: None,
+            to: None,
+            remark:
+                "not found: no transition between these motions was met near the paper's figure"
+                    .to_owned(),
+        }
+    }
+}
+
+/// A motion by its regime, and by the paper's letter where there are two of one regime.
+fn name(motion: &Motion) -> String {
+    match motion {
+        Motion::Periodic {
+            impacts: 2,
+            periods: 4,
+            pattern,
+        } => match pattern.as_str() {
+            "1-1-0-0" => "z = (2/4)B".to_owned(),
+            "1-0-1-0" => "z = (2/4)A".to_owned(),
+            other => format!("z = 2/4 ({other})"),
+        },
+        _ => motion.to_string(),
+    }
+}
+
+fn remark(row: &PaperRow, found: &Match<'_>, rules: &Rules) -> String {
+    let transition = found.transition;
+    let mut parts = vec![origin(transition, rules)];
+    parts.extend(succession(transition));
+    let gap = found.eta - row.eta;
+    if gap.abs() > ROUNDING {
+        parts.push(format!("{gap:+.1e} from the paper"));
+        parts.extend(reason(row, transition, gap));
+    }
+    if transition.symbols() != row.kind || transition.hysteresis != row.hysteresis {
+        let way = if row.hysteresis { "with" } else { "without" };
+        parts.push(format!("the paper has {} {way} hysteresis", row.kind));
+    }
+    parts.join("; ")
+}
+
+/// How the figure was found.
+fn origin(transition: &Transition, rules: &Rules) -> String {
+    match transition.causes[..] {
+        [Cause::OutOfChaos] => format!(
+            "chaos ends by its lifetime, which falls steadily: here half of {} motions settle within {} drive periods",
+            rules.motions, rules.lifetime
+        ),
+        _ => format!(
+            "the stable branch ends at {:.10}, located to 1e-10",
+            transition.value
+        ),
+    }
+}
+
+/// What comes between the first motion and the last.
+fn succession(transition: &Transition) -> Vec<String> {
+    let mut parts = Vec::new();
+    if let Some(until) = transition.doubled_until {
+        let what = if (until > transition.value) == transition.rising {
+            "it goes on doubled until"
+        } else {
+            "the flip is hard: the doubled branch is unstable and runs back to"
+        };
+        parts.push(format!("{what} {until:.10}"));
+    }
+    if let Some(settled) = transition.settled_at
+        && transition.hysteresis
+    {
+        let last = name(transition.to());
+        parts.push(format!("{last} follows from {settled:.10} on"));
+    }
+    parts
+}
+
+/// Why the paper's figure is another.
+fn reason(row: &PaperRow, transition: &Transition, gap: f64) -> Option<String> {
+    if transition.causes[..] == [Cause::OutOfChaos] {
+        let time = if (gap > 0.0) == transition.rising {
+            "longer"
+        } else {
+            "shorter"
+        };
+        return Some(format!(
+            "as a run that gives chaos a {time} time to settle would have it"
+        ));
+    }
+    let is_last = |settled: f64| (settled - row.eta).abs() <= ROUNDING;
+    if transition.settled_at.is_some_and(is_last) {
+        return Some("the paper gives where the last motion follows".to_owned());
+    }
+    let swept = Swept::over(transition, gap)?;
+    let way = if transition.rising { "up" } else { "down" };
+    let step = format!("{:e} per {} drive periods", swept.step, swept::PERIODS);
+    let digits = (1.0 - swept.step.log10()) as usize;
+    let mut reason = format!(
+        "a sweep {way} by {step} loses the motion at {:.digits$}",
+        swept.lost
+    );
+    if let Some(arrived) = swept.arrived {
+        let last = name(transition.to());
+        reason += &format!(" and has come to {last} at {arrived:.digits$}");
+    }
+    Some(reason)
+}

@@ -1,0 +1,99 @@
+//! What a sweep makes of a transition: it loses a motion later than it ends, and comes to the next later still.
+
+use softstop::Ratios;
+use softstop_dynamics::continuation::Parameter;
+use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
+use softstop_dynamics::transitions::{Motion, Transition};
+
+/// A sweep over the end of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swept {
+    /// Change of eta from step to step.
+    pub step: f64,
+    /// The first value in which the motion is no longer the first.
+    pub lost: f64,
+    /// The first value in which it is the last, and not lost again at once; none if that does not repeat.
+    pub arrived: Option<f64>,
+}
+
+/// Drive periods of a step.
+pub const PERIODS: u64 = 50;
+/// Steps before the end at which the sweep begins, and steps after it.
+const AROUND: (usize, usize) = (20, 60);
+/// Distance within which a state has returned, in units of the motion's size: near enough not to be lost, and to
+/// have arrived.
+const RETURN: (f64, f64) = (1e-2, 1e-3);
+
+impl Swept {
+    /// The sweep whose steps are the power of ten below this size, in the direction of the transition. None if the first
+    /// motion does not repeat or is not lost on the way.
+    #[must_use]
+    pub fn over(transition: &Transition, size: f64) -> Option<Self> {
+        let step = 10_f64.powf(size.abs().log10().floor());
+        let seen = sweep(transition, step, RETURN.0)?;
+        let first = seen.iter().position(|it| is(&transition.from, it))?;
+        let lost = first
+            + seen[first..]
+                .iter()
+                .position(|it| !is(&transition.from, it))?;
+        let settled = sweep(transition, step, RETURN.1)?;
+        let arrived = settled[lost..].windows(2).find(|pair| {
+            let mut pair = pair.iter();
+            pair.all(|it| is(transition.to(), it))
+        });
+        Some(Self {
+            step,
+            lost: seen[lost].value,
+            arrived: arrived.map(|pair| pair[0].value),
+        })
+    }
+}
+
+/// The steps of a sweep over the end of a motion.
+fn sweep(transition: &Transition, step: f64, tolerance: f64) -> Option<Vec<Step>> {
+    let mut chain = Chain::new(Ratios::unloaded(), direction(transition));
+    let plan = plan(transition, step, tolerance)?;
+    let chains = std::slice::from_mut(&mut chain);
+    plan.run(chains, &|_| true).then_some(chain.steps)
+}
+
+fn direction(transition: &Transition) -> Direction {
+    if transition.rising {
+        Direction::Up
+    } else {
+        Direction::Down
+    }
+}
+
+/// On whole steps, as a run by hand would go.
+fn plan(transition: &Transition, step: f64, tolerance: f64) -> Option<Plan> {
+    let (before, after) = AROUND;
+    let nearest = (transition.value / step).round();
+    let (below, above) = match direction(transition) {
+        Direction::Up => (before, after),
+        Direction::Down => (after, before),
+    };
+    let range = (
+        (nearest - below as f64) * step,
+        (nearest + above as f64) * step,
+    );
+    let plan = Plan::new(Parameter::Frequency, range, before + after + 1, PERIODS).ok()?;
+    Some(Plan {
+        start: transition.state?,
+        tolerance,
+        ..plan
+    })
+}
+
+fn is(motion: &Motion, step: &Step) -> bool {
+    match (motion, &step.settled) {
+        (
+            Motion::Periodic {
+                impacts, periods, ..
+            },
+            Settled::Periodic(regime),
+        ) => (*impacts, *periods) == (regime.impacts, regime.periods),
+        (Motion::Chaos, Settled::Chaotic { .. }) => true,
+        _ => false,
+    }
+}

@@ -1,0 +1,81 @@
+//! The stable z = 1 motions of a zone as curves to draw.
+
+use nalgebra::Vector2;
+use softstop::Ratios;
+use softstop_dynamics::continuation::BranchPoint;
+use softstop_dynamics::orbit::Orbit;
+use softstop_dynamics::zone::Zone;
+
+/// Points put in between two of the continuation, for a curve without visible corners.
+const BETWEEN: u32 = 6;
+
+/// The stable z = 1 motions of a zone.
+#[derive(Debug, Clone)]
+pub(super) struct Branch {
+    pub(super) label: String,
+    pub(super) frequency_g0: f64,
+    pub(super) frequency_sn: f64,
+    /// eta and X'- along each stable piece; folds inside the zone leave gaps.
+    pub(super) pieces: Vec<Vec<(f64, f64)>>,
+}
+
+impl Branch {
+    pub(super) fn new(zone: &Zone, label: String) -> Self {
+        let stable = zone.branch.chunk_by(|a, b| drawn(a) && drawn(b));
+        Self {
+            label,
+            frequency_g0: zone.frequency_g0,
+            frequency_sn: zone.frequency_sn,
+            pieces: stable
+                .filter(|piece| piece.len() > 1)
+                .map(|piece| smooth(&zone.ratios, piece))
+                .collect(),
+        }
+    }
+}
+
+/// Stable, or a fold, where a stable piece ends.
+fn drawn(point: &BranchPoint) -> bool {
+    point.is_stable() || point.fold_test().abs() < 1e-6
+}
+
+fn smooth(ratios: &Ratios, piece: &[BranchPoint]) -> Vec<(f64, f64)> {
+    let mut curve = Vec::new();
+    for pair in piece.windows(2) {
+        let (from, to) = (&pair[0], &pair[1]);
+        curve.push((from.parameter, from.before_impact_velocity()));
+        let shares = (1..=BETWEEN).map(|step| f64::from(step) / f64::from(BETWEEN + 1));
+        curve.extend(shares.filter_map(|share| between(ratios, from, to, share)));
+    }
+    curve.extend(
+        piece
+            .last()
+            .map(|point| (point.parameter, point.before_impact_velocity())),
+    );
+    curve
+}
+
+/// The motion at a frequency between two neighbours, if Newton's method stays between them.
+fn between(
+    ratios: &Ratios,
+    from: &BranchPoint,
+    to: &BranchPoint,
+    share: f64,
+) -> Option<(f64, f64)> {
+    let mix = |from: f64, to: f64| from + share * (to - from);
+    let frequency = mix(from.parameter, to.parameter);
+    let state = Vector2::new(
+        mix(from.position, to.position),
+        mix(from.velocity, to.velocity),
+    );
+    let scene = Ratios {
+        frequency,
+        ..*ratios
+    }
+    .scene()
+    .ok()?;
+    let orbit = Orbit::near(&scene, state).ok()?;
+    let inside = |value: f64, a: f64, b: f64| value >= a.min(b) && value <= a.max(b);
+    inside(orbit.position, from.position, to.position)
+        .then_some((frequency, orbit.before_impact_velocity()))
+}

@@ -1,0 +1,267 @@
+//! A motion from phase to phase, for methods that find the guards' crossings themselves.
+
+use std::borrow::Cow;
+
+use super::hum::Hum;
+use super::landing::Ground;
+use super::{CrossingKind, Impact, Start};
+use crate::error::MotionError;
+use crate::events::{Found, Guard};
+use crate::flow::Polynomial;
+use crate::phases::{Mode, Phase, Phases};
+use crate::scene::Scene;
+
+/// Crossings within one instant after which a method does not get on.
+const MOST_AT_ONCE: u32 = 1000;
+
+/// Where a motion is between its phases: which law holds, which guards end it, and what a crossing of one
+/// leads to, by the same rules as those of the exact method.
+///
+/// Bounces on a rigid stop whose sum the exact method would take are rest at once: it would come within
+/// 2^-26 of a drive period.
+#[derive(Debug, Clone)]
+pub struct Walk<'a> {
+    scene: &'a Scene,
+    phases: Cow<'a, Phases>,
+    mode: Mode,
+    /// Guards that let go a mass that is held.
+    releases: Vec<Guard>,
+    time: f64,
+    state: Start,
+    hum: Hum,
+    at_once: u32,
+    impacts: Vec<Impact>,
+}
+
+impl<'a> Walk<'a> {
+    /// A motion of this machine from this state at time 0.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the scene or the start make no sense.
+    pub fn new(scene: &'a Scene, start: Start) -> Result<Self, MotionError> {
+        scene.motion(start)?;
+        Ok(Self::through(scene, start, Cow::Owned(scene.phases())))
+    }
+
+    /// The same for a scene and a start that make sense, through the scene's phases.
+    pub fn through(scene: &'a Scene, start: Start, phases: Cow<'a, Phases>) -> Self {
+        let mut walk = Self {
+            scene,
+            phases,
+            mode: Mode::Moving(0),
+            releases: Vec::new(),
+            time: 0.0,
+            state: start,
+            hum: Hum::default(),
+            at_once: 0,
+            impacts: Vec::new(),
+        };
+        let Start { position, velocity } = start;
+        let push = walk.push();
+        walk.enter(walk.phases.locate(position, velocity, push, true), push);
+        walk
+    }
+
+    /// Time in s of the last crossing, or 0.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// The state right after it.
+    pub fn state(&self) -> Start {
+        self.state
+    }
+
+    /// The phase whose law holds from there on; none while the mass is held.
+    pub fn phase(&self) -> Option<&Phase> {
+        self.index().map(|phase| &self.phases.phases[phase])
+    }
+
+    /// Which of the scene's phases it is.
+    pub fn index(&self) -> Option<usize> {
+        match self.mode {
+            Mode::Moving(phase) => Some(phase),
+            Mode::Held { .. } | Mode::Chattering { .. } => None,
+        }
+    }
+
+    /// The guards that end it. While the mass is held they ask for the push alone.
+    pub fn guards(&self) -> &[Guard] {
+        self.phase().map_or(&self.releases, |phase| &phase.guards)
+    }
+
+    /// The impacts so far.
+    pub fn impacts(&self) -> &[Impact] {
+        &self.impacts
+    }
+
+    /// The same, at the end.
+    pub fn into_impacts(self) -> Vec<Impact> {
+        self.impacts
+    }
+
+    /// Goes on beyond a guard that was found to rise through zero at `time` in s and `before` the crossing.
+    ///
+    /// # Errors
+    /// [`MotionError::Stalled`] if crossings follow one another without time going on.
+    pub fn cross(&mut self, guard: usize, time: f64, before: Start) -> Result<(), MotionError> {
+        let elapsed = time - self.time;
+        self.time = time;
+        self.check_progress(elapsed)?;
+        let push = self.push();
+        let (state, mode) = match self.mode {
+            Mode::Moving(phase) => {
+                let found = Found {
+                    elapsed,
+                    guard,
+                    position: before.position,
+                    velocity: before.velocity,
+                };
+                self.leave(phase, &found, push)
+            }
+            Mode::Held { forward, backward } => self.release(forward, backward, guard, push),
+            Mode::Chattering { backward } => self.release(None, backward, guard, push),
+        };
+        self.state = state;
+        self.enter(mode, push);
+        Ok(())
+    }
+
+    fn leave(&mut self, phase: usize, found: &Found, push: f64) -> (Start, Mode) {
+        if let Some(surface) = self.phases.endless_surface(phase, found.guard) {
+            self.hum.count(surface, found.velocity);
+        }
+        let moved = self.state.velocity != 0.0 || found.elapsed > 0.0;
+        let force = Polynomial::default();
+        let ground = Ground {
+            phases: &self.phases,
+            fed: true,
+            pierced: false,
+            threshold: self.hum.threshold(),
+            force: &force,
+            period: self.scene.period(),
+        };
+        let landing = ground.leave(phase, found, push, moved);
+        self.note(landing.kind, found.velocity);
+        match landing.mode {
+            Mode::Chattering { backward } => {
+                let position = landing.state.position;
+                let rest = Start {
+                    position,
+                    velocity: 0.0,
+                };
+                let mode = self.phases.leave_hold(None, backward, position, push);
+                (rest, mode)
+            }
+            mode => (landing.state, mode),
+        }
+    }
+
+    fn release(
+        &self,
+        forward: Option<usize>,
+        backward: usize,
+        guard: usize,
+        push: f64,
+    ) -> (Start, Mode) {
+        let position = self.state.position;
+        let (_, phases, _) = self.phases.releases(forward, backward, position, push);
+        (self.state, Mode::Moving(phases[guard]))
+    }
+
+    fn note(&mut self, kind: CrossingKind, velocity: f64) {
+        if let CrossingKind::Surface { impact: true, .. }
+        | CrossingKind::Rebound { impact: true, .. } = kind
+        {
+            let time = self.time;
+            self.impacts.push(Impact { time, velocity });
+        }
+    }
+
+    fn enter(&mut self, mode: Mode, push: f64) {
+        self.mode = mode;
+        self.releases.clear();
+        let (forward, backward) = match mode {
+            Mode::Moving(_) => return,
+            Mode::Held { forward, backward } => (forward, backward),
+            Mode::Chattering { backward } => (None, backward),
+        };
+        let position = self.state.position;
+        let (guards, _, count) = self.phases.releases(forward, backward, position, push);
+        self.releases.extend_from_slice(&guards[..count]);
+    }
+
+    /// Push of the drive per mass in m/s^2 at the last crossing.
+    fn push(&self) -> f64 {
+        let drive = self.scene.excitation;
+        let angle = drive.frequency * self.time + drive.phase;
+        drive.amplitude / self.scene.mass * angle.cos()
+    }
+
+    fn check_progress(&mut self, elapsed: f64) -> Result<(), MotionError> {
+        let instant = elapsed <= 4.0 * f64::EPSILON * self.time.max(self.scene.period());
+        self.at_once = if instant { self.at_once + 1 } else { 0 };
+        if self.at_once <= MOST_AT_ONCE {
+            return Ok(());
+        }
+        Err(MotionError::Stalled {
+            time: self.time,
+            position: self.state.position,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Ratios, Stop};
+
+    const START: Start = Start {
+        position: 9.0,
+        velocity: 2.0,
+    };
+
+    fn scene() -> Scene {
+        let mut scene = Ratios::unloaded().scene().expect("a machine");
+        scene.stop = Stop::Rigid { restitution: 0.6 };
+        scene
+    }
+
+    #[test]
+    fn a_crossing_leads_on_by_the_rules_of_landing() {
+        let scene = scene();
+        let mut walk = Walk::new(&scene, START).expect("a start");
+        assert_eq!(walk.guards(), [Guard::rising_to(10.0)]);
+        let before = Start {
+            position: 10.0 + 1e-12,
+            velocity: 2.5,
+        };
+        walk.cross(0, 0.4, before).expect("a rebound");
+        let after = Start {
+            position: 10.0,
+            velocity: -1.5,
+        };
+        assert_eq!((walk.time(), walk.state()), (0.4, after));
+        let impact = Impact {
+            time: 0.4,
+            velocity: 2.5,
+        };
+        assert_eq!(walk.impacts(), [impact]);
+        assert!(walk.phase().is_some());
+    }
+
+    #[test]
+    fn crossings_without_end_in_one_instant_are_an_error() {
+        let scene = scene();
+        let mut walk = Walk::new(&scene, START).expect("a start");
+        let before = Start {
+            position: 10.0,
+            velocity: 2.5,
+        };
+        let error = (0..2000).find_map(|_| walk.cross(0, 0.4, before).err());
+        assert!(
+            matches!(error, Some(MotionError::Stalled { time: 0.4, .. })),
+            "{error:?}"
+        );
+    }
+}

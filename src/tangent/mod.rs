@@ -1,0 +1,73 @@
+//! The exact Jacobian of a motion: free transitions joined by saltation matrices.
+
+mod sensitivity;
+
+pub use sensitivity::{Perturbation, Sensitivity};
+
+use nalgebra::Matrix2;
+
+use crate::integrator::{Arc, Crossing, CrossingKind, Observer};
+
+/// Watches a motion and gathers d(state now) / d(state at the start).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tangent {
+    /// The product so far.
+    pub matrix: Matrix2<f64>,
+    /// Integral of the damping coefficient over time and mass. As long as the mass neither turns
+    /// nor sticks under dry friction, det(matrix) = exp(-damping_integral) times R^2 for each rebound
+    /// from a rigid stop (Liouville).
+    pub damping_integral: f64,
+}
+
+impl Default for Tangent {
+    fn default() -> Self {
+        Self {
+            matrix: Matrix2::identity(),
+            damping_integral: 0.0,
+        }
+    }
+}
+
+impl Observer for Tangent {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        let transition = match (arc.phase, arc.course.segment()) {
+            (Some(_), Some(segment)) => {
+                let (transition, damping) = segment.transition(elapsed);
+                self.damping_integral += damping;
+                transition
+            }
+            (Some(phase), None) => {
+                self.damping_integral += phase.flow.damping() * elapsed;
+                phase.flow.transition(elapsed)
+            }
+            (None, _) => Matrix2::new(1.0, 0.0, 0.0, 0.0),
+        };
+        self.matrix = transition * self.matrix;
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.matrix = saltation(crossing) * self.matrix;
+    }
+}
+
+/// The saltation matrix S = G + (f+ - G f-) grad h / (grad h . f-) of a crossing, f = (v, a), G the
+/// derivative of the reset (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004, ch. 7).
+pub fn saltation(crossing: &Crossing) -> Matrix2<f64> {
+    let (v, a) = (crossing.velocity, crossing.acceleration_before);
+    let (v_after, a_after) = (crossing.velocity_after, crossing.acceleration_after);
+    match crossing.kind {
+        // The mass is held: nothing of a perturbation is left.
+        CrossingKind::Surface { .. } if v_after == 0.0 => Matrix2::zeros(),
+        CrossingKind::Rebound { .. } if v == 0.0 => Matrix2::zeros(),
+        CrossingKind::Rest => Matrix2::zeros(),
+        CrossingKind::Surface { .. } => Matrix2::new(v_after / v, 0.0, (a_after - a) / v, 1.0),
+        CrossingKind::Rebound { .. } => {
+            let kept = v_after / v;
+            Matrix2::new(kept, 0.0, (a_after - kept * a) / v, kept)
+        }
+        CrossingKind::Reversal => {
+            Matrix2::new(1.0, (v_after - v) / a, 0.0, 1.0 + (a_after - a) / a)
+        }
+        CrossingKind::Switch | CrossingKind::Release => Matrix2::identity(),
+    }
+}

@@ -1,0 +1,151 @@
+//! How the outputs of a machine answer to a small change: exact derivatives in one direction, across
+//! whatever crossings lie between.
+
+use super::saltation;
+use crate::error::MotionError;
+use crate::flow::Change;
+use crate::integrator::{Arc, Crossing, CrossingKind, Motion, Observer, Simulation, Start};
+use crate::scene::Scene;
+
+/// A direction of change at the beginning of the last advance.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Perturbation {
+    /// Of the position, in m.
+    pub position: f64,
+    /// Of the velocity, in m/s.
+    pub velocity: f64,
+    /// Of the external force from there on, in N.
+    pub force: f64,
+}
+
+/// What it brings: the derivatives of the present outputs along the direction.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Sensitivity {
+    /// Of the position, in m.
+    pub position: f64,
+    /// Of the velocity, in m/s.
+    pub velocity: f64,
+    /// Of the acceleration, in m/s^2.
+    pub acceleration: f64,
+    /// Of the contact force, in N.
+    pub contact_force: f64,
+    /// Of the mechanical energy, in J.
+    pub mechanical: f64,
+    /// Of the energy supplied, in J.
+    pub supplied: f64,
+    /// Of the energy dissipated, in J.
+    pub dissipated: f64,
+    /// Of the time of the last impact, in s; 0 if it was before the last advance.
+    pub impact_time: f64,
+    /// Of its before-impact velocity, in m/s.
+    pub impact_velocity: f64,
+}
+
+impl Simulation {
+    /// The derivatives of the present outputs along a direction of change at the beginning of the last
+    /// advance (or where [`Simulation::mark`] was called since). Crossings are passed with their
+    /// saltation matrices; at a graze, where the derivative does not exist, it is huge.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the stretch cannot be gone through again.
+    pub fn sensitivity(&self, by: &Perturbation) -> Result<Sensitivity, MotionError> {
+        let (scene, now) = (self.scene(), self.motion());
+        let mut motion = self.motion_at_mark();
+        let stored = change_of_energy(scene, &motion, by.position, by.velocity);
+        let mut watch = Watch {
+            mass: scene.mass,
+            force: by.force,
+            position: by.position,
+            velocity: by.velocity,
+            ..Watch::default()
+        };
+        motion.advance(now.now(), &mut watch)?;
+        let arc = motion.arc();
+        let elapsed = motion.clock().elapsed(arc.start, motion.now());
+        if elapsed > 0.0 {
+            watch.arc(&arc, elapsed);
+        }
+        let mechanical = change_of_energy(scene, now, watch.position, watch.velocity);
+        let (acceleration, contact_force) = watch.forces(scene, now);
+        Ok(Sensitivity {
+            position: watch.position,
+            velocity: watch.velocity,
+            acceleration,
+            contact_force,
+            mechanical,
+            supplied: watch.supplied,
+            dissipated: watch.supplied - (mechanical - stored),
+            impact_time: watch.impact.0,
+            impact_velocity: watch.impact.1,
+        })
+    }
+}
+
+/// Change in J of the mechanical energy with that of the state.
+fn change_of_energy(scene: &Scene, motion: &Motion, position: f64, velocity: f64) -> f64 {
+    let Start {
+        position: x,
+        velocity: v,
+    } = motion.state();
+    let elastic = scene.stiffness * x + motion.store().force_at(x);
+    scene.mass * v * velocity + elastic * position
+}
+
+/// Carries a change along a motion.
+#[derive(Debug, Default)]
+struct Watch {
+    mass: f64,
+    force: f64,
+    position: f64,
+    velocity: f64,
+    supplied: f64,
+    /// Push in N at the end of the last arc.
+    push: f64,
+    /// Changes of the time and the velocity of the last impact.
+    impact: (f64, f64),
+}
+
+impl Observer for Watch {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        let by = Change {
+            position: self.position,
+            velocity: self.velocity,
+            push: self.force / self.mass,
+        };
+        let law = arc.phase.map_or(0.0, |phase| phase.law.force / self.mass);
+        self.supplied += self.mass * arc.course.changed_supply(elapsed, by, law);
+        self.push = self.mass * (arc.course.push(elapsed) - law);
+        (self.position, self.velocity) = arc.course.changed(elapsed, by);
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        let (v, a) = (crossing.velocity, crossing.acceleration_before);
+        let later = match crossing.kind {
+            CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } if v != 0.0 => {
+                -self.position / v
+            }
+            _ => 0.0,
+        };
+        if crossing.impact_velocity().is_some() {
+            self.impact = (later, self.velocity + a * later);
+        }
+        // The push works on another velocity from an impact on that comes later.
+        self.supplied += self.push * (v - crossing.velocity_after) * later;
+        let after = saltation(crossing) * nalgebra::Vector2::new(self.position, self.velocity);
+        (self.position, self.velocity) = (after.x, after.y);
+    }
+}
+
+impl Watch {
+    /// Changes of acceleration and contact force.
+    fn forces(&self, scene: &Scene, motion: &Motion) -> (f64, f64) {
+        let Some(phase) = motion.phase() else {
+            return (0.0, self.force - scene.stiffness * self.position);
+        };
+        let Start { position, velocity } = motion.state();
+        let (stiffness, damping) = phase.slopes(position, velocity);
+        let resisting = stiffness * self.position + damping * self.velocity;
+        let free = scene.stiffness * self.position + scene.damping * self.velocity;
+        ((self.force - resisting) / self.mass, resisting - free)
+    }
+}
