@@ -24,7 +24,7 @@ fn point_a() -> Result<Task, Box<dyn std::error::Error>> {
 
 /// An example scene of docs/scenes.
 fn example(name: &str) -> Result<Task, Box<dyn std::error::Error>> {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/scenes");
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/scenes");
     let file =
         scene_file::read(&folder.join(name)).map_err(|failure| format!("{name}: {failure}"))?;
     Ok(Task {
