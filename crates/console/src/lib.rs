@@ -1,7 +1,10 @@
 //! What the programs share: the [`machine`] as the user states it, [`scene_file`]s, [`progress`],
-//! [`interrupt`], [`failure`], [`output`] that is there whole or not at all, and text [`table`]s.
+//! [`interrupt`], [`failure`], and one [`export`] of every report: [`column`]s said once, text [`table`]s, and
+//! [`output`] that is there whole or not at all.
 #![forbid(unsafe_code)]
 
+pub mod column;
+pub mod export;
 pub mod failure;
 pub mod interrupt;
 pub mod machine;

@@ -1,0 +1,160 @@
+//! One report in every form: text for people, JSON for programs, tables, and files that are there whole or
+//! not at all.
+//!
+//! A command fills one plain struct, its report, whose field names are the keys of the JSON, and says in
+//! [`Report::text`] what people read, mostly by [`column::text`](crate::column::text) of the columns that
+//! CSV has, too. The rest is here: the paths of the files stand in JSON as `files` (kind -> path) and
+//! after the text.
+//!
+//! ```
+//! use serde::Serialize;
+//! use softstop_console::column::{Column, Form, Unit, Units, column, text};
+//! use softstop_console::export::{Export, Report};
+//! use softstop_console::output::Format;
+//!
+//! #[derive(Serialize)]
+//! struct Orders { orders: Vec<Order> }
+//! #[derive(Serialize)]
+//! struct Order { motion: String, share: f64 }
+//!
+//! fn columns() -> [Column<Order>; 2] {
+//!     [
+//!         column("motion", Unit::None, "z = p/n", |it: &Order| it.motion.clone().into())
+//!             .shown(Form::Plain),
+//!         column("share", Unit::None, "of all starts", |it: &Order| it.share.into())
+//!             .shown(Form::Percent(1)),
+//!     ]
+//! }
+//!
+//! impl Report for Orders {
+//!     fn text(&self) -> String {
+//!         text(&columns(), &self.orders, &Units::SI)
+//!     }
+//! }
+//!
+//! # let folder = tempfile::tempdir().map_err(anyhow::Error::from)?;
+//! let report = Orders { orders: vec![Order { motion: "z = 1".to_owned(), share: 0.5 }] };
+//! let export = Export::open(folder.path(), &[("table", "orders.csv"), ("report", "orders.json")])?;
+//! export.table("table", &columns(), &report.orders)?;
+//! export.finish(&report, Format::Text)?;
+//! let table = std::fs::read_to_string(folder.path().join("orders.csv")).map_err(anyhow::Error::from)?;
+//! assert_eq!(table, "motion,share\nz = 1,0.5\n");
+//! assert!(folder.path().join("orders.json").exists());
+//! # Ok::<(), softstop_console::failure::Failure>(())
+//! ```
+
+use std::borrow::Borrow;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::column::{Column, cells, names};
+use crate::failure::Failure;
+use crate::output::{self, Folder, Format};
+
+/// What a command found: plain data whose field names are the keys of the JSON.
+pub trait Report: Serialize {
+    /// The same for people.
+    fn text(&self) -> String;
+}
+
+/// Prints a report that has no files.
+///
+/// # Errors
+/// [`Failure::Run`] if stdout cannot be written.
+pub fn print(report: &impl Report, format: Format) -> Result<(), Failure> {
+    output::print(&match format {
+        Format::Json => output::json(report)?,
+        Format::Text => report.text(),
+    })
+}
+
+/// A report with the paths of its files by kind.
+#[derive(Serialize)]
+struct Filed<'a, R> {
+    #[serde(flatten)]
+    report: &'a R,
+    files: BTreeMap<&'static str, String>,
+}
+
+/// The kind of the file that holds the JSON.
+const REPORT: &str = "report";
+
+/// The files of a command, by kind and name, until they are whole.
+#[derive(Debug)]
+pub struct Export {
+    folder: Folder,
+    files: Vec<(&'static str, &'static str)>,
+}
+
+impl Export {
+    /// Makes the folder if need be, and tries whether files of these kinds and names can be written there.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming folder or file.
+    pub fn open(path: &Path, files: &[(&'static str, &'static str)]) -> Result<Self, Failure> {
+        let names: Vec<&str> = files.iter().map(|(_, name)| *name).collect();
+        Ok(Self {
+            folder: Folder::open(path, &names)?,
+            files: files.to_vec(),
+        })
+    }
+
+    /// Writes the file of a kind.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming the file.
+    pub fn file(&self, kind: &str, content: &[u8]) -> Result<(), Failure> {
+        self.folder.stage(self.name(kind), content)
+    }
+
+    /// Writes a table as the file of a kind.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming the file.
+    pub fn table<T>(
+        &self,
+        kind: &str,
+        columns: &[Column<T>],
+        rows: impl IntoIterator<Item = impl Borrow<T>>,
+    ) -> Result<(), Failure> {
+        let mut table = self.folder.create(self.name(kind))?;
+        table.header(&names(columns))?;
+        for row in rows {
+            table.row(&cells(columns, row.borrow()))?;
+        }
+        table.close()
+    }
+
+    /// Writes the JSON into the file of kind `report`, if there is one, puts all files in place and prints.
+    ///
+    /// # Errors
+    /// [`Failure::Interrupted`] before the first file, [`Failure::Run`] naming what cannot be written.
+    pub fn finish(self, report: &impl Report, format: Format) -> Result<(), Failure> {
+        let place = |(kind, name): &(&'static str, &str)| {
+            (*kind, self.folder.place(name).display().to_string())
+        };
+        let files: BTreeMap<_, _> = self.files.iter().map(place).collect();
+        let mut text = report.text() + "\n";
+        for (kind, path) in &files {
+            text += &format!("Written: {path} ({kind})\n");
+        }
+        let json = output::json(&Filed { report, files })?;
+        if self.files.iter().any(|(kind, _)| *kind == REPORT) {
+            self.file(REPORT, json.as_bytes())?;
+        }
+        let names: Vec<&str> = self.files.iter().map(|(_, name)| *name).collect();
+        self.folder.commit(&names)?;
+        output::print(match format {
+            Format::Json => &json,
+            Format::Text => &text,
+        })
+    }
+
+    /// The name of the file of a kind; a kind that was not opened is its own name.
+    fn name<'a>(&'a self, kind: &'a str) -> &'a str {
+        let file = self.files.iter().find(|(other, _)| *other == kind);
+        file.map_or(kind, |(_, name)| name)
+    }
+}
