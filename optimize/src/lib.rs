@@ -9,6 +9,7 @@
 //! and [`chart`] say and draw the answer; [`output`] puts files in place whole or not at all.
 
 pub mod design;
+pub mod library;
 pub mod optimize;
 pub mod report;
 

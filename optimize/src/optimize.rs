@@ -16,6 +16,7 @@ use softstop_dynamics::orbit::{self, Orbit};
 
 use crate::design::search::{self, SearchError};
 use crate::design::{Design, Problem};
+use crate::library::library;
 use crate::optimize::chart::Chart;
 use crate::report::{self, DesignReport, OptimizeReport, ReferenceReport, SearchReport};
 use best::Best;
@@ -94,7 +95,7 @@ pub struct OptimizeArguments {
 pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let job = Job::new(arguments)?;
     let folder = Folder::open(&job.output, &[JSON, CHART, FMU])?;
-    let library = fmu::library()?;
+    let library = library()?;
     let design = solve(&job)?;
     let references = References::find()?;
     let report = compose(&job, &design, &references, &folder);

@@ -20,9 +20,3 @@ pub(super) fn archive(library: &Library, design: &Design) -> Result<Vec<u8>> {
     let values = StartValues::from_scene(&scene, start)?;
     package::archive(&values, slice::from_ref(library)).context("cannot make the FMU")
 }
-
-/// The FMU library that was built with this program.
-pub(super) fn library() -> Result<Library> {
-    let path = package::find_library().context("cannot make the FMU")?;
-    Library::read(&path).context("cannot make the FMU")
-}
