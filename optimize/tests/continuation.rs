@@ -57,7 +57,7 @@ fn the_z_1_branch_has_the_rows_of_table_1_and_its_files() -> Outcome {
     let symbols: Vec<&str> = found.iter().map(|special| special.0).collect();
     assert_eq!(symbols, ["G", "PD", "SN", "G"]);
     // Grazing in closed form.
-    let (lower, upper) = grazing_frequencies(&Ratios::unloaded())?;
+    let (lower, upper) = grazing_frequencies(&Ratios::unloaded().scene()?)?;
     near(found[0].1, lower.ok_or("none")?, 1e-10);
     near(found[1].1, 0.988_907, 5e-7);
     near(found[2].1, 1.369_036, 5e-7);

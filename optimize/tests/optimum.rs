@@ -45,8 +45,8 @@ fn grid(range: Interval, count: usize) -> impl Iterator<Item = f64> {
 
 /// The velocity at one point, with the places of the zone taken from a grid too.
 fn on_grid(problem: &Problem, stiffness: f64, clearance: f64, places: usize) -> f64 {
-    let ratios = problem.machine.at(stiffness, clearance);
-    let Ok(zone) = softstop_dynamics::zone::hysteresis(&ratios) else {
+    let scene = problem.machine.at(stiffness, clearance).scene();
+    let Ok(zone) = softstop_dynamics::zone::hysteresis(&scene.expect("valid")) else {
         return f64::NEG_INFINITY;
     };
     let window = Interval {

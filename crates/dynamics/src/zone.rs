@@ -6,7 +6,7 @@ use thiserror::Error;
 use crate::continuation::{BranchPoint, Family, Follower, Heading};
 use crate::orbit::{Orbit, OrbitError, find};
 use softstop::error::{MotionError, SceneError};
-use softstop::scene::{Ratios, Scene};
+use softstop::scene::Scene;
 
 /// Why a machine has no hysteresis zone.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -17,29 +17,31 @@ pub enum ZoneError {
          impact-less motion, for a grazing boundary to exist"
     )]
     NoGrazing {
-        /// The clearance rho.
+        /// The clearance in m.
         clearance: f64,
-        /// The amplitude at resonance.
+        /// The amplitude at resonance in m.
         largest: f64,
     },
     /// There is no stable z = 1 motion where the zone would begin.
-    #[error("no hysteresis: no stable z = 1 motion at the grazing boundary eta = {frequency}")]
+    #[error(
+        "no hysteresis: no stable z = 1 motion at the grazing boundary frequency = {frequency}"
+    )]
     NoOrbit {
-        /// Frequency ratio of the grazing boundary.
+        /// Frequency of the grazing boundary in rad/s.
         frequency: f64,
     },
     /// The z = 1 branch loses its stability otherwise than by a fold.
     #[error(
-        "the z = 1 branch loses its stability by a flip near eta = {frequency}, before any fold"
+        "the z = 1 branch loses its stability by a flip near frequency = {frequency}, before any fold"
     )]
     Flip {
-        /// Frequency ratio at which it is first seen unstable.
+        /// Frequency in rad/s at which it is first seen unstable.
         frequency: f64,
     },
     /// The z = 1 branch goes on without a fold.
-    #[error("the z = 1 branch was followed to eta = {frequency} without meeting a fold")]
+    #[error("the z = 1 branch was followed to frequency = {frequency} without meeting a fold")]
     NoFold {
-        /// Frequency ratio up to which it was followed.
+        /// Frequency in rad/s up to which it was followed.
         frequency: f64,
     },
     /// A place outside the zone was asked for.
@@ -62,16 +64,16 @@ impl From<SceneError> for ZoneError {
 /// The hysteresis zone of one machine, with its branch of z = 1 motions.
 #[derive(Debug, Clone)]
 pub struct Zone {
-    /// The machine; its frequency plays no part.
-    pub ratios: Ratios,
-    /// Lower grazing frequency ratio, below resonance; none if the static deflection reaches the
+    /// The machine; the frequency of its drive plays no part.
+    pub scene: Scene,
+    /// Lower grazing frequency in rad/s, below resonance; none if the static deflection reaches the
     /// stop.
     pub frequency_g0_below: Option<f64>,
-    /// Grazing frequency ratio g0 above resonance: s = 0.
+    /// Grazing frequency g0 in rad/s, above resonance: s = 0.
     pub frequency_g0: f64,
-    /// Frequency ratio of the fold s_SN: s = 1.
+    /// Frequency of the fold s_SN in rad/s: s = 1.
     pub frequency_sn: f64,
-    /// Before-impact velocity at the fold.
+    /// Before-impact velocity at the fold in m/s.
     pub velocity_sn: f64,
     /// The branch from g0 on, through all its folds, in order of arclength.
     pub branch: Vec<BranchPoint>,
@@ -87,51 +89,50 @@ const WEAKEST: f64 = 0.2;
 const STEEPEST: f64 = -4.0;
 /// Largest 1 - tr + det that a located fold may show.
 const AT_FOLD: f64 = 1e-7;
-/// Frequency ratio, in units of g0, beyond which no fold is looked for.
+/// Frequency in units of g0 beyond which no fold is looked for.
 const FARTHEST: f64 = 8.0;
 
-/// Frequency ratios at which the impact-less motion grazes the stop: (below resonance, above).
+/// Frequencies in rad/s at which the impact-less motion grazes the stop: (below resonance, above).
 ///
-/// Its amplitude 1 / sqrt((1 - eta^2)^2 + (2 beta1 eta)^2) equals rho where
-/// eta^2 = 1 - 2 beta1^2 +- sqrt(1/rho^2 - 4 beta1^2 (1 - beta1^2)).
+/// Its amplitude F0 / |k1 - m w^2 + i b1 w| equals the clearance r where
+/// m w^2 = k1 - b1^2 / (2 m) +- sqrt((F0 / r)^2 - b1^2 (k1 / m - b1^2 / (2 m)^2)).
 ///
 /// # Errors
-/// [`ZoneError::NoGrazing`] if the amplitude never equals the clearance.
-pub fn grazing_frequencies(ratios: &Ratios) -> Result<(Option<f64>, f64), ZoneError> {
-    let square = ratios.damping * ratios.damping;
-    let rho = ratios.clearance;
-    let centre = 1.0 - 2.0 * square;
-    let least = 4.0 * square * (1.0 - square);
-    let discriminant = 1.0 / (rho * rho) - least;
+/// [`ZoneError::NoGrazing`] if the amplitude never equals the clearance, [`ZoneError::Orbit`] for a
+/// scene that is none.
+pub fn grazing_frequencies(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
+    scene.validate()?;
+    let (m, k, r) = (scene.mass, scene.stiffness, scene.clearance);
+    let (force, square) = (scene.excitation.amplitude, scene.damping * scene.damping);
+    let centre = m * k - 0.5 * square;
+    let least = square * (m * k - 0.25 * square);
+    let discriminant = m * m * (force * force / (r * r)) - least;
     let largest = if centre > 0.0 {
-        1.0 / least.sqrt()
+        m * force / least.sqrt()
     } else {
-        1.0
+        force / k
     };
-    let above = centre + discriminant.sqrt();
-    if !(rho > 0.0 && discriminant >= 0.0 && above > 0.0) {
+    let above = (centre + discriminant.sqrt()) / (m * m);
+    if !(r > 0.0 && force > 0.0 && discriminant >= 0.0 && above > 0.0) {
         return Err(ZoneError::NoGrazing {
-            clearance: rho,
+            clearance: r,
             largest,
         });
     }
-    // The product of the roots is 1 - 1/rho^2: no cancellation for the smaller one.
-    let below = (1.0 - 1.0 / rho) * (1.0 + 1.0 / rho) / above;
+    // The product of the roots: no cancellation for the smaller one.
+    let below = (k - force / r) * (k + force / r) / (m * m) / above;
     Ok(((below > 0.0).then(|| below.sqrt()), above.sqrt()))
 }
 
-/// The hysteresis zone of a machine; `ratios.frequency` plays no part.
+/// The hysteresis zone of a scene with any stop; the frequency of its drive plays no part.
 ///
 /// # Errors
 /// [`ZoneError`] if there is no grazing boundary, no z = 1 motion at it, or no fold.
-pub fn hysteresis(ratios: &Ratios) -> Result<Zone, ZoneError> {
-    ratios.scene()?;
-    let (frequency_g0_below, frequency_g0) = grazing_frequencies(ratios)?;
-    let family = Frequencies(*ratios);
-    let start = find(&family.scene([frequency_g0]).map_err(OrbitError::from)?).map_err(|_| {
-        ZoneError::NoOrbit {
-            frequency: frequency_g0,
-        }
+pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
+    let (frequency_g0_below, frequency_g0) = grazing_frequencies(scene)?;
+    let family = Frequencies::of(scene, frequency_g0);
+    let start = find(&at(scene, frequency_g0)).map_err(|_| ZoneError::NoOrbit {
+        frequency: frequency_g0,
     })?;
     let follower = Follower::new(&family, 1);
     let mut branch =
@@ -150,7 +151,7 @@ pub fn hysteresis(ratios: &Ratios) -> Result<Zone, ZoneError> {
         .max_by(|a, b| a.parameter.total_cmp(&b.parameter))
         .ok_or_else(|| no_fold(&branch))?;
     Ok(Zone {
-        ratios: *ratios,
+        scene: scene.clone(),
         frequency_g0_below,
         frequency_g0,
         frequency_sn: fold.parameter,
@@ -159,9 +160,16 @@ pub fn hysteresis(ratios: &Ratios) -> Result<Zone, ZoneError> {
     })
 }
 
+/// A scene at another frequency of its drive.
+fn at(scene: &Scene, frequency: f64) -> Scene {
+    let mut scene = scene.clone();
+    scene.excitation.frequency = frequency;
+    scene
+}
+
 /// Adds the folds to a branch, between the neighbours where 1 - tr + det changes its sign.
 fn insert_folds(
-    follower: &Follower<'_, Frequencies>,
+    follower: &Follower<'_, Frequencies<'_>>,
     branch: &mut Vec<BranchPoint>,
 ) -> Result<(), ZoneError> {
     let mut index = 1;
@@ -187,7 +195,12 @@ fn no_fold(branch: &[BranchPoint]) -> ZoneError {
 }
 
 impl Zone {
-    /// eta = g0 + s (eta_SN - g0).
+    /// The machine at a place s of the zone.
+    pub fn scene_at(&self, share: f64) -> Scene {
+        at(&self.scene, self.frequency_at(share))
+    }
+
+    /// The frequency in rad/s at a place s: g0 + s (s_SN - g0).
     pub fn frequency_at(&self, share: f64) -> f64 {
         self.frequency_g0 + share * (self.frequency_sn - self.frequency_g0)
     }
@@ -201,7 +214,7 @@ impl Zone {
         if !(0.0..=1.0).contains(&share) {
             return Err(ZoneError::Outside { share });
         }
-        let family = Frequencies(self.ratios);
+        let family = Frequencies::of(&self.scene, self.frequency_g0);
         let follower = Follower::new(&family, 1);
         let target = self.frequency_at(share);
         let mut best: Option<BranchPoint> = None;
@@ -226,29 +239,51 @@ impl Zone {
         }
         let lost = OrbitError::NotFound {
             frequency: target,
-            clearance: self.ratios.clearance,
+            clearance: self.scene.clearance,
         };
         Ok(follower.orbit(&best.ok_or(lost)?)?)
     }
 }
 
-/// One machine at all frequencies.
-struct Frequencies(Ratios);
+/// One scene at all frequencies.
+struct Frequencies<'a> {
+    scene: &'a Scene,
+    /// Omega = sqrt(k1/m) in rad/s.
+    natural: f64,
+    /// Clearance or static deflection in m, whichever is larger.
+    length: f64,
+}
 
-impl Family for Frequencies {
-    fn scene(&self, [frequency]: [f64; 1]) -> Result<Scene, MotionError> {
-        Ok(Ratios {
-            frequency,
-            ..self.0
+impl<'a> Frequencies<'a> {
+    /// `grazing` is the scale of the frequencies of a mass without a suspension.
+    fn of(scene: &'a Scene, grazing: f64) -> Self {
+        let (k, r) = (scene.stiffness, scene.clearance.abs());
+        let (natural, length) = if k > 0.0 {
+            let deflection = scene.excitation.amplitude / k;
+            ((k / scene.mass).sqrt(), r.max(deflection))
+        } else {
+            (grazing, r)
+        };
+        Self {
+            scene,
+            natural,
+            length,
         }
-        .scene()?)
+    }
+}
+
+impl Family for Frequencies<'_> {
+    fn scene(&self, [frequency]: [f64; 1]) -> Result<Scene, MotionError> {
+        let scene = at(self.scene, frequency);
+        scene.validate()?;
+        Ok(scene)
     }
 
     fn state_scales(&self) -> [f64; 2] {
-        [self.0.clearance.abs().max(1.0); 2]
+        [self.length, self.length * self.natural]
     }
 
     fn parameter_scales(&self) -> [f64; 1] {
-        [0.2]
+        [0.2 * self.natural]
     }
 }

@@ -190,7 +190,7 @@ fn cells_in_a_basin_go_to_its_orbit_and_the_largest_ball_is_inside() {
 
 #[test]
 fn the_certainty_falls_along_the_zone() {
-    let zone = zone::hysteresis(&Ratios::unloaded()).expect("there is one");
+    let zone = zone::hysteresis(&Ratios::unloaded().scene().expect("valid")).expect("there is one");
     let places = [0.0, 0.25, 0.5, 0.75, 0.98];
     let found = establishing(&zone, &places, &states(30), &Options::default(), &|_, _| {
         true

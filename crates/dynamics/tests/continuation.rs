@@ -42,6 +42,10 @@ const TWO_THIRDS: (f64, f64) = (9.265_438, 3.715_005);
 const TWO_QUARTERS_B: (f64, f64) = (9.360_532, 3.830_784);
 const TENTH: (f64, f64) = (8.206_329, 2.189_225);
 
+fn unloaded() -> Scene {
+    Ratios::unloaded().scene().expect("valid")
+}
+
 fn all_of_z1() -> Branch {
     branch(1.15, 1, A, (0.5, 2.0))
 }
@@ -75,7 +79,7 @@ fn z1_goes_from_grazing_over_flip_and_fold_to_grazing() {
         .map(|(name, _)| name)
         .collect();
     assert_eq!(symbols, ["G", "PD", "SN", "G"]);
-    let (below, above) = grazing_frequencies(&Ratios::unloaded()).expect("a boundary");
+    let (below, above) = grazing_frequencies(&unloaded()).expect("a boundary");
     let [low, flip, fold, high] = &branch.specials[..] else {
         panic!("{branch:?}");
     };
@@ -101,7 +105,7 @@ fn the_other_side_of_the_same_grazing() {
         .expect("the impact-less motion");
     assert!(matches!(branch.ends, (End::Grazing, End::Range)));
     let graze = &branch.specials[0];
-    let (_, above) = grazing_frequencies(&Ratios::unloaded()).expect("a boundary");
+    let (_, above) = grazing_frequencies(&unloaded()).expect("a boundary");
     assert_near(graze.point.parameter, above, 1e-12);
     match graze.kind {
         SpecialKind::Grazing(graze) => {

@@ -7,20 +7,15 @@ use softstop_dynamics::zone::grazing_frequencies;
 
 /// The unloaded machine a relative distance above its lower (or upper) grazing frequency.
 fn beside(upper: bool, distance: f64) -> Scene {
-    let ratios = Ratios::unloaded();
-    let (lower, higher) = grazing_frequencies(&ratios).expect("grazing");
+    let mut scene = Ratios::unloaded().scene().expect("valid");
+    let (lower, higher) = grazing_frequencies(&scene).expect("grazing");
     let grazing = if upper {
         higher
     } else {
         lower.expect("below resonance")
     };
-    let frequency = grazing * (1.0 + distance);
-    Ratios {
-        frequency,
-        ..ratios
-    }
-    .scene()
-    .expect("valid")
+    scene.excitation.frequency = grazing * (1.0 + distance);
+    scene
 }
 
 /// The impact-less motion at drive angle 0, as if there were no stop.

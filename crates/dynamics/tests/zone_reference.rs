@@ -4,8 +4,12 @@
 mod common;
 
 use common::{list, machine, number, ratios};
-use softstop::Ratios;
+use softstop::{Ratios, Scene};
 use softstop_dynamics::zone::{grazing_frequencies, hysteresis};
+
+fn scene(ratios: &Ratios) -> Scene {
+    ratios.scene().expect("valid")
+}
 
 #[test]
 fn grazing_is_closed_form() {
@@ -16,7 +20,7 @@ fn grazing_is_closed_form() {
             damping: number(expected, "damping"),
             ..Ratios::unloaded()
         };
-        let (below, above) = grazing_frequencies(&machine).expect("a boundary");
+        let (below, above) = grazing_frequencies(&scene(&machine)).expect("a boundary");
         assert!((above - number(expected, "frequency_g0")).abs() < 1e-14);
         match (below, expected["frequency_low"].is_null()) {
             (Some(below), false) => {
@@ -40,7 +44,7 @@ fn folds_agree_with_thirty_digits() {
     let mut compared = 0;
     for expected in list(&machine, "folds") {
         let ratios = ratios(expected.get("parameters").unwrap_or(expected));
-        let Ok(zone) = hysteresis(&ratios) else {
+        let Ok(zone) = hysteresis(&scene(&ratios)) else {
             assert!(has_no_zone(&ratios), "no zone at {ratios:?}");
             continue;
         };
@@ -70,10 +74,10 @@ const FOLDS: [(f64, f64, f64); 9] = [
 #[test]
 fn folds_over_clearance() {
     for (clearance, velocity, frequency) in FOLDS {
-        let zone = hysteresis(&Ratios {
+        let zone = hysteresis(&scene(&Ratios {
             clearance,
             ..Ratios::unloaded()
-        })
+        }))
         .expect("a zone");
         assert!(
             (zone.velocity_sn - velocity).abs() < 0.005 + 1e-9,
@@ -97,7 +101,7 @@ fn orbits_within_the_zone_agree_with_thirty_digits() {
             Ratios::unloaded()
         };
         let ratios = Ratios { clearance, ..base };
-        let Ok(zone) = hysteresis(&ratios) else {
+        let Ok(zone) = hysteresis(&scene(&ratios)) else {
             assert!(has_no_zone(&ratios), "no zone at {ratios:?}");
             continue;
         };
@@ -132,7 +136,7 @@ fn peaks_agree_with_thirty_digits() {
             Ratios::unloaded()
         };
         let clearance = number(expected, "clearance");
-        let zone = hysteresis(&Ratios { clearance, ..base }).expect("a zone");
+        let zone = hysteresis(&scene(&Ratios { clearance, ..base })).expect("a zone");
         let share = |frequency: f64| {
             (frequency - zone.frequency_g0) / (zone.frequency_sn - zone.frequency_g0)
         };

@@ -46,7 +46,9 @@ pub struct ZoneArguments {
 pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
     let machine = machine::machine(arguments.scene.as_ref(), &arguments.machine)?;
     let ratios = &machine.ratios;
-    let zone = softstop_dynamics::zone::hysteresis(ratios).with_context(|| {
+    let scene = ratios.scene();
+    let scene = scene.map_err(|error| Failure::usage(error.to_string()))?;
+    let zone = softstop_dynamics::zone::hysteresis(&scene).with_context(|| {
         let (k4, rho) = (ratios.stiffness, ratios.clearance);
         format!("no hysteresis zone found at stiffness = {k4}, clearance = {rho}")
     })?;

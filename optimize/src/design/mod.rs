@@ -11,7 +11,7 @@ pub mod space;
 
 use softstop::Ratios;
 use softstop_dynamics::orbit::Orbit;
-use softstop_dynamics::zone::{self, Zone};
+use softstop_dynamics::zone::{self, Zone, ZoneError};
 
 use softstop_console::machine::Machine;
 use space::Interval;
@@ -68,7 +68,9 @@ impl Problem {
     /// [`Infeasible`] if there is no zone, or none of it is allowed and stable.
     pub fn at(&self, stiffness: f64, clearance: f64) -> Result<Design, Infeasible> {
         let ratios = self.machine.at(stiffness, clearance);
-        let zone = zone::hysteresis(&ratios).map_err(|error| Infeasible {
+        let zone = ratios.scene().map_err(ZoneError::from);
+        let zone = zone.and_then(|scene| zone::hysteresis(&scene));
+        let zone = zone.map_err(|error| Infeasible {
             gap: self.distance_from_zones(&ratios),
             reason: error.to_string(),
         })?;

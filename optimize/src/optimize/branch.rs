@@ -1,7 +1,7 @@
 //! The stable z = 1 motions of a zone as curves to draw.
 
 use nalgebra::Vector2;
-use softstop::Ratios;
+use softstop::Scene;
 use softstop_dynamics::continuation::BranchPoint;
 use softstop_dynamics::orbit::Orbit;
 use softstop_dynamics::zone::Zone;
@@ -28,7 +28,7 @@ impl Branch {
             frequency_sn: zone.frequency_sn,
             pieces: stable
                 .filter(|piece| piece.len() > 1)
-                .map(|piece| smooth(&zone.ratios, piece))
+                .map(|piece| smooth(&zone.scene, piece))
                 .collect(),
         }
     }
@@ -39,13 +39,13 @@ fn drawn(point: &BranchPoint) -> bool {
     point.is_stable() || point.fold_test().abs() < 1e-6
 }
 
-fn smooth(ratios: &Ratios, piece: &[BranchPoint]) -> Vec<(f64, f64)> {
+fn smooth(scene: &Scene, piece: &[BranchPoint]) -> Vec<(f64, f64)> {
     let mut curve = Vec::new();
     for pair in piece.windows(2) {
         let (from, to) = (&pair[0], &pair[1]);
         curve.push((from.parameter, from.before_impact_velocity()));
         let shares = (1..=BETWEEN).map(|step| f64::from(step) / f64::from(BETWEEN + 1));
-        curve.extend(shares.filter_map(|share| between(ratios, from, to, share)));
+        curve.extend(shares.filter_map(|share| between(scene, from, to, share)));
     }
     curve.extend(
         piece
@@ -56,24 +56,15 @@ fn smooth(ratios: &Ratios, piece: &[BranchPoint]) -> Vec<(f64, f64)> {
 }
 
 /// The motion at a frequency between two neighbours, if Newton's method stays between them.
-fn between(
-    ratios: &Ratios,
-    from: &BranchPoint,
-    to: &BranchPoint,
-    share: f64,
-) -> Option<(f64, f64)> {
+fn between(scene: &Scene, from: &BranchPoint, to: &BranchPoint, share: f64) -> Option<(f64, f64)> {
     let mix = |from: f64, to: f64| from + share * (to - from);
     let frequency = mix(from.parameter, to.parameter);
     let state = Vector2::new(
         mix(from.position, to.position),
         mix(from.velocity, to.velocity),
     );
-    let scene = Ratios {
-        frequency,
-        ..*ratios
-    }
-    .scene()
-    .ok()?;
+    let mut scene = scene.clone();
+    scene.excitation.frequency = frequency;
     let orbit = Orbit::near(&scene, state).ok()?;
     let inside = |value: f64, a: f64, b: f64| value >= a.min(b) && value <= a.max(b);
     inside(orbit.position, from.position, to.position)

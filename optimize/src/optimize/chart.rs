@@ -61,7 +61,7 @@ impl Chart {
             ),
             design: (ratios.frequency, design.before_impact_velocity()),
             reference_branch: Branch::new(
-                &zone::hysteresis(&paper)?,
+                &zone::hysteresis(&paper.scene()?)?,
                 label(&format!("paper's {name}"), paper.stiffness, paper.clearance),
             ),
             reference: (paper.frequency, reference.before_impact_velocity()),

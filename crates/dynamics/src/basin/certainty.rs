@@ -6,14 +6,13 @@ use super::{Basins, Grid, Options, basins_watched};
 use crate::attractors::{SurveyError, Watcher};
 use crate::orbit::Regime;
 use crate::zone::{Zone, ZoneError};
-use softstop::scene::Ratios;
 
 /// The basins at one place of the zone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Establishing {
     /// Place s: 0 at g0, 1 at s_SN.
     pub place: f64,
-    /// Frequency ratio eta.
+    /// Frequency in rad/s.
     pub frequency: f64,
     /// Share of the cells that lead to z = 1: the establishing certainty.
     pub certainty: f64,
@@ -55,19 +54,14 @@ pub fn establishing(
         }
         let before = each * index as u64;
         let all = each * places.len() as u64;
-        let frequency = zone.frequency_at(*place);
-        let ratios = Ratios {
-            frequency,
-            ..zone.ratios
-        };
-        let scene = ratios.scene().map_err(ZoneError::from)?;
+        let scene = zone.scene_at(*place);
         let basins = basins_watched(&scene, grid, options, &|done, _| {
             watcher(before + done, all)
         })?;
         let (certainty, interval) = basins.share(Regime::ONE);
         Ok(Establishing {
             place: *place,
-            frequency,
+            frequency: scene.excitation.frequency,
             certainty,
             interval,
             basins,

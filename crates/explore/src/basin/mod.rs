@@ -219,14 +219,10 @@ fn along(
     machine: &Machine,
     places: usize,
 ) -> Result<String, Failure> {
-    let zone = zone::hysteresis(&machine.ratios).context("no hysteresis zone found")?;
-    let scene = Ratios {
-        frequency: zone.frequency_g0,
-        ..machine.ratios
-    }
-    .scene()
-    .map_err(|error| Failure::usage(error.to_string()))?;
-    let grid = plane::grid(arguments, &scene)?;
+    let scene = machine.ratios.scene();
+    let scene = scene.map_err(|error| Failure::usage(error.to_string()))?;
+    let zone = zone::hysteresis(&scene).context("no hysteresis zone found")?;
+    let grid = plane::grid(arguments, &zone.scene_at(0.0))?;
     let folder = Folder::open(&arguments.output, &ALONG)?;
     let shares: Vec<f64> = (0..places)
         .map(|k| k as f64 / (places - 1) as f64)

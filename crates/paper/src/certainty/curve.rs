@@ -79,7 +79,8 @@ impl Curve {
             clearance,
             ..machine
         };
-        let zone = zone::hysteresis(&machine)
+        let scene = machine.scene().context("no machine")?;
+        let zone = zone::hysteresis(&scene)
             .with_context(|| format!("no hysteresis zone at rho = {clearance}"))?;
         Ok(Self {
             zone,
@@ -89,12 +90,12 @@ impl Curve {
     }
 
     pub fn clearance(&self) -> f64 {
-        self.zone.ratios.clearance
+        self.zone.scene.clearance
     }
 
     /// Which of the paper's machines.
     pub fn machine(&self) -> &'static str {
-        if self.zone.ratios.piercing.is_some() {
+        if self.zone.scene.piercing.is_some() {
             "loaded"
         } else {
             "unloaded"

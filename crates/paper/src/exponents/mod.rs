@@ -142,7 +142,10 @@ fn exponent(mut machine: Ratios, step: &Step, batch: u64) -> Result<(f64, f64), 
 /// z = 1 from the grazing g0 to its fold, ever denser towards the fold: eta, X'-, exponent.
 fn branch(count: u32) -> Result<Vec<[f64; 3]>, Failure> {
     let failed = |error: ZoneError| Failure::Run(anyhow!(error));
-    let zone = hysteresis(&Ratios::unloaded()).map_err(failed)?;
+    let scene = Ratios::unloaded()
+        .scene()
+        .map_err(|error| failed(error.into()))?;
+    let zone = hysteresis(&scene).map_err(failed)?;
     let shares = (0..=count).map(|index| 1.0 - (1.0 - f64::from(index) / f64::from(count)).powi(3));
     let at = |share: f64| {
         let orbit = zone.orbit_at(share).map_err(failed)?;

@@ -115,12 +115,9 @@ fn ends_of(machine: &Ratios) -> Result<Ends, Box<dyn std::error::Error>> {
 
 /// z = 1 at g0: eta, X_m, X'-.
 fn grazing(machine: &Ratios) -> Result<[f64; 3], Box<dyn std::error::Error>> {
-    let (_, frequency) = grazing_frequencies(machine)?;
-    let scene = Ratios {
-        frequency,
-        ..*machine
-    }
-    .scene()?;
+    let mut scene = machine.scene()?;
+    let (_, frequency) = grazing_frequencies(&scene)?;
+    scene.excitation.frequency = frequency;
     let orbit = find(&scene)?;
     Ok([
         frequency,
@@ -253,7 +250,11 @@ pub(super) fn optimum(machine: &Ratios, ends: &[Ends]) -> Option<(f64, f64)> {
             clearance,
             ..*machine
         };
-        hysteresis(&machine).map_or(f64::NEG_INFINITY, |zone| zone.velocity_sn)
+        let zone = machine
+            .scene()
+            .ok()
+            .and_then(|scene| hysteresis(&scene).ok());
+        zone.map_or(f64::NEG_INFINITY, |zone| zone.velocity_sn)
     };
     let golden = 0.5 * (5f64.sqrt() - 1.0);
     let mut low = ends.get(best.wrapping_sub(1))?.clearance;

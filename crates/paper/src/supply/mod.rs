@@ -107,7 +107,8 @@ fn zones(clearance: f64) -> Result<Zones, Failure> {
             clearance,
             ..ratios
         };
-        zone::hysteresis(&ratios).map_err(|error| Failure::Run(error.into()))
+        let scene = ratios.scene().map_err(|error| Failure::Run(error.into()))?;
+        zone::hysteresis(&scene).map_err(|error| Failure::Run(error.into()))
     };
     let (unloaded, loaded) = (zone(Ratios::unloaded())?, zone(Ratios::loaded())?);
     Ok(Zones {
