@@ -1,10 +1,8 @@
 //! Bad input gives an error that names the parameter and its value; nothing panics or hangs.
 
-#[path = "common/random.rs"]
-mod random;
-
 use proptest::prelude::*;
 use softstop::{Excitation, MotionError, Piercing, Ratios, Scene, Simulation, Start, Stop};
+use softstop_testing::cases;
 
 fn machine() -> Scene {
     Ratios::loaded().scene().expect("valid")
@@ -115,7 +113,7 @@ fn any_number() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(random::cases(2000))]
+    #![proptest_config(cases(2000))]
 
     #[test]
     fn no_scene_panics(values in proptest::array::uniform14(any_number())) {

@@ -1,11 +1,9 @@
 //! Time does not drift: the drive angle after very many periods, and the way there and back.
 
-#[path = "common/random.rs"]
-mod random;
-
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use proptest::prelude::*;
 use softstop::{Clock, Instant};
+use softstop_testing::cases;
 
 /// cos and sin of w t at 60 digits (mpmath), w and t taken as the exact doubles.
 const ANGLES: [(f64, f64, f64, f64); 4] = [
@@ -64,7 +62,7 @@ fn whole_periods_leave_no_rest() {
 }
 
 proptest! {
-    #![proptest_config(random::cases(256))]
+    #![proptest_config(cases(256))]
 
     #[test]
     fn instants_and_times_agree(

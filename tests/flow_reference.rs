@@ -1,15 +1,8 @@
 //! The exact flow against 40-digit values (tests/reference/flow.py): every kind of root, zero and
 //! tiny stiffness, exact and near resonance, short and long times.
 
-use serde_json::Value;
 use softstop::flow::{Course, Departure, Flow, Polynomial};
-
-fn number(case: &Value, key: &str) -> f64 {
-    match &case[key] {
-        Value::String(text) => text.parse().expect("a number"),
-        value => value.as_f64().unwrap_or_else(|| panic!("{key} in {case}")),
-    }
-}
+use softstop_testing::reference::{FLOW, number};
 
 /// Rounding errors, in units of the 2^-53 sensitivity of the case to its own inputs, that an
 /// evaluation may show.
@@ -17,11 +10,10 @@ const ALLOWED: f64 = 40.0;
 
 #[test]
 fn flow_agrees_with_forty_digits() {
-    let text = include_str!("reference/flow.json");
-    let cases: Vec<Value> = serde_json::from_str(text).expect("flow.json");
+    let cases = FLOW.as_array().expect("a list");
     assert!(cases.len() > 200);
     let mut worst = (0.0, String::new());
-    for case in &cases {
+    for case in cases {
         let get = |key| number(case, key);
         let w = get("drive_frequency");
         let flow = Flow::new(

@@ -1,15 +1,10 @@
 //! What holds for every polynomial force: it does not matter how it is written, set anew or how the run is
 //! divided; energies balance; the order of interpolation is the one to be expected; nothing hangs.
 
-#[path = "common/machines.rs"]
-mod machines;
-#[path = "common/random.rs"]
-mod random;
-
-use machines::{machines, start_below};
 use proptest::prelude::*;
 use softstop::flow::{HIGHEST_ORDER, Polynomial};
 use softstop::{Excitation, MotionError, PhaseKind, Ratios, Scene, Simulation, Start, Stop};
+use softstop_testing::{cases, machines, start_below};
 
 const SEVENTH: [f64; 8] = [0.2, -0.1, 0.15, -0.02, -0.03, 0.02, -0.006, 0.0008];
 
@@ -346,7 +341,7 @@ fn a_held_mass_is_let_go_when_its_balance_is_reached() {
 }
 
 proptest! {
-    #![proptest_config(random::cases(256))]
+    #![proptest_config(cases(256))]
 
     #[test]
     fn energies_balance_and_division_does_not_matter(

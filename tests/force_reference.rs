@@ -1,13 +1,9 @@
 //! Motions under polynomial forces against independent 40-digit integrations (tests/reference/force.py).
 
-mod common;
-#[path = "common/scenes.rs"]
-mod scenes;
-
-use common::{list, number};
-use scenes::scene;
 use serde_json::Value;
 use softstop::{PhaseKind, Simulation, Start};
+use softstop_testing::reference::{FORCE, list, number};
+use softstop_testing::scenes::scene;
 
 /// Rounding errors, in units of 2^-53 times the growth of a perturbation, that a motion may show.
 const ALLOWED: f64 = 600.0;
@@ -99,9 +95,7 @@ impl Check<'_> {
 
 #[test]
 fn motions_under_polynomial_forces_agree_with_forty_digits() {
-    let reference: Value =
-        serde_json::from_str(include_str!("reference/force.json")).expect("force.json");
-    let cases = list(&reference, "cases");
+    let cases = list(&FORCE, "cases");
     assert!(cases.len() >= 30);
     for case in cases {
         let scene = scene(&case["scene"]);

@@ -11,40 +11,25 @@
 //! A long run, which ends with one line of figures:
 //!
 //! ```text
-//! GUARANTEE_SEEDS=1000000 cargo test --release --test guarantee -- --nocapture
+//! GUARANTEE_SEEDS=1000000 cargo test --release --test engine guarantee -- --nocapture
 //! ```
 //!
 //! `GUARANTEE_FIRST` sets the first seed.
 
-#[path = "guarantee/cases.rs"]
 mod cases;
-#[path = "guarantee/check.rs"]
 mod check;
-#[path = "guarantee/doctor.rs"]
 mod doctor;
-#[path = "guarantee/ends.rs"]
 mod ends;
-#[path = "guarantee/graze.rs"]
 mod graze;
-#[path = "guarantee/law.rs"]
 mod law;
-#[path = "guarantee/linear.rs"]
 mod linear;
-#[path = "guarantee/motion.rs"]
 mod motion;
-#[path = "guarantee/piece.rs"]
 mod piece;
-#[path = "guarantee/power.rs"]
 mod power;
-#[path = "guarantee/record.rs"]
 mod record;
-#[path = "guarantee/rules.rs"]
 mod rules;
-#[path = "guarantee/run.rs"]
 mod run;
-#[path = "guarantee/scales.rs"]
 mod scales;
-#[path = "guarantee/tally.rs"]
 mod tally;
 
 /// Seeds that every run of the tests checks.

@@ -94,7 +94,7 @@ fn a_motion_with_impacts_stays_on_its_orbit() {
 }
 
 /// All impacts of 10^8 periods, one after the other: some two minutes with
-/// `cargo test --release --test long_runs -- --ignored`.
+/// `cargo test --release --test engine long_runs -- --ignored`.
 #[test]
 #[ignore = "takes minutes"]
 fn a_motion_stays_on_its_orbit_for_a_hundred_million_periods() {

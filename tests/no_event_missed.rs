@@ -1,13 +1,11 @@
 //! No crossing is missed, none invented, none out of order: random motions, near-grazing ones
 //! over-represented, against dense sampling of an independent step-by-step evaluation.
 
-#[path = "common/random.rs"]
-mod random;
-
 use proptest::prelude::*;
 use softstop::integrator::{Crossing, Observer};
 use softstop::phases::PhaseKind;
 use softstop::{Clock, PiercingRatios, Ratios, Scene, Start, Trajectory};
+use softstop_testing::cases;
 
 /// Classical Runge-Kutta in steps so small that its error is far below the margin that is looked
 /// at: an integrator that shares nothing with the exact one.
@@ -100,7 +98,7 @@ fn grazing_scene(frequency: f64, offset: f64, start: Start, periods: u64) -> Opt
 }
 
 proptest! {
-    #![proptest_config(random::cases(200))]
+    #![proptest_config(cases(200))]
 
     #[test]
     fn first_touch_agrees_with_the_oracle(
@@ -250,7 +248,7 @@ fn assert_arcs_stay_in_their_layers(
 }
 
 proptest! {
-    #![proptest_config(random::cases(800))]
+    #![proptest_config(cases(800))]
 
     #[test]
     fn every_arc_stays_in_its_layer(

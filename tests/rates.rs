@@ -1,13 +1,8 @@
 //! Rates of the outputs against differences in time.
 
-#[path = "common/machines.rs"]
-mod machines;
-#[path = "common/random.rs"]
-mod random;
-
-use machines::{machines, start_below};
 use proptest::prelude::*;
 use softstop::Simulation;
+use softstop_testing::{cases, machines, start_below};
 
 /// Jerk, contact force and the three energies.
 fn outputs(machine: &Simulation) -> [f64; 5] {
@@ -22,7 +17,7 @@ fn outputs(machine: &Simulation) -> [f64; 5] {
 }
 
 proptest! {
-    #![proptest_config(random::cases(600))]
+    #![proptest_config(cases(600))]
 
     #[test]
     fn rates_are_derivatives_in_time(

@@ -1,15 +1,10 @@
 //! Derivatives of the outputs, across impacts, against differences of the motion itself.
 
-#[path = "common/machines.rs"]
-mod machines;
-#[path = "common/random.rs"]
-mod random;
-
-use machines::{machines, start_below};
 use proptest::prelude::*;
 use softstop::integrator::{Crossing, CrossingKind, Observer};
 use softstop::tangent::{Perturbation, Sensitivity};
 use softstop::{Clock, Scene, Simulation, Start};
+use softstop_testing::{cases, machines, start_below};
 
 /// Position, velocity, acceleration, contact force, energies, and time and velocity of the last impact.
 fn outputs(machine: &Simulation) -> [f64; 9] {
@@ -86,7 +81,7 @@ fn differences(run: impl Fn(f64) -> [f64; 9], width: f64) -> ([f64; 9], [f64; 9]
 }
 
 proptest! {
-    #![proptest_config(random::cases(1500))]
+    #![proptest_config(cases(1500))]
 
     #[test]
     fn sensitivities_are_derivatives(

@@ -1,13 +1,8 @@
 //! A machine that is kept, written to bytes, read back and restored goes on bit for bit.
 
-#[path = "common/machines.rs"]
-mod machines;
-#[path = "common/random.rs"]
-mod random;
-
-use machines::{machines, start_below};
 use proptest::prelude::*;
 use softstop::{MotionError, Scene, Simulation, Snapshot, Start};
+use softstop_testing::{cases, machines, start_below};
 
 fn through_bytes(machine: &Simulation) -> Simulation {
     let bytes = rmp_serde::to_vec_named(&machine.snapshot()).expect("plain data");
@@ -26,7 +21,7 @@ fn assert_same(one: &Simulation, other: &Simulation) {
 }
 
 proptest! {
-    #![proptest_config(random::cases(600))]
+    #![proptest_config(cases(600))]
 
     #[test]
     fn a_restored_machine_goes_on_bit_for_bit(

@@ -1,13 +1,9 @@
 //! Every law of a stop against independent 40-digit integrations (tests/reference/stops.py).
 
-mod common;
-#[path = "common/scenes.rs"]
-mod scenes;
-
-use common::{list, number};
-use scenes::{instant, scene};
 use serde_json::Value;
 use softstop::{PhaseKind, Scene, Start, Trajectory};
+use softstop_testing::reference::{STOPS, list, number};
+use softstop_testing::scenes::{instant, scene};
 
 /// Rounding errors, in units of 2^-53 times the growth of a perturbation, that a motion may show. The
 /// most are seen where an overdamped contact is left slowly: its end then hangs on the last digit of the
@@ -32,9 +28,7 @@ fn worst(case: &Value, scene: &Scene, trajectory: &Trajectory) -> f64 {
 
 #[test]
 fn motions_agree_with_forty_digits() {
-    let reference: Value =
-        serde_json::from_str(include_str!("reference/stops.json")).expect("stops.json");
-    let cases = list(&reference, "cases");
+    let cases = list(&STOPS, "cases");
     assert!(cases.len() >= 100);
     let mut failures = Vec::new();
     for case in cases {
@@ -138,14 +132,12 @@ fn compare_rests(case: &Value, trajectory: &Trajectory) -> Option<String> {
 /// periods, and a rigid one through accumulation, rest and release.
 #[test]
 fn hard_scenes_are_exact() {
-    let reference: Value =
-        serde_json::from_str(include_str!("reference/stops.json")).expect("stops.json");
     for (name, allowed) in [
         ("stiff", 1e-11),
         ("rigid zeno A", 1e-12),
         ("rigid zeno B", 1e-12),
     ] {
-        let cases = list(&reference, "cases");
+        let cases = list(&STOPS, "cases");
         let case = cases.iter().find(|case| case["name"] == name);
         let case = case.expect("the scene");
         let scene = scene(&case["scene"]);

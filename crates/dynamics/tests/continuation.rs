@@ -1,13 +1,9 @@
 //! Branches, their special points and curves of them, against closed forms, published figures and an
 //! independent 30-digit integrator.
 
-#[path = "../../../tests/common/mod.rs"]
-mod common;
-
 use std::ops::ControlFlow;
 
-use common::{list, machine, number};
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 use softstop::{Ratios, Scene, Stop};
 use softstop_dynamics::continuation::{
     Along, Branch, BranchPoint, Curve, CurvePoint, End, Face, Follower, Limits, Parameter, Region,
@@ -15,6 +11,8 @@ use softstop_dynamics::continuation::{
 };
 use softstop_dynamics::orbit::StroboscopicMap;
 use softstop_dynamics::zone::grazing_frequencies;
+use softstop_testing::reference::{MACHINE, list, number};
+use softstop_testing::tangent::differences;
 
 type Frequencies<M> = Along<M, 1>;
 
@@ -240,18 +238,6 @@ fn the_same_again() {
     }
 }
 
-/// Central differences of the map itself.
-fn differenced(scene: &Scene, periods: u64, state: Vector2<f64>) -> Matrix2<f64> {
-    let map = StroboscopicMap::new(scene, periods).expect("a map");
-    let image = |x: f64, v: f64| map.image(state + Vector2::new(x, v)).expect("an image");
-    let h = 1e-6;
-    let columns = [
-        (image(h, 0.0) - image(-h, 0.0)) / (2.0 * h),
-        (image(0.0, h) - image(0.0, -h)) / (2.0 * h),
-    ];
-    Matrix2::from_columns(&columns)
-}
-
 /// Fold and flip by the map alone, without its exact Jacobian.
 #[test]
 fn finite_differences_confirm_fold_and_flip() {
@@ -260,7 +246,8 @@ fn finite_differences_confirm_fold_and_flip() {
         let point = of_kind(&branch, symbol).remove(0).point;
         let mut ratios = Ratios::unloaded();
         ratios.frequency = point.parameter;
-        let matrix = differenced(&ratios.scene().expect("a scene"), 1, point.state());
+        let map = StroboscopicMap::new(&ratios.scene().expect("a scene"), 1).expect("a map");
+        let matrix = differences(|state| map.image(state).expect("an image"), point.state());
         let test = 1.0 + sign * matrix.trace() + matrix.determinant();
         assert_near(test, 0.0, 1e-6);
     }
@@ -356,10 +343,10 @@ fn fold_curve_passes_through_all_known_folds() {
 fn fold_curve_agrees_with_thirty_digits() {
     let fold = of_kind(&all_of_z1(), "SN").remove(0);
     let family = plane(FREQUENCY_CLEARANCE);
-    let machine = machine();
     let mut compared = 0;
-    for expected in list(&machine, "folds") {
-        let ratios = common::ratios(expected.get("parameters").unwrap_or(expected));
+    for expected in list(&MACHINE, "folds") {
+        let ratios =
+            softstop_testing::reference::ratios(expected.get("parameters").unwrap_or(expected));
         let same = Ratios {
             frequency: 1.15,
             clearance: 10.0,

@@ -1,16 +1,13 @@
 //! What holds for every motion: independence of the way a run is divided, the energy balance,
 //! Liouville's theorem, dimensional similarity.
 
-#[path = "../../../tests/common/random.rs"]
-mod random;
-#[path = "../../../tests/common/tangent.rs"]
-mod tangent;
-
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use softstop::integrator::{Crossing, Observer};
 use softstop::{Clock, PhaseKind, PiercingRatios, Ratios, Simulation, Start, Units};
 use softstop_dynamics::orbit::StroboscopicMap;
+use softstop_testing::cases;
+use softstop_testing::tangent::differences;
 
 /// Machines around the paper's, loaded or not, away from the degenerate.
 fn machines() -> impl Strategy<Value = Ratios> {
@@ -134,7 +131,7 @@ impl Observer for Slowest {
 }
 
 proptest! {
-    #![proptest_config(random::cases(256))]
+    #![proptest_config(cases(256))]
 
     #[test]
     fn energy_balances_in_every_machine(ratios in machines(), start in starts()) {
@@ -169,7 +166,7 @@ proptest! {
         let map = StroboscopicMap::new(&scene, 2).expect("valid");
         let state = Vector2::new(start.position, start.velocity);
         let passage = map.apply(state).expect("bounded");
-        let differences = tangent::differences(&map, state);
+        let differences = differences(|state| map.image(state).expect("bounded"), state);
         let size = 1.0 + passage.monodromy.norm();
         for (found, exact) in differences.column_iter().zip(passage.monodromy.column_iter()) {
             prop_assert!((found - exact).norm() < 1e-3 * size * size, "{found} {exact}");

@@ -1,11 +1,8 @@
 //! Whole motions against an independent 30-digit event-driven integrator
 //! (tests/reference/machine.py): impacts, states, dry friction, resting on the stop, stiff stops.
 
-#[path = "../../../tests/common/mod.rs"]
-mod common;
-
-use common::{list, machine, number, ratios};
 use softstop::{Clock, Scene, Start};
+use softstop_testing::reference::{MACHINE, list, number, ratios};
 
 /// Rounding errors, in units of 2^-53 times the growth of a perturbation, that a motion may show.
 const ALLOWED: f64 = 400.0;
@@ -16,8 +13,7 @@ fn tolerance(growth: f64, scale: f64) -> f64 {
 
 #[test]
 fn motions_agree_with_thirty_digits() {
-    let machine = machine();
-    let trajectories = list(&machine, "trajectories");
+    let trajectories = list(&MACHINE, "trajectories");
     assert!(trajectories.len() >= 30);
     for expected in trajectories {
         let name = &expected["name"];
@@ -79,8 +75,7 @@ fn growth_at(periods: &[serde_json::Value], time: f64) -> f64 {
 
 #[test]
 fn orbits_agree_with_thirty_digits() {
-    let machine = machine();
-    for expected in list(&machine, "orbits") {
+    for expected in list(&MACHINE, "orbits") {
         let scene = ratios(&expected["parameters"]).scene().expect("valid");
         let orbit = softstop_dynamics::orbit::find(&scene).expect("an orbit");
         let pairs = [

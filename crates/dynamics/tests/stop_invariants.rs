@@ -1,19 +1,13 @@
 //! What holds for every stop: the energy balance, independence of the way a run is divided,
 //! Liouville's theorem, the derivative of the map, dimensional similarity.
 
-#[path = "../../../tests/common/machines.rs"]
-mod machines;
-#[path = "../../../tests/common/random.rs"]
-mod random;
-#[path = "../../../tests/common/tangent.rs"]
-mod tangent;
-
-use machines::{machines, start_below};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use softstop::integrator::{Crossing, CrossingKind, Observer};
 use softstop::{Clock, PhaseKind, Scene, Simulation, Start, Units};
 use softstop_dynamics::orbit::StroboscopicMap;
+use softstop_testing::tangent::differences;
+use softstop_testing::{cases, machines, start_below};
 
 /// What a motion meets on its way.
 #[derive(Debug, Default)]
@@ -55,7 +49,7 @@ fn meets(scene: &Scene, start: Start, periods: u64) -> Meets {
 }
 
 proptest! {
-    #![proptest_config(random::cases(600))]
+    #![proptest_config(cases(600))]
 
     #[test]
     fn energy_balances(scene in machines(), depth in 0.0..6.0f64, velocity in -6.0..6.0f64) {
@@ -149,7 +143,7 @@ proptest! {
         let map = StroboscopicMap::new(&scene, 1).expect("valid");
         let state = Vector2::new(start.position, start.velocity);
         let passage = map.apply(state).expect("bounded");
-        let differences = tangent::differences(&map, state);
+        let differences = differences(|state| map.image(state).expect("bounded"), state);
         let size = 1.0 + passage.monodromy.norm();
         for (found, exact) in differences.column_iter().zip(passage.monodromy.column_iter()) {
             prop_assert!((found - exact).norm() < 1e-5 * size * size, "{found} {exact}");
@@ -300,7 +294,7 @@ fn the_tangent_of_a_plastic_impact() {
     let state = Vector2::new(-1.0, 0.0);
     let passage = map.apply(state).expect("bounded");
     assert_eq!(passage.impacts.len(), 1);
-    let differences = tangent::differences(&map, state);
+    let differences = differences(|state| map.image(state).expect("bounded"), state);
     for (found, exact) in differences
         .column_iter()
         .zip(passage.monodromy.column_iter())

@@ -1,11 +1,8 @@
 //! Grazing boundary and fold against 30-digit values and against the published figures.
 
-#[path = "../../../tests/common/mod.rs"]
-mod common;
-
-use common::{list, machine, number, ratios};
 use softstop::{Ratios, Scene};
 use softstop_dynamics::zone::{grazing_frequencies, hysteresis};
+use softstop_testing::reference::{MACHINE, list, number, ratios};
 
 fn scene(ratios: &Ratios) -> Scene {
     ratios.scene().expect("valid")
@@ -13,8 +10,7 @@ fn scene(ratios: &Ratios) -> Scene {
 
 #[test]
 fn grazing_is_closed_form() {
-    let machine = machine();
-    for expected in list(&machine, "boundaries") {
+    for expected in list(&MACHINE, "boundaries") {
         let machine = Ratios {
             clearance: number(expected, "clearance"),
             damping: number(expected, "damping"),
@@ -40,9 +36,8 @@ fn has_no_zone(ratios: &Ratios) -> bool {
 
 #[test]
 fn folds_agree_with_thirty_digits() {
-    let machine = machine();
     let mut compared = 0;
-    for expected in list(&machine, "folds") {
+    for expected in list(&MACHINE, "folds") {
         let ratios = ratios(expected.get("parameters").unwrap_or(expected));
         let Ok(zone) = hysteresis(&scene(&ratios)) else {
             assert!(has_no_zone(&ratios), "no zone at {ratios:?}");
@@ -54,7 +49,7 @@ fn folds_agree_with_thirty_digits() {
         let error = (zone.velocity_sn - number(expected, "velocity_sn")).abs();
         assert!(error < 1e-6, "{expected}: velocity {error:e} off");
     }
-    assert_eq!(compared, list(&machine, "folds").len() - 1);
+    assert_eq!(compared, list(&MACHINE, "folds").len() - 1);
 }
 
 /// Velocity at the fold over clearance, unloaded, k4/k1 = 7 (from an independent exact
@@ -89,8 +84,7 @@ fn folds_over_clearance() {
 
 #[test]
 fn orbits_within_the_zone_agree_with_thirty_digits() {
-    let machine = machine();
-    let records = list(&machine, "zone");
+    let records = list(&MACHINE, "zone");
     let mut compared = 0;
     for expected in records.iter().filter(|record| record["stable"] == true) {
         let clearance = number(expected, "clearance");
@@ -125,8 +119,7 @@ fn orbits_within_the_zone_agree_with_thirty_digits() {
 /// The highest before-impact velocity along a zone lies before its fold.
 #[test]
 fn peaks_agree_with_thirty_digits() {
-    let machine = machine();
-    let peaks = list(&machine, "peaks");
+    let peaks = list(&MACHINE, "peaks");
     assert!(peaks.len() >= 11);
     for expected in peaks.iter().filter(|peak| number(peak, "clearance") > 1.5) {
         let loaded = expected["regime"] == "loaded";

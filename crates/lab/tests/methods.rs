@@ -2,14 +2,8 @@
 //! located; and its agreement with the exact method on random machines.
 //!
 //! The table of docs/methods.md is printed by
-//! `cargo test --release --test methods -- --nocapture orders`.
+//! `cargo test --release -p softstop-lab --test lab methods::orders -- --nocapture`.
 
-#[path = "../../../tests/common/machines.rs"]
-mod machines;
-#[path = "../../../tests/common/random.rs"]
-mod random;
-
-use machines::{machines, start_below};
 use proptest::prelude::*;
 use softstop::integrator::{Crossing, CrossingKind, Observer};
 use softstop::scene::Release;
@@ -17,6 +11,7 @@ use softstop::{Ratios, Scene, Start, Stop};
 use softstop_lab::methods::{
     Events, Exact, FixedStep, Integrator, MethodError, Moreau, Scheme, Solution, Task,
 };
+use softstop_testing::{cases, machines, start_below};
 
 /// Starts whose errors are averaged: they differ in where in a step the impact falls.
 const STARTS: u32 = 64;
@@ -215,7 +210,7 @@ fn is_delicate(task: &Task) -> bool {
 }
 
 proptest! {
-    #![proptest_config(random::cases(150))]
+    #![proptest_config(cases(150))]
 
     #[test]
     fn located_methods_agree_with_the_exact_one(
@@ -243,7 +238,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(random::cases(300))]
+    #![proptest_config(cases(300))]
 
     /// Grazes, friction, chatter and rest included: an end, or a reason why not.
     #[test]

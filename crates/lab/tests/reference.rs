@@ -1,15 +1,9 @@
 //! The many-digit reference against independent integrations in 56 digits (tests/reference/stops.py), a closed
 //! form and the exact method.
 
-#[path = "../../../tests/common/mod.rs"]
-mod common;
-#[path = "../../../tests/common/scenes.rs"]
-mod scenes;
-
 use std::cell::RefCell;
 use std::str::FromStr;
 
-use common::{list, number};
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -21,6 +15,7 @@ use softstop_lab::methods::{Exact, Integrator, Task};
 use softstop_lab::reference::number::{Digits, Real, float, size};
 use softstop_lab::reference::walk::Walk;
 use softstop_lab::reference::{ReferenceError, solve};
+use softstop_testing::reference::{STOPS, list, number};
 
 /// Half a unit in the 30th digit of numbers up to 1000, to which stops.json is written, ten times over.
 const ALLOWED: f64 = 1e-26;
@@ -57,7 +52,7 @@ fn error(case: &Value) -> f64 {
     let name = &case["name"];
     let last = list(case, "samples").last().expect("samples");
     let start = (number(case, "position"), number(case, "velocity"));
-    let scene = scenes::scene(&case["scene"]);
+    let scene = softstop_testing::scenes::scene(&case["scene"]);
     let task = task(scene, start, number(last, "periods"));
     let course = Walk::new(&task, Digits(160)).and_then(|walk| walk.run(&|_| true));
     let course = course.unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -76,9 +71,7 @@ fn error(case: &Value) -> f64 {
 }
 
 fn agrees(family: &str, count: usize) {
-    let text = include_str!("../../../tests/reference/stops.json");
-    let reference: Value = serde_json::from_str(text).expect("stops.json");
-    let cases = list(&reference, "cases").iter();
+    let cases = list(&STOPS, "cases").iter();
     let cases: Vec<_> = cases.filter(|case| case["family"] == family).collect();
     assert_eq!(cases.len(), count);
     for case in cases {

@@ -1,11 +1,10 @@
-//! The scenes of tests/reference/stops.py and force.py.
-#![allow(dead_code, reason = "each test binary uses its own part")]
+//! Scenes of the paper, and those of tests/reference/stops.py and force.py.
 
 use serde_json::Value;
 use softstop::scene::{Release, RigidStop, Slope};
 use softstop::{Clock, Excitation, Instant, Piercing, Scene, Stop};
 
-use crate::common::{list, number};
+use crate::reference::{list, number};
 
 fn slopes(value: &Value, key: &str) -> Vec<Slope> {
     list(value, key)

@@ -1,5 +1,6 @@
-//! What the integration tests share.
-#![allow(dead_code, reason = "each test binary uses its own part")]
+//! The results of the many-digit integrations of tests/reference, each file parsed once.
+
+use std::sync::LazyLock;
 
 use serde_json::Value;
 use softstop::{PiercingRatios, Ratios};
@@ -21,10 +22,24 @@ pub fn list<'a>(value: &'a Value, key: &str) -> &'a [Value] {
         .unwrap_or_else(|| panic!("{key} missing in {value}"))
 }
 
-/// The 30-digit results of tests/reference/machine.py.
-pub fn machine() -> Value {
-    serde_json::from_str(include_str!("../reference/machine.json")).expect("machine.json")
+/// A JSON file of tests/reference.
+macro_rules! data {
+    ($name:literal) => {
+        LazyLock::new(|| {
+            let text = include_str!(concat!("../../../tests/reference/", $name));
+            serde_json::from_str(text).expect($name)
+        })
+    };
 }
+
+/// The 40-digit results of tests/reference/flow.py.
+pub static FLOW: LazyLock<Value> = data!("flow.json");
+/// The 40-digit results of tests/reference/force.py.
+pub static FORCE: LazyLock<Value> = data!("force.json");
+/// The 30-digit results of tests/reference/machine.py.
+pub static MACHINE: LazyLock<Value> = data!("machine.json");
+/// The 30-digit results of tests/reference/stops.py.
+pub static STOPS: LazyLock<Value> = data!("stops.json");
 
 /// The machine that a record of machine.json describes.
 pub fn ratios(parameters: &Value) -> Ratios {

@@ -1,0 +1,15 @@
+//! The tests of orbits, branches, attractors, basins, sweeps and models, as one program.
+
+mod attractors;
+mod basin;
+mod continuation;
+mod corners;
+mod exponents;
+mod fidelity;
+mod grazing;
+mod invariants;
+mod limits;
+mod machine_reference;
+mod stop_invariants;
+mod sweep;
+mod zone_reference;

@@ -1,0 +1,14 @@
+//! The tests of the laboratory and of its program, as one program.
+
+mod atlas;
+mod diagrams;
+mod failures;
+mod grazing;
+mod methods;
+mod methods_limits;
+mod paper_maps;
+mod paper_motions;
+mod precision;
+mod reference;
+mod solvers;
+mod throughput;

@@ -1,0 +1,4 @@
+//! The tests of the lanes, as one program.
+
+mod batch;
+mod parallel;

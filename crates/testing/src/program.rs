@@ -1,0 +1,102 @@
+//! Programs as users and scripts meet them.
+
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+/// A program, and the arguments that each of its calls begins with.
+#[derive(Clone, Copy, Debug)]
+pub struct Program {
+    /// Its file: `env!("CARGO_BIN_EXE_…")`.
+    pub file: &'static str,
+    /// Its first arguments: a command, say.
+    pub first: &'static [&'static str],
+}
+
+impl Program {
+    /// The program with all its arguments, not yet started.
+    pub fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(self.file);
+        command.args(self.first).args(arguments);
+        command
+    }
+
+    /// Runs the program to its end.
+    ///
+    /// # Panics
+    /// If it does not start.
+    pub fn run(&self, arguments: &[&str]) -> Output {
+        let output = self.command(arguments).output();
+        output.expect("the program starts")
+    }
+
+    /// Runs the program where it has to succeed: what it wrote.
+    ///
+    /// # Panics
+    /// If it fails, or writes other than UTF-8.
+    #[track_caller]
+    pub fn text(&self, arguments: &[&str]) -> String {
+        let output = self.run(arguments);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{arguments:?}: {message}");
+        String::from_utf8(output.stdout).expect("UTF-8")
+    }
+
+    /// Runs the program where it has to succeed: the JSON that it wrote.
+    ///
+    /// # Panics
+    /// If it fails, or writes other than JSON.
+    #[track_caller]
+    pub fn json(&self, arguments: &[&str]) -> Value {
+        let text = self.text(&[arguments, &["--format", "json"]].concat());
+        serde_json::from_str(&text).expect("JSON")
+    }
+
+    /// Runs the program where it has to refuse its arguments, with exit code 2, a message that has all of `words`,
+    /// and nothing on the standard output.
+    ///
+    /// # Panics
+    /// If it does otherwise.
+    #[track_caller]
+    pub fn refuses(&self, arguments: &[&str], words: &[&str]) {
+        let output = self.run(arguments);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+        assert!(output.stdout.is_empty(), "{arguments:?} wrote to stdout");
+        for word in words {
+            assert!(
+                message.contains(word),
+                "{arguments:?}: {word:?} is not in {message:?}"
+            );
+        }
+    }
+
+    /// Interrupts the program a moment after it has made its folder, within 20 s: it ends with exit code 130
+    /// and takes the folder away.
+    ///
+    /// # Panics
+    /// If it does otherwise.
+    #[track_caller]
+    pub fn leaves_nothing_when_interrupted(&self, arguments: &[&str], folder: &Path) {
+        let mut command = self.command(arguments);
+        let mut run = command
+            .arg("--output")
+            .arg(folder)
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program starts");
+        let deadline = Instant::now() + Duration::from_secs(20);
+        while !folder.is_dir() && Instant::now() < deadline {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        std::thread::sleep(Duration::from_millis(200));
+        Command::new("kill")
+            .args(["-INT", &run.id().to_string()])
+            .status()
+            .expect("kill starts");
+        assert_eq!(run.wait().expect("it ends").code(), Some(130));
+        assert!(!folder.exists(), "{} is left", folder.display());
+    }
+}

@@ -1,0 +1,15 @@
+//! The tests of the engine, as one program.
+
+mod bad_input;
+mod clock;
+mod flow_reference;
+mod force;
+mod force_reference;
+mod guarantee;
+mod long_runs;
+mod no_event_missed;
+mod rates;
+mod sensitivities;
+mod snapshots;
+mod stops_reference;
+mod strip;
