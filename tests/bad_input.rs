@@ -1,11 +1,13 @@
 //! Bad input gives an error that names the parameter and its value; nothing panics or hangs.
 
+use approx::assert_abs_diff_eq;
 use proptest::prelude::*;
 use softstop::{Excitation, MotionError, Piercing, Ratios, Scene, Simulation, Start, Stop};
-use softstop_testing::cases;
+use softstop_testing::tolerance::MOTION;
+use softstop_testing::{cases, loaded, start_at};
 
 fn machine() -> Scene {
-    Ratios::loaded().scene().expect("valid")
+    loaded()
 }
 
 #[test]
@@ -44,14 +46,7 @@ fn errors_name_parameter_and_value() {
 
 #[test]
 fn time_does_not_run_backwards() {
-    let mut machine = Simulation::new(
-        &machine(),
-        Start {
-            position: 0.0,
-            velocity: 0.0,
-        },
-    )
-    .expect("valid");
+    let mut machine = Simulation::new(&machine(), start_at(0.0, 0.0)).expect("valid");
     machine.advance(3.0).expect("bounded");
     for until in [2.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let error = machine.advance(until).expect_err("refused");
@@ -60,16 +55,7 @@ fn time_does_not_run_backwards() {
     }
     machine.advance(3.0).expect("no step is no error");
     assert!(machine.set_force(&[f64::NAN, 0.0]).is_err());
-    assert!(
-        Simulation::new(
-            machine.scene(),
-            Start {
-                position: f64::NAN,
-                velocity: 0.0
-            }
-        )
-        .is_err()
-    );
+    assert!(Simulation::new(machine.scene(), start_at(f64::NAN, 0.0)).is_err());
 }
 
 #[test]
@@ -89,14 +75,7 @@ fn an_unbounded_motion_is_an_error() {
         stop: Stop::None,
         piercing: None,
     };
-    let mut machine = Simulation::new(
-        &scene,
-        Start {
-            position: 1e308,
-            velocity: 1e308,
-        },
-    )
-    .expect("finite");
+    let mut machine = Simulation::new(&scene, start_at(1e308, 1e308)).expect("finite");
     let error = machine.advance(1e3).expect_err("beyond all numbers");
     assert!(matches!(error, MotionError::Unbounded { .. }), "{error}");
 }
@@ -170,10 +149,7 @@ fn exact_balance_does_not_hang() {
                 scene.stiffness = suspension;
                 scene.excitation.amplitude = amplitude;
                 scene.stop = Stop::Preloaded { stiffness, preload };
-                let start = Start {
-                    position: clearance,
-                    velocity: 0.0,
-                };
+                let start = start_at(clearance, 0.0);
                 let mut machine = Simulation::new(&scene, start).expect("valid");
                 machine
                     .set_force(&[suspension * clearance, 0.0])
@@ -191,10 +167,7 @@ fn exact_balance_does_not_hang() {
 #[test]
 fn the_strip_stays_until_the_stroke_is_over() {
     let scene = machine();
-    let start = Start {
-        position: 9.0,
-        velocity: 9.0,
-    };
+    let start = start_at(9.0, 9.0);
     let mut with = Simulation::new(&scene, start).expect("valid");
     let mut without = with.clone();
     let mut time = 0.0;
@@ -211,7 +184,7 @@ fn the_strip_stays_until_the_stroke_is_over() {
         without.advance(time).expect("bounded");
         let (a, b) = (with.sample(), without.sample());
         assert_eq!(a.phase, b.phase);
-        assert!((a.position - b.position).abs() < 1e-12);
+        assert_abs_diff_eq!(a.position, b.position, epsilon = MOTION);
     }
     with.advance(time + scene.period()).expect("bounded");
     without.advance(time + scene.period()).expect("bounded");

@@ -1,15 +1,15 @@
 //! A hundred million periods: time is carried as whole periods and a rest, so neither the drive angle
 //! nor the motion loses accuracy.
 
+use approx::assert_abs_diff_eq;
 use softstop::{Clock, Motion, Ratios, Scene, Simulation, Start, Stop, samples};
+use softstop_testing::start_at;
+use softstop_testing::tolerance::MOTION;
 
 const PERIODS: u64 = 100_000_000;
 
 fn start() -> Start {
-    Start {
-        position: samples::UNLOADED.position,
-        velocity: samples::UNLOADED.velocity,
-    }
+    start_at(samples::UNLOADED.position, samples::UNLOADED.velocity)
 }
 
 /// The impact-less motion after 10^8 periods is the particular solution at drive angle phi, to the
@@ -25,12 +25,7 @@ fn the_impactless_motion_keeps_its_phase() {
         .scene()
         .expect("valid");
         scene.excitation.phase = phase;
-        let mut motion = scene
-            .motion(Start {
-                position: 0.0,
-                velocity: 0.0,
-            })
-            .expect("valid");
+        let mut motion = scene.motion(start_at(0.0, 0.0)).expect("valid");
         motion
             .advance(Clock::at_cycle(PERIODS), &mut ())
             .expect("bounded");
@@ -40,8 +35,12 @@ fn the_impactless_motion_keeps_its_phase() {
         let velocity = frequency * (imaginary * phase.cos() - real * phase.sin()) / size;
         let state = motion.state();
         let scale = 1.0 / size.sqrt();
-        assert!((state.position - position).abs() < 2e-15 * scale);
-        assert!((state.velocity - velocity).abs() < 2e-15 * scale * frequency.max(1.0));
+        assert_abs_diff_eq!(state.position, position, epsilon = 2e-15 * scale);
+        assert_abs_diff_eq!(
+            state.velocity,
+            velocity,
+            epsilon = 2e-15 * scale * frequency.max(1.0)
+        );
     }
 }
 
@@ -84,8 +83,8 @@ fn stays_on_its_orbit(periods: u64) {
         .expect("bounded");
     let state = motion.state();
     // The sample holds twelve decimals.
-    assert!((state.position - samples::UNLOADED.position).abs() < 1e-12);
-    assert!((state.velocity - samples::UNLOADED.velocity).abs() < 1e-12);
+    assert_abs_diff_eq!(state.position, samples::UNLOADED.position, epsilon = MOTION);
+    assert_abs_diff_eq!(state.velocity, samples::UNLOADED.velocity, epsilon = MOTION);
 }
 
 #[test]

@@ -1,10 +1,10 @@
 //! Derivatives of the outputs, across impacts, against differences of the motion itself.
 
+use approx::abs_diff_eq;
 use proptest::prelude::*;
-use softstop::integrator::{Crossing, CrossingKind, Observer};
 use softstop::tangent::{Perturbation, Sensitivity};
-use softstop::{Clock, Scene, Simulation, Start};
-use softstop_testing::{cases, machines, start_below};
+use softstop::{Clock, Simulation, Start};
+use softstop_testing::{Meets, cases, machines, start_at, start_below};
 
 /// Position, velocity, acceleration, contact force, energies, and time and velocity of the last impact.
 fn outputs(machine: &Simulation) -> [f64; 9] {
@@ -40,33 +40,6 @@ fn derivatives(of: &Sensitivity) -> [f64; 9] {
     ]
 }
 
-/// The slowest passage on the way, and the number of crossings: differences need a clear motion.
-#[derive(Default)]
-struct Meets {
-    crossings: Vec<CrossingKind>,
-    slowest: f64,
-}
-
-impl Observer for Meets {
-    fn crossing(&mut self, crossing: &Crossing) {
-        self.crossings.push(crossing.kind);
-        if let CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } = crossing.kind {
-            self.slowest = self.slowest.min(crossing.velocity.abs());
-        }
-    }
-}
-
-fn meets(scene: &Scene, start: Start, end: f64) -> Meets {
-    let mut meets = Meets {
-        slowest: f64::INFINITY,
-        ..Meets::default()
-    };
-    let mut motion = scene.motion(start).expect("valid");
-    let end = motion.clock().after(Clock::at_cycle(0), end);
-    motion.advance(end, &mut meets).expect("bounded");
-    meets
-}
-
 /// Richardson's extrapolation of central differences, with its error.
 fn differences(run: impl Fn(f64) -> [f64; 9], width: f64) -> ([f64; 9], [f64; 9]) {
     let central = |width: f64| -> [f64; 9] {
@@ -95,19 +68,20 @@ proptest! {
     ) {
         let start = start_below(&scene, depth, velocity);
         let end = span * scene.period();
+        let drive = scene.excitation;
+        let until = Clock::new(drive.frequency, drive.phase).after(Clock::at_cycle(0), end);
         prop_assume!(Simulation::new(&scene, start).is_ok());
         let run = |width: f64| {
-            let start = Start {
-                position: start.position + width * towards.0,
-                velocity: start.velocity + width * towards.1,
-            };
+            let start = start_at(start.position + width * towards.0, start.velocity + width * towards.1);
             let mut machine = Simulation::new(&scene, start).expect("valid");
             machine.set_force(&[force + width * towards.2, rate]).expect("finite");
             machine.advance(end).expect("bounded");
             machine
         };
         prop_assume!(Simulation::new(&scene, Start { position: start.position + 1e-3, ..start }).is_ok());
-        let way = |width: f64| meets(&scene, Start { position: start.position + width, ..start }, end);
+        let way = |width: f64| {
+            Meets::until(&scene, Start { position: start.position + width, ..start }, until)
+        };
         let meets = way(0.0);
         prop_assume!(meets.slowest > 0.2 && meets.crossings.len() < 12);
         prop_assume!([-1e-3, 1e-3].iter().all(|width| way(*width).crossings == meets.crossings));
@@ -128,7 +102,7 @@ proptest! {
             // Energies are known to 1e-10 of the motion's, so their differences to 1e-5.
             let noise = if ENERGIES.contains(&n) { 1e-5 } else { 1e-6 };
             let allowed = noise * size + 3.0 * error[n];
-            prop_assert!((found[n] - exact[n]).abs() < allowed, "{n}: {} {} {:?}", found[n], exact[n], meets.crossings);
+            assert!(abs_diff_eq!(found[n], exact[n], epsilon = allowed), "{n}: {} {} {:?}", found[n], exact[n], meets.crossings);
         }
     }
 }

@@ -1,7 +1,10 @@
 //! The strip: half pierced it is met again, pierced it counts once per stroke.
 
+use approx::assert_abs_diff_eq;
 use softstop::integrator::{Crossing, CrossingKind};
-use softstop::{PhaseKind, PiercingRatios, Ratios, Scene, Simulation, Start, Trajectory};
+use softstop::{PhaseKind, PiercingRatios, Ratios, Scene, Simulation, Trajectory};
+use softstop_testing::tolerance::MOTION;
+use softstop_testing::{loaded, start_at};
 
 fn machine(frequency: f64, clearance: f64, strip: PiercingRatios) -> Scene {
     let ratios = Ratios {
@@ -25,10 +28,7 @@ fn passes(trajectory: &Trajectory, position: f64) -> Vec<&Crossing> {
 #[test]
 fn a_half_pierced_strip_is_met_again() {
     let scene = machine(0.3, 0.8, PiercingRatios::PAPER);
-    let start = Start {
-        position: 0.0,
-        velocity: 0.5,
-    };
+    let start = start_at(0.0, 0.5);
     let trajectory = scene.trajectory(start, 6).expect("bounded");
     let strokes = passes(&trajectory, scene.clearance);
     assert!(strokes.len() >= 2, "only {} strokes", strokes.len());
@@ -48,7 +48,7 @@ fn a_half_pierced_strip_is_met_again() {
         let damper = (scene.contact_damping - scene.damping) * sample.velocity;
         // Peterka 2003, eq. 1, with sign x' = 1.
         let expected = (21.0 + 23.0) * deflection + damper;
-        assert!((sample.contact_force - expected).abs() < 1e-12);
+        assert_abs_diff_eq!(sample.contact_force, expected, epsilon = MOTION);
     }
     assert_eq!(machine.pierce_count(), 0);
 }
@@ -63,10 +63,7 @@ fn a_strip_is_pierced_once_per_stroke() {
         travel: 5.0,
     };
     let scene = machine(0.7, -3.0, soft);
-    let start = Start {
-        position: -3.2,
-        velocity: 0.0,
-    };
+    let start = start_at(-3.2, 0.0);
     let trajectory = scene.trajectory(start, 12).expect("bounded");
     let met = passes(&trajectory, scene.clearance).len();
     let far_side = passes(&trajectory, scene.clearance + 2.5);
@@ -81,11 +78,11 @@ fn a_strip_is_pierced_once_per_stroke() {
 /// Every strong stroke of point B pierces one strip.
 #[test]
 fn a_strong_stroke_pierces() {
-    let scene = Ratios::loaded().scene().expect("valid");
-    let start = Start {
-        position: softstop::samples::LOADED.position,
-        velocity: softstop::samples::LOADED.velocity,
-    };
+    let scene = loaded();
+    let start = start_at(
+        softstop::samples::LOADED.position,
+        softstop::samples::LOADED.velocity,
+    );
     let mut machine = Simulation::new(&scene, start).expect("valid");
     machine.advance(50.0 * scene.period()).expect("bounded");
     assert_eq!(machine.pierce_count(), 50);
@@ -95,11 +92,8 @@ fn a_strong_stroke_pierces() {
 /// Without material a machine that starts beyond the clearance meets nothing there.
 #[test]
 fn a_start_without_material_meets_no_strip() {
-    let scene = Ratios::loaded().scene().expect("valid");
-    let start = Start {
-        position: scene.clearance + 0.2,
-        velocity: 0.5,
-    };
+    let scene = loaded();
+    let start = start_at(scene.clearance + 0.2, 0.5);
     for (fed, phase) in [(true, PhaseKind::Pierce), (false, PhaseKind::Gap)] {
         let mut machine = Simulation::new_fed(&scene, start, 0.0, fed).expect("valid");
         assert_eq!(machine.sample().phase, phase);

@@ -1,10 +1,12 @@
 //! All motions of a scene, found from scratch: the coexisting motions of Peterka 2003, Figs. 8 and 9, and
 //! what other stops settle on.
 
-use softstop::{Ratios, Scene, Start, Stop};
+use approx::{abs_diff_eq, assert_abs_diff_eq};
+use softstop::{Scene, Stop};
 use softstop_dynamics::attractors::{
     Attractor, Chaos, Kind, Options, Survey, attractors, classify,
 };
+use softstop_testing::{loaded, start_at, unloaded};
 
 const OPTIONS: Options = Options {
     starts: 96,
@@ -14,14 +16,6 @@ const OPTIONS: Options = Options {
     patience: 300_000,
     region: None,
 };
-
-fn unloaded(frequency: f64) -> Scene {
-    let ratios = Ratios {
-        frequency,
-        ..Ratios::unloaded()
-    };
-    ratios.scene().expect("valid")
-}
 
 fn survey(scene: &Scene) -> Survey {
     survey_by(scene, &OPTIONS)
@@ -107,8 +101,11 @@ fn three_motions_coexist_and_the_order_of_impacts_differs() {
     let chaos = chaos(&survey);
     assert!(chaos.watched > 200_000, "{}", chaos.watched);
     let [largest, _] = chaos.exponents.per_period;
-    let off = (largest - 0.137).abs();
-    assert!(off < 0.01 + chaos.exponents.error, "{:?}", chaos.exponents);
+    assert!(
+        abs_diff_eq!(largest, 0.137, epsilon = 0.01 + chaos.exponents.error),
+        "{:?}",
+        chaos.exponents
+    );
 }
 
 #[test]
@@ -121,7 +118,7 @@ fn the_half_order_motion_gives_way_to_chaos_at_its_flip() {
         _ => None,
     });
     let off = half.expect("z = 1/2") + 0.9994;
-    assert!(off.abs() < 1e-5, "{off:e}");
+    assert_abs_diff_eq!(off, 0.0, epsilon = 1e-5);
     let below = survey(&unloaded(0.988_494));
     assert_eq!(names(&below), ["1-1-0", "1-1-0-0", "chaos"]);
 }
@@ -144,7 +141,7 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
 
 #[test]
 fn what_holds_a_mass_is_one_motion_and_chatter_is_counted_without_number() {
-    let mut scene = Ratios::loaded().scene().expect("valid");
+    let mut scene = loaded();
     scene.clearance = -1.0;
     assert_eq!(names(&survey(&scene)), ["rest"]);
     let mut scene = unloaded(2.6);
@@ -152,7 +149,7 @@ fn what_holds_a_mass_is_one_motion_and_chatter_is_counted_without_number() {
     scene.clearance = 0.0;
     assert_eq!(names(&survey(&scene)), ["1"]);
     scene.excitation.frequency = 0.3;
-    let kind = classify(&scene, start(-0.5, 0.1), &OPTIONS).expect("a motion");
+    let kind = classify(&scene, start_at(-0.5, 0.1), &OPTIONS).expect("a motion");
     let Kind::Periodic { orbit, .. } = kind else {
         panic!("{kind:?}");
     };
@@ -165,12 +162,12 @@ fn single_motions_are_told_apart() {
     let classes = [
         (
             0.953_65,
-            start(8.675_183_838_401_669, 3.996_471_798_674_918_8),
+            start_at(8.675_183_838_401_669, 3.996_471_798_674_918_8),
             "chaos",
         ),
-        (0.953_65, start(8.042, 3.759), "1-0-0-0-0-0-0-0-0-0"),
-        (1.15, start(0.0, 14.0), "1"),
-        (1.15, start(0.0, 0.0), "0"),
+        (0.953_65, start_at(8.042, 3.759), "1-0-0-0-0-0-0-0-0-0"),
+        (1.15, start_at(0.0, 14.0), "1"),
+        (1.15, start_at(0.0, 0.0), "0"),
     ];
     for (frequency, start, expected) in classes {
         let kind = classify(&unloaded(frequency), start, &OPTIONS).expect("a motion");
@@ -181,8 +178,4 @@ fn single_motions_are_told_apart() {
         });
         assert_eq!(found, expected, "from {start:?} at {frequency}");
     }
-}
-
-fn start(position: f64, velocity: f64) -> Start {
-    Start { position, velocity }
 }

@@ -1,14 +1,17 @@
 //! Basins against the scalar engine and against what is known of the machine.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::Vector2;
 use rayon::ThreadPoolBuilder;
-use softstop::{Clock, Ratios, Scene, Start};
+use softstop::{Clock, Ratios, Scene};
 use softstop_dynamics::attractors::SurveyError;
 use softstop_dynamics::basin::{
     Axis, Basins, Grid, Kind, Options, basins, basins_watched, establishing,
 };
 use softstop_dynamics::orbit::{Orbit, Regime, StroboscopicMap};
 use softstop_dynamics::zone;
+use softstop_testing::tolerance::DIFFERENCED;
+use softstop_testing::{start_at, unloaded};
 
 const NONE: Regime = Regime {
     impacts: 0,
@@ -18,15 +21,6 @@ const ONE: Regime = Regime {
     impacts: 1,
     periods: 1,
 };
-
-fn scene(frequency: f64) -> Scene {
-    Ratios {
-        frequency,
-        ..Ratios::unloaded()
-    }
-    .scene()
-    .expect("there is one")
-}
 
 fn states(size: usize) -> Grid {
     Grid::states(
@@ -85,7 +79,7 @@ fn by_scalar(scene: &Scene, basins: &Basins, cell: usize) -> usize {
 
 #[test]
 fn every_cell_is_where_the_scalar_engine_ends() {
-    let scene = scene(1.15);
+    let scene = unloaded(1.15);
     let found = on(&scene, &states(40));
     assert_eq!(names(&found), ["z = 0", "z = 1"]);
     for (cell, class) in found.cells.iter().enumerate() {
@@ -99,7 +93,7 @@ fn every_cell_is_where_the_scalar_engine_ends() {
 
 #[test]
 fn planes_with_a_drive_angle_are_where_the_scalar_engine_ends() {
-    let scene = scene(1.15);
+    let scene = unloaded(1.15);
     let turn = std::f64::consts::TAU;
     for (across, up) in [
         (Axis::angle(0.0, turn, 16), Axis::velocity(-25.0, 25.0, 16)),
@@ -108,10 +102,7 @@ fn planes_with_a_drive_angle_are_where_the_scalar_engine_ends() {
             Axis::angle(-turn, turn, 16),
         ),
     ] {
-        let state = Start {
-            position: 3.0,
-            velocity: -2.0,
-        };
+        let state = start_at(3.0, -2.0);
         let grid = Grid {
             state,
             ..Grid::states(across, up, 0.3)
@@ -131,20 +122,20 @@ fn planes_with_a_drive_angle_are_where_the_scalar_engine_ends() {
 #[test]
 fn z_1_has_all_below_grazing_and_nothing_beyond_the_fold() {
     // g0 = 1.04444, s_SN = 1.369036.
-    let below = on(&scene(1.02), &states(24));
+    let below = on(&unloaded(1.02), &states(24));
     assert_eq!(below.share(ONE).0, 1.0);
     // Just below g0 some starts lead to an isolated motion, none to rest.
-    let near = on(&scene(1.043), &states(24));
+    let near = on(&unloaded(1.043), &states(24));
     assert_eq!(names(&near), ["z = 1", "z = 3/4"]);
     assert!(near.share(ONE).0 > 0.95 && near.share(NONE).0 == 0.0);
-    let beyond = on(&scene(1.4), &states(24));
+    let beyond = on(&unloaded(1.4), &states(24));
     assert_eq!(beyond.share(ONE).0, 0.0);
     assert_eq!(beyond.share(NONE).0, 1.0);
 }
 
 #[test]
 fn threads_change_nothing() {
-    let scene = scene(1.2);
+    let scene = unloaded(1.2);
     let grid = states(80);
     let with = |threads| {
         let pool = ThreadPoolBuilder::new()
@@ -159,7 +150,7 @@ fn threads_change_nothing() {
 #[test]
 fn chaos_is_one_set_beside_the_isolated_motions() {
     // Peterka 2003, section 4: at 0.9875 chaos, 2/3 and (2/4)B.
-    let found = on(&scene(0.9875), &states(24));
+    let found = on(&unloaded(0.9875), &states(24));
     assert_eq!(names(&found), ["z = 2/3", "z = 2/4", "chaos"]);
     let pattern = |class: usize| match &found.classes[class].kind {
         Kind::Periodic(orbit) => orbit.pattern().to_string(),
@@ -170,7 +161,7 @@ fn chaos_is_one_set_beside_the_isolated_motions() {
 
 #[test]
 fn cells_in_a_basin_go_to_its_orbit_and_the_largest_ball_is_inside() {
-    let scene = scene(1.15);
+    let scene = unloaded(1.15);
     let found = on(&scene, &states(60));
     let ball = found.largest_ball(1).expect("there is one");
     let map = StroboscopicMap::new(&scene, 250).expect("there is one");
@@ -182,7 +173,11 @@ fn cells_in_a_basin_go_to_its_orbit_and_the_largest_ball_is_inside() {
             ball.centre[0] + within * 22.5 * cos,
             ball.centre[1] + within * 30.0 * sin,
         );
-        assert!((map.image(state).expect("there is one") - orbit.state()).norm() < 1e-6);
+        assert_abs_diff_eq!(
+            (map.image(state).expect("there is one") - orbit.state()).norm(),
+            0.0,
+            epsilon = DIFFERENCED
+        );
     }
     assert!(ball.radius > 0.02 && ball.radius < 1.0, "{ball:?}");
     assert_eq!(found.largest_ball(2), None);
@@ -200,7 +195,10 @@ fn the_certainty_falls_along_the_zone() {
     // The paper says from 1 at g0 to 0 at s_SN. A few starts at g0 lead to z = 3/4, and near the fold a share
     // above zero is left; in between the certainty hardly falls.
     assert!(shares[0] > 0.98 && shares[1] < 0.75, "{shares:?}");
-    assert!((shares[2] - shares[1]).abs() < 0.15, "{shares:?}");
+    assert!(
+        abs_diff_eq!(shares[2], shares[1], epsilon = 0.15),
+        "{shares:?}"
+    );
     assert!(
         shares[4] > 0.02 && shares[4] < 0.5 * shares[3],
         "{shares:?}"
@@ -215,7 +213,7 @@ fn the_certainty_falls_along_the_zone() {
 #[test]
 fn it_stops_when_told() {
     let stopped = basins_watched(
-        &scene(1.15),
+        &unloaded(1.15),
         &states(80),
         &Options::default(),
         &|done, all| {

@@ -1,6 +1,11 @@
 //! Branches, their special points and curves of them, against closed forms, published figures and an
 //! independent 30-digit integrator.
 
+mod curves;
+mod doubling;
+
+use approx::assert_abs_diff_eq;
+use softstop_testing::tolerance::{DIFFERENCED, MOTION, SOLVED, printed};
 use std::ops::ControlFlow;
 
 use nalgebra::Vector2;
@@ -11,6 +16,7 @@ use softstop_dynamics::continuation::{
 };
 use softstop_dynamics::orbit::StroboscopicMap;
 use softstop_dynamics::zone::grazing_frequencies;
+use softstop_testing::loaded;
 use softstop_testing::reference::{MACHINE, list, number};
 use softstop_testing::tangent::differences;
 
@@ -61,12 +67,6 @@ fn parameters(branch: &Branch) -> Vec<(&'static str, f64)> {
         .collect()
 }
 
-#[track_caller]
-fn assert_near(value: f64, expected: f64, tolerance: f64) {
-    let off = (value - expected).abs();
-    assert!(off <= tolerance, "{value} against {expected}: {off:e} off");
-}
-
 /// From one grazing to the other: flip, fold, and at both ends the impact dies in the impact-less motion
 /// whose amplitude is the clearance, which has a closed form.
 #[test]
@@ -81,11 +81,19 @@ fn z1_goes_from_grazing_over_flip_and_fold_to_grazing() {
     let [low, flip, fold, high] = &branch.specials[..] else {
         panic!("{branch:?}");
     };
-    assert_near(low.point.parameter, below.expect("one below"), 1e-12);
-    assert_near(high.point.parameter, above, 1e-12);
-    assert_near(flip.point.parameter, 0.988_907, 1e-6);
-    assert_near(fold.point.parameter, 1.369_036, 1e-6);
-    assert_near(fold.point.before_impact_velocity(), 16.87, 0.005);
+    assert_abs_diff_eq!(
+        low.point.parameter,
+        below.expect("one below"),
+        epsilon = MOTION
+    );
+    assert_abs_diff_eq!(high.point.parameter, above, epsilon = MOTION);
+    assert_abs_diff_eq!(flip.point.parameter, 0.988_907, epsilon = printed(6));
+    assert_abs_diff_eq!(fold.point.parameter, 1.369_036, epsilon = printed(6));
+    assert_abs_diff_eq!(
+        fold.point.before_impact_velocity(),
+        16.87,
+        epsilon = printed(2)
+    );
     assert!(matches!(branch.ends, (End::Grazing, End::Grazing)));
 }
 
@@ -104,7 +112,7 @@ fn the_other_side_of_the_same_grazing() {
     assert!(matches!(branch.ends, (End::Grazing, End::Range)));
     let graze = &branch.specials[0];
     let (_, above) = grazing_frequencies(&unloaded()).expect("a boundary");
-    assert_near(graze.point.parameter, above, 1e-12);
+    assert_abs_diff_eq!(graze.point.parameter, above, epsilon = MOTION);
     match graze.kind {
         SpecialKind::Grazing(graze) => {
             assert!(!graze.dies && graze.impacts == 0 && graze.face == Face::Clearance);
@@ -147,12 +155,12 @@ fn flips_of_the_subharmonic_motions() {
         let branch = branch(eta, n, state, (0.9, 1.1));
         let flips = of_kind(&branch, "PD");
         assert_eq!(flips.len(), 1);
-        assert_near(flips[0].point.parameter, expected, 2.5e-6);
+        assert_abs_diff_eq!(flips[0].point.parameter, expected, epsilon = 2.5e-6);
         let multiplier = flips[0].point.monodromy;
-        assert_near(
+        assert_abs_diff_eq!(
             1.0 + multiplier.trace() + multiplier.determinant(),
             0.0,
-            1e-10,
+            epsilon = SOLVED
         );
     }
 }
@@ -165,8 +173,7 @@ fn inner_surfaces_end_a_branch_too() {
         range: (0.5, 2.0),
         points: 500,
     };
-    let orbit =
-        softstop_dynamics::orbit::find(&Ratios::loaded().scene().expect("a scene")).expect("z = 1");
+    let orbit = softstop_dynamics::orbit::find(&loaded()).expect("z = 1");
     let state = Vector2::new(orbit.position, orbit.velocity);
     let branch = Follower::new(&family, 1)
         .branch(1.15, state, &limits, |_| ControlFlow::Continue(()))
@@ -188,7 +195,7 @@ fn inner_surfaces_end_a_branch_too() {
         let scene = ratios.scene().expect("a scene");
         let map = StroboscopicMap::new(&scene, 1).expect("a map");
         let highest = map.max_position(end.point.state()).expect("a motion");
-        assert_near(highest, scene.stop_position(), 1e-9);
+        assert_abs_diff_eq!(highest, scene.stop_position(), epsilon = 10.0 * SOLVED);
     }
 }
 
@@ -200,7 +207,7 @@ fn start_and_direction_do_not_matter() {
     let other = branch(at.parameter, 1, (at.position, at.velocity), (0.5, 2.0));
     assert_eq!(one.specials.len(), other.specials.len());
     for (a, b) in one.specials.iter().zip(&other.specials) {
-        assert_near(a.point.parameter, b.point.parameter, 1e-10);
+        assert_abs_diff_eq!(a.point.parameter, b.point.parameter, epsilon = SOLVED);
     }
     let reached: Vec<_> = one
         .specials
@@ -210,12 +217,16 @@ fn start_and_direction_do_not_matter() {
     let mut flips = of_kind(&one, "PD");
     let flip = flips.remove(0).point;
     let back = branch(0.97, 1, (low_state(&one).x, low_state(&one).y), (0.5, 2.0));
-    assert_near(
+    assert_abs_diff_eq!(
         of_kind(&back, "PD")[0].point.parameter,
         flip.parameter,
-        1e-10,
+        epsilon = SOLVED
     );
-    assert_near(of_kind(&back, "SN")[0].point.parameter, reached[2], 1e-10);
+    assert_abs_diff_eq!(
+        of_kind(&back, "SN")[0].point.parameter,
+        reached[2],
+        epsilon = SOLVED
+    );
 }
 
 /// A state near the branch at eta = 0.97, unstable there.
@@ -249,7 +260,7 @@ fn finite_differences_confirm_fold_and_flip() {
         let map = StroboscopicMap::new(&ratios.scene().expect("a scene"), 1).expect("a map");
         let matrix = differences(|state| map.image(state).expect("an image"), point.state());
         let test = 1.0 + sign * matrix.trace() + matrix.determinant();
-        assert_near(test, 0.0, 1e-6);
+        assert_abs_diff_eq!(test, 0.0, epsilon = DIFFERENCED);
     }
 }
 
@@ -269,248 +280,4 @@ fn two_orbits_before_a_fold_and_none_beyond() {
     let stable = [1.0, -1.0].map(|sign| beside(eta, sign, 0.02).expect("an orbit").is_stable());
     assert_eq!(stable.iter().filter(|stable| **stable).count(), 1);
     assert!(beside(fold.parameter + 1e-6, 1.0, 0.02).is_err());
-}
-
-fn plane(parameters: [Parameter; 2]) -> Along<Ratios, 2> {
-    Along::new(Ratios::unloaded(), parameters).expect("a family")
-}
-
-fn followed(
-    special: &Special,
-    periods: u64,
-    family: &Along<Ratios, 2>,
-    second: f64,
-    ranges: [(f64, f64); 2],
-) -> Curve {
-    let region = Region {
-        ranges,
-        points: 500,
-        step: 0.25,
-    };
-    let start = [special.point.parameter, second];
-    curve(
-        family,
-        periods,
-        (special.kind, &special.point),
-        start,
-        &region,
-        |_| ControlFlow::Continue(()),
-    )
-    .expect("a curve")
-}
-
-const FREQUENCY_CLEARANCE: [Parameter; 2] = [Parameter::Frequency, Parameter::Clearance];
-
-/// The point of a curve in frequency and clearance at a clearance that it stops at.
-#[track_caller]
-fn at_clearance(curve: &Curve, clearance: f64) -> &CurvePoint {
-    let off = |point: &&CurvePoint| (point.parameters[1] - clearance).abs();
-    let nearest = curve.points.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
-    let nearest = nearest.expect("points");
-    assert!(off(&nearest) < 1e-9, "{clearance}: {nearest:?}");
-    nearest
-}
-
-/// s_SN over rho: the fold's curve passes through all of them, to their digits.
-#[test]
-fn fold_curve_passes_through_all_known_folds() {
-    const FOLDS: [(f64, f64, f64); 9] = [
-        (2.0, 10.74, 1.69031),
-        (4.0, 16.10, 1.57552),
-        (6.0, 17.34, 1.49593),
-        (8.0, 17.27, 1.42847),
-        (10.0, 16.87, 1.36904),
-        (12.0, 16.23, 1.31583),
-        (14.0, 15.37, 1.26746),
-        (16.0, 14.25, 1.22271),
-        (18.0, 12.81, 1.18034),
-    ];
-    let fold = of_kind(&all_of_z1(), "SN").remove(0);
-    let family = plane(FREQUENCY_CLEARANCE);
-    for (clearance, velocity, frequency) in FOLDS {
-        // The curve ends exactly at the range's end.
-        let range = (clearance.min(10.0), clearance.max(10.0));
-        let curve = followed(&fold, 1, &family, 10.0, [(1.0, 2.0), range]);
-        let nearest = at_clearance(&curve, clearance);
-        assert_near(nearest.parameters[0], frequency, 0.5e-5 + 1e-9);
-        assert_near(nearest.impacts[0], velocity, 0.005 + 1e-9);
-        assert_near(Test::Fold.value(&nearest.monodromy), 0.0, 1e-11);
-    }
-}
-
-/// The same against thirty digits, wherever the reference's machine differs in its clearance alone.
-#[test]
-fn fold_curve_agrees_with_thirty_digits() {
-    let fold = of_kind(&all_of_z1(), "SN").remove(0);
-    let family = plane(FREQUENCY_CLEARANCE);
-    let mut compared = 0;
-    for expected in list(&MACHINE, "folds") {
-        let ratios =
-            softstop_testing::reference::ratios(expected.get("parameters").unwrap_or(expected));
-        let same = Ratios {
-            frequency: 1.15,
-            clearance: 10.0,
-            ..ratios
-        } == Ratios::unloaded();
-        if !same || ratios.clearance > 18.0 {
-            continue;
-        }
-        let range = (ratios.clearance.min(10.0), ratios.clearance.max(10.0));
-        let curve = followed(&fold, 1, &family, 10.0, [(1.0, 2.0), range]);
-        let hit = at_clearance(&curve, ratios.clearance);
-        assert_near(hit.parameters[0], number(expected, "frequency_sn"), 1e-9);
-        compared += 1;
-    }
-    assert!(compared >= 3, "{compared} compared");
-}
-
-/// The amplitude of the impact-less motion is the clearance all along its grazing curve.
-#[test]
-fn grazing_curve_is_closed_form() {
-    let graze = of_kind(&all_of_z1(), "G").remove(1);
-    let family = plane(FREQUENCY_CLEARANCE);
-    let curve = followed(&graze, 1, &family, 10.0, [(0.2, 3.0), (0.5, 24.9)]);
-    assert!(curve.points.len() > 10);
-    for point in &curve.points {
-        let [eta, rho] = point.parameters;
-        let amplitude = 1.0 / (1.0 - eta * eta).hypot(0.04 * eta);
-        assert_near(amplitude / rho, 1.0, 1e-11);
-    }
-    // It passes over resonance, where the clearance is the highest amplitude of all.
-    let highest = curve
-        .points
-        .iter()
-        .map(|point| point.parameters[1])
-        .fold(0.0, f64::max);
-    assert!(highest > 24.8, "{highest}");
-}
-
-/// Along the flip's curve in frequency and stiffness the branch at another stiffness flips where the
-/// curve says.
-#[test]
-fn flip_curve_meets_the_branch_of_another_stiffness() {
-    let flip = of_kind(&all_of_z1(), "PD").remove(0);
-    let family = plane([Parameter::Frequency, Parameter::Stiffness]);
-    let curve = followed(&flip, 1, &family, 7.0, [(0.9, 1.1), (7.0, 9.0)]);
-    let end = curve
-        .points
-        .iter()
-        .max_by(|a, b| a.parameters[1].total_cmp(&b.parameters[1]))
-        .expect("points");
-    assert_near(end.parameters[1], 9.0, 1e-9);
-    let stiffer = Ratios {
-        stiffness: 9.0,
-        ..Ratios::unloaded()
-    };
-    let along = Along::new(stiffer, [Parameter::Frequency]).expect("a family");
-    let limits = Limits {
-        range: (0.9, 1.2),
-        points: 500,
-    };
-    let branch = Follower::new(&along, 1)
-        .branch(1.15, Vector2::new(A.0, A.1), &limits, |_| {
-            ControlFlow::Continue(())
-        })
-        .expect("a branch");
-    let flips = of_kind(&branch, "PD");
-    assert_near(flips[0].point.parameter, end.parameters[0], 1e-10);
-}
-
-/// A rigid stop of restitution 1/2.
-fn rigid() -> Frequencies<Scene> {
-    let ratios = Ratios {
-        frequency: 2.2,
-        clearance: 0.2,
-        ..Ratios::unloaded()
-    };
-    let mut scene = ratios.scene().expect("a scene");
-    scene.stop = Stop::Rigid { restitution: 0.5 };
-    Along::new(scene, [Parameter::Frequency]).expect("a family")
-}
-
-/// Doublings accumulate at Feigenbaum's rate, 4.669.
-#[test]
-fn doublings_of_a_rigid_stop_are_feigenbaums() {
-    let family = rigid();
-    let follower = Follower::new(&family, 1);
-    let limits = Limits {
-        range: (1.5, 3.0),
-        points: 500,
-    };
-    let state = Vector2::new(-0.630_529, 0.062_449);
-    let branch = follower
-        .branch(2.2, state, &limits, |_| ControlFlow::Continue(()))
-        .expect("a branch");
-    let flip = of_kind(&branch, "PD").remove(0).point;
-    let flips = follower.cascade(&flip, 5, &limits).expect("a cascade");
-    assert_eq!(flips.len(), 5);
-    for (index, flip) in flips.iter().enumerate() {
-        assert_eq!(flip.impacts.len(), 1 << index);
-    }
-    let gaps: Vec<_> = flips
-        .windows(2)
-        .map(|pair| pair[1].parameter - pair[0].parameter)
-        .collect();
-    assert_near(gaps[2] / gaps[3], 4.669, 0.05);
-}
-
-/// The paper's machine doubles once and then grazes: no cascade (PD -> ISN in its Table 1). The doubled
-/// branch of z = 1 meets that of z = 1/2 where its second impact dies.
-#[test]
-fn the_doubled_branch_of_z1_grazes() {
-    let z1 = all_of_z1();
-    let flip = of_kind(&z1, "PD").remove(0).point;
-    let family = frequencies(1.15);
-    let limits = Limits {
-        range: (0.9, 1.1),
-        points: 500,
-    };
-    let doubled = Follower::new(&family, 1)
-        .doubled(&flip, &limits, |_| ControlFlow::Continue(()))
-        .expect("a branch of twice the period");
-    assert_eq!(doubled.periods, 2);
-    assert!(matches!(doubled.ends.1, End::Grazing));
-    let dies = of_kind(&doubled, "G").remove(0).point;
-    let half = branch(0.9886, 2, HALF, (0.9, 1.1));
-    let born = of_kind(&half, "G").remove(1).point;
-    assert_near(dies.parameter, born.parameter, 1e-11);
-}
-
-/// An orbit of one period that is asked for as one of four is followed as one of one.
-#[test]
-fn the_shortest_period_is_found() {
-    let branch = branch(1.15, 4, A, (1.1, 1.2));
-    assert_eq!(branch.periods, 1);
-    assert!(matches!(branch.ends, (End::Range, End::Range)));
-    let (low, high) = (&branch.points[0], &branch.points[branch.points.len() - 1]);
-    assert_near(low.parameter, 1.1, 1e-12);
-    assert_near(high.parameter, 1.2, 1e-12);
-}
-
-/// A doubled branch that comes back to the orbit of half its period ends there.
-#[test]
-fn a_doubled_branch_merges_into_the_one_it_came_from() {
-    let branch = branch(0.9886, 2, HALF, (0.9, 1.1));
-    let flip = of_kind(&branch, "PD").remove(0).point;
-    let family = frequencies(0.9886);
-    let limits = Limits {
-        range: (0.9, 1.1),
-        points: 500,
-    };
-    let doubled = Follower::new(&family, 2)
-        .doubled(&flip, &limits, |_| ControlFlow::Continue(()))
-        .expect("a branch");
-    let middle = &doubled.points[1];
-    let back = Follower::new(&family, 4)
-        .branch(middle.parameter, middle.state(), &limits, |_| {
-            ControlFlow::Continue(())
-        })
-        .expect("the same");
-    let ends = [
-        (&back.ends.0, &back.points[0]),
-        (&back.ends.1, &back.points[back.points.len() - 1]),
-    ];
-    let merged = ends.iter().find(|(end, _)| matches!(end, End::Merged));
-    let (_, point) = merged.expect("one end is the flip");
-    assert_near(point.parameter, flip.parameter, 1e-11);
 }

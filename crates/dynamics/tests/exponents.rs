@@ -1,16 +1,11 @@
 //! Lyapunov exponents: the laws that they obey.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::Vector2;
-use softstop::{Ratios, Scene, Stop};
+use softstop::{Scene, Stop};
 use softstop_dynamics::orbit::{Exponents, Orbit, StroboscopicMap};
-
-fn unloaded(frequency: f64) -> Scene {
-    let ratios = Ratios {
-        frequency,
-        ..Ratios::unloaded()
-    };
-    ratios.scene().expect("valid")
-}
+use softstop_testing::tolerance::{MOTION, ROUNDING, SOLVED};
+use softstop_testing::unloaded;
 
 /// Periodic motions: z = 1, z = 2/3, (2/4)B, the impact-less one; soft and rigid stops.
 fn orbits() -> Vec<Orbit> {
@@ -37,15 +32,21 @@ fn on_periodic_motions_they_are_the_logarithms_of_the_multipliers() {
         let (along, _) = Exponents::along(&orbit.scene, orbit.state(), 200).expect("bounded");
         for (exact, along) in exact.per_period.iter().zip(along.per_period) {
             // Complex multipliers turn the frame: the mean is off by a fraction of a turn over 6,400 periods.
-            assert!((exact - along).abs() < 1e-3, "{exact} {along}");
+            assert!(
+                abs_diff_eq!(*exact, along, epsilon = 1e-3),
+                "{exact} {along}"
+            );
         }
         let period = orbit.scene.period();
         for (map, flow) in exact.per_period.iter().zip(exact.per_second()) {
-            assert!((map - period * flow).abs() < 1e-14);
+            assert_abs_diff_eq!(*map, period * flow, epsilon = ROUNDING);
         }
         let sum: f64 = exact.per_period.iter().sum();
         let divergence = orbit.determinant().abs().ln() / orbit.periods as f64;
-        assert!((sum - divergence).abs() < 1e-12, "{sum} {divergence}");
+        assert!(
+            abs_diff_eq!(sum, divergence, epsilon = MOTION),
+            "{sum} {divergence}"
+        );
     }
 }
 
@@ -68,8 +69,11 @@ fn their_sum_is_the_mean_divergence_in_chaos_too() {
         }
         assert!(impacts > 100, "{impacts}");
         let sum: f64 = exponents.per_period.iter().sum();
-        let off = sum - divergence / exponents.periods as f64;
-        assert!(off.abs() < 1e-9, "{off:e}");
+        assert_abs_diff_eq!(
+            sum,
+            divergence / exponents.periods as f64,
+            epsilon = 10.0 * SOLVED
+        );
     }
 }
 
@@ -81,8 +85,11 @@ fn chaos_has_a_positive_one_beyond_its_error() {
     assert!(chaos.error > 0.0 && chaos.error < 0.02, "{chaos:?}");
     // Another stretch of the same motion agrees within both errors, doubled.
     let (again, _) = Exponents::along(&unloaded(0.9875), end, 100).expect("bounded");
-    let off = (again.per_period[0] - chaos.per_period[0]).abs();
-    assert!(off < 2.0 * (again.error + chaos.error), "{off}");
+    assert_abs_diff_eq!(
+        again.per_period[0],
+        chaos.per_period[0],
+        epsilon = 2.0 * (again.error + chaos.error)
+    );
 }
 
 #[test]

@@ -1,8 +1,10 @@
 //! Whole motions against an independent 30-digit event-driven integrator
 //! (tests/reference/machine.py): impacts, states, dry friction, resting on the stop, stiff stops.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use softstop::{Clock, Scene, Start};
 use softstop_testing::reference::{MACHINE, list, number, ratios};
+use softstop_testing::tolerance::MOTION;
 
 /// Rounding errors, in units of 2^-53 times the growth of a perturbation, that a motion may show.
 const ALLOWED: f64 = 400.0;
@@ -86,11 +88,17 @@ fn orbits_agree_with_thirty_digits() {
             (orbit.determinant(), "determinant"),
         ];
         for (value, key) in pairs {
-            let error = (value - number(expected, key)).abs();
-            assert!(error < 1e-12, "{key}: {value} is {error:e} off");
+            assert!(
+                abs_diff_eq!(value, number(expected, key), epsilon = MOTION),
+                "{key}: {value}"
+            );
         }
         let velocity = number(&list(expected, "impacts")[0], "velocity");
-        assert!((orbit.before_impact_velocity() - velocity).abs() < 1e-12);
-        assert!((orbit.determinant() - (-orbit.damping_integral).exp()).abs() < 1e-12);
+        assert_abs_diff_eq!(orbit.before_impact_velocity(), velocity, epsilon = MOTION);
+        assert_abs_diff_eq!(
+            orbit.determinant(),
+            (-orbit.damping_integral).exp(),
+            epsilon = MOTION
+        );
     }
 }

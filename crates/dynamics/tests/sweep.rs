@@ -1,11 +1,14 @@
 //! Sweeps against the figures of the paper and of the continuation.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use rayon::ThreadPoolBuilder;
 use softstop::Ratios;
 use softstop::integrator::Start;
 use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::orbit::{self, Regime};
 use softstop_dynamics::sweep::{Chain, Direction, Plan, PlanError, Settled, Step, hysteresis};
+use softstop_testing::tolerance::{GROWN, MOTION};
+use softstop_testing::unloaded;
 
 /// Frequency at which the impact-less motion grazes, rho = 10.
 const G0: f64 = 1.04444;
@@ -72,7 +75,7 @@ fn between_grazing_and_fold_the_way_matters() {
         "{zone:?}"
     );
     assert!(zone.from >= G0 && zone.from < G0 + 5e-3, "{zone:?}");
-    assert!((zone.to - FOLD).abs() < 2e-3, "{zone:?}");
+    assert!(abs_diff_eq!(zone.to, FOLD, epsilon = 2e-3), "{zone:?}");
     let up = chains[0].jumps();
     let jump = up.last().expect("there is one");
     assert!(jump.before.is_like(&ONE) && jump.after.is_like(&NONE));
@@ -86,16 +89,9 @@ fn a_sweep_loses_the_motion_after_its_end() {
     // Which motion it is on is told by its impacts alone: nothing settles within 5 periods.
     let fine = frequencies((1.3, 1.4), 1001, 5);
     for plan in [slow, fine] {
-        assert!((plan.rate() - 2e-5).abs() < 1e-12);
+        assert_abs_diff_eq!(plan.rate(), 2e-5, epsilon = MOTION);
         // From the motion with impacts, as a sweep from below comes.
-        let orbit = orbit::find(
-            &Ratios {
-                frequency: 1.3,
-                ..Ratios::unloaded()
-            }
-            .scene()
-            .expect("there is one"),
-        );
+        let orbit = orbit::find(&unloaded(1.3));
         let plan = Plan {
             start: orbit.expect("there is one").state().into(),
             ..plan
@@ -110,12 +106,7 @@ fn a_sweep_loses_the_motion_after_its_end() {
 fn a_slower_sweep_loses_it_nearer_to_the_fold() {
     let at = |periods| {
         let plan = frequencies((1.36, 1.38), 41, periods);
-        let scene = Ratios {
-            frequency: 1.36,
-            ..Ratios::unloaded()
-        }
-        .scene()
-        .expect("there is one");
+        let scene = unloaded(1.36);
         let start = orbit::find(&scene).expect("there is one").state().into();
         let chains = run(
             &Plan { start, ..plan },
@@ -135,29 +126,21 @@ fn steps_have_the_motions_of_newtons_method() {
     let plan = frequencies((1.05, 1.15), 3, 300);
     // From rest the first value may lead to either motion.
     let mut plan = plan;
-    plan.start = orbit::find(
-        &Ratios {
-            frequency: 1.05,
-            ..Ratios::unloaded()
-        }
-        .scene()
-        .expect("there is one"),
-    )
-    .expect("there is one")
-    .state()
-    .into();
+    plan.start = orbit::find(&unloaded(1.05))
+        .expect("there is one")
+        .state()
+        .into();
     let chains = run(&plan, vec![Chain::new(Ratios::unloaded(), Direction::Up)]);
     for step in &chains[0].steps {
-        let scene = Ratios {
-            frequency: step.value,
-            ..Ratios::unloaded()
-        }
-        .scene()
-        .expect("there is one");
+        let scene = unloaded(step.value);
         let orbit = orbit::find(&scene).expect("there is one");
         assert!(step.settled.is_like(&ONE));
-        assert!((step.hardest() - orbit.before_impact_velocity()).abs() < 1e-8);
-        assert!((step.max_position - orbit.max_position).abs() < 1e-8);
+        assert_abs_diff_eq!(
+            step.hardest(),
+            orbit.before_impact_velocity(),
+            epsilon = GROWN
+        );
+        assert_abs_diff_eq!(step.max_position, orbit.max_position, epsilon = GROWN);
     }
 }
 

@@ -1,31 +1,23 @@
 //! `softstop chart failures`: its maps agree with theory, its true motions with 67 digits, its files with its
 //! page, and bad values are named.
 
+use approx::abs_diff_eq;
+use softstop_testing::tolerance::SOLVED;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use softstop_console::progress::Progress;
 use softstop_lab::failures::{Atlas, Axes, Cell, Family, View};
 use softstop_lab::methods::{Events, Exact, Integrator, Scheme, Task, Verdict};
 use softstop_lab::reference;
+use softstop_testing::{Program, docs};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-fn docs(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../docs")
-        .join(name)
-}
-
-fn softstop(arguments: &[&str]) -> std::io::Result<Output> {
-    Command::new(env!("CARGO_BIN_EXE_softstop-lab"))
-        .args(["chart", "failures"])
-        .args(arguments)
-        .output()
-}
+const PROGRAM: Program = Program {
+    file: env!("CARGO_BIN_EXE_softstop-lab"),
+    first: &["chart", "failures"],
+};
 
 fn view(name: &str) -> Result<View, String> {
     View::find(name, None).map_err(|failure| failure.to_string())
@@ -45,8 +37,10 @@ fn the_exact_method_agrees_with_67_digits() -> Outcome {
             let digits = reference::solve(&task, &|_| true)?;
             let exact = Exact.integrate(&task)?;
             let apart = |a: f64, b: f64, scale: f64| {
-                let error = (a - b).abs();
-                assert!(error <= 1e-10 * scale, "{name}, {stiffness}: {a} {b}");
+                assert!(
+                    abs_diff_eq!(a, b, epsilon = SOLVED * scale),
+                    "{name}, {stiffness}: {a} {b}"
+                );
             };
             apart(exact.end.0, digits.end.0, 10.0);
             apart(exact.end.1, digits.end.1, 10.0);
@@ -129,15 +123,11 @@ fn writes_pages_table_and_maps() -> Outcome {
     let folder = tempfile::tempdir()?;
     let target = folder.path().join("atlas");
     let place = target.to_str().ok_or("path")?;
-    let output = softstop(&[
+    let text = PROGRAM.text(&[
         "--scene", "bounce", "--points", "5", "--format", "json", "--output", place,
-    ])?;
-    assert!(output.status.success(), "{output:?}");
-    let report: Value = serde_json::from_slice(&output.stdout)?;
-    assert_eq!(
-        fs::read_to_string(target.join("failures.json"))?.as_bytes(),
-        output.stdout
-    );
+    ]);
+    let report: Value = serde_json::from_str(&text)?;
+    assert_eq!(fs::read_to_string(target.join("failures.json"))?, text);
     let scene = &report["scenes"][0];
     // Moreau's method is made for rigid stops alone.
     assert_eq!(scene["maps"].as_array().map(Vec::len), Some(12));
@@ -173,7 +163,7 @@ fn a_scene_of_the_user_and_a_filter() -> Outcome {
     ] {
         let file = docs(&format!("scenes/{scene}.toml"));
         let file = file.to_str().ok_or("path")?;
-        let output = softstop(&[
+        let text = PROGRAM.text(&[
             "--scene",
             file,
             "--method",
@@ -186,9 +176,7 @@ fn a_scene_of_the_user_and_a_filter() -> Outcome {
             "3",
             "--output",
             place,
-        ])?;
-        assert!(output.status.success(), "{output:?}");
-        let text = String::from_utf8(output.stdout)?;
+        ]);
         assert!(text.contains("RK4, events ignored") && text.contains("RK4, events located"));
         assert!(text.contains("Newmark, events located") && !text.contains("Euler"));
         assert!(text.contains(judged), "{text}");
@@ -225,12 +213,7 @@ fn bad_values_are_named() {
         ),
     ];
     for (arguments, words) in cases {
-        let output = softstop(arguments).expect("the program starts");
-        let message = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
-        for word in words {
-            assert!(message.contains(word), "{arguments:?}: {message}");
-        }
+        PROGRAM.refuses(arguments, words);
     }
 }
 
@@ -239,21 +222,7 @@ fn bad_values_are_named() {
 fn an_interrupt_leaves_nothing_behind() -> Outcome {
     let folder = tempfile::tempdir()?;
     let target = folder.path().join("atlas");
-    let mut run = Command::new(env!("CARGO_BIN_EXE_softstop-lab"))
-        .args(["chart", "failures", "--points", "200", "--output"])
-        .arg(&target)
-        .stderr(std::process::Stdio::null())
-        .spawn()?;
-    let deadline = Instant::now() + Duration::from_secs(20);
-    while !target.is_dir() && Instant::now() < deadline {
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    std::thread::sleep(Duration::from_millis(200));
-    Command::new("kill")
-        .args(["-INT", &run.id().to_string()])
-        .status()?;
-    assert_eq!(run.wait()?.code(), Some(130));
-    assert!(!target.exists());
+    PROGRAM.leaves_nothing_when_interrupted(&["--points", "200"], &target);
     Ok(())
 }
 

@@ -3,6 +3,7 @@
 mod atlas;
 mod diagrams;
 mod failures;
+mod figure;
 mod grazing;
 mod methods;
 mod methods_limits;

@@ -4,6 +4,7 @@
 //! The table of docs/methods.md is printed by
 //! `cargo test --release -p softstop-lab --test lab methods::orders -- --nocapture`.
 
+use approx::abs_diff_eq;
 use proptest::prelude::*;
 use softstop::integrator::{Crossing, CrossingKind, Observer};
 use softstop::scene::Release;
@@ -104,7 +105,7 @@ fn assert_orders(name: &str, stop: Stop, contact_damping: f64, left: (f64, f64))
             let (title, events) = (scheme.name(), events.name());
             println!("{name:22} {title:20} {events:15} {observed:.2} (theory {expected})");
             assert!(
-                (observed - expected).abs() < 0.1,
+                abs_diff_eq!(observed, expected, epsilon = 0.1),
                 "{name}, {title}, {events}"
             );
         }
@@ -181,7 +182,10 @@ fn orders_of_moreau() {
     ] {
         let observed = observed_order(&scene(clearance), &|step| Moreau { step, theta });
         println!("{name:22} Moreau, theta = {theta:4} {observed:22.2} (theory {expected})");
-        assert!((observed - expected).abs() < 0.1, "{name} {theta}");
+        assert!(
+            abs_diff_eq!(observed, expected, epsilon = 0.1),
+            "{name} {theta}"
+        );
     }
 }
 

@@ -1,6 +1,7 @@
 //! The many-digit reference against independent integrations in 56 digits (tests/reference/stops.py), a closed
 //! form and the exact method.
 
+use approx::abs_diff_eq;
 use std::cell::RefCell;
 use std::str::FromStr;
 
@@ -10,12 +11,13 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use serde_json::Value;
 use softstop::scene::{Release, RigidStop, Slope};
-use softstop::{Excitation, Impact, Piercing, Scene, Start, Stop};
+use softstop::{Excitation, Impact, Piercing, Scene, Stop};
 use softstop_lab::methods::{Exact, Integrator, Task};
 use softstop_lab::reference::number::{Digits, Real, float, size};
 use softstop_lab::reference::walk::Walk;
 use softstop_lab::reference::{ReferenceError, solve};
 use softstop_testing::reference::{STOPS, list, number};
+use softstop_testing::start_at;
 
 /// Half a unit in the 30th digit of numbers up to 1000, to which stops.json is written, ten times over.
 const ALLOWED: f64 = 1e-26;
@@ -31,10 +33,7 @@ fn real(value: &Value, key: &str) -> Real {
 }
 
 fn task(scene: Scene, start: (f64, f64), periods: f64) -> Task {
-    let start = Start {
-        position: start.0,
-        velocity: start.1,
-    };
+    let start = start_at(start.0, start.1);
     Task {
         scene,
         start,
@@ -142,8 +141,14 @@ fn a_machine_without_a_stop_has_its_closed_form() {
     };
     // 7.5 periods of pi: cos t = 0, sin t = -1, cos 2t = -1, sin 2t = 0.
     let reference = solve(&task(scene, (1.0, 0.0), 7.5), &|_| true).expect("a reference");
-    assert!((reference.end.0 - 1.0 / 3.0).abs() < 1e-16, "{reference:?}");
-    assert!((reference.end.1 - 4.0 / 3.0).abs() < 3e-16, "{reference:?}");
+    assert!(
+        abs_diff_eq!(reference.end.0, 1.0 / 3.0, epsilon = 1e-16),
+        "{reference:?}"
+    );
+    assert!(
+        abs_diff_eq!(reference.end.1, 4.0 / 3.0, epsilon = 3e-16),
+        "{reference:?}"
+    );
     assert!(reference.doubt.end < 1e-44, "{reference:?}");
     assert!(reference.impacts.is_empty() && reference.crossings == 0);
 }

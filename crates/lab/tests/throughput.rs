@@ -1,31 +1,24 @@
 //! `softstop throughput` as users and scripts meet it. Times are not looked at.
 
-use std::process::{Command, Output};
-
-use serde_json::Value;
-use softstop::{Ratios, Scene, Start};
+use softstop::{Ratios, Scene};
 use softstop_lab::throughput::check::check;
 use softstop_lab::throughput::doubt::judge;
 use softstop_lab::throughput::draw::{Draw, Kind};
 use softstop_lab::throughput::fleet::Range;
 use softstop_lab::throughput::measure::narrower;
 use softstop_lanes::Instructions;
+use softstop_testing::{Program, start_at};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-fn softstop(arguments: &[&str]) -> std::io::Result<Output> {
-    Command::new(env!("CARGO_BIN_EXE_softstop-lab"))
-        .arg("throughput")
-        .args(arguments)
-        .output()
-}
+const PROGRAM: Program = Program {
+    file: env!("CARGO_BIN_EXE_softstop-lab"),
+    first: &["throughput"],
+};
 
 #[test]
 fn the_report_holds_what_scripts_look_for() -> Outcome {
-    let arguments = ["--format", "json", "--repeats", "1", "--check", "300"];
-    let output = softstop(&arguments)?;
-    assert!(output.status.success());
-    let report: Value = serde_json::from_slice(&output.stdout)?;
+    let report = PROGRAM.json(&["--repeats", "1", "--check", "300"]);
     for key in ["cpu", "cores", "os"] {
         assert!(!report["machine"][key].is_null(), "{key}");
     }
@@ -59,17 +52,15 @@ fn the_report_holds_what_scripts_look_for() -> Outcome {
 }
 
 #[test]
-fn the_table_is_for_people_and_the_check_can_be_left_out() -> Outcome {
-    let output = softstop(&["--repeats", "1", "--check", "0"])?;
-    let text = String::from_utf8(output.stdout)?;
+fn the_table_is_for_people_and_the_check_can_be_left_out() {
+    let text = PROGRAM.text(&["--repeats", "1", "--check", "0"]);
     let name = Instructions::Widest.registers().name;
     assert!(text.contains("scalar") && text.contains(&format!("batch, {name}")));
     assert!(!text.contains("random motions"));
-    Ok(())
 }
 
 #[test]
-fn values_out_of_range_are_named() -> Outcome {
+fn values_out_of_range_are_named() {
     for (arguments, message) in [
         (["--repeats", "0"], "repeats = 0: must be 1 to 1000"),
         (
@@ -78,12 +69,8 @@ fn values_out_of_range_are_named() -> Outcome {
         ),
         (["--seed", "x"], "--seed"),
     ] {
-        let output = softstop(&arguments)?;
-        assert_eq!(output.status.code(), Some(2));
-        let error = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(error.contains(message), "{error}");
+        PROGRAM.refuses(&arguments, &[message]);
     }
-    Ok(())
 }
 
 #[test]
@@ -151,10 +138,7 @@ fn swing(clearance: f64) -> Result<Scene, Box<dyn std::error::Error>> {
 
 #[test]
 fn only_what_rounding_can_change_is_left_out() -> Outcome {
-    let from = Start {
-        position: -5.0,
-        velocity: 0.0,
-    };
+    let from = start_at(-5.0, 0.0);
     for (clearance, impacts, doubtful) in [
         (5.0 + 1e-12, 0, true),
         (5.0 - 1e-12, 1, true),
@@ -172,10 +156,7 @@ fn only_what_rounding_can_change_is_left_out() -> Outcome {
         ..Ratios::unloaded()
     }
     .scene()?;
-    let from = Start {
-        position: 0.0,
-        velocity: 14.0,
-    };
+    let from = start_at(0.0, 14.0);
     assert!(!judge(&chaotic, from, 5)?.doubtful);
     assert!(judge(&chaotic, from, 400)?.doubtful);
     Ok(())

@@ -1,17 +1,21 @@
 //! What the tests of all rooms share: random machines, reference data, scenes, differences and programs.
 
 pub mod machines;
+pub mod meets;
 mod program;
 pub mod random;
 pub mod reference;
 pub mod scenes;
 pub mod tangent;
+pub mod tolerance;
 
 use std::path::{Path, PathBuf};
 
 pub use machines::{machines, start_below};
+pub use meets::Meets;
 pub use program::Program;
 pub use random::cases;
+pub use scenes::{loaded, start_at, unloaded};
 
 /// A file of `docs`.
 pub fn docs(name: &str) -> PathBuf {

@@ -2,9 +2,31 @@
 
 use serde_json::Value;
 use softstop::scene::{Release, RigidStop, Slope};
-use softstop::{Clock, Excitation, Instant, Piercing, Scene, Stop};
+use softstop::{Clock, Excitation, Instant, Piercing, Ratios, Scene, Start, Stop};
 
 use crate::reference::{list, number};
+
+/// A start from a position in m with a velocity in m/s.
+pub const fn start_at(position: f64, velocity: f64) -> Start {
+    Start { position, velocity }
+}
+
+/// The paper's unloaded machine at a frequency.
+///
+/// # Panics
+/// If the frequency cannot be.
+pub fn unloaded(frequency: f64) -> Scene {
+    let ratios = Ratios {
+        frequency,
+        ..Ratios::unloaded()
+    };
+    ratios.scene().expect("valid")
+}
+
+/// The paper's loaded machine at point B.
+pub fn loaded() -> Scene {
+    Ratios::loaded().scene().expect("valid")
+}
 
 fn slopes(value: &Value, key: &str) -> Vec<Slope> {
     list(value, key)

@@ -1,0 +1,162 @@
+//! Curves of special points in two parameters.
+
+use super::*;
+use approx::assert_abs_diff_eq;
+use softstop_testing::tolerance::{MOTION, SOLVED, printed};
+
+fn plane(parameters: [Parameter; 2]) -> Along<Ratios, 2> {
+    Along::new(Ratios::unloaded(), parameters).expect("a family")
+}
+
+fn followed(
+    special: &Special,
+    periods: u64,
+    family: &Along<Ratios, 2>,
+    second: f64,
+    ranges: [(f64, f64); 2],
+) -> Curve {
+    let region = Region {
+        ranges,
+        points: 500,
+        step: 0.25,
+    };
+    let start = [special.point.parameter, second];
+    curve(
+        family,
+        periods,
+        (special.kind, &special.point),
+        start,
+        &region,
+        |_| ControlFlow::Continue(()),
+    )
+    .expect("a curve")
+}
+
+const FREQUENCY_CLEARANCE: [Parameter; 2] = [Parameter::Frequency, Parameter::Clearance];
+
+/// The point of a curve in frequency and clearance at a clearance that it stops at.
+#[track_caller]
+fn at_clearance(curve: &Curve, clearance: f64) -> &CurvePoint {
+    let off = |point: &&CurvePoint| (point.parameters[1] - clearance).abs();
+    let nearest = curve.points.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+    let nearest = nearest.expect("points");
+    assert!(off(&nearest) < 1e-9, "{clearance}: {nearest:?}");
+    nearest
+}
+
+/// s_SN over rho: the fold's curve passes through all of them, to their digits.
+#[test]
+fn fold_curve_passes_through_all_known_folds() {
+    const FOLDS: [(f64, f64, f64); 9] = [
+        (2.0, 10.74, 1.69031),
+        (4.0, 16.10, 1.57552),
+        (6.0, 17.34, 1.49593),
+        (8.0, 17.27, 1.42847),
+        (10.0, 16.87, 1.36904),
+        (12.0, 16.23, 1.31583),
+        (14.0, 15.37, 1.26746),
+        (16.0, 14.25, 1.22271),
+        (18.0, 12.81, 1.18034),
+    ];
+    let fold = of_kind(&all_of_z1(), "SN").remove(0);
+    let family = plane(FREQUENCY_CLEARANCE);
+    for (clearance, velocity, frequency) in FOLDS {
+        // The curve ends exactly at the range's end.
+        let range = (clearance.min(10.0), clearance.max(10.0));
+        let curve = followed(&fold, 1, &family, 10.0, [(1.0, 2.0), range]);
+        let nearest = at_clearance(&curve, clearance);
+        assert_abs_diff_eq!(nearest.parameters[0], frequency, epsilon = printed(5));
+        assert_abs_diff_eq!(nearest.impacts[0], velocity, epsilon = printed(2));
+        assert_abs_diff_eq!(
+            Test::Fold.value(&nearest.monodromy),
+            0.0,
+            epsilon = 10.0 * MOTION
+        );
+    }
+}
+
+/// The same against thirty digits, wherever the reference's machine differs in its clearance alone.
+#[test]
+fn fold_curve_agrees_with_thirty_digits() {
+    let fold = of_kind(&all_of_z1(), "SN").remove(0);
+    let family = plane(FREQUENCY_CLEARANCE);
+    let mut compared = 0;
+    for expected in list(&MACHINE, "folds") {
+        let ratios =
+            softstop_testing::reference::ratios(expected.get("parameters").unwrap_or(expected));
+        let same = Ratios {
+            frequency: 1.15,
+            clearance: 10.0,
+            ..ratios
+        } == Ratios::unloaded();
+        if !same || ratios.clearance > 18.0 {
+            continue;
+        }
+        let range = (ratios.clearance.min(10.0), ratios.clearance.max(10.0));
+        let curve = followed(&fold, 1, &family, 10.0, [(1.0, 2.0), range]);
+        let hit = at_clearance(&curve, ratios.clearance);
+        assert_abs_diff_eq!(
+            hit.parameters[0],
+            number(expected, "frequency_sn"),
+            epsilon = 10.0 * SOLVED
+        );
+        compared += 1;
+    }
+    assert!(compared >= 3, "{compared} compared");
+}
+
+/// The amplitude of the impact-less motion is the clearance all along its grazing curve.
+#[test]
+fn grazing_curve_is_closed_form() {
+    let graze = of_kind(&all_of_z1(), "G").remove(1);
+    let family = plane(FREQUENCY_CLEARANCE);
+    let curve = followed(&graze, 1, &family, 10.0, [(0.2, 3.0), (0.5, 24.9)]);
+    assert!(curve.points.len() > 10);
+    for point in &curve.points {
+        let [eta, rho] = point.parameters;
+        let amplitude = 1.0 / (1.0 - eta * eta).hypot(0.04 * eta);
+        assert_abs_diff_eq!(amplitude / rho, 1.0, epsilon = 10.0 * MOTION);
+    }
+    // It passes over resonance, where the clearance is the highest amplitude of all.
+    let highest = curve
+        .points
+        .iter()
+        .map(|point| point.parameters[1])
+        .fold(0.0, f64::max);
+    assert!(highest > 24.8, "{highest}");
+}
+
+/// Along the flip's curve in frequency and stiffness the branch at another stiffness flips where the
+/// curve says.
+#[test]
+fn flip_curve_meets_the_branch_of_another_stiffness() {
+    let flip = of_kind(&all_of_z1(), "PD").remove(0);
+    let family = plane([Parameter::Frequency, Parameter::Stiffness]);
+    let curve = followed(&flip, 1, &family, 7.0, [(0.9, 1.1), (7.0, 9.0)]);
+    let end = curve
+        .points
+        .iter()
+        .max_by(|a, b| a.parameters[1].total_cmp(&b.parameters[1]))
+        .expect("points");
+    assert_abs_diff_eq!(end.parameters[1], 9.0, epsilon = 10.0 * SOLVED);
+    let stiffer = Ratios {
+        stiffness: 9.0,
+        ..Ratios::unloaded()
+    };
+    let along = Along::new(stiffer, [Parameter::Frequency]).expect("a family");
+    let limits = Limits {
+        range: (0.9, 1.2),
+        points: 500,
+    };
+    let branch = Follower::new(&along, 1)
+        .branch(1.15, Vector2::new(A.0, A.1), &limits, |_| {
+            ControlFlow::Continue(())
+        })
+        .expect("a branch");
+    let flips = of_kind(&branch, "PD");
+    assert_abs_diff_eq!(
+        flips[0].point.parameter,
+        end.parameters[0],
+        epsilon = SOLVED
+    );
+}

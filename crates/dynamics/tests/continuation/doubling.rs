@@ -1,0 +1,104 @@
+//! Branches of twice the period, and orbits asked for at a multiple of theirs.
+
+use super::*;
+use approx::assert_abs_diff_eq;
+use softstop_testing::tolerance::MOTION;
+
+/// A rigid stop of restitution 1/2.
+fn rigid() -> Frequencies<Scene> {
+    let ratios = Ratios {
+        frequency: 2.2,
+        clearance: 0.2,
+        ..Ratios::unloaded()
+    };
+    let mut scene = ratios.scene().expect("a scene");
+    scene.stop = Stop::Rigid { restitution: 0.5 };
+    Along::new(scene, [Parameter::Frequency]).expect("a family")
+}
+
+/// Doublings accumulate at Feigenbaum's rate, 4.669.
+#[test]
+fn doublings_of_a_rigid_stop_are_feigenbaums() {
+    let family = rigid();
+    let follower = Follower::new(&family, 1);
+    let limits = Limits {
+        range: (1.5, 3.0),
+        points: 500,
+    };
+    let state = Vector2::new(-0.630_529, 0.062_449);
+    let branch = follower
+        .branch(2.2, state, &limits, |_| ControlFlow::Continue(()))
+        .expect("a branch");
+    let flip = of_kind(&branch, "PD").remove(0).point;
+    let flips = follower.cascade(&flip, 5, &limits).expect("a cascade");
+    assert_eq!(flips.len(), 5);
+    for (index, flip) in flips.iter().enumerate() {
+        assert_eq!(flip.impacts.len(), 1 << index);
+    }
+    let gaps: Vec<_> = flips
+        .windows(2)
+        .map(|pair| pair[1].parameter - pair[0].parameter)
+        .collect();
+    assert_abs_diff_eq!(gaps[2] / gaps[3], 4.669, epsilon = 0.05);
+}
+
+/// The paper's machine doubles once and then grazes: no cascade (PD -> ISN in its Table 1). The doubled
+/// branch of z = 1 meets that of z = 1/2 where its second impact dies.
+#[test]
+fn the_doubled_branch_of_z1_grazes() {
+    let z1 = all_of_z1();
+    let flip = of_kind(&z1, "PD").remove(0).point;
+    let family = frequencies(1.15);
+    let limits = Limits {
+        range: (0.9, 1.1),
+        points: 500,
+    };
+    let doubled = Follower::new(&family, 1)
+        .doubled(&flip, &limits, |_| ControlFlow::Continue(()))
+        .expect("a branch of twice the period");
+    assert_eq!(doubled.periods, 2);
+    assert!(matches!(doubled.ends.1, End::Grazing));
+    let dies = of_kind(&doubled, "G").remove(0).point;
+    let half = branch(0.9886, 2, HALF, (0.9, 1.1));
+    let born = of_kind(&half, "G").remove(1).point;
+    assert_abs_diff_eq!(dies.parameter, born.parameter, epsilon = 10.0 * MOTION);
+}
+
+/// An orbit of one period that is asked for as one of four is followed as one of one.
+#[test]
+fn the_shortest_period_is_found() {
+    let branch = branch(1.15, 4, A, (1.1, 1.2));
+    assert_eq!(branch.periods, 1);
+    assert!(matches!(branch.ends, (End::Range, End::Range)));
+    let (low, high) = (&branch.points[0], &branch.points[branch.points.len() - 1]);
+    assert_abs_diff_eq!(low.parameter, 1.1, epsilon = MOTION);
+    assert_abs_diff_eq!(high.parameter, 1.2, epsilon = MOTION);
+}
+
+/// A doubled branch that comes back to the orbit of half its period ends there.
+#[test]
+fn a_doubled_branch_merges_into_the_one_it_came_from() {
+    let branch = branch(0.9886, 2, HALF, (0.9, 1.1));
+    let flip = of_kind(&branch, "PD").remove(0).point;
+    let family = frequencies(0.9886);
+    let limits = Limits {
+        range: (0.9, 1.1),
+        points: 500,
+    };
+    let doubled = Follower::new(&family, 2)
+        .doubled(&flip, &limits, |_| ControlFlow::Continue(()))
+        .expect("a branch");
+    let middle = &doubled.points[1];
+    let back = Follower::new(&family, 4)
+        .branch(middle.parameter, middle.state(), &limits, |_| {
+            ControlFlow::Continue(())
+        })
+        .expect("the same");
+    let ends = [
+        (&back.ends.0, &back.points[0]),
+        (&back.ends.1, &back.points[back.points.len() - 1]),
+    ];
+    let merged = ends.iter().find(|(end, _)| matches!(end, End::Merged));
+    let (_, point) = merged.expect("one end is the flip");
+    assert_abs_diff_eq!(point.parameter, flip.parameter, epsilon = 10.0 * MOTION);
+}

@@ -1,0 +1,190 @@
+//! Models of a machine from the simplest to itself.
+
+use super::*;
+use approx::{abs_diff_eq, assert_relative_eq};
+use softstop_testing::tolerance::{GROWN, MOTION, SOLVED};
+
+/// A chain of one slope is a Kelvin-Voigt stop, but stands on no rung.
+fn spring_in_disguise(stiffness: f64, zeta: f64) -> Scene {
+    let damping = 2.0 * zeta * (2.0 * stiffness).sqrt();
+    let slope = Slope {
+        from: 0.0,
+        stiffness,
+    };
+    let stop = Stop::PiecewiseLinear {
+        loading: vec![slope],
+        unloading: Vec::new(),
+    };
+    machine(stop, damping)
+}
+
+#[test]
+fn a_spring_in_disguise_is_found_out() -> Outcome {
+    let truth = spring_in_disguise(150.0, 0.1);
+    let observed = Observation::settled(&truth, None, FLUNG)?;
+    let velocity = from_truth(&observed)?;
+    for likeness in [Likeness::Penetration, Likeness::Duration] {
+        let ladder = Ladder {
+            truth: truth.clone(),
+            likeness,
+        };
+        let model = ladder.model(Rung::KelvinVoigt, velocity)?;
+        let Stop::KelvinVoigt { stiffness, .. } = model.scene.stop else {
+            return Err("no spring".into());
+        };
+        assert_relative_eq!(
+            stiffness,
+            150.0,
+            epsilon = 0.0,
+            max_relative = 10.0 * MOTION
+        );
+        assert_relative_eq!(
+            model.scene.contact_damping,
+            truth.contact_damping,
+            epsilon = 0.0,
+            max_relative = 10.0 * MOTION
+        );
+        let modelled = Observation::settled(&model.scene, None, FLUNG)?;
+        assert_relative_eq!(
+            modelled.max_position,
+            observed.max_position,
+            epsilon = 0.0,
+            max_relative = 10.0 * MOTION
+        );
+        assert_relative_eq!(
+            from_truth(&modelled)?,
+            velocity,
+            epsilon = 0.0,
+            max_relative = 10.0 * MOTION
+        );
+    }
+    Ok(())
+}
+
+#[test]
+fn a_scene_on_a_rung_is_its_own_model() -> Outcome {
+    let truth = kelvin_voigt(100.0, 0.15, Release::ZeroForce);
+    let ladder = Ladder {
+        truth: truth.clone(),
+        likeness: Likeness::Penetration,
+    };
+    assert_eq!(
+        ladder.rungs(),
+        [Rung::Linear, Rung::Rigid, Rung::KelvinVoigt, Rung::Hertz]
+    );
+    assert_eq!(ladder.model(Rung::KelvinVoigt, 5.0)?.scene, truth);
+    let loaded = Ladder {
+        truth: Ratios::loaded().scene()?,
+        likeness: Likeness::Penetration,
+    };
+    assert_eq!(loaded.rungs(), Rung::ALL);
+    assert_eq!(loaded.model(Rung::Full, 8.0)?.scene, loaded.truth);
+    let free = Ladder {
+        truth: machine(Stop::None, 0.08),
+        likeness: Likeness::Penetration,
+    };
+    assert_eq!(free.rungs(), [Rung::Linear]);
+    Ok(())
+}
+
+#[test]
+fn the_rigid_model_comes_nearer_with_the_root_of_the_stiffness() -> Outcome {
+    let error = |stiffness: f64| -> Result<f64, Box<dyn std::error::Error>> {
+        let truth = kelvin_voigt(stiffness, 0.1, Release::Clearance);
+        let observed = Observation::settled(&truth, None, FLUNG)?;
+        let velocity = from_truth(&observed)?;
+        let ladder = Ladder {
+            truth,
+            likeness: Likeness::Penetration,
+        };
+        let rigid = ladder.model(Rung::Rigid, velocity)?;
+        let modelled = Observation::settled(&rigid.scene, Some(observed.start), FLUNG)?;
+        Ok((from_truth(&modelled)? - velocity).abs() / velocity)
+    };
+    let mut last = error(1e6)?;
+    for stiffness in [4e6, 1.6e7, 6.4e7] {
+        let next = error(stiffness)?;
+        let order = (last / next).log2();
+        assert!(
+            abs_diff_eq!(order, 1.0, epsilon = 0.02),
+            "order {order} in 1/sqrt(k)"
+        );
+        last = next;
+    }
+    Ok(())
+}
+
+#[test]
+fn a_preloaded_stop_stands_in_for_a_strip() -> Outcome {
+    let truth = Ratios::loaded().scene()?;
+    let contact = Contact::of(&truth, 8.4)?;
+    for likeness in [Likeness::Penetration, Likeness::Duration] {
+        let ladder = Ladder {
+            truth: truth.clone(),
+            likeness,
+        };
+        for rung in [Rung::Preloaded, Rung::Hertz, Rung::KelvinVoigt, Rung::Rigid] {
+            let like = Contact::of(&ladder.model(rung, 8.4)?.scene, 8.4)?;
+            assert_relative_eq!(
+                like.restitution,
+                contact.restitution,
+                epsilon = 0.0,
+                max_relative = 10.0 * SOLVED
+            );
+            match likeness {
+                _ if rung == Rung::Rigid => assert_eq!(like.penetration, 0.0),
+                Likeness::Penetration => assert_relative_eq!(
+                    like.penetration,
+                    contact.penetration,
+                    epsilon = 0.0,
+                    max_relative = 10.0 * SOLVED
+                ),
+                Likeness::Duration => assert_relative_eq!(
+                    like.duration,
+                    contact.duration,
+                    epsilon = 0.0,
+                    max_relative = 10.0 * SOLVED
+                ),
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_rigid_stop_has_no_soft_model() -> Outcome {
+    let restitution = 0.6;
+    let ladder = Ladder {
+        truth: machine(Stop::Rigid { restitution }, 0.08),
+        likeness: Likeness::Penetration,
+    };
+    let contact = Contact::of(&ladder.truth, 5.0)?;
+    assert_eq!((contact.restitution, contact.penetration), (0.6, 0.0));
+    for rung in [Rung::KelvinVoigt, Rung::Hertz] {
+        let error = ladder.model(rung, 5.0).expect_err("no finite stiffness");
+        assert!(matches!(error, FidelityError::Unmatched { .. }), "{error}");
+    }
+    assert!(ladder.model(Rung::KelvinVoigt, -1.0).is_err());
+    Ok(())
+}
+
+#[test]
+fn a_predicted_model_is_matched_at_its_own_velocity() -> Outcome {
+    let ladder = Ladder {
+        truth: Ratios::loaded().scene()?,
+        likeness: Likeness::Duration,
+    };
+    for rung in [Rung::Rigid, Rung::KelvinVoigt] {
+        let (model, observed) = from_model(&ladder, rung, FLUNG)?;
+        let velocity = from_truth(&observed)?;
+        let again = Contact::of(&model.scene, velocity)?;
+        let own = Contact::of(&ladder.truth, velocity)?;
+        assert_relative_eq!(
+            again.restitution,
+            own.restitution,
+            epsilon = 0.0,
+            max_relative = 10.0 * GROWN
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,160 @@
+//! What is observed of a machine, and how models are compared by it.
+
+use super::*;
+use approx::assert_relative_eq;
+use softstop_testing::tolerance::{DIFFERENCED, MOTION, SOLVED, printed};
+
+#[test]
+fn what_is_observed_balances() -> Outcome {
+    let truth = Ratios::loaded().scene()?;
+    let observed = Observation::settled(&truth, None, FLUNG)?;
+    let period = truth.period();
+    let trajectory = truth.trajectory(observed.start, 1)?;
+    assert_relative_eq!(
+        observed.mean_power * period,
+        trajectory.work.dissipated,
+        epsilon = 0.0,
+        max_relative = SOLVED
+    );
+    let contact = observed.energy_per_impact.ok_or("it strikes")?;
+    assert!(contact < trajectory.work.dissipated);
+    let rigid = machine(Stop::Rigid { restitution: 0.6 }, 0.08);
+    let observed = Observation::settled(&rigid, None, FLUNG)?;
+    let velocity = from_truth(&observed)?;
+    let lost = 0.5 * 2.0 * velocity * velocity * (1.0 - 0.36);
+    assert_relative_eq!(
+        observed.energy_per_impact.ok_or("it strikes")?,
+        lost,
+        epsilon = 0.0,
+        max_relative = MOTION
+    );
+    assert_eq!(observed.peak_force, None);
+    assert_eq!(observed.contact_time, Some(0.0));
+    Ok(())
+}
+
+#[test]
+fn the_largest_force_is_that_of_the_samples_and_no_less() -> Outcome {
+    let truth = Ratios::unloaded().scene()?;
+    let observed = Observation::settled(&truth, None, FLUNG)?;
+    let peak = observed.peak_force.ok_or("it strikes")?;
+    let mut simulation = softstop::Simulation::new(&truth, observed.start)?;
+    let mut seen = 0.0f64;
+    for step in 1..=200_000 {
+        simulation.advance(truth.period() * f64::from(step) / 2e5)?;
+        seen = seen.max(simulation.sample().contact_force);
+    }
+    assert!(peak >= seen, "{peak} < {seen}");
+    assert_relative_eq!(peak, seen, epsilon = 0.0, max_relative = DIFFERENCED);
+    Ok(())
+}
+
+#[test]
+fn bounds_are_those_of_the_paper() -> Outcome {
+    let truth = Ratios::unloaded().scene()?;
+    let observed = Observation::settled(&truth, None, FLUNG)?;
+    let found = bounds(&truth, &observed)?;
+    assert_relative_eq!(
+        found.grazing.ok_or("g0")?,
+        1.044_440_04,
+        epsilon = 0.0,
+        max_relative = 2.0 * printed(8)
+    );
+    assert_relative_eq!(
+        found.flip.ok_or("s_PD")?,
+        0.988_907,
+        epsilon = 0.0,
+        max_relative = printed(6)
+    );
+    assert_relative_eq!(
+        found.fold.ok_or("s_SN")?,
+        1.369_036,
+        epsilon = 0.0,
+        max_relative = printed(6)
+    );
+    let still = machine(Stop::None, 0.08);
+    let observed = Observation::settled(&still, None, FLUNG)?;
+    let found = bounds(&still, &observed)?;
+    assert_relative_eq!(
+        found.grazing.ok_or("g0")?,
+        1.044_440_04,
+        epsilon = 0.0,
+        max_relative = 2.0 * printed(8)
+    );
+    assert_eq!((found.flip, found.fold), (None, None));
+    Ok(())
+}
+
+fn regime_at(frequency: f64, start: Start) -> Result<Option<Regime>, Box<dyn std::error::Error>> {
+    let scene = Ratios {
+        frequency,
+        ..Ratios::unloaded()
+    }
+    .scene()?;
+    Ok(Regime::after(&scene, start, 400)?.0)
+}
+
+#[test]
+fn regimes_are_those_of_the_paper() -> Outcome {
+    let z = |impacts, periods| Some(Regime { impacts, periods });
+    let rest = start_at(0.0, 0.0);
+    assert_eq!(regime_at(1.15, FLUNG)?, z(1, 1));
+    assert_eq!(regime_at(1.15, rest)?, z(0, 1));
+    assert_eq!(regime_at(0.9875, FLUNG)?, None, "chaos");
+    assert_eq!(regime_at(1.0, FLUNG)?, z(1, 1));
+    assert_eq!(
+        Regime {
+            impacts: 2,
+            periods: 3
+        }
+        .to_string(),
+        "2/3"
+    );
+    Ok(())
+}
+
+#[test]
+fn the_cheapest_within_the_tolerance_is_named() -> Outcome {
+    let models = [
+        (None, 1.0),
+        (Some(0.1), 2.0),
+        (Some(0.004), 3.0),
+        (Some(0.0), 4.0),
+    ];
+    assert_eq!(cheapest(&models, 0.5), Some(1));
+    assert_eq!(cheapest(&models, 0.01), Some(2));
+    assert_eq!(cheapest(&models, 1e-9), Some(3));
+    assert_eq!(cheapest(&models[..3], 1e-9), None);
+    let same = [(Some(0.0), 2.0), (Some(0.0), 2.0)];
+    assert_eq!(cheapest(&same, 0.0), Some(0), "the simpler of two equals");
+    Ok(())
+}
+
+#[test]
+fn errors_are_relative_and_angles_wrap() -> Outcome {
+    let truth = Ratios::unloaded().scene()?;
+    let observed = Observation::settled(&truth, None, FLUNG)?;
+    let answers = |impact_phase, velocity| Answers {
+        observed: Observation {
+            impact_phase: Some(impact_phase),
+            before_impact_velocity: Some(velocity),
+            ..observed
+        },
+        bounds: None,
+    };
+    let (a, b) = (answers(0.1, 8.0), answers(6.2, 10.0));
+    let velocity = Quantity::BeforeImpactVelocity.error(&a, &b).ok_or("both")?;
+    assert_relative_eq!(velocity, 0.25, epsilon = 0.0, max_relative = 1e-15);
+    let phase = Quantity::ImpactPhase.error(&a, &b).ok_or("both")?;
+    assert_relative_eq!(
+        phase,
+        (0.1 + std::f64::consts::TAU - 6.2) / std::f64::consts::TAU,
+        epsilon = 0.0,
+        max_relative = MOTION
+    );
+    assert_eq!(Quantity::FoldFrequency.error(&a, &b), None);
+    for quantity in Quantity::ALL {
+        assert!([None, Some(0.0)].contains(&quantity.error(&a, &a)));
+    }
+    Ok(())
+}

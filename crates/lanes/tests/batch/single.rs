@@ -1,0 +1,116 @@
+//! Machines one by one: what lanes hand over, and the ends of periods.
+
+use super::*;
+
+#[test]
+fn what_lanes_cannot_follow_the_scalar_engine_does() {
+    let mut scene = Ratios::unloaded().scene().expect("valid");
+    scene.stop = Stop::Hertz {
+        stiffness: 100.0,
+        exponent: 1.5,
+        dissipation: 0.1,
+    };
+    let machine = Machine::new(&scene).expect("valid");
+    assert!(!machine.is_for_lanes());
+    let from = Start {
+        position: 0.0,
+        velocity: 14.0,
+    };
+    let job = |start, periods| Job {
+        machine: 0,
+        start,
+        periods,
+    };
+    let bad = Start {
+        position: f64::NAN,
+        velocity: 0.0,
+    };
+    let jobs = [job(from, PERIODS), job(bad, 1), job(from, 0)];
+    let outcomes = run(&[machine], &jobs, &mut ());
+    assert_eq!((outcomes[0].end, outcomes[0].impacts), scalar(&scene, from));
+    assert!(outcomes[1].error.is_some());
+    assert_eq!((outcomes[2].end, outcomes[2].impacts), (from, 0));
+}
+
+fn one_by_one(scene: &Scene, start: Start, periods: u64, watch: &mut impl Watch) -> (Start, u64) {
+    let machines = [Machine::new(scene).expect("valid")];
+    let jobs = [Job {
+        machine: 0,
+        start,
+        periods,
+    }];
+    let outcome = run(&machines, &jobs, watch).remove(0);
+    assert_eq!(outcome.error, None);
+    (outcome.end, outcome.impacts)
+}
+
+#[test]
+fn a_machine_without_a_stop_moves_on() {
+    let mut scene = Ratios::unloaded().scene().expect("valid");
+    scene.stop = Stop::None;
+    for index in 0..50 {
+        let start = start(index, &scene);
+        let (end, impacts) = one_by_one(&scene, start, PERIODS, &mut ());
+        assert_eq!(impacts, 0);
+        assert!(distance(end, scalar(&scene, start).0) < 1e-11);
+    }
+}
+
+/// Hears of periods, so that lanes stop at their ends.
+struct Periods;
+
+impl Watch for Periods {
+    const PERIODS: bool = true;
+}
+
+#[test]
+fn an_impact_at_the_very_end_of_a_period_is_counted_once() {
+    for index in 0..400 {
+        let mut scene = Ratios::unloaded().scene().expect("valid");
+        scene.stop = Stop::KelvinVoigt {
+            stiffness: 10.0,
+            release: Release::Clearance,
+        };
+        scene.excitation.frequency = between(0.5, 2.0, spread(index, 1));
+        scene.clearance = 1e3;
+        let start = start(index, &scene);
+        let mut motion = scene.motion(start).expect("valid");
+        motion
+            .advance(Clock::at_cycle(1), &mut ())
+            .expect("bounded");
+        let there = motion.state();
+        if there.position <= start.position.max(0.5) || there.velocity <= 0.1 {
+            continue;
+        }
+        scene.clearance = there.position;
+        let (_, impacts) = one_by_one(&scene, start, 3, &mut Periods);
+        let mut counter = Meets::default();
+        let mut motion = scene.motion(start).expect("valid");
+        motion
+            .advance(Clock::at_cycle(3), &mut counter)
+            .expect("bounded");
+        assert_eq!(
+            impacts, counter.impacts,
+            "{index}: {scene:?} from {start:?}"
+        );
+    }
+}
+
+#[test]
+fn endless_bounces_on_a_pressed_face_are_left_to_the_safe_engine() {
+    let mut ratios = Ratios::unloaded();
+    (ratios.clearance, ratios.frequency) = (0.5, 0.002);
+    let scene = ratios.scene().expect("valid");
+    let start = Start {
+        position: 5.75,
+        velocity: -6.6,
+    };
+    let mut counter = Meets::default();
+    let mut motion = scene.motion(start).expect("valid");
+    motion
+        .advance(Clock::at_cycle(1), &mut counter)
+        .expect("bounded");
+    let (end, impacts) = one_by_one(&scene, start, 1, &mut ());
+    assert_eq!((end, impacts), (motion.state(), counter.impacts));
+    assert!(impacts > 10_000, "{impacts}");
+}
