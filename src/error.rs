@@ -59,6 +59,76 @@ pub enum SceneError {
     },
 }
 
+/// A machine that its user states wrongly.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MachineError {
+    /// The text is no TOML, or a value is of another type.
+    #[error("{0}")]
+    Syntax(String),
+    /// A key that no machine has.
+    #[error("{}{key}: unknown key{}; known are {known}", at(*line), did_you_mean(*meant))]
+    UnknownKey {
+        /// Its line in the file.
+        line: Option<usize>,
+        /// The key.
+        key: String,
+        /// What it may mean.
+        meant: Option<&'static str>,
+        /// The keys that there are.
+        known: String,
+    },
+    /// A key that this machine does not have.
+    #[error("{key}: this machine has no such parameter; it has {has}")]
+    Lacks {
+        /// The key.
+        key: String,
+        /// What it has.
+        has: String,
+    },
+    /// A value out of its range.
+    #[error("{}{source}", at(*line))]
+    Value {
+        /// Its line in the file.
+        line: Option<usize>,
+        /// What is wrong with it.
+        source: SceneError,
+    },
+    /// A value that is no number.
+    #[error("{key} = {value}: must be a number")]
+    NotANumber {
+        /// The key.
+        key: String,
+        /// The value.
+        value: String,
+    },
+    /// Two keys for one thing.
+    #[error("{0} and {1}: only one of the two can be given")]
+    Both(&'static str, &'static str),
+    /// A key that is set twice.
+    #[error("{0}: is set twice")]
+    Twice(&'static str),
+    /// A key that every machine must state.
+    #[error("missing key `{0}`")]
+    Missing(&'static str),
+    /// A value in the place of a table.
+    #[error("{0}: must be a table")]
+    NoTable(&'static str),
+}
+
+impl From<SceneError> for MachineError {
+    fn from(source: SceneError) -> Self {
+        Self::Value { line: None, source }
+    }
+}
+
+fn at(line: Option<usize>) -> String {
+    line.map_or_else(String::new, |line| format!("line {line}: "))
+}
+
+fn did_you_mean(key: Option<&str>) -> String {
+    key.map_or_else(String::new, |key| format!(", did you mean {key}?"))
+}
+
 /// A motion that cannot be carried on.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MotionError {

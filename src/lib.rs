@@ -28,7 +28,7 @@ pub mod error;
 pub mod events;
 pub mod flow;
 pub mod integrator;
-
+pub mod machine;
 pub mod phases;
 pub mod root;
 pub mod samples;
@@ -36,8 +36,9 @@ pub mod scene;
 pub mod tangent;
 pub mod trajectory;
 
-pub use error::{MotionError, SceneError};
+pub use error::{MachineError, MotionError, SceneError};
 pub use integrator::{Clock, Energy, Impact, Instant, Motion, Sample, Simulation, Snapshot, Start};
+pub use machine::{Language, Machine};
 pub use phases::PhaseKind;
-pub use scene::{Excitation, Piercing, PiercingRatios, Ratios, Scene, Stop, Units};
+pub use scene::{Excitation, Parameter, Piercing, PiercingRatios, Ratios, Scene, Stop, Units};
 pub use trajectory::Trajectory;

@@ -7,6 +7,7 @@ mod force;
 mod force_reference;
 mod guarantee;
 mod long_runs;
+mod machine;
 mod no_event_missed;
 mod rates;
 mod sensitivities;

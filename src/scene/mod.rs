@@ -10,11 +10,13 @@
 //! quantities; the two agree through [`Ratios::scene`] and [`Ratios::dimensional`]. Any scene with m = k1
 //! = F0 = 1 is dimensionless, and [`Scene::in_units`] makes it dimensional.
 
+mod parameter;
 mod ratios;
 mod stop;
 mod units;
 mod validate;
 
+pub use parameter::{About, Allowed, Dimension, Parameter};
 pub use ratios::{PiercingRatios, Ratios};
 pub(crate) use stop::stiffness_from;
 pub use stop::{Release, RigidStop, Slope, Stop, force_of};

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::validate::positive;
-use super::{Excitation, Piercing, RigidStop, Scene, Slope, Stop};
+use super::{Allowed, Excitation, Piercing, RigidStop, Scene, Slope, Stop};
 use crate::error::SceneError;
 
 /// The three units that make dimensionless scenes dimensional.
@@ -46,9 +45,9 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] if a unit is not positive or a product leaves its range.
     pub fn in_units(&self, units: Units) -> Result<Self, SceneError> {
-        positive("mass", units.mass)?;
-        positive("stiffness", units.stiffness)?;
-        positive("excitation.amplitude", units.force)?;
+        Allowed::Positive.check("mass", units.mass)?;
+        Allowed::Positive.check("stiffness", units.stiffness)?;
+        Allowed::Positive.check("excitation.amplitude", units.force)?;
         let length = units.length();
         let scene = Self {
             mass: self.mass * units.mass,

@@ -3,6 +3,7 @@
 //! [`output`] that is there whole or not at all.
 #![forbid(unsafe_code)]
 
+pub mod arguments;
 pub mod column;
 pub mod export;
 pub mod failure;

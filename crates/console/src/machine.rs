@@ -105,6 +105,30 @@ pub struct SceneSettings {
 }
 
 impl SceneSettings {
+    /// The values that are given, by their names.
+    #[must_use]
+    pub fn given(&self) -> Vec<(&'static str, f64)> {
+        let values = [
+            ("frequency", self.frequency),
+            ("clearance", self.clearance),
+            ("stiffness", self.stiffness),
+            ("preload", self.preload),
+            ("preload_deflection", self.preload_deflection),
+            ("damping", self.damping),
+            ("contact_damping", self.contact_damping),
+        ];
+        let values = values.into_iter().chain(self.piercing());
+        values
+            .filter_map(|(name, value)| Some((name, value?)))
+            .collect()
+    }
+
+    /// True if this is the name of a value of the strip.
+    #[must_use]
+    pub fn is_of_strip(&self, name: &str) -> bool {
+        self.piercing().iter().any(|(strip, _)| *strip == name)
+    }
+
     /// The values of the strip, with their names.
     fn piercing(&self) -> [(&'static str, Option<f64>); 4] {
         [

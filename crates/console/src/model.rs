@@ -52,36 +52,19 @@ impl Adjustable for Model {
     }
 }
 
-/// The paper's letters.
-const SYMBOLS: [(Parameter, &str); 13] = [
-    (Parameter::Frequency, "eta"),
-    (Parameter::Amplitude, "F0"),
-    (Parameter::Clearance, "rho"),
-    (Parameter::Stiffness, "k4"),
-    (Parameter::Preload, "Fp"),
-    (Parameter::Damping, "beta1"),
-    (Parameter::ContactDamping, "beta"),
-    (Parameter::Restitution, "R"),
-    (Parameter::RigidTravel, "epsilon"),
-    (Parameter::PiercingStiffness, "k2"),
-    (Parameter::PiercingFriction, "k3"),
-    (Parameter::Thickness, "sigma"),
-    (Parameter::Travel, "nu"),
-];
-
-/// A parameter by the name of its option or the paper's letter.
+/// A parameter by its name, the paper's letter, or its name of 0.1.0.
 ///
 /// # Errors
 /// What is allowed.
 pub fn parameter(name: &str) -> Result<Parameter, String> {
     let plain = name.replace('-', "_");
-    SYMBOLS
-        .into_iter()
-        .find(|(parameter, symbol)| plain == parameter.name() || plain == *symbol)
-        .map(|(parameter, _)| parameter)
-        .ok_or_else(|| {
-            let names =
-                SYMBOLS.map(|(parameter, symbol)| format!("{} ({symbol})", parameter.name()));
-            format!("must be one of {}", names.join(", "))
-        })
+    if plain == "stiffness" {
+        return Ok(Parameter::StopStiffness);
+    }
+    let mut all = Parameter::ALL.into_iter();
+    let called = |parameter: &Parameter| parameter.is_called(&plain);
+    all.find(called).ok_or_else(|| {
+        let names = Parameter::ALL.map(|it| format!("{} ({})", it.name(), it.about().letter));
+        format!("must be one of {}", names.join(", "))
+    })
 }

@@ -25,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod along;
 mod arclength;
 mod branch;
 mod caution;
@@ -33,7 +34,6 @@ mod curve;
 mod detect;
 mod follower;
 mod graze;
-mod parameter;
 mod point;
 mod round;
 mod shooting;
@@ -41,13 +41,15 @@ mod switch;
 mod test;
 mod touching;
 
+pub use along::{Adjustable, Along};
 pub use branch::{Branch, End, Limits};
 pub use curve::{Curve, CurveEnd, CurvePoint, Region, curve};
 pub use follower::{Follower, Heading};
-pub use parameter::{Adjustable, Along, Parameter};
 pub use point::{BranchPoint, Graze, Special, SpecialKind};
 pub use round::Face;
 pub use test::Test;
+
+pub use softstop::scene::Parameter;
 
 use softstop::error::MotionError;
 use softstop::scene::Scene;

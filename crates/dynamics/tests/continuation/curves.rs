@@ -131,7 +131,7 @@ fn grazing_curve_is_closed_form() {
 #[test]
 fn flip_curve_meets_the_branch_of_another_stiffness() {
     let flip = of_kind(&all_of_z1(), "PD").remove(0);
-    let family = plane([Parameter::Frequency, Parameter::Stiffness]);
+    let family = plane([Parameter::Frequency, Parameter::StopStiffness]);
     let curve = followed(&flip, 1, &family, 7.0, [(0.9, 1.1), (7.0, 9.0)]);
     let end = curve
         .points

@@ -101,7 +101,7 @@ impl<'a> BranchChart<'a> {
         render(
             plots,
             (x, (-0.03 * top, top)),
-            axis(self.parameter),
+            &axis(self.parameter),
             "before-impact velocity X′₋",
             "Periodic motions: stable solid, unstable dashed",
         )
@@ -147,8 +147,8 @@ impl<'a> CurveChart<'a> {
         render(
             plots,
             (values(0), values(1)),
-            axis(self.parameters[0]),
-            axis(self.parameters[1]),
+            &axis(self.parameters[0]),
+            &axis(self.parameters[1]),
             "Bifurcations of periodic motions",
         )
     }
@@ -292,20 +292,7 @@ fn padded(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// The name of an axis.
-pub fn axis(parameter: Parameter) -> &'static str {
-    match parameter {
-        Parameter::Frequency => "drive frequency η = ω/Ω",
-        Parameter::Amplitude => "drive amplitude F₀",
-        Parameter::Clearance => "clearance ρ",
-        Parameter::Stiffness => "stiffness of the stop k₄/k₁",
-        Parameter::Preload => "preload of the stop",
-        Parameter::Damping => "damping in flight β₁",
-        Parameter::ContactDamping => "damping in contact β",
-        Parameter::Restitution => "restitution R",
-        Parameter::RigidTravel => "travel to the rigid stop ε",
-        Parameter::PiercingStiffness => "stiffness of the strip k₂/k₁",
-        Parameter::PiercingFriction => "friction of the strip k₃/k₁",
-        Parameter::Thickness => "thickness of the strip σ",
-        Parameter::Travel => "travel behind the strip ν",
-    }
+pub fn axis(parameter: Parameter) -> String {
+    let about = parameter.about();
+    format!("{} {}", about.meaning, about.symbol)
 }

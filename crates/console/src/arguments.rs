@@ -1,0 +1,189 @@
+//! The machine on the command line: a file or the paper's, and changes of it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use clap::Args;
+use softstop::{Language, Machine};
+
+use crate::failure::Failure;
+use crate::machine::{Regime, SceneSettings};
+use crate::scene_file::read_toml;
+
+/// Arguments of every command that looks at one machine.
+#[derive(Debug, Clone, PartialEq, Default, Args)]
+pub struct MachineArguments {
+    /// Machine: a TOML file (softstop schema says what it may hold), or the paper's by its name,
+    /// `unloaded` or `loaded` [default: unloaded]
+    #[arg(value_name = "MACHINE")]
+    pub machine: Option<PathBuf>,
+    /// Change a value of the machine, by its key in the file; repeatable
+    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
+    pub set: Vec<Change>,
+    /// The paper's machine in a TOML file, by the names of the ratios below; the command line has the
+    /// last word
+    #[arg(long, value_name = "FILE.toml", conflicts_with = "machine")]
+    pub scene: Option<PathBuf>,
+    /// Shorthands for the paper's machines.
+    #[command(flatten)]
+    pub ratios: SceneSettings,
+}
+
+/// `KEY=VALUE`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Change {
+    key: String,
+    value: String,
+}
+
+impl FromStr for Change {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.split_once('=') {
+            Some((key, value)) if !key.trim().is_empty() => Ok(Self {
+                key: key.trim().to_owned(),
+                value: value.to_owned(),
+            }),
+            _ => Err("must be KEY=VALUE, as in stop.stiffness=8e6".to_owned()),
+        }
+    }
+}
+
+impl MachineArguments {
+    /// The machine that they state.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] naming the file, the key, its value and what is allowed.
+    pub fn machine(&self) -> Result<Machine, Failure> {
+        let mut machine = match self.named()? {
+            Some(regime) => self.paper(regime)?,
+            None => self.file()?,
+        };
+        let changes = self.set.iter();
+        machine
+            .apply(changes.map(|change| (change.key.as_str(), change.value.as_str())))
+            .map_err(|error| Failure::usage(format!("--set {error}")))?;
+        Ok(machine)
+    }
+
+    /// The paper's machine that is asked for; none if it is a file's.
+    fn named(&self) -> Result<Option<Option<Regime>>, Failure> {
+        let Some(path) = &self.machine else {
+            return Ok(Some(None));
+        };
+        let named = [Regime::Unloaded, Regime::Loaded]
+            .into_iter()
+            .find(|regime| path.as_os_str() == regime.name());
+        match (named, self.ratios.regime) {
+            (Some(named), Some(regime)) if named != regime => Err(Failure::usage(format!(
+                "{}: goes not with --regime {}",
+                named.name(),
+                regime.name()
+            ))),
+            (named, _) => Ok(named.map(Some)),
+        }
+    }
+
+    /// The paper's machine under its shorthands.
+    fn paper(&self, regime: Option<Regime>) -> Result<Machine, Failure> {
+        let mut layers = vec![self.ratios.clone()];
+        if let Some(path) = &self.scene {
+            layers.push(read_toml(path)?);
+        }
+        layers[0].regime = layers[0].regime.or(regime);
+        paper(&layers)
+    }
+
+    /// The machine of the file.
+    fn file(&self) -> Result<Machine, Failure> {
+        let path = self.machine.as_deref().unwrap_or(Path::new(""));
+        let flag = match (self.ratios.regime, self.ratios.given().first()) {
+            (Some(_), _) => Some(("regime", String::new())),
+            (_, Some((name, value))) => Some((*name, format!("; say --set KEY={value}"))),
+            _ => None,
+        };
+        if let Some((name, instead)) = flag {
+            return Err(Failure::usage(format!(
+                "--{} goes with the paper's machines, unloaded and loaded, not with {}{instead}",
+                name.replace('_', "-"),
+                path.display()
+            )));
+        }
+        read(path)
+    }
+}
+
+/// Reads a machine file. A machine without a name is called as the file.
+///
+/// # Errors
+/// [`Failure::Usage`] naming the file, and line, key, value and range of what is wrong in it.
+pub fn read(path: &Path) -> Result<Machine, Failure> {
+    let place = path.display();
+    let text = fs::read_to_string(path)
+        .map_err(|error| Failure::usage(format!("{place}: cannot be read: {error}")))?;
+    let mut machine =
+        Machine::from_toml(&text).map_err(|error| Failure::usage(format!("{place}: {error}")))?;
+    if machine.name.is_none() {
+        machine.name = path
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned());
+    }
+    Ok(machine)
+}
+
+/// The paper's machine with what layers say of it, the first one having the first word.
+///
+/// # Errors
+/// [`Failure::Usage`] naming parameter, value and allowed range.
+pub fn paper(layers: &[SceneSettings]) -> Result<Machine, Failure> {
+    let regime = layers.iter().find_map(|layer| layer.regime);
+    let regime = regime.unwrap_or(Regime::Unloaded);
+    let mut given: Vec<(&str, String)> = Vec::new();
+    for layer in layers {
+        let above = given.len();
+        for (name, value) in layer.given() {
+            let kind = |name: &str| name.trim_end_matches("_deflection").to_owned();
+            if regime == Regime::Unloaded && layer.is_of_strip(name) {
+                return Err(Failure::usage(format!(
+                    "{name} = {value}: the unloaded regime has no strip; allowed only with regime loaded"
+                )));
+            }
+            let told = given[..above]
+                .iter()
+                .any(|(other, _)| kind(other) == kind(name));
+            if !told {
+                given.push((name, format!("{value:?}")));
+            }
+        }
+    }
+    let both = ["preload", "preload_deflection"];
+    if both
+        .iter()
+        .all(|name| given.iter().any(|(other, _)| other == name))
+    {
+        return Err(Failure::usage(
+            "preload and preload_deflection: only one of the two can be given",
+        ));
+    }
+    let machine = Machine::named(regime.name());
+    let mut machine = machine.ok_or_else(|| Failure::usage("no such machine"))?;
+    machine
+        .apply(given.iter().map(|(name, value)| (*name, value.as_str())))
+        .map_err(|error| Failure::usage(error.to_string()))?;
+    Ok(machine)
+}
+
+/// The machine in a few words: its name, and the paper's ratios if it speaks them.
+#[must_use]
+pub fn title(machine: &Machine) -> String {
+    let name = machine.name.as_deref().unwrap_or("machine");
+    if machine.speaks != Language::Ratios {
+        return name.to_owned();
+    }
+    format!(
+        "the {name} machine at eta = {}, rho = {}",
+        machine.scene.excitation.frequency, machine.scene.clearance
+    )
+}

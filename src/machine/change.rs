@@ -1,0 +1,137 @@
+//! Changes of a machine by the keys of its file.
+
+use serde::Deserialize;
+use toml::{Table, Value};
+
+use super::{Language, Machine, keys};
+use crate::error::MachineError;
+use crate::scene::{Parameter, Stop};
+
+/// Keys of the stop that are no numbers: they make a new stop.
+const WORDS: [&str; 4] = [
+    keys::MODEL,
+    "stop.release",
+    "stop.loading",
+    "stop.unloading",
+];
+
+impl Machine {
+    /// Sets keys of its file to values, written as in the file. A new `stop.model` takes only what is set
+    /// with it; a new number of the drive in rad/s or Hz is what its key says.
+    ///
+    /// # Errors
+    /// [`MachineError`] naming the key that it does not have or that is set twice, or the value and what is
+    /// allowed.
+    pub fn apply<'a>(
+        &mut self,
+        changes: impl IntoIterator<Item = (&'a str, &'a str)>,
+    ) -> Result<(), MachineError> {
+        let changes: Vec<(String, &str)> = changes
+            .into_iter()
+            .map(|(key, value)| (key.replace('-', "_"), value.trim()))
+            .collect();
+        if changes.iter().any(|(key, _)| WORDS.contains(&key.as_str())) {
+            self.rebuild_stop(&changes)?;
+        }
+        let mut done = Vec::new();
+        for (key, value) in &changes {
+            let name = self.apply_one(key, value)?;
+            if done.contains(&name) {
+                return Err(MachineError::Twice(name));
+            }
+            done.push(name);
+        }
+        self.validate()?;
+        Ok(())
+    }
+
+    /// Sets one key; its name.
+    fn apply_one(&mut self, key: &str, text: &str) -> Result<&'static str, MachineError> {
+        if let Some(word) = WORDS.into_iter().find(|word| *word == key) {
+            return Ok(word);
+        }
+        let number = || number(key, text);
+        match key {
+            "name" => {
+                self.name = Some(text.to_owned());
+                return Ok("name");
+            }
+            "description" => {
+                self.description = Some(text.to_owned());
+                return Ok("description");
+            }
+            keys::POSITION | "start.position" => {
+                self.start.position = number()?;
+                return Ok(keys::POSITION);
+            }
+            keys::VELOCITY | "start.velocity" => {
+                self.start.velocity = number()?;
+                return Ok(keys::VELOCITY);
+            }
+            keys::FREQUENCY_HZ | "frequency_hz" if self.speaks != Language::Ratios => {
+                self.speaks = Language::Hertz;
+                self.set(Parameter::Frequency, number()?);
+                return Ok(Parameter::Frequency.name());
+            }
+            keys::DEFLECTION | "preload_deflection" => {
+                if self.value(Parameter::Preload).is_none() {
+                    return Err(self.unknown(keys::DEFLECTION));
+                }
+                self.preload_deflection = Some(0.0);
+                self.set(Parameter::Preload, number()?);
+                return Ok(Parameter::Preload.name());
+            }
+            _ => {}
+        }
+        let parameter = self.parameter(key)?;
+        let value = number()?;
+        match parameter {
+            Parameter::Preload => self.preload_deflection = None,
+            Parameter::Frequency if self.speaks == Language::Hertz => {
+                parameter.set(&mut self.scene, value);
+                return Ok(parameter.name());
+            }
+            _ => {}
+        }
+        self.set(parameter, value);
+        Ok(parameter.name())
+    }
+
+    /// Makes the stop anew from what is set of it: a new model from that alone.
+    fn rebuild_stop(&mut self, changes: &[(String, &str)]) -> Result<(), MachineError> {
+        let is_new = changes.iter().any(|(key, _)| key == keys::MODEL);
+        let mut stop = match Table::try_from(&self.scene.stop) {
+            Ok(stop) if !is_new => stop,
+            _ => Table::new(),
+        };
+        if is_new {
+            self.preload_deflection = None;
+        }
+        for (key, value) in changes {
+            let lettered = |parameter: &&Parameter| parameter.about().letter == key;
+            let named = Parameter::ALL.iter().find(lettered).map(|it| it.name());
+            match named.unwrap_or(key).strip_prefix("stop.") {
+                Some("preload_deflection") => stop.insert("preload".into(), Value::Float(0.0)),
+                Some(field) => stop.insert(field.to_owned(), value_of(value)),
+                None => None,
+            };
+        }
+        self.scene.stop = Stop::deserialize(stop)
+            .map_err(|error| MachineError::Syntax(format!("stop: {}", error.message())))?;
+        Ok(())
+    }
+}
+
+/// A value as it is written in a file; a word may do without quotation marks.
+fn value_of(text: &str) -> Value {
+    let parsed = format!("value = {text}").parse::<Table>();
+    let value = parsed.ok().and_then(|mut table| table.remove("value"));
+    value.unwrap_or_else(|| Value::String(text.to_owned()))
+}
+
+fn number(key: &str, text: &str) -> Result<f64, MachineError> {
+    text.parse().map_err(|_| MachineError::NotANumber {
+        key: key.to_owned(),
+        value: text.to_owned(),
+    })
+}

@@ -1,0 +1,250 @@
+//! Machines as TOML files.
+
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Deserializer, Error, ValueDeserializer};
+
+use super::{Language, Machine, keys};
+use crate::error::{MachineError, SceneError};
+use crate::integrator::Start;
+use crate::scene::{Parameter, Scene};
+
+type Value<'a> = Spanned<DeValue<'a>>;
+
+/// The table of ratios.
+const RATIOS: &str = "ratios";
+
+/// The table `[initial]`.
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Initial {
+    position: f64,
+    velocity: f64,
+}
+
+/// Where a key stands.
+struct Place {
+    /// As it is called now, in the table of ratios without its name.
+    key: String,
+    line: usize,
+}
+
+impl Machine {
+    /// Reads the text of a machine file: SI units, or a table `[ratios]`.
+    ///
+    /// # Errors
+    /// [`MachineError`] with the line, the key, its value and what is allowed.
+    pub fn from_toml(text: &str) -> Result<Self, MachineError> {
+        let syntax = |mut error: Error| {
+            error.set_input(Some(text));
+            MachineError::Syntax(error.to_string().trim_end().to_owned())
+        };
+        let table = DeTable::parse(text).map_err(syntax)?;
+        let ratios = table.get_ref().get(RATIOS).is_some();
+        let language = if ratios {
+            Language::Ratios
+        } else {
+            Language::Si
+        };
+        let mut places = Vec::new();
+        walk(table.get_ref(), "", text, &mut places);
+        known(&places, language)?;
+        let machine = read(table, language).map_err(|error| match error {
+            Trouble::Toml(error) => syntax(error),
+            Trouble::Machine(error) => error,
+        })?;
+        machine.validate().map_err(|source| MachineError::Value {
+            line: line_of(&source, &places),
+            source,
+        })?;
+        Ok(machine)
+    }
+}
+
+/// The keys of a table and of those in it.
+fn walk(table: &DeTable<'_>, path: &str, text: &str, places: &mut Vec<Place>) {
+    for (name, value) in table {
+        let key = match (path, name.get_ref().as_ref()) {
+            ("", RATIOS) => String::new(),
+            ("", "start") => "initial".to_owned(),
+            ("", "contact_damping") => Parameter::ContactDamping.name().to_owned(),
+            ("", name) => name.to_owned(),
+            (path, name) => format!("{path}.{name}"),
+        };
+        match value.get_ref() {
+            DeValue::Table(inner) => walk(inner, &key, text, places),
+            _ => places.push(Place {
+                key,
+                line: 1 + text[..name.span().start].matches('\n').count(),
+            }),
+        }
+    }
+}
+
+/// Refuses a key that no machine has. A table in whose place something else stands is left to be found by
+/// its type.
+fn known(places: &[Place], language: Language) -> Result<(), MachineError> {
+    let keys = keys::all(language);
+    let is_known = |place: &&Place| {
+        let inner = format!("{}.", place.key);
+        keys.iter()
+            .any(|key| *key == place.key || key.starts_with(&inner))
+    };
+    match places.iter().find(|place| !is_known(place)) {
+        None => Ok(()),
+        Some(place) => Err(MachineError::UnknownKey {
+            line: Some(place.line),
+            key: place.key.clone(),
+            meant: keys::meant(&place.key, &keys),
+            known: keys.join(", "),
+        }),
+    }
+}
+
+/// The line of the parameter that is out of range.
+fn line_of(error: &SceneError, places: &[Place]) -> Option<usize> {
+    let key = match error {
+        SceneError::OutOfRange { name, .. } => name,
+        SceneError::EmptyPiercing { .. } => Parameter::Thickness.name(),
+        SceneError::NoSlope => "stop.loading",
+        SceneError::Slope { list, .. } => list,
+        SceneError::GivesEnergy { .. } => "stop.unloading",
+        SceneError::Lacks(_) => return None,
+    };
+    let place = places.iter().find(|place| place.key == key)?;
+    Some(place.line)
+}
+
+enum Trouble {
+    Toml(Error),
+    Machine(MachineError),
+}
+
+impl From<Error> for Trouble {
+    fn from(error: Error) -> Self {
+        Self::Toml(error)
+    }
+}
+
+impl From<MachineError> for Trouble {
+    fn from(error: MachineError) -> Self {
+        Self::Machine(error)
+    }
+}
+
+fn of<T: DeserializeOwned>(value: Value<'_>) -> Result<T, Error> {
+    T::deserialize(ValueDeserializer::from(value))
+}
+
+/// Takes a value out of a table.
+fn take<T: DeserializeOwned>(table: &mut DeTable<'_>, key: &str) -> Result<Option<T>, Error> {
+    table.remove(key).map(of).transpose()
+}
+
+/// The table of this name in a table.
+fn inner<'t, 'a>(table: &'t mut DeTable<'a>, key: &str) -> Option<&'t mut DeTable<'a>> {
+    match table.get_mut(key)?.get_mut() {
+        DeValue::Table(inner) => Some(inner),
+        _ => None,
+    }
+}
+
+/// Puts values into a table that are not stated in it.
+fn put(table: &mut DeTable<'_>, lines: &'static str) -> Result<(), Error> {
+    table.extend(DeTable::parse(lines)?.into_inner());
+    Ok(())
+}
+
+fn read(mut file: Spanned<DeTable<'_>>, language: Language) -> Result<Machine, Trouble> {
+    let table = file.get_mut();
+    let name = take(table, "name")?;
+    let description = take(table, "description")?;
+    let mut initial = initial(table)?;
+    if let Some(value) = table.remove(RATIOS) {
+        let span = value.span();
+        let DeValue::Table(ratios) = value.into_inner() else {
+            return Err(MachineError::NoTable(RATIOS).into());
+        };
+        file = Spanned::new(span, ratios);
+        let table = file.get_mut();
+        initial = self::initial(table)?.or(initial);
+        put(table, "mass = 1.0\nstiffness = 1.0")?;
+        if let Some(excitation) = inner(table, "excitation") {
+            put(excitation, "amplitude = 1.0")?;
+        }
+    }
+    contact(file.get_mut())?;
+    let keys = (keys::FREQUENCY_HZ, Parameter::Frequency.name());
+    let hertz = stated_otherwise(file.get_mut(), keys, "frequency = 1.0")?;
+    let keys = (keys::DEFLECTION, Parameter::Preload.name());
+    let deflection = stated_otherwise(file.get_mut(), keys, "preload = 0.0")?;
+    let Initial { position, velocity } = initial.unwrap_or_default();
+    let mut machine = Machine {
+        name,
+        description,
+        start: Start { position, velocity },
+        speaks: if hertz.is_some() {
+            Language::Hertz
+        } else {
+            language
+        },
+        preload_deflection: deflection,
+        ..Machine::of_scene(Scene::deserialize(Deserializer::from(file))?)
+    };
+    if language == Language::Ratios {
+        machine.scene.damping *= 2.0;
+        machine.scene.contact_damping *= 2.0;
+    }
+    if let Some(hertz) = hertz {
+        machine.set(Parameter::Frequency, hertz);
+    }
+    if let Some(deflection) = deflection {
+        machine.set(Parameter::Preload, deflection);
+    }
+    Ok(machine)
+}
+
+/// The table `[initial]`, or `[start]` as it was once called.
+fn initial(table: &mut DeTable<'_>) -> Result<Option<Initial>, Trouble> {
+    match (take(table, "initial")?, take(table, "start")?) {
+        (Some(_), Some(_)) => Err(MachineError::Both("initial", "start").into()),
+        (initial, start) => Ok(initial.or(start)),
+    }
+}
+
+/// `contact.damping` is the field `contact_damping` of a scene.
+fn contact(table: &mut DeTable<'_>) -> Result<(), Trouble> {
+    let damping = inner(table, "contact").and_then(|contact| contact.remove_entry("damping"));
+    table.remove("contact");
+    match (damping, table.contains_key("contact_damping")) {
+        (Some(_), true) => Err(MachineError::Both("contact.damping", "contact_damping").into()),
+        (None, false) => Err(MachineError::Missing("contact.damping").into()),
+        (None, true) => Ok(()),
+        (Some((key, damping)), false) => {
+            table.insert(Spanned::new(key.span(), "contact_damping".into()), damping);
+            Ok(())
+        }
+    }
+}
+
+/// A value that may be stated in another way: takes that out of its table and fills its place.
+fn stated_otherwise(
+    file: &mut DeTable<'_>,
+    (otherwise, key): (&'static str, &'static str),
+    filled: &'static str,
+) -> Result<Option<f64>, Trouble> {
+    let split = |key: &'static str| key.split_once('.').unwrap_or(("", key));
+    let (section, field) = split(otherwise);
+    let Some(table) = inner(file, section) else {
+        return Ok(None);
+    };
+    let value = take(table, field)?;
+    if value.is_some() {
+        if table.contains_key(split(key).1) {
+            return Err(MachineError::Both(key, otherwise).into());
+        }
+        put(table, filled)?;
+    }
+    Ok(value)
+}

@@ -1,0 +1,254 @@
+//! A machine as its user states it: a [`Scene`], where it starts, its name, and the units that it speaks.
+//!
+//! The same names stand in TOML files ([`Machine::from_toml`]), on command lines ([`Machine::apply`]), in
+//! messages and in the FMU: those of [`Parameter`]. A machine speaks SI units or the paper's dimensionless
+//! ratios; its [`Machine::scene`] is the same to the engine either way.
+//!
+//! ```
+//! use softstop::Machine;
+//!
+//! let press = Machine::from_toml(
+//!     r#"
+//!     name = "press"
+//!     mass = 20.0             # kg
+//!     stiffness = 8e4         # N/m
+//!     damping = 50.0          # N s/m
+//!     clearance = 0.012       # m
+//!     contact.damping = 230.0 # N s/m
+//!     excitation = { amplitude = 96.0, frequency_hz = 11.6 }
+//!     stop = { model = "kelvinVoigt", stiffness = 5.6e5 }
+//!     "#,
+//! )?;
+//! assert_eq!(press.scene.clearance, 0.012);
+//! assert_eq!(press.value(softstop::Parameter::Frequency), Some(11.6));
+//! # Ok::<(), softstop::MachineError>(())
+//! ```
+
+mod change;
+mod file;
+mod keys;
+
+use crate::error::SceneError;
+use crate::integrator::Start;
+use crate::scene::{Allowed, Dimension, Parameter, PiercingRatios, Ratios, Scene};
+
+/// The units that a machine speaks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Language {
+    /// SI units.
+    Si,
+    /// SI units, but the drive's frequency in Hz.
+    Hertz,
+    /// The paper's dimensionless ratios: m = k1 = F0 = 1, damping in units of 2 sqrt(m k1).
+    Ratios,
+}
+
+/// A machine as its user states it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Machine {
+    /// Its name, if it has one.
+    pub name: Option<String>,
+    /// What it is, in a sentence, if its user has said so.
+    pub description: Option<String>,
+    /// The machine in SI units; with m = k1 = F0 = 1 if it speaks ratios.
+    pub scene: Scene,
+    /// The state at time 0; at rest at position 0 unless its user says otherwise.
+    pub start: Start,
+    /// The units that it speaks.
+    pub speaks: Language,
+    /// The preload as a deflection, if it is stated so: the force follows the stiffness of the stop.
+    pub preload_deflection: Option<f64>,
+}
+
+impl Machine {
+    /// A scene in SI units.
+    pub fn of_scene(scene: Scene) -> Self {
+        Self {
+            name: None,
+            description: None,
+            scene,
+            start: Start {
+                position: 0.0,
+                velocity: 0.0,
+            },
+            speaks: Language::Si,
+            preload_deflection: None,
+        }
+    }
+
+    /// A machine of the paper, by the name `unloaded` or `loaded` of its regime.
+    pub fn named(name: &str) -> Option<Self> {
+        let ratios = match name {
+            "unloaded" => Ratios::unloaded(),
+            "loaded" => Ratios::loaded(),
+            _ => return None,
+        };
+        Some(Self {
+            name: Some(name.to_owned()),
+            ..Self::of_ratios(&ratios).ok()?
+        })
+    }
+
+    /// A machine of the paper, started hard enough to strike.
+    ///
+    /// # Errors
+    /// [`SceneError`] if a ratio is out of range.
+    pub fn of_ratios(ratios: &Ratios) -> Result<Self, SceneError> {
+        Ok(Self {
+            start: Start {
+                position: 0.0,
+                velocity: 14.0,
+            },
+            speaks: Language::Ratios,
+            ..Self::of_scene(ratios.scene()?)
+        })
+    }
+
+    /// The parameters that it has. One that speaks ratios has no mass, suspension and drive amplitude of its
+    /// own.
+    pub fn parameters(&self) -> impl Iterator<Item = Parameter> + '_ {
+        let mut all = Parameter::ALL.into_iter();
+        std::iter::from_fn(move || all.find(|parameter| self.value(*parameter).is_some()))
+    }
+
+    /// The value of a parameter in its own units, if it has it.
+    pub fn value(&self, parameter: Parameter) -> Option<f64> {
+        let value = parameter.get(&self.scene)?;
+        match parameter {
+            Parameter::Mass | Parameter::Suspension | Parameter::Amplitude
+                if self.speaks == Language::Ratios =>
+            {
+                None
+            }
+            Parameter::Preload => Some(self.preload_deflection.unwrap_or(value)),
+            _ => Some(self.to_own(parameter.about().dimension, value)),
+        }
+    }
+
+    /// Sets a parameter, in its own units; nothing happens if it does not have it. The value is not checked:
+    /// [`Machine::validate`] does that. A preload stated as a deflection stays one, and follows the stiffness.
+    pub fn set(&mut self, parameter: Parameter, value: f64) {
+        if self.value(parameter).is_none() {
+            return;
+        }
+        match (parameter, &mut self.preload_deflection) {
+            (Parameter::Preload, Some(deflection)) => *deflection = value,
+            _ => {
+                let value = self.to_si(parameter.about().dimension, value);
+                parameter.set(&mut self.scene, value);
+            }
+        }
+        let stiffness = Parameter::StopStiffness.get(&self.scene);
+        if let (Some(deflection), Some(stiffness)) = (self.preload_deflection, stiffness) {
+            Parameter::Preload.set(&mut self.scene, deflection * stiffness);
+        }
+    }
+
+    /// Checks every value against its range, as its user states it.
+    ///
+    /// # Errors
+    /// [`SceneError`] naming the first parameter that is out of range.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        for parameter in Parameter::ALL {
+            if let Some(value) = self.value(parameter) {
+                parameter
+                    .about()
+                    .allowed
+                    .check(self.name(parameter), value)?;
+            }
+        }
+        Allowed::Finite.check(keys::POSITION, self.start.position)?;
+        Allowed::Finite.check(keys::VELOCITY, self.start.velocity)?;
+        self.scene.validate()
+    }
+
+    /// Its dimensionless figures, if it speaks ratios and is a machine like the paper's.
+    pub fn ratios(&self) -> Option<Ratios> {
+        if self.speaks != Language::Ratios || self.scene.excitation.phase != 0.0 {
+            return None;
+        }
+        let value = |parameter| self.value(parameter);
+        let strip = || {
+            Some(PiercingRatios {
+                stiffness: value(Parameter::PiercingStiffness)?,
+                friction: value(Parameter::PiercingFriction)?,
+                thickness: value(Parameter::Thickness)?,
+                travel: value(Parameter::Travel)?,
+            })
+        };
+        Some(Ratios {
+            frequency: value(Parameter::Frequency)?,
+            clearance: value(Parameter::Clearance)?,
+            damping: value(Parameter::Damping)?,
+            contact_damping: value(Parameter::ContactDamping)?,
+            stiffness: value(Parameter::StopStiffness)?,
+            preload: Parameter::Preload.get(&self.scene)?,
+            piercing: strip(),
+            rigid: self.scene.rigid,
+        })
+    }
+
+    /// The name of a parameter in its own units.
+    pub fn name(&self, parameter: Parameter) -> &'static str {
+        match parameter {
+            Parameter::Frequency if self.speaks == Language::Hertz => keys::FREQUENCY_HZ,
+            Parameter::Preload if self.preload_deflection.is_some() => keys::DEFLECTION,
+            _ => parameter.name(),
+        }
+    }
+
+    /// A quantity in SI units in its own ones.
+    pub fn to_own(&self, dimension: Dimension, value: f64) -> f64 {
+        match (self.speaks, dimension) {
+            (Language::Ratios, Dimension::Damping) => value / 2.0,
+            (Language::Hertz, Dimension::Frequency) => value / std::f64::consts::TAU,
+            _ => value,
+        }
+    }
+
+    /// A quantity in its own units in SI ones.
+    pub fn to_si(&self, dimension: Dimension, value: f64) -> f64 {
+        match (self.speaks, dimension) {
+            (Language::Ratios, Dimension::Damping) => value * 2.0,
+            (Language::Hertz, Dimension::Frequency) => value * std::f64::consts::TAU,
+            _ => value,
+        }
+    }
+
+    /// The sign of its own unit; empty for bare numbers.
+    pub const fn unit(&self, dimension: Dimension) -> &'static str {
+        match (self.speaks, dimension) {
+            (Language::Ratios, _) => "",
+            (Language::Hertz, Dimension::Frequency) => "Hz",
+            _ => dimension.unit(),
+        }
+    }
+
+    /// The label of an axis or a column: what it is, with its unit in brackets, or with the paper's symbol
+    /// if the machine speaks ratios.
+    pub fn label(&self, what: &str, symbol: &str, dimension: Dimension) -> String {
+        match (self.speaks, self.unit(dimension)) {
+            (Language::Ratios, _) => format!("{what} {symbol}"),
+            (_, "") => what.to_owned(),
+            (_, unit) => format!("{what} ({unit})"),
+        }
+    }
+
+    /// The label of a parameter.
+    pub fn label_of(&self, parameter: Parameter) -> String {
+        let about = parameter.about();
+        match parameter {
+            Parameter::Preload if self.preload_deflection.is_some() => {
+                let what = "preload of the stop as a deflection";
+                self.label(what, "Fₚ/k₄", Dimension::Length)
+            }
+            Parameter::StopStiffness if Parameter::Exponent.get(&self.scene).is_some() => self
+                .label(
+                    "stiffness of the stop (N/m^exponent)",
+                    "",
+                    Dimension::Number,
+                ),
+            _ => self.label(about.meaning, about.symbol, about.dimension),
+        }
+    }
+}

@@ -1,0 +1,313 @@
+//! The parameters of a machine: the one list of their names, letters, units, meanings and ranges.
+
+use super::{Scene, Stop};
+use crate::error::SceneError;
+
+/// A number that makes out a [`Scene`]. [`Parameter::about`] says all about it.
+///
+/// To add one: a variant, its row in the table below it, and its place in the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Parameter {
+    /// m.
+    Mass,
+    /// k1 of the suspension.
+    Suspension,
+    /// b1 or beta1 of the free flight.
+    Damping,
+    /// F0 of the drive.
+    Amplitude,
+    /// w or eta of the drive.
+    Frequency,
+    /// phi of the drive.
+    Phase,
+    /// r or rho.
+    Clearance,
+    /// b or beta in contact, all of it.
+    ContactDamping,
+    /// Stiffness of the stop: k4, or that of the other laws that have one.
+    StopStiffness,
+    /// Force of the stop at first touch.
+    Preload,
+    /// Exponent of the Hertz stop.
+    Exponent,
+    /// Hunt and Crossley's factor of the Hertz stop.
+    Dissipation,
+    /// R of a rigid stop.
+    Restitution,
+    /// k2 of the strip.
+    PiercingStiffness,
+    /// k3 of the strip.
+    PiercingFriction,
+    /// Thickness of the strip.
+    Thickness,
+    /// Travel from the strip to the stop.
+    Travel,
+    /// Travel e from the stop to the rigid one behind it.
+    RigidTravel,
+    /// R of the rigid stop behind another one.
+    RigidRestitution,
+}
+
+/// What is to be known of a parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct About {
+    /// Which one.
+    pub parameter: Parameter,
+    /// Its name in TOML, in `--set`, in messages and in the FMU.
+    pub name: &'static str,
+    /// Its letter (Peterka 2003): the dimensionless one, where there are two.
+    pub letter: &'static str,
+    /// Its letter in charts of dimensionless machines.
+    pub symbol: &'static str,
+    /// What it is also called: letters with a dimension, and the names of 0.1.0.
+    pub aliases: &'static [&'static str],
+    /// What it measures.
+    pub dimension: Dimension,
+    /// What it is, in a few words.
+    pub meaning: &'static str,
+    /// Where its values may lie.
+    pub allowed: Allowed,
+}
+
+/// What a quantity measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// kg.
+    Mass,
+    /// N/m.
+    Stiffness,
+    /// N s/m.
+    Damping,
+    /// N.
+    Force,
+    /// rad/s.
+    Frequency,
+    /// rad.
+    Angle,
+    /// m.
+    Length,
+    /// m/s.
+    Velocity,
+    /// s.
+    Time,
+    /// J.
+    Energy,
+    /// s/m.
+    Slowness,
+    /// A bare number.
+    Number,
+}
+
+impl Dimension {
+    /// The SI unit.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Mass => "kg",
+            Self::Stiffness => "N/m",
+            Self::Damping => "N s/m",
+            Self::Force => "N",
+            Self::Frequency => "rad/s",
+            Self::Angle => "rad",
+            Self::Length => "m",
+            Self::Velocity => "m/s",
+            Self::Time => "s",
+            Self::Energy => "J",
+            Self::Slowness => "s/m",
+            Self::Number => "",
+        }
+    }
+}
+
+/// Where a value may lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Allowed {
+    /// Finite and > 0.
+    Positive,
+    /// Finite and >= 0.
+    NotNegative,
+    /// Finite.
+    Finite,
+    /// From 0 to 1.
+    Share,
+    /// Finite and >= 1.
+    AtLeastOne,
+}
+
+impl Allowed {
+    /// True if the value lies there.
+    pub fn holds(self, value: f64) -> bool {
+        value.is_finite()
+            && match self {
+                Self::Positive => value > 0.0,
+                Self::NotNegative => value >= 0.0,
+                Self::Finite => true,
+                Self::Share => (0.0..=1.0).contains(&value),
+                Self::AtLeastOne => value >= 1.0,
+            }
+    }
+
+    /// In words, as after "must be".
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Positive => "finite and > 0",
+            Self::NotNegative => "finite and >= 0",
+            Self::Finite => "finite",
+            Self::Share => "in [0, 1]",
+            Self::AtLeastOne => "finite and >= 1",
+        }
+    }
+
+    /// Refuses a value that lies elsewhere.
+    ///
+    /// # Errors
+    /// [`SceneError::OutOfRange`].
+    pub fn check(self, name: &'static str, value: f64) -> Result<(), SceneError> {
+        if self.holds(value) {
+            return Ok(());
+        }
+        Err(SceneError::OutOfRange {
+            name,
+            value,
+            allowed: self.words(),
+        })
+    }
+}
+
+macro_rules! table {
+    ($($parameter:ident $name:literal, $letter:literal, $symbol:literal, [$($alias:literal),*],
+        $dimension:ident, $allowed:ident, $meaning:literal;)*) => {
+        const TABLE: &[About] = &[$(About {
+            parameter: Parameter::$parameter,
+            name: $name,
+            letter: $letter,
+            symbol: $symbol,
+            aliases: &[$($alias),*],
+            dimension: Dimension::$dimension,
+            meaning: $meaning,
+            allowed: Allowed::$allowed,
+        }),*];
+
+        impl Parameter {
+            /// All, in the order of the enumeration.
+            pub const ALL: [Self; TABLE.len()] = [$(Self::$parameter),*];
+        }
+    };
+}
+
+table! {
+    Mass "mass", "m", "m", [], Mass, Positive, "mass";
+    Suspension "stiffness", "k1", "k₁", [], Stiffness, NotNegative, "stiffness of the suspension";
+    Damping "damping", "beta1", "β₁", ["b1"], Damping, NotNegative, "damping in flight";
+    Amplitude "excitation.amplitude", "F0", "F₀", ["amplitude"], Force, NotNegative, "drive amplitude";
+    Frequency "excitation.frequency", "eta", "η = ω/Ω", ["w", "frequency"], Frequency, Positive, "drive frequency";
+    Phase "excitation.phase", "phi", "φ", ["phase"], Angle, Finite, "drive angle at time 0";
+    Clearance "clearance", "rho", "ρ", ["r"], Length, Finite, "clearance";
+    ContactDamping "contact.damping", "beta", "β", ["b", "contact_damping"], Damping, NotNegative, "damping in contact";
+    StopStiffness "stop.stiffness", "k4", "k₄/k₁", ["stop_stiffness", "stiffness"], Stiffness, NotNegative, "stiffness of the stop";
+    Preload "stop.preload", "Fp", "Fₚ/F₀", ["preload"], Force, NotNegative, "preload of the stop";
+    Exponent "stop.exponent", "exponent", "exponent", [], Number, AtLeastOne, "exponent of the stop";
+    Dissipation "stop.dissipation", "dissipation", "dissipation", [], Slowness, NotNegative, "dissipation of the stop";
+    Restitution "stop.restitution", "R", "R", ["restitution"], Number, Share, "restitution of the stop";
+    PiercingStiffness "piercing.stiffness", "k2", "k₂/k₁", ["piercing_stiffness"], Stiffness, NotNegative, "stiffness of the strip";
+    PiercingFriction "piercing.friction", "k3", "k₃/k₁", ["piercing_friction"], Stiffness, NotNegative, "friction of the strip";
+    Thickness "piercing.thickness", "sigma", "σ", ["s", "thickness"], Length, NotNegative, "thickness of the strip";
+    Travel "piercing.travel", "nu", "ν", ["v", "travel"], Length, NotNegative, "travel behind the strip";
+    RigidTravel "rigid.travel", "epsilon", "ε", ["e", "rigid_travel"], Length, NotNegative, "travel to the rigid stop";
+    RigidRestitution "rigid.restitution", "R", "R", ["restitution"], Number, Share, "restitution of the rigid stop behind";
+}
+
+/// The place of a parameter in a scene, to read (`&`) or to write (`&mut`).
+macro_rules! place {
+    ($parameter:expr, $scene:expr $(, $mutable:tt)?) => {{
+        use Parameter as P;
+        let scene = $scene;
+        match $parameter {
+            P::Mass => Some(&$($mutable)? scene.mass),
+            P::Suspension => Some(&$($mutable)? scene.stiffness),
+            P::Damping => Some(&$($mutable)? scene.damping),
+            P::Amplitude => Some(&$($mutable)? scene.excitation.amplitude),
+            P::Frequency => Some(&$($mutable)? scene.excitation.frequency),
+            P::Phase => Some(&$($mutable)? scene.excitation.phase),
+            P::Clearance => Some(&$($mutable)? scene.clearance),
+            P::ContactDamping => Some(&$($mutable)? scene.contact_damping),
+            stop => match (stop, &$($mutable)? scene.stop, &$($mutable)? scene.piercing, &$($mutable)? scene.rigid) {
+                (
+                    P::StopStiffness,
+                    Stop::KelvinVoigt { stiffness, .. }
+                    | Stop::Hertz { stiffness, .. }
+                    | Stop::Preloaded { stiffness, .. },
+                    ..
+                ) => Some(stiffness),
+                (P::Preload, Stop::Preloaded { preload, .. }, ..) => Some(preload),
+                (P::Exponent, Stop::Hertz { exponent, .. }, ..) => Some(exponent),
+                (P::Dissipation, Stop::Hertz { dissipation, .. }, ..) => Some(dissipation),
+                (P::Restitution, Stop::Rigid { restitution }, ..) => Some(restitution),
+                (P::PiercingStiffness, _, Some(strip), _) => Some(&$($mutable)? strip.stiffness),
+                (P::PiercingFriction, _, Some(strip), _) => Some(&$($mutable)? strip.friction),
+                (P::Thickness, _, Some(strip), _) => Some(&$($mutable)? strip.thickness),
+                (P::Travel, _, Some(strip), _) => Some(&$($mutable)? strip.travel),
+                (P::RigidTravel, .., Some(rigid)) => Some(&$($mutable)? rigid.travel),
+                (P::RigidRestitution, .., Some(rigid)) => Some(&$($mutable)? rigid.restitution),
+                _ => None,
+            },
+        }
+    }};
+}
+
+impl Parameter {
+    /// All about it.
+    pub const fn about(self) -> &'static About {
+        &TABLE[self as usize]
+    }
+
+    /// Its name in TOML, in messages and in the FMU.
+    pub const fn name(self) -> &'static str {
+        self.about().name
+    }
+
+    /// The one of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        let about = TABLE.iter().find(|about| about.name == name)?;
+        Some(about.parameter)
+    }
+
+    /// True if it is called so: by its name, letter or an older name.
+    pub fn is_called(self, name: &str) -> bool {
+        let about = self.about();
+        name == about.name || name == about.letter || about.aliases.contains(&name)
+    }
+
+    /// Its value in SI units, if the machine has it.
+    pub fn get(self, scene: &Scene) -> Option<f64> {
+        place!(self, scene).copied()
+    }
+
+    /// Sets it, in SI units; nothing happens if the machine does not have it. The value is not checked:
+    /// [`Scene::validate`] does that.
+    pub fn set(self, scene: &mut Scene, value: f64) {
+        if let Some(place) = place!(self, scene, mut) {
+            *place = value;
+        }
+    }
+
+    /// Refuses a value that it cannot have.
+    ///
+    /// # Errors
+    /// [`SceneError::OutOfRange`].
+    pub fn check(self, value: f64) -> Result<(), SceneError> {
+        self.about().allowed.check(self.name(), value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Parameter, TABLE};
+
+    #[test]
+    fn the_table_follows_the_enumeration() {
+        for (index, about) in TABLE.iter().enumerate() {
+            assert_eq!(about.parameter as usize, index, "{}", about.name);
+            assert_eq!(Parameter::named(about.name), Some(about.parameter));
+        }
+    }
+}

@@ -1,0 +1,335 @@
+//! Machines as their users state them: files, keys, units.
+
+use std::fs;
+use std::path::Path;
+
+use approx::assert_relative_eq;
+use softstop::scene::{Allowed, Dimension};
+use softstop::{Language, Machine, MachineError, Parameter, Ratios, Scene, Stop};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// A machine in SI units with everything that one can have beside this stop.
+fn full(stop: &str) -> Result<Machine, MachineError> {
+    Machine::from_toml(&format!(
+        "mass = 20\nstiffness = 8e4\ndamping = 50\nclearance = 0.012\ncontact.damping = 230\n\
+         excitation = {{ amplitude = 96, frequency = 73, phase = 0.5 }}\nstop = {stop}\n\
+         piercing = {{ stiffness = 1e6, friction = 2e6, thickness = 0.001, travel = 0.002 }}\n\
+         rigid = {{ travel = 0.003, restitution = 0.6 }}\n\
+         initial = {{ position = 0.001, velocity = -0.5 }}\n"
+    ))
+}
+
+/// The paper's loaded machine with another stop, in ratios.
+fn ratios(stop: &str) -> Result<Machine, MachineError> {
+    Machine::from_toml(&format!(
+        "name = \"model\"\n[ratios]\ndamping = 0.02\nclearance = 10\ncontact.damping = 0.09\n\
+         excitation.frequency = 1.15\nstop = {stop}\n\
+         piercing = {{ stiffness = 21, friction = 23, thickness = 0.4, travel = 0.5 }}\n\
+         rigid = {{ travel = 5, restitution = 0.6 }}\n[initial]\nvelocity = 14\n"
+    ))
+}
+
+const STOPS: [&str; 6] = [
+    "{ model = \"none\" }",
+    "{ model = \"kelvinVoigt\", stiffness = 100 }",
+    "{ model = \"piecewiseLinear\", loading = [{ from = 0, stiffness = 20 }, { from = 0.3, stiffness = 90 }] }",
+    "{ model = \"hertz\", stiffness = 150, dissipation = 0.06 }",
+    "{ model = \"preloaded\", stiffness = 7, preload = 70 }",
+    "{ model = \"rigid\", restitution = 0.6 }",
+];
+
+#[test]
+fn every_parameter_is_set_by_its_name_its_letter_and_its_older_names() -> Outcome {
+    let mut seen = Vec::new();
+    for read in [full, ratios] {
+        for stop in STOPS {
+            let machine = read(stop)?;
+            for parameter in machine.parameters() {
+                seen.push(parameter);
+                let about = parameter.about();
+                let (text, value) = match about.allowed {
+                    Allowed::Share => ("0.25", 0.25),
+                    _ => ("1.75", 1.75),
+                };
+                let mut changed = machine.clone();
+                changed.apply([(about.name, text)])?;
+                assert_eq!(changed.value(parameter), Some(value), "{}", about.name);
+                assert_ne!(changed, machine, "{}", about.name);
+                let others = machine.parameters().filter(|other| *other != parameter);
+                for other in others {
+                    assert_eq!(
+                        changed.value(other),
+                        machine.value(other),
+                        "{}",
+                        other.name()
+                    );
+                }
+                for alias in about.aliases.iter().chain([&about.letter]) {
+                    let found = machine.parameter(alias)?;
+                    assert!(found.is_called(alias));
+                    assert_eq!(machine.parameter(&alias.replace('_', "-"))?, found);
+                }
+                assert_eq!(
+                    machine.parameter(about.letter)?.about().letter,
+                    about.letter
+                );
+            }
+        }
+    }
+    for parameter in Parameter::ALL {
+        assert!(seen.contains(&parameter), "{} is nowhere", parameter.name());
+    }
+    Ok(())
+}
+
+#[test]
+fn no_name_or_letter_means_two_parameters_of_one_machine() -> Outcome {
+    for read in [full, ratios] {
+        for stop in STOPS {
+            let machine = read(stop)?;
+            let has: Vec<Parameter> = machine.parameters().collect();
+            for parameter in &has {
+                let about = parameter.about();
+                let same = has
+                    .iter()
+                    .filter(|other| other.about().letter == about.letter);
+                // R is that of the stop, if that is rigid; one behind it is out of reach.
+                let most = if about.letter == "R" { 2 } else { 1 };
+                assert!(same.count() <= most, "{}", about.letter);
+            }
+        }
+    }
+    assert_eq!(
+        full(STOPS[4])?.parameter("stiffness")?,
+        Parameter::Suspension
+    );
+    assert_eq!(
+        ratios(STOPS[4])?.parameter("stiffness")?,
+        Parameter::StopStiffness
+    );
+    Ok(())
+}
+
+#[test]
+fn the_files_of_docs_are_read_as_before() -> Outcome {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scenes");
+    let mut count = 0;
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        let text = fs::read_to_string(&path)?;
+        let machine = Machine::from_toml(&text).map_err(|error| format!("{path:?}: {error}"))?;
+        assert_eq!(machine.speaks, Language::Si);
+        let older = text
+            .replace("contact.damping", "contact_damping")
+            .replace("[initial]", "[start]");
+        assert_eq!(Machine::from_toml(&older)?, machine, "{path:?}");
+        count += 1;
+    }
+    assert!(count >= 16);
+    Ok(())
+}
+
+#[test]
+fn ratios_are_the_papers() -> Outcome {
+    let machine = Machine::from_toml(
+        "[ratios]\ndamping = 0.02\nclearance = 10\ncontact.damping = 0.09\n\
+         excitation.frequency = 1.15\nstop = { model = \"preloaded\", stiffness = 7, preload_deflection = 10 }\n",
+    )?;
+    assert_eq!(machine.scene, Ratios::unloaded().scene()?);
+    assert_eq!(machine.ratios(), Some(Ratios::unloaded()));
+    assert_eq!(machine.value(Parameter::Damping), Some(0.02));
+    assert_eq!(machine.value(Parameter::Mass), None);
+    assert_eq!(machine.unit(Dimension::Length), "");
+    assert_eq!(
+        Machine::named("unloaded").and_then(|it| it.ratios()),
+        Some(Ratios::unloaded())
+    );
+    assert_eq!(
+        Machine::named("loaded").and_then(|it| it.ratios()),
+        Some(Ratios::loaded())
+    );
+    Ok(())
+}
+
+#[test]
+fn a_preload_stated_as_a_deflection_follows_the_stiffness() -> Outcome {
+    let mut machine = Machine::named("unloaded").ok_or("none")?;
+    machine.apply([("preload_deflection", "10"), ("k4", "8")])?;
+    assert_eq!(Parameter::Preload.get(&machine.scene), Some(80.0));
+    assert_eq!(machine.value(Parameter::Preload), Some(10.0));
+    machine.set(Parameter::StopStiffness, 9.0);
+    assert_eq!(Parameter::Preload.get(&machine.scene), Some(90.0));
+    machine.apply([("stop.preload", "70"), ("stop.stiffness", "3")])?;
+    assert_eq!(machine.value(Parameter::Preload), Some(70.0));
+    Ok(())
+}
+
+#[test]
+fn frequencies_are_spoken_in_hertz_if_stated_so() -> Outcome {
+    let text = "mass = 1\nstiffness = 1\ndamping = 0.04\nclearance = 10\ncontact.damping = 0.18\n\
+                excitation = { amplitude = 1, frequency_hz = 0.2 }\nstop.model = \"none\"\n";
+    let mut machine = Machine::from_toml(text)?;
+    assert_relative_eq!(
+        machine.scene.excitation.frequency,
+        0.2 * std::f64::consts::TAU
+    );
+    assert_relative_eq!(machine.value(Parameter::Frequency).ok_or("none")?, 0.2);
+    assert_eq!(
+        machine.label_of(Parameter::Frequency),
+        "drive frequency (Hz)"
+    );
+    machine.apply([("excitation.frequency", "1.15")])?;
+    assert_eq!(machine.scene.excitation.frequency, 1.15);
+    machine.apply([("excitation.frequency_hz", "0.5")])?;
+    assert_relative_eq!(machine.scene.excitation.frequency, std::f64::consts::PI);
+    Ok(())
+}
+
+#[test]
+fn a_new_stop_takes_only_what_is_set_with_it() -> Outcome {
+    let mut machine = full(STOPS[4])?;
+    machine.apply([("stop.model", "rigid"), ("stop.restitution", "0.5")])?;
+    assert_eq!(machine.scene.stop, Stop::Rigid { restitution: 0.5 });
+    let error = machine.apply([("stop.model", "preloaded"), ("k4", "5")]);
+    assert!(error.is_err_and(|error| error.to_string().contains("preload")));
+    machine.apply([
+        ("stop.model", "piecewiseLinear"),
+        ("stop.loading", "[{ from = 0, stiffness = 30 }]"),
+    ])?;
+    assert!(matches!(machine.scene.stop, Stop::PiecewiseLinear { .. }));
+    Ok(())
+}
+
+/// What is said of a file.
+fn complaint(text: &str) -> String {
+    match Machine::from_toml(text) {
+        Ok(_) => String::new(),
+        Err(error) => error.to_string(),
+    }
+}
+
+#[test]
+fn wrong_files_are_told_with_line_key_value_and_range() {
+    let good = "mass = 1\nstiffness = 1\ndamping = 0.04\nclearance = 10\ncontact.damping = 0.18\n\
+                [excitation]\namplitude = 1\nfrequency = 1.15\n\
+                [stop]\nmodel = \"preloaded\"\nstiffness = 7\npreload = 70\n[start]\nposition = 1\n";
+    assert_eq!(complaint(good), "");
+    let cases: [(&str, &str, &[&str]); 12] = [
+        ("mass = 1", "mass = 0", &["line 1", "mass = 0", "> 0"]),
+        (
+            "stiffness = 7",
+            "stiffness = -7",
+            &["line 11", "stop.stiffness = -7", ">= 0"],
+        ),
+        (
+            "contact.damping",
+            "contact.dampign",
+            &[
+                "line 5",
+                "did you mean contact.damping?",
+                "initial.position",
+            ],
+        ),
+        ("contact.damping = 0.18", "", &["contact.damping"]),
+        (
+            "contact.damping",
+            "beta",
+            &["did you mean contact.damping?"],
+        ),
+        (
+            "preload = 70",
+            "preload = 70\npreload_deflection = 10",
+            &["stop.preload", "one of the two"],
+        ),
+        (
+            "[start]\nposition",
+            "[initial]\nposition = nan\nvelocity",
+            &["line 14", "initial.position = NaN"],
+        ),
+        (
+            "[start]",
+            "[strat]",
+            &["line 14", "did you mean initial.position?"],
+        ),
+        (
+            "frequency = 1.15",
+            "frequency = 1.15\nfrequency_hz = 50",
+            &["one of the two"],
+        ),
+        (
+            "preload = 70",
+            "preload = \"much\"",
+            &["line 12", "preload", "much"],
+        ),
+        (
+            "[start]",
+            "[ratios]\nclearance = 3\n[start]",
+            &["line 1", "mass"],
+        ),
+        ("model = \"preloaded\"", "model = \"hertz\"", &["preload"]),
+    ];
+    for (from, to, words) in cases {
+        let said = complaint(&good.replacen(from, to, 1));
+        for word in words {
+            assert!(said.contains(word), "{to}: {word:?} is not in {said:?}");
+        }
+    }
+}
+
+#[test]
+fn changes_that_fit_no_machine_are_refused() -> Outcome {
+    let mut unloaded = Machine::named("unloaded").ok_or("none")?;
+    let cases: [(&[(&str, &str)], &[&str]); 8] = [
+        (
+            &[("clearence", "3")],
+            &["clearence", "did you mean clearance?"],
+        ),
+        (&[("stop.stifness", "3")], &["did you mean stop.stiffness?"]),
+        (&[("mass", "3")], &["mass", "it has damping"]),
+        (
+            &[("piercing.thickness", "0.4")],
+            &["piercing.thickness", "no such parameter"],
+        ),
+        (&[("clearance", "wide")], &["clearance = wide", "number"]),
+        (&[("clearance", "nan")], &["clearance = NaN", "finite"]),
+        (&[("damping", "-1")], &["damping = -1", ">= 0"]),
+        (&[("rho", "3"), ("clearance", "4")], &["clearance", "twice"]),
+    ];
+    for (changes, words) in cases {
+        let error = unloaded.clone().apply(changes.iter().copied());
+        let said = error.err().ok_or("accepted")?.to_string();
+        for word in words {
+            assert!(
+                said.contains(word),
+                "{changes:?}: {word:?} is not in {said:?}"
+            );
+        }
+    }
+    unloaded.apply([("initial.position", "2"), ("initial.velocity", "-1")])?;
+    assert_eq!(
+        (unloaded.start.position, unloaded.start.velocity),
+        (2.0, -1.0)
+    );
+    Ok(())
+}
+
+/// What a scene says of itself is what its parameters say.
+#[test]
+fn parameters_reach_every_number_of_a_scene() -> Outcome {
+    for stop in STOPS {
+        let scene = full(stop)?.scene;
+        let mut blank: Scene = scene.clone();
+        for parameter in Parameter::ALL {
+            parameter.set(&mut blank, f64::MAX);
+        }
+        for parameter in Parameter::ALL {
+            if let Some(value) = parameter.get(&scene) {
+                assert_eq!(parameter.get(&blank), Some(f64::MAX));
+                parameter.set(&mut blank, value);
+            }
+        }
+        assert_eq!(blank, scene);
+    }
+    Ok(())
+}
