@@ -94,8 +94,10 @@ pub enum MachineError {
         source: SceneError,
     },
     /// A value that is no number.
-    #[error("{key} = {value}: must be a number")]
+    #[error("{}{key} = {value}: must be a number", at(*line))]
     NotANumber {
+        /// Its line in the file.
+        line: Option<usize>,
         /// The key.
         key: String,
         /// The value.
@@ -110,6 +112,9 @@ pub enum MachineError {
     /// A key that every machine must state.
     #[error("missing key `{0}`")]
     Missing(&'static str),
+    /// A key in SI units in a file of ratios.
+    #[error("{0}: must stand in [ratios]; only name, description and [initial] stand beside it")]
+    BesideRatios(String),
     /// A value in the place of a table.
     #[error("{0}: must be a table")]
     NoTable(&'static str),

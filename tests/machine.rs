@@ -269,6 +269,8 @@ fn wrong_files_are_told_with_line_key_value_and_range() {
         ),
         ("model = \"preloaded\"", "model = \"hertz\"", &["preload"]),
     ];
+    let beside = "damping = 0.02\n[ratios]\ndamping = 0.02\n";
+    assert!(complaint(beside).contains("damping: must stand in [ratios]"));
     for (from, to, words) in cases {
         let said = complaint(&good.replacen(from, to, 1));
         for word in words {

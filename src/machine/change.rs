@@ -131,6 +131,7 @@ fn value_of(text: &str) -> Value {
 
 fn number(key: &str, text: &str) -> Result<f64, MachineError> {
     text.parse().map_err(|_| MachineError::NotANumber {
+        line: None,
         key: key.to_owned(),
         value: text.to_owned(),
     })

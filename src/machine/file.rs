@@ -28,6 +28,8 @@ struct Place {
     /// As it is called now, in the table of ratios without its name.
     key: String,
     line: usize,
+    /// What stands there instead of a number.
+    word: Option<String>,
 }
 
 impl Machine {
@@ -49,7 +51,9 @@ impl Machine {
         };
         let mut places = Vec::new();
         walk(table.get_ref(), "", text, &mut places);
+        places.sort_by_key(|place| place.line);
         known(&places, language)?;
+        numbers(&places)?;
         let machine = read(table, language).map_err(|error| match error {
             Trouble::Toml(error) => syntax(error),
             Trouble::Machine(error) => error,
@@ -77,6 +81,10 @@ fn walk(table: &DeTable<'_>, path: &str, text: &str, places: &mut Vec<Place>) {
             _ => places.push(Place {
                 key,
                 line: 1 + text[..name.span().start].matches('\n').count(),
+                word: match value.get_ref() {
+                    DeValue::Integer(_) | DeValue::Float(_) => None,
+                    _ => Some(text[value.span()].to_owned()),
+                },
             }),
         }
     }
@@ -100,6 +108,20 @@ fn known(places: &[Place], language: Language) -> Result<(), MachineError> {
             known: keys.join(", "),
         }),
     }
+}
+
+/// Refuses what is no number in a number's place.
+fn numbers(places: &[Place]) -> Result<(), MachineError> {
+    for Place { key, line, word } in places {
+        if let (Some(_), Some(word)) = (Parameter::named(key), word) {
+            return Err(MachineError::NotANumber {
+                line: Some(*line),
+                key: key.clone(),
+                value: word.clone(),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// The line of the parameter that is out of range.
@@ -162,6 +184,9 @@ fn read(mut file: Spanned<DeTable<'_>>, language: Language) -> Result<Machine, T
     let description = take(table, "description")?;
     let mut initial = initial(table)?;
     if let Some(value) = table.remove(RATIOS) {
+        if let Some(key) = table.keys().next() {
+            return Err(MachineError::BesideRatios(key.get_ref().to_string()).into());
+        }
         let span = value.span();
         let DeValue::Table(ratios) = value.into_inner() else {
             return Err(MachineError::NoTable(RATIOS).into());

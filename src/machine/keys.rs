@@ -47,8 +47,9 @@ pub(super) fn meant(key: &str, keys: &[&'static str]) -> Option<&'static str> {
     if let Some(parameter) = called {
         return Some(parameter.name());
     }
-    let last = |key: &'static str| key.rsplit('.').next().unwrap_or(key);
-    let distance = |known: &&'static str| edits(key, known).min(edits(key, last(known)));
+    let last = |key: &str| key.rsplit('.').next().unwrap_or_default().to_owned();
+    let distance =
+        |known: &&'static str| edits(key, known).min(1 + edits(&last(key), &last(known)));
     let nearest = keys.iter().copied().min_by_key(distance)?;
     (distance(&nearest) <= (key.len() / 3).max(1)).then_some(nearest)
 }

@@ -28,6 +28,7 @@
 use std::borrow::Borrow;
 
 use serde::Serialize;
+use softstop::{Language, Machine};
 
 /// What a number is one of; [`Units`] has the names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,6 +71,19 @@ impl Units {
         frequency: "",
         force: "",
     };
+
+    /// Those that a machine speaks.
+    #[must_use]
+    pub const fn of(machine: &Machine) -> Self {
+        match machine.speaks {
+            Language::Ratios => Self::RATIOS,
+            Language::Hertz => Self {
+                frequency: "Hz",
+                ..Self::SI
+            },
+            Language::Si => Self::SI,
+        }
+    }
 
     /// The name of a unit.
     #[must_use]
