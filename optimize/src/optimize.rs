@@ -5,31 +5,33 @@ mod branch;
 mod chart;
 mod configuration;
 mod fmu;
+mod reference;
 mod task;
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use anyhow::Context;
 use clap::Args;
-use softstop_dynamics::orbit::{self, Orbit};
+use softstop::Parameter;
+use softstop_console::arguments::MachineArguments;
+use softstop_console::failure::Failure;
+use softstop_console::output::{self, Folder, Format};
 
 use crate::design::search::{self, SearchError};
 use crate::design::{Design, Problem};
 use crate::library::library;
-use crate::optimize::chart::Chart;
 use crate::report::{self, DesignReport, OptimizeReport, ReferenceReport, SearchReport};
 use best::Best;
-use softstop_console::failure::Failure;
-use softstop_console::machine::{Regime, SceneSettings};
-use softstop_console::output::{self, Folder, Format};
+use chart::Chart;
+pub use reference::Reference;
 use task::{Job, Named};
 
 const EXAMPLES: &str = "\
 Examples:
   softstop optimize
       the unloaded machine within stiffness 1 to 30 and clearance 2 to 22
-  softstop optimize --regime loaded --margin 0.1
+  softstop optimize press.toml --bounds clearance=5e-3:40e-3 --bounds excitation.frequency_hz=10:40
+      a machine in SI units (softstop schema says how it is stated), within what can be built
+  softstop optimize loaded --margin 0.1
       with a strip to pierce, closer to the fold: harder, but easier to lose
   softstop optimize --fix stiffness=7 --bounds clearance=2:22 --format json
       the paper's stop at its best clearance, for programs
@@ -46,9 +48,9 @@ Examples:
           [scene]
           damping = 0.02
 
-The zone of a stiffness and clearance reaches from g0 to s_SN; the drive frequency is
-eta = g0 + s (s_SN - g0) with s in [M, 1 - M]. A value given for --stiffness, --clearance or
---frequency is held, as by --fix. Three files are written, whole or not at all: design.json
+The zone of a machine reaches from g0 to s_SN; the drive frequency is g0 + s (s_SN - g0) with s in
+[M, 1 - M]. What --set, --stiffness, --clearance or --frequency say of a searched value is held, as by
+--fix. Three files are written, whole or not at all: design.json
 (what --format json prints), design.svg (velocity over frequency) and design.fmu (the machine
 for FMI 2.0 co-simulation, starting in the design's motion).";
 
@@ -60,11 +62,11 @@ pub struct OptimizeArguments {
     /// [default: 0.25]
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     pub margin: Option<f64>,
-    /// Hold a value: stiffness, clearance or frequency; repeatable
+    /// Hold a value, by its key in the machine's file or its letter; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     pub fix: Vec<Named<f64>>,
-    /// Search a range: stiffness [default: 1:30], clearance [default: 2:22] or frequency
-    /// [default: the whole zone]; repeatable
+    /// Search a range of a value: stop.stiffness [default: 1:30 times k1], clearance [default: 2:22
+    /// times F0/k1], excitation.frequency [default: the whole zone] or any other; repeatable
     #[arg(long, value_name = "NAME=LOW:HIGH")]
     pub bounds: Vec<Named<[f64; 2]>>,
     /// Task in a TOML file, by the same names; the command line has the last word
@@ -79,12 +81,12 @@ pub struct OptimizeArguments {
     /// Seed of the search: the same one gives the same result [default: 0]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
-    /// Zones to compute at most, at least 100 [default: 1200]
+    /// Zones to compute at most, at least 100 [default: 1200, with one value to search 300]
     #[arg(long, value_name = "N")]
     pub evaluations: Option<u64>,
     /// The machine.
     #[command(flatten)]
-    pub machine: SceneSettings,
+    pub machine: MachineArguments,
 }
 
 /// Searches, prints and writes the files.
@@ -96,14 +98,16 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let job = Job::new(arguments)?;
     let folder = Folder::open(&job.output, &[JSON, CHART, FMU])?;
     let library = library()?;
-    let design = solve(&job)?;
-    let references = References::find()?;
-    let report = compose(&job, &design, &references, &folder);
+    let outcome = solve(&job)?;
+    let design = &outcome.design;
+    let references = reference::references(&job.problem.machine)?;
+    let report = compose(&job, &outcome, &references, &folder);
     let json = output::json(&report)?;
-    let chart = chart(&job, &design, &references)?;
+    let beside = reference::nearest(&job.problem.machine, &references);
+    let chart = Chart::new(design, job.problem.margin, beside);
     folder.stage(JSON, json.as_bytes())?;
     folder.stage(CHART, chart.svg().as_bytes())?;
-    folder.stage(FMU, &fmu::archive(&library, &design)?)?;
+    folder.stage(FMU, &fmu::archive(&library, design)?)?;
     folder.commit(&[JSON, CHART, FMU])?;
     output::print(&match job.format {
         Format::Json => json,
@@ -111,94 +115,61 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     })
 }
 
-fn solve(job: &Job) -> Result<Design, Failure> {
-    let best = Best::new(job.settings.evaluations);
+/// What came of a search.
+struct Outcome {
+    design: Design,
+    /// Zones that were computed.
+    evaluations: u64,
+}
+
+fn solve(job: &Job) -> Result<Outcome, Failure> {
+    let best = Best::new(&job.problem.machine, job.settings.evaluations);
     let outcome = search::search(&job.problem, job.settings, &best);
+    let evaluations = best.evaluations();
     drop(best);
-    outcome.map_err(|error| match error {
+    let design = outcome.map_err(|error| match error {
         SearchError::Stopped => Failure::Interrupted,
         error => Failure::Run(error.into()),
+    })?;
+    Ok(Outcome {
+        design,
+        evaluations,
     })
-}
-
-/// The paper's points A and B.
-struct References {
-    unloaded: Orbit,
-    loaded: Orbit,
-}
-
-impl References {
-    fn find() -> Result<Self, Failure> {
-        let find = |regime: Regime| -> anyhow::Result<Orbit> {
-            let scene = regime.ratios().scene()?;
-            orbit::find(&scene).with_context(|| format!("the paper's point {}", regime.point()))
-        };
-        Ok(Self {
-            unloaded: find(Regime::Unloaded)?,
-            loaded: find(Regime::Loaded)?,
-        })
-    }
-
-    fn of(&self, regime: Regime) -> &Orbit {
-        match regime {
-            Regime::Unloaded => &self.unloaded,
-            Regime::Loaded => &self.loaded,
-        }
-    }
-
-    fn reports(&self, velocity: f64) -> BTreeMap<&'static str, ReferenceReport> {
-        [Regime::Unloaded, Regime::Loaded]
-            .map(|regime| {
-                (
-                    regime.point(),
-                    ReferenceReport::new(regime, self.of(regime), velocity),
-                )
-            })
-            .into()
-    }
 }
 
 const JSON: &str = "design.json";
 const CHART: &str = "design.svg";
 const FMU: &str = "design.fmu";
 
-fn compose(job: &Job, design: &Design, references: &References, folder: &Folder) -> OptimizeReport {
+fn compose(
+    job: &Job,
+    outcome: &Outcome,
+    references: &[Reference],
+    folder: &Folder,
+) -> OptimizeReport {
     let Problem {
-        stiffness,
-        clearance,
-        frequency,
-        ..
-    } = job.problem;
-    let bounds = [
-        ("stiffness", stiffness),
-        ("clearance", clearance),
-        ("frequency", frequency),
-    ];
+        axes, frequency, ..
+    } = &job.problem;
+    let axes = axes.iter().map(|axis| (axis.parameter, axis.range));
+    let bounds = axes.chain([(Parameter::Frequency, *frequency)]);
     let files = [("json", JSON), ("svg", CHART), ("fmu", FMU)];
+    let velocity = outcome.design.before_impact_velocity();
     OptimizeReport {
-        design: DesignReport::new(&job.problem, design),
-        reference: references.reports(design.before_impact_velocity()),
+        design: DesignReport::new(&job.problem, &outcome.design),
+        reference: references
+            .iter()
+            .map(|reference| (reference.name, ReferenceReport::new(reference, velocity)))
+            .collect(),
         search: SearchReport {
-            bounds: bounds.map(|(name, range)| (name, range.to_string())).into(),
+            bounds: bounds
+                .map(|(parameter, range)| (report::key(parameter), range.to_string()))
+                .collect(),
             seed: job.settings.seed,
             evaluations: job.settings.evaluations,
+            evaluations_used: outcome.evaluations,
         },
         files: files
             .map(|(kind, name)| (kind, folder.place(name).display().to_string()))
             .into(),
     }
-}
-
-fn chart(job: &Job, design: &Design, references: &References) -> Result<Chart, Failure> {
-    let Problem {
-        machine, margin, ..
-    } = job.problem;
-    let chart = Chart::new(
-        design,
-        margin,
-        machine.regime,
-        references.of(machine.regime),
-    )
-    .context("cannot draw the chart")?;
-    Ok(chart)
 }

@@ -1,54 +1,59 @@
 //! The search for the hardest impact inside the hysteresis zone.
 //!
-//! Stiffness k4/k1 and clearance rho are searched in a box; the frequency is written as
-//! eta = g0 + s (eta_SN - g0) with s in [M, 1 - M], so that every point that has a zone is
-//! feasible. The zone does not depend on s: for each (k4, rho) it is computed once and the
-//! best s is then found along it ([`along`]). [`search`] drives the outer search.
+//! Parameters of the machine (its stop's stiffness and clearance, if nothing else is said) are searched in
+//! a box; the frequency is written as g0 + s (w_SN - g0) with s in [M, 1 - M], so that every point that has
+//! a zone is feasible. The zone does not depend on s: at each point it is computed once and the best s is
+//! then found along it ([`along`]). [`search`] drives the outer search.
 
 pub mod along;
 pub mod search;
 pub mod space;
 
-use softstop::Ratios;
+use softstop::scene::Scene;
+use softstop::{Dimension, Machine, Parameter};
 use softstop_dynamics::orbit::Orbit;
 use softstop_dynamics::zone::{self, Zone, ZoneError};
 
-use softstop_console::machine::Machine;
-use space::Interval;
+use space::{Axis, Interval};
 
-/// What is searched, and where.
-#[derive(Debug, Clone, Copy)]
+/// What is searched, and where. All values are in the machine's own units.
+#[derive(Debug, Clone)]
 pub struct Problem {
-    /// The machine; its own stiffness, clearance and frequency play no part.
+    /// The machine; what is searched of it plays no part.
     pub machine: Machine,
     /// Least distance M of s from 0 and 1, in [0, 0.5].
     pub margin: f64,
-    /// Stop stiffness k4/k1.
-    pub stiffness: Interval,
-    /// Clearance rho.
-    pub clearance: Interval,
-    /// Drive frequency eta, intersected with the zone.
+    /// The parameters that the search may choose, but the drive's frequency.
+    pub axes: Vec<Axis>,
+    /// Drive frequency, intersected with the zone.
     pub frequency: Interval,
 }
 
 /// A feasible point and the motion there.
 #[derive(Debug, Clone)]
 pub struct Design {
-    /// The machine at the design's stiffness, clearance and frequency.
-    pub ratios: Ratios,
+    /// The machine of the design, its drive at the design's frequency.
+    pub machine: Machine,
     /// Place in the zone: 0 at g0, 1 at s_SN.
     pub place: f64,
-    /// The zone of the design's stiffness and clearance.
+    /// The zone of the machine.
     pub zone: Zone,
     /// The z = 1 motion.
     pub orbit: Orbit,
 }
 
 impl Design {
-    /// Velocity at which the mass reaches the clearance, in units of sqrt(F0^2/(m k1)).
+    /// Velocity in m/s at which the mass reaches the clearance.
     #[must_use]
     pub fn before_impact_velocity(&self) -> f64 {
         self.orbit.before_impact_velocity()
+    }
+
+    /// Drive frequency in the machine's own units.
+    #[must_use]
+    pub fn frequency(&self) -> f64 {
+        let frequency = self.machine.scene.excitation.frequency;
+        self.machine.to_own(Dimension::Frequency, frequency)
     }
 }
 
@@ -62,26 +67,31 @@ pub struct Infeasible {
 }
 
 impl Problem {
-    /// The best frequency at one stiffness and clearance.
+    /// The machine with these values of the axes.
+    #[must_use]
+    pub fn machine_at(&self, values: &[f64]) -> Machine {
+        let mut machine = self.machine.clone();
+        for (axis, value) in self.axes.iter().zip(values) {
+            machine.set(axis.parameter, *value);
+        }
+        machine
+    }
+
+    /// The best frequency at these values of the axes.
     ///
     /// # Errors
     /// [`Infeasible`] if there is no zone, or none of it is allowed and stable.
-    pub fn at(&self, stiffness: f64, clearance: f64) -> Result<Design, Infeasible> {
-        let ratios = self.machine.at(stiffness, clearance);
-        let zone = ratios.scene().map_err(ZoneError::from);
-        let zone = zone.and_then(|scene| zone::hysteresis(&scene));
-        let zone = zone.map_err(|error| Infeasible {
-            gap: self.distance_from_zones(&ratios),
+    pub fn at(&self, values: &[f64]) -> Result<Design, Infeasible> {
+        let mut machine = self.machine_at(values);
+        let zone = zone::hysteresis(&machine.scene).map_err(|error| Infeasible {
+            gap: distance_from_zones(&machine.scene, &error),
             reason: error.to_string(),
         })?;
         let window = self.window(&zone)?;
         let (place, orbit) = along::best(&zone, window)?;
-        let ratios = Ratios {
-            frequency: zone.frequency_at(place),
-            ..ratios
-        };
+        Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(place));
         Ok(Design {
-            ratios,
+            machine,
             place,
             zone,
             orbit,
@@ -91,7 +101,9 @@ impl Problem {
     /// The places s that margin and frequency bounds leave of a zone.
     fn window(&self, zone: &Zone) -> Result<Interval, Infeasible> {
         let width = zone.frequency_sn - zone.frequency_g0;
-        let place = |frequency: f64| (frequency - zone.frequency_g0) / width;
+        let own = |frequency: f64| self.machine.to_own(Dimension::Frequency, frequency);
+        let si = |frequency: f64| self.machine.to_si(Dimension::Frequency, frequency);
+        let place = |frequency: f64| (si(frequency) - zone.frequency_g0) / width;
         let low = self.margin.max(place(self.frequency.low));
         let high = (1.0 - self.margin).min(place(self.frequency.high));
         if low <= high {
@@ -101,22 +113,24 @@ impl Problem {
             gap: finite_or(low - high, DISTANT),
             reason: format!(
                 "the frequencies allowed by bounds and margin ({}) lie outside the zone {:.6} to {:.6}",
-                self.frequency, zone.frequency_g0, zone.frequency_sn
+                self.frequency,
+                own(zone.frequency_g0),
+                own(zone.frequency_sn)
             ),
         })
     }
+}
 
-    /// A grade for points without a zone. Above resonance g0 exists only for clearances between
-    /// 0 and the resonance peak of the motion without impacts, 1/(2 beta1 sqrt(1 - beta1^2)):
-    /// the farther from there, the worse. Elsewhere all points count as equally distant.
-    fn distance_from_zones(&self, ratios: &Ratios) -> f64 {
-        let beta1 = ratios.damping;
-        let peak = 1.0 / (2.0 * beta1 * (1.0 - beta1 * beta1).sqrt());
-        let beyond = (ratios.clearance / peak - 1.0)
-            .max(-ratios.clearance)
-            .max(0.0);
-        DISTANT + finite_or(beyond, 0.0)
-    }
+/// A grade for points without a zone. Above resonance g0 exists only for clearances between 0 and the
+/// resonance peak of the motion without impacts: the farther from there, the worse. Elsewhere all points
+/// count as equally distant.
+fn distance_from_zones(scene: &Scene, error: &ZoneError) -> f64 {
+    let ZoneError::NoGrazing { clearance, largest } = error else {
+        return DISTANT;
+    };
+    let unit = scene.excitation.amplitude / scene.stiffness;
+    let beyond = (clearance / largest - 1.0).max(-clearance / unit).max(0.0);
+    DISTANT + finite_or(beyond, 0.0)
 }
 
 /// The gap of a point of which nothing better is known.

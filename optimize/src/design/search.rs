@@ -68,13 +68,11 @@ impl Watch for Unwatched {
 pub enum SearchError {
     /// Nothing within the bounds is feasible.
     #[error(
-        "no stable z = 1 motion in a hysteresis zone was met within the bounds; nearest try, at stiffness = {stiffness}, clearance = {clearance}: {reason}"
+        "no stable z = 1 motion in a hysteresis zone was met within the bounds; nearest try, at {place}: {reason}"
     )]
     NoDesign {
-        /// k4/k1 of the least infeasible point.
-        stiffness: f64,
-        /// rho of the least infeasible point.
-        clearance: f64,
+        /// The least infeasible point: names and values.
+        place: String,
         /// What is wrong there.
         reason: String,
     },
@@ -95,7 +93,7 @@ pub fn search(
     settings: Settings,
     watch: &dyn Watch,
 ) -> Result<Design, SearchError> {
-    let space = Space::new(problem.stiffness, problem.clearance);
+    let space = Space(&problem.axes);
     let cost = Cost {
         problem,
         space,
@@ -108,14 +106,20 @@ pub fn search(
     if watch.stop() {
         return Err(SearchError::Stopped);
     }
-    let (stiffness, clearance) = space.values(&best);
+    let values = space.values(&best);
     problem
-        .at(stiffness, clearance)
+        .at(&values)
         .map_err(|infeasible| SearchError::NoDesign {
-            stiffness,
-            clearance,
+            place: place(problem, &values),
             reason: infeasible.reason,
         })
+}
+
+/// Values in words.
+fn place(problem: &Problem, values: &[f64]) -> String {
+    let said = problem.axes.iter().zip(values);
+    let said = said.map(|(axis, value)| format!("{} = {value}", axis.parameter.name()));
+    said.collect::<Vec<_>>().join(", ")
 }
 
 /// The best point of the unit cube.
@@ -141,7 +145,7 @@ struct Point {
 /// What the optimisers minimise: minus the velocity, or a finite grade above every velocity.
 struct Cost<'search> {
     problem: &'search Problem,
-    space: Space,
+    space: Space<'search>,
     watch: &'search dyn Watch,
 }
 
@@ -155,8 +159,7 @@ impl CostFunction for &Cost<'_> {
         if self.watch.stop() {
             return Ok(f64::INFINITY);
         }
-        let (stiffness, clearance) = self.space.values(unit);
-        let outcome = self.problem.at(stiffness, clearance);
+        let outcome = self.problem.at(&self.space.values(unit));
         self.watch
             .evaluated(outcome.as_ref().ok().map(Design::before_impact_velocity));
         Ok(match outcome {

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use softstop::Parameter;
+
 /// A closed interval; a value that is held has both ends equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
@@ -66,40 +68,35 @@ impl fmt::Display for Interval {
     }
 }
 
-/// The intervals of the outer search, stiffness and clearance, of which those that are held
-/// are taken out of the optimiser's sight.
-#[derive(Debug, Clone, Copy)]
-pub struct Space {
-    axes: [Interval; 2],
+/// A parameter that is searched, and where, in the machine's own units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Axis {
+    /// Which.
+    pub parameter: Parameter,
+    /// Its values.
+    pub range: Interval,
 }
 
-impl Space {
-    /// The space of these two intervals.
-    #[must_use]
-    pub const fn new(stiffness: Interval, clearance: Interval) -> Self {
-        Self {
-            axes: [stiffness, clearance],
-        }
-    }
+/// The axes of the outer search, of which those that are held are taken out of the optimiser's sight.
+#[derive(Debug, Clone, Copy)]
+pub struct Space<'a>(pub &'a [Axis]);
 
+impl Space<'_> {
     /// How many coordinates the optimiser has.
     #[must_use]
     pub fn dimension(&self) -> usize {
-        self.axes.iter().filter(|axis| !axis.is_held()).count()
+        self.0.iter().filter(|axis| !axis.range.is_held()).count()
     }
 
-    /// Stiffness and clearance at a point of the unit cube.
+    /// The values of all axes at a point of the unit cube.
     #[must_use]
-    pub fn values(&self, unit: &[f64]) -> (f64, f64) {
+    pub fn values(&self, unit: &[f64]) -> Vec<f64> {
         let mut coordinates = unit.iter().copied();
-        let [stiffness, clearance] = self.axes.map(|axis| {
-            if axis.is_held() {
-                axis.low
-            } else {
-                axis.at(coordinates.next().unwrap_or(0.5))
-            }
-        });
-        (stiffness, clearance)
+        let value = |axis: &Axis| match axis.range.is_held() {
+            true => axis.range.low,
+            false => axis.range.at(coordinates.next().unwrap_or(0.5)),
+        };
+        self.0.iter().map(value).collect()
     }
 }
 
@@ -113,13 +110,18 @@ mod tests {
             low: 0.1,
             high: 0.3,
         };
-        let space = Space::new(Interval::held(7.0), range);
+        let axes = [
+            (Parameter::StopStiffness, Interval::held(7.0)),
+            (Parameter::Clearance, range),
+        ]
+        .map(|(parameter, range)| Axis { parameter, range });
+        let space = Space(&axes);
         assert_eq!(space.dimension(), 1);
-        assert_eq!(space.values(&[0.0]), (7.0, 0.1));
-        assert_eq!(space.values(&[1.0]), (7.0, 0.3));
+        assert_eq!(space.values(&[0.0]), [7.0, 0.1]);
+        assert_eq!(space.values(&[1.0]), [7.0, 0.3]);
         assert_eq!(
             space.values(&[1.7]),
-            (7.0, 0.3),
+            [7.0, 0.3],
             "outside the cube: pulled in"
         );
         assert_eq!(range.end(0.3), Some("upper"));

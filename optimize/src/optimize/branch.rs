@@ -1,7 +1,7 @@
 //! The stable z = 1 motions of a zone as curves to draw.
 
 use nalgebra::Vector2;
-use softstop::Scene;
+use softstop::{Dimension, Machine, Scene};
 use softstop_dynamics::continuation::BranchPoint;
 use softstop_dynamics::orbit::Orbit;
 use softstop_dynamics::zone::Zone;
@@ -15,20 +15,23 @@ pub(super) struct Branch {
     pub(super) label: String,
     pub(super) frequency_g0: f64,
     pub(super) frequency_sn: f64,
-    /// eta and X'- along each stable piece; folds inside the zone leave gaps.
+    /// Frequency and before-impact velocity along each stable piece; folds inside the zone leave gaps.
     pub(super) pieces: Vec<Vec<(f64, f64)>>,
 }
 
 impl Branch {
-    pub(super) fn new(zone: &Zone, label: String) -> Self {
+    /// The motions of a machine's zone, in its own units.
+    pub(super) fn new(machine: &Machine, zone: &Zone, label: String) -> Self {
+        let own = |frequency| machine.to_own(Dimension::Frequency, frequency);
         let stable = zone.branch.chunk_by(|a, b| drawn(a) && drawn(b));
         Self {
             label,
-            frequency_g0: zone.frequency_g0,
-            frequency_sn: zone.frequency_sn,
+            frequency_g0: own(zone.frequency_g0),
+            frequency_sn: own(zone.frequency_sn),
             pieces: stable
                 .filter(|piece| piece.len() > 1)
                 .map(|piece| smooth(&zone.scene, piece))
+                .map(|curve| curve.into_iter().map(|(w, v)| (own(w), v)).collect())
                 .collect(),
         }
     }

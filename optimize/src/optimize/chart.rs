@@ -7,70 +7,65 @@ use kuva::render::annotations::{ReferenceLine, ShadedRegion, TextAnnotation};
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
 use kuva::render::render::{collect_legend_entries, render_multiple};
-use softstop_dynamics::orbit::Orbit;
-use softstop_dynamics::zone::{self, ZoneError};
+use softstop_dynamics::zone;
 
-use super::branch::Branch;
-use crate::design::Design;
-use softstop_console::machine::Regime;
+use softstop::{Dimension, Language, Machine, Parameter};
 use softstop_draw::style::{self, Frame};
 
-/// What the chart shows.
+use super::branch::Branch;
+use super::reference::Reference;
+use crate::design::Design;
+
+/// What the chart shows, in the machine's own units.
 #[derive(Debug, Clone)]
 pub struct Chart {
+    machine: Machine,
     /// The motions of the design's zone.
     branch: Branch,
     /// Frequencies that the margin leaves.
     allowed: (f64, f64),
-    /// eta and X'- of the design.
+    /// Frequency and before-impact velocity of the design.
     design: (f64, f64),
-    /// The motions of the zone of the paper's point.
-    reference_branch: Branch,
-    /// eta and X'- of the paper's point.
-    reference: (f64, f64),
-    /// The paper's name of its point.
-    reference_name: &'static str,
+    reference: Option<Beside>,
     /// What the band of allowed frequencies is called.
     allowance: String,
     title: String,
-    subtitle: String,
 }
 
+/// The motion beside which the design stands.
+#[derive(Debug, Clone)]
+struct Beside {
+    name: String,
+    /// Frequency and before-impact velocity.
+    point: (f64, f64),
+    /// The motions of its zone.
+    branch: Option<Branch>,
+}
+
+const SUBTITLE: &str = "before-impact velocity of the stable z = 1 motion in its hysteresis zone";
+
 impl Chart {
-    /// The chart of a design with margin M, beside the paper's point of the same regime.
-    ///
-    /// # Errors
-    /// [`ZoneError`] if the paper's point has no zone.
-    pub fn new(
+    /// The chart of a design with margin M, beside a motion.
+    pub(super) fn new(
         design: &Design,
         margin: f64,
-        regime: Regime,
-        reference: &Orbit,
-    ) -> Result<Self, ZoneError> {
-        let paper = regime.ratios();
-        let name = regime.point();
-        let ratios = &design.ratios;
-        Ok(Self {
-            branch: Branch::new(
-                &design.zone,
-                label("design", ratios.stiffness, ratios.clearance),
-            ),
+        reference: Option<&Reference>,
+    ) -> Self {
+        let machine = &design.machine;
+        let own = |frequency| machine.to_own(Dimension::Frequency, frequency);
+        let name = machine.name.as_deref().unwrap_or("given");
+        Self {
+            branch: Branch::new(machine, &design.zone, label("design", machine)),
             allowed: (
-                design.zone.frequency_at(margin),
-                design.zone.frequency_at(1.0 - margin),
+                own(design.zone.frequency_at(margin)),
+                own(design.zone.frequency_at(1.0 - margin)),
             ),
-            design: (ratios.frequency, design.before_impact_velocity()),
-            reference_branch: Branch::new(
-                &zone::hysteresis(&paper.scene()?)?,
-                label(&format!("paper's {name}"), paper.stiffness, paper.clearance),
-            ),
-            reference: (paper.frequency, reference.before_impact_velocity()),
-            reference_name: name,
+            design: (design.frequency(), design.before_impact_velocity()),
+            reference: reference.map(Beside::new),
             allowance: format!("allowed by margin M = {margin}"),
-            title: format!("Hardest impact of the {} machine", regime.name()),
-            subtitle: "before-impact velocity of the stable z = 1 motion in its hysteresis zone"
-                .into(),
-        })
+            title: format!("Hardest impact of the {name} machine"),
+            machine: machine.clone(),
+        }
     }
 
     /// The chart as an SVG document.
@@ -78,59 +73,73 @@ impl Chart {
     pub fn svg(&self) -> String {
         let frame = self.frame();
         let plots = self.plots();
-        let layout = style::layout(&frame, &self.title, &self.subtitle)
+        let frequency = self.machine.label_of(Parameter::Frequency);
+        let velocity = self.velocity_label();
+        let layout = style::layout(&frame, &self.title, SUBTITLE)
+            .with_x_label(frequency)
+            .with_y_label(velocity)
             .with_legend_entries(collect_legend_entries(&plots));
         let scene = render_multiple(plots, self.annotations(layout, &frame));
         SvgBackend::new().with_pretty(true).render_scene(&scene)
     }
 
+    fn velocity_label(&self) -> String {
+        self.machine
+            .label("before-impact velocity", "X′₋", Dimension::Velocity)
+    }
+
     fn frame(&self) -> Frame {
-        let branches = [&self.branch, &self.reference_branch];
-        let curves = branches
-            .into_iter()
+        let beside = self.reference.iter().filter_map(|beside| beside.branch.as_ref());
+        let curves = beside
+            .chain([&self.branch])
             .flat_map(|branch| branch.pieces.iter().flatten().copied());
-        Frame::around(
-            &curves
-                .chain([self.design, self.reference])
-                .collect::<Vec<_>>(),
-        )
+        let points = self.reference.iter().map(|beside| beside.point);
+        Frame::around(&curves.chain(points).chain([self.design]).collect::<Vec<_>>())
     }
 
     fn plots(&self) -> Vec<Plot> {
-        let mark = |point: (f64, f64), color: &str, shape, size, label: String| {
+        let mark = |point: (f64, f64), color: &str, shape, size, name: &str| {
             ScatterPlot::new()
                 .with_data([point])
                 .with_color(color)
                 .with_marker(shape)
                 .with_size(size)
-                .with_legend(label)
+                .with_legend(self.legend(name, point))
         };
-        let (eta, velocity) = self.reference;
-        let name = self.reference_name;
-        let point = mark(
-            self.reference,
-            style::POINT,
-            MarkerShape::Circle,
-            6.0,
-            format!("point {name}: η = {eta:.3}, X′₋ = {velocity:.2}"),
-        );
-        let (eta, velocity) = self.design;
         let optimum = mark(
             self.design,
             style::OPTIMUM,
             MarkerShape::Star,
             10.0,
-            format!("optimum: η = {eta:.3}, X′₋ = {velocity:.2}"),
+            "optimum",
         );
         let mut plots = lines(&self.branch, style::DESIGN, LineStyle::Solid);
         plots.push(Plot::Scatter(optimum));
-        plots.extend(lines(
-            &self.reference_branch,
-            style::REFERENCE,
-            LineStyle::Dashed,
-        ));
-        plots.push(Plot::Scatter(point));
+        for beside in &self.reference {
+            if let Some(branch) = &beside.branch {
+                plots.extend(lines(branch, style::REFERENCE, LineStyle::Dashed));
+            }
+            let name = format!("point {}", beside.name);
+            plots.push(Plot::Scatter(mark(
+                beside.point,
+                style::POINT,
+                MarkerShape::Circle,
+                6.0,
+                &name,
+            )));
+        }
         plots
+    }
+
+    fn legend(&self, name: &str, (frequency, velocity): (f64, f64)) -> String {
+        match self.machine.speaks {
+            Language::Ratios => format!("{name}: η = {frequency:.3}, X′₋ = {velocity:.2}"),
+            _ => {
+                let unit = self.machine.unit(Dimension::Frequency);
+                let (frequency, velocity) = (digits(frequency), digits(velocity));
+                format!("{name}: {frequency} {unit}, {velocity} m/s")
+            }
+        }
     }
 
     fn annotations(&self, layout: Layout, frame: &Frame) -> Layout {
@@ -143,7 +152,7 @@ impl Chart {
         };
         let (low, high) = self.allowed;
         let middle = f64::midpoint(low, high);
-        layout
+        let layout = layout
             .with_shaded_region(
                 ShadedRegion::vertical(low, high)
                     .with_color(style::ALLOWED)
@@ -155,8 +164,10 @@ impl Chart {
                 &self.allowance,
                 middle,
                 frame.near_top(),
-            ))
-            .with_annotation(frame.beside(self.reference, self.reference_name))
+            ));
+        self.reference.iter().fold(layout, |layout, beside| {
+            layout.with_annotation(frame.beside(beside.point, &beside.name))
+        })
     }
 }
 
@@ -176,6 +187,49 @@ fn lines(branch: &Branch, color: &str, line: LineStyle) -> Vec<Plot> {
     first.into_iter().chain(pieces).map(Plot::Line).collect()
 }
 
-fn label(name: &str, stiffness: f64, clearance: f64) -> String {
-    format!("{name}: k₄/k₁ = {stiffness:.2}, ρ = {clearance:.2}")
+impl Beside {
+    fn new(reference: &Reference) -> Self {
+        let machine = &reference.machine;
+        let zone = zone::hysteresis(&machine.scene).ok();
+        let named = match reference.name {
+            "given" => "as given".to_owned(),
+            point => format!("paper's {point}"),
+        };
+        Self {
+            name: reference.name.to_owned(),
+            point: (
+                machine.value(Parameter::Frequency).unwrap_or(f64::NAN),
+                reference.orbit.before_impact_velocity(),
+            ),
+            branch: zone.map(|zone| Branch::new(machine, &zone, label(&named, machine))),
+        }
+    }
+}
+
+/// What it is, with the stop and the clearance that it has.
+fn label(name: &str, machine: &Machine) -> String {
+    let value = |parameter| machine.value(parameter);
+    let stiffness = value(Parameter::StopStiffness);
+    let clearance = value(Parameter::Clearance).unwrap_or(f64::NAN);
+    match (machine.speaks, stiffness) {
+        (Language::Ratios, Some(stiffness)) => {
+            format!("{name}: k₄/k₁ = {stiffness:.2}, ρ = {clearance:.2}")
+        }
+        (Language::Ratios, None) => format!("{name}: ρ = {clearance:.2}"),
+        (_, Some(stiffness)) => {
+            let (stiffness, clearance) = (digits(stiffness), digits(clearance));
+            format!("{name}: stop {stiffness} N/m, clearance {clearance} m")
+        }
+        (_, None) => format!("{name}: clearance {} m", digits(clearance)),
+    }
+}
+
+/// A number with four digits.
+fn digits(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e5).contains(&value.abs()) {
+        let places = 3 - value.abs().max(1e-3).log10().floor() as i32;
+        format!("{value:.*}", places.max(0) as usize)
+    } else {
+        format!("{value:.3e}")
+    }
 }

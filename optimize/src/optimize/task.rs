@@ -3,75 +3,61 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
+use softstop::{Dimension, Machine, Parameter};
+use softstop_console::failure::Failure;
+use softstop_console::machine::{Regime, SceneSettings, require};
+use softstop_console::output::Format;
+use softstop_console::scene_file;
+
 use super::OptimizeArguments;
 use super::configuration::Task;
 use crate::design::Problem;
 use crate::design::search::{LEAST_EVALUATIONS, Settings};
-use crate::design::space::Interval;
-use softstop_console::failure::Failure;
-use softstop_console::machine::{Machine, SceneSettings, finite, not_negative, positive, require};
-use softstop_console::output::Format;
-use softstop_console::scene_file;
+use crate::design::space::{Axis, Interval};
 
 const MARGIN: f64 = 0.25;
-const STIFFNESS: Interval = Interval {
-    low: 1.0,
-    high: 30.0,
-};
-const CLEARANCE: Interval = Interval {
-    low: 2.0,
-    high: 22.0,
-};
+/// What is searched if nothing else is said, in units of k1 and of F0/k1.
+const DEFAULTS: [(Parameter, Interval); 2] = [
+    (
+        Parameter::StopStiffness,
+        Interval {
+            low: 1.0,
+            high: 30.0,
+        },
+    ),
+    (
+        Parameter::Clearance,
+        Interval {
+            low: 2.0,
+            high: 22.0,
+        },
+    ),
+];
 /// No bound: the zone itself and the margin limit the frequency.
-const FREQUENCY: Interval = Interval {
+const ANY: Interval = Interval {
     low: f64::MIN_POSITIVE,
     high: f64::INFINITY,
 };
-const EVALUATIONS: u64 = 1200;
+/// Zones to compute at most, with one searched parameter and with more.
+const EVALUATIONS: (u64, u64) = (300, 1200);
 const OUTPUT: &str = "softstop-design";
 
-/// The quantities that are searched.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Quantity {
-    Stiffness,
-    Clearance,
-    Frequency,
-}
-
-impl Quantity {
-    const ALL: [Self; 3] = [Self::Stiffness, Self::Clearance, Self::Frequency];
-
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Stiffness => "stiffness",
-            Self::Clearance => "clearance",
-            Self::Frequency => "frequency",
-        }
-    }
-
-    fn check(self, value: f64) -> Result<(), Failure> {
-        match self {
-            Self::Stiffness => not_negative(self.name(), value),
-            Self::Clearance => finite(self.name(), value),
-            Self::Frequency => positive(self.name(), value),
-        }
-    }
-}
-
-/// A quantity and what is said of it, as `name=…` on the command line.
-#[derive(Debug, Clone, Copy)]
+/// A value of the machine, by a key of its file, and what is said of it: `name=…` on the command line.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Named<T> {
-    quantity: Quantity,
-    value: T,
+    /// The key, a letter or an older name.
+    pub(super) name: String,
+    /// What is said.
+    pub(super) value: T,
 }
 
 impl FromStr for Named<f64> {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (quantity, value) = named(text, "value")?;
+        let (name, value) = named(text, "value")?;
         Ok(Self {
-            quantity,
+            name,
             value: number(value)?,
         })
     }
@@ -81,30 +67,22 @@ impl FromStr for Named<[f64; 2]> {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (quantity, range) = named(text, "low:high")?;
+        let (name, range) = named(text, "low:high")?;
         let (low, high) = range
             .split_once(':')
             .ok_or_else(|| format!("{range}: a range is low:high, such as 2:22"))?;
         Ok(Self {
-            quantity,
+            name,
             value: [number(low)?, number(high)?],
         })
     }
 }
 
-fn named<'text>(text: &'text str, what: &str) -> Result<(Quantity, &'text str), String> {
+fn named<'text>(text: &'text str, what: &str) -> Result<(String, &'text str), String> {
     let (name, value) = text
         .split_once('=')
         .ok_or_else(|| format!("expected name={what}"))?;
-    let quantity = Quantity::ALL
-        .into_iter()
-        .find(|quantity| quantity.name() == name.trim());
-    match quantity {
-        Some(quantity) => Ok((quantity, value)),
-        None => Err(format!(
-            "unknown name {name}: must be stiffness, clearance or frequency"
-        )),
-    }
+    Ok((name.trim().to_owned(), value))
 }
 
 fn number(text: &str) -> Result<f64, String> {
@@ -129,10 +107,7 @@ impl Job {
             Some(path) => scene_file::read_toml(path)?,
             None => Task::default(),
         };
-        let scene = scene(&task)?;
-        let machine = Machine::from_layers(&[&arguments.machine, &scene])?;
-        let words = [spoken(arguments), written(&task)];
-        let interval = |quantity, default| interval(&words, quantity, default);
+        let machine = machine(arguments, &task)?;
         let margin = arguments.margin.or(task.margin).unwrap_or(MARGIN);
         require(
             (0.0..=0.5).contains(&margin),
@@ -140,10 +115,14 @@ impl Job {
             margin,
             "in [0, 0.5]",
         )?;
-        let evaluations = arguments
-            .evaluations
-            .or(task.evaluations)
-            .unwrap_or(EVALUATIONS);
+        let (axes, frequency) = axes(&machine, &[spoken(arguments), written(&task)?])?;
+        let searched = axes.iter().filter(|axis| !axis.range.is_held()).count();
+        let usual = if searched > 1 {
+            EVALUATIONS.1
+        } else {
+            EVALUATIONS.0
+        };
+        let evaluations = arguments.evaluations.or(task.evaluations).unwrap_or(usual);
         if evaluations < LEAST_EVALUATIONS {
             let message = format!("evaluations = {evaluations}: must be >= {LEAST_EVALUATIONS}");
             return Err(Failure::usage(message));
@@ -152,9 +131,8 @@ impl Job {
             problem: Problem {
                 machine,
                 margin,
-                stiffness: interval(Quantity::Stiffness, STIFFNESS)?,
-                clearance: interval(Quantity::Clearance, CLEARANCE)?,
-                frequency: interval(Quantity::Frequency, FREQUENCY)?,
+                axes,
+                frequency,
             },
             settings: Settings {
                 seed: arguments.seed.or(task.seed).unwrap_or(0),
@@ -170,7 +148,25 @@ impl Job {
     }
 }
 
-/// The file's machine; its regime may stand at the top or in `[scene]`.
+/// The command line's machine, or else the file's.
+fn machine(arguments: &OptimizeArguments, task: &Task) -> Result<Machine, Failure> {
+    let mut stated = arguments.machine.clone();
+    let says_scene = task.regime.is_some() || task.scene != SceneSettings::default();
+    if let Some(machine) = &task.machine {
+        if says_scene {
+            return Err(Failure::usage(
+                "machine and scene: only one of the two can be given in a task",
+            ));
+        }
+        let is_named = ["unloaded", "loaded"].iter().any(|name| machine.as_os_str() == *name);
+        let folder = arguments.config.as_ref().and_then(|path| path.parent());
+        let place = folder.filter(|_| !is_named).map_or(machine.clone(), |folder| folder.join(machine));
+        stated.machine.get_or_insert(place);
+    }
+    stated.machine_over(&scene(task)?)
+}
+
+/// The file's ratios; its regime may stand at the top or in `[scene]`.
 fn scene(task: &Task) -> Result<SceneSettings, Failure> {
     let mut scene = task.scene.clone();
     if task.regime.is_some() && scene.regime.is_some() {
@@ -182,84 +178,121 @@ fn scene(task: &Task) -> Result<SceneSettings, Failure> {
     Ok(scene)
 }
 
-/// What one layer says about the searched quantities.
-type Words = Vec<Named<[f64; 2]>>;
+/// What one layer says about searched values. One that only states the machine's value has no range.
+struct Words {
+    ranges: Vec<Named<[f64; 2]>>,
+    stated: Vec<String>,
+}
 
 fn spoken(arguments: &OptimizeArguments) -> Words {
-    let mut words = arguments.bounds.clone();
-    words.extend(
-        arguments
-            .fix
-            .iter()
-            .map(|word| held(word.quantity, word.value)),
-    );
-    words.extend(scene_words(&arguments.machine));
-    words
-}
-
-fn written(task: &Task) -> Words {
-    let (fix, bounds) = (&task.fix, &task.bounds);
-    let fixed = [
-        (Quantity::Stiffness, fix.stiffness),
-        (Quantity::Clearance, fix.clearance),
-        (Quantity::Frequency, fix.frequency),
-    ];
-    let ranges = [
-        (Quantity::Stiffness, bounds.stiffness),
-        (Quantity::Clearance, bounds.clearance),
-        (Quantity::Frequency, bounds.frequency),
-    ];
-    let fixed = fixed
-        .into_iter()
-        .filter_map(|(quantity, value)| Some(held(quantity, value?)));
-    let ranges = ranges.into_iter().filter_map(|(quantity, value)| {
-        Some(Named {
-            quantity,
-            value: value?,
-        })
+    let held = arguments.fix.iter().map(|word| Named {
+        name: word.name.clone(),
+        value: [word.value, word.value],
     });
-    fixed
-        .chain(ranges)
-        .chain(scene_words(&task.scene))
-        .collect()
-}
-
-fn scene_words(scene: &SceneSettings) -> impl Iterator<Item = Named<[f64; 2]>> {
-    [
-        (Quantity::Stiffness, scene.stiffness),
-        (Quantity::Clearance, scene.clearance),
-        (Quantity::Frequency, scene.frequency),
-    ]
-    .into_iter()
-    .filter_map(|(quantity, value)| Some(held(quantity, value?)))
-}
-
-const fn held(quantity: Quantity, value: f64) -> Named<[f64; 2]> {
-    Named {
-        quantity,
-        value: [value, value],
+    Words {
+        ranges: arguments.bounds.iter().cloned().chain(held).collect(),
+        stated: arguments.machine.keys(),
     }
 }
 
-/// The first layer that speaks of a quantity decides; it may do so only once.
-fn interval(layers: &[Words], quantity: Quantity, default: Interval) -> Result<Interval, Failure> {
+fn written(task: &Task) -> Result<Words, Failure> {
+    let stated = task.scene.given().into_iter();
+    Ok(Words {
+        ranges: task.words()?,
+        stated: stated.map(|(name, _)| name.to_owned()).collect(),
+    })
+}
+
+/// The axes and the range of the drive's frequency. The first layer that speaks of a parameter decides; it
+/// may do so only once.
+fn axes(machine: &Machine, layers: &[Words]) -> Result<(Vec<Axis>, Interval), Failure> {
+    let mut ranges: Vec<(Parameter, Interval)> = Vec::new();
     for words in layers {
-        let mut words = words.iter().filter(|word| word.quantity == quantity);
-        let Some(word) = words.next() else { continue };
-        if words.next().is_some() {
-            let name = quantity.name();
-            let message = format!("{name}: only one value to hold or one range can be given");
-            return Err(Failure::usage(message));
+        let above = ranges.len();
+        for word in &words.ranges {
+            let parameter = parameter(machine, &word.name)?;
+            if ranges[above..].iter().any(|(other, _)| *other == parameter) {
+                return Err(only_one(machine, parameter));
+            }
+            ranges.push((parameter, interval(machine, parameter, word.value)?));
         }
-        let [low, high] = word.value;
-        quantity.check(low)?;
-        quantity.check(high)?;
-        if low > high {
-            let name = quantity.name();
-            let message = format!("bounds {name} = {low}:{high}: low must be <= high");
-            return Err(Failure::usage(message));
+        for name in &words.stated {
+            // What is stated of the machine is held, if the search would choose it.
+            let Ok(parameter) = parameter(machine, name) else {
+                continue;
+            };
+            let usual = DEFAULTS.iter().any(|(usual, _)| *usual == parameter);
+            let (true, Some(value)) = (
+                usual || parameter == Parameter::Frequency,
+                machine.value(parameter),
+            ) else {
+                continue;
+            };
+            if ranges[above..].iter().any(|(other, _)| *other == parameter) {
+                return Err(only_one(machine, parameter));
+            }
+            ranges.push((parameter, Interval::held(value)));
         }
-        return Ok(Interval { low, high });
     }
-    Ok(default)
+    let first = |parameter| {
+        let mut all = ranges.iter();
+        all.find(|(other, _)| *other == parameter).map(|(_, range)| *range)
+    };
+    let frequency = first(Parameter::Frequency).unwrap_or(ANY);
+    let usual = DEFAULTS
+        .into_iter()
+        .filter(|(parameter, _)| machine.value(*parameter).is_some())
+        .map(|(parameter, range)| (parameter, scaled(machine, parameter, range)));
+    let mut axes: Vec<Axis> = Vec::new();
+    for (parameter, range) in usual.chain(ranges.iter().copied()) {
+        let known = axes.iter().any(|axis| axis.parameter == parameter);
+        if parameter != Parameter::Frequency && !known {
+            let range = first(parameter).unwrap_or(range);
+            axes.push(Axis { parameter, range });
+        }
+    }
+    Ok((axes, frequency))
+}
+
+fn parameter(machine: &Machine, name: &str) -> Result<Parameter, Failure> {
+    let parameter = machine.parameter(&name.replace('-', "_"));
+    parameter.map_err(|error| Failure::usage(error.to_string()))
+}
+
+fn only_one(machine: &Machine, parameter: Parameter) -> Failure {
+    let name = machine.name(parameter);
+    Failure::usage(format!(
+        "{name}: only one value to hold or one range can be given"
+    ))
+}
+
+fn interval(
+    machine: &Machine,
+    parameter: Parameter,
+    [low, high]: [f64; 2],
+) -> Result<Interval, Failure> {
+    let name = machine.name(parameter);
+    let allowed = parameter.about().allowed;
+    for value in [low, high] {
+        let checked = allowed.check(name, value);
+        checked.map_err(|error| Failure::usage(error.to_string()))?;
+    }
+    if low > high {
+        let message = format!("bounds {name} = {low}:{high}: low must be <= high");
+        return Err(Failure::usage(message));
+    }
+    Ok(Interval { low, high })
+}
+
+/// A range in units of k1 or F0/k1 in the machine's own units.
+fn scaled(machine: &Machine, parameter: Parameter, range: Interval) -> Interval {
+    let scene = &machine.scene;
+    let unit = match parameter.about().dimension {
+        Dimension::Stiffness => scene.stiffness,
+        _ => scene.excitation.amplitude / scene.stiffness,
+    };
+    Interval {
+        low: range.low * unit,
+        high: range.high * unit,
+    }
 }

@@ -1,0 +1,55 @@
+//! The motions beside which a design is set: the paper's points, or the machine as it was given.
+
+use anyhow::Context;
+use softstop::Machine;
+use softstop_console::failure::Failure;
+use softstop_console::machine::Regime;
+use softstop_dynamics::orbit::{self, Orbit};
+
+/// A motion and its machine.
+#[derive(Debug, Clone)]
+pub struct Reference {
+    /// A, B, or `given`.
+    pub name: &'static str,
+    /// The machine.
+    pub machine: Machine,
+    /// Its z = 1 motion.
+    pub orbit: Orbit,
+}
+
+/// The references of a machine: both points of the paper for one that speaks its ratios, otherwise the
+/// machine itself, if it has a stable z = 1 motion as it is.
+///
+/// # Errors
+/// [`Failure::Run`] if a point of the paper is not found.
+pub(super) fn references(machine: &Machine) -> Result<Vec<Reference>, Failure> {
+    if machine.ratios().is_none() {
+        let found = orbit::find(&machine.scene).ok();
+        return Ok(Vec::from_iter(found.map(|orbit| Reference {
+            name: "given",
+            machine: machine.clone(),
+            orbit,
+        })));
+    }
+    [Regime::Unloaded, Regime::Loaded]
+        .into_iter()
+        .map(|regime| {
+            let point = || format!("the paper's point {}", regime.point());
+            let machine = Machine::named(regime.name()).with_context(point)?;
+            let orbit = orbit::find(&machine.scene).with_context(point)?;
+            Ok(Reference {
+                name: regime.point(),
+                machine,
+                orbit,
+            })
+        })
+        .collect()
+}
+
+/// The one that stands in the chart: that of the machine's own regime.
+pub(super) fn nearest<'a>(machine: &Machine, all: &'a [Reference]) -> Option<&'a Reference> {
+    let is_like = |reference: &&Reference| {
+        reference.machine.scene.piercing.is_some() == machine.scene.piercing.is_some()
+    };
+    all.iter().find(is_like)
+}
