@@ -40,5 +40,7 @@ pub use error::{MachineError, MotionError, SceneError};
 pub use integrator::{Clock, Energy, Impact, Instant, Motion, Sample, Simulation, Snapshot, Start};
 pub use machine::{Language, Machine};
 pub use phases::PhaseKind;
-pub use scene::{Excitation, Parameter, Piercing, PiercingRatios, Ratios, Scene, Stop, Units};
+pub use scene::{
+    Dimension, Excitation, Parameter, Piercing, PiercingRatios, Ratios, Scene, Stop, Units,
+};
 pub use trajectory::Trajectory;

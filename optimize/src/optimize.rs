@@ -111,7 +111,7 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     folder.commit(&[JSON, CHART, FMU])?;
     output::print(&match job.format {
         Format::Json => json,
-        Format::Text => report::text::optimize(&report),
+        Format::Text => report::text::optimize(&report, &job.problem, design, &references),
     })
 }
 

@@ -51,6 +51,20 @@ pub enum Stop {
     },
 }
 
+impl Stop {
+    /// The name of the law, as in TOML and in the FMU.
+    pub const fn model(&self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::KelvinVoigt { .. } => "kelvinVoigt",
+            Self::PiecewiseLinear { .. } => "piecewiseLinear",
+            Self::Hertz { .. } => "hertz",
+            Self::Preloaded { .. } => "preloaded",
+            Self::Rigid { .. } => "rigid",
+        }
+    }
+}
+
 const fn sphere() -> f64 {
     1.5
 }

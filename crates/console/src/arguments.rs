@@ -57,9 +57,22 @@ impl MachineArguments {
     /// # Errors
     /// [`Failure::Usage`] naming the file, the key, its value and what is allowed.
     pub fn machine(&self) -> Result<Machine, Failure> {
+        self.machine_over(&SceneSettings::default())
+    }
+
+    /// The same over ratios that stand in a task: the command line has the first word.
+    ///
+    /// # Errors
+    /// As [`MachineArguments::machine`].
+    pub fn machine_over(&self, below: &SceneSettings) -> Result<Machine, Failure> {
         let mut machine = match self.named()? {
-            Some(regime) => self.paper(regime)?,
-            None => self.file()?,
+            Some(regime) => self.paper(regime, below)?,
+            None if *below == SceneSettings::default() => self.file()?,
+            None => {
+                return Err(Failure::usage(
+                    "regime and scene of a task go with the paper's machines, not with a file",
+                ));
+            }
         };
         let changes = self.set.iter();
         machine
@@ -86,12 +99,21 @@ impl MachineArguments {
         }
     }
 
-    /// The paper's machine under its shorthands.
-    fn paper(&self, regime: Option<Regime>) -> Result<Machine, Failure> {
+    /// The keys that the command line states.
+    #[must_use]
+    pub fn keys(&self) -> Vec<String> {
+        let given = self.ratios.given().into_iter().map(|(name, _)| name);
+        let set = self.set.iter().map(|change| change.key.as_str());
+        given.chain(set).map(str::to_owned).collect()
+    }
+
+    /// The paper's machine under its shorthands, over those of a task.
+    fn paper(&self, regime: Option<Regime>, below: &SceneSettings) -> Result<Machine, Failure> {
         let mut layers = vec![self.ratios.clone()];
         if let Some(path) = &self.scene {
             layers.push(read_toml(path)?);
         }
+        layers.push(below.clone());
         layers[0].regime = layers[0].regime.or(regime);
         paper(&layers)
     }

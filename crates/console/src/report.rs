@@ -1,7 +1,8 @@
 //! What several commands report: plain data whose field names are the keys of the JSON.
 
 use serde::Serialize;
-use softstop::Ratios;
+use serde_json::{Map, Value};
+use softstop::{Dimension, Language, Machine, Parameter};
 use softstop_dynamics::orbit::Orbit;
 
 use crate::machine::Regime;
@@ -30,56 +31,74 @@ impl Multiplier {
     }
 }
 
-/// The machine: the paper's dimensionless ratios by the names of the command line.
+/// A machine by the keys of its file, as its user states it: one like the paper's by the names of the
+/// paper's ratios, any other with its name, its units and its parameters.
 #[derive(Debug, Clone, Serialize)]
-pub struct MachineReport {
-    /// With or without a strip.
-    pub regime: Regime,
-    /// rho.
-    pub clearance: f64,
-    /// k4/k1.
-    pub stiffness: f64,
-    /// Preload force in units of F0.
-    pub preload: f64,
-    /// beta1.
-    pub damping: f64,
-    /// beta.
-    pub contact_damping: f64,
-    /// k2/k1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub piercing_stiffness: Option<f64>,
-    /// k3/k1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub piercing_friction: Option<f64>,
-    /// sigma.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub thickness: Option<f64>,
-    /// nu.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub travel: Option<f64>,
-}
+#[serde(transparent)]
+pub struct MachineReport(Map<String, Value>);
 
 impl MachineReport {
-    /// The machine with these ratios.
+    /// This machine.
     #[must_use]
-    pub fn new(regime: Regime, ratios: &Ratios) -> Self {
-        let strip = ratios.piercing;
-        Self {
-            regime,
-            clearance: ratios.clearance,
-            stiffness: ratios.stiffness,
-            preload: ratios.preload,
-            damping: ratios.damping,
-            contact_damping: ratios.contact_damping,
-            piercing_stiffness: strip.map(|strip| strip.stiffness),
-            piercing_friction: strip.map(|strip| strip.friction),
-            thickness: strip.map(|strip| strip.thickness),
-            travel: strip.map(|strip| strip.travel),
+    pub fn of(machine: &Machine) -> Self {
+        let mut report = Map::new();
+        let is_drive = |parameter: &Parameter| *parameter == Parameter::Frequency;
+        let parameters = machine.parameters().filter(|it| !is_drive(it));
+        let value = |parameter| machine.value(parameter).unwrap_or(f64::NAN);
+        if let Some(ratios) = machine.ratios().filter(|ratios| ratios.rigid.is_none()) {
+            let regime = ratios.piercing.map_or(Regime::Unloaded, |_| Regime::Loaded);
+            report.insert("regime".to_owned(), regime.name().into());
+            let preload = ("preload".to_owned(), ratios.preload);
+            let of_ratios = parameters.filter_map(|it| Some((ratio(it)?.to_owned(), value(it))));
+            report.extend(
+                of_ratios
+                    .chain([preload])
+                    .map(|(key, value)| (key, value.into())),
+            );
+            return Self(report);
         }
+        let name = machine.name.as_deref().unwrap_or("machine");
+        report.insert("machine".to_owned(), name.into());
+        let units = [
+            ("frequency", Dimension::Frequency),
+            ("length", Dimension::Length),
+            ("velocity", Dimension::Velocity),
+            ("force", Dimension::Force),
+        ];
+        let units = units.map(|(what, of)| (what.to_owned(), machine.unit(of).into()));
+        if machine.speaks != Language::Ratios {
+            report.insert("units".to_owned(), Map::from_iter(units).into());
+        }
+        let parameters = parameters.map(|it| (key(machine.name(it)), value(it).into()));
+        let model = ("stop_model".to_owned(), machine.scene.stop.model().into());
+        let parameters = Map::from_iter(parameters.chain([model]));
+        report.insert("parameters".to_owned(), parameters.into());
+        Self(report)
     }
 }
 
-/// A motion, in units of F0/k1 and sqrt(m/k1).
+/// A dotted name as a key of JSON.
+#[must_use]
+pub fn key(name: &str) -> String {
+    name.replace('.', "_")
+}
+
+/// What the paper's ratio of a parameter is called in JSON; none of those that have no ratio.
+const fn ratio(parameter: Parameter) -> Option<&'static str> {
+    Some(match parameter {
+        Parameter::Clearance => "clearance",
+        Parameter::StopStiffness => "stiffness",
+        Parameter::Damping => "damping",
+        Parameter::ContactDamping => "contact_damping",
+        Parameter::PiercingStiffness => "piercing_stiffness",
+        Parameter::PiercingFriction => "piercing_friction",
+        Parameter::Thickness => "thickness",
+        Parameter::Travel => "travel",
+        _ => return None,
+    })
+}
+
+/// A motion, in the units of its machine.
 #[derive(Debug, Clone, Serialize)]
 pub struct MotionReport {
     /// eta.
@@ -101,11 +120,11 @@ pub struct MotionReport {
 }
 
 impl MotionReport {
-    /// The motion of this orbit at this drive frequency.
+    /// The motion of this machine.
     #[must_use]
-    pub fn new(frequency: f64, orbit: &Orbit) -> Self {
+    pub fn of(machine: &Machine, orbit: &Orbit) -> Self {
         Self {
-            frequency,
+            frequency: machine.value(Parameter::Frequency).unwrap_or(f64::NAN),
             position: orbit.position,
             velocity: orbit.velocity,
             before_impact_velocity: orbit.before_impact_velocity(),
@@ -119,32 +138,18 @@ impl MotionReport {
 
 /// The machine as rows of a table.
 #[must_use]
-pub fn machine(report: &MachineReport) -> Vec<Row> {
-    let strip = [
-        ("strip stiffness k2/k1", report.piercing_stiffness),
-        ("strip friction k3/k1", report.piercing_friction),
-        ("strip thickness sigma", report.thickness),
-        ("travel to the stop nu", report.travel),
-    ];
-    let mut rows = vec![
-        row("regime", [report.regime.name().to_owned()]),
-        row("clearance rho", [number(report.clearance)]),
-        row("stiffness k4/k1", [number(report.stiffness)]),
-        row("preload Fp/F0", [number(report.preload)]),
-        row("damping beta1", [number(report.damping)]),
-        row("contact damping beta", [number(report.contact_damping)]),
-    ];
-    rows.extend(
-        strip
-            .into_iter()
-            .filter_map(|(label, value)| Some(row(label, [number(value?)]))),
-    );
-    rows
+pub fn machine(machine: &Machine) -> Vec<Row> {
+    let stop = row("stop", [machine.scene.stop.model().to_owned()]);
+    let values = machine.parameters().map(|parameter| {
+        let value = machine.value(parameter).unwrap_or(f64::NAN);
+        row(&machine.label_of(parameter), [number(value)])
+    });
+    values.chain([stop]).collect()
 }
 
 /// The motion as rows of a table.
 #[must_use]
-pub fn motion(report: &MotionReport) -> Vec<Row> {
+pub fn motion(machine: &Machine, report: &MotionReport) -> Vec<Row> {
     let multipliers = report.multipliers.map(|multiplier| {
         if multiplier.im == 0.0 {
             number(multiplier.re)
@@ -153,17 +158,31 @@ pub fn motion(report: &MotionReport) -> Vec<Row> {
         }
     });
     let [first, second] = multipliers;
-    vec![
-        row(
-            "before-impact velocity X'-",
-            [number(report.before_impact_velocity)],
+    let length = |what, symbol| machine.label(what, symbol, Dimension::Length);
+    let velocity = |what, symbol| machine.label(what, symbol, Dimension::Velocity);
+    [
+        (
+            velocity("before-impact velocity", "X'-"),
+            number(report.before_impact_velocity),
         ),
-        row("greatest position X_m", [number(report.max_position)]),
-        row("position X at drive angle 0", [number(report.position)]),
-        row("velocity X' at drive angle 0", [number(report.velocity)]),
-        row("trace of the monodromy", [number(report.trace)]),
-        row("its determinant", [number(report.determinant)]),
-        row("Floquet multipliers", [first]),
-        row("", [second]),
+        (
+            length("greatest position", "X_m"),
+            number(report.max_position),
+        ),
+        (
+            length("position at drive angle 0", "X"),
+            number(report.position),
+        ),
+        (
+            velocity("velocity at drive angle 0", "X'"),
+            number(report.velocity),
+        ),
+        ("trace of the monodromy".to_owned(), number(report.trace)),
+        ("its determinant".to_owned(), number(report.determinant)),
+        ("Floquet multipliers".to_owned(), first),
+        (String::new(), second),
     ]
+    .into_iter()
+    .map(|(label, cell)| row(&label, [cell]))
+    .collect()
 }

@@ -15,21 +15,29 @@ pub fn heading(title: &str) -> String {
     format!("{title}\n{}\n", "-".repeat(title.chars().count()))
 }
 
-/// A number with six places.
+/// A number with six places, or in powers of ten where those would not tell it.
 #[must_use]
 pub fn number(value: f64) -> String {
-    format!("{value:.6}")
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        format!("{value:.6}")
+    } else {
+        format!("{value:.6e}")
+    }
 }
 
 /// Labels to the left, cells to the right, every column as wide as its widest cell.
 #[must_use]
 pub fn table(rows: &[Row]) -> String {
-    let label_width = rows.iter().map(|(label, _)| label.len()).max().unwrap_or(0);
+    let label_width = rows
+        .iter()
+        .map(|(label, _)| label.chars().count())
+        .max()
+        .unwrap_or(0);
     let columns = rows.iter().map(|(_, cells)| cells.len()).max().unwrap_or(0);
     let width = |column: usize| {
         rows.iter()
             .filter_map(|(_, cells)| cells.get(column))
-            .map(String::len)
+            .map(|cell| cell.chars().count())
             .max()
             .unwrap_or(0)
     };

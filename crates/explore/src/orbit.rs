@@ -1,17 +1,16 @@
 //! `softstop orbit`: the stable motion with one impact per drive period.
 
-use std::path::PathBuf;
-
 use anyhow::anyhow;
 use clap::Args;
 use serde::Serialize;
 use softstop_dynamics::orbit::{Orbit, OrbitError};
 
+use softstop::{Machine, Parameter};
+use softstop_console::arguments::MachineArguments;
 use softstop_console::failure::Failure;
-use softstop_console::machine::{self, Machine, SceneSettings};
 use softstop_console::output::{self, Format};
 use softstop_console::report::{self, MachineReport, MotionReport};
-use softstop_console::table::{heading, number, row, table};
+use softstop_console::table::{heading, table};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -32,15 +31,12 @@ motion is stable if both Floquet multipliers lie inside the unit circle.";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct OrbitArguments {
-    /// Machine in a TOML file, by the names below; the command line has the last word
-    #[arg(long, value_name = "FILE.toml")]
-    pub scene: Option<PathBuf>,
     /// How to print the result
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
     /// The machine.
     #[command(flatten)]
-    pub machine: SceneSettings,
+    pub machine: MachineArguments,
 }
 
 /// Finds the orbit and prints it.
@@ -48,24 +44,19 @@ pub struct OrbitArguments {
 /// # Errors
 /// [`Failure::Usage`] for values no machine can have, [`Failure::Run`] if there is no orbit.
 pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
-    let machine = machine::machine(arguments.scene.as_ref(), &arguments.machine)?;
-    let scene = machine
-        .ratios
-        .scene()
-        .map_err(|error| Failure::usage(error.to_string()))?;
-    let orbit = softstop_dynamics::orbit::find(&scene).map_err(|error| match error {
-        OrbitError::NotFound {
-            frequency,
-            clearance,
-        } => anyhow!(
-            "no stable z = 1 motion found at frequency = {frequency}, clearance = {clearance}"
+    let machine = arguments.machine.machine()?;
+    let orbit = softstop_dynamics::orbit::find(&machine.scene).map_err(|error| match error {
+        OrbitError::NotFound { clearance, .. } => anyhow!(
+            "no stable z = 1 motion found at {} = {}, clearance = {clearance}",
+            machine.name(Parameter::Frequency),
+            machine.value(Parameter::Frequency).unwrap_or(f64::NAN),
         ),
         other => other.into(),
     })?;
     let report = OrbitReport::new(&machine, &orbit);
     output::print(&match arguments.format {
         Format::Json => output::json(&report)?,
-        Format::Text => text(&report),
+        Format::Text => text(&machine, &report),
     })
 }
 
@@ -85,19 +76,15 @@ impl OrbitReport {
     #[must_use]
     pub fn new(machine: &Machine, orbit: &Orbit) -> Self {
         Self {
-            motion: MotionReport::new(machine.ratios.frequency, orbit),
-            machine: MachineReport::new(machine.regime, &machine.ratios),
+            motion: MotionReport::of(machine, orbit),
+            machine: MachineReport::of(machine),
         }
     }
 }
 
 /// The orbit, one quantity a line.
-fn text(report: &OrbitReport) -> String {
-    let mut rows = report::machine(&report.machine);
-    rows.push(row(
-        "drive frequency eta",
-        [number(report.motion.frequency)],
-    ));
-    rows.extend(report::motion(&report.motion));
+fn text(machine: &Machine, report: &OrbitReport) -> String {
+    let mut rows = report::machine(machine);
+    rows.extend(report::motion(machine, &report.motion));
     heading("Stable motion with one impact per drive period (z = 1)") + &table(&rows)
 }

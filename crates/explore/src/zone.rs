@@ -1,13 +1,12 @@
 //! `softstop zone`: the hysteresis zone between grazing and fold.
 
-use std::path::PathBuf;
-
 use anyhow::Context;
 use clap::Args;
 use serde::Serialize;
 
+use softstop::{Dimension, Machine, Parameter};
+use softstop_console::arguments::{MachineArguments, title};
 use softstop_console::failure::Failure;
-use softstop_console::machine::{self, Machine, SceneSettings};
 use softstop_console::output::{self, Format};
 use softstop_console::report::{self, MachineReport};
 use softstop_console::table::{heading, number, row, table};
@@ -28,15 +27,12 @@ one is seen. The drive frequency plays no part here.";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct ZoneArguments {
-    /// Machine in a TOML file, by the names below; the command line has the last word
-    #[arg(long, value_name = "FILE.toml")]
-    pub scene: Option<PathBuf>,
     /// How to print the result
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
     /// The machine.
     #[command(flatten)]
-    pub machine: SceneSettings,
+    pub machine: MachineArguments,
 }
 
 /// Finds both ends of the zone and prints them.
@@ -44,18 +40,13 @@ pub struct ZoneArguments {
 /// # Errors
 /// [`Failure::Usage`] for values no machine can have, [`Failure::Run`] if there is no zone.
 pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
-    let machine = machine::machine(arguments.scene.as_ref(), &arguments.machine)?;
-    let ratios = &machine.ratios;
-    let scene = ratios.scene();
-    let scene = scene.map_err(|error| Failure::usage(error.to_string()))?;
-    let zone = softstop_dynamics::zone::hysteresis(&scene).with_context(|| {
-        let (k4, rho) = (ratios.stiffness, ratios.clearance);
-        format!("no hysteresis zone found at stiffness = {k4}, clearance = {rho}")
-    })?;
+    let machine = arguments.machine.machine()?;
+    let zone = softstop_dynamics::zone::hysteresis(&machine.scene)
+        .with_context(|| format!("no hysteresis zone found of {}", title(&machine)))?;
     let report = ZoneReport::new(&machine, &zone);
     output::print(&match arguments.format {
         Format::Json => output::json(&report)?,
-        Format::Text => text(&report),
+        Format::Text => text(&machine, &report),
     })
 }
 
@@ -77,23 +68,30 @@ impl ZoneReport {
     /// The zone of this machine.
     #[must_use]
     pub fn new(machine: &Machine, zone: &Zone) -> Self {
+        let own = |frequency| machine.to_own(Dimension::Frequency, frequency);
         Self {
-            frequency_g0: zone.frequency_g0,
-            frequency_sn: zone.frequency_sn,
+            frequency_g0: own(zone.frequency_g0),
+            frequency_sn: own(zone.frequency_sn),
             velocity_sn: zone.velocity_sn,
-            machine: MachineReport::new(machine.regime, &machine.ratios),
+            machine: MachineReport::of(machine),
         }
     }
 }
 
 /// The zone, one quantity a line.
-fn text(report: &ZoneReport) -> String {
-    let mut rows = report::machine(&report.machine);
-    rows.push(row("grazing frequency g0", [number(report.frequency_g0)]));
-    rows.push(row("fold frequency s_SN", [number(report.frequency_sn)]));
-    rows.push(row(
-        "velocity X'- at the fold",
-        [number(report.velocity_sn)],
-    ));
+fn text(machine: &Machine, report: &ZoneReport) -> String {
+    let frequency = |what| machine.label(what, "η", Dimension::Frequency);
+    let velocity = machine.label(
+        "before-impact velocity at the fold",
+        "X'-",
+        Dimension::Velocity,
+    );
+    let mut rows = report::machine(machine);
+    rows.retain(|(label, _)| *label != machine.label_of(Parameter::Frequency));
+    rows.extend([
+        row(&frequency("grazing g0"), [number(report.frequency_g0)]),
+        row(&frequency("fold s_SN"), [number(report.frequency_sn)]),
+        row(&velocity, [number(report.velocity_sn)]),
+    ]);
     heading("Hysteresis zone of the z = 1 motion") + &table(&rows)
 }

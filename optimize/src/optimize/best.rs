@@ -43,7 +43,8 @@ impl Watch for Best {
         if velocity > *best {
             *best = velocity;
             let unit = self.unit;
-            self.progress.say(format!("best velocity {velocity:.4} {unit}").trim_end());
+            self.progress
+                .say(format!("best velocity {velocity:.4} {unit}").trim_end());
         }
     }
 

@@ -46,11 +46,7 @@ const SUBTITLE: &str = "before-impact velocity of the stable z = 1 motion in its
 
 impl Chart {
     /// The chart of a design with margin M, beside a motion.
-    pub(super) fn new(
-        design: &Design,
-        margin: f64,
-        reference: Option<&Reference>,
-    ) -> Self {
+    pub(super) fn new(design: &Design, margin: f64, reference: Option<&Reference>) -> Self {
         let machine = &design.machine;
         let own = |frequency| machine.to_own(Dimension::Frequency, frequency);
         let name = machine.name.as_deref().unwrap_or("given");
@@ -89,12 +85,20 @@ impl Chart {
     }
 
     fn frame(&self) -> Frame {
-        let beside = self.reference.iter().filter_map(|beside| beside.branch.as_ref());
+        let beside = self
+            .reference
+            .iter()
+            .filter_map(|beside| beside.branch.as_ref());
         let curves = beside
             .chain([&self.branch])
             .flat_map(|branch| branch.pieces.iter().flatten().copied());
         let points = self.reference.iter().map(|beside| beside.point);
-        Frame::around(&curves.chain(points).chain([self.design]).collect::<Vec<_>>())
+        Frame::around(
+            &curves
+                .chain(points)
+                .chain([self.design])
+                .collect::<Vec<_>>(),
+        )
     }
 
     fn plots(&self) -> Vec<Plot> {
@@ -115,7 +119,7 @@ impl Chart {
         );
         let mut plots = lines(&self.branch, style::DESIGN, LineStyle::Solid);
         plots.push(Plot::Scatter(optimum));
-        for beside in &self.reference {
+        if let Some(beside) = &self.reference {
             if let Some(branch) = &beside.branch {
                 plots.extend(lines(branch, style::REFERENCE, LineStyle::Dashed));
             }

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::failure::Failure;
-use softstop_console::machine::{Regime, SceneSettings, require};
+use softstop_console::machine::{SceneSettings, require};
 use softstop_console::output::Format;
 use softstop_console::scene_file;
 
@@ -158,9 +158,13 @@ fn machine(arguments: &OptimizeArguments, task: &Task) -> Result<Machine, Failur
                 "machine and scene: only one of the two can be given in a task",
             ));
         }
-        let is_named = ["unloaded", "loaded"].iter().any(|name| machine.as_os_str() == *name);
+        let is_named = ["unloaded", "loaded"]
+            .iter()
+            .any(|name| machine.as_os_str() == *name);
         let folder = arguments.config.as_ref().and_then(|path| path.parent());
-        let place = folder.filter(|_| !is_named).map_or(machine.clone(), |folder| folder.join(machine));
+        let place = folder
+            .filter(|_| !is_named)
+            .map_or(machine.clone(), |folder| folder.join(machine));
         stated.machine.get_or_insert(place);
     }
     stated.machine_over(&scene(task)?)
@@ -236,7 +240,8 @@ fn axes(machine: &Machine, layers: &[Words]) -> Result<(Vec<Axis>, Interval), Fa
     }
     let first = |parameter| {
         let mut all = ranges.iter();
-        all.find(|(other, _)| *other == parameter).map(|(_, range)| *range)
+        all.find(|(other, _)| *other == parameter)
+            .map(|(_, range)| *range)
     };
     let frequency = first(Parameter::Frequency).unwrap_or(ANY);
     let usual = DEFAULTS

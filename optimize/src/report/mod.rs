@@ -5,13 +5,13 @@ pub mod text;
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use softstop_dynamics::orbit::Orbit;
-
-use crate::design::{Design, Problem};
-use softstop_console::machine::Regime;
+use softstop::{Dimension, Parameter};
 use softstop_console::report::{MachineReport, MotionReport};
 
-/// The design that was found.
+use crate::design::{Design, Problem};
+use crate::optimize::Reference;
+
+/// The design that was found, in the machine's own units.
 #[derive(Debug, Clone, Serialize)]
 pub struct DesignReport {
     /// The machine.
@@ -36,11 +36,13 @@ impl DesignReport {
     /// The report on the solution of this problem.
     #[must_use]
     pub fn new(problem: &Problem, design: &Design) -> Self {
+        let machine = &design.machine;
+        let own = |frequency| machine.to_own(Dimension::Frequency, frequency);
         Self {
-            machine: MachineReport::new(problem.machine.regime, &design.ratios),
-            motion: MotionReport::new(design.ratios.frequency, &design.orbit),
-            frequency_g0: design.zone.frequency_g0,
-            frequency_sn: design.zone.frequency_sn,
+            machine: MachineReport::of(machine),
+            motion: MotionReport::of(machine, &design.orbit),
+            frequency_g0: own(design.zone.frequency_g0),
+            frequency_sn: own(design.zone.frequency_sn),
             margin: problem.margin,
             s: design.place,
             at_limits: at_limits(problem, design),
@@ -48,24 +50,35 @@ impl DesignReport {
     }
 }
 
+/// The key of a parameter in JSON: the last word of its name, as the paper's ratios are called.
+#[must_use]
+pub fn key(parameter: Parameter) -> String {
+    match parameter {
+        Parameter::StopStiffness => "stiffness".to_owned(),
+        Parameter::Suspension => "suspension_stiffness".to_owned(),
+        Parameter::Frequency => "frequency".to_owned(),
+        other => other.name().replace('.', "_"),
+    }
+}
+
 /// Distance in s within which a design stands at the end of the allowed window.
 const AT_MARGIN: f64 = 1e-9;
 
 fn at_limits(problem: &Problem, design: &Design) -> Vec<String> {
-    let ends = [
-        ("stiffness", problem.stiffness.end(design.ratios.stiffness)),
-        ("clearance", problem.clearance.end(design.ratios.clearance)),
-    ];
-    let mut limits: Vec<String> = ends
-        .into_iter()
-        .filter_map(|(name, end)| Some(format!("{name}: {} bound", end?)))
+    let mut limits: Vec<String> = problem
+        .axes
+        .iter()
+        .filter_map(|axis| {
+            let end = axis.range.end(design.machine.value(axis.parameter)?)?;
+            Some(format!("{}: {end} bound", key(axis.parameter)))
+        })
         .collect();
     if design.place <= problem.margin + AT_MARGIN {
         limits.push("margin from g0".to_owned());
     }
     if design.place >= 1.0 - problem.margin - AT_MARGIN {
         limits.push("margin from s_SN".to_owned());
-    } else if let Some(end) = near_end(problem, design.ratios.frequency) {
+    } else if let Some(end) = near_end(problem, design.frequency()) {
         limits.push(format!("frequency: {end} bound"));
     }
     limits
@@ -84,7 +97,7 @@ fn near_end(problem: &Problem, frequency: f64) -> Option<&'static str> {
     }
 }
 
-/// One of the paper's points.
+/// A motion beside which the design is set.
 #[derive(Debug, Clone, Serialize)]
 pub struct ReferenceReport {
     /// The machine.
@@ -93,18 +106,18 @@ pub struct ReferenceReport {
     /// The motion.
     #[serde(flatten)]
     pub motion: MotionReport,
-    /// Before-impact velocity of the design over that of this point.
+    /// Before-impact velocity of the design over that of this motion.
     pub gain: f64,
 }
 
 impl ReferenceReport {
-    /// The paper's point of this regime beside a design of this velocity.
+    /// A reference beside a design of this velocity.
     #[must_use]
-    pub fn new(regime: Regime, orbit: &Orbit, design_velocity: f64) -> Self {
-        let ratios = regime.ratios();
+    pub fn new(reference: &Reference, design_velocity: f64) -> Self {
+        let Reference { machine, orbit, .. } = reference;
         Self {
-            machine: MachineReport::new(regime, &ratios),
-            motion: MotionReport::new(ratios.frequency, orbit),
+            machine: MachineReport::of(machine),
+            motion: MotionReport::of(machine, orbit),
             gain: design_velocity / orbit.before_impact_velocity(),
         }
     }
@@ -114,11 +127,13 @@ impl ReferenceReport {
 #[derive(Debug, Clone, Serialize)]
 pub struct SearchReport {
     /// Values held and ranges searched, in words.
-    pub bounds: BTreeMap<&'static str, String>,
+    pub bounds: BTreeMap<String, String>,
     /// Seed.
     pub seed: u64,
     /// Zones computed at most.
     pub evaluations: u64,
+    /// Zones that were computed.
+    pub evaluations_used: u64,
 }
 
 /// What `softstop optimize` reports and writes.
@@ -126,7 +141,7 @@ pub struct SearchReport {
 pub struct OptimizeReport {
     /// The solution.
     pub design: DesignReport,
-    /// The paper's points A and B.
+    /// The motions beside it: the paper's points A and B, or the machine as it was given.
     pub reference: BTreeMap<&'static str, ReferenceReport>,
     /// How it was searched.
     pub search: SearchReport,

@@ -1,24 +1,36 @@
 //! The report as a table for people.
 
-use softstop_console::report::{MachineReport, MotionReport};
+use softstop::{Dimension, Machine, Parameter};
 use softstop_console::table::{Row, heading, number, row, table};
+use softstop_dynamics::orbit::Orbit;
 
-use super::{DesignReport, OptimizeReport, ReferenceReport};
+use super::OptimizeReport;
+use crate::design::{Design, Problem};
+use crate::optimize::Reference;
 
-/// The design beside the paper's points, then what holds it back and where the files are.
+/// The design beside its references, then what holds it back and where the files are.
 #[must_use]
-pub fn optimize(report: &OptimizeReport) -> String {
-    let design = &report.design;
+pub fn optimize(
+    report: &OptimizeReport,
+    problem: &Problem,
+    design: &Design,
+    references: &[Reference],
+) -> String {
+    let margin = problem.margin;
+    let name = problem.machine.name.as_deref().unwrap_or("given");
     let title = format!(
-        "Hardest impact of the {} machine, margin M = {} from both ends of the zone",
-        design.machine.regime.name(),
-        design.margin
+        "Hardest impact of the {name} machine, margin M = {margin} from both ends of the zone"
     );
-    let mut text = heading(&title) + &table(&comparison(report));
-    text += "\n";
-    text += &zone_line(design);
-    if !design.at_limits.is_empty() {
-        text += &format!("Held back by: {}.\n", design.at_limits.join(", "));
+    let found = &report.design;
+    let mut text = heading(&title) + &table(&comparison(problem, design, references));
+    text += &format!(
+        "\nZone of the design: g0 = {} to s_SN = {}; the design stands at s = {} of it.\n",
+        number(found.frequency_g0),
+        number(found.frequency_sn),
+        number(found.s),
+    );
+    if !found.at_limits.is_empty() {
+        text += &format!("Held back by: {}.\n", found.at_limits.join(", "));
     }
     for (kind, path) in &report.files {
         text += &format!("Written: {path} ({kind})\n");
@@ -26,70 +38,68 @@ pub fn optimize(report: &OptimizeReport) -> String {
     text
 }
 
-fn zone_line(design: &DesignReport) -> String {
-    format!(
-        "Zone of the design: g0 = {} to s_SN = {}; the design stands at s = {} of it.\n",
-        number(design.frequency_g0),
-        number(design.frequency_sn),
-        number(design.s),
-    )
-}
-
-fn comparison(report: &OptimizeReport) -> Vec<Row> {
-    let references: Vec<(&str, &ReferenceReport)> = report
-        .reference
-        .iter()
-        .map(|(name, point)| (*name, point))
-        .collect();
-    let mut names = vec!["design".to_owned()];
-    names.extend(
-        references
-            .iter()
-            .map(|(name, point)| format!("{name} ({})", point.machine.regime.name())),
-    );
-    let mut gains = vec![String::new()];
-    gains.extend(
-        references
-            .iter()
-            .map(|(_, point)| format!("{:.4} x", point.gain)),
-    );
-
-    let design = &report.design;
-    let mut columns = vec![(&design.machine, &design.motion)];
-    columns.extend(
-        references
-            .iter()
-            .map(|(_, point)| (&point.machine, &point.motion)),
-    );
-    let line = |label: &str, value: fn(&MachineReport, &MotionReport) -> f64| {
-        row(
-            label,
-            columns
-                .iter()
-                .map(|(machine, motion)| number(value(machine, motion))),
-        )
+fn comparison(problem: &Problem, design: &Design, references: &[Reference]) -> Vec<Row> {
+    let machine = &design.machine;
+    let mut columns = vec![(machine, &design.orbit)];
+    columns.extend(references.iter().map(|it| (&it.machine, &it.orbit)));
+    let line = |label: &str, value: &dyn Fn(&Machine, &Orbit) -> f64| {
+        let cells = columns.iter().map(|(machine, orbit)| value(machine, orbit));
+        row(label, cells.map(number))
     };
-    vec![
-        (String::new(), names),
-        line("before-impact velocity X'-", |_, motion| {
-            motion.before_impact_velocity
+    let parameter = |it: Parameter| {
+        line(&machine.label_of(it), &|machine: &Machine, _: &Orbit| {
+            machine.value(it).unwrap_or(f64::NAN)
+        })
+    };
+    let velocity = |what, symbol| machine.label(what, symbol, Dimension::Velocity);
+    let length = |what, symbol| machine.label(what, symbol, Dimension::Length);
+    let names = references
+        .iter()
+        .map(|it| match it.machine.name.as_deref() {
+            Some(name) if name != it.name => format!("{} ({name})", it.name),
+            _ => it.name.to_owned(),
+        });
+    let best = design.before_impact_velocity();
+    let gains = references
+        .iter()
+        .map(|it| format!("{:.4} x", best / it.orbit.before_impact_velocity()));
+    let mut rows = vec![
+        row("", ["design".to_owned()].into_iter().chain(names)),
+        line(&velocity("before-impact velocity", "X'-"), &|_, orbit| {
+            orbit.before_impact_velocity()
         }),
-        ("  design over this point".to_owned(), gains),
-        line("stiffness k4/k1", |machine, _| machine.stiffness),
-        line("preload Fp/F0", |machine, _| machine.preload),
-        line("clearance rho", |machine, _| machine.clearance),
-        line("drive frequency eta", |_, motion| motion.frequency),
-        line("greatest position X_m", |_, motion| motion.max_position),
-        line("position X at drive angle 0", |_, motion| motion.position),
-        line("velocity X' at drive angle 0", |_, motion| motion.velocity),
-        line("largest multiplier |mu|", |_, motion| largest(motion)),
-    ]
+        row(
+            "  design over this one",
+            [String::new()].into_iter().chain(gains),
+        ),
+    ];
+    let searched = problem.axes.iter().map(|axis| axis.parameter);
+    rows.extend(searched.map(parameter));
+    let preload = machine
+        .value(Parameter::Preload)
+        .map(|_| Parameter::Preload);
+    rows.extend(
+        preload
+            .into_iter()
+            .chain([Parameter::Frequency])
+            .map(parameter),
+    );
+    rows.extend([
+        line(&length("greatest position", "X_m"), &|_, orbit| {
+            orbit.max_position
+        }),
+        line(&length("position at drive angle 0", "X"), &|_, orbit| {
+            orbit.position
+        }),
+        line(&velocity("velocity at drive angle 0", "X'"), &|_, orbit| {
+            orbit.velocity
+        }),
+        line("largest multiplier |mu|", &|_, orbit| largest(orbit)),
+    ]);
+    rows
 }
 
-fn largest(motion: &MotionReport) -> f64 {
-    motion
-        .multipliers
-        .iter()
-        .map(|multiplier| multiplier.modulus)
-        .fold(0.0, f64::max)
+fn largest(orbit: &Orbit) -> f64 {
+    let moduli = orbit.multipliers().map(|multiplier| multiplier.norm());
+    moduli.into_iter().fold(0.0, f64::max)
 }
