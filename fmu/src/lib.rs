@@ -1,33 +1,43 @@
-//! The impact oscillator as an FMI 2.0 co-simulation unit, and the packager that writes it.
+//! The impact oscillator as an FMI 2.0 co-simulation unit.
 //!
-//! One table ([`variables`]) says what the unit offers: value references, names, units, ranges and
-//! how each value is read. The XML ([`model_description`]), the documentation and the C functions
-//! all follow from it. [`Instance`] is one running unit in safe Rust; the module `ffi` puts the C
-//! functions of the standard around it and is, with the block of start values, the only unsafe
-//! code.
+//! One table (`table`) says what the unit offers: value references, names, units, ranges and how each
+//! value is read; [`StartValues`] are scenes in other words, and [`Machine`] is the motion. All else,
+//! the XML, the package and the C functions, is `softstop-fmi`'s.
 
-mod blob;
-mod derivatives;
-mod document;
-mod error;
-pub mod ffi;
-mod guid;
-mod instance;
-mod log;
-pub mod model_description;
-pub mod package;
-mod sensitivity;
-mod settings;
-pub mod start;
-mod status;
-mod step;
-pub mod units;
-mod values;
-pub mod variables;
+mod machine;
+mod start;
+mod table;
+mod unit;
+mod units;
 
-pub use error::Fault;
-pub use guid::{guid_of, library_guid};
-pub use instance::{Instance, Lifecycle};
-pub use start::{NotServed, Slot, StartValues, library_start_values};
-pub use status::Status;
-pub use step::StepReport;
+pub use machine::Machine;
+use softstop::tangent::Sensitivity;
+use softstop_fmi::Unit;
+pub use softstop_fmi::{description, guid_of, package};
+pub use start::{NotServed, StartValues, slot};
+
+/// The C functions of the standard.
+pub mod ffi {
+    softstop_fmi::export!(crate::Machine);
+}
+
+/// Name, description and start values of an FMU.
+pub type Imprint = softstop_fmi::Imprint<Machine>;
+
+/// All variables.
+pub fn table() -> &'static softstop_fmi::Table<Machine, Sensitivity> {
+    &Machine::about().table
+}
+
+/// The GUID of this very library, or nothing if its description cannot be written.
+pub fn library_guid() -> Option<String> {
+    softstop_fmi::library_guid::<Machine>()
+}
+
+/// Finds the library that was built along with the running program.
+///
+/// # Errors
+/// If it is not there.
+pub fn find_library() -> Result<std::path::PathBuf, package::PackageError> {
+    package::find_library("softstop_fmu")
+}

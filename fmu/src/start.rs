@@ -1,23 +1,19 @@
-//! Start values of the parameters, and the block in the library that holds them.
-//!
-//! A packaged design must start with its own values even if the importer sets none and passes no
-//! resource folder. So the library carries them in one block of plain bytes behind a marker, and
-//! the packager patches these bytes in the copy that it packs.
+//! Start values of parameters and discrete inputs.
 
-mod block;
 mod scene;
-mod slot;
+pub mod slot;
 
 use softstop::samples;
+use softstop_fmi::Imprint;
+use softstop_fmi::variable::Slot;
 
-use crate::units::{RELEASE_CLEARANCE, STOP_PRELOADED};
+use crate::machine::Machine;
+use crate::units::number;
 
-pub use block::library_start_values;
-pub(crate) use block::marker;
 pub use scene::NotServed;
-pub use slot::{SLOPES, SLOTS, Slot};
+pub use slot::SLOTS;
 
-/// One value for each parameter; an enumeration is held as its number, true as 1.
+/// One value for each parameter and discrete input; an enumeration is held as its number, true as 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StartValues([f64; SLOTS]);
 
@@ -28,7 +24,7 @@ impl StartValues {
 
     /// The value of one parameter.
     pub const fn get(&self, slot: Slot) -> f64 {
-        self.0[slot.position()]
+        self.0[slot.0]
     }
 
     /// The value of an integer, enumeration or Boolean.
@@ -38,7 +34,7 @@ impl StartValues {
 
     /// Puts in the value of one parameter.
     pub const fn set(&mut self, slot: Slot, value: f64) {
-        self.0[slot.position()] = value;
+        self.0[slot.0] = value;
     }
 
     /// [`samples::LOADED`] with m = 1 kg, k1 = 1 N/m and F0 = 1 N, so that SI units and the paper's
@@ -47,54 +43,58 @@ impl StartValues {
         let sample = samples::LOADED;
         let ratios = sample.ratios;
         let mut values = Self([0.0; SLOTS]);
-        values.set(Slot::MASS, 1.0);
-        values.set(Slot::STIFFNESS, 1.0);
-        values.set(Slot::DAMPING, 2.0 * ratios.damping);
-        values.set(Slot::AMPLITUDE, 1.0);
-        values.set(Slot::FREQUENCY, ratios.frequency);
-        values.set(Slot::CLEARANCE, ratios.clearance);
-        values.set(Slot::CONTACT_DAMPING, 2.0 * ratios.contact_damping);
+        values.set(slot::MASS, 1.0);
+        values.set(slot::STIFFNESS, 1.0);
+        values.set(slot::DAMPING, 2.0 * ratios.damping);
+        values.set(slot::AMPLITUDE, 1.0);
+        values.set(slot::FREQUENCY, ratios.frequency);
+        values.set(slot::CLEARANCE, ratios.clearance);
+        values.set(slot::CONTACT_DAMPING, 2.0 * ratios.contact_damping);
         values.set_default_stops(ratios.stiffness, ratios.preload);
         if let Some(strip) = ratios.piercing {
-            values.set(Slot::PIERCING_STIFFNESS, strip.stiffness);
-            values.set(Slot::PIERCING_FRICTION, strip.friction);
-            values.set(Slot::PIERCING_THICKNESS, strip.thickness);
-            values.set(Slot::PIERCING_TRAVEL, strip.travel);
+            values.set(slot::PIERCING_STIFFNESS, strip.stiffness);
+            values.set(slot::PIERCING_FRICTION, strip.friction);
+            values.set(slot::PIERCING_THICKNESS, strip.thickness);
+            values.set(slot::PIERCING_TRAVEL, strip.travel);
         }
-        values.set(Slot::INITIAL_POSITION, sample.position);
-        values.set(Slot::INITIAL_VELOCITY, sample.velocity);
+        values.set(slot::INITIAL_POSITION, sample.position);
+        values.set(slot::INITIAL_VELOCITY, sample.velocity);
+        values.set(slot::MATERIAL, 1.0);
         values
     }
 
     const fn set_default_stops(&mut self, stiffness: f64, preload: f64) {
-        self.set(Slot::STOP_MODEL, STOP_PRELOADED as f64);
-        self.set(Slot::STOP_STIFFNESS, stiffness);
-        self.set(Slot::STOP_PRELOAD, preload);
-        self.set(Slot::STOP_RELEASE, RELEASE_CLEARANCE as f64);
-        self.set(Slot::STOP_EXPONENT, 1.5);
-        self.set(Slot::STOP_RESTITUTION, 0.6);
-        self.set(Slot::LOADING_COUNT, 1.0);
-        self.set(Slot::LOADING_STIFFNESS, stiffness);
-        self.set(Slot::UNLOADING_STIFFNESS, stiffness);
-        self.set(Slot::RIGID_PRESENT, 1.0);
-        self.set(Slot::RIGID_TRAVEL, 5.0);
+        self.set(slot::STOP_MODEL, number::PRELOADED as f64);
+        self.set(slot::STOP_STIFFNESS, stiffness);
+        self.set(slot::STOP_PRELOAD, preload);
+        self.set(slot::STOP_RELEASE, number::CLEARANCE as f64);
+        self.set(slot::STOP_EXPONENT, 1.5);
+        self.set(slot::STOP_RESTITUTION, 0.6);
+        self.set(slot::LOADING_COUNT, 1.0);
+        self.set(slot::LOADING_STIFFNESS, stiffness);
+        self.set(slot::UNLOADING_STIFFNESS, stiffness);
+        self.set(slot::RIGID_PRESENT, 1.0);
+        self.set(slot::RIGID_TRAVEL, 5.0);
     }
 
     /// The values in the order of their slots.
-    pub(crate) const fn values(&self) -> &[f64; SLOTS] {
+    pub const fn values(&self) -> &[f64; SLOTS] {
         &self.0
     }
 
-    pub(crate) const fn from_values(values: [f64; SLOTS]) -> Self {
-        Self(values)
+    /// Values in the order of their slots; those that are missing keep their defaults.
+    pub fn of(values: &[f64]) -> Self {
+        let mut all = Self::DEFAULT;
+        for (value, given) in all.0.iter_mut().zip(values) {
+            *value = *given;
+        }
+        all
     }
+}
 
-    /// The bytes that stand behind the marker.
-    pub(crate) fn to_bytes(self) -> Vec<u8> {
-        self.0
-            .iter()
-            .flat_map(|value| value.to_le_bytes())
-            .collect()
+impl From<StartValues> for Imprint<Machine> {
+    fn from(values: StartValues) -> Self {
+        Self::new(values.values())
     }
 }
 

@@ -1,24 +1,11 @@
 //! Units, with their base units, and the named types of the variables.
 
-/// A physical quantity: the named type, its unit and how that unit is made of base units.
-#[derive(Debug, PartialEq)]
-pub struct Quantity {
-    /// Name of the type in `TypeDefinitions`.
-    pub type_name: &'static str,
-    /// Physical quantity, as `quantity` of the type.
-    pub quantity: &'static str,
-    /// Name of the unit.
-    pub unit: &'static str,
-    /// Exponents of the base units: (name, exponent).
-    pub base: &'static [(&'static str, i32)],
-    /// Further units to show values in: (name, factor), shown value = factor * value.
-    pub display: &'static [(&'static str, f64)],
-}
+use softstop_fmi::{Enumeration, Quantity, item};
 
 macro_rules! quantities {
     ($($(#[$doc:meta])* $id:ident = $type_name:literal, $quantity:literal, $unit:literal,
         $base:expr, $display:expr;)*) => {
-        $($(#[$doc])* pub static $id: Quantity = Quantity {
+        $($(#[$doc])* pub(crate) static $id: Quantity = Quantity {
             type_name: $type_name,
             quantity: $quantity,
             unit: $unit,
@@ -26,7 +13,7 @@ macro_rules! quantities {
             display: &$display,
         };)*
         /// All quantities in use, each with a unit of its own.
-        pub static QUANTITIES: &[&Quantity] = &[$(&$id),*];
+        pub(crate) static QUANTITIES: &[&Quantity] = &[$(&$id),*];
     };
 }
 
@@ -59,138 +46,62 @@ quantities! {
     ENERGY = "Energy", "Energy", "J", [("kg", 1), ("m", 2), ("s", -2)], [];
 }
 
-/// One item of an enumeration.
-#[derive(Debug, PartialEq)]
-pub struct Item {
-    /// Value by which importers set and read it.
-    pub value: i32,
-    /// Name.
-    pub name: &'static str,
-    /// What it means.
-    pub description: &'static str,
-}
+/// Numbers of `stop.model` and `stop.release`.
+pub(crate) mod number {
+    pub(crate) const NONE: i32 = 1;
+    pub(crate) const KELVIN_VOIGT: i32 = 2;
+    pub(crate) const PIECEWISE_LINEAR: i32 = 3;
+    pub(crate) const HERTZ: i32 = 4;
+    pub(crate) const PRELOADED: i32 = 5;
+    pub(crate) const RIGID: i32 = 6;
 
-/// An enumeration type.
-#[derive(Debug, PartialEq)]
-pub struct Enumeration {
-    /// Name of the type in `TypeDefinitions`.
-    pub type_name: &'static str,
-    /// What the type is about.
-    pub description: &'static str,
-    /// Its items.
-    pub items: &'static [Item],
+    pub(crate) const CLEARANCE: i32 = 1;
+    pub(crate) const ZERO_FORCE: i32 = 2;
 }
-
-const fn item(value: i32, name: &'static str, description: &'static str) -> Item {
-    Item {
-        value,
-        name,
-        description,
-    }
-}
-
-/// `stop.model` without a stop.
-pub const STOP_NONE: i32 = 1;
-/// `stop.model` of the Kelvin-Voigt stop.
-pub const STOP_KELVIN_VOIGT: i32 = 2;
-/// `stop.model` of the piecewise linear stop.
-pub const STOP_PIECEWISE_LINEAR: i32 = 3;
-/// `stop.model` of the Hertz stop.
-pub const STOP_HERTZ: i32 = 4;
-/// `stop.model` of the preloaded stop.
-pub const STOP_PRELOADED: i32 = 5;
-/// `stop.model` of the rigid stop.
-pub const STOP_RIGID: i32 = 6;
 
 /// The type of `stop.model`; d is the deflection from the stop's face, v the velocity.
-pub static STOP_MODEL: Enumeration = Enumeration {
+#[rustfmt::skip]
+pub(crate) static STOP_MODEL: Enumeration = Enumeration {
     type_name: "StopModel",
     description: "Force law of the stop",
     items: &[
-        item(STOP_NONE, "none", "no stop"),
-        item(
-            STOP_KELVIN_VOIGT,
-            "kelvinVoigt",
-            "spring stop.stiffness * d beside the damper contact.damping",
-        ),
-        item(
-            STOP_PIECEWISE_LINEAR,
-            "piecewiseLinear",
-            "chain of the slopes stop.loading, on the way back of the slopes stop.unloading",
-        ),
-        item(
-            STOP_HERTZ,
-            "hertz",
-            "stop.stiffness * d^stop.exponent * max(0, 1 + stop.dissipation * v)",
-        ),
-        item(
-            STOP_PRELOADED,
-            "preloaded",
-            "linear spring that is preloaded against its seat: the force jumps to the preload at first touch",
-        ),
-        item(
-            STOP_RIGID,
-            "rigid",
-            "gives way nowhere: the mass leaves with -stop.restitution times its velocity",
-        ),
+        item(number::NONE, "none", "no stop"),
+        item(number::KELVIN_VOIGT, "kelvinVoigt", "spring stop.stiffness * d beside the damper contact.damping"),
+        item(number::PIECEWISE_LINEAR, "piecewiseLinear", "chain of the slopes stop.loading, on the way back of the slopes stop.unloading"),
+        item(number::HERTZ, "hertz", "stop.stiffness * d^stop.exponent * max(0, 1 + stop.dissipation * v)"),
+        item(number::PRELOADED, "preloaded", "linear spring that is preloaded against its seat: the force jumps to the preload at first touch"),
+        item(number::RIGID, "rigid", "gives way nowhere: the mass leaves with -stop.restitution times its velocity"),
     ],
 };
 
-/// `stop.release` at the face of the stop.
-pub const RELEASE_CLEARANCE: i32 = 1;
-/// `stop.release` where contact would begin to pull.
-pub const RELEASE_ZERO_FORCE: i32 = 2;
-
 /// The type of `stop.release`.
-pub static RELEASE: Enumeration = Enumeration {
+#[rustfmt::skip]
+pub(crate) static RELEASE: Enumeration = Enumeration {
     type_name: "StopRelease",
     description: "Where a Kelvin-Voigt stop lets go of a mass that moves back",
     items: &[
-        item(
-            RELEASE_CLEARANCE,
-            "clearance",
-            "at the face of the stop: before, the damper may pull",
-        ),
-        item(
-            RELEASE_ZERO_FORCE,
-            "zeroForce",
-            "where spring and damper together cease to press: contact never pulls",
-        ),
+        item(number::CLEARANCE, "clearance", "at the face of the stop: before, the damper may pull"),
+        item(number::ZERO_FORCE, "zeroForce", "where spring and damper together cease to press: contact never pulls"),
     ],
 };
 
 /// The type of `phase`.
-pub static PHASE: Enumeration = Enumeration {
+#[rustfmt::skip]
+pub(crate) static PHASE: Enumeration = Enumeration {
     type_name: "Phase",
     description: "Law that the mass moves under",
     items: &[
         item(1, "free", "no contact"),
         item(2, "pierce", "phase I: the strip is pressed and cut into"),
         item(3, "cut", "phase II: travel through the cut strip"),
-        item(
-            4,
-            "gap",
-            "beyond the clearance without a strip, before the stop",
-        ),
+        item(4, "gap", "beyond the clearance without a strip, before the stop"),
         item(5, "stop", "contact with the stop"),
         item(6, "stuck", "held at rest by dry friction"),
-        item(
-            7,
-            "resting",
-            "held at rest at the face of a preloaded or rigid stop",
-        ),
-        item(
-            8,
-            "released",
-            "beyond the face of the stop, where the stop would have to pull",
-        ),
-        item(
-            9,
-            "chatter",
-            "ever faster bounces on a rigid stop that end in rest after a finite time",
-        ),
+        item(7, "resting", "held at rest at the face of a preloaded or rigid stop"),
+        item(8, "released", "beyond the face of the stop, where the stop would have to pull"),
+        item(9, "chatter", "ever faster bounces on a rigid stop that end in rest after a finite time"),
     ],
 };
 
 /// All enumeration types.
-pub static ENUMERATIONS: &[&Enumeration] = &[&STOP_MODEL, &RELEASE, &PHASE];
+pub(crate) static ENUMERATIONS: &[&Enumeration] = &[&STOP_MODEL, &RELEASE, &PHASE];

@@ -20,8 +20,8 @@ type Kind<T> = unsafe extern "C" fn(Component, c_int, *mut T) -> Status;
 
 #[test]
 fn functions_have_the_types_of_the_standard() {
-    let _: extern "C" fn() -> Text = fmi2GetTypesPlatform;
-    let _: extern "C" fn() -> Text = fmi2GetVersion;
+    let _: unsafe extern "C" fn() -> Text = fmi2GetTypesPlatform;
+    let _: unsafe extern "C" fn() -> Text = fmi2GetVersion;
     let _: unsafe extern "C" fn(Component, c_int, usize, *const Text) -> Status =
         fmi2SetDebugLogging;
     let _: unsafe extern "C" fn(

@@ -26,6 +26,7 @@ fn a_life_without_faults() {
 #[test]
 fn refused_instances() {
     let guid = library_guid();
+    let guid = guid.as_deref();
     for (name, kind, given, word) in [
         (None, 1, guid, "instanceName"),
         (Some(""), 1, guid, "instanceName"),

@@ -14,8 +14,8 @@ use object::endian::Endianness;
 use object::read::elf::{ElfFile64, FileHeader, SectionHeader};
 use object::read::macho::{FatArch, MachOFatFile32};
 use object::{File, Object};
-use softstop_fmu::StartValues;
 use softstop_fmu::package::{self, Library};
+use softstop_fmu::{Imprint, find_library};
 
 const DEFINITION: &str = include_str!("../softstop.def");
 
@@ -52,9 +52,9 @@ fn fmu() -> (Vec<u8>, bool) {
             true,
         );
     }
-    let path = package::find_library().expect("the library that was built with this test");
+    let path = find_library().expect("the library that was built with this test");
     let library = Library::read(&path).expect("a readable library");
-    let archive = package::archive(&StartValues::DEFAULT, &[library]).expect("an archive");
+    let archive = package::archive(&Imprint::library(), &[library]).expect("an archive");
     (archive, false)
 }
 
@@ -224,7 +224,7 @@ fn start_values_are_those_of_the_description() {
             platform: library.platform,
             bytes: library.bytes.clone(),
         };
-        let archive = package::archive(&StartValues::DEFAULT, &[again]).expect("an archive");
+        let archive = package::archive(&Imprint::library(), &[again]).expect("an archive");
         let [packed] = &libraries(&archive)[..] else {
             panic!("one library");
         };

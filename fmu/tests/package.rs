@@ -12,11 +12,10 @@ use std::ptr;
 
 use softstop::{Scene, Start};
 use softstop_fmu::package::{self, Library, PackageError};
-use softstop_fmu::variables::by_name;
-use softstop_fmu::{StartValues, guid_of, library_guid, library_start_values, model_description};
+use softstop_fmu::{Imprint, StartValues, description, find_library, guid_of, library_guid, table};
 
 fn library() -> Library {
-    let path = package::find_library().expect("the library that was built with this test");
+    let path = find_library().expect("the library that was built with this test");
     Library::read(&path).expect("a readable library")
 }
 
@@ -46,32 +45,62 @@ fn entry(archive: &[u8], name: &str) -> Vec<u8> {
 fn top_level_description_is_up_to_date() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../modelDescription.xml");
     let kept = fs::read_to_string(path).expect("modelDescription.xml at the top level");
-    let start = StartValues::DEFAULT;
-    let guid = guid_of(&start).expect("a GUID");
-    let written = model_description::write(&start, &guid).expect("XML");
+    let imprint = Imprint::from(StartValues::DEFAULT);
+    let guid = guid_of(&imprint).expect("a GUID");
+    let written = description::write(&imprint, &guid).expect("XML");
     assert!(
         kept == written,
         "modelDescription.xml is not up to date: run cargo xtask xml"
     );
 }
 
+fn other_imprint() -> Imprint {
+    let (scene, start) = other_design();
+    let values = StartValues::from_scene(&scene, start).expect("a scene it serves");
+    let named = Imprint::from(values).named("Press <3>");
+    let named = named.and_then(|imprint| imprint.described("A press & its strip"));
+    named.expect("a name and a description")
+}
+
 #[test]
 fn library_and_description_agree() {
-    assert_eq!(library_start_values(), StartValues::DEFAULT);
-    let guid = guid_of(&StartValues::DEFAULT).expect("a GUID");
-    assert_eq!(library_guid(), Some(guid.as_str()));
+    let library = Imprint::library();
+    assert_eq!(library.values(), StartValues::DEFAULT.values());
+    assert_eq!(library.name(), "softstop");
+    let guid = guid_of(&library).expect("a GUID");
+    assert_eq!(library_guid(), Some(guid.clone()));
     let (scene, start) = other_design();
-    let other = guid_of(&StartValues::from_scene(&scene, start).expect("a scene it serves"))
-        .expect("a GUID");
-    assert_ne!(guid, other);
+    let other = StartValues::from_scene(&scene, start).expect("a scene it serves");
+    let named = library.named("other").expect("a name");
+    let described = Imprint::library()
+        .described("other")
+        .expect("a description");
+    for other in [other.into(), named, described] {
+        assert_ne!(guid_of(&other).expect("a GUID"), guid);
+    }
+}
+
+#[test]
+fn names_that_no_description_can_have() {
+    let long = "x".repeat(65);
+    for name in ["", "two\nlines", "nul\0", &long] {
+        let error = Imprint::library().named(name).expect_err("refused");
+        assert!(error.to_string().contains("1 to 64 bytes"), "{error}");
+    }
+    let longer = "ü".repeat(129);
+    let error = Imprint::library().described(&longer).expect_err("refused");
+    assert!(error.to_string().contains("1 to 256 bytes"), "{error}");
+    let whole = Imprint::library()
+        .named(&long[1..])
+        .expect("as long as can be");
+    assert_eq!(whole.file_name(), format!("{}.fmu", &long[1..]));
+    assert_eq!(other_imprint().file_name(), "Press__3_.fmu");
 }
 
 #[test]
 fn archive_is_the_same_each_time() {
-    let start = StartValues::DEFAULT;
-    let first = package::archive(&start, &[library()]).expect("an archive");
-    let second = package::archive(&start, &[library()]).expect("an archive");
-    assert!(first == second);
+    let archive = || package::archive(&Imprint::library(), &[library()]).expect("an archive");
+    assert!(archive() == archive());
 }
 
 type Instantiate = unsafe extern "C" fn(
@@ -87,14 +116,20 @@ type Free = unsafe extern "C" fn(*mut c_void);
 type GetReal = unsafe extern "C" fn(*mut c_void, *const c_uint, usize, *mut f64) -> c_int;
 
 #[test]
-fn packed_library_starts_with_its_own_values() {
-    let (scene, start) = other_design();
-    let values = StartValues::from_scene(&scene, start).expect("a scene it serves");
-    let archive = package::archive(&values, &[library()]).expect("an archive");
-    let guid = guid_of(&values).expect("a GUID");
+fn packed_library_has_its_own_name_and_values() {
+    let imprint = other_imprint();
+    let archive = package::archive(&imprint, &[library()]).expect("an archive");
+    let guid = guid_of(&imprint).expect("a GUID");
     let xml = String::from_utf8(entry(&archive, "modelDescription.xml")).expect("UTF-8");
     assert!(xml.contains(&format!("guid=\"{guid}\"")));
     assert!(xml.contains("start=\"7.25\""));
+    assert!(
+        xml.contains("modelName=\"Press &lt;3&gt;\"")
+            && xml.contains("modelIdentifier=\"softstop\"")
+    );
+    assert!(xml.contains("description=\"A press &amp; its strip\""));
+    let page = String::from_utf8(entry(&archive, "documentation/index.html")).expect("UTF-8");
+    assert!(page.contains("<title>Press &lt;3&gt;</title>"));
 
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder
@@ -103,7 +138,7 @@ fn packed_library_starts_with_its_own_values() {
     let suffix = std::env::consts::DLL_EXTENSION;
     let name = format!("binaries/{}/softstop.{suffix}", package::HOST_PLATFORM);
     fs::write(&path, entry(&archive, &name)).expect("a written library");
-    let guids = [guid.as_str(), library_guid().expect("a GUID")];
+    let guids = [guid, library_guid().expect("a GUID")];
     let guids = guids.map(|guid| CString::new(guid).expect("no NUL"));
     // SAFETY: the library is ours, and the types are those of the standard (see abi.rs).
     unsafe {
@@ -135,7 +170,7 @@ fn packed_library_starts_with_its_own_values() {
             "initial.velocity",
             "piercing.travel",
         ];
-        let references = names.map(|name| by_name(name).expect("a variable").reference);
+        let references = names.map(|name| table().by_name(name).expect("a variable").reference);
         let mut read = [f64::NAN; 4];
         assert_eq!(get_real(own, references.as_ptr(), 4, read.as_mut_ptr()), 0);
         assert_eq!(read, [7.25, 1.31, -2.25, 0.0]);
@@ -147,7 +182,7 @@ fn packed_library_starts_with_its_own_values() {
 fn the_file_appears_whole_or_not_at_all() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("design.fmu");
-    package::write(&path, &StartValues::DEFAULT, &[library()]).expect("a written file");
+    package::write(&path, &Imprint::library(), &[library()]).expect("a written file");
     let names: Vec<_> = fs::read_dir(folder.path())
         .expect("a readable folder")
         .map(|entry| entry.expect("an entry").file_name())
@@ -156,7 +191,7 @@ fn the_file_appears_whole_or_not_at_all() {
 
     let nowhere = folder.path().join("missing").join("design.fmu");
     let error =
-        package::write(&nowhere, &StartValues::DEFAULT, &[library()]).expect_err("no such folder");
+        package::write(&nowhere, &Imprint::library(), &[library()]).expect_err("no such folder");
     assert!(error.to_string().contains("design.fmu"), "{error}");
     assert!(matches!(error, PackageError::File { .. }));
 }
@@ -167,8 +202,8 @@ fn foreign_libraries_are_refused() {
         platform: "win64".to_owned(),
         bytes: vec![0; 4096],
     };
-    let error = package::archive(&StartValues::DEFAULT, &[foreign]).expect_err("no start block");
+    let error = package::archive(&Imprint::library(), &[foreign]).expect_err("no start block");
     assert!(error.to_string().contains("win64"), "{error}");
-    let none = package::archive(&StartValues::DEFAULT, &[]).expect_err("no library");
+    let none = package::archive(&Imprint::library(), &[]).expect_err("no library");
     assert!(matches!(none, PackageError::NoLibrary));
 }

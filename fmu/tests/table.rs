@@ -1,59 +1,56 @@
 //! The table of variables.
 
-use softstop_fmu::StartValues;
-use softstop_fmu::variables::{Access, Kind, VARIABLES, by_reference, rows_of};
+use softstop_fmi::variable::Kind;
+use softstop_fmu::{StartValues, slot, table};
 
 #[test]
 fn the_table_is_sound() {
-    for variable in VARIABLES {
+    for variable in table().rows() {
         let name = variable.name;
-        let same = VARIABLES.iter().filter(|other| other.name == name).count();
+        let same = table().rows().filter(|other| other.name == name).count();
         assert_eq!(same, 1, "{name}");
-        let found = by_reference(variable.reference).expect("found by reference");
+        let found = table()
+            .by_reference(variable.reference)
+            .expect("found by reference");
         assert_eq!(found.name, name);
         let dependencies = variable.dependencies();
         for known in dependencies
             .iter()
             .flat_map(|d| d.inputs.iter().chain(d.initial))
         {
-            assert!(rows_of(known).count() > 0, "{name} depends on {known}");
-            assert!(rows_of(known).all(|row| !VARIABLES[row].is_output()));
+            assert!(
+                table().rows_of(known).count() > 0,
+                "{name} depends on {known}"
+            );
+            assert!(table().rows_of(known).all(|(_, row)| !row.is_output()));
         }
     }
 }
 
 #[test]
 fn defaults_lie_in_their_ranges() {
-    for variable in VARIABLES {
-        let Access::Parameter { slot, .. } = variable.access else {
+    for variable in table().rows() {
+        let Some(slot) = variable.slot() else {
             continue;
         };
-        let (value, number) = (
-            StartValues::DEFAULT.get(slot),
-            StartValues::DEFAULT.number(slot),
-        );
+        let value = StartValues::DEFAULT.get(slot);
         let fits = match variable.kind {
-            Kind::Real(kind) => kind.contains(value),
-            Kind::Count { min, max } => number >= min && max.is_none_or(|max| number <= max),
-            Kind::Boolean => number == 0 || number == 1,
-            Kind::Enumeration(items) => items.items.iter().any(|item| item.value == number),
+            Kind::Boolean => value == 0.0 || value == 1.0,
+            kind => kind.contains(value),
         };
         assert!(fits, "{}", variable.name);
     }
 }
 
 #[test]
-fn each_parameter_has_a_slot_of_its_own() {
-    let slots: Vec<_> = VARIABLES
-        .iter()
-        .filter_map(|variable| match variable.access {
-            Access::Parameter { slot, .. } => Some(slot),
-            _ => None,
-        })
-        .collect();
-    assert_eq!(slots.len(), softstop_fmu::start::SLOTS);
+fn each_value_has_a_slot_of_its_own() {
+    let slots: Vec<_> = table().rows().filter_map(|row| row.slot()).collect();
+    assert_eq!(slots.len(), slot::SLOTS);
     for (index, slot) in slots.iter().enumerate() {
-        assert!(!slots[..index].contains(slot), "{}", VARIABLES[index].name);
+        assert!(
+            slot.0 < slot::SLOTS && !slots[..index].contains(slot),
+            "{slot:?}"
+        );
     }
 }
 
@@ -66,7 +63,7 @@ fn rows_stand_depth_first() {
     };
     let mut left = Vec::<String>::new();
     let mut present = Vec::<String>::new();
-    for variable in VARIABLES {
+    for variable in table().rows() {
         let next = branches(variable.name);
         left.extend(
             present
@@ -89,7 +86,7 @@ fn elements_are_numbered_from_one() {
         "stop.unloading.from",
         "stop.unloading.stiffness",
     ] {
-        let names: Vec<_> = rows_of(name).map(|row| VARIABLES[row].name).collect();
+        let names: Vec<_> = table().rows_of(name).map(|(_, row)| row.name).collect();
         let expected: Vec<_> = (1..=8).map(|number| format!("{name}[{number}]")).collect();
         assert_eq!(names, expected);
     }

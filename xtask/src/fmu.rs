@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use softstop_fmu::package::{self, HOST_PLATFORM, Library};
-use softstop_fmu::{StartValues, guid_of, model_description};
+use softstop_fmu::{Imprint, description, guid_of};
 
 use crate::library::{Build, host};
 use crate::run::{cargo_command, stage, top};
@@ -13,8 +13,8 @@ use crate::targets::{TARGETS, Target, Tools};
 
 /// Writes the model description of the default FMU at the top level, if it has changed.
 pub fn write_description() -> Result<()> {
-    let start = StartValues::DEFAULT;
-    let xml = model_description::write(&start, &guid_of(&start)?)?;
+    let imprint = Imprint::library();
+    let xml = description::write(&imprint, &guid_of(&imprint)?)?;
     let path = top().join("modelDescription.xml");
     if fs::read_to_string(&path).is_ok_and(|present| present == xml) {
         println!("{} is up to date", path.display());
@@ -86,7 +86,7 @@ fn host_library() -> Result<Library> {
 
 fn write(libraries: &[Library]) -> Result<PathBuf> {
     let path = top().join("softstop.fmu");
-    package::write(&path, &StartValues::DEFAULT, libraries)?;
+    package::write(&path, &Imprint::library(), libraries)?;
     println!("{} ({} KiB)", path.display(), kilobytes(&path)?);
     Ok(path)
 }

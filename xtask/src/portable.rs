@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
-use softstop_fmu::variables::by_name;
-use softstop_fmu::{StartValues, guid_of};
+use softstop_fmu::{Imprint, guid_of, table};
 
 use crate::run::{output, run, stage, target};
 use crate::targets::{Target, Tools};
@@ -98,10 +97,12 @@ impl Program {
     fn results(&self, mut command: Command) -> Result<Vec<(String, f64)>> {
         command
             .arg(&self.library)
-            .arg(guid_of(&StartValues::DEFAULT)?)
+            .arg(guid_of(&Imprint::library())?)
             .args([STOP_TIME, STEP]);
         for name in OUTPUTS {
-            let variable = by_name(name).with_context(|| format!("no variable {name}"))?;
+            let variable = table()
+                .by_name(name)
+                .with_context(|| format!("no variable {name}"))?;
             command.args([name, &variable.reference.to_string()]);
         }
         output(&mut command)?.lines().map(parse).collect()

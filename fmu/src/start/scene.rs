@@ -2,13 +2,12 @@
 
 use softstop::scene::{Release, RigidStop, Slope};
 use softstop::{Excitation, Piercing, Scene, SceneError, Start, Stop};
+use softstop_fmi::variable::Slot;
 use thiserror::Error;
 
-use super::{SLOPES, Slot, StartValues};
-use crate::units::{
-    RELEASE_CLEARANCE, RELEASE_ZERO_FORCE, STOP_HERTZ, STOP_KELVIN_VOIGT, STOP_NONE,
-    STOP_PIECEWISE_LINEAR, STOP_PRELOADED, STOP_RIGID,
-};
+use super::StartValues;
+use super::slot::{self, SLOPES};
+use crate::units::number;
 
 /// Why a scene has no start values.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -39,16 +38,16 @@ struct Chain {
 
 const LOADING: Chain = Chain {
     name: "stop.loading",
-    count: Slot::LOADING_COUNT,
-    from: Slot::LOADING_FROM,
-    stiffness: Slot::LOADING_STIFFNESS,
+    count: slot::LOADING_COUNT,
+    from: slot::LOADING_FROM,
+    stiffness: slot::LOADING_STIFFNESS,
 };
 
 const UNLOADING: Chain = Chain {
     name: "stop.unloading",
-    count: Slot::UNLOADING_COUNT,
-    from: Slot::UNLOADING_FROM,
-    stiffness: Slot::UNLOADING_STIFFNESS,
+    count: slot::UNLOADING_COUNT,
+    from: slot::UNLOADING_FROM,
+    stiffness: slot::UNLOADING_STIFFNESS,
 };
 
 impl StartValues {
@@ -66,60 +65,60 @@ impl StartValues {
         values.set_stop(&scene.stop)?;
         values.set_rigid(scene)?;
         values.set_strip(scene.piercing);
-        values.set(Slot::INITIAL_POSITION, start.position);
-        values.set(Slot::INITIAL_VELOCITY, start.velocity);
+        values.set(slot::INITIAL_POSITION, start.position);
+        values.set(slot::INITIAL_VELOCITY, start.velocity);
         Ok(values)
     }
 
     fn set_machine(&mut self, scene: &Scene) {
-        self.set(Slot::MASS, scene.mass);
-        self.set(Slot::STIFFNESS, scene.stiffness);
-        self.set(Slot::DAMPING, scene.damping);
-        self.set(Slot::AMPLITUDE, scene.excitation.amplitude);
-        self.set(Slot::FREQUENCY, scene.excitation.frequency);
-        self.set(Slot::DRIVE_PHASE, scene.excitation.phase);
-        self.set(Slot::CLEARANCE, scene.clearance);
-        self.set(Slot::CONTACT_DAMPING, scene.contact_damping);
+        self.set(slot::MASS, scene.mass);
+        self.set(slot::STIFFNESS, scene.stiffness);
+        self.set(slot::DAMPING, scene.damping);
+        self.set(slot::AMPLITUDE, scene.excitation.amplitude);
+        self.set(slot::FREQUENCY, scene.excitation.frequency);
+        self.set(slot::DRIVE_PHASE, scene.excitation.phase);
+        self.set(slot::CLEARANCE, scene.clearance);
+        self.set(slot::CONTACT_DAMPING, scene.contact_damping);
     }
 
     fn set_stop(&mut self, stop: &Stop) -> Result<(), NotServed> {
         let model = match stop {
-            Stop::None => STOP_NONE,
+            Stop::None => number::NONE,
             Stop::KelvinVoigt { stiffness, release } => {
-                self.set(Slot::STOP_STIFFNESS, *stiffness);
+                self.set(slot::STOP_STIFFNESS, *stiffness);
                 let release = match release {
-                    Release::Clearance => RELEASE_CLEARANCE,
-                    Release::ZeroForce => RELEASE_ZERO_FORCE,
+                    Release::Clearance => number::CLEARANCE,
+                    Release::ZeroForce => number::ZERO_FORCE,
                 };
-                self.set(Slot::STOP_RELEASE, f64::from(release));
-                STOP_KELVIN_VOIGT
+                self.set(slot::STOP_RELEASE, f64::from(release));
+                number::KELVIN_VOIGT
             }
             Stop::PiecewiseLinear { loading, unloading } => {
                 self.set_slopes(&LOADING, loading)?;
                 self.set_slopes(&UNLOADING, unloading)?;
-                STOP_PIECEWISE_LINEAR
+                number::PIECEWISE_LINEAR
             }
             Stop::Hertz {
                 stiffness,
                 exponent,
                 dissipation,
             } => {
-                self.set(Slot::STOP_STIFFNESS, *stiffness);
-                self.set(Slot::STOP_EXPONENT, *exponent);
-                self.set(Slot::STOP_DISSIPATION, *dissipation);
-                STOP_HERTZ
+                self.set(slot::STOP_STIFFNESS, *stiffness);
+                self.set(slot::STOP_EXPONENT, *exponent);
+                self.set(slot::STOP_DISSIPATION, *dissipation);
+                number::HERTZ
             }
             Stop::Preloaded { stiffness, preload } => {
-                self.set(Slot::STOP_STIFFNESS, *stiffness);
-                self.set(Slot::STOP_PRELOAD, *preload);
-                STOP_PRELOADED
+                self.set(slot::STOP_STIFFNESS, *stiffness);
+                self.set(slot::STOP_PRELOAD, *preload);
+                number::PRELOADED
             }
             Stop::Rigid { restitution } => {
-                self.set(Slot::STOP_RESTITUTION, *restitution);
-                STOP_RIGID
+                self.set(slot::STOP_RESTITUTION, *restitution);
+                number::RIGID
             }
         };
-        self.set(Slot::STOP_MODEL, f64::from(model));
+        self.set(slot::STOP_MODEL, f64::from(model));
         Ok(())
     }
 
@@ -145,12 +144,12 @@ impl StartValues {
             (_, rigid) => rigid,
         };
         self.set(
-            Slot::RIGID_PRESENT,
+            slot::RIGID_PRESENT,
             f64::from(u8::from(reachable.is_some())),
         );
         if let Some(rigid) = reachable {
-            self.set(Slot::RIGID_TRAVEL, rigid.travel);
-            self.set(Slot::STOP_RESTITUTION, rigid.restitution);
+            self.set(slot::RIGID_TRAVEL, rigid.travel);
+            self.set(slot::STOP_RESTITUTION, rigid.restitution);
         }
         Ok(())
     }
@@ -161,10 +160,10 @@ impl StartValues {
             travel: 0.0,
             ..self.strip()
         });
-        self.set(Slot::PIERCING_STIFFNESS, strip.stiffness);
-        self.set(Slot::PIERCING_FRICTION, strip.friction);
-        self.set(Slot::PIERCING_THICKNESS, strip.thickness);
-        self.set(Slot::PIERCING_TRAVEL, strip.travel);
+        self.set(slot::PIERCING_STIFFNESS, strip.stiffness);
+        self.set(slot::PIERCING_FRICTION, strip.friction);
+        self.set(slot::PIERCING_THICKNESS, strip.thickness);
+        self.set(slot::PIERCING_TRAVEL, strip.travel);
     }
 
     /// The scene that these values describe; it has a strip if thickness or travel is positive.
@@ -172,16 +171,16 @@ impl StartValues {
         let strip = self.strip();
         let stop = self.stop();
         Scene {
-            mass: self.get(Slot::MASS),
-            stiffness: self.get(Slot::STIFFNESS),
-            damping: self.get(Slot::DAMPING),
+            mass: self.get(slot::MASS),
+            stiffness: self.get(slot::STIFFNESS),
+            damping: self.get(slot::DAMPING),
             excitation: Excitation {
-                amplitude: self.get(Slot::AMPLITUDE),
-                frequency: self.get(Slot::FREQUENCY),
-                phase: self.get(Slot::DRIVE_PHASE),
+                amplitude: self.get(slot::AMPLITUDE),
+                frequency: self.get(slot::FREQUENCY),
+                phase: self.get(slot::DRIVE_PHASE),
             },
-            clearance: self.get(Slot::CLEARANCE),
-            contact_damping: self.get(Slot::CONTACT_DAMPING),
+            clearance: self.get(slot::CLEARANCE),
+            contact_damping: self.get(slot::CONTACT_DAMPING),
             rigid: self.rigid_behind(&stop),
             stop,
             piercing: (strip.thickness > 0.0 || strip.travel > 0.0).then_some(strip),
@@ -190,38 +189,38 @@ impl StartValues {
 
     fn strip(&self) -> Piercing {
         Piercing {
-            stiffness: self.get(Slot::PIERCING_STIFFNESS),
-            friction: self.get(Slot::PIERCING_FRICTION),
-            thickness: self.get(Slot::PIERCING_THICKNESS),
-            travel: self.get(Slot::PIERCING_TRAVEL),
+            stiffness: self.get(slot::PIERCING_STIFFNESS),
+            friction: self.get(slot::PIERCING_FRICTION),
+            thickness: self.get(slot::PIERCING_THICKNESS),
+            travel: self.get(slot::PIERCING_TRAVEL),
         }
     }
 
     fn stop(&self) -> Stop {
-        let stiffness = self.get(Slot::STOP_STIFFNESS);
-        match self.number(Slot::STOP_MODEL) {
-            STOP_KELVIN_VOIGT => Stop::KelvinVoigt {
+        let stiffness = self.get(slot::STOP_STIFFNESS);
+        match self.number(slot::STOP_MODEL) {
+            number::KELVIN_VOIGT => Stop::KelvinVoigt {
                 stiffness,
-                release: match self.number(Slot::STOP_RELEASE) {
-                    RELEASE_ZERO_FORCE => Release::ZeroForce,
+                release: match self.number(slot::STOP_RELEASE) {
+                    number::ZERO_FORCE => Release::ZeroForce,
                     _ => Release::Clearance,
                 },
             },
-            STOP_PIECEWISE_LINEAR => Stop::PiecewiseLinear {
+            number::PIECEWISE_LINEAR => Stop::PiecewiseLinear {
                 loading: self.slopes(&LOADING),
                 unloading: self.slopes(&UNLOADING),
             },
-            STOP_HERTZ => Stop::Hertz {
+            number::HERTZ => Stop::Hertz {
                 stiffness,
-                exponent: self.get(Slot::STOP_EXPONENT),
-                dissipation: self.get(Slot::STOP_DISSIPATION),
+                exponent: self.get(slot::STOP_EXPONENT),
+                dissipation: self.get(slot::STOP_DISSIPATION),
             },
-            STOP_PRELOADED => Stop::Preloaded {
+            number::PRELOADED => Stop::Preloaded {
                 stiffness,
-                preload: self.get(Slot::STOP_PRELOAD),
+                preload: self.get(slot::STOP_PRELOAD),
             },
-            STOP_RIGID => Stop::Rigid {
-                restitution: self.get(Slot::STOP_RESTITUTION),
+            number::RIGID => Stop::Rigid {
+                restitution: self.get(slot::STOP_RESTITUTION),
             },
             _ => Stop::None,
         }
@@ -238,17 +237,17 @@ impl StartValues {
 
     fn rigid_behind(&self, stop: &Stop) -> Option<RigidStop> {
         let yields = !matches!(stop, Stop::None | Stop::Rigid { .. });
-        (yields && self.get(Slot::RIGID_PRESENT) != 0.0).then(|| RigidStop {
-            travel: self.get(Slot::RIGID_TRAVEL),
-            restitution: self.get(Slot::STOP_RESTITUTION),
+        (yields && self.get(slot::RIGID_PRESENT) != 0.0).then(|| RigidStop {
+            travel: self.get(slot::RIGID_TRAVEL),
+            restitution: self.get(slot::STOP_RESTITUTION),
         })
     }
 
     /// The state at the start time.
     pub fn start(&self) -> Start {
         Start {
-            position: self.get(Slot::INITIAL_POSITION),
-            velocity: self.get(Slot::INITIAL_VELOCITY),
+            position: self.get(slot::INITIAL_POSITION),
+            velocity: self.get(slot::INITIAL_VELOCITY),
         }
     }
 }

@@ -1,22 +1,10 @@
-//! Where each parameter is held.
+//! Where each value is held among the start values.
+#![expect(missing_docs, reason = "each is described in the table of variables")]
+
+use softstop_fmi::variable::Slot;
 
 /// Slopes that a piecewise linear stop can have for each way.
 pub const SLOPES: usize = 8;
-
-/// Position of a parameter in [`StartValues`](super::StartValues).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Slot(usize);
-
-impl Slot {
-    /// The slot of an array's element, counted from 0; this one is that of its first.
-    pub const fn element(self, index: usize) -> Self {
-        Self(self.0 + index)
-    }
-
-    pub(super) const fn position(self) -> usize {
-        self.0
-    }
-}
 
 /// Numbers the slots: name and number of values of each.
 macro_rules! slots {
@@ -25,10 +13,7 @@ macro_rules! slots {
         pub const SLOTS: usize = $position;
     };
     ($position:expr; $name:ident: $length:expr, $($more:tt)*) => {
-        #[expect(missing_docs, reason = "each is described in the table of variables")]
-        impl Slot {
-            pub const $name: Self = Self($position);
-        }
+        pub const $name: Slot = Slot($position);
         slots! { $position + $length; $($more)* }
     };
 }
@@ -64,4 +49,5 @@ slots! {
     PIERCING_TRAVEL: 1,
     INITIAL_POSITION: 1,
     INITIAL_VELOCITY: 1,
+    MATERIAL: 1,
 }

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use softstop_fmu::package::find_library;
+use softstop_fmu::find_library;
 use tempfile::TempDir;
 
 const STRICT: [&str; 7] = [

@@ -6,8 +6,7 @@ use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;
 
 use softstop_fmu::ffi::*;
-use softstop_fmu::library_guid;
-use softstop_fmu::variables::by_name;
+use softstop_fmu::{library_guid, table};
 
 pub const OK: c_int = 0;
 pub const DISCARD: c_int = 2;
@@ -72,7 +71,7 @@ pub struct Unit {
 impl Unit {
     pub fn new() -> Self {
         let guid = library_guid().expect("a GUID");
-        Self::with(Some("unit"), 1, Some(guid)).expect("an instance")
+        Self::with(Some("unit"), 1, Some(&guid)).expect("an instance")
     }
 
     /// The instance, or the log of its refusal.
@@ -204,5 +203,5 @@ impl Drop for Unit {
 }
 
 pub fn reference(name: &str) -> u32 {
-    by_name(name).expect("a variable").reference
+    table().by_name(name).expect("a variable").reference
 }

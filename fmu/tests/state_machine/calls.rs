@@ -2,7 +2,7 @@
 
 use std::ffi::c_int;
 
-use softstop_fmu::variables::by_name;
+use softstop_fmu::table;
 
 /// Instances and snapshots that a sequence works with.
 pub const UNITS: usize = 3;
@@ -100,5 +100,5 @@ pub enum Call {
 }
 
 pub fn reference(name: &str) -> u32 {
-    by_name(name).expect("a variable").reference
+    table().by_name(name).expect("a variable").reference
 }

@@ -28,9 +28,7 @@ fn odd() -> impl Strategy<Value = f64> {
 }
 
 fn any_reference() -> impl Strategy<Value = u32> {
-    let known = softstop_fmu::variables::VARIABLES
-        .iter()
-        .map(|v| v.reference);
+    let known = softstop_fmu::table().rows().map(|v| v.reference);
     prop_oneof![
         8 => select(known.collect::<Vec<_>>()),
         1 => select(vec![99, 102, 255, 256, 4711, u32::MAX]),

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use softstop_fmu::StartValues;
-use softstop_fmu::variables::{Access, Kind, VARIABLES, Variable, by_reference};
+use softstop_fmi::Row;
+use softstop_fmi::variable::{Access, Kind};
+use softstop_fmu::{Machine, StartValues, table};
 
 use crate::calls::{Call, Null, StatusOf, Type, reference};
 
@@ -52,13 +53,15 @@ fn is(kind: &Kind, wanted: Type) -> bool {
     }
 }
 
-fn find(reference: u32, wanted: Type) -> Option<&'static Variable> {
-    by_reference(reference).filter(|variable| is(&variable.kind, wanted))
+fn find(reference: u32, wanted: Type) -> Option<&'static Row<Machine>> {
+    table()
+        .by_reference(reference)
+        .filter(|variable| is(&variable.kind, wanted))
 }
 
 fn in_range(kind: &Kind, value: f64) -> bool {
     match kind {
-        Kind::Real(kind) => kind.contains(value),
+        Kind::Real(_) => kind.contains(value),
         Kind::Count { min, max } => {
             value >= f64::from(*min) && max.is_none_or(|max| value <= f64::from(max))
         }
@@ -69,14 +72,12 @@ fn in_range(kind: &Kind, value: f64) -> bool {
 
 impl Model {
     pub fn new() -> Self {
-        let parameters = VARIABLES
-            .iter()
-            .filter_map(|variable| match variable.access {
-                Access::Parameter { slot, .. } => {
-                    Some((variable.reference, StartValues::DEFAULT.get(slot)))
-                }
-                _ => None,
-            });
+        let parameters = table().rows().filter_map(|variable| match variable.access {
+            Access::Parameter { slot, .. } => {
+                Some((variable.reference, StartValues::DEFAULT.get(slot)))
+            }
+            _ => None,
+        });
         Self {
             life: Life::Instantiated,
             experiment: false,
@@ -180,9 +181,11 @@ impl Model {
     }
 
     fn get(&self, kind: Type, references: &[u32], null: Null) -> Expected {
-        let outputs = references
-            .iter()
-            .any(|vr| by_reference(*vr).is_some_and(Variable::is_output));
+        let outputs = references.iter().any(|vr| {
+            table()
+                .by_reference(*vr)
+                .is_some_and(|variable| variable.is_output())
+        });
         if_all(&[
             references.is_empty() || null == Null::Nothing,
             references.iter().all(|vr| find(*vr, kind).is_some()),
@@ -199,7 +202,7 @@ impl Model {
                 in_range(&variable.kind, *value)
                     && match variable.access {
                         Access::Parameter { tunable, .. } => tunable || self.life != Life::Running,
-                        Access::Force | Access::Material => true,
+                        Access::Signal(_) | Access::Input(_) => true,
                         _ => false,
                     }
             })
@@ -216,11 +219,11 @@ impl Model {
     }
 
     fn directional(&self, unknowns: &[u32], knowns: &[(u32, f64)], null: Null) -> Expected {
-        let output = |vr: &u32| find(*vr, Type::Real).is_some_and(Variable::is_output);
+        let output = |vr: &u32| find(*vr, Type::Real).is_some_and(|variable| variable.is_output());
         let known = |(vr, seed): &(u32, f64)| {
             seed.is_finite()
                 && find(*vr, Type::Real).is_some_and(|variable| match variable.access {
-                    Access::Force => true,
+                    Access::Signal(_) => true,
                     Access::Parameter { .. } => self.life == Life::Initializing || is_initial(*vr),
                     _ => false,
                 })

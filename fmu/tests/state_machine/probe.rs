@@ -3,9 +3,9 @@
 use std::ffi::c_void;
 use std::ptr;
 
+use softstop_fmi::variable::Kind;
 use softstop_fmu::ffi::*;
-use softstop_fmu::library_guid;
-use softstop_fmu::variables::{Kind, VARIABLES};
+use softstop_fmu::{library_guid, table};
 
 use crate::calls::{Call, Null, Type, reference};
 use crate::perform::perform;
@@ -50,8 +50,8 @@ impl Probe {
     /// Status and bits of everything that can be read.
     pub fn everything(&self, component: *mut c_void) -> Vec<(i32, u64)> {
         self.take_up(component);
-        let mut calls: Vec<_> = VARIABLES
-            .iter()
+        let mut calls: Vec<_> = table()
+            .rows()
             .map(|variable| {
                 let kind = match variable.kind {
                     Kind::Real(_) => Type::Real,

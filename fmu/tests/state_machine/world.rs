@@ -8,8 +8,7 @@ use std::ffi::{CString, c_int, c_void};
 use std::ptr;
 
 use softstop_fmu::ffi::*;
-use softstop_fmu::library_guid;
-use softstop_fmu::variables::{Variable, by_reference};
+use softstop_fmu::{library_guid, table};
 
 use crate::calls::{Birth, Call, Null, Point, STATES, Type, UNITS, reference};
 use crate::common::{ERROR, Log, OK, callbacks};
@@ -269,9 +268,11 @@ impl Slot {
     /// a refused look came is nobody's business, so both look again.
     fn note_look(&mut self, call: &Call, done: bool) {
         let looks = match call {
-            Call::Get(_, references, _) => references
-                .iter()
-                .any(|vr| by_reference(*vr).is_some_and(Variable::is_output)),
+            Call::Get(_, references, _) => references.iter().any(|vr| {
+                table()
+                    .by_reference(*vr)
+                    .is_some_and(|variable| variable.is_output())
+            }),
             Call::Directional(..) | Call::GetOutputDerivatives(..) => true,
             _ => false,
         };

@@ -5,7 +5,7 @@ use std::slice;
 use anyhow::{Context, Result};
 use softstop::Start;
 use softstop_fmu::package::{self, Library};
-use softstop_fmu::start::StartValues;
+use softstop_fmu::{Imprint, StartValues};
 
 use crate::design::Design;
 
@@ -17,5 +17,6 @@ pub(super) fn archive(library: &Library, design: &Design) -> Result<Vec<u8>> {
         velocity: design.orbit.velocity,
     };
     let values = StartValues::from_scene(&design.machine.scene, start)?;
-    package::archive(&values, slice::from_ref(library)).context("cannot make the FMU")
+    package::archive(&Imprint::from(values), slice::from_ref(library))
+        .context("cannot make the FMU")
 }

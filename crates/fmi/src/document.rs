@@ -1,0 +1,143 @@
+//! The documentation page inside the package: a page written by hand, with tables of variables and
+//! capabilities that follow from the model description.
+
+use std::io;
+
+use quick_xml::Writer;
+use quick_xml::escape::escape;
+use quick_xml::events::BytesText;
+
+use crate::description::{capabilities, start_value};
+use crate::imprint::Imprint;
+use crate::unit::{Row, Unit};
+use crate::variable::Kind;
+
+type Html = Writer<Vec<u8>>;
+
+/// What a flag of the model description says about this unit.
+const CAPABILITIES: [(&str, &str); 9] = [
+    (
+        "canHandleVariableCommunicationStepSize",
+        "Steps of any length, each as exact as the next; a step costs by the events in it",
+    ),
+    (
+        "canInterpolateInputs",
+        "Derivatives of a continuous input, of orders 1 to 7, make it a polynomial in time until it is set anew, without error",
+    ),
+    (
+        "maxOutputDerivativeOrder",
+        "Time derivatives of the continuous outputs up to this order",
+    ),
+    (
+        "canGetAndSetFMUstate",
+        "The whole state can be kept and taken up again, bit for bit",
+    ),
+    (
+        "canSerializeFMUstate",
+        "A kept state can be written as bytes and taken up by another instance",
+    ),
+    (
+        "providesDirectionalDerivative",
+        "Derivatives of the outputs over the last step by continuous inputs, over the first one also by the initial state; in initialisation by every real parameter",
+    ),
+    (
+        "canBeInstantiatedOnlyOncePerProcess",
+        "How many instances: any number if false, also on several threads",
+    ),
+    (
+        "canNotUseMemoryManagementFunctions",
+        "The importer's functions for memory are not called and may be NULL",
+    ),
+    (
+        "needsExecutionTool",
+        "Whether another program must be there besides the library",
+    ),
+];
+
+/// The page.
+///
+/// # Errors
+/// If writing to memory fails.
+pub(crate) fn html<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
+    let about = U::about();
+    let page = about.page.replace("<!--version-->", about.version);
+    let page = page.replace("<!--capabilities-->", &flags::<U>()?);
+    let page = page.replace("<!--variables-->", &variables(imprint)?);
+    Ok(page.replace("<!--name-->", &escape(imprint.name())))
+}
+
+/// The flags, with the values that the model description gives them.
+fn flags<U: Unit>() -> io::Result<String> {
+    let flags = capabilities(U::about());
+    rows(|html| {
+        CAPABILITIES.iter().try_for_each(|(name, meaning)| {
+            let value = flags.iter().find(|(flag, _)| flag == name);
+            let value = value.ok_or_else(|| io::Error::other(*name))?;
+            cells(html, "td", &[name, &value.1, meaning])
+        })
+    })
+}
+
+fn variables<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
+    rows(|html| {
+        let head = [
+            "Name",
+            "Reference",
+            "Causality",
+            "Variability",
+            "Unit",
+            "Start",
+            "Meaning",
+        ];
+        cells(html, "th", &head)?;
+        let mut variables = U::about().table.rows();
+        variables.try_for_each(|variable| row(html, variable, imprint))
+    })
+}
+
+/// Rows of a table as text.
+fn rows(write: impl FnOnce(&mut Html) -> io::Result<()>) -> io::Result<String> {
+    let mut html = Writer::new_with_indent(Vec::new(), b' ', 1);
+    write(&mut html)?;
+    String::from_utf8(html.into_inner()).map_err(io::Error::other)
+}
+
+fn row<U: Unit>(html: &mut Html, variable: &Row<U>, imprint: &Imprint<U>) -> io::Result<()> {
+    let (unit, items) = match &variable.kind {
+        Kind::Real(kind) => (kind.quantity.map_or("", |q| q.unit), String::new()),
+        Kind::Enumeration(items) => {
+            let items: Vec<_> = items
+                .items
+                .iter()
+                .map(|item| format!("{} = {} ({})", item.value, item.name, item.description))
+                .collect();
+            ("", format!(": {}", items.join("; ")))
+        }
+        Kind::Count { .. } | Kind::Boolean => ("", String::new()),
+    };
+    cells(
+        html,
+        "td",
+        &[
+            variable.name,
+            &variable.reference.to_string(),
+            variable.causality(),
+            variable.variability(),
+            unit,
+            &start_value(variable, imprint).unwrap_or_default(),
+            &format!("{}{items}", variable.description),
+        ],
+    )
+}
+
+fn cells(html: &mut Html, name: &'static str, texts: &[&str]) -> io::Result<()> {
+    html.create_element("tr")
+        .write_inner_content(|html| texts.iter().try_for_each(|cell| text(html, name, cell)))?;
+    Ok(())
+}
+
+fn text(html: &mut Html, name: &'static str, content: &str) -> io::Result<()> {
+    html.create_element(name)
+        .write_text_content(BytesText::new(content))?;
+    Ok(())
+}

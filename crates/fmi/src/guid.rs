@@ -1,0 +1,35 @@
+//! The GUID: a fingerprint of the model description.
+
+use uuid::Uuid;
+
+use crate::description;
+use crate::imprint::Imprint;
+use crate::unit::Unit;
+
+const NAMESPACE: Uuid = Uuid::from_bytes(*b"softstop/fmi-2.0");
+
+/// A name-based UUID of the model description, taken with an empty `guid`. Name, description and start
+/// values are part of it, so the library must know them to know its GUID: they stand in its block.
+fn uuid_of<U: Unit>(imprint: &Imprint<U>) -> std::io::Result<Uuid> {
+    let xml = description::write(imprint, "")?;
+    Ok(Uuid::new_v5(&NAMESPACE, xml.as_bytes()))
+}
+
+/// The GUID, in braces, of the FMU with this imprint.
+///
+/// # Errors
+/// If the XML cannot be written.
+pub fn guid_of<U: Unit>(imprint: &Imprint<U>) -> std::io::Result<String> {
+    uuid_of(imprint).map(|uuid| uuid.braced().to_string())
+}
+
+/// The GUID of this very library, or nothing if its description cannot be written.
+pub fn library_guid<U: Unit>() -> Option<String> {
+    library_uuid::<U>().map(|uuid| uuid.braced().to_string())
+}
+
+/// The same as a number. It is held without a heap so that unloading the library leaves nothing behind.
+pub(crate) fn library_uuid<U: Unit>() -> Option<Uuid> {
+    let guid = &U::about().guid;
+    *guid.get_or_init(|| uuid_of(&Imprint::<U>::library()).ok())
+}

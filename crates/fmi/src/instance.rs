@@ -1,0 +1,198 @@
+//! One instance of a unit: its lifecycle, its values, and the motion behind them.
+
+use serde::{Deserialize, Serialize};
+
+use crate::fault::{Fault, Status};
+use crate::lifecycle::Lifecycle;
+use crate::signal::Signal;
+use crate::unit::Unit;
+
+/// One instance. Its clone is a snapshot from which it, or another one, can go on bit by bit.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(bound = "")]
+pub(crate) struct Instance<U: Unit> {
+    pub(crate) lifecycle: Lifecycle,
+    /// Parameters and discrete inputs, slot by slot.
+    pub(crate) values: Vec<f64>,
+    /// Continuous inputs.
+    pub(crate) signals: Vec<Signal>,
+    pub(crate) experiment: Option<Experiment>,
+    pub(crate) unit: Option<U>,
+    /// Values were set that have not reached the unit yet.
+    pub(crate) tuned: bool,
+    /// The unit and the signals with which the last step began, if it was discarded.
+    pub(crate) discarded: Option<Box<(U, Vec<Signal>)>>,
+}
+
+/// What `fmi2SetupExperiment` said.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(crate) struct Experiment {
+    pub(crate) start: f64,
+    pub(crate) stop: Option<f64>,
+}
+
+impl<U: Unit> Default for Instance<U> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<U: Unit> Instance<U> {
+    /// A fresh instance with the start values of the library.
+    pub(crate) fn new() -> Self {
+        Self {
+            lifecycle: Lifecycle::Instantiated,
+            values: U::block().values(),
+            signals: vec![Signal::default(); U::about().table.signals()],
+            experiment: None,
+            unit: None,
+            tuned: false,
+            discarded: None,
+        }
+    }
+
+    /// How the last step ended.
+    pub(crate) fn last_status(&self) -> Status {
+        match (self.lifecycle, &self.discarded) {
+            (Lifecycle::Failed, _) => Status::Error,
+            (_, Some(_)) => Status::Discard,
+            (_, None) => Status::Ok,
+        }
+    }
+
+    /// Marks the instance as unable to go on: only reading, resetting and freeing are left.
+    pub(crate) fn fail(&mut self) {
+        self.lifecycle = Lifecycle::Failed;
+    }
+
+    /// The time that the unit has reached, in s.
+    pub(crate) fn time(&self) -> f64 {
+        match (&self.unit, self.experiment) {
+            (Some(unit), _) => unit.time(),
+            (None, Some(experiment)) => experiment.start,
+            (None, None) => 0.0,
+        }
+    }
+
+    /// Takes the start and stop time of the experiment.
+    pub(crate) fn setup(
+        &mut self,
+        tolerance: Option<f64>,
+        start: f64,
+        stop: Option<f64>,
+    ) -> Result<(), Fault> {
+        self.require(
+            &[Lifecycle::Instantiated],
+            "call it between fmi2Instantiate and fmi2EnterInitializationMode",
+        )?;
+        if let Some(tolerance) = tolerance.filter(|t| !(t.is_finite() && *t >= 0.0)) {
+            return Err(Fault::argument("tolerance", tolerance, "finite and >= 0"));
+        }
+        if !start.is_finite() {
+            return Err(Fault::argument("startTime", start, "finite"));
+        }
+        if let Some(stop) = stop.filter(|stop| !(stop.is_finite() && *stop >= start)) {
+            return Err(Fault::argument(
+                "stopTime",
+                stop,
+                "finite and not before startTime",
+            ));
+        }
+        self.experiment = Some(Experiment { start, stop });
+        self.start_signals(start);
+        self.unit = None;
+        Ok(())
+    }
+
+    /// Enters initialisation.
+    pub(crate) fn enter_initialization(&mut self) -> Result<(), Fault> {
+        self.require(
+            &[Lifecycle::Instantiated],
+            "it is entered once, after fmi2SetupExperiment",
+        )?;
+        if self.experiment.is_none() {
+            return Err(Fault::WrongState {
+                state: self.lifecycle,
+                remedy: "fmi2SetupExperiment must come first",
+            });
+        }
+        self.lifecycle = Lifecycle::Initializing;
+        Ok(())
+    }
+
+    /// Leaves initialisation: the instance is ready for its first step.
+    pub(crate) fn exit_initialization(&mut self) -> Result<(), Fault> {
+        self.require(
+            &[Lifecycle::Initializing],
+            "fmi2EnterInitializationMode must come first",
+        )?;
+        self.settle()?;
+        self.lifecycle = Lifecycle::Running;
+        Ok(())
+    }
+
+    /// Ends the experiment; values can still be read.
+    pub(crate) fn terminate(&mut self) -> Result<(), Fault> {
+        self.require(
+            &[Lifecycle::Running, Lifecycle::Failed],
+            "only an initialised unit can be terminated",
+        )?;
+        if self.lifecycle == Lifecycle::Running {
+            self.settle()?;
+        }
+        self.lifecycle = Lifecycle::Terminated;
+        Ok(())
+    }
+
+    pub(crate) fn require(&self, states: &[Lifecycle], remedy: &'static str) -> Result<(), Fault> {
+        if states.contains(&self.lifecycle) {
+            Ok(())
+        } else {
+            Err(Fault::WrongState {
+                state: self.lifecycle,
+                remedy,
+            })
+        }
+    }
+
+    /// The unit, with all that was set taken over.
+    pub(crate) fn settle(&mut self) -> Result<&mut U, Fault> {
+        let mut unit = match self.unit.take() {
+            Some(unit) => unit,
+            None => self.begin()?,
+        };
+        let taken_over = self.take_over(&mut unit);
+        let unit = self.unit.insert(unit);
+        taken_over.map(|()| unit)
+    }
+
+    /// The unit at the start time.
+    fn begin(&mut self) -> Result<U, Fault> {
+        let start = self.time();
+        let unit = U::begin(&self.values, start)?;
+        self.start_signals(start);
+        self.tuned = false;
+        Ok(unit)
+    }
+
+    /// Counts the time of all signals from the start.
+    fn start_signals(&mut self, start: f64) {
+        for signal in &mut self.signals {
+            *signal = Signal::new(signal.derivatives, start);
+        }
+    }
+
+    fn take_over(&mut self, unit: &mut U) -> Result<(), Fault> {
+        if self.tuned {
+            unit.tune(&self.values)?;
+            self.tuned = false;
+        }
+        for (number, signal) in self.signals.iter_mut().enumerate() {
+            if signal.pending {
+                unit.drive(number, &signal.derivatives)?;
+                signal.pending = false;
+            }
+        }
+        Ok(())
+    }
+}

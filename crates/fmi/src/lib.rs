@@ -1,0 +1,37 @@
+//! The boundary of FMI 2.0 co-simulation for any unit, and the packager that writes its FMU.
+//!
+//! A [`Unit`] is a table of variables ([`variable`]) and a motion that can be advanced. The XML
+//! ([`description`]), the documentation and the package ([`package`]) follow from the table, and
+//! [`export`] gives the unit the C functions of the standard ([`v2`]). `Instance` is one running unit
+//! in safe Rust; `v2` and the block of start values are the only unsafe code.
+
+mod blob;
+mod block;
+mod derivatives;
+pub mod description;
+mod document;
+mod fault;
+mod guid;
+mod imprint;
+mod instance;
+mod lifecycle;
+mod log;
+pub mod package;
+mod quantity;
+mod sensitivity;
+mod settings;
+mod signal;
+mod step;
+mod table;
+mod unit;
+pub mod v2;
+mod values;
+pub mod variable;
+
+pub use block::Block;
+pub use guid::{guid_of, library_guid};
+pub use imprint::{Imprint, TextError};
+pub use quantity::{Enumeration, Item, Quantity, item};
+pub use signal::{Derivatives, HIGHEST_ORDER};
+pub use table::Table;
+pub use unit::{About, Advance, Events, Known, Outcome, Row, Unit};

@@ -1,0 +1,92 @@
+//! Which log lines are wanted.
+
+use std::borrow::Cow;
+
+use crate::fault::Fault;
+
+/// A category of log lines, as in the model description.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Category {
+    /// What happens in the motion.
+    Events,
+    /// Calls that are carried out, but hardly as meant.
+    Warnings,
+    /// Calls that are refused.
+    Errors,
+}
+
+impl Category {
+    pub(crate) const ALL: [Self; 3] = [Self::Events, Self::Warnings, Self::Errors];
+
+    /// Its name.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Events => "events",
+            Self::Warnings => "warnings",
+            Self::Errors => "errors",
+        }
+    }
+
+    /// What it tells; of events the unit knows.
+    pub(crate) const fn description(self) -> Option<&'static str> {
+        match self {
+            Self::Events => None,
+            Self::Warnings => Some("calls that are carried out, but hardly as meant"),
+            Self::Errors => {
+                Some("calls that are refused and steps that are discarded, always logged")
+            }
+        }
+    }
+
+    fn of(name: &str) -> Result<Self, Fault> {
+        let found = Self::ALL
+            .into_iter()
+            .find(|category| category.name() == name);
+        found.ok_or_else(|| Fault::LogCategory(name.to_owned()))
+    }
+}
+
+/// The importer's wishes. Errors are always logged: a refused call must not pass in silence.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Wanted {
+    events: bool,
+    warnings: bool,
+}
+
+impl Wanted {
+    /// All or nothing, as `loggingOn` at instantiation.
+    pub(crate) const fn all(on: bool) -> Self {
+        Self {
+            events: on,
+            warnings: on,
+        }
+    }
+
+    /// Whether lines of this category are wanted.
+    pub(crate) const fn has(self, category: Category) -> bool {
+        match category {
+            Category::Events => self.events,
+            Category::Warnings => self.warnings,
+            Category::Errors => true,
+        }
+    }
+
+    /// Switches the named categories, or all if none is named.
+    pub(crate) fn switch(&mut self, on: bool, names: &[Cow<str>]) -> Result<(), Fault> {
+        let categories = names
+            .iter()
+            .map(|name| Category::of(name))
+            .collect::<Result<Vec<_>, _>>()?;
+        if categories.is_empty() {
+            *self = Self::all(on);
+        }
+        for category in categories {
+            match category {
+                Category::Events => self.events = on,
+                Category::Warnings => self.warnings = on,
+                Category::Errors => {}
+            }
+        }
+        Ok(())
+    }
+}

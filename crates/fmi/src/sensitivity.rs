@@ -1,0 +1,159 @@
+//! Directional derivatives of the outputs.
+//!
+//! After initialisation they lead from the beginning of the last communication step to its end, across
+//! every event in between: from continuous inputs as they were set for that step, and, over the first
+//! step, from the initial state. If an input has been set since, the step behind is over and what is
+//! left is its direct feedthrough. In initialisation all real parameters are knowns as well.
+
+use crate::fault::Fault;
+use crate::instance::Instance;
+use crate::lifecycle::Lifecycle;
+use crate::unit::{Known, Row, Unit};
+use crate::values::{Type, find};
+use crate::variable::{Access, Slot};
+
+/// Widths that a difference is tried with.
+const WIDTHS: u32 = 8;
+
+/// How an output is read.
+type Output<U> = fn(&U) -> f64;
+/// How its derivative is read.
+type Tangent<U> = fn(&<U as Unit>::Tangent) -> f64;
+
+impl<U: Unit> Instance<U> {
+    /// The derivatives of `unknowns` along the direction `seed` of `knowns`.
+    pub(crate) fn directional_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        sensitivity: &mut [f64],
+    ) -> Result<(), Fault> {
+        self.ready_for_outputs()?;
+        let outputs = unknowns
+            .iter()
+            .map(|&reference| unknown::<U>(reference))
+            .collect::<Result<Vec<_>, _>>()?;
+        let unit = self.unit.as_ref().ok_or_else(|| self.no_outputs())?;
+        let (direction, parameters) = self.direction(unit, knowns, seed)?;
+        let along = unit.tangent(&direction)?;
+        for (&(output, tangent), value) in outputs.iter().zip(sensitivity) {
+            *value = tangent(&along);
+            for &(parameter, slot, seed) in &parameters {
+                *value += seed * self.by_parameter(unit, parameter, slot, output)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The direction as the unit knows it, and the parameters that change with it.
+    #[expect(
+        clippy::type_complexity,
+        reason = "two lists, each taken apart at once"
+    )]
+    fn direction(
+        &self,
+        unit: &U,
+        knowns: &[u32],
+        seed: &[f64],
+    ) -> Result<(Vec<(Known, f64)>, Vec<(&'static Row<U>, Slot, f64)>), Fault> {
+        let (mut direction, mut parameters) = (Vec::new(), Vec::new());
+        for (&reference, &seed) in knowns.iter().zip(seed) {
+            if !seed.is_finite() {
+                return Err(Fault::argument("dvKnown", seed, "finite"));
+            }
+            let variable = find::<U>(reference, Type::Real)?;
+            let known = match variable.access {
+                Access::Signal(number) => Some(Known::Signal(number)),
+                Access::Parameter { slot, .. } => Some(Known::Parameter(slot)),
+                _ => None,
+            };
+            match known {
+                Some(known) if unit.has_tangent(known) => direction.push((known, seed)),
+                Some(Known::Parameter(slot)) if self.lifecycle == Lifecycle::Initializing => {
+                    parameters.push((variable, slot, seed));
+                }
+                _ => {
+                    return Err(Fault::NoKnown {
+                        name: variable.name,
+                        available: U::about().knowns,
+                    });
+                }
+            }
+        }
+        Ok((direction, parameters))
+    }
+
+    /// The derivative of an output at the start by a parameter: outputs at the start are elementary
+    /// functions of the parameters, so differences extrapolated to width zero (Richardson 1911) come
+    /// within some 1e-10 of it. They keep to one side where the law of the motion, or the range of the
+    /// parameter, ends; of one that cannot be changed at all the derivative is zero.
+    fn by_parameter(
+        &self,
+        unit: &U,
+        parameter: &Row<U>,
+        slot: Slot,
+        output: Output<U>,
+    ) -> Result<f64, Fault> {
+        let (value, here) = (self.values[slot.0], output(unit));
+        let mut width = if value == 0.0 {
+            1e-3
+        } else {
+            0.01 * value.abs()
+        };
+        for _ in 0..WIDTHS {
+            let at = |step: f64| {
+                let moved = value + step * width;
+                let moved = parameter
+                    .kind
+                    .contains(moved)
+                    .then(|| self.begun_with(slot, moved));
+                let moved = moved?.ok()?;
+                (moved.law() == unit.law()).then(|| output(&moved))
+            };
+            let central = |n: f64| Some((at(n)? - at(-n)?) / (2.0 * n * width));
+            if let (Some(one), Some(two), Some(four)) = (central(0.25), central(0.5), central(1.0))
+            {
+                let (fine, coarse) = ((4.0 * one - two) / 3.0, (4.0 * two - four) / 3.0);
+                return Ok((16.0 * fine - coarse) / 15.0);
+            }
+            for side in [1.0, -1.0] {
+                let one_sided = |n: f64| Some((at(side * n)? - here) / (side * n * width));
+                if let (Some(a), Some(b), Some(c), Some(d)) = (
+                    one_sided(0.125),
+                    one_sided(0.25),
+                    one_sided(0.5),
+                    one_sided(1.0),
+                ) {
+                    let first = [2.0 * a - b, 2.0 * b - c, 2.0 * c - d];
+                    let second = [
+                        (4.0 * first[0] - first[1]) / 3.0,
+                        (4.0 * first[1] - first[2]) / 3.0,
+                    ];
+                    return Ok((8.0 * second[0] - second[1]) / 7.0);
+                }
+            }
+            width *= 0.1;
+        }
+        Ok(0.0)
+    }
+
+    /// The unit at the start with another value of a parameter.
+    fn begun_with(&self, slot: Slot, value: f64) -> Result<U, Fault> {
+        let mut other = self.clone();
+        other.values[slot.0] = value;
+        other.unit = None;
+        other.settle().cloned()
+    }
+}
+
+/// How an unknown and its derivative are read.
+fn unknown<U: Unit>(reference: u32) -> Result<(Output<U>, Tangent<U>), Fault> {
+    let variable = find::<U>(reference, Type::Real)?;
+    match variable.access {
+        Access::Continuous { value, tangent, .. } | Access::Discrete { value, tangent } => {
+            Ok((value, tangent))
+        }
+        _ => Err(Fault::NoUnknown(variable.name)),
+    }
+}

@@ -1,0 +1,133 @@
+//! Setting the values of an instance.
+
+use crate::fault::Fault;
+use crate::instance::Instance;
+use crate::lifecycle::Lifecycle;
+use crate::signal::{Derivatives, Signal};
+use crate::unit::{Row, Unit};
+use crate::values::{Type, find};
+use crate::variable::Access;
+
+impl<U: Unit> Instance<U> {
+    /// Sets real values: all of them, or none if one is refused.
+    pub(crate) fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Fault> {
+        self.set(references, values, Type::Real, |value| value)
+    }
+
+    /// Sets integers and enumerations: all of them, or none if one is refused.
+    pub(crate) fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Result<(), Fault> {
+        self.set(references, values, Type::Integer, f64::from)
+    }
+
+    /// Sets Booleans; every number but 0 means true.
+    pub(crate) fn set_boolean(&mut self, references: &[u32], values: &[i32]) -> Result<(), Fault> {
+        let number = |value| f64::from(u8::from(value != 0));
+        self.set(references, values, Type::Boolean, number)
+    }
+
+    fn set<T: Copy>(
+        &mut self,
+        references: &[u32],
+        values: &[T],
+        wanted: Type,
+        number: impl Fn(T) -> f64,
+    ) -> Result<(), Fault> {
+        self.require_settable()?;
+        let all = || {
+            let values = values.iter().map(|&value| number(value));
+            references.iter().zip(values)
+        };
+        let mut changes = false;
+        for (&reference, value) in all() {
+            let variable = find::<U>(reference, wanted)?;
+            self.check_settable(variable)?;
+            if !variable.kind.contains(value) {
+                return Err(Fault::OutOfRange {
+                    name: variable.name,
+                    value,
+                    allowed: variable.kind.range(),
+                });
+            }
+            changes |= variable
+                .slot()
+                .is_some_and(|slot| self.values[slot.0] != value);
+        }
+        if changes {
+            let mut after = self.values.clone();
+            for (&reference, value) in all() {
+                if let Some(slot) = find::<U>(reference, wanted)?.slot() {
+                    after[slot.0] = value;
+                }
+            }
+            self.adopt(after)?;
+        }
+        for (&reference, value) in all() {
+            if let Access::Signal(number) = find::<U>(reference, wanted)?.access {
+                let mut derivatives = Derivatives::default();
+                derivatives[0] = value;
+                self.push(number, derivatives);
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn require_settable(&self) -> Result<(), Fault> {
+        self.require(
+            &[
+                Lifecycle::Instantiated,
+                Lifecycle::Initializing,
+                Lifecycle::Running,
+            ],
+            "values can be set again after fmi2Reset",
+        )
+    }
+
+    fn check_settable(&self, variable: &Row<U>) -> Result<(), Fault> {
+        let name = variable.name;
+        match variable.access {
+            Access::Parameter { tunable: false, .. } if self.lifecycle == Lifecycle::Running => {
+                Err(Fault::Fixed(name))
+            }
+            Access::Parameter { .. } | Access::Signal(_) | Access::Input(_) => Ok(()),
+            _ => Err(Fault::Output(name)),
+        }
+    }
+
+    /// Takes over values, unless the unit under way cannot go on with them.
+    fn adopt(&mut self, values: Vec<f64>) -> Result<(), Fault> {
+        if self.lifecycle == Lifecycle::Running
+            && let Some(unit) = &self.unit
+        {
+            unit.clone().tune(&values)?;
+        }
+        self.values = values;
+        self.tuned = true;
+        self.begin_anew();
+        Ok(())
+    }
+
+    /// What is set before the first step makes another beginning; a unit under way takes it over later.
+    fn begin_anew(&mut self) {
+        if self.lifecycle != Lifecycle::Running {
+            self.unit = None;
+        }
+    }
+
+    /// A continuous input from now on; setting what holds anyway changes nothing.
+    pub(crate) fn push(&mut self, number: usize, derivatives: Derivatives) {
+        if let Some(unit) = &mut self.unit {
+            unit.mark();
+        }
+        let now = self.time();
+        let signal = &mut self.signals[number];
+        if signal.seen_from(now) == derivatives {
+            return;
+        }
+        *signal = Signal {
+            derivatives,
+            since: now,
+            pending: true,
+        };
+        self.begin_anew();
+    }
+}

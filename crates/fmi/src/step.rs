@@ -1,0 +1,145 @@
+//! The communication step.
+
+use crate::fault::Fault;
+use crate::instance::Instance;
+use crate::lifecycle::Lifecycle;
+use crate::signal::Signal;
+use crate::unit::{Advance, Events, Unit};
+
+/// What there is to tell of a step.
+#[derive(Debug)]
+pub(crate) struct StepReport {
+    /// What happened, in lines, if they are wanted.
+    pub events: Vec<String>,
+    /// How far the communication point lay from the end of the last step, in s, if further than by
+    /// rounding.
+    pub gap: Option<f64>,
+}
+
+/// How far a communication point may lie from the end of the last step.
+///
+/// Importers add up step sizes or multiply them, so the two differ by rounding. A step goes from
+/// where the last one ended to `point + step`, so no difference is ever added up: a few units in
+/// the last place would do. A billionth of the time leaves room for importers that count in
+/// nanoseconds. Half a step is the limit in any case: a step that is called twice is refused.
+fn drift_tolerance(present: f64, step: f64) -> f64 {
+    let rounding = rounding_of(present, 0.0);
+    let counting = 1e-9 * present.abs().max(1.0);
+    counting.min(0.5 * step).max(rounding)
+}
+
+/// What adding up a time in such steps may bring.
+fn rounding_of(time: f64, step: f64) -> f64 {
+    16.0 * f64::EPSILON * time.abs().max(step)
+}
+
+impl<U: Unit> Instance<U> {
+    /// Carries the unit on to `point + step`, whatever happens on the way. Next to the report stands
+    /// [`Fault::Discarded`] if it did not get that far: [`Instance::time`] is then where it is, and the
+    /// next step may begin there, or where this one began.
+    pub(crate) fn do_step(
+        &mut self,
+        point: f64,
+        step: f64,
+        wants_events: bool,
+    ) -> Result<(StepReport, Result<(), Fault>), Fault> {
+        self.require(
+            &[Lifecycle::Running],
+            "a step needs an initialised unit that has not failed or ended",
+        )?;
+        let end = end_of_step(point, step)?;
+        let stop = self.experiment.and_then(|experiment| experiment.stop);
+        if let Some(stop) = stop.filter(|stop| end > stop + 1e-9 * stop.abs().max(1.0)) {
+            return Err(Fault::BeyondStop { end, stop });
+        }
+        if let Some(unit) = &self.unit {
+            unit.check_reach(end.max(unit.time()))?;
+        }
+        self.retry(point, step);
+        self.check_communication_point(point, step)?;
+        let present = self.time();
+        let unit = self.settle()?;
+        let mut events = Events {
+            wanted: wants_events,
+            lines: Vec::new(),
+        };
+        // A step below the last digit of the time ends where it began.
+        let advance = unit.advance(end.max(present), &mut events)?;
+        let reached = unit.time();
+        let report = StepReport {
+            events: events.lines,
+            gap: Some(point - present).filter(|gap| gap.abs() > rounding_of(present, step)),
+        };
+        let Advance::Short { reason, before } = advance else {
+            self.discarded = None;
+            return Ok((report, Ok(())));
+        };
+        self.discarded = before.map(|before| Box::new((before, self.signals.clone())));
+        let discarded = Fault::Discarded {
+            end,
+            reached,
+            reason,
+        };
+        Ok((report, Err(discarded)))
+    }
+
+    /// Takes a discarded step back if this one begins where it began. What was set since holds from
+    /// there on.
+    fn retry(&mut self, point: f64, step: f64) {
+        let begins_at = |time: f64| (point - time).abs() <= drift_tolerance(time, step);
+        let repeats = |kept: &mut Box<(U, Vec<Signal>)>| begins_at(kept.0.time());
+        if begins_at(self.time()) {
+            return;
+        }
+        let Some((unit, signals)) = self.discarded.take_if(repeats).map(|kept| *kept) else {
+            return;
+        };
+        self.tuned = true;
+        for (signal, before) in self.signals.iter_mut().zip(&signals) {
+            if signal != before {
+                signal.since = unit.time();
+                signal.pending = true;
+            }
+        }
+        self.unit = Some(unit);
+    }
+
+    fn check_communication_point(&self, point: f64, step: f64) -> Result<(), Fault> {
+        let present = self.time();
+        let tolerance = drift_tolerance(present, step);
+        if (point - present).abs() > tolerance {
+            return Err(Fault::CommunicationPoint {
+                point,
+                present,
+                tolerance,
+            });
+        }
+        Ok(())
+    }
+}
+
+fn end_of_step(point: f64, step: f64) -> Result<f64, Fault> {
+    if !point.is_finite() {
+        return Err(Fault::argument(
+            "currentCommunicationPoint",
+            point,
+            "finite",
+        ));
+    }
+    if !(step.is_finite() && step > 0.0) {
+        return Err(Fault::argument(
+            "communicationStepSize",
+            step,
+            "finite and > 0",
+        ));
+    }
+    let end = point + step;
+    if !end.is_finite() {
+        return Err(Fault::argument(
+            "communicationStepSize",
+            step,
+            "such that its end is finite",
+        ));
+    }
+    Ok(end)
+}

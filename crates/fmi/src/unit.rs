@@ -1,0 +1,162 @@
+//! What a unit is: a table of variables and a motion that can be advanced.
+
+use std::error::Error;
+use std::sync::OnceLock;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use uuid::Uuid;
+
+use crate::block::Block;
+use crate::quantity::{Enumeration, Quantity};
+use crate::signal::Derivatives;
+use crate::table::Table;
+use crate::variable::{Slot, Variable};
+
+/// What a unit can refuse, with a text for the importer's log that names the variable.
+pub type Outcome<T> = Result<T, Box<dyn Error>>;
+
+/// A unit under way. Lifecycle, values and inputs are kept for it, and [`export`](crate::export) gives
+/// it the C functions of the standard.
+///
+/// To make another unit, write its [`About`] with the table of variables and its [`Block`] as two
+/// statics, implement the methods without a body, and call `softstop_fmi::export!` in a `cdylib`.
+/// `tests/counter` is one in a page.
+///
+/// Its clone, and what is read back from its bytes, must go on bit for bit.
+pub trait Unit: Clone + Send + Serialize + DeserializeOwned + 'static {
+    /// Derivatives of the outputs along a direction; `()` for a unit without them.
+    type Tangent;
+
+    /// What the unit says of itself.
+    fn about() -> &'static About<Self>;
+
+    /// The block of start values in this library.
+    fn block() -> &'static Block;
+
+    /// The unit at `time` in s with these values of parameters and discrete inputs, slot by slot.
+    ///
+    /// # Errors
+    /// If the values do not go together.
+    fn begin(values: &[f64], time: f64) -> Outcome<Self>;
+
+    /// Where it is, in s.
+    fn time(&self) -> f64;
+
+    /// Takes over values that were set on the way.
+    ///
+    /// # Errors
+    /// If it cannot go on with them; it is then as before.
+    fn tune(&mut self, values: &[f64]) -> Outcome<()>;
+
+    /// Goes on to `until` in s, which is not in the past, and tells of events on the way.
+    ///
+    /// # Errors
+    /// If there is no way; it is then as before.
+    fn advance(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>>;
+
+    /// Takes the derivatives that a continuous input has from now on.
+    ///
+    /// # Errors
+    /// If it cannot go on with them; it is then as before.
+    fn drive(&mut self, _signal: usize, _derivatives: &Derivatives) -> Outcome<()> {
+        Ok(())
+    }
+
+    /// Whether `until` in s, which is not in the past, can be advanced to at all.
+    ///
+    /// # Errors
+    /// If it is too far.
+    fn check_reach(&self, _until: f64) -> Outcome<()> {
+        Ok(())
+    }
+
+    /// Number of the smooth law that holds now: across another one no differences are taken.
+    fn law(&self) -> i32 {
+        0
+    }
+
+    /// Begins the stretch that [`Unit::tangent`] leads over; each advance begins one as well.
+    fn mark(&mut self) {}
+
+    /// Whether there are derivatives by `known` over the stretch up to now.
+    fn has_tangent(&self, _known: Known) -> bool {
+        false
+    }
+
+    /// The derivatives of the outputs now by what was known at the beginning of the stretch, along the
+    /// direction of these knowns.
+    ///
+    /// # Errors
+    /// If they do not exist, as at a grazing impact.
+    fn tangent(&self, direction: &[(Known, f64)]) -> Outcome<Self::Tangent>;
+}
+
+/// The table's rows for a unit.
+pub type Row<U> = Variable<U, <U as Unit>::Tangent>;
+
+/// What derivatives can be taken by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Known {
+    /// A continuous input, by its number.
+    Signal(usize),
+    /// A parameter.
+    Parameter(Slot),
+}
+
+/// How far an advance came.
+pub enum Advance<U> {
+    /// All the way.
+    Arrived,
+    /// A part of the way: the step is discarded.
+    Short {
+        /// Why it ended there, in words.
+        reason: String,
+        /// The unit as it was before; without it the step cannot be repeated.
+        before: Option<U>,
+    },
+}
+
+/// Lines for the log category `events`.
+#[derive(Debug, Default)]
+pub struct Events {
+    pub(crate) wanted: bool,
+    pub(crate) lines: Vec<String>,
+}
+
+impl Events {
+    /// Adds a line, if lines are wanted.
+    pub fn tell(&mut self, line: impl FnOnce() -> String) {
+        if self.wanted {
+            self.lines.push(line());
+        }
+    }
+}
+
+/// What a unit says of itself, in the XML and in the documentation.
+pub struct About<U: Unit> {
+    /// `modelIdentifier`: the name of the binaries' files.
+    pub identifier: &'static str,
+    /// Its version.
+    pub version: &'static str,
+    /// Its licence.
+    pub license: &'static str,
+    /// What the log category `events` tells.
+    pub events: &'static str,
+    /// What derivatives can be taken by after initialisation, to follow "there are those by".
+    pub knowns: &'static str,
+    /// Attributes of `DefaultExperiment`: (name, value).
+    pub experiment: &'static [(&'static str, &'static str)],
+    /// All quantities in use, each with a unit of its own.
+    pub quantities: &'static [&'static Quantity],
+    /// All enumeration types in use.
+    pub enumerations: &'static [&'static Enumeration],
+    /// Its variables.
+    pub table: Table<U, U::Tangent>,
+    /// The documentation page, with marks for name, version, capabilities and variables.
+    pub page: &'static str,
+    /// Further files of the package: (path, content).
+    pub files: &'static [(&'static str, &'static [u8])],
+    /// The library's GUID, once it is known; empty at first.
+    pub guid: OnceLock<Option<Uuid>>,
+}

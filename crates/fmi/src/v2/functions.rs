@@ -1,0 +1,327 @@
+//! The functions of the standard.
+//!
+//! Each turns pointers into slices, calls the safe [`Instance`] and turns a [`Fault`] into `fmi2Error`
+//! and one log line. Enumerations and Booleans of the importer come in as plain integers, since a number
+//! out of their range must not be undefined behaviour.
+#![expect(
+    clippy::missing_safety_doc,
+    non_snake_case,
+    reason = "names and contracts are those of the FMI 2.0 standard"
+)]
+
+use libc::{c_char, c_int, c_uint, c_void, size_t};
+
+use super::component::{CallbackFunctions, Component, instantiate};
+use super::guard::{guarded, silent};
+use super::pointers::{read, string, write, write_one};
+use crate::fault::{Fault, Status};
+use crate::instance::Instance;
+use crate::log::Category;
+use crate::unit::Unit;
+
+const LAST_SUCCESSFUL_TIME: c_int = 2;
+const DO_STEP_STATUS: c_int = 0;
+const PENDING_STATUS: c_int = 1;
+const TERMINATED: c_int = 3;
+
+/// What a snapshot's handle points to.
+///
+/// # Safety
+/// NULL, or what `fmi2GetFMUstate` or `fmi2DeSerializeFMUstate` gave and nobody has freed.
+unsafe fn kept<'a, U: Unit>(state: *mut c_void) -> Result<&'a Instance<U>, Fault> {
+    // SAFETY: by this function's contract.
+    unsafe { state.cast::<Instance<U>>().as_ref() }.ok_or(Fault::Null {
+        argument: "FMUstate",
+    })
+}
+
+/// Answers a question about the last step, if it is of the one kind that has an answer of this type.
+///
+/// # Safety
+/// As [`write_one`].
+unsafe fn answer<T>(
+    wanted: &'static str,
+    kind: c_int,
+    answered: c_int,
+    place: *mut T,
+    value: T,
+) -> Result<(), Fault> {
+    // SAFETY: by this function's contract.
+    let place = unsafe { write_one("value", place) }?;
+    if kind != answered {
+        return Err(Fault::StatusKind { kind, wanted });
+    }
+    *place = value;
+    Ok(())
+}
+
+functions! { $
+    /// The platform types this library was built with.
+    fn fmi2GetTypesPlatform<U>() -> *const c_char {
+        c"default".as_ptr()
+    }
+
+    /// The version of the standard.
+    fn fmi2GetVersion<U>() -> *const c_char {
+        c"2.0".as_ptr()
+    }
+
+    /// Makes an instance, or returns NULL after one log line.
+    fn fmi2Instantiate<U>(
+        instance_name: *const c_char, fmu_type: c_int, guid: *const c_char,
+        _resource_location: *const c_char, functions: *const CallbackFunctions,
+        _visible: c_int, logging_on: c_int
+    ) -> *mut c_void {
+        let make = || instantiate::<U>(instance_name, fmu_type, guid, functions, logging_on != 0);
+        let made = silent(|| make().map(|made| Box::into_raw(made).cast()));
+        made.ok().flatten().unwrap_or(std::ptr::null_mut())
+    }
+
+    /// Frees an instance, once; NULL is allowed.
+    fn fmi2FreeInstance<U>(component: *mut c_void) -> () {
+        if !component.is_null() {
+            let freed = silent(|| drop(Box::from_raw(component.cast::<Component<U>>())));
+            debug_assert!(freed.is_ok());
+        }
+    }
+
+    ;
+
+    /// Switches categories of log lines.
+    fn fmi2SetDebugLogging<U>(
+        component, logging_on: c_int, count: size_t, categories: *const *const c_char
+    ) {
+        let names = read("categories", categories, count)?;
+        let names = names
+            .iter()
+            .map(|&name| string("categories", name))
+            .collect::<Result<Vec<_>, _>>()?;
+        component.wanted.switch(logging_on != 0, &names)
+    }
+
+    /// Sets start time, stop time and tolerance; the last is of no use to an exact solution.
+    fn fmi2SetupExperiment<U>(
+        component, tolerance_defined: c_int, tolerance: f64, start_time: f64,
+        stop_time_defined: c_int, stop_time: f64
+    ) {
+        component.instance.setup(
+            (tolerance_defined != 0).then_some(tolerance),
+            start_time,
+            (stop_time_defined != 0).then_some(stop_time),
+        )?;
+        if tolerance_defined != 0 {
+            let text = format!("tolerance = {tolerance:e} has no effect: the motion is exact");
+            component.log(Status::Ok, Category::Warnings, &text);
+        }
+        Ok(())
+    }
+
+    /// Enters initialisation.
+    fn fmi2EnterInitializationMode<U>(component) {
+        component.instance.enter_initialization()
+    }
+
+    /// Leaves initialisation.
+    fn fmi2ExitInitializationMode<U>(component) {
+        component.instance.exit_initialization()
+    }
+
+    /// Ends the experiment.
+    fn fmi2Terminate<U>(component) {
+        component.instance.terminate()
+    }
+
+    /// Leads back to the state right after instantiation.
+    fn fmi2Reset<U>(component) {
+        component.reset();
+        Ok(())
+    }
+
+    /// Reads real values.
+    fn fmi2GetReal<U>(component, references: *const c_uint, count: size_t, values: *mut f64) {
+        let references = read("vr", references, count)?;
+        component.instance.get_real(references, write("value", values, count)?)
+    }
+
+    /// Reads integers and enumerations.
+    fn fmi2GetInteger<U>(component, references: *const c_uint, count: size_t, values: *mut c_int) {
+        let references = read("vr", references, count)?;
+        component.instance.get_integer(references, write("value", values, count)?)
+    }
+
+    /// Reads Booleans.
+    fn fmi2GetBoolean<U>(component, references: *const c_uint, count: size_t, values: *mut c_int) {
+        let references = read("vr", references, count)?;
+        component.instance.get_boolean(references, write("value", values, count)?)
+    }
+
+    /// Reads strings, of which there are none.
+    fn fmi2GetString<U>(
+        component, references: *const c_uint, count: size_t, values: *mut *const c_char
+    ) {
+        write("value", values, count)?;
+        component.instance.strings(read("vr", references, count)?)
+    }
+
+    /// Sets real values.
+    fn fmi2SetReal<U>(component, references: *const c_uint, count: size_t, values: *const f64) {
+        let references = read("vr", references, count)?;
+        component.instance.set_real(references, read("value", values, count)?)
+    }
+
+    /// Sets integers and enumerations.
+    fn fmi2SetInteger<U>(component, references: *const c_uint, count: size_t, values: *const c_int) {
+        let references = read("vr", references, count)?;
+        component.instance.set_integer(references, read("value", values, count)?)
+    }
+
+    /// Sets Booleans.
+    fn fmi2SetBoolean<U>(component, references: *const c_uint, count: size_t, values: *const c_int) {
+        let references = read("vr", references, count)?;
+        component.instance.set_boolean(references, read("value", values, count)?)
+    }
+
+    /// Sets strings, of which there are none.
+    fn fmi2SetString<U>(
+        component, references: *const c_uint, count: size_t, values: *const *const c_char
+    ) {
+        for &value in read("value", values, count)? {
+            string("value", value)?;
+        }
+        component.instance.strings(read("vr", references, count)?)
+    }
+
+    /// Keeps a snapshot; one that was kept before is overwritten.
+    fn fmi2GetFMUstate<U>(component, state: *mut *mut c_void) {
+        let state = write_one("FMUstate", state)?;
+        match state.cast::<Instance<U>>().as_mut() {
+            Some(kept) => kept.clone_from(&component.instance),
+            None => *state = Box::into_raw(Box::new(component.instance.clone())).cast(),
+        }
+        Ok(())
+    }
+
+    /// Goes back to a snapshot.
+    fn fmi2SetFMUstate<U>(component, state: *mut c_void) {
+        component.instance.clone_from(kept::<U>(state)?);
+        Ok(())
+    }
+
+    /// Frees a snapshot and sets its pointer to NULL; NULL is allowed.
+    fn fmi2FreeFMUstate<U>(_component, state: *mut *mut c_void) {
+        if let Some(state) = state.as_mut()
+            && !state.is_null()
+        {
+            drop(Box::from_raw(state.cast::<Instance<U>>()));
+            *state = std::ptr::null_mut();
+        }
+        Ok(())
+    }
+
+    /// How many bytes a snapshot takes.
+    fn fmi2SerializedFMUstateSize<U>(_component, state: *mut c_void, size: *mut size_t) {
+        *write_one("size", size)? = kept::<U>(state)?.size_in_bytes()?;
+        Ok(())
+    }
+
+    /// Writes a snapshot as bytes; what is left of them becomes zero.
+    fn fmi2SerializeFMUstate<U>(
+        _component, state: *mut c_void, bytes: *mut c_char, size: size_t
+    ) {
+        let written = kept::<U>(state)?.to_bytes()?;
+        let needed = written.len();
+        if size < needed {
+            return Err(Fault::Room { size, needed });
+        }
+        let bytes = write("serializedState", bytes.cast::<u8>(), size)?;
+        let (room, beyond) = bytes.split_at_mut(needed);
+        room.copy_from_slice(&written);
+        beyond.fill(0);
+        Ok(())
+    }
+
+    /// Makes a snapshot of bytes. The pointer's old content is not looked at.
+    fn fmi2DeSerializeFMUstate<U>(
+        _component, bytes: *const c_char, size: size_t, state: *mut *mut c_void
+    ) {
+        let state = write_one("FMUstate", state)?;
+        let kept = Instance::<U>::from_bytes(read("serializedState", bytes.cast::<u8>(), size)?)?;
+        *state = Box::into_raw(Box::new(kept)).cast();
+        Ok(())
+    }
+
+    /// Derivatives of outputs along a direction of inputs.
+    fn fmi2GetDirectionalDerivative<U>(
+        component, unknowns: *const c_uint, unknown_count: size_t, knowns: *const c_uint,
+        known_count: size_t, seed: *const f64, sensitivity: *mut f64
+    ) {
+        let unknowns = read("vUnknown_ref", unknowns, unknown_count)?;
+        let knowns = read("vKnown_ref", knowns, known_count)?;
+        let seed = read("dvKnown", seed, known_count)?;
+        let sensitivity = write("dvUnknown", sensitivity, unknown_count)?;
+        component.instance.directional_derivative(unknowns, knowns, seed, sensitivity)
+    }
+
+    /// Sets time derivatives of inputs.
+    fn fmi2SetRealInputDerivatives<U>(
+        component, references: *const c_uint, count: size_t, orders: *const c_int,
+        values: *const f64
+    ) {
+        let references = read("vr", references, count)?;
+        let orders = read("order", orders, count)?;
+        let values = read("value", values, count)?;
+        component.instance.set_input_derivatives(references, orders, values)
+    }
+
+    /// Reads time derivatives of outputs.
+    fn fmi2GetRealOutputDerivatives<U>(
+        component, references: *const c_uint, count: size_t, orders: *const c_int,
+        values: *mut f64
+    ) {
+        let references = read("vr", references, count)?;
+        let orders = read("order", orders, count)?;
+        let values = write("value", values, count)?;
+        component.instance.get_output_derivatives(references, orders, values)
+    }
+
+    /// Carries the motion on by one communication step.
+    fn fmi2DoStep<U>(component, point: f64, step: f64, _no_set_state_prior: c_int) {
+        let wants_events = component.wanted.has(Category::Events);
+        let (report, outcome) = component.instance.do_step(point, step, wants_events)?;
+        component.tell(&report);
+        outcome
+    }
+
+    /// There is never a step to cancel.
+    fn fmi2CancelStep<U>(_component) {
+        Err(Fault::NotPending)
+    }
+
+    /// How the last step ended.
+    fn fmi2GetStatus<U>(component, kind: c_int, value: *mut c_int) {
+        let status = component.instance.last_status() as c_int;
+        answer("status", kind, DO_STEP_STATUS, value, status)
+    }
+
+    /// The time up to which the motion is known.
+    fn fmi2GetRealStatus<U>(component, kind: c_int, value: *mut f64) {
+        answer("Real", kind, LAST_SUCCESSFUL_TIME, value, component.instance.time())
+    }
+
+    /// There is no integer status.
+    fn fmi2GetIntegerStatus<U>(_component, kind: c_int, value: *mut c_int) {
+        write_one("value", value)?;
+        Err(Fault::StatusKind { kind, wanted: "Integer" })
+    }
+
+    /// The unit never ends by itself.
+    fn fmi2GetBooleanStatus<U>(_component, kind: c_int, value: *mut c_int) {
+        answer("Boolean", kind, TERMINATED, value, 0)
+    }
+
+    /// There is no pending step to tell of.
+    fn fmi2GetStringStatus<U>(_component, kind: c_int, value: *mut *const c_char) {
+        answer("String", kind, PENDING_STATUS, value, c"".as_ptr())?;
+        Err(Fault::NotPending)
+    }
+}

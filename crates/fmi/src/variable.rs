@@ -1,0 +1,234 @@
+//! A row of the table of variables: what a unit offers, and how its value is had.
+
+use crate::quantity::{Enumeration, Quantity};
+
+/// One row: one variable of the unit `U`, whose derivatives along a direction are held in `T`.
+#[derive(Debug)]
+pub struct Variable<U: 'static, T> {
+    /// Value reference, unique among all variables and below 256.
+    pub reference: u32,
+    /// Public name.
+    pub name: &'static str,
+    /// What it means, in one sentence.
+    pub description: &'static str,
+    /// Its type, with unit and range.
+    pub kind: Kind,
+    /// What it is, and how its value is had.
+    pub access: Access<U, T>,
+}
+
+/// The type of a variable.
+#[derive(Debug, Clone, Copy)]
+pub enum Kind {
+    /// A real number.
+    Real(RealKind),
+    /// A number of things.
+    Count {
+        /// Smallest allowed value.
+        min: i32,
+        /// Largest allowed value.
+        max: Option<i32>,
+    },
+    /// Yes or no.
+    Boolean,
+    /// One of a few named items.
+    Enumeration(&'static Enumeration),
+}
+
+impl Kind {
+    /// Name of the type, as in the XML.
+    pub const fn type_name(&self) -> &'static str {
+        match self {
+            Self::Real(_) => "Real",
+            Self::Count { .. } => "Integer",
+            Self::Boolean => "Boolean",
+            Self::Enumeration(_) => "Enumeration",
+        }
+    }
+
+    /// Whether a variable of this type can have this value; an enumeration's is its number, and every
+    /// number stands for a Boolean.
+    pub fn contains(&self, value: f64) -> bool {
+        match self {
+            Self::Real(kind) => kind.contains(value),
+            Self::Count { min, max } => {
+                value >= f64::from(*min) && max.is_none_or(|max| value <= f64::from(max))
+            }
+            Self::Boolean => true,
+            Self::Enumeration(of) => of.items.iter().any(|item| f64::from(item.value) == value),
+        }
+    }
+
+    /// The values that it can have, in words.
+    pub fn range(&self) -> String {
+        match self {
+            Self::Real(kind) => kind.range(),
+            Self::Count { min, max: None } => format!("at least {min}"),
+            Self::Count {
+                min,
+                max: Some(max),
+            } => format!("within {min} and {max}"),
+            Self::Boolean => "true or false".to_owned(),
+            Self::Enumeration(of) => {
+                let items = of.items.iter();
+                let items: Vec<_> = items
+                    .map(|item| format!("{} ({})", item.value, item.name))
+                    .collect();
+                items.join(" or ")
+            }
+        }
+    }
+}
+
+/// Unit and range of a real variable.
+#[derive(Debug, Clone, Copy)]
+pub struct RealKind {
+    /// The quantity with its unit; nothing if it is a bare number.
+    pub quantity: Option<&'static Quantity>,
+    /// Unit to show it in by default, if not its own.
+    pub display_unit: Option<&'static str>,
+    /// Smallest allowed value.
+    pub min: Option<f64>,
+    /// Largest allowed value.
+    pub max: Option<f64>,
+    /// Order of magnitude, if not 1.
+    pub nominal: Option<f64>,
+}
+
+impl RealKind {
+    /// Any finite number, of this quantity if there is one.
+    pub const fn any(quantity: Option<&'static Quantity>) -> Self {
+        Self {
+            quantity,
+            display_unit: None,
+            min: None,
+            max: None,
+            nominal: None,
+        }
+    }
+
+    fn range(&self) -> String {
+        match (self.min, self.max) {
+            (Some(min), Some(max)) => format!("within {min:?} and {max:?}"),
+            (Some(min), None) => format!("finite and at least {min:?}"),
+            (None, Some(max)) => format!("finite and at most {max:?}"),
+            (None, None) => "finite".to_owned(),
+        }
+    }
+
+    fn contains(&self, value: f64) -> bool {
+        value.is_finite()
+            && self.min.is_none_or(|min| value >= min)
+            && self.max.is_none_or(|max| value <= max)
+    }
+}
+
+/// Where the value of a parameter or of a discrete input is held: its place among the values that a
+/// unit begins with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Slot(pub usize);
+
+impl Slot {
+    /// The slot of an array's element, counted from 0; this one is that of its first.
+    pub const fn element(self, index: usize) -> Self {
+        Self(self.0 + index)
+    }
+}
+
+/// What a variable is, and how its value is had.
+#[derive(Debug)]
+pub enum Access<U: 'static, T> {
+    /// A parameter.
+    Parameter {
+        /// Where its value is held.
+        slot: Slot,
+        /// Whether it can be set between steps.
+        tunable: bool,
+    },
+    /// A continuous input, by its number among these; it starts at 0.
+    Signal(usize),
+    /// A discrete input, with the place of its value.
+    Input(Slot),
+    /// A real output that varies continuously between events.
+    Continuous {
+        /// Its value.
+        value: fn(&U) -> f64,
+        /// Its time derivatives, of order 1, 2, ...
+        derivatives: &'static [fn(&U) -> f64],
+        /// Its derivative along a direction.
+        tangent: fn(&T) -> f64,
+        /// What it depends on.
+        depends: Dependencies,
+    },
+    /// A real output that changes at events only.
+    Discrete {
+        /// Its value.
+        value: fn(&U) -> f64,
+        /// Its derivative along a direction.
+        tangent: fn(&T) -> f64,
+    },
+    /// An integer or enumeration output; it changes at events only.
+    Integer {
+        /// Its value.
+        value: fn(&U) -> i32,
+        /// What it depends on.
+        depends: Dependencies,
+    },
+}
+
+/// What an output depends on, by name.
+///
+/// The name of an array stands for all of its elements.
+#[derive(Debug, Clone, Copy)]
+pub struct Dependencies {
+    /// Inputs that change it at once.
+    pub inputs: &'static [&'static str],
+    /// What its value at the start time depends on.
+    pub initial: &'static [&'static str],
+}
+
+impl<U, T> Variable<U, T> {
+    /// `causality` as in the XML.
+    pub const fn causality(&self) -> &'static str {
+        match self.access {
+            Access::Parameter { .. } => "parameter",
+            Access::Signal(_) | Access::Input(_) => "input",
+            _ => "output",
+        }
+    }
+
+    /// `variability` as in the XML.
+    pub const fn variability(&self) -> &'static str {
+        match self.access {
+            Access::Parameter { tunable: true, .. } => "tunable",
+            Access::Parameter { tunable: false, .. } => "fixed",
+            Access::Signal(_) | Access::Continuous { .. } => "continuous",
+            Access::Input(_) | Access::Discrete { .. } | Access::Integer { .. } => "discrete",
+        }
+    }
+
+    /// Where its value is held; continuous inputs and outputs have no such place.
+    pub const fn slot(&self) -> Option<Slot> {
+        match self.access {
+            Access::Parameter { slot, .. } | Access::Input(slot) => Some(slot),
+            _ => None,
+        }
+    }
+
+    /// Whether this is an output.
+    pub const fn is_output(&self) -> bool {
+        self.dependencies().is_some()
+    }
+
+    /// The dependencies of an output.
+    pub const fn dependencies(&self) -> Option<&Dependencies> {
+        match &self.access {
+            Access::Continuous { depends, .. } | Access::Integer { depends, .. } => Some(depends),
+            Access::Discrete { .. } => Some(&Dependencies {
+                inputs: &[],
+                initial: &[],
+            }),
+            _ => None,
+        }
+    }
+}
