@@ -21,7 +21,7 @@ pub type Outcome<T> = Result<T, Box<dyn Error>>;
 ///
 /// To make another unit, write its [`About`] with the table of variables and its [`Block`] as two
 /// statics, implement the methods without a body, and call `softstop_fmi::export!` in a `cdylib`.
-/// `tests/counter` is one in a page.
+/// `tests/tank/mod.rs` is one in a page.
 ///
 /// Its clone, and what is read back from its bytes, must go on bit for bit.
 pub trait Unit: Clone + Send + Serialize + DeserializeOwned + 'static {
