@@ -33,11 +33,3 @@ pub fn table() -> &'static softstop_fmi::Table<Machine, Sensitivity> {
 pub fn library_guid() -> Option<String> {
     softstop_fmi::library_guid::<Machine>()
 }
-
-/// Finds the library that was built along with the running program.
-///
-/// # Errors
-/// If it is not there.
-pub fn find_library() -> Result<std::path::PathBuf, package::PackageError> {
-    package::find_library("softstop_fmu")
-}

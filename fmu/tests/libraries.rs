@@ -4,18 +4,22 @@
 //! The FMU is the file that `SOFTSTOP_FMU` names; without it one is packed from the library that
 //! was built along with this test.
 
+#[path = "common/library.rs"]
+mod library;
+
 use std::collections::BTreeSet;
 use std::env;
 use std::fs;
 use std::io::{Cursor, Read};
 use std::path::Path;
 
+use library::library_path;
 use object::endian::Endianness;
 use object::read::elf::{ElfFile64, FileHeader, SectionHeader};
 use object::read::macho::{FatArch, MachOFatFile32};
 use object::{File, Object};
+use softstop_fmu::Imprint;
 use softstop_fmu::package::{self, Library};
-use softstop_fmu::{Imprint, find_library};
 
 const DEFINITION: &str = include_str!("../softstop.def");
 
@@ -52,8 +56,7 @@ fn fmu() -> (Vec<u8>, bool) {
             true,
         );
     }
-    let path = find_library().expect("the library that was built with this test");
-    let library = Library::read(&path).expect("a readable library");
+    let library = Library::read(&library_path()).expect("a readable library");
     let archive = package::archive(&Imprint::library(), &[library]).expect("an archive");
     (archive, false)
 }

@@ -4,19 +4,22 @@
     reason = "loads the packaged library and calls its C functions"
 )]
 
+#[path = "common/library.rs"]
+mod built;
+
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 use std::fs;
 use std::io::{Cursor, Read};
 use std::path::Path;
 use std::ptr;
 
+use built::library_path;
 use softstop::{Scene, Start};
 use softstop_fmu::package::{self, Library, PackageError};
-use softstop_fmu::{Imprint, StartValues, description, find_library, guid_of, library_guid, table};
+use softstop_fmu::{Imprint, StartValues, description, guid_of, library_guid, table};
 
 fn library() -> Library {
-    let path = find_library().expect("the library that was built with this test");
-    Library::read(&path).expect("a readable library")
+    Library::read(&library_path()).expect("a readable library")
 }
 
 fn other_design() -> (Scene, Start) {

@@ -67,17 +67,6 @@ pub enum PackageError {
     /// There is no library to pack.
     #[error("no library given: an FMU needs one at least")]
     NoLibrary,
-    /// The library was not found.
-    #[error("the FMU's library was not found; looked for {}", list(.0))]
-    NotFound(Vec<PathBuf>),
-}
-
-fn list(paths: &[PathBuf]) -> String {
-    let paths: Vec<_> = paths
-        .iter()
-        .map(|path| path.display().to_string())
-        .collect();
-    paths.join(" and ")
 }
 
 impl Library {
@@ -141,23 +130,6 @@ impl Library {
 fn at(path: &Path) -> impl FnOnce(io::Error) -> PackageError {
     let path = path.to_owned();
     move |source| PackageError::File { path, source }
-}
-
-/// Finds the library of a crate, written with underscores, that was built along with the running
-/// program: in `deps`, where cargo leaves it, or beside the program.
-///
-/// # Errors
-/// If it is in neither place.
-pub fn find_library(of: &str) -> Result<PathBuf, PackageError> {
-    use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
-    let program = std::env::current_exe()?;
-    let folder = program.parent().unwrap_or(Path::new("."));
-    let name = format!("{DLL_PREFIX}{of}{DLL_SUFFIX}");
-    // Cargo renews the one in `deps` with every build, the one beside the program only when it is
-    // asked for by name.
-    let places = vec![folder.join("deps").join(&name), folder.join(&name)];
-    let found = places.iter().find(|place| place.is_file()).cloned();
-    found.ok_or(PackageError::NotFound(places))
 }
 
 /// Writes an FMU with this imprint.

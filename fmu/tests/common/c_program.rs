@@ -4,8 +4,11 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use softstop_fmu::find_library;
 use tempfile::TempDir;
+
+#[path = "library.rs"]
+mod library;
+use library::library_path;
 
 const STRICT: [&str; 7] = [
     "-std=c99",
@@ -79,9 +82,8 @@ impl Program {
     }
 
     fn arguments(&self) -> [PathBuf; 2] {
-        let library = find_library().expect("the library that was built with this test");
         let description = Path::new(env!("CARGO_MANIFEST_DIR")).join("../modelDescription.xml");
-        [library, description]
+        [library_path(), description]
     }
 }
 
