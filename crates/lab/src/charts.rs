@@ -1,11 +1,11 @@
-//! `softstop chart`: methods side by side.
+//! `softstop-lab chart`: methods side by side.
 
 use clap::{Args, Subcommand};
 
 use crate::{failures, precision};
 use softstop_console::failure::Failure;
 
-/// Arguments of `softstop chart`.
+/// Arguments of `softstop-lab chart`.
 #[derive(Debug, Args)]
 pub struct ChartsArguments {
     /// What to chart.

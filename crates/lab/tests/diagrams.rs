@@ -1,4 +1,4 @@
-//! Figures 6 and 8 of the paper and the exponents, as `softstop paper` draws them in draft.
+//! Figures 6 and 8 of the paper and the exponents, as `softstop-lab paper` draws them in draft.
 
 use crate::figure::Figure;
 use softstop_testing::tolerance::{MOTION, printed};

@@ -1,4 +1,4 @@
-//! `softstop chart failures`: its maps agree with theory, its true motions with 67 digits, its files with its
+//! `softstop-lab chart failures`: its maps agree with theory, its true motions with 67 digits, its files with its
 //! page, and bad values are named.
 
 use approx::abs_diff_eq;

@@ -1,4 +1,4 @@
-//! The maps of `softstop paper`: regimes, basins, certainty, each as a first look.
+//! The maps of `softstop-lab paper`: regimes, basins, certainty, each as a first look.
 
 use approx::assert_abs_diff_eq;
 use softstop_testing::tolerance::MOTION;

@@ -1,4 +1,4 @@
-//! `softstop chart precision`: what it measures, and how users and scripts meet it.
+//! `softstop-lab chart precision`: what it measures, and how users and scripts meet it.
 
 mod command;
 

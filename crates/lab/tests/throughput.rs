@@ -1,4 +1,4 @@
-//! `softstop throughput` as users and scripts meet it. Times are not looked at.
+//! `softstop-lab throughput` as users and scripts meet it. Times are not looked at.
 
 use softstop::{Ratios, Scene};
 use softstop_lab::throughput::check::check;

@@ -10,14 +10,14 @@ use softstop_dynamics::attractors::SurveyError;
 use softstop_dynamics::basin::{Axis, Basins, Grid, Kind, Options, basins_watched};
 use softstop_lanes::{Job, Machine, Watch};
 
-use super::{Drawn, Figure, Studio};
+use crate::figure::{Drawn, Figure, Studio};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 use softstop_explore::basin::picture::{BasinPage, BasinPicture};
 
 /// Basins of attraction.
-pub(super) const FIGURE: Figure = Figure {
+pub(crate) const FIGURE: Figure = Figure {
     title: "Basins of attraction",
     files: &["basins.png", "basins.csv"],
     draw,

@@ -1,11 +1,12 @@
-//! `softstop paper`: the figures of the paper, and of what it only describes.
+//! `softstop-lab paper`: the figures of the paper, and of what it only describes.
 //!
-//! To add a figure, write a module with a `pub(super) const FIGURE: Figure`, and name it in [`Subject`].
+//! To add a figure, write a module with a `pub(crate) const FIGURE: Figure`, and name it in [`Subject`].
 
 mod basins;
 mod certainty;
 mod diagram;
 mod exponents;
+mod figure;
 mod figure6;
 mod figure7;
 mod figure8;
@@ -17,26 +18,23 @@ mod supply;
 mod table;
 pub mod table1;
 
-use std::cell::OnceCell;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::{Args, ValueEnum};
-use softstop_dynamics::attractors::Options;
-use softstop_dynamics::transitions::{Rules, Transition};
 
+use figure::{Detail, Figure, Studio};
 use report::{FigureReport, PaperReport};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::output::{self, Folder, Format};
-use table1::paper;
 
 const EXAMPLES: &str = "\
 Examples:
-  softstop paper                      all figures, into the folder softstop-paper
-  softstop paper 6a 8                 two of them
-  softstop paper regimes --draft      coarser, ten times as fast
-  softstop paper --format json        what was drawn, and the figures found, for programs
+  softstop-lab paper                      all figures, into the folder softstop-paper
+  softstop-lab paper 6a 8                 two of them
+  softstop-lab paper regimes --draft      coarser, ten times as fast
+  softstop-lab paper --format json        what was drawn, and the figures found, for programs
 
 Figures of F. Peterka, Chaos, Solitons & Fractals 18 (2003) 79-88, computed anew:
   6a, 6b   bifurcation diagrams over six clearances, unloaded and loaded, up and down
@@ -55,7 +53,7 @@ and what it only describes:
 Pictures are SVG where they are curves and PNG where they are clouds or maps, with the data of
 each beside it as CSV; files are written whole or not at all.";
 
-/// Arguments of `softstop paper`.
+/// Arguments of `softstop-lab paper`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct PaperArguments {
@@ -109,88 +107,6 @@ pub enum Subject {
     Supply,
     /// The stop's stiffness from 0 to infinity
     Hardening,
-}
-
-/// A figure: what its files are called, and how they are made.
-struct Figure {
-    /// What it shows, in one line.
-    title: &'static str,
-    /// Names of its files: pictures and tables.
-    files: &'static [&'static str],
-    /// Makes them.
-    draw: fn(&Studio) -> Result<Drawn, Failure>,
-}
-
-/// What came out of a figure.
-struct Drawn {
-    /// Contents of the files, in the order of their names.
-    files: Vec<Vec<u8>>,
-    /// What the figure shows in numbers: name and value, in the paper's symbols.
-    findings: Vec<(String, f64)>,
-}
-
-/// What figures share.
-struct Studio {
-    detail: Detail,
-    /// All transitions along rho = 10, once they are asked for.
-    transitions: OnceCell<Vec<Transition>>,
-}
-
-/// How fine figures are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Detail {
-    /// For print.
-    Full,
-    /// For a first look.
-    Draft,
-}
-
-impl Studio {
-    fn new(detail: Detail) -> Self {
-        Self {
-            detail,
-            transitions: OnceCell::new(),
-        }
-    }
-
-    /// How transitions are looked for: with few motions and short runs for a first look.
-    fn rules(&self) -> Rules {
-        let full = Rules::default();
-        let draft = Rules {
-            survey: Options {
-                starts: 64,
-                patience: 20_000,
-                ..full.survey
-            },
-            motions: 8,
-            patience: 1000,
-            ..full
-        };
-        self.detail.pick(full, draft)
-    }
-
-    /// All transitions along rho = 10; for a first look only those of the last two rows of Table 1.
-    fn transitions(&self) -> Result<&[Transition], Failure> {
-        if let Some(known) = self.transitions.get() {
-            return Ok(known);
-        }
-        let (range, values) = match self.detail {
-            Detail::Full => (table1::RANGE, table1::values(&paper::INTERVALS)),
-            Detail::Draft => ((1.01, 1.8), vec![1.2]),
-        };
-        let found = table1::transitions(&self.rules(), range, &values)?;
-        Ok(self.transitions.get_or_init(|| found))
-    }
-}
-
-impl Detail {
-    /// A number of points or periods: the first for print, the second for a first look.
-    fn pick<T>(self, full: T, draft: T) -> T {
-        match self {
-            Self::Full => full,
-            Self::Draft => draft,
-        }
-    }
 }
 
 impl Subject {

@@ -1,13 +1,13 @@
 //! The paper's Table 1.
 
-use super::{Drawn, Figure, Studio};
+use crate::figure::{Drawn, Figure, Studio};
 use crate::table1::report::{RowReport, TableReport};
 use crate::table1::{paper, picture};
 use softstop_console::failure::Failure;
 use softstop_console::output;
 
 /// Table 1.
-pub(super) const FIGURE: Figure = Figure {
+pub(crate) const FIGURE: Figure = Figure {
     title: "Table 1: the bifurcations of rho = 10",
     files: &["table-1.svg", "table-1.csv"],
     draw,

@@ -1,5 +1,5 @@
 //! Rows of the paper's Table 1, found from a few frequencies. The whole table takes longer than a test may:
-//! `softstop table1`.
+//! `softstop-lab table1`.
 
 use softstop_dynamics::attractors::Options;
 use softstop_dynamics::transitions::Rules;

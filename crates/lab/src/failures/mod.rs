@@ -1,4 +1,4 @@
-//! `softstop chart failures`: where methods with a fixed step fail, and how.
+//! `softstop-lab chart failures`: where methods with a fixed step fail, and how.
 
 mod atlas;
 mod family;
@@ -24,13 +24,13 @@ use softstop_console::progress::Progress;
 
 const EXAMPLES: &str = "\
 Examples:
-  softstop chart failures
+  softstop-lab chart failures
       the whole atlas: five machines, every method, about a minute
-  softstop chart failures --scene bounce --method RK4
+  softstop-lab chart failures --scene bounce --method RK4
       one machine; every method with RK4 in its name
-  softstop chart failures --scene docs/scenes/kelvin-voigt.toml --periods 2 --points 25
+  softstop-lab chart failures --scene docs/scenes/kelvin-voigt.toml --periods 2 --points 25
       any machine with a stop that has a stiffness; its own stiffness is replaced
-  softstop chart failures --tolerance 1e-6 --format json
+  softstop-lab chart failures --tolerance 1e-6 --format json
       a stricter judge; the result for programs
 
 Machines of the atlas: pressed (stability), bounce (energy), graze (short contacts), chatter
@@ -41,7 +41,7 @@ impact count, missed contact, energy gain, blow-up, stuck. docs/failures.md expl
 Files, whole or not at all: a page NAME.svg for each machine, failures.csv with a row for each
 run, failures.json with the maps and the limits that theory sets.";
 
-/// Arguments of `softstop chart failures`.
+/// Arguments of `softstop-lab chart failures`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub struct FailuresArguments {

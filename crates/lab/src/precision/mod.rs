@@ -1,4 +1,4 @@
-//! `softstop chart precision`: what each method's accuracy costs on a scene.
+//! `softstop-lab chart precision`: what each method's accuracy costs on a scene.
 //!
 //! [`case`] says what is computed, [`truth`] what comes of it in truth, [`family`] by which methods it is
 //! computed; [`measure`] runs them and [`errors`] compares; [`lead`] and [`report`] say what came of it.
@@ -34,13 +34,13 @@ use truth::Truth;
 
 const EXAMPLES: &str = "\
 Examples:
-  softstop chart precision periodic
+  softstop-lab chart precision periodic
       the paper's machine at point A over 200 drive periods, all methods
-  softstop chart precision machine.toml --periods 50
+  softstop-lab chart precision machine.toml --periods 50
       your own machine (the file is that of `softstop simulate`)
-  softstop chart precision stiff --method rk4 --method bdf --budget 5
+  softstop-lab chart precision stiff --method rk4 --method bdf --budget 5
       some methods, with time for finer settings
-  softstop chart precision all --output docs/accuracy
+  softstop-lab chart precision all --output docs/accuracy
       the charts of docs/accuracy.md, and the lead of the exact method as a table
 
 Every method runs with its knob (step or tolerance) turned from coarse to fine. Errors are those
@@ -52,7 +52,7 @@ circle is a run with a wrong number of impacts. SCENE.csv has one row per run, S
 machine, reference and lead. The files are written whole or not at all. docs/accuracy.md
 explains them.";
 
-/// Arguments of `softstop chart precision`.
+/// Arguments of `softstop-lab chart precision`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub struct PrecisionArguments {

@@ -3,13 +3,14 @@
 //! Nothing of the core's flows, events or lowering is used. A scene becomes layers of positions with their laws
 //! ([`machine`]); every arc is the Taylor series of its equation of motion ([`arc`]); the first root of each
 //! guard is isolated by bounds of its derivatives over the whole arc and polished by Newton's method to all
-//! digits ([`root`]); what happens there is decided by Filippov's rules ([`walk`]). A motion is computed twice,
+//! digits ([`root`]); what happens there is decided by Filippov's rules ([`rest`], [`walk`]). A motion is computed twice,
 //! with 160 and with 224 binary digits and the series cut accordingly; the second is the answer, and
 //! the difference says how far to trust the first, chaos included.
 
 pub mod arc;
 pub mod machine;
 pub mod number;
+mod place;
 pub mod rest;
 pub mod root;
 pub mod walk;

@@ -2,7 +2,7 @@
 
 use super::machine::Law;
 use super::number::{Real, is_negative, size};
-use super::walk::Walk;
+use super::place::Place;
 
 /// What a mass without velocity does.
 pub enum Rest {
@@ -35,7 +35,7 @@ struct Sides {
     smooth: bool,
 }
 
-impl Walk {
+impl Place {
     /// What the mass does from its place without velocity.
     pub(super) fn rest(&self) -> Rest {
         let Sides {

@@ -1,4 +1,4 @@
-//! `softstop throughput`: how fast the engines are, and whether the fast one counts the same impacts.
+//! `softstop-lab throughput`: how fast the engines are, and whether the fast one counts the same impacts.
 //!
 //! [`fleet`] says what is run, [`measure`] takes the times; [`draw`] makes random machines, [`doubt`] says which
 //! of their motions can be compared, [`check`] compares; [`report`] says what came of it.
@@ -23,11 +23,11 @@ use softstop_console::progress::Progress;
 
 const EXAMPLES: &str = "\
 Examples:
-  softstop throughput
+  softstop-lab throughput
       the speed of the safe engine, of one lane and of all, on one core and more
-  softstop throughput --format json
+  softstop-lab throughput --format json
       the same for programs
-  softstop throughput --check 1000000 --repeats 5
+  softstop-lab throughput --check 1000000 --repeats 5
       and whether both count the same impacts in a million random motions
 
 The engines take turns, each round a measurement of each; a round ahead of them
@@ -37,7 +37,7 @@ motion is compared if no rounding error can change its number of impacts, which
 the growth of such errors along the safe engine's motion tells. Exit code 1 if one
 differs.";
 
-/// Arguments of `softstop throughput`.
+/// Arguments of `softstop-lab throughput`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct ThroughputArguments {

@@ -151,7 +151,7 @@ fn every_built_in_scene_is_on_the_page_with_its_chart() -> Outcome {
 fn help_teaches_by_example() {
     let text = PROGRAM.text(&["--help"]);
     assert!(
-        text.contains("Examples:\n  softstop chart precision"),
+        text.contains("Examples:\n  softstop-lab chart precision"),
         "{text}"
     );
     for built_in in BUILT_IN {

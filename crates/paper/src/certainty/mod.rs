@@ -8,7 +8,7 @@ mod findings;
 use anyhow::Context;
 use softstop::Ratios;
 
-use super::{Drawn, Figure, Studio};
+use crate::figure::{Drawn, Figure, Studio};
 use curve::{Curve, Place, Starts};
 use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
@@ -17,7 +17,7 @@ use softstop_explore::basin::certainty::{
 };
 
 /// Establishing certainty along the hysteresis zone.
-pub(super) const FIGURE: Figure = Figure {
+pub(crate) const FIGURE: Figure = Figure {
     title: "Establishing certainty of z = 1 from g0 to s_SN, and its integrity",
     files: &["certainty.svg", "certainty.csv"],
     draw,

@@ -11,13 +11,13 @@ use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
 use softstop_dynamics::zone::{ZoneError, hysteresis};
 
 use super::diagram::{self, Job};
-use super::{Drawn, Figure, Studio};
 use crate::exponents::chart::{StabilityChart, StabilityPart, StabilityPoint};
+use crate::figure::{Drawn, Figure, Studio};
 use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
 
 /// Lyapunov exponent under the diagram.
-pub(super) const FIGURE: Figure = Figure {
+pub(crate) const FIGURE: Figure = Figure {
     title: "Lyapunov exponent under the diagram",
     files: &["exponents.png", "exponents.csv"],
     draw,

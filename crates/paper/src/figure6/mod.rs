@@ -10,7 +10,7 @@ use softstop_dynamics::orbit;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
 use super::diagram::{self, Job};
-use super::{Detail, Drawn, Figure};
+use crate::figure::{Detail, Drawn, Figure};
 use crate::figure6::chart::{ClearanceChart, ClearanceRow, Ranges};
 use boundaries::Ends;
 use softstop_console::failure::Failure;

@@ -8,7 +8,7 @@ use serde::Serialize;
 use softstop::{PhaseKind, Ratios};
 use softstop_dynamics::orbit::{Exponents, Orbit, find};
 
-use super::{Detail, Drawn, Figure};
+use crate::figure::{Detail, Drawn, Figure};
 use crate::figure7::chart::{StrokeChart, StrokePoint};
 use softstop_console::failure::Failure;
 use softstop_console::output;

@@ -1,6 +1,5 @@
 //! The band of numbered bifurcations above a panel.
 
-use super::chart::Bifurcation;
 use softstop_draw::panel::Panel;
 use softstop_draw::pen::{Align, Pen, Stroke, width};
 use softstop_draw::style;
@@ -8,6 +7,21 @@ use softstop_draw::style;
 const SMALL: u32 = 11;
 /// The line at a bifurcation.
 const MARK: Stroke = Stroke::dashed("#9a9a9a", 0.9, (3.0, 3.0));
+
+/// A numbered bifurcation.
+#[derive(Debug, Clone)]
+pub struct Bifurcation {
+    /// Its number.
+    pub number: usize,
+    /// Where it was found.
+    pub eta: f64,
+    /// By the paper's symbols.
+    pub symbols: String,
+    /// True if it cannot be reversed.
+    pub hysteresis: bool,
+    /// True if it is met on rising eta.
+    pub rising: bool,
+}
 
 /// Numbers, arrows and symbols above a panel, each with a line to its frequency.
 pub(super) fn band(pen: &mut Pen, panel: &Panel, bifurcations: &[Bifurcation]) {

@@ -4,7 +4,7 @@
 use softstop::Ratios;
 use softstop_dynamics::sweep::{Chain, Step};
 
-use super::band::{band, both_ways, spread};
+use super::band::{Bifurcation, band, both_ways, spread};
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Pen, Stroke, width};
 use softstop_draw::style;
@@ -45,21 +45,6 @@ pub struct Diagram {
     pub fleeting: Vec<Chain<Ratios>>,
     /// What motions are called: eta, X'- and the name.
     pub names: Vec<(f64, f64, String)>,
-}
-
-/// A numbered bifurcation.
-#[derive(Debug, Clone)]
-pub struct Bifurcation {
-    /// Its number.
-    pub number: usize,
-    /// Where it was found.
-    pub eta: f64,
-    /// By the paper's symbols.
-    pub symbols: String,
-    /// True if it cannot be reversed.
-    pub hysteresis: bool,
-    /// True if it is met on rising eta.
-    pub rising: bool,
 }
 
 /// The picture.

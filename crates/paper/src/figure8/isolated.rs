@@ -7,8 +7,8 @@ use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::orbit::Orbit;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
 
-use super::Detail;
 use crate::diagram::{self, Job};
+use crate::figure::Detail;
 use crate::figure8::chart::Diagram;
 use crate::table1::{paper, values};
 use softstop_console::failure::Failure;

@@ -11,14 +11,16 @@ use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
 use super::diagram::{self, Job};
-use super::{Detail, Drawn, Figure, Studio, figure9};
-use crate::figure8::chart::{Bifurcation, Diagram, NumberedChart};
+use crate::figure::{Detail, Drawn, Figure, Studio};
+use crate::figure8::band::Bifurcation;
+use crate::figure8::chart::{Diagram, NumberedChart};
+use crate::figure9;
 use crate::table1::matching::{self, Match};
 use crate::table1::{self, paper};
 use softstop_console::failure::Failure;
 
 /// Fig. 8.
-pub(super) const FIGURE: Figure = Figure {
+pub(crate) const FIGURE: Figure = Figure {
     title: "Bifurcation diagram of rho = 10 with zooms",
     files: &["figure-8.png", "figure-8.csv", "figure-8-bifurcations.csv"],
     draw,

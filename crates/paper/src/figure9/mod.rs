@@ -11,7 +11,7 @@ use serde::Serialize;
 use softstop::Ratios;
 use softstop_dynamics::attractors::{Options, Survey, SurveyError, attractors_watched};
 
-use super::{Detail, Drawn, Figure, Studio};
+use crate::figure::{Detail, Drawn, Figure, Studio};
 use crate::figure9::chart::{MotionPage, MotionRow};
 pub(super) use asked::letters;
 use asked::{Asked, MOTIONS};
@@ -22,7 +22,7 @@ use softstop_console::output;
 use softstop_console::progress::Progress;
 
 /// Motions (A) to (L).
-pub(super) const FIGURE: Figure = Figure {
+pub(crate) const FIGURE: Figure = Figure {
     title: "Motions (A) to (L)",
     files: &[
         "figure-9-a-f.svg",

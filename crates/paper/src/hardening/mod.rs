@@ -11,7 +11,7 @@ mod swept;
 use serde::Serialize;
 use softstop_dynamics::sweep::Step;
 
-use super::{Drawn, Figure, Studio};
+use crate::figure::{Drawn, Figure, Studio};
 use crate::hardening::chart::{HardeningChart, StopDiagram, StopFolds, StopMap, StopOrders};
 use orders::Subharmonic;
 use softstop_console::failure::Failure;
@@ -21,7 +21,7 @@ use stops::{CLEARANCE, Law, RESTITUTION, grazing};
 use swept::{RANGE, Swept, regime, sweep};
 
 /// From a soft to a rigid stop.
-pub(super) const FIGURE: Figure = Figure {
+pub(crate) const FIGURE: Figure = Figure {
     title: "From a soft to a rigid stop",
     files: &[
         "hardening.svg",

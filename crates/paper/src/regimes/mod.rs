@@ -12,7 +12,7 @@ use anyhow::anyhow;
 use softstop::Ratios;
 use softstop_dynamics::sweep::Direction;
 
-use super::{Detail, Drawn, Figure, Studio};
+use crate::figure::{Detail, Drawn, Figure, Studio};
 use crate::regimes::chart::{RegimePage, RegimePanel};
 use boundaries::Boundaries;
 use softstop_console::failure::Failure;
@@ -21,7 +21,7 @@ use softstop_explore::basin::cells::RegimeMap;
 use swept::Sweep;
 
 /// Regimes over eta and rho.
-pub(super) const FIGURE: Figure = Figure {
+pub(crate) const FIGURE: Figure = Figure {
     title: "Regimes over eta and rho, and their boundaries g0, s_PD, s_SN",
     files: &["regimes.png", "regimes.csv", "regimes-boundaries.csv"],
     draw,

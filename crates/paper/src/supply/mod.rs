@@ -15,14 +15,14 @@ use softstop_dynamics::basin::wilson;
 use softstop_dynamics::orbit::{StroboscopicMap, find};
 use softstop_dynamics::zone;
 
-use super::{Detail, Drawn, Figure, Studio};
+use crate::figure::{Detail, Drawn, Figure, Studio};
 use crate::supply::chart::{SupplyChart, SupplyCurve};
 use softstop_console::failure::Failure;
 use softstop_console::output;
 use softstop_console::progress::Progress;
 
 /// The figure.
-pub(super) const FIGURE: Figure = Figure {
+pub(crate) const FIGURE: Figure = Figure {
     title: "z = 1 under an interrupted supply of strips",
     files: &["supply.svg", "supply.csv"],
     draw,

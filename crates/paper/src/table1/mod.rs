@@ -1,4 +1,4 @@
-//! `softstop table1`: the paper's Table 1, found anew.
+//! `softstop-lab table1`: the paper's Table 1, found anew.
 
 pub(crate) mod matching;
 pub mod paper;
@@ -25,11 +25,11 @@ use softstop_console::progress::Progress;
 
 const EXAMPLES: &str = "\
 Examples:
-  softstop table1                       the 19 rows, beside the paper's figures
-  softstop table1 --format csv          for a spreadsheet
-  softstop table1 --format json         for programs
-  softstop table1 --output out          and as out/table1.csv, .json and .svg
-  softstop table1 --lifetime 5000       chaos has to last longer to count
+  softstop-lab table1                       the 19 rows, beside the paper's figures
+  softstop-lab table1 --format csv          for a spreadsheet
+  softstop-lab table1 --format json         for programs
+  softstop-lab table1 --output out          and as out/table1.csv, .json and .svg
+  softstop-lab table1 --lifetime 5000       chaos has to last longer to count
 
 How the rows are found: motions are searched for at a few frequencies, evenly spaced over the
 paper's sub-intervals (a) to (d). Each periodic one is followed to both ends of its stability,
@@ -56,7 +56,7 @@ pub enum TableFormat {
     Csv,
 }
 
-/// Arguments of `softstop table1`.
+/// Arguments of `softstop-lab table1`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct TableArguments {

@@ -1,0 +1,91 @@
+//! What a figure is, and what figures share.
+
+use std::cell::OnceCell;
+
+use softstop_console::failure::Failure;
+use softstop_dynamics::attractors::Options;
+use softstop_dynamics::transitions::{Rules, Transition};
+
+use crate::table1::{self, paper};
+
+/// A figure: what its files are called, and how they are made.
+pub(crate) struct Figure {
+    /// What it shows, in one line.
+    pub(crate) title: &'static str,
+    /// Names of its files: pictures and tables.
+    pub(crate) files: &'static [&'static str],
+    /// Makes them.
+    pub(crate) draw: fn(&Studio) -> Result<Drawn, Failure>,
+}
+
+/// What came out of a figure.
+pub(crate) struct Drawn {
+    /// Contents of the files, in the order of their names.
+    pub(crate) files: Vec<Vec<u8>>,
+    /// What the figure shows in numbers: name and value, in the paper's symbols.
+    pub(crate) findings: Vec<(String, f64)>,
+}
+
+/// What figures share.
+pub(crate) struct Studio {
+    pub(crate) detail: Detail,
+    /// All transitions along rho = 10, once they are asked for.
+    transitions: OnceCell<Vec<Transition>>,
+}
+
+/// How fine figures are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Detail {
+    /// For print.
+    Full,
+    /// For a first look.
+    Draft,
+}
+
+impl Studio {
+    pub(crate) fn new(detail: Detail) -> Self {
+        Self {
+            detail,
+            transitions: OnceCell::new(),
+        }
+    }
+
+    /// How transitions are looked for: with few motions and short runs for a first look.
+    pub(crate) fn rules(&self) -> Rules {
+        let full = Rules::default();
+        let draft = Rules {
+            survey: Options {
+                starts: 64,
+                patience: 20_000,
+                ..full.survey
+            },
+            motions: 8,
+            patience: 1000,
+            ..full
+        };
+        self.detail.pick(full, draft)
+    }
+
+    /// All transitions along rho = 10; for a first look only those of the last two rows of Table 1.
+    pub(crate) fn transitions(&self) -> Result<&[Transition], Failure> {
+        if let Some(known) = self.transitions.get() {
+            return Ok(known);
+        }
+        let (range, values) = match self.detail {
+            Detail::Full => (table1::RANGE, table1::values(&paper::INTERVALS)),
+            Detail::Draft => ((1.01, 1.8), vec![1.2]),
+        };
+        let found = table1::transitions(&self.rules(), range, &values)?;
+        Ok(self.transitions.get_or_init(|| found))
+    }
+}
+
+impl Detail {
+    /// A number of points or periods: the first for print, the second for a first look.
+    pub(crate) fn pick<T>(self, full: T, draft: T) -> T {
+        match self {
+            Self::Full => full,
+            Self::Draft => draft,
+        }
+    }
+}
