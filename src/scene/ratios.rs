@@ -76,6 +76,18 @@ impl Ratios {
         ratios
     }
 
+    /// The same machine at another frequency eta.
+    #[must_use]
+    pub const fn at_frequency(self, frequency: f64) -> Self {
+        Self { frequency, ..self }
+    }
+
+    /// The same machine with another clearance rho.
+    #[must_use]
+    pub const fn at_clearance(self, clearance: f64) -> Self {
+        Self { clearance, ..self }
+    }
+
     /// The scene with m = 1 kg, k1 = 1 N/m, F0 = 1 N.
     ///
     /// # Errors

@@ -5,6 +5,8 @@ use std::process::ExitCode;
 
 use softstop::MotionError;
 
+use crate::interrupt;
+
 /// Why there is no result.
 #[derive(Debug)]
 pub enum Failure {
@@ -49,9 +51,16 @@ impl fmt::Display for Failure {
     }
 }
 
+impl std::error::Error for Failure {}
+
+// A failure that went through `anyhow` is itself again; what ends after Ctrl-C was interrupted.
 impl From<anyhow::Error> for Failure {
     fn from(error: anyhow::Error) -> Self {
-        Self::Run(error)
+        match error.downcast() {
+            Ok(failure) => failure,
+            Err(_) if interrupt::requested() => Self::Interrupted,
+            Err(error) => Self::Run(error),
+        }
     }
 }
 

@@ -9,6 +9,7 @@ pub mod filter;
 pub mod methods;
 pub mod precision;
 pub mod reference;
+pub mod scenes;
 pub mod solvers;
 pub mod throughput;
 

@@ -20,7 +20,7 @@ const PROGRAM: Program = Program {
 };
 
 fn view(name: &str) -> Result<View, String> {
-    View::find(name, None).map_err(|failure| failure.to_string())
+    View::find(name).map_err(|failure| failure.to_string())
 }
 
 fn atlas(view: View, axes: Axes, families: &[Family]) -> Result<Atlas, String> {
@@ -132,7 +132,7 @@ fn writes_pages_table_and_maps() -> Outcome {
     // Moreau's method is made for rigid stops alone.
     assert_eq!(scene["maps"].as_array().map(Vec::len), Some(12));
     assert_eq!(scene["exact"], "CCCCC");
-    assert_eq!(scene["trueImpacts"], serde_json::json!([2, 2, 2, 2, 2]));
+    assert_eq!(scene["true_impacts"], serde_json::json!([2, 2, 2, 2, 2]));
     let euler = &scene["maps"][0];
     assert_eq!(
         (&euler["scheme"], &euler["events"]),

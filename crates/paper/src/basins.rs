@@ -3,15 +3,13 @@
 
 use std::f64::consts::TAU;
 
-use anyhow::{Context, anyhow};
+use anyhow::{Error, Result};
 use softstop::integrator::Start;
 use softstop::{Ratios, Scene};
-use softstop_dynamics::attractors::SurveyError;
 use softstop_dynamics::basin::{Axis, Basins, Grid, Kind, Options, basins_watched};
 use softstop_lanes::{Job, Machine, Watch};
 
-use crate::figure::{Drawn, Figure, Studio};
-use softstop_console::failure::Failure;
+use crate::figure::{self, Drawn, Figure, Studio};
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 use softstop_explore::basin::picture::{BasinPage, BasinPicture};
@@ -78,12 +76,9 @@ const PLANES: [Plane; 4] = [
 ];
 
 impl Plane {
-    fn scene(&self) -> Result<Scene, Failure> {
-        let machine = Ratios {
-            frequency: self.frequency,
-            ..Ratios::unloaded()
-        };
-        Ok(machine.scene().map_err(|error| anyhow!(error))?)
+    fn scene(&self) -> Result<Scene> {
+        let machine = Ratios::unloaded().at_frequency(self.frequency);
+        Ok(machine.scene()?)
     }
 
     fn grid(&self, cells: usize) -> Grid {
@@ -92,7 +87,7 @@ impl Plane {
     }
 }
 
-fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
     let cells = detail.pick(CELLS[0], CELLS[1]);
     let each = (cells * cells) as u64;
@@ -105,10 +100,7 @@ fn draw(studio: &Studio) -> Result<Drawn, Failure> {
         };
         let scene = plane.scene()?;
         let basins = basins_watched(&scene, &plane.grid(cells), &Options::default(), &watcher);
-        let basins = basins.map_err(|error| match error {
-            SurveyError::Stopped => Failure::Interrupted,
-            other => Failure::Run(anyhow!(other)),
-        })?;
+        let basins = basins?;
         let wandering = wandering(&scene, &basins)?;
         found.push((basins, wandering));
     }
@@ -118,10 +110,7 @@ fn draw(studio: &Studio) -> Result<Drawn, Failure> {
         let picture = BasinPicture::new(basins, plane.title, 0.0);
         pictures.push(picture.with_wandering(wandering));
     }
-    let page = BasinPage { pictures };
-    let png = page
-        .png()
-        .map_err(|error| anyhow!("cannot draw basins.png: {error}"))?;
+    let png = BasinPage { pictures }.png().map_err(Error::msg)?;
     let basins: Vec<&Basins> = found.iter().map(|(basins, _)| basins).collect();
     Ok(Drawn {
         files: vec![png, table(&basins)?],
@@ -143,7 +132,7 @@ impl Watch for Log {
 }
 
 /// States of chaos at drive angle 0, if a basin is its.
-fn wandering(scene: &Scene, basins: &Basins) -> Result<Vec<(f64, f64)>, Failure> {
+fn wandering(scene: &Scene, basins: &Basins) -> Result<Vec<(f64, f64)>> {
     let mut classes = basins.classes.iter();
     let chaos = classes.position(|class| matches!(class.kind, Kind::Chaotic(_)));
     let cell = chaos.and_then(|chaos| {
@@ -153,7 +142,7 @@ fn wandering(scene: &Scene, basins: &Basins) -> Result<Vec<(f64, f64)>, Failure>
     let Some(cell) = cell else {
         return Ok(Vec::new());
     };
-    let machine = Machine::new(scene).map_err(|error| anyhow!(error))?;
+    let machine = Machine::new(scene)?;
     let job = Job {
         machine: 0,
         start: basins.grid.start(cell).0,
@@ -165,9 +154,8 @@ fn wandering(scene: &Scene, basins: &Basins) -> Result<Vec<(f64, f64)>, Failure>
 }
 
 /// A row for each basin of each plane.
-fn table(all: &[&Basins]) -> Result<Vec<u8>, Failure> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    let header = [
+fn table(all: &[&Basins]) -> Result<Vec<u8>> {
+    let columns = [
         "plane",
         "eta",
         "motion",
@@ -181,34 +169,33 @@ fn table(all: &[&Basins]) -> Result<Vec<u8>, Failure> {
         "ball_across",
         "ball_up",
     ];
-    let failed = "cannot write basins.csv";
-    table.write_record(header).context(failed)?;
-    for (plane, basins) in PLANES.iter().zip(all) {
-        for (index, class) in basins.classes.iter().enumerate() {
-            let orbit = match &class.kind {
-                Kind::Periodic(orbit) => Some(orbit),
-                _ => None,
-            };
-            let ball = basins.largest_ball(index);
-            let row = (
-                plane.name,
-                plane.frequency,
-                class.kind.name(),
-                orbit.map(|orbit| orbit.pattern().to_string()),
-                orbit.map(|orbit| orbit.before_impact_velocity()),
-                class.cells,
-                class.share,
-                class.interval[0],
-                class.interval[1],
-                ball.map(|ball| ball.radius),
-                ball.map(|ball| ball.centre[0]),
-                ball.map(|ball| ball.centre[1]),
-            );
-            table.serialize(row).context(failed)?;
-        }
-    }
-    let content = table.into_inner().map_err(csv::IntoInnerError::into_error);
-    Ok(content.context(failed)?)
+    let rows = PLANES.iter().zip(all).flat_map(|(plane, basins)| {
+        basins
+            .classes
+            .iter()
+            .enumerate()
+            .map(move |(index, class)| {
+                let orbit = match &class.kind {
+                    Kind::Periodic(orbit) => Some(orbit),
+                    _ => None,
+                };
+                let ball = basins.largest_ball(index);
+                (
+                    plane.name,
+                    plane.frequency,
+                    class.kind.name(),
+                    orbit.map(|orbit| orbit.pattern().to_string()),
+                    orbit.map(|orbit| orbit.before_impact_velocity()),
+                    class.cells,
+                    class.share,
+                    class.interval,
+                    ball.map(|ball| ball.radius),
+                    ball.map(|ball| ball.centre[0]),
+                    ball.map(|ball| ball.centre[1]),
+                )
+            })
+    });
+    figure::table(&columns, rows)
 }
 
 /// Shares with their intervals, and the largest balls.

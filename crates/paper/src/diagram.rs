@@ -1,6 +1,6 @@
 //! Sweeps for the figures, and their tables.
 
-use anyhow::{Context, anyhow};
+use anyhow::Result;
 use rayon::prelude::*;
 use softstop::Ratios;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
@@ -16,7 +16,7 @@ pub(super) type Job = (Plan, Vec<Chain<Ratios>>);
 ///
 /// # Errors
 /// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
-pub(super) fn sweep(jobs: &mut [Job], what: &str) -> Result<(), Failure> {
+pub(super) fn sweep(jobs: &mut [Job], what: &str) -> Result<()> {
     let steps = jobs.iter().map(|(plan, chains)| plan.steps * chains.len());
     let progress = Progress::new(steps.sum::<usize>() as u64, what);
     let finished = jobs.par_iter_mut().map(|(plan, chains)| {
@@ -26,14 +26,14 @@ pub(super) fn sweep(jobs: &mut [Job], what: &str) -> Result<(), Failure> {
         })
     });
     if !finished.collect::<Vec<bool>>().into_iter().all(|it| it) {
-        return Err(Failure::Interrupted);
+        return Err(Failure::Interrupted.into());
     }
     let mut errors = jobs
         .iter()
         .flat_map(|job| &job.1)
         .filter_map(|chain| chain.error.clone());
     match errors.next() {
-        Some(error) => Err(Failure::Run(anyhow!(error))),
+        Some(error) => Err(error.into()),
         None => Ok(()),
     }
 }
@@ -68,24 +68,4 @@ pub(super) fn velocities(step: &Step) -> String {
         .map(|it| format!("{it:.6}"))
         .collect();
     written.join(" ")
-}
-
-/// A table of these columns.
-///
-/// # Errors
-/// [`Failure::Run`] if it cannot be written.
-pub(super) fn table<R: serde::Serialize>(
-    columns: &[&str],
-    rows: impl Iterator<Item = R>,
-) -> Result<Vec<u8>, Failure> {
-    let mut table = csv::WriterBuilder::new()
-        .has_headers(false)
-        .from_writer(Vec::new());
-    table
-        .write_record(columns)
-        .context("cannot write a table")?;
-    for row in rows {
-        table.serialize(row).context("cannot write a table")?;
-    }
-    Ok(table.into_inner().context("cannot write a table")?)
 }

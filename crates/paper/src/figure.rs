@@ -2,7 +2,8 @@
 
 use std::cell::OnceCell;
 
-use softstop_console::failure::Failure;
+use anyhow::Result;
+use serde::Serialize;
 use softstop_dynamics::attractors::Options;
 use softstop_dynamics::transitions::{Rules, Transition};
 
@@ -15,7 +16,7 @@ pub(crate) struct Figure {
     /// Names of its files: pictures and tables.
     pub(crate) files: &'static [&'static str],
     /// Makes them.
-    pub(crate) draw: fn(&Studio) -> Result<Drawn, Failure>,
+    pub(crate) draw: fn(&Studio) -> Result<Drawn>,
 }
 
 /// What came out of a figure.
@@ -67,7 +68,7 @@ impl Studio {
     }
 
     /// All transitions along rho = 10; for a first look only those of the last two rows of Table 1.
-    pub(crate) fn transitions(&self) -> Result<&[Transition], Failure> {
+    pub(crate) fn transitions(&self) -> Result<&[Transition]> {
         if let Some(known) = self.transitions.get() {
             return Ok(known);
         }
@@ -88,4 +89,22 @@ impl Detail {
             Self::Draft => draft,
         }
     }
+}
+
+/// A table of these columns.
+///
+/// # Errors
+/// What a row cannot be written for.
+pub(crate) fn table<R: Serialize>(
+    columns: &[&str],
+    rows: impl IntoIterator<Item = R>,
+) -> Result<Vec<u8>> {
+    let mut table = csv::WriterBuilder::new()
+        .has_headers(false)
+        .from_writer(Vec::new());
+    table.write_record(columns)?;
+    for row in rows {
+        table.serialize(row)?;
+    }
+    Ok(table.into_inner()?)
 }

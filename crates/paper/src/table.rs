@@ -3,7 +3,7 @@
 use crate::figure::{Drawn, Figure, Studio};
 use crate::table1::report::{RowReport, TableReport};
 use crate::table1::{paper, picture};
-use softstop_console::failure::Failure;
+use anyhow::Result;
 use softstop_console::output;
 
 /// Table 1.
@@ -13,7 +13,7 @@ pub(crate) const FIGURE: Figure = Figure {
     draw,
 };
 
-fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn> {
     let report = TableReport::new(&paper::ROWS, studio.transitions()?, &studio.rules());
     let finding = |row: &RowReport| Some((format!("row {:02}", row.number), row.eta?));
     Ok(Drawn {

@@ -92,7 +92,7 @@ pub fn run(arguments: &FailuresArguments) -> Result<(), Failure> {
     for (atlas, page) in atlases.iter().zip(&pages) {
         folder.stage(page, page::page(atlas).as_bytes())?;
     }
-    report::table(&atlases, folder.create(TABLE)?)?;
+    folder.stage(TABLE, &report::table(&atlases)?)?;
     let report = FailuresReport::new(&atlases, &names, &folder);
     let json = output::json(&report)?;
     folder.stage(MAPS, json.as_bytes())?;
@@ -139,22 +139,17 @@ fn check(arguments: &FailuresArguments) -> Result<(), Failure> {
 }
 
 fn views(arguments: &FailuresArguments) -> Result<Vec<View>, Failure> {
-    let periods = arguments.periods;
-    let views = if arguments.scene.is_empty() {
-        let views = View::built_in()?.into_iter();
-        let lasting = |view: View| View {
-            periods: periods.unwrap_or(view.periods),
-            ..view
-        };
-        views.map(lasting).collect()
+    let mut views = if arguments.scene.is_empty() {
+        View::built_in()?
     } else {
-        let find = |place: &String| View::find(place, periods);
-        arguments
-            .scene
-            .iter()
-            .map(find)
-            .collect::<Result<Vec<_>, _>>()?
+        let find = |place: &String| View::find(place);
+        arguments.scene.iter().map(find).collect::<Result<_, _>>()?
     };
+    if let Some(periods) = arguments.periods {
+        views
+            .iter_mut()
+            .for_each(|view: &mut View| view.periods = periods);
+    }
     for (index, view) in views.iter().enumerate() {
         if views[..index].iter().any(|other| other.name == view.name) {
             return Err(Failure::usage(format!(

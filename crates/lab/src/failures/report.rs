@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::atlas::{Atlas, Map};
 use softstop_console::failure::Failure;
-use softstop_console::output::{Folder, Staged};
+use softstop_console::output::{self, Folder};
 
 /// A row of the table.
 #[derive(Debug, Serialize)]
@@ -13,63 +13,48 @@ struct Row<'a> {
     scene: &'a str,
     scheme: &'a str,
     events: &'a str,
+    #[serde(rename = "stiffness (N/m)")]
     stiffness: f64,
+    #[serde(rename = "step (drive periods)")]
     step: f64,
     verdict: &'a str,
     error: Option<f64>,
     impacts: Option<usize>,
+    #[serde(rename = "true impacts")]
     true_impacts: usize,
 }
 
-const HEADER: [&str; 9] = [
-    "scene",
-    "scheme",
-    "events",
-    "stiffness (N/m)",
-    "step (drive periods)",
-    "verdict",
-    "error",
-    "impacts",
-    "true impacts",
-];
-
-/// Writes a row for each run.
+/// A row for each run.
 ///
 /// # Errors
 /// [`Failure::Run`] if the table cannot be written.
-pub(super) fn table(atlases: &[Atlas], mut table: Staged) -> Result<(), Failure> {
-    table.header(&HEADER)?;
-    for atlas in atlases {
-        for map in &atlas.maps {
-            rows(atlas, map, &mut table)?;
-        }
-    }
-    table.close()
+pub(super) fn table(atlases: &[Atlas]) -> Result<Vec<u8>, Failure> {
+    let maps = atlases.iter();
+    let maps = maps.flat_map(|atlas| atlas.maps.iter().map(move |map| (atlas, map)));
+    output::csv(maps.flat_map(|(atlas, map)| rows(atlas, map)))
 }
 
-fn rows(atlas: &Atlas, map: &Map, table: &mut Staged) -> Result<(), Failure> {
+fn rows<'a>(atlas: &'a Atlas, map: &'a Map) -> Vec<Row<'a>> {
     let columns = atlas.axes.stiffness.iter().zip(&atlas.columns);
+    let mut rows = Vec::new();
     for ((stiffness, column), cells) in columns.zip(&map.columns) {
-        for (step, cell) in atlas.axes.step.iter().zip(cells) {
-            table.row(&Row {
-                scene: &atlas.view.name,
-                scheme: map.family.title(),
-                events: map.family.row(),
-                stiffness: *stiffness,
-                step: *step,
-                verdict: cell.verdict.name(),
-                error: cell.error,
-                impacts: cell.impacts,
-                true_impacts: column.truth.impacts.len(),
-            })?;
-        }
+        rows.extend(atlas.axes.step.iter().zip(cells).map(|(step, cell)| Row {
+            scene: &atlas.view.name,
+            scheme: map.family.title(),
+            events: map.family.row(),
+            stiffness: *stiffness,
+            step: *step,
+            verdict: cell.verdict.name(),
+            error: cell.error,
+            impacts: cell.impacts,
+            true_impacts: column.truth.impacts.len(),
+        }));
     }
-    Ok(())
+    rows
 }
 
 /// The atlas for programs.
 #[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
 pub(super) struct FailuresReport {
     /// What the letters in the maps stand for.
     verdicts: Vec<Key>,
@@ -84,7 +69,6 @@ struct Key {
 }
 
 #[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
 struct SceneReport {
     name: String,
     title: String,
@@ -105,7 +89,6 @@ struct SceneReport {
 }
 
 #[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
 struct MapReport {
     scheme: &'static str,
     events: &'static str,
@@ -117,17 +100,11 @@ struct MapReport {
     longest_stable_step: Vec<Option<f64>>,
 }
 
-const fn letter(verdict: Verdict) -> char {
-    match verdict {
-        Verdict::Converged => 'C',
-        Verdict::Inaccurate => 'I',
-        Verdict::WrongCount => 'W',
-        Verdict::MissedContact => 'M',
-        Verdict::EnergyGain => 'E',
-        Verdict::BlownUp => 'B',
-        Verdict::Stuck => 'S',
-        Verdict::Unsuited => 'U',
-    }
+/// Of [`Verdict::ALL`].
+const LETTERS: &[u8; 8] = b"CIWMEBSU";
+
+fn letter(verdict: Verdict) -> char {
+    char::from(LETTERS[verdict as usize])
 }
 
 impl FailuresReport {

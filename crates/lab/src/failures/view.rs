@@ -1,13 +1,12 @@
 //! What the atlas looks at: machines whose stop's stiffness is swept.
 
-use std::path::Path;
-
 use crate::methods::Task;
+use crate::scenes::{self, BuiltIn, built_in};
 use softstop::scene::Slope;
 use softstop::{MotionError, PhaseKind, Scene, Start, Stop};
 
 use softstop_console::failure::Failure;
-use softstop_console::scene_file::{self, SceneFile};
+use softstop_console::scene_file::SceneFile;
 
 /// A machine of the atlas with its start and its duration.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,32 +23,13 @@ pub struct View {
     pub periods: f64,
 }
 
-/// One that comes with the program.
-struct BuiltIn {
-    name: &'static str,
-    title: &'static str,
-    scene: &'static str,
-    periods: f64,
-}
-
-macro_rules! built_in {
-    ($name:literal, $periods:literal, $title:literal) => {
-        BuiltIn {
-            name: $name,
-            title: $title,
-            scene: include_str!(concat!("../../../../docs/failures/", $name, ".toml")),
-            periods: $periods,
-        }
-    };
-}
-
-const BUILT_IN: [BuiltIn; 5] = [
-    built_in!("pressed", 1.0, "Pressed onto the stop: pure stability"),
-    built_in!("bounce", 1.0, "A bounce without losses: energy"),
-    built_in!("graze", 2.0, "A graze: short contacts"),
-    built_in!("chatter", 1.0, "Bounces to rest: endlessly many events"),
-    built_in!("driven", 3.0, "The driven machine: everything at once"),
-];
+const BUILT_IN: [BuiltIn; 5] = built_in! {
+    "pressed", "failures/pressed", 1.0, "Pressed onto the stop: pure stability";
+    "bounce", "failures/bounce", 1.0, "A bounce without losses: energy";
+    "graze", "failures/graze", 2.0, "A graze: short contacts";
+    "chatter", "failures/chatter", 1.0, "Bounces to rest: endlessly many events";
+    "driven", "failures/driven", 3.0, "The driven machine: everything at once";
+};
 
 /// The one whose start depends on the stiffness: a start at a fixed depth would throw the mass off a stiff stop.
 const PRESSED: &str = "pressed";
@@ -66,40 +46,38 @@ impl View {
     /// # Errors
     /// [`Failure::Usage`] if one of their files does not describe a machine.
     pub fn built_in() -> Result<Vec<Self>, Failure> {
-        BUILT_IN.iter().map(BuiltIn::view).collect()
+        BUILT_IN.iter().map(Self::of).collect()
     }
 
-    /// The one of this name, or of the scene file at this path, with another duration if one is given.
+    /// The one of this name, or of the scene file at this path.
     ///
     /// # Errors
     /// [`Failure::Usage`] if there is neither, or nothing to sweep.
-    pub fn find(place: &str, periods: Option<f64>) -> Result<Self, Failure> {
-        let mut view = match BUILT_IN.iter().find(|known| known.name == place) {
-            Some(known) => known.view()?,
-            None => Self::read(place)?,
-        };
-        view.periods = periods.unwrap_or(view.periods);
-        Ok(view)
+    pub fn find(place: &str) -> Result<Self, Failure> {
+        match BUILT_IN.iter().find(|known| known.name == place) {
+            Some(known) => Self::of(known),
+            None => Self::read(place),
+        }
+    }
+
+    fn of(known: &BuiltIn) -> Result<Self, Failure> {
+        Ok(Self {
+            name: known.name.to_owned(),
+            title: known.title.to_owned(),
+            file: known.file()?,
+            settling: known.name == PRESSED,
+            periods: known.periods,
+        })
     }
 
     fn read(place: &str) -> Result<Self, Failure> {
-        let path = Path::new(place);
-        if !path.exists() {
-            let names: Vec<&str> = BUILT_IN.iter().map(|known| known.name).collect();
-            return Err(Failure::usage(format!(
-                "scene = {place}: must be a scene file or one of {}",
-                names.join(", ")
-            )));
-        }
-        let file = scene_file::read(path)?;
+        let (name, file) = scenes::read(place, &BUILT_IN)?;
         if with_stiffness(&file.scene.stop, 1.0).is_none() {
             return Err(Failure::usage(format!(
                 "{place}: stop.model: must have a stiffness to sweep: kelvinVoigt, piecewiseLinear, hertz or \
                  preloaded"
             )));
         }
-        let name = path.file_stem().unwrap_or(path.as_os_str());
-        let name = name.to_string_lossy().into_owned();
         Ok(Self {
             title: name.clone(),
             name,
@@ -139,20 +117,6 @@ impl View {
             position: position + depth,
             velocity,
         }
-    }
-}
-
-impl BuiltIn {
-    fn view(&self) -> Result<View, Failure> {
-        let file = scene_file::parse(self.scene)
-            .map_err(|error| Failure::usage(format!("{}: {error}", self.name)))?;
-        Ok(View {
-            name: self.name.to_owned(),
-            title: self.title.to_owned(),
-            file,
-            settling: self.name == PRESSED,
-            periods: self.periods,
-        })
     }
 }
 

@@ -9,7 +9,8 @@ use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 
 use crate::precision::family::Look;
-use crate::precision::report::{RowReport, SceneReport};
+use crate::precision::measure::Row;
+use crate::precision::report::SceneReport;
 use softstop_draw::style;
 
 /// Colour and marker of a scheme: no two have both in common. The first is the exact method's.
@@ -35,7 +36,7 @@ const FLOOR: f64 = -17.0;
 const CEILING: f64 = 1.0;
 
 /// A quantity of a run, if it has one.
-type Quantity = fn(&RowReport) -> Option<f64>;
+type Quantity = fn(&Row) -> Option<f64>;
 
 /// What a panel draws over what.
 struct Panel {
@@ -81,7 +82,7 @@ pub struct PrecisionChart<'a> {
 
 /// The runs of a method.
 struct Curve<'a> {
-    rows: &'a [RowReport],
+    rows: &'a [Row],
     look: Look,
 }
 
@@ -161,7 +162,7 @@ impl Curve<'_> {
     }
 
     /// Powers of ten of error and cost of the runs that have both.
-    fn points(&self, panel: &Panel, which: impl Fn(&RowReport) -> bool) -> Vec<(f64, f64)> {
+    fn points(&self, panel: &Panel, which: impl Fn(&Row) -> bool) -> Vec<(f64, f64)> {
         let rows = self.rows.iter().filter(|row| which(row));
         rows.filter_map(|row| {
             let (error, cost) = ((panel.error)(row)?, (panel.cost)(row)?);
@@ -190,7 +191,7 @@ impl Curve<'_> {
     fn markers(&self, panel: &Panel) -> [Plot; 2] {
         let (color, shape) = self.style();
         let size = if self.look.scheme == 0 { 9.0 } else { 4.0 };
-        let is_right = |row: &RowReport| row.impact_difference == Some(0);
+        let is_right = |row: &Row| row.impact_difference == Some(0);
         let plot = ScatterPlot::new().with_color(color).with_size(size);
         let right = plot.clone().with_marker(shape);
         let wrong = plot.with_marker_opacity(0.0).with_marker_stroke_width(1.2);

@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-use super::errors::Errors;
-use super::measure::{Outcome, Row};
+use super::measure::Row;
 
 /// How the figures come about, for the reader of the JSON.
 pub const HOW: &str = "Accuracy is the larger of the target and the exact method's own error. A method's time \
@@ -24,7 +23,7 @@ const FLOOR: f64 = 1e-17;
 pub enum Quantity {
     /// Of the state at the end.
     End,
-    /// Of everything: [`Errors::worst`].
+    /// The largest of all, of runs with the right number of impacts.
     Worst,
 }
 
@@ -32,10 +31,11 @@ impl Quantity {
     /// Both.
     pub const ALL: [Self; 2] = [Self::End, Self::Worst];
 
-    fn of(self, errors: &Errors) -> f64 {
+    fn of(self, row: &Row) -> Option<f64> {
         match self {
-            Self::End => errors.end,
-            Self::Worst => errors.worst(),
+            Self::End => row.end_error,
+            Self::Worst if row.impact_difference == Some(0) => row.worst_error(),
+            Self::Worst => None,
         }
     }
 }
@@ -134,18 +134,16 @@ fn lead(
 fn curves(rows: &[Row], quantity: Quantity) -> Vec<(String, Vec<Point>)> {
     let mut curves: Vec<(String, Vec<Point>)> = Vec::new();
     for row in rows {
-        if let Outcome::Done {
-            seconds, errors, ..
-        } = &row.outcome
-        {
-            let error = quantity.of(errors).max(FLOOR);
-            if !error.is_finite() {
-                continue;
-            }
-            match curves.last_mut() {
-                Some((name, points)) if *name == row.method => points.push((error, *seconds)),
-                _ => curves.push((row.method.clone(), vec![(error, *seconds)])),
-            }
+        let Some((error, seconds)) = quantity.of(row).zip(row.seconds) else {
+            continue;
+        };
+        let point = (error.max(FLOOR), seconds);
+        if !point.0.is_finite() {
+            continue;
+        }
+        match curves.last_mut() {
+            Some((name, points)) if *name == row.method => points.push(point),
+            _ => curves.push((row.method.clone(), vec![point])),
         }
     }
     curves
@@ -172,26 +170,15 @@ fn between(coarse: Point, fine: Point, accuracy: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Errors, Outcome, Quantity, Row, leads, time_at};
-    use crate::methods::Work;
+    use super::{Quantity, Row, leads, time_at};
 
     fn row(method: &str, end: f64, seconds: f64, impact_difference: i64) -> Row {
-        let errors = Errors {
-            end,
-            impact_time: None,
-            impact_velocity: None,
-            impact_difference,
-        };
         Row {
             method: method.into(),
-            knob: None,
-            outcome: Outcome::Done {
-                seconds,
-                runs: 1,
-                work: Work::default(),
-                impacts: 0,
-                errors,
-            },
+            seconds: Some(seconds),
+            end_error: Some(end),
+            impact_difference: Some(impact_difference),
+            ..Row::default()
         }
     }
 

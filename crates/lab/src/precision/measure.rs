@@ -2,9 +2,11 @@
 
 use std::time::{Duration, Instant};
 
+use serde::Serialize;
+
 use crate::methods::{MethodError, Solution, Task, Work};
 
-use super::errors::{Errors, Scale};
+use super::errors::Scale;
 use super::family::{Family, Setting};
 use super::truth::Truth;
 use softstop_console::failure::Failure;
@@ -21,37 +23,65 @@ pub struct Effort {
     pub most: usize,
 }
 
-/// What came of a setting.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Outcome {
-    /// It has an answer.
-    Done {
-        /// Median time of a run, in s.
-        seconds: f64,
-        /// Runs that the median is of.
-        runs: usize,
-        /// What a run took.
-        work: Work,
-        /// Impacts found.
-        impacts: usize,
-        /// What it is off by.
-        errors: Errors,
-    },
-    /// The method gave up, or ended with numbers that are none.
-    Failed(String),
-    /// It was not run, or not to its end, since it takes too long.
-    Skipped(String),
+/// One setting of a method and what came of it: a row of the tables.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Row {
+    /// The method.
+    pub method: String,
+    /// Step in drive periods or tolerance.
+    pub knob: Option<f64>,
+    /// `done`, `failed` or `skipped`.
+    pub status: &'static str,
+    /// Why there is no answer.
+    pub reason: Option<String>,
+    /// Median time of a run, in s.
+    pub seconds: Option<f64>,
+    /// Runs that the median is of.
+    pub runs: Option<usize>,
+    /// Steps of a run.
+    pub steps: Option<u64>,
+    /// Evaluations of the law of force in a run.
+    pub evaluations: Option<u64>,
+    /// Error of the state at the end.
+    pub end_error: Option<f64>,
+    /// Largest error of the time of an impact, in drive periods.
+    pub impact_time_error: Option<f64>,
+    /// Largest error of a before-impact velocity.
+    pub impact_velocity_error: Option<f64>,
+    /// Impacts found.
+    pub impacts: Option<usize>,
+    /// Impacts found less those that are.
+    pub impact_difference: Option<i64>,
 }
 
-/// One setting of a method and what came of it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Row {
-    /// The method's name.
-    pub method: String,
-    /// Its knob.
-    pub knob: Option<f64>,
-    /// What came of it.
-    pub outcome: Outcome,
+impl Row {
+    /// The largest of the errors.
+    pub fn worst_error(&self) -> Option<f64> {
+        let errors = [
+            self.end_error,
+            self.impact_time_error,
+            self.impact_velocity_error,
+        ];
+        errors.into_iter().flatten().reduce(f64::max)
+    }
+
+    /// The method gave up, or ended with numbers that are none.
+    fn failed(self, reason: String) -> Self {
+        Self {
+            status: "failed",
+            reason: Some(reason),
+            ..self
+        }
+    }
+
+    /// It was not run, or not to its end, since it takes too long.
+    fn skipped(self, reason: String) -> Self {
+        Self {
+            status: "skipped",
+            reason: Some(reason),
+            ..self
+        }
+    }
 }
 
 /// Time in s that a step is taken to last before any has been measured.
@@ -83,22 +113,23 @@ impl Bench<'_> {
             if interrupt::requested() {
                 return Err(Failure::Interrupted);
             }
-            let outcome = self.outcome(setting, &mut pace);
-            done();
-            rows.push(Row {
+            let row = Row {
                 method: family.name.clone(),
                 knob: setting.knob,
-                outcome,
-            });
+                status: "done",
+                ..Row::default()
+            };
+            rows.push(self.run(row, setting, &mut pace));
+            done();
         }
         Ok(rows)
     }
 
-    fn outcome(&self, setting: &Setting, pace: &mut Pace) -> Outcome {
+    fn run(&self, row: Row, setting: &Setting, pace: &mut Pace) -> Row {
         let longest = self.effort.longest;
         let foreseen = pace.foreseen();
         if foreseen > longest {
-            return Outcome::Skipped(format!(
+            return row.skipped(format!(
                 "would take some {foreseen:.1e} s, more than {longest} s"
             ));
         }
@@ -114,25 +145,31 @@ impl Bench<'_> {
         match first {
             Err(error) => {
                 pace.failed(taken);
-                failed(&error, most_steps)
+                match error {
+                    MethodError::Stuck { steps, .. } if steps >= most_steps => {
+                        row.skipped(format!("broken off after {steps} steps: takes too long"))
+                    }
+                    _ => row.failed(error.to_string()),
+                }
             }
             Ok(solution) => {
                 pace.ran(taken, &solution.work);
-                self.repeated(setting, &task, &solution, taken)
+                self.repeated(row, setting, &task, &solution, taken)
             }
         }
     }
 
     fn repeated(
         &self,
+        row: Row,
         setting: &Setting,
         task: &Task,
         solution: &Solution,
         first: Duration,
-    ) -> Outcome {
+    ) -> Row {
         let errors = self.truth.errors_of(solution, &self.scale);
         if !errors.end.is_finite() {
-            return Outcome::Failed("ends in numbers that are none".into());
+            return row.failed("ends in numbers that are none".into());
         }
         let mut times = vec![first.as_secs_f64()];
         while times.iter().sum::<f64>() < self.effort.repeat && times.len() < self.effort.most {
@@ -141,12 +178,18 @@ impl Bench<'_> {
             times.push(begin.elapsed().as_secs_f64());
             std::hint::black_box(&again);
         }
-        Outcome::Done {
-            runs: times.len(),
-            seconds: median(&mut times),
-            work: solution.work,
-            impacts: self.scale.told(&solution.impacts).len(),
-            errors,
+        times.sort_by(f64::total_cmp);
+        Row {
+            seconds: Some(median(&times)),
+            runs: Some(times.len()),
+            steps: Some(solution.work.steps),
+            evaluations: Some(solution.work.evaluations),
+            end_error: Some(errors.end),
+            impact_time_error: errors.impact_time,
+            impact_velocity_error: errors.impact_velocity,
+            impacts: Some(self.scale.told(&solution.impacts).len()),
+            impact_difference: Some(errors.impact_difference),
+            ..row
         }
     }
 }
@@ -183,23 +226,10 @@ impl Pace {
     }
 }
 
-fn failed(error: &MethodError, most_steps: u64) -> Outcome {
-    match error {
-        MethodError::Stuck { steps, .. } if *steps >= most_steps => {
-            Outcome::Skipped(format!("broken off after {steps} steps: takes too long"))
-        }
-        _ => Outcome::Failed(error.to_string()),
-    }
-}
-
-fn median(times: &mut [f64]) -> f64 {
-    times.sort_by(f64::total_cmp);
-    let middle = times.len() / 2;
-    if times.len().is_multiple_of(2) {
-        f64::midpoint(times[middle - 1], times[middle])
-    } else {
-        times[middle]
-    }
+/// The middle one of sorted values, or of the two in the middle.
+pub fn median(sorted: &[f64]) -> f64 {
+    let (low, high) = ((sorted.len() - 1) / 2, sorted.len() / 2);
+    f64::midpoint(sorted[low], sorted[high])
 }
 
 #[cfg(test)]
@@ -208,8 +238,8 @@ mod tests {
 
     #[test]
     fn the_median_is_in_the_middle() {
-        assert_eq!(median(&mut [3.0, 1.0, 2.0]), 2.0);
-        assert_eq!(median(&mut [4.0, 1.0, 2.0, 100.0]), 3.0);
+        assert_eq!(median(&[1.0, 2.0, 3.0]), 2.0);
+        assert_eq!(median(&[1.0, 2.0, 4.0, 100.0]), 3.0);
     }
 
     #[test]

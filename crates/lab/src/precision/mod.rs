@@ -25,7 +25,7 @@ use errors::Scale;
 use family::Family;
 use machine::Machine;
 use measure::{Bench, Effort, Row};
-use report::{COLUMNS, PrecisionReport, SceneReport};
+use report::{PrecisionReport, SceneReport};
 use softstop_console::failure::Failure;
 use softstop_console::machine::require;
 use softstop_console::output::{self, Folder, Format};
@@ -181,7 +181,7 @@ fn measured(
         progress.say(&format!("{name}: {}", family.name));
         rows.extend(bench.family(family, &|| progress.one())?);
     }
-    Ok(SceneReport::new(case, machine, &truth, scale, &rows))
+    Ok(SceneReport::new(case, machine, &truth, scale, rows))
 }
 
 /// Stages chart, table and JSON.
@@ -194,11 +194,6 @@ fn write(report: &mut SceneReport, families: &[Family], folder: &Folder) -> Resu
     let looks = families.iter().map(|family| family.look).collect();
     let chart = PrecisionChart::new(report, looks);
     folder.stage(&svg, chart.svg().as_bytes())?;
-    let mut table = folder.create(&csv)?;
-    table.header(&COLUMNS)?;
-    for row in &report.rows {
-        table.row(row)?;
-    }
-    table.close()?;
+    folder.stage(&csv, &output::csv(&report.rows)?)?;
     folder.stage(&json, output::json(report)?.as_bytes())
 }

@@ -1,5 +1,4 @@
-//! What is said of a measurement: plain data whose field names are the keys of the JSON and the columns of the
-//! CSV.
+//! What is said of a measurement: plain data whose field names are the keys of the JSON.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +8,7 @@ use super::case::Case;
 use super::errors::Scale;
 use super::lead::{self, Lead};
 use super::machine::Machine;
-use super::measure::{Outcome, Row};
+use super::measure::Row;
 use super::truth::Truth;
 
 /// All charts of a run.
@@ -37,7 +36,7 @@ pub struct SceneReport {
     /// What errors are divided by.
     pub scale: Scale,
     /// One for each setting of each method.
-    pub rows: Vec<RowReport>,
+    pub rows: Vec<Row>,
     /// By how much the exact method leads.
     pub lead: LeadReport,
     /// The files written.
@@ -69,41 +68,16 @@ pub struct LeadReport {
     pub at: Vec<Lead>,
 }
 
-/// One run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct RowReport {
-    /// The method.
-    pub method: String,
-    /// Step in drive periods or tolerance.
-    pub knob: Option<f64>,
-    /// `done`, `failed` or `skipped`.
-    pub status: &'static str,
-    /// Why there is no answer.
-    pub reason: Option<String>,
-    /// Median time of a run, in s.
-    pub seconds: Option<f64>,
-    /// Runs that the median is of.
-    pub runs: Option<usize>,
-    /// Steps of a run.
-    pub steps: Option<u64>,
-    /// Evaluations of the law of force in a run.
-    pub evaluations: Option<u64>,
-    /// Error of the state at the end.
-    pub end_error: Option<f64>,
-    /// Largest error of the time of an impact, in drive periods.
-    pub impact_time_error: Option<f64>,
-    /// Largest error of a before-impact velocity.
-    pub impact_velocity_error: Option<f64>,
-    /// Impacts found.
-    pub impacts: Option<usize>,
-    /// Impacts found less those that are.
-    pub impact_difference: Option<i64>,
-}
-
 impl SceneReport {
     /// What was measured on a case.
     #[must_use]
-    pub fn new(case: &Case, machine: &Machine, truth: &Truth, scale: Scale, rows: &[Row]) -> Self {
+    pub fn new(
+        case: &Case,
+        machine: &Machine,
+        truth: &Truth,
+        scale: Scale,
+        rows: Vec<Row>,
+    ) -> Self {
         let exact = rows.first().map_or("", |row| row.method.as_str());
         Self {
             scene: case.name.clone(),
@@ -118,90 +92,12 @@ impl SceneReport {
                 slowest: scale.slowest(),
             },
             scale,
-            rows: rows.iter().map(RowReport::new).collect(),
             lead: LeadReport {
                 how: lead::HOW,
-                at: lead::leads(rows, exact),
+                at: lead::leads(&rows, exact),
             },
+            rows,
             files: BTreeMap::new(),
-        }
-    }
-}
-
-/// The columns of the CSV.
-pub const COLUMNS: [&str; 13] = [
-    "method",
-    "knob",
-    "status",
-    "reason",
-    "seconds",
-    "runs",
-    "steps",
-    "evaluations",
-    "end_error",
-    "impact_time_error",
-    "impact_velocity_error",
-    "impacts",
-    "impact_difference",
-];
-
-impl RowReport {
-    /// The largest of the errors.
-    #[must_use]
-    pub fn worst_error(&self) -> Option<f64> {
-        let errors = [
-            self.end_error,
-            self.impact_time_error,
-            self.impact_velocity_error,
-        ];
-        errors.into_iter().flatten().reduce(f64::max)
-    }
-
-    fn new(row: &Row) -> Self {
-        let empty = Self {
-            method: row.method.clone(),
-            knob: row.knob,
-            status: "done",
-            reason: None,
-            seconds: None,
-            runs: None,
-            steps: None,
-            evaluations: None,
-            end_error: None,
-            impact_time_error: None,
-            impact_velocity_error: None,
-            impacts: None,
-            impact_difference: None,
-        };
-        match &row.outcome {
-            Outcome::Failed(reason) => Self {
-                status: "failed",
-                reason: Some(reason.clone()),
-                ..empty
-            },
-            Outcome::Skipped(reason) => Self {
-                status: "skipped",
-                reason: Some(reason.clone()),
-                ..empty
-            },
-            Outcome::Done {
-                seconds,
-                runs,
-                work,
-                impacts,
-                errors,
-            } => Self {
-                seconds: Some(*seconds),
-                runs: Some(*runs),
-                steps: Some(work.steps),
-                evaluations: Some(work.evaluations),
-                end_error: Some(errors.end),
-                impact_time_error: errors.impact_time,
-                impact_velocity_error: errors.impact_velocity,
-                impacts: Some(*impacts),
-                impact_difference: Some(errors.impact_difference),
-                ..empty
-            },
         }
     }
 }

@@ -1,7 +1,8 @@
 //! The measurement as tables for people.
 
 use super::lead::{Lead, Quantity, TARGETS};
-use super::report::{PrecisionReport, RowReport, SceneReport};
+use super::measure;
+use super::report::{PrecisionReport, SceneReport};
 use softstop_console::table::{Row, heading, row, table};
 
 /// All charts of a run.
@@ -40,13 +41,13 @@ fn scene(chart: &SceneReport) -> String {
 }
 
 /// The names of the methods, in order.
-pub(super) fn names(rows: &[RowReport]) -> Vec<&str> {
+pub(super) fn names(rows: &[measure::Row]) -> Vec<&str> {
     let mut names: Vec<&str> = rows.iter().map(|row| row.method.as_str()).collect();
     names.dedup();
     names
 }
 
-fn methods(rows: &[RowReport]) -> Vec<Row> {
+fn methods(rows: &[measure::Row]) -> Vec<Row> {
     let head = [
         "knob",
         "time (s)",
@@ -62,7 +63,7 @@ fn methods(rows: &[RowReport]) -> Vec<Row> {
             .iter()
             .filter(|row| row.method == **name && row.end_error.is_some());
         let best = own.min_by(|a, b| {
-            let error = |row: &RowReport| row.end_error.unwrap_or(f64::INFINITY);
+            let error = |row: &measure::Row| row.end_error.unwrap_or(f64::INFINITY);
             error(a).total_cmp(&error(b))
         });
         let cells = best.map_or_else(|| vec!["no answer".to_owned()], cells);
@@ -73,7 +74,7 @@ fn methods(rows: &[RowReport]) -> Vec<Row> {
         .collect()
 }
 
-fn cells(row: &RowReport) -> Vec<String> {
+fn cells(row: &measure::Row) -> Vec<String> {
     let count = |count: u64| format!("{count}");
     let mut cells: Vec<String> = vec![figure(row.knob), figure(row.seconds)];
     cells.push(row.evaluations.map_or_else(dash, count));
@@ -118,7 +119,7 @@ fn next(lead: &Lead) -> String {
 }
 
 /// Failures, counted by reason, and methods cut short.
-fn failures(rows: &[RowReport]) -> String {
+fn failures(rows: &[measure::Row]) -> String {
     let mut lines: Vec<(String, usize)> = Vec::new();
     for row in rows {
         if let Some(reason) = &row.reason {

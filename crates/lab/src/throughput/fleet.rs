@@ -58,11 +58,7 @@ impl Range {
         let scene = |number| {
             let frequency = low + step * f64::from(number);
             let ratios = Ratios::unloaded();
-            Ratios {
-                frequency,
-                ..ratios
-            }
-            .scene()
+            ratios.at_frequency(frequency).scene()
         };
         let scenes: Vec<Scene> = (0..self.motions).map(scene).collect::<Result<_, _>>()?;
         let job = |machine| Job {

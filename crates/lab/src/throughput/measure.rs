@@ -8,6 +8,7 @@ use softstop::MotionError;
 use softstop_lanes::Instructions;
 
 use super::fleet::{Count, Fleet};
+use crate::precision::measure::median;
 use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
 
@@ -47,8 +48,7 @@ impl Timing {
     /// The middle one of the times, in s.
     #[must_use]
     pub fn median(&self) -> f64 {
-        let (low, high) = ((self.seconds.len() - 1) / 2, self.seconds.len() / 2);
-        0.5 * (self.seconds[low] + self.seconds[high])
+        median(&self.seconds)
     }
 }
 

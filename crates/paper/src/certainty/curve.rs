@@ -2,15 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use anyhow::{Context, anyhow};
+use anyhow::{Context, Result};
 use rayon::prelude::*;
 use softstop::Ratios;
-use softstop_dynamics::attractors::SurveyError;
-use softstop_dynamics::basin::{Axis, CertaintyError, Establishing, Grid, Options, establishing};
+use softstop_dynamics::basin::{Axis, Establishing, Grid, Options, establishing};
 use softstop_dynamics::orbit::Regime;
 use softstop_dynamics::zone::{self, Zone};
 
-use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
 
 /// Which states are asked.
@@ -74,11 +72,8 @@ pub(super) struct Place {
 }
 
 impl Curve {
-    pub fn new(machine: Ratios, clearance: f64, starts: Starts) -> Result<Self, Failure> {
-        let machine = Ratios {
-            clearance,
-            ..machine
-        };
+    pub fn new(machine: Ratios, clearance: f64, starts: Starts) -> Result<Self> {
+        let machine = machine.at_clearance(clearance);
         let scene = machine.scene().context("no machine")?;
         let zone = zone::hysteresis(&scene)
             .with_context(|| format!("no hysteresis zone at rho = {clearance}"))?;
@@ -102,14 +97,11 @@ impl Curve {
         }
     }
 
-    fn at(&self, place: f64, cells: usize, progress: &Progress) -> Result<Place, Failure> {
+    fn at(&self, place: f64, cells: usize, progress: &Progress) -> Result<Place> {
         let grid = self.starts.grid(self.clearance(), cells);
         let watcher = |_, _| progress.steps(0).is_ok();
         let found = establishing(&self.zone, &[place], &grid, &Options::default(), &watcher);
-        let found = found.map_err(|error| match error {
-            CertaintyError::Survey(SurveyError::Stopped) => Failure::Interrupted,
-            other => Failure::Run(anyhow!(other)),
-        })?;
+        let found = found?;
         progress.steps((cells * cells) as u64)?;
         let place = found.first().map(Place::new);
         Ok(place.context("no place")?)
@@ -138,7 +130,7 @@ pub(super) fn fill(
     places: &[f64],
     cells: usize,
     progress: &Progress,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let tasks: Vec<(usize, f64)> = (0..curves.len())
         .flat_map(|curve| places.iter().map(move |place| (curve, *place)))
         .collect();

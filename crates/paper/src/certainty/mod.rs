@@ -5,12 +5,11 @@
 mod curve;
 mod findings;
 
-use anyhow::Context;
+use anyhow::Result;
 use softstop::Ratios;
 
-use crate::figure::{Drawn, Figure, Studio};
+use crate::figure::{self, Drawn, Figure, Studio};
 use curve::{Curve, Place, Starts};
-use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
 use softstop_explore::basin::certainty::{
     CertaintyCurve, CertaintyPage, CertaintyPanel, CertaintyPoint,
@@ -52,7 +51,7 @@ fn places(steps: usize) -> Vec<f64> {
     near.chain(inner).chain(far).collect()
 }
 
-fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
     let places = places(detail.pick(STEPS[0], STEPS[1]));
     let cells = detail.pick(CELLS[0], CELLS[1]);
@@ -152,9 +151,8 @@ const SHARE: &str = "certainty of z = 1";
 const BALL: &str = "radius of the largest ball in z = 1";
 
 /// A row for each place of each curve.
-fn table(curves: &[Curve]) -> Result<Vec<u8>, Failure> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    let header = [
+fn table(curves: &[Curve]) -> Result<Vec<u8>> {
+    let columns = [
         "machine",
         "rho",
         "starts",
@@ -166,25 +164,20 @@ fn table(curves: &[Curve]) -> Result<Vec<u8>, Failure> {
         "integrity",
         "motions",
     ];
-    let failed = "cannot write certainty.csv";
-    table.write_record(header).context(failed)?;
-    for curve in curves {
-        for place in &curve.places {
-            let row = (
+    let rows = curves.iter().flat_map(|curve| {
+        curve.places.iter().map(move |place| {
+            (
                 curve.machine(),
                 curve.clearance(),
                 curve.starts.label(),
                 place.place,
                 place.frequency,
                 place.certainty,
-                place.interval[0],
-                place.interval[1],
+                place.interval,
                 place.integrity,
                 &place.motions,
-            );
-            table.serialize(row).context(failed)?;
-        }
-    }
-    let content = table.into_inner().map_err(csv::IntoInnerError::into_error);
-    Ok(content.context(failed)?)
+            )
+        })
+    });
+    figure::table(&columns, rows)
 }

@@ -45,7 +45,7 @@ pub struct StabilityPart {
 #[derive(Debug, Clone)]
 pub struct StabilityChart<'a> {
     /// The whole range, and a part of it.
-    pub parts: &'a [StabilityPart; 2],
+    pub parts: &'a [StabilityPart],
     /// z = 1 up to its fold: eta, X'-, exponent.
     pub branch: &'a [[f64; 3]],
     /// Points to mark on z = 1 in the whole range: name, eta, X'-, exponent.

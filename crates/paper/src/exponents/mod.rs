@@ -2,18 +2,17 @@
 
 mod chart;
 
-use anyhow::anyhow;
+use anyhow::{Error, Result, anyhow};
 use rayon::prelude::*;
 use softstop::{MotionError, Ratios};
 use softstop_dynamics::continuation::{Adjustable, Parameter};
 use softstop_dynamics::orbit::{Exponents, Orbit, find};
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
-use softstop_dynamics::zone::{ZoneError, hysteresis};
+use softstop_dynamics::zone::hysteresis;
 
-use super::diagram::{self, Job};
+use crate::diagram::{self, Job};
 use crate::exponents::chart::{StabilityChart, StabilityPart, StabilityPoint};
-use crate::figure::{Drawn, Figure, Studio};
-use softstop_console::failure::Failure;
+use crate::figure::{self, Drawn, Figure, Studio};
 use softstop_console::progress::Progress;
 
 /// Lyapunov exponent under the diagram.
@@ -27,16 +26,15 @@ pub(crate) const FIGURE: Figure = Figure {
 const PARTS: [((f64, f64), (f64, f64)); 2] =
     [((0.8, 1.8), (-0.03, 0.008)), ((0.95, 1.0), (-0.03, 0.09))];
 
-fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
     let plans = PARTS
         .iter()
         .zip(detail.pick([(1401, 200), (900, 200)], [(101, 100), (41, 100)]));
     let plans = plans.map(|((range, _), (steps, periods))| {
-        Plan::new(Parameter::Frequency, *range, steps, periods)
-            .map_err(|error| Failure::Run(anyhow!(error)))
+        Ok(Plan::new(Parameter::Frequency, *range, steps, periods)?)
     });
-    let plans = plans.collect::<Result<Vec<Plan>, Failure>>()?;
+    let plans = plans.collect::<Result<Vec<Plan>>>()?;
     let chain = |way| Chain::new(Ratios::unloaded(), way);
     let ways = [Direction::Up, Direction::Down].map(chain).to_vec();
     let mut whole = [(plans[0], ways)];
@@ -64,9 +62,6 @@ fn draw(studio: &Studio) -> Result<Drawn, Failure> {
             ways,
         });
     }
-    let parts: [StabilityPart; 2] = parts
-        .try_into()
-        .map_err(|_| Failure::usage("two parts are drawn"))?;
     let branch = branch(detail.pick(400, 80))?;
     let summary = Summary::new(&parts, &branch)?;
     let chart = StabilityChart {
@@ -76,10 +71,7 @@ fn draw(studio: &Studio) -> Result<Drawn, Failure> {
         explanation: explanation(&plans, batch),
     };
     Ok(Drawn {
-        files: vec![
-            chart.png().map_err(|error| Failure::Run(anyhow!(error)))?,
-            table(&parts)?,
-        ],
+        files: vec![chart.png().map_err(Error::msg)?, table(&parts)?],
         findings: summary.findings(),
     })
 }
@@ -103,11 +95,7 @@ fn explanation(plans: &[Plan], batch: u64) -> String {
 }
 
 /// The steps of a sweep with their exponents, in rising order.
-fn points(
-    chain: &Chain<Ratios>,
-    batch: u64,
-    progress: &Progress,
-) -> Result<Vec<StabilityPoint>, Failure> {
+fn points(chain: &Chain<Ratios>, batch: u64, progress: &Progress) -> Result<Vec<StabilityPoint>> {
     chain
         .rising()
         .into_par_iter()
@@ -119,7 +107,7 @@ fn points(
                 velocities: step.velocities.clone(),
                 regime: step.settled.regime().map(|it| (it.impacts, it.periods)),
                 is_settled: !step.settled.is_unsettled(),
-                exponent: exponent.map_err(|error| Failure::Run(anyhow!(error)))?,
+                exponent: exponent?,
             })
         })
         .collect()
@@ -140,15 +128,11 @@ fn exponent(mut machine: Ratios, step: &Step, batch: u64) -> Result<(f64, f64), 
 }
 
 /// z = 1 from the grazing g0 to its fold, ever denser towards the fold: eta, X'-, exponent.
-fn branch(count: u32) -> Result<Vec<[f64; 3]>, Failure> {
-    let failed = |error: ZoneError| Failure::Run(anyhow!(error));
-    let scene = Ratios::unloaded()
-        .scene()
-        .map_err(|error| failed(error.into()))?;
-    let zone = hysteresis(&scene).map_err(failed)?;
+fn branch(count: u32) -> Result<Vec<[f64; 3]>> {
+    let zone = hysteresis(&Ratios::unloaded().scene()?)?;
     let shares = (0..=count).map(|index| 1.0 - (1.0 - f64::from(index) / f64::from(count)).powi(3));
-    let at = |share: f64| {
-        let orbit = zone.orbit_at(share).map_err(failed)?;
+    let at = |share: f64| -> Result<[f64; 3]> {
+        let orbit = zone.orbit_at(share)?;
         let exponent = Exponents::of(&orbit).per_second()[0];
         Ok([
             zone.frequency_at(share),
@@ -176,15 +160,14 @@ struct Summary {
 }
 
 impl Summary {
-    fn new(parts: &[StabilityPart], branch: &[[f64; 3]]) -> Result<Self, Failure> {
+    fn new(parts: &[StabilityPart], branch: &[[f64; 3]]) -> Result<Self> {
         let machine = Ratios::unloaded();
-        let failed = |error: &dyn std::fmt::Display| Failure::Run(anyhow!("{error}"));
-        let scene = machine.scene().map_err(|error| failed(&error))?;
-        let orbit = find(&scene).map_err(|error| failed(&error))?;
+        let scene = machine.scene()?;
+        let orbit = find(&scene)?;
         let ways = parts.iter().flat_map(|part| &part.ways);
         let hardest = branch.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
         let stable = branch.iter().min_by(|a, b| a[2].total_cmp(&b[2]));
-        let none = || failed(&"z = 1 was not met");
+        let none = || anyhow!("z = 1 was not met");
         let chaotic = ways.flatten().map(triple).filter(|it| it[2] > 0.0);
         Ok(Self {
             point: [
@@ -234,7 +217,7 @@ fn triple(point: &StabilityPoint) -> [f64; 3] {
     [point.eta, velocity, point.exponent.0]
 }
 
-fn table(parts: &[StabilityPart]) -> Result<Vec<u8>, Failure> {
+fn table(parts: &[StabilityPart]) -> Result<Vec<u8>> {
     let columns = [
         "direction",
         "eta",
@@ -265,5 +248,5 @@ fn table(parts: &[StabilityPart]) -> Result<Vec<u8>, Failure> {
                 })
             })
     });
-    diagram::table(&columns, rows)
+    figure::table(&columns, rows)
 }

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use anyhow::anyhow;
+use anyhow::{Context, Result};
 use rayon::prelude::*;
 use softstop::{Ratios, Scene};
 use softstop_dynamics::continuation::{
@@ -12,9 +12,8 @@ use softstop_dynamics::continuation::{
 use softstop_dynamics::orbit::{StroboscopicMap, find};
 use softstop_dynamics::zone::{grazing_frequencies, hysteresis};
 
-use crate::diagram;
+use crate::figure;
 use crate::figure6::chart::Boundaries;
-use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
@@ -49,30 +48,20 @@ pub(super) struct Ends {
 ///
 /// # Errors
 /// [`Failure::Run`] if z = 1 is not there, [`Failure::Interrupted`] after Ctrl-C.
-pub(super) fn ends(
-    machine: &Ratios,
-    clearances: &[f64],
-    progress: &Progress,
-) -> Result<Vec<Ends>, Failure> {
+pub(super) fn ends(machine: &Ratios, clearances: &[f64], progress: &Progress) -> Result<Vec<Ends>> {
     clearances
         .par_iter()
         .map(|clearance| {
             progress.step()?;
-            let machine = Ratios {
-                clearance: *clearance,
-                ..*machine
-            };
-            ends_of(&machine).map_err(|error| Failure::Run(anyhow!("rho = {clearance}: {error}")))
+            let machine = machine.at_clearance(*clearance);
+            ends_of(&machine).with_context(|| format!("rho = {clearance}"))
         })
         .collect()
 }
 
-fn ends_of(machine: &Ratios) -> Result<Ends, Box<dyn std::error::Error>> {
+fn ends_of(machine: &Ratios) -> Result<Ends> {
     let grazing = grazing(machine)?;
-    let machine = Ratios {
-        frequency: grazing[0],
-        ..*machine
-    };
+    let machine = machine.at_frequency(grazing[0]);
     let family = Along::new(machine, [Parameter::Frequency])?;
     let state = find(&machine.scene()?)?.state();
     let limits = Limits {
@@ -97,7 +86,7 @@ fn ends_of(machine: &Ratios) -> Result<Ends, Box<dyn std::error::Error>> {
     let fold = folds.max_by(|a, b| a.parameter.total_cmp(&b.parameter));
     let flips = of_test(Test::Flip).filter(|point| point.parameter < grazing[0]);
     let flip = flips.max_by(|a, b| a.parameter.total_cmp(&b.parameter));
-    let described = |point: Option<&BranchPoint>| -> Result<_, Box<dyn std::error::Error>> {
+    let described = |point: Option<&BranchPoint>| -> Result<_> {
         let Some(point) = point else { return Ok(None) };
         let scene = family.scene([point.parameter])?;
         Ok(Some((
@@ -114,7 +103,7 @@ fn ends_of(machine: &Ratios) -> Result<Ends, Box<dyn std::error::Error>> {
 }
 
 /// z = 1 at g0: eta, X_m, X'-.
-fn grazing(machine: &Ratios) -> Result<[f64; 3], Box<dyn std::error::Error>> {
+fn grazing(machine: &Ratios) -> Result<[f64; 3]> {
     let mut scene = machine.scene()?;
     let (_, frequency) = grazing_frequencies(&scene)?;
     scene.excitation.frequency = frequency;
@@ -144,7 +133,7 @@ pub(super) fn across(
     ends: &[Ends],
     step: f64,
     progress: &Progress,
-) -> Result<Boundaries, Failure> {
+) -> Result<Boundaries> {
     let follow = |test: Test, pick: fn(&Ends) -> Option<&Critical>| {
         let found = ends
             .iter()
@@ -162,7 +151,7 @@ pub(super) fn across(
             );
             Ok(piece(machine, clearance, (test, point), range, step))
         });
-        pieces.collect::<Result<Vec<_>, Failure>>()
+        pieces.collect::<Result<Vec<_>>>()
     };
     let count = ((CLEARANCES.1 - CLEARANCES.0) / SPACING) as usize;
     let clearances = (0..=count).map(|index| CLEARANCES.0 + SPACING * index as f64);
@@ -170,10 +159,7 @@ pub(super) fn across(
         .collect::<Vec<f64>>()
         .into_par_iter()
         .map(|clearance| {
-            let machine = Ratios {
-                clearance,
-                ..*machine
-            };
+            let machine = machine.at_clearance(clearance);
             grazing(&machine).ok()
         });
     Ok(Boundaries {
@@ -246,10 +232,7 @@ pub(super) fn optimum(machine: &Ratios, ends: &[Ends]) -> Option<(f64, f64)> {
         .max_by(|a, b| a.1.total_cmp(&b.1))?
         .0;
     let velocity = |clearance: f64| {
-        let machine = Ratios {
-            clearance,
-            ..*machine
-        };
+        let machine = machine.at_clearance(clearance);
         let zone = machine
             .scene()
             .ok()
@@ -279,7 +262,7 @@ pub(super) fn optimum(machine: &Ratios, ends: &[Ends]) -> Option<(f64, f64)> {
 ///
 /// # Errors
 /// [`Failure::Run`] if it cannot be written.
-pub(super) fn table(boundaries: &Boundaries) -> Result<Vec<u8>, Failure> {
+pub(super) fn table(boundaries: &Boundaries) -> Result<Vec<u8>> {
     let columns = ["boundary", "eta", "max_position", "before_impact_velocity"];
     let named = |name: &'static str, points: &[[f64; 3]]| {
         let rows = points
@@ -294,5 +277,5 @@ pub(super) fn table(boundaries: &Boundaries) -> Result<Vec<u8>, Failure> {
     for piece in &boundaries.flips {
         rows.extend(named("s_PD", piece));
     }
-    diagram::table(&columns, rows.into_iter())
+    figure::table(&columns, rows)
 }

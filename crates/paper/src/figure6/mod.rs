@@ -3,17 +3,16 @@
 mod boundaries;
 mod chart;
 
-use anyhow::anyhow;
+use anyhow::{Error, Result};
 use softstop::Ratios;
 use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::orbit;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
-use super::diagram::{self, Job};
-use crate::figure::{Detail, Drawn, Figure};
+use crate::diagram::{self, Job};
+use crate::figure::{self, Detail, Drawn, Figure};
 use crate::figure6::chart::{ClearanceChart, ClearanceRow, Ranges};
 use boundaries::Ends;
-use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
 
 /// Fig. 6(a).
@@ -34,15 +33,11 @@ pub(super) const LOADED: Figure = Figure {
 const CLEARANCES: [f64; 6] = [2.0, 6.0, 10.0, 14.0, 18.0, 22.0];
 const RANGE: (f64, f64) = (0.8, 1.8);
 
-fn draw(detail: Detail, machine: Ratios, name: &'static str) -> Result<Drawn, Failure> {
-    let failed = |error: &dyn std::fmt::Display| Failure::Run(anyhow!("{error}"));
+fn draw(detail: Detail, machine: Ratios, name: &'static str) -> Result<Drawn> {
     let (steps, periods) = detail.pick((1000, 200), (120, 100));
-    let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods).map_err(|it| failed(&it))?;
+    let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods)?;
     let chains = CLEARANCES.iter().flat_map(|clearance| {
-        let machine = Ratios {
-            clearance: *clearance,
-            ..machine
-        };
+        let machine = machine.at_clearance(*clearance);
         [Direction::Up, Direction::Down].map(|way| Chain::new(machine, way))
     });
     let mut job: [Job; 1] = [(plan, chains.collect())];
@@ -61,8 +56,8 @@ fn draw(detail: Detail, machine: Ratios, name: &'static str) -> Result<Drawn, Fa
             ways: [ways[0].clone(), ways[1].clone()],
         })
         .collect();
-    let scene = machine.scene().map_err(|it| failed(&it))?;
-    let point = orbit::find(&scene).map_err(|it| failed(&it))?;
+    let scene = machine.scene()?;
+    let point = orbit::find(&scene)?;
     let piercing = piercing(&machine, &rows);
     let chart = ClearanceChart {
         rows: &rows,
@@ -86,7 +81,7 @@ fn draw(detail: Detail, machine: Ratios, name: &'static str) -> Result<Drawn, Fa
     };
     Ok(Drawn {
         files: vec![
-            chart.png().map_err(|it| failed(&it))?,
+            chart.png().map_err(Error::msg)?,
             table(&rows)?,
             boundaries::table(&across)?,
         ],
@@ -117,7 +112,7 @@ fn piercing(machine: &Ratios, rows: &[ClearanceRow]) -> Option<Vec<[Ranges; 2]>>
     Some(rows.iter().map(of_row).collect())
 }
 
-fn table(rows: &[ClearanceRow]) -> Result<Vec<u8>, Failure> {
+fn table(rows: &[ClearanceRow]) -> Result<Vec<u8>> {
     let columns = [
         "rho",
         "direction",
@@ -139,7 +134,7 @@ fn table(rows: &[ClearanceRow]) -> Result<Vec<u8>, Failure> {
             )
         })
     });
-    diagram::table(&columns, lines)
+    figure::table(&columns, lines)
 }
 
 /// The step of z = 1 with the highest velocity.

@@ -3,14 +3,13 @@
 mod chart;
 mod stroke;
 
-use anyhow::anyhow;
+use anyhow::Result;
 use serde::Serialize;
 use softstop::{PhaseKind, Ratios};
 use softstop_dynamics::orbit::{Exponents, Orbit, find};
 
 use crate::figure::{Detail, Drawn, Figure};
 use crate::figure7::chart::{StrokeChart, StrokePoint};
-use softstop_console::failure::Failure;
 use softstop_console::output;
 use stroke::Stroke;
 
@@ -50,10 +49,10 @@ struct Line {
     phase: &'static str,
 }
 
-fn draw(ratios: &Ratios, name: &str, detail: Detail) -> Result<Drawn, Failure> {
-    let scene = ratios.scene().map_err(|error| anyhow!(error))?;
-    let orbit = find(&scene).map_err(|error| anyhow!(error))?;
-    let stroke = Stroke::of(&orbit, detail.pick(2000, 400)).map_err(|error| anyhow!(error))?;
+fn draw(ratios: &Ratios, name: &str, detail: Detail) -> Result<Drawn> {
+    let scene = ratios.scene()?;
+    let orbit = find(&scene)?;
+    let stroke = Stroke::of(&orbit, detail.pick(2000, 400))?;
     let chart = StrokeChart {
         title: format!(
             "{name}, η = {}, ρ = {}, z = 1",

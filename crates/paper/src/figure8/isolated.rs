@@ -1,8 +1,8 @@
 //! Motions that no sweep from rest reaches: found from starts spread over the plane, and swept from there.
 
-use anyhow::anyhow;
+use anyhow::Result;
 use softstop::{Ratios, Start};
-use softstop_dynamics::attractors::{Kind, Options, SurveyError, attractors_watched};
+use softstop_dynamics::attractors::{Kind, Options, attractors_watched};
 use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::orbit::Orbit;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
@@ -11,7 +11,6 @@ use crate::diagram::{self, Job};
 use crate::figure::Detail;
 use crate::figure8::chart::Diagram;
 use crate::table1::{paper, values};
-use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
@@ -29,7 +28,7 @@ type Seed = (f64, Orbit);
 ///
 /// # Errors
 /// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
-pub(super) fn find(known: &[&Diagram], detail: Detail) -> Result<Vec<Step>, Failure> {
+pub(super) fn find(known: &[&Diagram], detail: Detail) -> Result<Vec<Step>> {
     let mut found: Vec<Step> = Vec::new();
     for (eta, orbit) in seeds(known, detail)? {
         let motion = Like::of(&orbit);
@@ -58,7 +57,7 @@ pub(super) fn find(known: &[&Diagram], detail: Detail) -> Result<Vec<Step>, Fail
 }
 
 /// Stable orbits at frequencies inside the paper's intervals that are on no sweep.
-fn seeds(known: &[&Diagram], detail: Detail) -> Result<Vec<Seed>, Failure> {
+fn seeds(known: &[&Diagram], detail: Detail) -> Result<Vec<Seed>> {
     let options = Options {
         starts: detail.pick(128, 32),
         patience: 20_000,
@@ -72,18 +71,10 @@ fn seeds(known: &[&Diagram], detail: Detail) -> Result<Vec<Seed>, Failure> {
     );
     let mut seeds: Vec<Seed> = Vec::new();
     for eta in some {
-        let machine = Ratios {
-            frequency: eta,
-            ..Ratios::unloaded()
-        };
-        let scene = machine
-            .scene()
-            .map_err(|error| Failure::Run(anyhow!(error)))?;
+        let machine = Ratios::unloaded().at_frequency(eta);
+        let scene = machine.scene()?;
         let survey = attractors_watched(&scene, &options, &|_, _| !interrupt::requested());
-        let survey = survey.map_err(|error| match error {
-            SurveyError::Stopped => Failure::Interrupted,
-            other => Failure::Run(anyhow!(other)),
-        })?;
+        let survey = survey?;
         for attractor in survey.attractors {
             let Kind::Periodic { orbit, .. } = attractor.kind else {
                 continue;
@@ -105,14 +96,13 @@ fn seeds(known: &[&Diagram], detail: Detail) -> Result<Vec<Seed>, Failure> {
     Ok(seeds)
 }
 
-fn job(eta: f64, orbit: &Orbit, way: Direction, detail: Detail) -> Result<Job, Failure> {
+fn job(eta: f64, orbit: &Orbit, way: Direction, detail: Detail) -> Result<Job> {
     let range = match way {
         Direction::Up => (eta, eta + REACH),
         Direction::Down => (eta - REACH, eta),
     };
     let (steps, periods) = detail.pick((1000, 200), (60, 100));
-    let plan = Plan::new(Parameter::Frequency, range, steps, periods)
-        .map_err(|error| Failure::Run(anyhow!(error)))?;
+    let plan = Plan::new(Parameter::Frequency, range, steps, periods)?;
     let start = Start::from(orbit.state());
     let chain = Chain::new(Ratios::unloaded(), way);
     Ok((Plan { start, ..plan }, vec![chain]))

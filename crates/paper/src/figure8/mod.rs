@@ -5,19 +5,18 @@ mod chart;
 mod isolated;
 mod names;
 
-use anyhow::anyhow;
+use anyhow::{Error, Result};
 use softstop::Ratios;
 use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
-use super::diagram::{self, Job};
-use crate::figure::{Detail, Drawn, Figure, Studio};
+use crate::diagram::{self, Job};
+use crate::figure::{self, Detail, Drawn, Figure, Studio};
 use crate::figure8::band::Bifurcation;
 use crate::figure8::chart::{Diagram, NumberedChart};
 use crate::figure9;
 use crate::table1::matching::{self, Match};
 use crate::table1::{self, paper};
-use softstop_console::failure::Failure;
 
 /// Fig. 8.
 pub(crate) const FIGURE: Figure = Figure {
@@ -62,7 +61,7 @@ const fn part(
 const FLEETING: Part = part("", (0.952_624, 0.952_656), (600, 40), (30, 40));
 const SIDE_BY_SIDE: usize = 8;
 
-fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
     let mut whole = [(plan(&WHOLE, detail)?, WAYS.map(chain).to_vec())];
     diagram::sweep(&mut whole, "steps of the sweeps")?;
@@ -90,7 +89,7 @@ fn draw(studio: &Studio) -> Result<Drawn, Failure> {
     };
     Ok(Drawn {
         files: vec![
-            chart.png().map_err(|error| Failure::Run(anyhow!(error)))?,
+            chart.png().map_err(Error::msg)?,
             table(&overview, &zooms, &isolated)?,
             rows_table(&bifurcations)?,
         ],
@@ -98,10 +97,9 @@ fn draw(studio: &Studio) -> Result<Drawn, Failure> {
     })
 }
 
-fn plan(part: &Part, detail: Detail) -> Result<Plan, Failure> {
+fn plan(part: &Part, detail: Detail) -> Result<Plan> {
     let (steps, periods) = detail.pick(part.full, part.draft);
-    Plan::new(Parameter::Frequency, part.range, steps, periods)
-        .map_err(|error| Failure::Run(anyhow!(error)))
+    Ok(Plan::new(Parameter::Frequency, part.range, steps, periods)?)
 }
 
 const WAYS: [Direction; 2] = [Direction::Up, Direction::Down];
@@ -112,10 +110,7 @@ fn chain(way: Direction) -> Chain<Ratios> {
 
 /// The zooms, each way going on from where the sweep over all frequencies is at their ends, and the chaos
 /// that does not last.
-fn zooms(
-    overview: &Diagram,
-    detail: Detail,
-) -> Result<(Vec<Diagram>, Vec<Chain<Ratios>>), Failure> {
+fn zooms(overview: &Diagram, detail: Detail) -> Result<(Vec<Diagram>, Vec<Chain<Ratios>>)> {
     let mut jobs = Vec::new();
     for zoom in &ZOOMS {
         let plan = plan(zoom, detail)?;
@@ -134,7 +129,7 @@ fn zooms(
 }
 
 /// Sweeps down from chaos. Their machines differ by rounding only, so that the motions part.
-fn fleeting(detail: Detail) -> Result<Job, Failure> {
+fn fleeting(detail: Detail) -> Result<Job> {
     let machine = |index: usize| {
         let mut machine = Ratios::unloaded();
         machine.clearance *= 1.0 + 1e-14 * index as f64;
@@ -187,7 +182,7 @@ fn explanation(detail: Detail) -> String {
     )
 }
 
-fn table(overview: &Diagram, zooms: &[Diagram], isolated: &[Step]) -> Result<Vec<u8>, Failure> {
+fn table(overview: &Diagram, zooms: &[Diagram], isolated: &[Step]) -> Result<Vec<u8>> {
     let columns = [
         "part",
         "direction",
@@ -224,10 +219,10 @@ fn table(overview: &Diagram, zooms: &[Diagram], isolated: &[Step]) -> Result<Vec
     };
     let diagrams = std::iter::once(overview).chain(zooms).flat_map(of_diagram);
     let apart = isolated.iter().map(|step| row("isolated", "either", step));
-    diagram::table(&columns, diagrams.chain(apart))
+    figure::table(&columns, diagrams.chain(apart))
 }
 
-fn rows_table(bifurcations: &[Bifurcation]) -> Result<Vec<u8>, Failure> {
+fn rows_table(bifurcations: &[Bifurcation]) -> Result<Vec<u8>> {
     let columns = ["number", "eta", "type", "hysteresis", "direction"];
     let rows = bifurcations.iter().map(|it| {
         let direction = match (it.hysteresis, it.rising) {
@@ -243,7 +238,7 @@ fn rows_table(bifurcations: &[Bifurcation]) -> Result<Vec<u8>, Failure> {
             direction,
         )
     });
-    diagram::table(&columns, rows)
+    figure::table(&columns, rows)
 }
 
 fn findings(bifurcations: &[Bifurcation]) -> Vec<(String, f64)> {

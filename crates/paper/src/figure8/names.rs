@@ -44,10 +44,7 @@ fn name(step: &Step) -> Option<String> {
     if (regime.impacts, regime.periods) != (2, 4) {
         return Some(format!("z = {regime}"));
     }
-    let machine = Ratios {
-        frequency: step.value,
-        ..Ratios::unloaded()
-    };
+    let machine = Ratios::unloaded().at_frequency(step.value);
     let orbit = Orbit::periodic(&machine.scene().ok()?, step.end.into(), 4).ok()?;
     let letter = match orbit.pattern().to_string().as_str() {
         "1-1-0-0" => 'B',

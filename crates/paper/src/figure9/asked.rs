@@ -123,10 +123,7 @@ pub(crate) fn letters() -> Vec<(String, f64)> {
 impl Asked {
     /// The machine.
     pub(super) fn scene(&self) -> Result<Scene, SceneError> {
-        let ratios = Ratios {
-            frequency: self.frequency,
-            ..Ratios::unloaded()
-        };
+        let ratios = Ratios::unloaded().at_frequency(self.frequency);
         ratios.scene()
     }
 }

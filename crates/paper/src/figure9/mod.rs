@@ -6,17 +6,16 @@ mod found;
 mod path;
 mod section;
 
-use anyhow::anyhow;
+use anyhow::{Result, anyhow};
 use serde::Serialize;
 use softstop::Ratios;
-use softstop_dynamics::attractors::{Options, Survey, SurveyError, attractors_watched};
+use softstop_dynamics::attractors::{Options, Survey, attractors_watched};
 
 use crate::figure::{Detail, Drawn, Figure, Studio};
 use crate::figure9::chart::{MotionPage, MotionRow};
 pub(super) use asked::letters;
 use asked::{Asked, MOTIONS};
 use found::Found;
-use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::output;
 use softstop_console::progress::Progress;
@@ -58,7 +57,7 @@ struct SectionLine {
     velocity: f64,
 }
 
-fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
     let found = found(detail)?;
     let mut files = Vec::new();
@@ -67,12 +66,10 @@ fn draw(studio: &Studio) -> Result<Drawn, Failure> {
         let mut rows = Vec::new();
         let first = page * ON_A_PAGE;
         for motion in found.iter().skip(first).take(ON_A_PAGE) {
-            let path = motion
-                .path(shown, FINENESS.0)
-                .map_err(|error| anyhow!(error))?;
+            let path = motion.path(shown, FINENESS.0)?;
             let path_of = |fineness| motion.path(motion.repeats(), fineness);
-            let plane = path_of(FINENESS.0).map_err(|error| anyhow!(error))?;
-            let near = path_of(FINENESS.1).map_err(|error| anyhow!(error))?;
+            let plane = path_of(FINENESS.0)?;
+            let near = path_of(FINENESS.1)?;
             let coexist = |other: &&Found| {
                 other.asked.letter != motion.asked.letter
                     && other.asked.frequency == motion.asked.frequency
@@ -129,7 +126,7 @@ fn page_of(rows: Vec<MotionRow>, shown: u64) -> MotionPage {
 }
 
 /// All motions that are asked for.
-fn found(detail: Detail) -> Result<Vec<Found>, Failure> {
+fn found(detail: Detail) -> Result<Vec<Found>> {
     let progress = Progress::new(MOTIONS.len() as u64, "motions");
     let mut surveys: Vec<(f64, Survey)> = Vec::new();
     let mut found = Vec::new();
@@ -142,7 +139,7 @@ fn found(detail: Detail) -> Result<Vec<Found>, Failure> {
         }
         if let Some((_, survey)) = surveys.last() {
             let motion = Found::among(asked, survey, detail.pick(4000, 600));
-            let motion = motion.map_err(|error| anyhow!(error))?;
+            let motion = motion?;
             found.push(motion.ok_or_else(|| anyhow!("motion ({}) not found", asked.letter))?);
         }
         progress.step()?;
@@ -151,8 +148,8 @@ fn found(detail: Detail) -> Result<Vec<Found>, Failure> {
 }
 
 /// All motions at a frequency.
-fn survey(asked: &Asked, detail: Detail, progress: &Progress) -> Result<Survey, Failure> {
-    let scene = asked.scene().map_err(|error| anyhow!(error))?;
+fn survey(asked: &Asked, detail: Detail, progress: &Progress) -> Result<Survey> {
+    let scene = asked.scene()?;
     let options = Options {
         starts: detail.pick(256, 96),
         patience: detail.pick(4_000_000, 200_000),
@@ -162,10 +159,7 @@ fn survey(asked: &Asked, detail: Detail, progress: &Progress) -> Result<Survey, 
         progress.beat();
         !interrupt::requested()
     };
-    attractors_watched(&scene, &options, &watcher).map_err(|error| match error {
-        SurveyError::Stopped => Failure::Interrupted,
-        SurveyError::Motion(error) => Failure::Run(anyhow!(error)),
-    })
+    Ok(attractors_watched(&scene, &options, &watcher)?)
 }
 
 fn series_line(motion: &Found, point: &path::Point) -> SeriesLine {

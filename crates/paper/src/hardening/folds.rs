@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use anyhow::anyhow;
+use anyhow::Result;
 use rayon::prelude::*;
 use softstop_dynamics::continuation::{Along, Follower, Limits, Parameter, Special};
 use softstop_dynamics::orbit::{OrbitError, find};
@@ -23,27 +23,24 @@ const LARGEST: f64 = 0.02;
 const HALVINGS: u32 = 7;
 
 /// Folds and flips for each stiffness k2.
-pub(super) fn folds(stiffnesses: &[f64]) -> Result<Vec<StopFolds>, Failure> {
+pub(super) fn folds(stiffnesses: &[f64]) -> Result<Vec<StopFolds>> {
     let progress = Progress::new(stiffnesses.len() as u64, "branches of z = 1");
     let folds = stiffnesses.par_iter().map(|&stiffness| {
         progress.step()?;
-        Ok(of(stiffness).map_err(|error| anyhow!(error))?)
+        Ok(of(stiffness)?)
     });
     folds.collect()
 }
 
 /// The stiffness from which on something is true, between one at which it is not and one at which it is.
-fn onset(
-    (without, with): (f64, f64),
-    is_true: impl Fn(&StopFolds) -> bool,
-) -> Result<f64, Failure> {
+fn onset((without, with): (f64, f64), is_true: impl Fn(&StopFolds) -> bool) -> Result<f64> {
     let (mut low, mut high) = (without.ln(), with.ln());
     for _ in 0..HALVINGS {
         if interrupt::requested() {
-            return Err(Failure::Interrupted);
+            return Err(Failure::Interrupted.into());
         }
         let middle = f64::midpoint(low, high);
-        if is_true(&of(middle.exp()).map_err(|error| anyhow!(error))?) {
+        if is_true(&of(middle.exp())?) {
             high = middle;
         } else {
             low = middle;
@@ -53,14 +50,14 @@ fn onset(
 }
 
 /// The stiffnesses from which on z = 1 has folds, and from which on it goes beyond grazing, with their names.
-pub(super) fn onsets(folds: &[StopFolds]) -> Result<Vec<(String, f64)>, Failure> {
+pub(super) fn onsets(folds: &[StopFolds]) -> Result<Vec<(String, f64)>> {
     let bends = |fold: &StopFolds| fold.strong.is_some();
     let exceeds = |fold: &StopFolds| {
         fold.strong
             .is_some_and(|fold| fold.0 > grazing(CLEARANCE).1)
     };
     let mut onsets = Vec::new();
-    let mut add = |name: &str, is_true: &dyn Fn(&StopFolds) -> bool| -> Result<(), Failure> {
+    let mut add = |name: &str, is_true: &dyn Fn(&StopFolds) -> bool| -> Result<()> {
         let without = folds.iter().rfind(|fold| !is_true(fold));
         let with = folds.iter().find(|fold| is_true(fold));
         if let (Some(without), Some(with)) = (without, with) {

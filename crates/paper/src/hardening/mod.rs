@@ -8,6 +8,7 @@ mod orders;
 mod stops;
 mod swept;
 
+use anyhow::Result;
 use serde::Serialize;
 use softstop_dynamics::sweep::Step;
 
@@ -84,7 +85,7 @@ struct SubharmonicLine {
     beside_impactless_motion: bool,
 }
 
-fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
     let drawn = sweep(&DRAWN, detail.pick(420, 120), detail.pick(200, 80))?;
     let rows = stiffnesses(detail.pick(51, 11));
@@ -96,7 +97,7 @@ fn draw(studio: &Studio) -> Result<Drawn, Failure> {
     let mut findings = folds::onsets(&folds)?;
     // A branch that was cut short would go unnoticed.
     if interrupt::requested() {
-        return Err(Failure::Interrupted);
+        return Err(Failure::Interrupted.into());
     }
     let chart = chart(&drawn, &map, &folds, &subharmonics);
     findings.extend(claims::of_stops(&drawn, &folds));

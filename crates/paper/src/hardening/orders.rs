@@ -1,11 +1,10 @@
 //! Subharmonic motions of soft stops and where they lie.
 
-use anyhow::anyhow;
+use anyhow::Result;
 use rayon::prelude::*;
-use softstop_dynamics::attractors::{Kind, Options, SurveyError, attractors_watched};
+use softstop_dynamics::attractors::{Kind, Options, attractors_watched};
 
 use super::stops::{Law, grazing};
-use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
@@ -30,7 +29,7 @@ pub(super) fn subharmonics(
     stiffnesses: &[f64],
     frequencies: usize,
     starts: usize,
-) -> Result<Vec<Subharmonic>, Failure> {
+) -> Result<Vec<Subharmonic>> {
     let places: Vec<(f64, f64)> = stiffnesses
         .iter()
         .flat_map(|&stiffness| {
@@ -42,7 +41,7 @@ pub(super) fn subharmonics(
         progress.step()?;
         found(stiffness, frequency, starts)
     });
-    Ok(found.collect::<Result<Vec<_>, Failure>>()?.concat())
+    Ok(found.collect::<Result<Vec<_>>>()?.concat())
 }
 
 /// Frequencies with equal ratios.
@@ -51,7 +50,7 @@ fn at(index: usize, frequencies: usize) -> f64 {
     RANGE.0 * (RANGE.1 / RANGE.0).powf(share)
 }
 
-fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmonic>, Failure> {
+fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmonic>> {
     let (lower, upper) = grazing(NARROW);
     let options = Options {
         starts,
@@ -61,10 +60,7 @@ fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmoni
     };
     let scene = Law::KelvinVoigt(stiffness).scene(frequency, NARROW);
     let survey = attractors_watched(&scene, &options, &|_, _| !interrupt::requested());
-    let survey = survey.map_err(|error| match error {
-        SurveyError::Stopped => Failure::Interrupted,
-        SurveyError::Motion(error) => Failure::Run(anyhow!(error)),
-    })?;
+    let survey = survey?;
     let subharmonic = |kind: &Kind| match kind {
         Kind::Periodic { orbit, .. } if orbit.periods > 1 && !orbit.impacts.is_empty() => {
             Some(Subharmonic {

@@ -1,6 +1,6 @@
 //! Sweeps of many stops along the frequency, up and down.
 
-use anyhow::anyhow;
+use anyhow::{Result, anyhow};
 use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
 
@@ -22,9 +22,9 @@ pub(super) struct Swept {
 }
 
 /// Sweeps of stops: so many frequencies, and drive periods at each.
-pub(super) fn sweep(laws: &[Law], steps: usize, periods: u64) -> Result<Vec<Swept>, Failure> {
+pub(super) fn sweep(laws: &[Law], steps: usize, periods: u64) -> Result<Vec<Swept>> {
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods);
-    let plan = plan.map_err(|error| anyhow!(error))?;
+    let plan = plan?;
     let chain = |(law, direction): (&Law, Direction)| {
         let model = Model::Scene(Box::new(law.scene(RANGE.0, CLEARANCE)));
         Chain::new(model, direction)
@@ -37,12 +37,12 @@ pub(super) fn sweep(laws: &[Law], steps: usize, periods: u64) -> Result<Vec<Swep
         !interrupt::requested()
     };
     if !plan.run(&mut chains, &go_on) {
-        return Err(Failure::Interrupted);
+        return Err(Failure::Interrupted.into());
     }
     let swept = laws.iter().zip(chains.chunks_exact(2)).map(|(law, pair)| {
         for chain in pair {
             if let Some(error) = &chain.error {
-                return Err(anyhow!("{}: {error}", law.name()).into());
+                return Err(anyhow!("{}: {error}", law.name()));
             }
         }
         let rising = |chain: &Chain<Model>| chain.rising().into_iter().cloned().collect();

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use anyhow::{Context, anyhow};
+use anyhow::{Context, Result};
 use softstop::Ratios;
 use softstop_dynamics::continuation::{
     Along, Curve, CurvePoint, Follower, Limits, Parameter, Region, Special, SpecialKind, Test,
@@ -35,13 +35,12 @@ pub(super) struct Boundaries {
 
 impl Boundaries {
     /// Those in a window: g0 in closed form, the others by continuation, located to 1e-10.
-    pub fn of(machine: &Ratios, window: &Window) -> Result<Self, Failure> {
+    pub fn of(machine: &Ratios, window: &Window) -> Result<Self> {
         let start = machine.frequency;
-        let scene = machine.scene().map_err(|error| anyhow!(error))?;
+        let scene = machine.scene()?;
         let orbit =
             softstop_dynamics::orbit::find(&scene).context("no z = 1 motion to start from")?;
-        let family =
-            Along::new(*machine, [Parameter::Frequency]).map_err(|error| anyhow!(error))?;
+        let family = Along::new(*machine, [Parameter::Frequency])?;
         let limits = Limits {
             range: window.eta,
             points: MOST,
@@ -55,7 +54,7 @@ impl Boundaries {
             let own = branch.specials.iter();
             let own = own.filter(move |special| special.kind == kind);
             own.map(|special| follow(machine, window, special))
-                .collect::<Result<Vec<Curve>, Failure>>()
+                .collect::<Result<Vec<Curve>>>()
         };
         let boundaries = Self {
             grazing: grazing(machine, window),
@@ -63,7 +62,7 @@ impl Boundaries {
             folds: of(Test::Fold)?,
         };
         if interrupt::requested() {
-            return Err(Failure::Interrupted);
+            return Err(Failure::Interrupted.into());
         }
         Ok(boundaries)
     }
@@ -115,9 +114,9 @@ fn go_on() -> ControlFlow<()> {
     }
 }
 
-fn follow(machine: &Ratios, window: &Window, special: &Special) -> Result<Curve, Failure> {
+fn follow(machine: &Ratios, window: &Window, special: &Special) -> Result<Curve> {
     let parameters = [Parameter::Frequency, Parameter::Clearance];
-    let family = Along::new(*machine, parameters).map_err(|error| anyhow!(error))?;
+    let family = Along::new(*machine, parameters)?;
     let region = Region {
         ranges: [window.eta, (window.rho.0.max(LEAST), window.rho.1)],
         points: MOST,

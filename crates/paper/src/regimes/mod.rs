@@ -8,14 +8,13 @@ mod starts;
 mod swept;
 mod table;
 
-use anyhow::anyhow;
+use anyhow::{Error, Result};
 use softstop::Ratios;
 use softstop_dynamics::sweep::Direction;
 
 use crate::figure::{Detail, Drawn, Figure, Studio};
 use crate::regimes::chart::{RegimePage, RegimePanel};
 use boundaries::Boundaries;
-use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
 use softstop_explore::basin::cells::RegimeMap;
 use swept::Sweep;
@@ -71,7 +70,7 @@ fn middle((from, to): (f64, f64), cell: usize, cells: usize) -> f64 {
     from + (cell as f64 + 0.5) / cells as f64 * (to - from)
 }
 
-fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
     let (maps, boundaries) = rayon::join(|| maps(detail), boundaries);
     let (maps, boundaries) = (maps?, boundaries?);
@@ -79,7 +78,7 @@ fn draw(studio: &Studio) -> Result<Drawn, Failure> {
     let tables = [table::runs(&maps)?, table::boundaries(&boundaries)?];
     let png = RegimePage::new(panels(maps, &boundaries))
         .png()
-        .map_err(|error| anyhow!("cannot draw regimes.png: {error}"))?;
+        .map_err(Error::msg)?;
     let [runs, lines] = tables;
     Ok(Drawn {
         files: vec![png, runs, lines],
@@ -88,7 +87,7 @@ fn draw(studio: &Studio) -> Result<Drawn, Failure> {
 }
 
 /// The maps.
-fn maps(detail: Detail) -> Result<[RegimeMap; 6], Failure> {
+fn maps(detail: Detail) -> Result<[RegimeMap; 6]> {
     let [all, near, many, less] =
         [FREE, NEAR, MANY, LOADED].map(|[full, draft]| detail.pick(full, draft));
     let cells = |size: (usize, usize)| size.0 * size.1;
@@ -115,7 +114,7 @@ fn maps(detail: Detail) -> Result<[RegimeMap; 6], Failure> {
 }
 
 /// The boundaries of both machines.
-fn boundaries() -> Result<[Boundaries; 2], Failure> {
+fn boundaries() -> Result<[Boundaries; 2]> {
     let [free, loaded] = [Ratios::unloaded(), Ratios::loaded()];
     Ok([Boundaries::of(&free, &ALL)?, Boundaries::of(&loaded, &ALL)?])
 }

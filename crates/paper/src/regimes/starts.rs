@@ -2,14 +2,13 @@
 //! motions z = 2/3 and z = (2/4)B, which "belong to impact motion with higher level of kinetic energy" (Peterka
 //! 2003, section 4).
 
-use anyhow::anyhow;
+use anyhow::Result;
 use rayon::prelude::*;
 use softstop::{Ratios, Scene, Start};
 use softstop_dynamics::attractors::{Arrival, Options, SurveyError, settle};
 use softstop_dynamics::orbit::{Orbit, StroboscopicMap};
 
 use super::Window;
-use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 use softstop_explore::basin::cells::{RegimeCell, RegimeMap};
@@ -31,8 +30,8 @@ pub(super) fn hardest(
     (columns, rows): (usize, usize),
     count: usize,
     progress: &Progress,
-) -> Result<RegimeMap, Failure> {
-    let cell = |index: usize| {
+) -> Result<RegimeMap> {
+    let cell = |index: usize| -> Result<RegimeCell> {
         let machine = Ratios {
             frequency: window.eta_at(index % columns, columns),
             clearance: window.rho_at(index / columns, rows),
@@ -40,7 +39,7 @@ pub(super) fn hardest(
         };
         let found = of_one(&machine, count)?;
         progress.steps(count as u64)?;
-        Ok::<RegimeCell, Failure>(found)
+        Ok(found)
     };
     let cells = (0..columns * rows)
         .into_par_iter()
@@ -54,8 +53,8 @@ pub(super) fn hardest(
     })
 }
 
-fn of_one(machine: &Ratios, count: usize) -> Result<RegimeCell, Failure> {
-    let scene = machine.scene().map_err(|error| anyhow!(error))?;
+fn of_one(machine: &Ratios, count: usize) -> Result<RegimeCell> {
+    let scene = machine.scene()?;
     let options = Options {
         transient: OPTIONS.0,
         longest: OPTIONS.1,
@@ -65,7 +64,7 @@ fn of_one(machine: &Ratios, count: usize) -> Result<RegimeCell, Failure> {
     let arrivals = settle(&scene, &starts, &options, &|_, _| !interrupt::requested());
     let arrivals = match arrivals {
         Ok(arrivals) => arrivals,
-        Err(SurveyError::Stopped) => return Err(Failure::Interrupted),
+        Err(SurveyError::Stopped) => return Err(SurveyError::Stopped.into()),
         Err(SurveyError::Motion(_)) => return Ok(RegimeCell::Lost),
     };
     let orbits = arrivals.iter().filter_map(|arrival| arrival.orbit.as_ref());

@@ -1,6 +1,6 @@
 //! Regimes of sweeps along the frequency, one for each clearance.
 
-use anyhow::anyhow;
+use anyhow::Result;
 use rayon::prelude::*;
 use softstop::Ratios;
 use softstop_dynamics::continuation::{Adjustable, Parameter};
@@ -8,7 +8,6 @@ use softstop_dynamics::orbit::{Orbit, Regime};
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
 
 use super::{PERIODS, Window};
-use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
 use softstop_explore::basin::cells::{RegimeCell, RegimeMap};
 
@@ -28,7 +27,7 @@ pub(super) struct Sweep {
 
 impl Sweep {
     /// The regime in each cell.
-    pub fn map(&self, progress: &Progress) -> Result<RegimeMap, Failure> {
+    pub fn map(&self, progress: &Progress) -> Result<RegimeMap> {
         let (columns, rows) = self.size;
         let (first, last) = (
             self.window.eta_at(0, columns),
@@ -39,8 +38,7 @@ impl Sweep {
             Direction::Up => (first - ahead, last),
             Direction::Down => (first, last + ahead),
         };
-        let plan = Plan::new(Parameter::Frequency, range, columns + AHEAD, PERIODS)
-            .map_err(|error| anyhow!(error))?;
+        let plan = Plan::new(Parameter::Frequency, range, columns + AHEAD, PERIODS)?;
         let rows: Vec<usize> = (0..rows).collect();
         let found: Vec<Vec<RegimeCell>> = rows
             .par_chunks(TOGETHER)
@@ -55,18 +53,10 @@ impl Sweep {
     }
 
     /// The cells of a few rows.
-    fn cells(
-        &self,
-        plan: &Plan,
-        rows: &[usize],
-        progress: &Progress,
-    ) -> Result<Vec<RegimeCell>, Failure> {
+    fn cells(&self, plan: &Plan, rows: &[usize], progress: &Progress) -> Result<Vec<RegimeCell>> {
         let chain = |row: &usize| {
             let clearance = self.window.rho_at(*row, self.size.1);
-            let machine = Ratios {
-                clearance,
-                ..self.machine
-            };
+            let machine = self.machine.at_clearance(clearance);
             Chain::new(machine, self.way)
         };
         let mut chains: Vec<Chain<Ratios>> = rows.iter().map(chain).collect();

@@ -6,6 +6,7 @@
 
 mod chart;
 
+use anyhow::Result;
 use nalgebra::Vector2;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
@@ -13,11 +14,10 @@ use rayon::prelude::*;
 use softstop::{PiercingRatios, Ratios};
 use softstop_dynamics::basin::wilson;
 use softstop_dynamics::orbit::{StroboscopicMap, find};
-use softstop_dynamics::zone;
+use softstop_dynamics::zone::{self, Zone};
 
 use crate::figure::{Detail, Drawn, Figure, Studio};
 use crate::supply::chart::{SupplyChart, SupplyCurve};
-use softstop_console::failure::Failure;
 use softstop_console::output;
 use softstop_console::progress::Progress;
 
@@ -57,7 +57,7 @@ struct Press {
     is_supplied: bool,
 }
 
-fn draw(studio: &Studio) -> Result<Drawn, Failure> {
+fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
     let clearance = Ratios::unloaded().clearance;
     let zones = zones(clearance)?;
@@ -101,14 +101,10 @@ struct Zones {
     unloaded: f64,
 }
 
-fn zones(clearance: f64) -> Result<Zones, Failure> {
-    let zone = |ratios: Ratios| {
-        let ratios = Ratios {
-            clearance,
-            ..ratios
-        };
-        let scene = ratios.scene().map_err(|error| Failure::Run(error.into()))?;
-        zone::hysteresis(&scene).map_err(|error| Failure::Run(error.into()))
+fn zones(clearance: f64) -> Result<Zones> {
+    let zone = |ratios: Ratios| -> Result<Zone> {
+        let scene = ratios.at_clearance(clearance).scene()?;
+        Ok(zone::hysteresis(&scene)?)
     };
     let (unloaded, loaded) = (zone(Ratios::unloaded())?, zone(Ratios::loaded())?);
     Ok(Zones {
@@ -131,7 +127,7 @@ fn survey(
     etas: &[f64],
     detail: Detail,
     progress: &Progress,
-) -> Result<Vec<Outcome>, Failure> {
+) -> Result<Vec<Outcome>> {
     let cases: Vec<(f64, f64)> = RUNS
         .iter()
         .flat_map(|mean| etas.iter().map(move |eta| (*eta, *mean)))
@@ -158,29 +154,28 @@ fn survey(
 }
 
 impl Press {
-    fn new(clearance: f64, frequency: f64, is_supplied: bool) -> Result<Self, Failure> {
+    fn new(clearance: f64, frequency: f64, is_supplied: bool) -> Result<Self> {
         let ratios = |piercing: Option<PiercingRatios>| Ratios {
             clearance,
             frequency,
             piercing,
             ..Ratios::unloaded()
         };
-        let machines = [None, Some(PiercingRatios::PAPER)].map(ratios);
-        let scene = |ratios: &Ratios| ratios.scene().map_err(|error| Failure::Run(error.into()));
-        let map = |ratios: &Ratios| {
-            StroboscopicMap::new(&scene(ratios)?, 1).map_err(|error| Failure::Run(error.into()))
-        };
-        let orbit = find(&scene(&machines[usize::from(is_supplied)])?);
+        let scenes = [
+            ratios(None).scene()?,
+            ratios(Some(PiercingRatios::PAPER)).scene()?,
+        ];
+        let map = |scene| StroboscopicMap::new(scene, 1);
         Ok(Self {
             clearance,
-            maps: [map(&machines[0])?, map(&machines[1])?],
-            start: orbit.map_err(|error| Failure::Run(error.into()))?.state(),
+            maps: [map(&scenes[0])?, map(&scenes[1])?],
+            start: find(&scenes[usize::from(is_supplied)])?.state(),
             is_supplied,
         })
     }
 
     /// Whether a drive period was without an impact, and whether z = 1 has ended.
-    fn run(&self, mean: f64, periods: usize, seed: u64) -> Result<(bool, bool), Failure> {
+    fn run(&self, mean: f64, periods: usize, seed: u64) -> Result<(bool, bool)> {
         let mut chance = Xoshiro256PlusPlus::seed_from_u64(seed);
         let (mut state, mut is_supplied, mut missed) = (self.start, self.is_supplied, false);
         for _ in 0..periods {
@@ -199,10 +194,8 @@ impl Press {
     }
 
     /// One drive period: how many impacts it has.
-    fn step(&self, state: &mut Vector2<f64>, is_supplied: bool) -> Result<usize, Failure> {
-        let passage = self.maps[usize::from(is_supplied)]
-            .apply(*state)
-            .map_err(|error| Failure::Run(error.into()))?;
+    fn step(&self, state: &mut Vector2<f64>, is_supplied: bool) -> Result<usize> {
+        let passage = self.maps[usize::from(is_supplied)].apply(*state)?;
         *state = passage.end;
         Ok(passage.impacts.len())
     }

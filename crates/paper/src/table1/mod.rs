@@ -9,12 +9,11 @@ mod text;
 
 use std::path::PathBuf;
 
-use anyhow::anyhow;
+use anyhow::Result;
 use clap::{Args, ValueEnum};
 use softstop::Ratios;
-use softstop_dynamics::attractors::SurveyError;
 use softstop_dynamics::continuation::{Along, Parameter};
-use softstop_dynamics::transitions::{Explorer, Rules, Transition, TransitionError};
+use softstop_dynamics::transitions::{Explorer, Rules, Transition};
 
 pub use picture::picture;
 use report::TableReport;
@@ -106,7 +105,7 @@ pub fn run(arguments: &TableArguments) -> Result<(), Failure> {
 ///
 /// # Errors
 /// As [`transitions`].
-pub fn table(rules: &Rules) -> Result<TableReport, Failure> {
+pub fn table(rules: &Rules) -> Result<TableReport> {
     let transitions = transitions(rules, RANGE, &values(&paper::INTERVALS))?;
     Ok(TableReport::new(&paper::ROWS, &transitions, rules))
 }
@@ -144,13 +143,8 @@ pub fn values(intervals: &[(f64, f64, usize)]) -> Vec<f64> {
 ///
 /// # Errors
 /// [`Failure::Run`] if they cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
-pub fn transitions(
-    rules: &Rules,
-    range: (f64, f64),
-    values: &[f64],
-) -> Result<Vec<Transition>, Failure> {
-    let family = Along::new(Ratios::unloaded(), [Parameter::Frequency])
-        .map_err(|error| Failure::usage(error.to_string()))?;
+pub fn transitions(rules: &Rules, range: (f64, f64), values: &[f64]) -> Result<Vec<Transition>> {
+    let family = Along::new(Ratios::unloaded(), [Parameter::Frequency])?;
     let bar = Progress::open("looks at motions");
     let watcher = || {
         bar.one();
@@ -158,8 +152,5 @@ pub fn transitions(
     };
     let found = Explorer::new(&family, range, *rules, &watcher).explore(values);
     drop(bar);
-    found.map_err(|error| match error {
-        TransitionError::Survey(SurveyError::Stopped) => Failure::Interrupted,
-        other => Failure::Run(anyhow!(other)),
-    })
+    Ok(found?)
 }
