@@ -24,7 +24,6 @@ impl Filter {
     }
 
     /// Whether the method of this name is wanted.
-    #[must_use]
     pub fn wants(&self, name: &str) -> bool {
         self.0.is_empty() || self.0.iter().any(|word| is_in(word, name))
     }

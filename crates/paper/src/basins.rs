@@ -155,20 +155,8 @@ fn wandering(scene: &Scene, basins: &Basins) -> Result<Vec<(f64, f64)>> {
 
 /// A row for each basin of each plane.
 fn table(all: &[&Basins]) -> Result<Vec<u8>> {
-    let columns = [
-        "plane",
-        "eta",
-        "motion",
-        "impact_pattern",
-        "before_impact_velocity",
-        "cells",
-        "share",
-        "share_low",
-        "share_high",
-        "largest_ball",
-        "ball_across",
-        "ball_up",
-    ];
+    let columns = "plane,eta,motion,impact_pattern,before_impact_velocity,cells,share,share_low,share_high,\
+        largest_ball,ball_across,ball_up";
     let rows = PLANES.iter().zip(all).flat_map(|(plane, basins)| {
         basins
             .classes
@@ -195,7 +183,7 @@ fn table(all: &[&Basins]) -> Result<Vec<u8>> {
                 )
             })
     });
-    figure::table(&columns, rows)
+    figure::table(columns, rows)
 }
 
 /// Shares with their intervals, and the largest balls.

@@ -91,18 +91,18 @@ impl Detail {
     }
 }
 
-/// A table of these columns.
+/// A table of these columns, their names separated by commas.
 ///
 /// # Errors
 /// What a row cannot be written for.
 pub(crate) fn table<R: Serialize>(
-    columns: &[&str],
+    columns: &str,
     rows: impl IntoIterator<Item = R>,
 ) -> Result<Vec<u8>> {
     let mut table = csv::WriterBuilder::new()
         .has_headers(false)
         .from_writer(Vec::new());
-    table.write_record(columns)?;
+    table.write_record(columns.split(','))?;
     for row in rows {
         table.serialize(row)?;
     }

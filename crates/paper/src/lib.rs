@@ -1,6 +1,6 @@
 //! `softstop-lab paper`: the figures of the paper, and of what it only describes.
 //!
-//! To add a figure, write a module with a `pub(crate) const FIGURE: Figure`, and name it in [`Subject`].
+//! To add a figure, write a module with a `pub(crate) const FIGURE: Figure`, and name it in [`FIGURES`].
 
 mod basins;
 mod certainty;
@@ -21,7 +21,8 @@ pub mod table1;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::PossibleValuesParser;
 
 use figure::{Detail, Figure, Studio};
 use report::{FigureReport, PaperReport};
@@ -58,8 +59,9 @@ each beside it as CSV; files are written whole or not at all.";
 #[command(after_help = EXAMPLES)]
 pub struct PaperArguments {
     /// Figures to draw [default: all]
-    #[arg(value_enum, value_name = "FIGURE", hide_possible_values = true)]
-    pub figures: Vec<Subject>,
+    #[arg(value_parser = PossibleValuesParser::new(FIGURES.map(|it| it.0)), value_name = "FIGURE")]
+    #[arg(hide_possible_values = true)]
+    pub figures: Vec<String>,
     /// Coarser grids and shorter runs, ten times as fast
     #[arg(long)]
     pub draft: bool,
@@ -71,69 +73,22 @@ pub struct PaperArguments {
     pub format: Format,
 }
 
-/// What can be drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Subject {
-    /// Bifurcation diagrams of the unloaded machine
-    #[value(name = "6a")]
-    Unloaded,
-    /// Bifurcation diagrams of the loaded machine
-    #[value(name = "6b")]
-    Loaded,
-    /// Point A
-    #[value(name = "7a")]
-    PointA,
-    /// Point B
-    #[value(name = "7b")]
-    PointB,
-    /// The diagram of rho = 10, its zooms and numbered bifurcations
-    #[value(name = "8")]
-    Diagram,
-    /// The motions (A) to (L)
-    #[value(name = "9")]
-    Motions,
-    /// Table 1
-    #[value(name = "table1")]
-    Table,
-    /// Map of the regimes
-    Regimes,
-    /// Lyapunov exponent under the diagram
-    Exponents,
-    /// Basins of attraction
-    Basins,
-    /// Establishing certainty along the hysteresis zone
-    Certainty,
-    /// z = 1 under an interrupted supply of strips
-    Supply,
-    /// The stop's stiffness from 0 to infinity
-    Hardening,
-}
-
-impl Subject {
-    fn figure(self) -> &'static Figure {
-        match self {
-            Self::Unloaded => &figure6::UNLOADED,
-            Self::Loaded => &figure6::LOADED,
-            Self::PointA => &figure7::POINT_A,
-            Self::PointB => &figure7::POINT_B,
-            Self::Diagram => &figure8::FIGURE,
-            Self::Motions => &figure9::FIGURE,
-            Self::Table => &table::FIGURE,
-            Self::Regimes => &regimes::FIGURE,
-            Self::Exponents => &exponents::FIGURE,
-            Self::Basins => &basins::FIGURE,
-            Self::Certainty => &certainty::FIGURE,
-            Self::Supply => &supply::FIGURE,
-            Self::Hardening => &hardening::FIGURE,
-        }
-    }
-
-    /// Its name on the command line.
-    fn name(self) -> String {
-        let value = self.to_possible_value();
-        value.map_or_else(String::new, |value| value.get_name().to_owned())
-    }
-}
+/// The figures by their names on the command line.
+static FIGURES: [(&str, &Figure); 13] = [
+    ("6a", &figure6::UNLOADED),
+    ("6b", &figure6::LOADED),
+    ("7a", &figure7::POINT_A),
+    ("7b", &figure7::POINT_B),
+    ("8", &figure8::FIGURE),
+    ("9", &figure9::FIGURE),
+    ("table1", &table::FIGURE),
+    ("regimes", &regimes::FIGURE),
+    ("exponents", &exponents::FIGURE),
+    ("basins", &basins::FIGURE),
+    ("certainty", &certainty::FIGURE),
+    ("supply", &supply::FIGURE),
+    ("hardening", &hardening::FIGURE),
+];
 
 const REPORT: &str = "paper.json";
 
@@ -143,23 +98,22 @@ const REPORT: &str = "paper.json";
 /// [`Failure::Run`] if one cannot be computed or the folder cannot be written, [`Failure::Interrupted`]
 /// after Ctrl-C.
 pub fn run(arguments: &PaperArguments) -> Result<(), Failure> {
-    let subjects = subjects(&arguments.figures);
+    let asked = &arguments.figures;
+    let is_wanted = |name: &str| asked.is_empty() || asked.iter().any(|it| it == name);
+    let wanted = || FIGURES.iter().filter(|(name, _)| is_wanted(name));
     let studio = Studio::new(if arguments.draft {
         Detail::Draft
     } else {
         Detail::Full
     });
-    let mut names: Vec<&str> = subjects
-        .iter()
-        .flat_map(|subject| subject.figure().files)
-        .copied()
-        .collect();
+    let files = wanted().flat_map(|(_, figure)| figure.files);
+    let mut names: Vec<&str> = files.copied().collect();
     names.push(REPORT);
     let folder = Folder::open(&arguments.output, &names)?;
     let begin = Instant::now();
     let mut figures = Vec::new();
-    for subject in subjects {
-        figures.push(draw(subject, &studio, &folder)?);
+    for (name, figure) in wanted() {
+        figures.push(draw(name, figure, &studio, &folder)?);
     }
     let report = PaperReport {
         figures,
@@ -174,25 +128,22 @@ pub fn run(arguments: &PaperArguments) -> Result<(), Failure> {
     })
 }
 
-/// Those asked for, each once; all if none is.
-fn subjects(asked: &[Subject]) -> Vec<Subject> {
-    let is_wanted = |subject: &Subject| asked.is_empty() || asked.contains(subject);
-    let all = Subject::value_variants().iter().copied();
-    all.filter(is_wanted).collect()
-}
-
-fn draw(subject: Subject, studio: &Studio, folder: &Folder) -> Result<FigureReport, Failure> {
+fn draw(
+    name: &'static str,
+    figure: &Figure,
+    studio: &Studio,
+    folder: &Folder,
+) -> Result<FigureReport, Failure> {
     if interrupt::requested() {
         return Err(Failure::Interrupted);
     }
-    let figure = subject.figure();
     let begin = Instant::now();
     let drawn = (figure.draw)(studio)?;
     for (name, content) in figure.files.iter().zip(&drawn.files) {
         folder.stage(name, content)?;
     }
     Ok(FigureReport {
-        figure: subject.name(),
+        figure: name,
         title: figure.title,
         files: figure.files.iter().map(|name| folder.place(name)).collect(),
         findings: drawn.findings.into_iter().collect(),

@@ -20,7 +20,7 @@ pub(super) struct PaperReport {
 #[derive(Debug, Serialize)]
 pub(super) struct FigureReport {
     /// Its name on the command line.
-    pub figure: String,
+    pub figure: &'static str,
     /// What it shows.
     pub title: &'static str,
     /// Its files.

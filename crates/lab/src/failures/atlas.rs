@@ -79,7 +79,6 @@ pub struct Atlas {
 
 impl Axes {
     /// So many points on both axes: stiffness 1 to 1e8 N/m, step 1e-5 to 0.3 of the drive period.
-    #[must_use]
     pub fn new(points: usize) -> Self {
         Self {
             stiffness: logarithmic(1.0, 1e8, points),

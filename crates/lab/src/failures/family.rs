@@ -16,7 +16,6 @@ pub enum Family {
 
 impl Family {
     /// All of them: those that ignore events first.
-    #[must_use]
     pub fn all() -> Vec<Self> {
         let with = |events| Scheme::ALL.map(|scheme| Self::FixedStep(scheme, events));
         let mut all = with(Events::Ignored).to_vec();
@@ -26,13 +25,11 @@ impl Family {
     }
 
     /// Its name: scheme and treatment of events.
-    #[must_use]
     pub fn name(&self) -> String {
         format!("{}, {}", self.title(), self.row())
     }
 
     /// The row of the atlas in which it stands.
-    #[must_use]
     pub fn row(&self) -> &'static str {
         match self {
             Self::FixedStep(_, events) => events.name(),
@@ -41,7 +38,6 @@ impl Family {
     }
 
     /// Its name within the row.
-    #[must_use]
     pub fn title(&self) -> &'static str {
         match self {
             Self::FixedStep(scheme, _) => scheme.name(),
@@ -50,7 +46,6 @@ impl Family {
     }
 
     /// The method with a step in s.
-    #[must_use]
     pub fn method(&self, step: f64) -> Box<dyn Integrator> {
         match *self {
             Self::FixedStep(scheme, events) => Box::new(FixedStep {
@@ -64,7 +59,6 @@ impl Family {
 
     /// Longest stable step times the frequency of an oscillator of this damping ratio; none if there is no
     /// limit.
-    #[must_use]
     pub fn limit(&self, ratio: f64) -> Option<f64> {
         match self {
             Self::FixedStep(scheme, _) => scheme.stability_limit(ratio),

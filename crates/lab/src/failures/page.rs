@@ -30,7 +30,6 @@ const LEGEND: f64 = 166.0;
 const LEGEND_ROWS: usize = 3;
 
 /// The page as an SVG document.
-#[must_use]
 pub fn page(atlas: &Atlas) -> String {
     Page::new(atlas).draw()
 }

@@ -88,7 +88,6 @@ impl View {
     }
 
     /// The task with a stop of this stiffness in N/m.
-    #[must_use]
     pub fn task(&self, stiffness: f64) -> Task {
         let scene = &self.file.scene;
         let stop = with_stiffness(&scene.stop, stiffness);
@@ -140,7 +139,6 @@ fn with_stiffness(stop: &Stop, stiffness: f64) -> Option<Stop> {
 
 /// Angular frequency in rad/s and damping ratio of the machine on its stop, if contact is linear: on the
 /// steepest slope, if there are several.
-#[must_use]
 pub fn contact_mode(scene: &Scene) -> Option<(f64, f64)> {
     let stiffness = match &scene.stop {
         Stop::KelvinVoigt { stiffness, .. } | Stop::Preloaded { stiffness, .. } => *stiffness,

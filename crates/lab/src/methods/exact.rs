@@ -1,7 +1,7 @@
 //! The exact method, as one among others.
 
 use super::{Integrator, MethodError, Solution, Task, Work};
-use softstop::integrator::{Arc, Clock, Crossing, Evaluations, Impact, Instant, Observer};
+use softstop::integrator::{Arc, Clock, Crossing, Impact, Instant, Observer};
 
 /// Closed forms from crossing to crossing, Taylor steps where a law is not linear.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -17,7 +17,7 @@ impl Integrator for Exact {
         let mut watcher = Watcher {
             clock: *motion.clock(),
             impacts: Vec::new(),
-            taken: Evaluations::default(),
+            taken: Work::default(),
         };
         let end = end_of(task, motion.clock());
         motion
@@ -28,10 +28,7 @@ impl Integrator for Exact {
         Ok(Solution {
             end: (state.position, state.velocity),
             impacts: watcher.impacts,
-            work: Work {
-                steps: watcher.taken.steps,
-                evaluations: watcher.taken.evaluations,
-            },
+            work: watcher.taken,
         })
     }
 }
@@ -46,7 +43,7 @@ fn end_of(task: &Task, clock: &Clock) -> Instant {
 struct Watcher {
     clock: Clock,
     impacts: Vec<Impact>,
-    taken: Evaluations,
+    taken: Work,
 }
 
 impl Observer for Watcher {

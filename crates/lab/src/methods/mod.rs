@@ -26,6 +26,7 @@ pub use verdict::{Judge, Verdict};
 use thiserror::Error;
 
 use softstop::error::MotionError;
+pub use softstop::integrator::Evaluations as Work;
 use softstop::integrator::{Impact, Start, Walk};
 use softstop::scene::Scene;
 
@@ -77,16 +78,6 @@ pub struct Solution {
     pub work: Work,
 }
 
-/// What a computation took.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Work {
-    /// Steps in time.
-    pub steps: u64,
-    /// Evaluations of the law of force. One state of a closed form counts as one, one Taylor polynomial as
-    /// its degree.
-    pub evaluations: u64,
-}
-
 /// Why a method has no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MethodError {
@@ -135,7 +126,6 @@ impl From<MotionError> for MethodError {
 
 impl MethodError {
     /// The same, said by a method that had made so many steps.
-    #[must_use]
     pub fn after(self, steps: u64) -> Self {
         match self {
             Self::Stuck { time, reason, .. } => Self::Stuck {

@@ -88,7 +88,6 @@ struct Curve<'a> {
 
 impl<'a> PrecisionChart<'a> {
     /// The diagram of a report; methods look like this, in the report's order.
-    #[must_use]
     pub fn new(report: &'a SceneReport, looks: Vec<Look>) -> Self {
         let runs = report.rows.chunk_by(|a, b| a.method == b.method);
         let curves = runs.zip(looks).map(|(rows, look)| Curve { rows, look });
@@ -99,7 +98,6 @@ impl<'a> PrecisionChart<'a> {
     }
 
     /// The diagram as an SVG document.
-    #[must_use]
     pub fn svg(&self) -> String {
         let plots = PANELS.iter().map(|panel| self.plots(panel)).collect();
         let layouts = PANELS.iter().map(|panel| self.layout(panel)).collect();

@@ -49,13 +49,11 @@ impl Scale {
 
     /// Impacts so slow are not compared, in m/s: how many bounces of a chatter without end are told one
     /// by one is a matter of choice.
-    #[must_use]
     pub fn slowest(&self) -> f64 {
         1e-6 * self.velocity
     }
 
     /// The impacts that are compared.
-    #[must_use]
     pub fn told(&self, impacts: &[Impact]) -> Vec<Impact> {
         let fast = |impact: &&Impact| impact.velocity.abs() > self.slowest();
         impacts.iter().filter(fast).copied().collect()
@@ -77,7 +75,6 @@ pub struct Errors {
 
 impl Errors {
     /// The errors of a solution against the true one.
-    #[must_use]
     pub fn between(found: &Solution, truth: &Solution, scale: &Scale) -> Self {
         let position = (found.end.0 - truth.end.0) / scale.position;
         let velocity = (found.end.1 - truth.end.1) / scale.velocity;
@@ -95,7 +92,6 @@ impl Errors {
     }
 
     /// The largest of all, and infinite if impacts are missing or invented.
-    #[must_use]
     pub fn worst(&self) -> f64 {
         if self.impact_difference != 0 {
             return f64::INFINITY;

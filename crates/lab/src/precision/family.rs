@@ -38,7 +38,6 @@ const FINEST: i32 = 22;
 const COARSEST: i32 = 4;
 
 /// All methods that are made for a scene, the exact one first; every other setting of the others if it has to be quick.
-#[must_use]
 pub fn all(scene: &Scene, quick: bool) -> Vec<Family> {
     let every = if quick { 2 } else { 1 };
     let mut families = vec![Family::exact()];
@@ -126,7 +125,6 @@ impl Family {
     }
 
     /// The exact method.
-    #[must_use]
     pub fn exact() -> Self {
         let look = Look {
             scheme: 0,

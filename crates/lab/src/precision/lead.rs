@@ -85,7 +85,6 @@ pub struct Closest {
 type Point = (f64, f64);
 
 /// The lead at all targets; empty if the exact method has no answer.
-#[must_use]
 pub fn leads(rows: &[Row], exact: &str) -> Vec<Lead> {
     let both = Quantity::ALL.map(|quantity| {
         let curves = curves(rows, quantity);

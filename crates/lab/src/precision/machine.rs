@@ -21,7 +21,6 @@ pub struct Machine {
 
 impl Machine {
     /// This one.
-    #[must_use]
     pub fn this() -> Self {
         let profile = if cfg!(debug_assertions) {
             "not optimised"
@@ -38,7 +37,6 @@ impl Machine {
     }
 
     /// In one line.
-    #[must_use]
     pub fn line(&self) -> String {
         let Self {
             cpu,

@@ -70,7 +70,6 @@ pub struct LeadReport {
 
 impl SceneReport {
     /// What was measured on a case.
-    #[must_use]
     pub fn new(
         case: &Case,
         machine: &Machine,

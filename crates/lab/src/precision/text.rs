@@ -6,7 +6,6 @@ use super::report::{PrecisionReport, SceneReport};
 use softstop_console::table::{Row, heading, row, table};
 
 /// All charts of a run.
-#[must_use]
 pub fn text(report: &PrecisionReport) -> String {
     let mut text = String::new();
     for chart in &report.charts {

@@ -91,13 +91,11 @@ impl Truth {
     }
 
     /// Decimal digits, relative to the motion's size, in which both computations agree; 48 at most.
-    #[must_use]
     pub fn digits(&self) -> u32 {
         (-self.doubt.worst().log10()).clamp(0.0, 48.0) as u32
     }
 
     /// What a solution is off by; not less than what can be told, if that is more than rounding.
-    #[must_use]
     pub fn errors_of(&self, found: &Solution, scale: &Scale) -> Errors {
         let errors = Errors::between(found, &self.solution, scale);
         let told = |error: f64, doubt: f64| {

@@ -23,7 +23,6 @@ pub struct Draw(Xoshiro256PlusPlus);
 
 impl Draw {
     /// The machines of one part of a check.
-    #[must_use]
     pub fn new(seed: u64, part: u64) -> Self {
         let mut numbers = Xoshiro256PlusPlus::seed_from_u64(seed);
         let own = numbers.next_u64() ^ part;

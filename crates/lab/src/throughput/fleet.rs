@@ -79,7 +79,6 @@ impl Range {
     }
 
     /// Drive periods of all motions together.
-    #[must_use]
     pub fn all_periods(&self) -> u64 {
         u64::from(self.motions) * self.periods
     }

@@ -46,7 +46,6 @@ pub const ROUNDS: usize = 16;
 
 impl Timing {
     /// The middle one of the times, in s.
-    #[must_use]
     pub fn median(&self) -> f64 {
         median(&self.seconds)
     }
@@ -62,7 +61,6 @@ enum Way {
 }
 
 /// The instruction sets narrower than the widest that this processor has.
-#[must_use]
 pub fn narrower() -> Vec<Instructions> {
     let widest = Instructions::Widest.registers();
     let portable = Instructions::Portable.registers();
@@ -73,7 +71,6 @@ pub fn narrower() -> Vec<Instructions> {
 }
 
 /// Measurements that [`measure`] makes in so many repeats.
-#[must_use]
 pub fn measurements(sets: &[Instructions], repeats: usize) -> u64 {
     ((repeats + 1) * (sets.len() + 5)) as u64
 }

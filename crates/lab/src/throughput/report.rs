@@ -77,7 +77,6 @@ pub struct Cores {
 
 impl ThroughputReport {
     /// What was measured, without a check.
-    #[must_use]
     pub fn new(range: Range, repeats: usize, timings: &Timings) -> Self {
         let work = range.all_periods() as f64;
         let lanes = |wanted| {

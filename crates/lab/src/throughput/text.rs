@@ -5,7 +5,6 @@ use super::report::{Engine, LaneEngine, ThroughputReport};
 use softstop_console::table::{Row, heading, row, table};
 
 /// The report.
-#[must_use]
 pub fn text(report: &ThroughputReport) -> String {
     let scene = &report.scene;
     let (low, high) = scene.frequencies;

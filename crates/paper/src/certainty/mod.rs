@@ -152,18 +152,8 @@ const BALL: &str = "radius of the largest ball in z = 1";
 
 /// A row for each place of each curve.
 fn table(curves: &[Curve]) -> Result<Vec<u8>> {
-    let columns = [
-        "machine",
-        "rho",
-        "starts",
-        "place",
-        "eta",
-        "certainty",
-        "certainty_low",
-        "certainty_high",
-        "integrity",
-        "motions",
-    ];
+    let columns =
+        "machine,rho,starts,place,eta,certainty,certainty_low,certainty_high,integrity,motions";
     let rows = curves.iter().flat_map(|curve| {
         curve.places.iter().map(move |place| {
             (
@@ -179,5 +169,5 @@ fn table(curves: &[Curve]) -> Result<Vec<u8>> {
             )
         })
     });
-    figure::table(&columns, rows)
+    figure::table(columns, rows)
 }

@@ -218,15 +218,8 @@ fn triple(point: &StabilityPoint) -> [f64; 3] {
 }
 
 fn table(parts: &[StabilityPart]) -> Result<Vec<u8>> {
-    let columns = [
-        "direction",
-        "eta",
-        "impacts",
-        "periods",
-        "lambda",
-        "lambda_half_width",
-        "largest_before_impact_velocity",
-    ];
+    let columns =
+        "direction,eta,impacts,periods,lambda,lambda_half_width,largest_before_impact_velocity";
     let rows = parts.iter().flat_map(|part| {
         part.ways
             .iter()
@@ -248,5 +241,5 @@ fn table(parts: &[StabilityPart]) -> Result<Vec<u8>> {
                 })
             })
     });
-    figure::table(&columns, rows)
+    figure::table(columns, rows)
 }

@@ -263,7 +263,7 @@ pub(super) fn optimum(machine: &Ratios, ends: &[Ends]) -> Option<(f64, f64)> {
 /// # Errors
 /// [`Failure::Run`] if it cannot be written.
 pub(super) fn table(boundaries: &Boundaries) -> Result<Vec<u8>> {
-    let columns = ["boundary", "eta", "max_position", "before_impact_velocity"];
+    let columns = "boundary,eta,max_position,before_impact_velocity";
     let named = |name: &'static str, points: &[[f64; 3]]| {
         let rows = points
             .iter()
@@ -277,5 +277,5 @@ pub(super) fn table(boundaries: &Boundaries) -> Result<Vec<u8>> {
     for piece in &boundaries.flips {
         rows.extend(named("s_PD", piece));
     }
-    figure::table(&columns, rows)
+    figure::table(columns, rows)
 }

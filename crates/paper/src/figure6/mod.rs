@@ -113,14 +113,7 @@ fn piercing(machine: &Ratios, rows: &[ClearanceRow]) -> Option<Vec<[Ranges; 2]>>
 }
 
 fn table(rows: &[ClearanceRow]) -> Result<Vec<u8>> {
-    let columns = [
-        "rho",
-        "direction",
-        "eta",
-        "z",
-        "max_position",
-        "before_impact_velocities",
-    ];
+    let columns = "rho,direction,eta,z,max_position,before_impact_velocities";
     let chains = rows.iter().flat_map(|row| &row.ways);
     let lines = chains.flat_map(|chain| {
         chain.steps.iter().map(|step| {
@@ -134,7 +127,7 @@ fn table(rows: &[ClearanceRow]) -> Result<Vec<u8>> {
             )
         })
     });
-    figure::table(&columns, lines)
+    figure::table(columns, lines)
 }
 
 /// The step of z = 1 with the highest velocity.

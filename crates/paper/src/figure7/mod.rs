@@ -4,13 +4,11 @@ mod chart;
 mod stroke;
 
 use anyhow::Result;
-use serde::Serialize;
 use softstop::{PhaseKind, Ratios};
 use softstop_dynamics::orbit::{Exponents, Orbit, find};
 
-use crate::figure::{Detail, Drawn, Figure};
+use crate::figure::{self, Detail, Drawn, Figure};
 use crate::figure7::chart::{StrokeChart, StrokePoint};
-use softstop_console::output;
 use stroke::Stroke;
 
 /// Point A: the unloaded machine.
@@ -39,16 +37,6 @@ pub(super) const POINT_B: Figure = Figure {
     },
 };
 
-/// A line of the table.
-#[derive(Serialize)]
-struct Line {
-    tau: f64,
-    position: f64,
-    velocity: f64,
-    contact_force: f64,
-    phase: &'static str,
-}
-
 fn draw(ratios: &Ratios, name: &str, detail: Detail) -> Result<Drawn> {
     let scene = ratios.scene()?;
     let orbit = find(&scene)?;
@@ -72,10 +60,7 @@ fn draw(ratios: &Ratios, name: &str, detail: Detail) -> Result<Drawn> {
         max_position: orbit.max_position,
     };
     Ok(Drawn {
-        files: vec![
-            chart.svg().into_bytes(),
-            output::csv(stroke.points.iter().map(line))?,
-        ],
+        files: vec![chart.svg().into_bytes(), table(&stroke.points)?],
         findings: findings(&orbit, &stroke),
     })
 }
@@ -116,12 +101,17 @@ fn findings(orbit: &Orbit, stroke: &Stroke) -> Vec<(String, f64)> {
     findings
 }
 
-fn line(point: &StrokePoint) -> Line {
-    Line {
-        tau: point.time,
-        position: point.position,
-        velocity: point.velocity,
-        contact_force: point.force,
-        phase: softstop_explore::simulate::name(point.phase),
-    }
+fn table(points: &[StrokePoint]) -> Result<Vec<u8>> {
+    let columns = "tau,position,velocity,contact_force,phase";
+    let rows = points.iter().map(|point| {
+        let phase = softstop_explore::simulate::name(point.phase);
+        (
+            point.time,
+            point.position,
+            point.velocity,
+            point.force,
+            phase,
+        )
+    });
+    figure::table(columns, rows)
 }

@@ -183,14 +183,7 @@ fn explanation(detail: Detail) -> String {
 }
 
 fn table(overview: &Diagram, zooms: &[Diagram], isolated: &[Step]) -> Result<Vec<u8>> {
-    let columns = [
-        "part",
-        "direction",
-        "eta",
-        "z",
-        "max_position",
-        "before_impact_velocities",
-    ];
+    let columns = "part,direction,eta,z,max_position,before_impact_velocities";
     let row = |part: &str, way: &str, step: &Step| {
         (
             part.to_owned(),
@@ -219,11 +212,11 @@ fn table(overview: &Diagram, zooms: &[Diagram], isolated: &[Step]) -> Result<Vec
     };
     let diagrams = std::iter::once(overview).chain(zooms).flat_map(of_diagram);
     let apart = isolated.iter().map(|step| row("isolated", "either", step));
-    figure::table(&columns, diagrams.chain(apart))
+    figure::table(columns, diagrams.chain(apart))
 }
 
 fn rows_table(bifurcations: &[Bifurcation]) -> Result<Vec<u8>> {
-    let columns = ["number", "eta", "type", "hysteresis", "direction"];
+    let columns = "number,eta,type,hysteresis,direction";
     let rows = bifurcations.iter().map(|it| {
         let direction = match (it.hysteresis, it.rising) {
             (false, _) => "both",
@@ -238,7 +231,7 @@ fn rows_table(bifurcations: &[Bifurcation]) -> Result<Vec<u8>> {
             direction,
         )
     });
-    figure::table(&columns, rows)
+    figure::table(columns, rows)
 }
 
 fn findings(bifurcations: &[Bifurcation]) -> Vec<(String, f64)> {

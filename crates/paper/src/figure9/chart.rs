@@ -76,7 +76,6 @@ const MANY: usize = 64;
 
 impl MotionPage {
     /// The picture as an SVG document.
-    #[must_use]
     pub fn svg(&self) -> String {
         let (top, height, foot) = HEIGHTS;
         let mut pen = Pen::new(WIDTH, top + height * self.rows.len() as f64 + foot);

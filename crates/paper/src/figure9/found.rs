@@ -23,23 +23,10 @@ pub(super) struct Found {
     impacts_per_period: f64,
 }
 
-/// A line of the table.
-#[derive(Serialize)]
-pub(super) struct Line {
-    motion: char,
-    eta: f64,
-    eta_is_the_papers: bool,
-    impacts: Option<u64>,
-    periods: Option<u64>,
-    impacts_per_period: f64,
-    order_of_impacts: String,
-    largest_multiplier_modulus: Option<f64>,
-    lyapunov_exponent_per_period: f64,
-    max_position: Option<f64>,
-    before_impact_velocity: Option<f64>,
-    mean_life_periods: Option<f64>,
-    share_of_starts: f64,
-}
+/// Columns of the table.
+pub(super) const COLUMNS: &str = "motion,eta,eta_is_the_papers,impacts,periods,impacts_per_period,\
+    order_of_impacts,largest_multiplier_modulus,lyapunov_exponent_per_period,max_position,\
+    before_impact_velocity,mean_life_periods,share_of_starts";
 
 impl Found {
     /// The motion that is asked for, if it is among those found, with so many states of what does not repeat.
@@ -179,26 +166,27 @@ impl Found {
         said.join("; ")
     }
 
-    pub(super) fn line(&self) -> Line {
+    /// A row of the table.
+    pub(super) fn line(&self) -> impl Serialize {
         let orbit = self.orbit();
         let chaos = self.chaos();
         let hardest = chaos.and_then(|chaos| chaos.velocities).map(|ends| ends[1]);
         let velocity = orbit.map(Orbit::before_impact_velocity);
-        Line {
-            motion: self.asked.letter,
-            eta: self.asked.frequency,
-            eta_is_the_papers: self.asked.is_given,
-            impacts: orbit.map(|orbit| orbit.impacts.len() as u64),
-            periods: self.period(),
-            impacts_per_period: self.impacts_per_period,
-            order_of_impacts: orbit.map_or_else(String::new, |orbit| orbit.pattern().to_string()),
-            largest_multiplier_modulus: self.modulus(),
-            lyapunov_exponent_per_period: self.exponent(),
-            max_position: orbit.map(|orbit| orbit.max_position),
-            before_impact_velocity: velocity.or(hardest),
-            mean_life_periods: self.lifetime(),
-            share_of_starts: self.attractor.share,
-        }
+        (
+            self.asked.letter,
+            self.asked.frequency,
+            self.asked.is_given,
+            orbit.map(|orbit| orbit.impacts.len()),
+            self.period(),
+            self.impacts_per_period,
+            orbit.map_or_else(String::new, |orbit| orbit.pattern().to_string()),
+            self.modulus(),
+            self.exponent(),
+            orbit.map(|orbit| orbit.max_position),
+            velocity.or(hardest),
+            self.lifetime(),
+            self.attractor.share,
+        )
     }
 
     pub(super) fn findings(&self) -> Vec<(String, f64)> {

@@ -7,17 +7,15 @@ mod path;
 mod section;
 
 use anyhow::{Result, anyhow};
-use serde::Serialize;
 use softstop::Ratios;
 use softstop_dynamics::attractors::{Options, Survey, attractors_watched};
 
-use crate::figure::{Detail, Drawn, Figure, Studio};
+use crate::figure::{self, Detail, Drawn, Figure, Studio};
 use crate::figure9::chart::{MotionPage, MotionRow};
 pub(super) use asked::letters;
 use asked::{Asked, MOTIONS};
 use found::Found;
 use softstop_console::interrupt;
-use softstop_console::output;
 use softstop_console::progress::Progress;
 
 /// Motions (A) to (L).
@@ -40,23 +38,6 @@ const ON_A_PAGE: usize = 6;
 /// Points for each drive period, of all of a motion and of what is near the stop.
 const FINENESS: (u32, u32) = (72, 1440);
 
-/// A point of a time series in the table.
-#[derive(Serialize)]
-struct SeriesLine {
-    motion: char,
-    drive_periods: f64,
-    position: f64,
-    velocity: f64,
-}
-
-/// A point of the stroboscopic section in the table.
-#[derive(Serialize)]
-struct SectionLine {
-    motion: char,
-    position: f64,
-    velocity: f64,
-}
-
 fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
     let found = found(detail)?;
@@ -75,13 +56,10 @@ fn draw(studio: &Studio) -> Result<Drawn> {
                     && other.asked.frequency == motion.asked.frequency
             };
             let others = found.iter().filter(coexist);
-            series.extend(path.points.iter().map(|point| series_line(motion, point)));
-            sections.extend(
-                motion
-                    .section
-                    .iter()
-                    .map(|&point| section_line(motion, point)),
-            );
+            let letter = motion.asked.letter;
+            let points = path.points.iter();
+            series.extend(points.map(|it| (letter, it.periods, it.position, it.velocity)));
+            sections.extend(motion.section.iter().map(|state| (letter, *state)));
             rows.push(MotionRow {
                 letter: motion.asked.letter,
                 title: motion.title(),
@@ -99,9 +77,15 @@ fn draw(studio: &Studio) -> Result<Drawn> {
         }
         files.push(page_of(rows, shown).svg().into_bytes());
     }
-    files.push(output::csv(found.iter().map(Found::line))?);
-    files.push(output::csv(series)?);
-    files.push(output::csv(sections)?);
+    files.push(figure::table(
+        found::COLUMNS,
+        found.iter().map(Found::line),
+    )?);
+    files.push(figure::table(
+        "motion,drive_periods,position,velocity",
+        series,
+    )?);
+    files.push(figure::table("motion,position,velocity", sections)?);
     Ok(Drawn {
         files,
         findings: found.iter().flat_map(Found::findings).collect(),
@@ -160,21 +144,4 @@ fn survey(asked: &Asked, detail: Detail, progress: &Progress) -> Result<Survey> 
         !interrupt::requested()
     };
     Ok(attractors_watched(&scene, &options, &watcher)?)
-}
-
-fn series_line(motion: &Found, point: &path::Point) -> SeriesLine {
-    SeriesLine {
-        motion: motion.asked.letter,
-        drive_periods: point.periods,
-        position: point.position,
-        velocity: point.velocity,
-    }
-}
-
-fn section_line(motion: &Found, (position, velocity): (f64, f64)) -> SectionLine {
-    SectionLine {
-        motion: motion.asked.letter,
-        position,
-        velocity,
-    }
 }

@@ -9,10 +9,9 @@ mod stops;
 mod swept;
 
 use anyhow::Result;
-use serde::Serialize;
 use softstop_dynamics::sweep::Step;
 
-use crate::figure::{Drawn, Figure, Studio};
+use crate::figure::{self, Drawn, Figure, Studio};
 use crate::hardening::chart::{HardeningChart, StopDiagram, StopFolds, StopMap, StopOrders};
 use orders::Subharmonic;
 use softstop_console::failure::Failure;
@@ -50,41 +49,6 @@ const DECADES: (f64, f64) = (-1.0, 4.0);
 /// Stiffnesses k2/k1 whose subharmonic motions are looked for.
 const SUBHARMONIC: [f64; 3] = [1.0, 10.0, 100.0];
 
-/// A step of a sweep in the tables.
-#[derive(Serialize)]
-struct StepLine {
-    stop: String,
-    direction: &'static str,
-    eta: f64,
-    motion: &'static str,
-    impacts_per_period: f64,
-    max_position: f64,
-    largest_before_impact_velocity: f64,
-}
-
-/// The branch of z = 1 of a stiffness.
-#[derive(Serialize)]
-struct FoldLine {
-    stiffness: f64,
-    eta_grazing: f64,
-    eta_strong_fold: Option<f64>,
-    velocity_strong_fold: Option<f64>,
-    eta_weak_fold: Option<f64>,
-    velocity_weak_fold: Option<f64>,
-    eta_first_flip: Option<f64>,
-    eta_flip: Option<f64>,
-}
-
-/// A subharmonic motion.
-#[derive(Serialize)]
-struct SubharmonicLine {
-    stiffness: f64,
-    eta: f64,
-    impacts: u64,
-    periods: u64,
-    beside_impactless_motion: bool,
-}
-
 fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
     let drawn = sweep(&DRAWN, detail.pick(420, 120), detail.pick(200, 80))?;
@@ -105,10 +69,10 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     Ok(Drawn {
         files: vec![
             chart.svg().into_bytes(),
-            output::csv(drawn.iter().flat_map(lines))?,
-            output::csv(map.iter().flat_map(lines))?,
-            output::csv(folds.iter().map(fold_line))?,
-            output::csv(subharmonics.iter().map(subharmonic_line))?,
+            steps(&drawn)?,
+            steps(&map)?,
+            branches(&folds)?,
+            output::csv(&subharmonics)?,
         ],
         findings,
     })
@@ -180,43 +144,46 @@ fn orders(found: &[Subharmonic]) -> StopOrders {
     }
 }
 
-fn lines(swept: &Swept) -> impl Iterator<Item = StepLine> + '_ {
-    let line = |(step, direction): (&Step, &'static str)| StepLine {
-        stop: match swept.law {
+/// A row for each step of each way.
+fn steps(swept: &[Swept]) -> Result<Vec<u8>> {
+    let columns = "stop,direction,eta,motion,impacts_per_period,max_position,\
+                   largest_before_impact_velocity";
+    let rows = swept.iter().flat_map(|swept| {
+        let stop = match swept.law {
             Law::KelvinVoigt(stiffness) => format!("{stiffness}"),
             law => law.name(),
-        },
-        direction,
-        eta: step.value,
-        motion: regime(step).name(),
-        impacts_per_period: step.impacts_per_period,
-        max_position: step.max_position,
-        largest_before_impact_velocity: step.hardest(),
-    };
-    let up = swept.up.iter().map(|step| (step, "up"));
-    up.chain(swept.down.iter().map(|step| (step, "down")))
-        .map(line)
+        };
+        let row = move |step: &Step, direction| {
+            (
+                stop.clone(),
+                direction,
+                step.value,
+                regime(step).name(),
+                step.impacts_per_period,
+                step.max_position,
+                step.hardest(),
+            )
+        };
+        let up = swept.up.iter().map(|step| (step, "up"));
+        let all = up.chain(swept.down.iter().map(|step| (step, "down")));
+        all.map(move |(step, direction)| row(step, direction))
+    });
+    figure::table(columns, rows)
 }
 
-fn fold_line(fold: &StopFolds) -> FoldLine {
-    FoldLine {
-        stiffness: fold.stiffness,
-        eta_grazing: grazing(CLEARANCE).1,
-        eta_strong_fold: fold.strong.map(|fold| fold.0),
-        velocity_strong_fold: fold.strong.map(|fold| fold.1),
-        eta_weak_fold: fold.weak.map(|fold| fold.0),
-        velocity_weak_fold: fold.weak.map(|fold| fold.1),
-        eta_first_flip: fold.first_flip,
-        eta_flip: fold.flip,
-    }
-}
-
-fn subharmonic_line(motion: &Subharmonic) -> SubharmonicLine {
-    SubharmonicLine {
-        stiffness: motion.stiffness,
-        eta: motion.frequency,
-        impacts: motion.impacts,
-        periods: motion.periods,
-        beside_impactless_motion: motion.beside_rest,
-    }
+/// A row for each branch of z = 1.
+fn branches(folds: &[StopFolds]) -> Result<Vec<u8>> {
+    let columns = "stiffness,eta_grazing,eta_strong_fold,velocity_strong_fold,eta_weak_fold,\
+                   velocity_weak_fold,eta_first_flip,eta_flip";
+    let rows = folds.iter().map(|fold| {
+        (
+            fold.stiffness,
+            grazing(CLEARANCE).1,
+            fold.strong.unzip(),
+            fold.weak.unzip(),
+            fold.first_flip,
+            fold.flip,
+        )
+    });
+    figure::table(columns, rows)
 }

@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use rayon::prelude::*;
+use serde::Serialize;
 use softstop_dynamics::attractors::{Kind, Options, attractors_watched};
 
 use super::stops::{Law, grazing};
@@ -13,14 +14,16 @@ pub(super) const RANGE: (f64, f64) = (1.5, 10.0);
 /// The clearance rho: so small that impacts go on far above the resonance.
 pub(super) const NARROW: f64 = 0.1;
 
-/// A stable subharmonic motion that was found.
-#[derive(Debug, Clone, Copy)]
+/// A stable subharmonic motion that was found: a row of the table.
+#[derive(Debug, Clone, Copy, Serialize)]
 pub(super) struct Subharmonic {
     pub(super) stiffness: f64,
+    #[serde(rename = "eta")]
     pub(super) frequency: f64,
     pub(super) impacts: u64,
     pub(super) periods: u64,
     /// Whether the impact-less motion exists there too.
+    #[serde(rename = "beside_impactless_motion")]
     pub(super) beside_rest: bool,
 }
 

@@ -51,7 +51,6 @@ const NAMES_AT: f64 = 0.2;
 
 impl RegimePage {
     /// The page of these maps.
-    #[must_use]
     pub fn new(panels: Vec<RegimePanel>) -> Self {
         Self { panels }
     }

@@ -19,7 +19,7 @@ const MAPS: [[&str; 2]; 6] = [
 
 /// A row for each run of cells of the same motion: from the middle of the first cell to that of the last.
 pub(super) fn runs(maps: &[RegimeMap]) -> Result<Vec<u8>> {
-    let columns = ["machine", "way", "rho", "eta_from", "eta_to", "motion"];
+    let columns = "machine,way,rho,eta_from,eta_to,motion";
     let mut lines = Vec::new();
     for (map, [machine, way]) in maps.iter().zip(MAPS) {
         let rows = map.cells.len() / map.columns;
@@ -34,19 +34,12 @@ pub(super) fn runs(maps: &[RegimeMap]) -> Result<Vec<u8>> {
             }
         }
     }
-    figure::table(&columns, lines)
+    figure::table(columns, lines)
 }
 
 /// A row for each point of a boundary.
 pub(super) fn boundaries(boundaries: &[Boundaries; 2]) -> Result<Vec<u8>> {
-    let columns = [
-        "machine",
-        "boundary",
-        "curve",
-        "eta",
-        "rho",
-        "before_impact_velocity",
-    ];
+    let columns = "machine,boundary,curve,eta,rho,before_impact_velocity";
     let mut lines = Vec::new();
     for (machine, own) in ["unloaded", "loaded"].into_iter().zip(boundaries) {
         let grazing = own.grazing.iter();
@@ -66,5 +59,5 @@ pub(super) fn boundaries(boundaries: &[Boundaries; 2]) -> Result<Vec<u8>> {
             }
         }
     }
-    figure::table(&columns, lines)
+    figure::table(columns, lines)
 }

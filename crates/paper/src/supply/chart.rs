@@ -36,7 +36,6 @@ const COLORS: [&str; 3] = [style::DESIGN, style::REFERENCE, "#009E73"];
 
 impl SupplyChart {
     /// The chart as an SVG document.
-    #[must_use]
     pub fn svg(&self) -> String {
         let plots: Vec<Plot> = self.curves.iter().zip(COLORS).flat_map(curve).collect();
         let right = self.curves.iter().flat_map(|curve| &curve.points);

@@ -19,7 +19,6 @@ pub struct Match<'a> {
 const NEAR: f64 = 2e-3;
 
 /// The transition of a row that is nearest, if there is one.
-#[must_use]
 pub fn find<'a>(row: &PaperRow, transitions: &'a [Transition]) -> Option<Match<'a>> {
     let matches = transitions.iter().filter_map(|transition| {
         let (from, to) = (&transition.from, transition.to());

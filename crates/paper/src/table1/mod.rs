@@ -129,7 +129,6 @@ fn rules(arguments: &TableArguments) -> Result<Rules, Failure> {
 }
 
 /// Values spread evenly over intervals, their ends left out.
-#[must_use]
 pub fn values(intervals: &[(f64, f64, usize)]) -> Vec<f64> {
     let inside = |&(low, high, count): &(f64, f64, usize)| {
         let step = (high - low) / (count + 1) as f64;

@@ -5,7 +5,6 @@ use super::report::{RowReport, TableReport};
 use softstop_draw::table::TablePicture;
 
 /// The rows with the paper's beside ours.
-#[must_use]
 pub fn picture(report: &TableReport) -> TablePicture {
     let lines = report.rows.iter().zip(&ROWS);
     TablePicture {

@@ -41,7 +41,6 @@ const ROUNDING: f64 = 1e-5;
 
 impl TableReport {
     /// The rows of the paper that are among some transitions.
-    #[must_use]
     pub fn new(rows: &[PaperRow], transitions: &[Transition], rules: &Rules) -> Self {
         let report = |row: &PaperRow| match find(row, transitions) {
             Some(found) => RowReport::new(row, &found, rules),

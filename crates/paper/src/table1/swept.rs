@@ -27,7 +27,6 @@ const RETURN: (f64, f64) = (1e-2, 1e-3);
 impl Swept {
     /// The sweep whose steps are the power of ten below this size, in the direction of the transition. None if the first
     /// motion does not repeat or is not lost on the way.
-    #[must_use]
     pub fn over(transition: &Transition, size: f64) -> Option<Self> {
         let step = 10_f64.powf(size.abs().log10().floor());
         let seen = sweep(transition, step, RETURN.0)?;

@@ -73,7 +73,6 @@ type Show = fn(&StrokePoint) -> (f64, f64);
 
 impl StrokeChart {
     /// The picture as an SVG document.
-    #[must_use]
     pub fn svg(&self) -> String {
         let mut pen = Pen::new(PAGE.0, PAGE.1);
         heading(&mut pen, (36.0, 38.0), &self.title, &self.subtitle);

@@ -39,7 +39,6 @@ impl StopRegime {
     ];
 
     /// What it is called.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::None => "z = 0",
@@ -148,7 +147,6 @@ const DOT: f64 = 1.0;
 
 impl HardeningChart {
     /// The picture as an SVG document.
-    #[must_use]
     pub fn svg(&self) -> String {
         let mut pen = Pen::new(PAGE.0, PAGE.1);
         let title = "From a soft to a rigid stop: the stiffness k₂ from 0 to infinity";
