@@ -5,6 +5,7 @@ mod branch;
 mod chart;
 mod configuration;
 mod fmu;
+mod named;
 mod reference;
 mod task;
 
@@ -22,8 +23,9 @@ use crate::library::library;
 use crate::report::{self, DesignReport, OptimizeReport, ReferenceReport, SearchReport};
 use best::Best;
 use chart::Chart;
+use named::Named;
 pub use reference::Reference;
-use task::{Job, Named};
+use task::Job;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -8,7 +8,7 @@ use softstop_console::machine::{Regime, SceneSettings};
 use softstop_console::output::Format;
 use toml::{Table, Value};
 
-use super::task::Named;
+use super::named::Named;
 
 /// The file.
 #[derive(Debug, Clone, Default, Deserialize)]

@@ -1,7 +1,6 @@
 //! The task as command line and TOML file state it together, checked.
 
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::failure::Failure;
@@ -11,6 +10,7 @@ use softstop_console::scene_file;
 
 use super::OptimizeArguments;
 use super::configuration::Task;
+use super::named::Named;
 use crate::design::Problem;
 use crate::design::search::{LEAST_EVALUATIONS, Settings};
 use crate::design::space::{Axis, Interval};
@@ -41,55 +41,6 @@ const ANY: Interval = Interval {
 /// Zones to compute at most, with one searched parameter and with more.
 const EVALUATIONS: (u64, u64) = (300, 1200);
 const OUTPUT: &str = "softstop-design";
-
-/// A value of the machine, by a key of its file, and what is said of it: `name=…` on the command line.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Named<T> {
-    /// The key, a letter or an older name.
-    pub(super) name: String,
-    /// What is said.
-    pub(super) value: T,
-}
-
-impl FromStr for Named<f64> {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let (name, value) = named(text, "value")?;
-        Ok(Self {
-            name,
-            value: number(value)?,
-        })
-    }
-}
-
-impl FromStr for Named<[f64; 2]> {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let (name, range) = named(text, "low:high")?;
-        let (low, high) = range
-            .split_once(':')
-            .ok_or_else(|| format!("{range}: a range is low:high, such as 2:22"))?;
-        Ok(Self {
-            name,
-            value: [number(low)?, number(high)?],
-        })
-    }
-}
-
-fn named<'text>(text: &'text str, what: &str) -> Result<(String, &'text str), String> {
-    let (name, value) = text
-        .split_once('=')
-        .ok_or_else(|| format!("expected name={what}"))?;
-    Ok((name.trim().to_owned(), value))
-}
-
-fn number(text: &str) -> Result<f64, String> {
-    text.trim()
-        .parse()
-        .map_err(|_| format!("{text}: not a number"))
-}
 
 /// All that a run needs to know.
 #[derive(Debug)]
