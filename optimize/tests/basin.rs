@@ -44,11 +44,13 @@ fn point_a_has_two_basins_and_the_same_in_all_files() -> Outcome {
     assert_eq!(names, ["z = 0", "z = 1"]);
     assert!((all - 1.0).abs() < 1e-12);
     let one = &report["basins"][1];
-    let velocity = one["velocity"].as_f64().ok_or("no velocity")?;
+    let velocity = one["before_impact_velocity"]
+        .as_f64()
+        .ok_or("no velocity")?;
     assert!((velocity - 6.494_627_429).abs() < 1e-8);
     let share = one["share"].as_f64().ok_or("no share")?;
-    let low = one["interval"][0].as_f64().ok_or("no interval")?;
-    let high = one["interval"][1].as_f64().ok_or("no interval")?;
+    let low = one["share_low"].as_f64().ok_or("no interval")?;
+    let high = one["share_high"].as_f64().ok_or("no interval")?;
     assert!(low < share && share < high && high - low < 0.04);
     let integrity = one["integrity"].as_f64().ok_or("no integrity")?;
     assert!(0.0 < integrity && integrity < 1.0);
@@ -69,7 +71,7 @@ fn chaos_and_two_isolated_motions_are_found_side_by_side() -> Outcome {
     let report = json(folder.path(), &[&plane[..], &["--size", "30"]].concat())?;
     let (names, _) = motions(&report);
     assert_eq!(names, ["z = 2/3", "z = 2/4", "chaos"]);
-    assert_eq!(report["basins"][1]["pattern"], "1-1-0-0");
+    assert_eq!(report["basins"][1]["order"], "1-1-0-0");
     assert!(report["basins"][2]["exponent"].as_f64() > Some(0.0));
     Ok(())
 }

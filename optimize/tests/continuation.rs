@@ -35,7 +35,7 @@ fn number(value: &Value) -> f64 {
 /// Symbols and parameters of the special points of a branch.
 fn specials(branch: &Value) -> Vec<(&str, f64)> {
     let specials = branch["specials"].as_array();
-    let special = |special: &'_ Value| number(&special["parameter"]);
+    let special = |special: &'_ Value| number(&special["value"]);
     let symbols = specials.into_iter().flatten();
     symbols
         .map(|it| (it["symbol"].as_str().unwrap_or("?"), special(it)))
@@ -72,7 +72,7 @@ fn the_z_1_branch_has_the_rows_of_table_1_and_its_files() -> Outcome {
     );
 
     let mut table = csv::Reader::from_path(folder.path().join("branches.csv"))?;
-    assert_eq!(&table.headers()?[2], "parameter");
+    assert_eq!(&table.headers()?[2], "value");
     let mut marked = Vec::new();
     let mut rows = 0;
     for row in table.records() {

@@ -57,7 +57,7 @@ fn the_answer_follows_the_tolerance() -> Outcome {
     assert_eq!(named("0.5")?["cheapest"]["rung"], "rigid");
     let linear = model(&fair, "linear", None).ok_or("linear")?;
     assert_eq!(linear["error"], Value::Null);
-    assert_eq!(linear["regime"], "0");
+    assert_eq!(linear["motion"], "z = 0");
     Ok(())
 }
 
@@ -127,7 +127,7 @@ fn structure_compares_the_regimes() -> Outcome {
     assert!((own["fold_frequency"].as_f64().ok_or("fold")? - 1.369_036).abs() < 1e-6);
     let linear = track("linear").ok_or("linear")?;
     assert!(linear["same_regime"].as_f64().ok_or("share")? < 0.7);
-    assert_eq!(linear["sequence_flung"], serde_json::json!(["0"]));
+    assert_eq!(linear["sequence_flung"], serde_json::json!(["z = 0"]));
     let table = fs::read_to_string(folder.path().join("structure.csv"))?;
     assert!(table.starts_with("rung,matched,start,frequency,impacts,periods\n"));
     assert_eq!(table.lines().count(), 1 + tracks.len() * 2 * 7);

@@ -1,112 +1,34 @@
 //! Columns: what a table holds, said once for CSV, for people and for `--help`.
 //!
-//! A new column is one line:
+//! A new column is one line: name, unit, form for people (none if CSV alone has it), meaning, cell.
 //!
 //! ```
-//! use softstop_console::column::{Column, Form, Unit, Units, column, help, text};
+//! use softstop_console::column::{Column, Units, help, text};
+//! use softstop_console::columns;
 //!
 //! struct Jump { place: f64, velocity: Option<f64>, motion: &'static str }
 //!
-//! fn columns() -> [Column<Jump>; 3] {
-//!     [
-//!         column("motion", Unit::None, "what follows", |jump: &Jump| jump.motion.into())
-//!             .shown(Form::Plain),
-//!         column("frequency", Unit::Frequency, "of the drive", |jump: &Jump| jump.place.into())
-//!             .shown(Form::Fixed(4)),
-//!         column("velocity", Unit::Velocity, "before impact", |jump: &Jump| jump.velocity.into()),
-//!     ]
+//! fn jumps() -> [Column<Jump>; 3] {
+//!     columns! { Jump, jump;
+//!         "motion" [None] Plain, "what follows" => jump.motion;
+//!         "frequency" [Frequency] Fixed(4), "of the drive" => jump.place;
+//!         "velocity" [Velocity], "before impact" => jump.velocity;
+//!     }
 //! }
 //!
-//! let jumps = [Jump { place: 1.5, velocity: None, motion: "z = 1" }];
+//! let rows = [Jump { place: 1.5, velocity: None, motion: "z = 1" }];
 //! assert_eq!(
-//!     text(&columns(), &jumps, &Units::SI),
+//!     text(&jumps(), &rows, &Units::SI),
 //!     "motion   frequency (rad/s)\nz = 1               1.5000\n"
 //! );
-//! assert!(help("jumps.csv", &columns()).contains("velocity    m/s     before impact"));
+//! assert!(help("jumps.csv", &jumps()).contains("velocity    m/s     before impact"));
 //! ```
 
 use std::borrow::Borrow;
 
 use serde::Serialize;
-use softstop::{Language, Machine};
 
-/// What a number is one of; [`Units`] has the names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unit {
-    /// A word, a count, a ratio.
-    None,
-    /// The same for all machines.
-    Of(&'static str),
-    /// Of a position.
-    Length,
-    /// Of a velocity.
-    Velocity,
-    /// Of the drive's angular frequency.
-    Frequency,
-    /// Of a force.
-    Force,
-}
-
-/// The names of a machine's own units; empty where its numbers are ratios.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Units {
-    length: &'static str,
-    velocity: &'static str,
-    frequency: &'static str,
-    force: &'static str,
-}
-
-impl Units {
-    /// Of a machine in SI units.
-    pub const SI: Self = Self {
-        length: "m",
-        velocity: "m/s",
-        frequency: "rad/s",
-        force: "N",
-    };
-    /// Of the paper's ratios.
-    pub const RATIOS: Self = Self {
-        length: "",
-        velocity: "",
-        frequency: "",
-        force: "",
-    };
-
-    /// Those that a machine speaks.
-    #[must_use]
-    pub const fn of(machine: &Machine) -> Self {
-        match machine.speaks {
-            Language::Ratios => Self::RATIOS,
-            Language::Hertz => Self {
-                frequency: "Hz",
-                ..Self::SI
-            },
-            Language::Si => Self::SI,
-        }
-    }
-
-    /// The name of a unit.
-    #[must_use]
-    pub const fn name(&self, unit: Unit) -> &'static str {
-        match unit {
-            Unit::None => "",
-            Unit::Of(name) => name,
-            Unit::Length => self.length,
-            Unit::Velocity => self.velocity,
-            Unit::Frequency => self.frequency,
-            Unit::Force => self.force,
-        }
-    }
-
-    /// What something is called, with its unit: `position (m)`.
-    #[must_use]
-    pub fn label(&self, name: &str, unit: Unit) -> String {
-        match self.name(unit) {
-            "" => name.to_owned(),
-            unit => format!("{name} ({unit})"),
-        }
-    }
-}
+pub use crate::units::{Unit, Units};
 
 /// What stands in a column of a row.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -222,6 +144,25 @@ pub const fn column<T>(
     }
 }
 
+/// An array of [`Column`]s, one in each line; see [`column`](crate::column).
+#[macro_export]
+macro_rules! columns {
+    ($row:ty, $it:ident; $(
+        $name:literal [$unit:ident $(($of:expr))?] $($form:ident $(($decimals:expr))?)?,
+        $meaning:literal => $cell:expr;
+    )*) => {
+        [$(
+            $crate::column::column(
+                $name,
+                $crate::column::Unit::$unit $(($of))?,
+                $meaning,
+                |$it: &$row| $crate::column::Cell::from($cell),
+            )
+            $(.shown($crate::column::Form::$form $(($decimals))?))?
+        ),*]
+    };
+}
+
 impl<T> Column<T> {
     /// The table for people has it, too, its numbers in this form.
     #[must_use]
@@ -290,7 +231,7 @@ pub fn text<T>(
     lines.iter().map(line).collect()
 }
 
-/// What the columns of a file mean, for `--help`.
+/// What the columns of a file mean: a paragraph at the end of `--help`.
 #[must_use]
 pub fn help<T>(file: &str, columns: &[Column<T>]) -> String {
     let lines: Vec<[&str; 3]> = columns
@@ -304,7 +245,7 @@ pub fn help<T>(file: &str, columns: &[Column<T>]) -> String {
     let width = |index: usize| lines.iter().map(|line| line[index].chars().count()).max();
     let [name_width, unit_width] = [0, 1].map(|index| width(index).unwrap_or(0));
     let line = |[name, unit, meaning]: &[&str; 3]| {
-        format!("  {name:name_width$}   {unit:unit_width$}   {meaning}\n")
+        format!("\n  {name:name_width$}   {unit:unit_width$}   {meaning}")
     };
-    format!("\nColumns of {file}:\n") + &lines.iter().map(line).collect::<String>()
+    format!("\n\nColumns of {file}:") + &lines.iter().map(line).collect::<String>()
 }

@@ -8,7 +8,8 @@
 //!
 //! ```
 //! use serde::Serialize;
-//! use softstop_console::column::{Column, Form, Unit, Units, column, text};
+//! use softstop_console::column::{Column, Units, text};
+//! use softstop_console::columns;
 //! use softstop_console::export::{Export, Report};
 //! use softstop_console::output::Format;
 //!
@@ -17,25 +18,23 @@
 //! #[derive(Serialize)]
 //! struct Order { motion: String, share: f64 }
 //!
-//! fn columns() -> [Column<Order>; 2] {
-//!     [
-//!         column("motion", Unit::None, "z = p/n", |it: &Order| it.motion.clone().into())
-//!             .shown(Form::Plain),
-//!         column("share", Unit::None, "of all starts", |it: &Order| it.share.into())
-//!             .shown(Form::Percent(1)),
-//!     ]
+//! fn table() -> [Column<Order>; 2] {
+//!     columns! { Order, it;
+//!         "motion" [None] Plain, "z = p/n" => it.motion.as_str();
+//!         "share" [None] Percent(1), "of all starts" => it.share;
+//!     }
 //! }
 //!
 //! impl Report for Orders {
 //!     fn text(&self) -> String {
-//!         text(&columns(), &self.orders, &Units::SI)
+//!         text(&table(), &self.orders, &Units::SI)
 //!     }
 //! }
 //!
 //! # let folder = tempfile::tempdir().map_err(anyhow::Error::from)?;
 //! let report = Orders { orders: vec![Order { motion: "z = 1".to_owned(), share: 0.5 }] };
 //! let export = Export::open(folder.path(), &[("table", "orders.csv"), ("report", "orders.json")])?;
-//! export.table("table", &columns(), &report.orders)?;
+//! export.table("table", &table(), &report.orders)?;
 //! export.finish(&report, Format::Text)?;
 //! let table = std::fs::read_to_string(folder.path().join("orders.csv")).map_err(anyhow::Error::from)?;
 //! assert_eq!(table, "motion,share\nz = 1,0.5\n");
@@ -75,7 +74,7 @@ pub fn print(report: &impl Report, format: Format) -> Result<(), Failure> {
 struct Filed<'a, R> {
     #[serde(flatten)]
     report: &'a R,
-    files: BTreeMap<&'static str, String>,
+    files: BTreeMap<String, String>,
 }
 
 /// The kind of the file that holds the JSON.
@@ -85,7 +84,7 @@ const REPORT: &str = "report";
 #[derive(Debug)]
 pub struct Export {
     folder: Folder,
-    files: Vec<(&'static str, &'static str)>,
+    files: Vec<(String, String)>,
 }
 
 impl Export {
@@ -93,11 +92,14 @@ impl Export {
     ///
     /// # Errors
     /// [`Failure::Run`] naming folder or file.
-    pub fn open(path: &Path, files: &[(&'static str, &'static str)]) -> Result<Self, Failure> {
+    pub fn open(path: &Path, files: &[(&str, &str)]) -> Result<Self, Failure> {
         let names: Vec<&str> = files.iter().map(|(_, name)| *name).collect();
         Ok(Self {
             folder: Folder::open(path, &names)?,
-            files: files.to_vec(),
+            files: files
+                .iter()
+                .map(|(kind, name)| ((*kind).to_owned(), (*name).to_owned()))
+                .collect(),
         })
     }
 
@@ -132,8 +134,8 @@ impl Export {
     /// # Errors
     /// [`Failure::Interrupted`] before the first file, [`Failure::Run`] naming what cannot be written.
     pub fn finish(self, report: &impl Report, format: Format) -> Result<(), Failure> {
-        let place = |(kind, name): &(&'static str, &str)| {
-            (*kind, self.folder.place(name).display().to_string())
+        let place = |(kind, name): &(String, String)| {
+            (kind.clone(), self.folder.place(name).display().to_string())
         };
         let files: BTreeMap<_, _> = self.files.iter().map(place).collect();
         let mut text = report.text() + "\n";
@@ -141,10 +143,10 @@ impl Export {
             text += &format!("Written: {path} ({kind})\n");
         }
         let json = output::json(&Filed { report, files })?;
-        if self.files.iter().any(|(kind, _)| *kind == REPORT) {
+        if self.files.iter().any(|(kind, _)| kind == REPORT) {
             self.file(REPORT, json.as_bytes())?;
         }
-        let names: Vec<&str> = self.files.iter().map(|(_, name)| *name).collect();
+        let names: Vec<&str> = self.files.iter().map(|(_, name)| name.as_str()).collect();
         self.folder.commit(&names)?;
         output::print(match format {
             Format::Json => &json,
@@ -154,7 +156,7 @@ impl Export {
 
     /// The name of the file of a kind; a kind that was not opened is its own name.
     fn name<'a>(&'a self, kind: &'a str) -> &'a str {
-        let file = self.files.iter().find(|(other, _)| *other == kind);
+        let file = self.files.iter().find(|(other, _)| other == kind);
         file.map_or(kind, |(_, name)| name)
     }
 }

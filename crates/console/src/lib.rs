@@ -1,5 +1,5 @@
 //! What the programs share: the [`machine`] as the user states it, [`scene_file`]s, [`progress`],
-//! [`interrupt`], [`failure`], and one [`export`] of every report: [`column`]s said once, text [`table`]s, and
+//! [`interrupt`], [`failure`], and one [`export`] of every report: [`column`]s said once, text [`table`]s, [`units`], and
 //! [`output`] that is there whole or not at all.
 #![forbid(unsafe_code)]
 
@@ -15,6 +15,7 @@ pub mod progress;
 pub mod report;
 pub mod scene_file;
 pub mod table;
+pub mod units;
 
 use std::io::{self, Write};
 use std::process::ExitCode;

@@ -1,10 +1,12 @@
-//! How the pictures look: [`pen`] (plain shapes), [`panel`] and [`plane`] (axes), [`style`] (colours and
-//! letters), [`table`] (a table as a picture).
+//! How the pictures look: [`pen`] (plain shapes), [`stroke`] (lines), [`panel`] (axes and what is between
+//! them), [`scale`] (ranges and round values), [`style`] (colours and letters), [`table`] (a table as a
+//! picture).
 #![forbid(unsafe_code)]
-#![allow(missing_docs)]
 
 pub mod panel;
 pub mod pen;
-pub mod plane;
+pub mod scale;
+mod shapes;
+pub mod stroke;
 pub mod style;
 pub mod table;

@@ -2,8 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use super::pen::{Align, Area, Pen, Stroke};
-use super::style;
+use crate::pen::{self, Align, Area, Pen, Stroke};
+use crate::scale::ticks;
+use crate::stroke::Point;
+use crate::style;
 
 /// Length of a tick.
 const TICK: f64 = 5.0;
@@ -48,7 +50,7 @@ impl Panel {
     }
 
     /// Where a point is.
-    pub fn place(&self, (x, y): (f64, f64)) -> (f64, f64) {
+    pub fn place(&self, (x, y): Point) -> Point {
         (self.across(x), self.height(y))
     }
 
@@ -101,7 +103,7 @@ impl Panel {
                 Align::Right,
                 &name,
             );
-            widest = widest.max(super::pen::width(axes.letters, &name));
+            widest = widest.max(pen::width(axes.letters, &name));
         }
         let place = (left - TICK - 8.0 - widest - 0.5 * size, top + 0.5 * height);
         pen.text(place, axes.letters + 1, Align::Upwards, axes.upwards);
@@ -112,13 +114,11 @@ impl Panel {
     pub fn dots(
         &self,
         pen: &mut Pen,
-        points: impl Iterator<Item = (f64, f64)>,
+        points: impl Iterator<Item = Point>,
         radius: f64,
         color: &str,
     ) {
-        let inside = points.filter(|&(x, y)| {
-            (self.x.0..=self.x.1).contains(&x) && (self.y.0..=self.y.1).contains(&y)
-        });
+        let inside = points.filter(|point| self.holds(*point));
         let square = |point| {
             let (x, y) = self.place(point);
             ((x / GRAIN).round() as i64, (y / GRAIN).round() as i64)
@@ -133,31 +133,68 @@ impl Panel {
         }
     }
 
+    /// Rows of coloured cells that fill it, the lowest row first; runs of one colour are one rectangle.
+    pub fn cells(&self, pen: &mut Pen, columns: usize, colors: &[&str]) {
+        let (left, _, width, height) = self.area;
+        let rows = colors.len() / columns;
+        let (wide, high) = (width / columns as f64, height / rows as f64);
+        let mut tiles = Vec::new();
+        for (row, colors) in colors.chunks(columns).enumerate() {
+            let above = self.bottom() - high * (row + 1) as f64;
+            let mut from = 0;
+            for run in colors.chunk_by(|a, b| a == b) {
+                let start = left + wide * from as f64;
+                tiles.push(((start, above, wide * run.len() as f64, high), run[0]));
+                from += run.len();
+            }
+        }
+        pen.mosaic(&tiles);
+    }
+
     /// As much of a curve as lies inside.
-    pub fn curve(&self, pen: &mut Pen, points: &[(f64, f64)], stroke: Stroke) {
-        let mut piece: Vec<(f64, f64)> = Vec::new();
+    pub fn curve(&self, pen: &mut Pen, points: &[Point], stroke: Stroke) {
+        for piece in self.inside(points) {
+            pen.line(&piece, stroke);
+        }
+    }
+
+    /// The same, seen on any ground; with lengths of dashes and gaps it is dashed.
+    pub fn rimmed(&self, pen: &mut Pen, points: &[Point], dashes: Option<(f64, f64)>) {
+        for piece in self.inside(points) {
+            pen.rimmed(&piece, dashes);
+        }
+    }
+
+    /// Words in the middle of a panel that has nothing else to show.
+    pub fn message(&self, pen: &mut Pen, letters: u32, words: &str) {
+        let (left, top, width, height) = self.area;
+        let place = (left + 0.5 * width, top + 0.5 * height);
+        pen.words(place, letters, Align::Middle, (style::ASIDE, false), words);
+    }
+
+    /// True if a point lies inside.
+    pub fn holds(&self, (x, y): Point) -> bool {
+        (self.x.0..=self.x.1).contains(&x) && (self.y.0..=self.y.1).contains(&y)
+    }
+
+    /// The pieces of a curve that lie inside, on the page.
+    fn inside(&self, points: &[Point]) -> Vec<Vec<Point>> {
+        let mut pieces: Vec<Vec<Point>> = Vec::new();
         for pair in points.windows(2) {
             let Some((from, to)) = self.clip(pair[0], pair[1]) else {
                 continue;
             };
-            if piece.last() != Some(&from) {
-                self.piece(pen, &piece, stroke);
-                piece = vec![from];
+            let (from, to) = (self.place(from), self.place(to));
+            match pieces.last_mut() {
+                Some(piece) if piece.last() == Some(&from) => piece.push(to),
+                _ => pieces.push(vec![from, to]),
             }
-            piece.push(to);
         }
-        self.piece(pen, &piece, stroke);
-    }
-
-    fn piece(&self, pen: &mut Pen, points: &[(f64, f64)], stroke: Stroke) {
-        let places: Vec<(f64, f64)> = points.iter().map(|point| self.place(*point)).collect();
-        if places.len() > 1 {
-            pen.line(&places, stroke);
-        }
+        pieces
     }
 
     /// The part of a straight line that lies inside (Liang and Barsky 1984).
-    fn clip(&self, from: (f64, f64), to: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
+    fn clip(&self, from: Point, to: Point) -> Option<(Point, Point)> {
         let (x, y) = (to.0 - from.0, to.1 - from.1);
         let borders = [
             (-x, from.0 - self.x.0),
@@ -185,26 +222,6 @@ impl Panel {
     }
 }
 
-/// Round values in a range, about so many, and how they are written.
-fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
-    let rough = (high - low) / count.max(1) as f64;
-    let power = 10f64.powf(rough.log10().floor());
-    let factor = [1.0, 2.0, 5.0, 10.0]
-        .into_iter()
-        .find(|factor| factor * power >= 0.999 * rough);
-    let step = factor.unwrap_or(10.0) * power;
-    let decimals = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
-    let (first, last) = (
-        (low / step - 1e-6).ceil() as i64,
-        (high / step + 1e-6).floor() as i64,
-    );
-    let written = |index: i64| {
-        let value = index as f64 * step;
-        (value, format!("{value:.decimals$}").replace('-', "−"))
-    };
-    (first..=last).map(written).collect()
-}
-
 /// The heading of a page and a line that explains it.
 pub fn heading(pen: &mut Pen, (left, top): (f64, f64), title: &str, explanation: &str) {
     pen.heading((left, top), 20, Align::Left, title);
@@ -219,20 +236,7 @@ pub fn heading(pen: &mut Pen, (left, top): (f64, f64), title: &str, explanation:
 
 #[cfg(test)]
 mod tests {
-    use super::{Panel, ticks};
-
-    #[test]
-    fn ticks_are_round_and_inside() {
-        let names = |range, count| -> Vec<String> {
-            ticks(range, count).into_iter().map(|tick| tick.1).collect()
-        };
-        assert_eq!(
-            names((0.8, 1.0), 4),
-            ["0.80", "0.85", "0.90", "0.95", "1.00"]
-        );
-        assert_eq!(names((-1.0, 1.0), 4), ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
-        assert_eq!(names((0.0, 25.0), 5), ["0", "5", "10", "15", "20", "25"]);
-    }
+    use super::Panel;
 
     #[test]
     fn lines_are_cut_at_the_frame() {
@@ -244,5 +248,28 @@ mod tests {
         let cut = panel.clip((-1.0, 0.5), (3.0, 0.5));
         assert_eq!(cut, Some(((0.0, 0.5), (1.0, 0.5))));
         assert_eq!(panel.clip((0.0, 2.0), (1.0, 3.0)), None);
+    }
+
+    #[test]
+    fn a_curve_that_leaves_comes_back_as_another_piece() {
+        let panel = Panel {
+            area: (0.0, 0.0, 100.0, 100.0),
+            x: (0.0, 1.0),
+            y: (0.0, 1.0),
+        };
+        let line = [
+            (-1.0, 0.5),
+            (0.5, 0.5),
+            (0.5, 2.0),
+            (0.75, 2.0),
+            (0.75, 0.0),
+        ];
+        assert_eq!(
+            panel.inside(&line),
+            [
+                vec![(0.0, 50.0), (50.0, 50.0), (50.0, 0.0)],
+                vec![(75.0, 0.0), (75.0, 100.0)]
+            ]
+        );
     }
 }

@@ -1,19 +1,16 @@
 //! A drawing of plain shapes, for charts that are no plot of curves.
 
-mod ink;
-
 use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 
-use super::style;
-pub use ink::{Stroke, width};
+use crate::stroke::{Point, dashed};
+use crate::style;
 
-/// Width of the line and of the light rim that tells it from dark grounds.
-const LINE: (f64, f64) = (1.6, 3.6);
+pub use crate::stroke::Stroke;
 
-/// Sides of the polygon that stands for an ellipse.
-const SIDES: u32 = 180;
+/// Mean width of a letter in units of its size, of the letters in use.
+const LETTER: f64 = 0.61;
 
 /// Shapes on a white page; lengths are pixels, y points down.
 pub struct Pen {
@@ -23,8 +20,11 @@ pub struct Pen {
 /// How a text stands to its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Align {
+    /// It begins there.
     Left,
+    /// Its middle is there.
     Middle,
+    /// It ends there.
     Right,
     /// Centred and turned to be read from below.
     Upwards,
@@ -45,22 +45,30 @@ impl Align {
 /// A rectangle: left, top, width, height.
 pub type Area = (f64, f64, f64, f64);
 
+/// About how wide a text of this size is.
+pub fn width(size: u32, text: &str) -> f64 {
+    LETTER * f64::from(size) * text.chars().count() as f64
+}
+
 impl Pen {
+    /// A page of this width and height.
     pub fn new(width: f64, height: f64) -> Self {
         let mut scene = Scene::new(width, height);
         scene.font_family = Some(style::FONTS.to_owned());
         Self { scene }
     }
 
-    pub fn text(&mut self, place: (f64, f64), size: u32, align: Align, text: &str) {
+    /// Letters of this size.
+    pub fn text(&mut self, place: Point, size: u32, align: Align, text: &str) {
         self.write(place, size, align, false, text);
     }
 
-    pub fn heading(&mut self, place: (f64, f64), size: u32, align: Align, text: &str) {
+    /// Bold letters of this size.
+    pub fn heading(&mut self, place: Point, size: u32, align: Align, text: &str) {
         self.write(place, size, align, true, text);
     }
 
-    fn write(&mut self, (x, y): (f64, f64), size: u32, align: Align, bold: bool, text: &str) {
+    fn write(&mut self, (x, y): Point, size: u32, align: Align, bold: bool, text: &str) {
         let (anchor, rotate) = align.anchor();
         self.scene.add(Primitive::Text {
             x,
@@ -110,7 +118,7 @@ impl Pen {
     }
 
     /// A short mark on an axis.
-    pub fn tick(&mut self, (x1, y1): (f64, f64), (x2, y2): (f64, f64)) {
+    pub fn tick(&mut self, (x1, y1): Point, (x2, y2): Point) {
         self.scene.add(Primitive::Line {
             x1,
             y1,
@@ -122,18 +130,88 @@ impl Pen {
         });
     }
 
-    /// A curve that is seen on any ground; `dashes` as in SVG.
-    pub fn curve(&mut self, points: &[(f64, f64)], dashes: Option<&str>) {
-        for (stroke, stroke_width, dashes) in
-            [("#ffffff", LINE.1, None), (style::INK, LINE.0, dashes)]
-        {
+    /// A line through points.
+    pub fn line(&mut self, points: &[Point], stroke: Stroke) {
+        let pieces = match stroke.dashes {
+            Some(dashes) => dashed(points, dashes),
+            None => vec![points.to_vec()],
+        };
+        for points in pieces {
             self.scene.add(Primitive::PolyLine {
-                points: points.to_vec(),
-                stroke: stroke.into(),
-                stroke_width,
-                stroke_dasharray: dashes.map(str::to_owned),
+                points,
+                stroke: stroke.color.into(),
+                stroke_width: stroke.width,
+                stroke_dasharray: None,
             });
         }
+    }
+
+    /// A filled polygon.
+    pub(crate) fn area(&mut self, corners: &[Point], color: &str) {
+        let mut course: String = corners
+            .iter()
+            .enumerate()
+            .map(|(index, (x, y))| format!("{}{x:.2} {y:.2}", if index == 0 { 'M' } else { 'L' }))
+            .collect();
+        course.push('Z');
+        self.scene.add(Primitive::Path(Box::new(PathData {
+            d: course,
+            fill: Some(color.into()),
+            stroke: kuva::render::color::Color::None,
+            stroke_width: 0.0,
+            opacity: None,
+            stroke_dasharray: None,
+        })));
+    }
+
+    /// A filled rectangle: left, top, width, height.
+    pub fn tint(&mut self, area: Area, color: &str, opacity: f64) {
+        let (x, y, width, height) = area;
+        self.scene.add(Primitive::Rect {
+            x,
+            y,
+            width,
+            height,
+            fill: color.into(),
+            stroke: None,
+            stroke_width: None,
+            opacity: Some(opacity),
+        });
+    }
+
+    /// Words in a colour; on a white plate if they stand among points.
+    pub fn words(
+        &mut self,
+        (x, y): Point,
+        size: u32,
+        align: Align,
+        (color, plate): (&str, bool),
+        text: &str,
+    ) {
+        if plate {
+            let (width, height) = (width(size, text) + 4.0, 1.2 * f64::from(size));
+            let left = match align {
+                Align::Left => x - 2.0,
+                Align::Right => x - width + 2.0,
+                Align::Middle | Align::Upwards => x - 0.5 * width,
+            };
+            self.tint(
+                (left, y - 0.95 * f64::from(size), width, height),
+                "#ffffff",
+                0.82,
+            );
+        }
+        let (anchor, rotate) = align.anchor();
+        self.scene.add(Primitive::Text {
+            x,
+            y,
+            content: text.to_owned(),
+            size,
+            anchor,
+            rotate,
+            bold: false,
+            color: Some(color.into()),
+        });
     }
 
     /// Rectangles of many colours.
@@ -149,7 +227,7 @@ impl Pen {
     }
 
     /// A white spot with a dark rim, seen on any ground.
-    pub fn spot(&mut self, (cx, cy): (f64, f64), radius: f64) {
+    pub fn spot(&mut self, (cx, cy): Point, radius: f64) {
         self.scene.add(Primitive::Circle {
             cx,
             cy,
@@ -161,30 +239,8 @@ impl Pen {
         });
     }
 
-    /// Text on a white ground, its middle at this place.
-    pub fn label(&mut self, (x, y): (f64, f64), size: u32, text: &str) {
-        let letters = f64::from(size);
-        let width = 0.6 * letters * text.chars().count() as f64 + 4.0;
-        let height = 1.15 * letters;
-        self.fill(
-            &[(x - 0.5 * width, y - 0.5 * height, width, height)],
-            "#ffffff",
-        );
-        self.text((x, y + 0.35 * letters), size, Align::Middle, text);
-    }
-
-    /// An ellipse that is seen on any ground; the half-axes are those along x and y.
-    pub fn ring(&mut self, (cx, cy): (f64, f64), (across, up): (f64, f64)) {
-        let point = |k: u32| {
-            let (sin, cos) = (f64::from(k) / f64::from(SIDES) * std::f64::consts::TAU).sin_cos();
-            (cx + across * cos, cy + up * sin)
-        };
-        let points: Vec<(f64, f64)> = (0..=SIDES).map(point).collect();
-        self.curve(&points, None);
-    }
-
     /// Small dots of one colour.
-    pub fn dots(&mut self, places: &[(f64, f64)], radius: f64, color: &str) {
+    pub fn dots(&mut self, places: &[Point], radius: f64, color: &str) {
         self.scene.add(Primitive::CircleBatch {
             cx: places.iter().map(|place| place.0).collect(),
             cy: places.iter().map(|place| place.1).collect(),
@@ -196,13 +252,17 @@ impl Pen {
         });
     }
 
-    /// As pixels, so many for each unit of length.
+    /// The page as PNG, with so many pixels for each unit of length.
+    ///
+    /// # Errors
+    /// Why it cannot be made.
     pub fn png_at(&self, scale: f32) -> Result<Vec<u8>, String> {
         PngBackend::new()
             .with_scale(scale)
             .render_scene(&self.scene)
     }
 
+    /// The page as an SVG document.
     pub fn svg(&self) -> String {
         SvgBackend::new()
             .with_pretty(true)

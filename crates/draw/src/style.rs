@@ -98,3 +98,11 @@ pub fn plain(x: (f64, f64), y: (f64, f64)) -> Layout {
         .with_y_axis_max(y.1)
         .with_ticks(8)
 }
+
+/// Words in the middle of axes of these ranges that have nothing else to show.
+#[must_use]
+pub fn message(layout: Layout, x: (f64, f64), y: (f64, f64), words: &str) -> Layout {
+    let place = (x.0 + 0.42 * (x.1 - x.0), f64::midpoint(y.0, y.1));
+    let words = TextAnnotation::new(words, place.0, place.1).with_font_size(15);
+    layout.with_annotation(words.with_color(ASIDE))
+}

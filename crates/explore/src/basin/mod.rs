@@ -5,7 +5,6 @@ pub mod certainty;
 pub mod picture;
 mod plane;
 mod report;
-mod text;
 
 use std::path::PathBuf;
 
@@ -20,10 +19,12 @@ use crate::basin::certainty::CertaintyChart;
 use crate::basin::picture::BasinPicture;
 use plane::Plane;
 use report::{BasinReport, CertaintyReport};
+use softstop_console::column;
+use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::machine::{self, Machine, SceneSettings, require};
-use softstop_console::output::{self, Folder, Format};
+use softstop_console::output::Format;
 use softstop_console::progress::Progress;
 use softstop_console::scene_file;
 
@@ -52,7 +53,7 @@ a row for each basin, basin.json; with --along-zone certainty.svg, certainty.csv
 
 /// Arguments of `softstop basin`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+#[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct BasinArguments {
     /// Scene in SI units as for `softstop simulate`, instead of the paper's machine
     #[arg(value_name = "SCENE.toml", conflicts_with = "scene")]
@@ -99,8 +100,21 @@ pub struct BasinArguments {
     pub machine: SceneSettings,
 }
 
-const PICTURE: [&str; 3] = ["basin.png", "basin.csv", "basin.json"];
-const ALONG: [&str; 3] = ["certainty.svg", "certainty.csv", "certainty.json"];
+const PICTURE: [(&str, &str); 3] = [
+    ("picture", "basin.png"),
+    ("table", "basin.csv"),
+    ("report", "basin.json"),
+];
+const ALONG: [(&str, &str); 3] = [
+    ("chart", "certainty.svg"),
+    ("table", "certainty.csv"),
+    ("report", "certainty.json"),
+];
+
+fn help() -> String {
+    let certainty = column::help("certainty.csv", &report::places());
+    EXAMPLES.to_owned() + &column::help("basin.csv", &report::columns()) + &certainty
+}
 
 /// Finds the basins, draws them and says how large they are.
 ///
@@ -109,32 +123,29 @@ const ALONG: [&str; 3] = ["certainty.svg", "certainty.csv", "certainty.json"];
 /// written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &BasinArguments) -> Result<(), Failure> {
     let options = options(arguments)?;
-    let text = match (&arguments.file, arguments.along_zone) {
+    match (&arguments.file, arguments.along_zone) {
         (Some(path), _) if arguments.machine == SceneSettings::default() => {
             let scene = scene_file::read(path)?.scene;
-            picture(arguments, &options, &path.display().to_string(), &scene)?
+            picture(arguments, &options, &path.display().to_string(), &scene)
         }
-        (Some(path), _) => {
-            return Err(Failure::usage(format!(
-                "{}: a scene file says all of the machine; it goes with none of the paper's ratios",
-                path.display()
-            )));
-        }
+        (Some(path), _) => Err(Failure::usage(format!(
+            "{}: a scene file says all of the machine; it goes with none of the paper's ratios",
+            path.display()
+        ))),
         (None, places) => {
             let machine = machine::machine(arguments.scene.as_ref(), &arguments.machine)?;
             match places {
-                Some(places) => along(arguments, &options, &machine, places)?,
+                Some(places) => along(arguments, &options, &machine, places),
                 None => {
                     let scene = machine
                         .ratios
                         .scene()
                         .map_err(|error| Failure::usage(error.to_string()))?;
-                    picture(arguments, &options, &name(&machine), &scene)?
+                    picture(arguments, &options, &name(&machine), &scene)
                 }
             }
         }
-    };
-    output::print(&text)
+    }
 }
 
 fn name(machine: &Machine) -> String {
@@ -186,9 +197,9 @@ fn picture(
     options: &Options,
     name: &str,
     scene: &Scene,
-) -> Result<String, Failure> {
+) -> Result<(), Failure> {
     let grid = plane::grid(arguments, scene)?;
-    let folder = Folder::open(&arguments.output, &PICTURE)?;
+    let export = Export::open(&arguments.output, &PICTURE)?;
     let progress = Progress::new(grid.cells() as u64, "cells");
     let watcher = |done, _| {
         progress.at(done);
@@ -200,16 +211,10 @@ fn picture(
     let png = BasinPicture::new(&basins, &title, scene.excitation.phase)
         .png()
         .map_err(|error| anyhow!("cannot draw basin.png: {error}"))?;
-    folder.stage(PICTURE[0], &png)?;
-    let report = BasinReport::new(name, &basins, &PICTURE.map(|name| folder.place(name)));
-    report::table(&report, folder.create(PICTURE[1])?)?;
-    let json = output::json(&report)?;
-    folder.stage(PICTURE[2], json.as_bytes())?;
-    folder.commit(&PICTURE)?;
-    Ok(match arguments.format {
-        Format::Json => json,
-        Format::Text => text::basins(&report),
-    })
+    export.file("picture", &png)?;
+    let report = BasinReport::new(name, &basins);
+    export.table("table", &report::columns(), &report.basins)?;
+    export.finish(&report, arguments.format)
 }
 
 /// The certainty of z = 1 along the hysteresis zone.
@@ -218,12 +223,12 @@ fn along(
     options: &Options,
     machine: &Machine,
     places: usize,
-) -> Result<String, Failure> {
+) -> Result<(), Failure> {
     let scene = machine.ratios.scene();
     let scene = scene.map_err(|error| Failure::usage(error.to_string()))?;
     let zone = zone::hysteresis(&scene).context("no hysteresis zone found")?;
     let grid = plane::grid(arguments, &zone.scene_at(0.0))?;
-    let folder = Folder::open(&arguments.output, &ALONG)?;
+    let export = Export::open(&arguments.output, &ALONG)?;
     let shares: Vec<f64> = (0..places)
         .map(|k| k as f64 / (places - 1) as f64)
         .collect();
@@ -243,17 +248,9 @@ fn along(
         machine.regime.name(),
         machine.ratios.clearance
     );
-    folder.stage(
-        ALONG[0],
-        CertaintyChart::new(&found, &title).svg().as_bytes(),
-    )?;
-    let report = CertaintyReport::new(&grid, &found, &ALONG.map(|name| folder.place(name)));
-    report::certainty_table(&report, folder.create(ALONG[1])?)?;
-    let json = output::json(&report)?;
-    folder.stage(ALONG[2], json.as_bytes())?;
-    folder.commit(&ALONG)?;
-    Ok(match arguments.format {
-        Format::Json => json,
-        Format::Text => text::certainty(&report),
-    })
+    let chart = CertaintyChart::new(&found, &title).svg();
+    export.file("chart", chart.as_bytes())?;
+    let report = CertaintyReport::new(&grid, &found);
+    export.table("table", &report::places(), &report.places)?;
+    export.finish(&report, arguments.format)
 }

@@ -4,8 +4,8 @@ use softstop_dynamics::basin::{Axis, Basins, Clearing, Kind, Quantity};
 use softstop_dynamics::orbit::{Orbit, Regime};
 
 use super::cells::{RegimeCell, RegimeClass};
+use softstop_draw::panel::{Axes, Panel};
 use softstop_draw::pen::{Align, Area, Pen};
-use softstop_draw::plane::Plane;
 
 /// Basins as cells of colour.
 #[derive(Debug, Clone, Copy)]
@@ -30,6 +30,8 @@ const SCALE: f32 = 2.0;
 const MARGINS: (f64, f64, f64, f64) = (86.0, 56.0, 340.0, 66.0);
 /// Size of letters.
 const LETTERS: u32 = 15;
+/// Numbers along each axis.
+const TICKS: (usize, usize) = (6, 6);
 /// Radius of the spots of periodic motions, and of the dots of chaos.
 const SPOT: f64 = 5.0;
 const DOT: f64 = 0.8;
@@ -86,40 +88,45 @@ impl<'a> BasinPicture<'a> {
     /// Cells, axes, motions and the largest ball inside the basin of z = 1.
     pub(super) fn draw(&self, pen: &mut Pen, area: Area, letters: u32) {
         let grid = &self.basins.grid;
-        let plane = Plane {
+        let panel = Panel {
             area,
             x: grid.across.range.into(),
             y: grid.up.range.into(),
-            letters,
         };
         let palette = self.colors();
         let cells = self.basins.cells.iter();
         let colors: Vec<&str> = cells.map(|class| palette[usize::from(*class)]).collect();
-        plane.cells(pen, grid.across.cells, &colors);
+        panel.cells(pen, grid.across.cells, &colors);
         if let Some(ball) = self.ball() {
-            let center = plane.place((ball.centre[0], ball.centre[1]));
+            let center = panel.place((ball.centre[0], ball.centre[1]));
             let radius = (0.5 * ball.radius * area.2, 0.5 * ball.radius * area.3);
             pen.ring(center, radius);
         }
-        plane.axes(pen, name(&grid.across), name(&grid.up));
-        self.motions(pen, &plane);
+        let axes = Axes {
+            letters,
+            across: Some(name(&grid.across)),
+            upwards: name(&grid.up),
+            ticks: TICKS,
+        };
+        panel.axes(pen, &axes);
+        self.motions(pen, &panel);
     }
 
     /// The points of the motions, where the plane shows them.
-    fn motions(&self, pen: &mut Pen, plane: &Plane) {
+    fn motions(&self, pen: &mut Pen, panel: &Panel) {
         let grid = &self.basins.grid;
         let shown = (grid.across.quantity, grid.up.quantity);
         if shown != (Quantity::Position, Quantity::Velocity) || grid.angle != self.angle {
             return;
         }
-        let inside = |point: &(f64, f64)| plane.holds(*point);
+        let inside = |point: &(f64, f64)| panel.holds(*point);
         let wandering = self.wandering.iter().copied().filter(inside);
-        let dots: Vec<(f64, f64)> = wandering.map(|point| plane.place(point)).collect();
+        let dots: Vec<(f64, f64)> = wandering.map(|point| panel.place(point)).collect();
         pen.dots(&dots, DOT, "#ffffff");
         for orbit in self.orbits() {
             let states = orbit.states().unwrap_or_default().into_iter();
             for point in states.map(|state| (state.x, state.y)).filter(inside) {
-                pen.spot(plane.place(point), SPOT);
+                pen.spot(panel.place(point), SPOT);
             }
         }
     }

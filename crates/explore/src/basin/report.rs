@@ -1,17 +1,14 @@
-//! What basins came to, as tables and as JSON.
-
-use std::path::PathBuf;
+//! What basins came to.
 
 use serde::Serialize;
-use softstop_dynamics::basin::{Basins, Clearing, Establishing, Grid, Kind};
+use softstop_console::column::{Column, Units, text};
+use softstop_console::columns;
+use softstop_console::export::Report;
+use softstop_dynamics::basin::{Basins, Establishing, Grid, Kind};
 use softstop_dynamics::orbit::Regime;
-
-use softstop_console::failure::Failure;
-use softstop_console::output::Staged;
 
 /// The basins of one machine.
 #[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
 pub struct BasinReport {
     /// The machine.
     pub machine: String,
@@ -19,28 +16,27 @@ pub struct BasinReport {
     pub grid: Grid,
     /// The basins.
     pub basins: Vec<ClassReport>,
-    /// The files.
-    pub files: Vec<String>,
 }
 
 /// One basin.
 #[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
 pub struct ClassReport {
     /// What its motions settle on.
     pub motion: String,
     /// Order of impacts of a periodic motion.
-    pub pattern: Option<String>,
+    pub order: Option<String>,
     /// Its hardest impact.
-    pub velocity: Option<f64>,
+    pub before_impact_velocity: Option<f64>,
     /// Largest Lyapunov exponent per drive period, of what does not return.
     pub exponent: Option<f64>,
     /// Cells.
     pub cells: usize,
     /// Their share.
     pub share: f64,
-    /// Wilson's 95 % interval of it.
-    pub interval: [f64; 2],
+    /// Lower end of Wilson's 95 % interval of it.
+    pub share_low: f64,
+    /// Its upper end.
+    pub share_high: f64,
     /// Radius of the largest ball inside, in units of half of each axis.
     pub integrity: Option<f64>,
     /// Its centre.
@@ -49,28 +45,26 @@ pub struct ClassReport {
 
 /// The certainty of z = 1 along the hysteresis zone.
 #[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
 pub struct CertaintyReport {
     /// Where the cells lie.
     pub grid: Grid,
     /// The places.
     pub places: Vec<PlaceReport>,
-    /// The files.
-    pub files: Vec<String>,
 }
 
 /// One place of the zone.
 #[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
 pub struct PlaceReport {
     /// From 0 at g0 to 1 at s_SN.
     pub place: f64,
-    /// eta.
+    /// Of the drive.
     pub frequency: f64,
     /// Share of the cells that lead to z = 1.
     pub certainty: f64,
-    /// Wilson's 95 % interval of it.
-    pub interval: [f64; 2],
+    /// Lower end of Wilson's 95 % interval of it.
+    pub certainty_low: f64,
+    /// Its upper end.
+    pub certainty_high: f64,
     /// Radius of the largest ball inside its basin, in units of half of each axis.
     pub integrity: Option<f64>,
     /// All motions there and their shares.
@@ -78,16 +72,12 @@ pub struct PlaceReport {
 }
 
 impl BasinReport {
-    pub(super) fn new(machine: &str, basins: &Basins, files: &[PathBuf]) -> Self {
+    pub(super) fn new(machine: &str, basins: &Basins) -> Self {
         let class = |index| ClassReport::new(basins, index);
         Self {
             machine: machine.to_owned(),
             grid: basins.grid,
             basins: (0..basins.classes.len()).map(class).collect(),
-            files: files
-                .iter()
-                .map(|file| file.display().to_string())
-                .collect(),
         }
     }
 }
@@ -95,13 +85,10 @@ impl BasinReport {
 impl ClassReport {
     fn new(basins: &Basins, index: usize) -> Self {
         let class = &basins.classes[index];
-        let ball: Option<Clearing> = basins.largest_ball(index);
-        let (pattern, velocity) = match &class.kind {
-            Kind::Periodic(orbit) => (
-                Some(orbit.pattern().to_string()),
-                Some(orbit.before_impact_velocity()),
-            ),
-            _ => (None, None),
+        let ball = basins.largest_ball(index);
+        let orbit = match &class.kind {
+            Kind::Periodic(orbit) => Some(orbit),
+            _ => None,
         };
         let exponent = match &class.kind {
             Kind::Chaotic(exponents) | Kind::Unsettled(exponents) => Some(exponents.per_period[0]),
@@ -109,12 +96,13 @@ impl ClassReport {
         };
         Self {
             motion: class.kind.name(),
-            pattern,
-            velocity,
+            order: orbit.map(|orbit| orbit.pattern().to_string()),
+            before_impact_velocity: orbit.map(|orbit| orbit.before_impact_velocity()),
             exponent,
             cells: class.cells,
             share: class.share,
-            interval: class.interval,
+            share_low: class.interval[0],
+            share_high: class.interval[1],
             integrity: ball.map(|ball| ball.radius),
             centre: ball.map(|ball| ball.centre),
         }
@@ -122,14 +110,10 @@ impl ClassReport {
 }
 
 impl CertaintyReport {
-    pub(super) fn new(grid: &Grid, places: &[Establishing], files: &[PathBuf]) -> Self {
+    pub(super) fn new(grid: &Grid, places: &[Establishing]) -> Self {
         Self {
             grid: *grid,
             places: places.iter().map(PlaceReport::new).collect(),
-            files: files
-                .iter()
-                .map(|file| file.display().to_string())
-                .collect(),
         }
     }
 }
@@ -142,89 +126,63 @@ impl PlaceReport {
             place: place.place,
             frequency: place.frequency,
             certainty: place.certainty,
-            interval: place.interval,
+            certainty_low: place.interval[0],
+            certainty_high: place.interval[1],
             integrity: basins.largest_ball_of(Regime::ONE).map(|ball| ball.radius),
             motions: classes
                 .map(|class| (class.kind.name(), class.share))
                 .collect(),
         }
     }
+
+    fn motions(&self) -> String {
+        let motions = self.motions.iter();
+        let motions = motions.map(|(name, share)| format!("{name}: {share:.6}"));
+        motions.collect::<Vec<_>>().join(", ")
+    }
 }
 
-/// Writes a row for each basin.
-pub(super) fn table(report: &BasinReport, mut table: Staged) -> Result<(), Failure> {
-    table.header(&[
-        "motion",
-        "pattern",
-        "velocity",
-        "exponent",
-        "cells",
-        "share",
-        "share_low",
-        "share_high",
-        "integrity",
-    ])?;
-    for class in &report.basins {
-        let ClassReport {
-            motion,
-            pattern,
-            velocity,
-            exponent,
-            cells,
-            share,
-            interval,
-            integrity,
-            ..
-        } = class;
-        table.row(&(
-            motion,
-            pattern,
-            velocity,
-            exponent,
-            cells,
-            share,
-            interval[0],
-            interval[1],
-            integrity,
-        ))?;
+/// The columns of `basin.csv`.
+pub(super) fn columns() -> [Column<ClassReport>; 9] {
+    columns! { ClassReport, it;
+        "motion" [None] Plain, "on which the basin's motions settle" => it.motion.as_str();
+        "order" [None] Plain, "impacts in each of its drive periods" => it.order.clone();
+        "before_impact_velocity" [Velocity] Fixed(4), "of its hardest impact" => it.before_impact_velocity;
+        "exponent" [None], "Lyapunov's, per drive period, unless periodic" => it.exponent;
+        "cells" [None], "that belong to it" => it.cells;
+        "share" [None] Fixed(5), "of all cells" => it.share;
+        "share_low" [None] Fixed(5), "lower end of its 95 % interval" => it.share_low;
+        "share_high" [None] Fixed(5), "upper end of it" => it.share_high;
+        "integrity" [None] Fixed(4), "radius of the largest ball, in half axes" => it.integrity;
     }
-    table.close()
 }
 
-/// Writes a row for each place.
-pub(super) fn certainty_table(report: &CertaintyReport, mut table: Staged) -> Result<(), Failure> {
-    table.header(&[
-        "place",
-        "frequency",
-        "certainty",
-        "certainty_low",
-        "certainty_high",
-        "integrity",
-        "motions",
-    ])?;
-    for place in &report.places {
-        let motions = place
-            .motions
-            .iter()
-            .map(|(name, share)| format!("{name}: {share:.6}"));
-        let motions: Vec<String> = motions.collect();
-        let PlaceReport {
-            place,
-            frequency,
-            certainty,
-            interval,
-            integrity,
-            ..
-        } = place;
-        table.row(&(
-            place,
-            frequency,
-            certainty,
-            interval[0],
-            interval[1],
-            integrity,
-            motions.join(", "),
-        ))?;
+/// The columns of `certainty.csv`.
+pub(super) fn places() -> [Column<PlaceReport>; 7] {
+    columns! { PlaceReport, it;
+        "place" [None] Fixed(4), "0 at g0, 1 at s_SN" => it.place;
+        "frequency" [Frequency] Fixed(6), "of the drive" => it.frequency;
+        "certainty" [None] Fixed(5), "share of cells that lead to z = 1" => it.certainty;
+        "certainty_low" [None] Fixed(5), "lower end of its 95 % interval" => it.certainty_low;
+        "certainty_high" [None] Fixed(5), "upper end of it" => it.certainty_high;
+        "integrity" [None] Fixed(4), "radius of the largest ball, in half axes" => it.integrity;
+        "motions" [None], "all motions and their shares" => it.motions();
     }
-    table.close()
+}
+
+impl Report for BasinReport {
+    fn text(&self) -> String {
+        let (across, up) = (self.grid.across.cells, self.grid.up.cells);
+        format!("{}: {across} x {up} initial states\n\n", self.machine)
+            + &text(&columns(), &self.basins, &Units::RATIOS)
+    }
+}
+
+impl Report for CertaintyReport {
+    fn text(&self) -> String {
+        let (across, up) = (self.grid.across.cells, self.grid.up.cells);
+        format!(
+            "Establishing certainty of z = 1 from g0 (place 0) to s_SN (place 1), {across} x {up} initial states\n\n"
+        ) + &text(&places(), &self.places, &Units::RATIOS)
+    }
 }

@@ -10,6 +10,7 @@ use softstop_dynamics::continuation::{
     Branch, BranchPoint, Curve, Parameter, Special, SpecialKind, Test,
 };
 
+use softstop_draw::scale::around;
 use softstop_draw::style;
 
 /// The impact velocities of branches over the parameter.
@@ -68,6 +69,8 @@ fn sign(kind: &SpecialKind) -> Sign {
     }
 }
 
+/// Room around what is drawn, as a share of it.
+const ROOM: f64 = 0.06;
 /// Colours of branches by the number of doublings.
 const COLOURS: [&str; 4] = [style::DESIGN, style::REFERENCE, "#009E73", "#CC79A7"];
 
@@ -95,8 +98,8 @@ impl<'a> BranchChart<'a> {
             let points = self.branches.iter().flat_map(|branch| &branch.points);
             points.map(|point| (point.parameter, point.before_impact_velocity()))
         };
-        let x = padded(points().map(|point| point.0));
-        let (_, top) = padded(points().map(|point| point.1));
+        let x = around(points().map(|point| point.0), ROOM);
+        let (_, top) = around(points().map(|point| point.1), ROOM);
         let top = if top > 0.0 { top } else { 1.0 };
         render(
             plots,
@@ -142,7 +145,7 @@ impl<'a> CurveChart<'a> {
         }
         let values = |index: usize| {
             let points = self.curves.iter().flat_map(|curve| &curve.points);
-            padded(points.map(|point| point.parameters[index]))
+            around(points.map(|point| point.parameters[index]), ROOM)
         };
         render(
             plots,
@@ -276,19 +279,6 @@ fn marks(branches: &[Branch]) -> Vec<Plot> {
         ));
     }
     plots
-}
-
-/// Least and largest value with some room.
-fn padded(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-        (low.min(value), high.max(value))
-    });
-    let room = 0.06 * (high - low);
-    if room > 0.0 {
-        (low - room, high + room)
-    } else {
-        (low - 1.0, low + 1.0)
-    }
 }
 
 /// The name of an axis.

@@ -1,30 +1,27 @@
 //! `softstop continue`: a periodic motion followed along a parameter, stable or not.
 
+mod branches;
 pub mod chart;
+mod curves;
 pub mod report;
 pub mod seed;
-mod text;
+mod tables;
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use anyhow::anyhow;
 use clap::Args;
 use nalgebra::Vector2;
-use softstop_dynamics::continuation::{
-    Adjustable, Along, Branch, Curve, Family, Follower, Limits, Parameter, Region, SpecialKind,
-    Test, curve,
-};
+use softstop_dynamics::continuation::{Along, Limits, Parameter};
 
 use crate::continuation::chart::{BranchChart, CurveChart};
-use report::{BranchReport, ContinuationReport, CurveReport, CurvesReport};
+use report::ContinuationReport;
 use seed::Wanted;
+use softstop_console::column;
+use softstop_console::export::Export;
 use softstop_console::failure::Failure;
-use softstop_console::interrupt;
 use softstop_console::machine::{self, SceneSettings};
 use softstop_console::model::{self, Model};
-use softstop_console::output::{self, Folder, Format};
-use softstop_console::progress::Progress;
+use softstop_console::output::Format;
 use softstop_console::scene_file;
 
 const EXAMPLES: &str = "\
@@ -50,7 +47,7 @@ The parameter starts at the machine's own value, which must lie between --from a
 
 /// Arguments of `softstop continue`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+#[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct ContinueArguments {
     /// Scene in SI units as for `softstop simulate`, instead of the paper's machine
     #[arg(value_name = "SCENE.toml", conflicts_with = "scene")]
@@ -103,16 +100,16 @@ pub struct ContinueArguments {
     pub machine: SceneSettings,
 }
 
-/// Largest steps along branches and curves, scaled: fine enough for charts of wide ranges.
-const STEP: f64 = 0.02;
-/// Steps of a narrow range, and the least share of `STEP` that they are.
-const NARROW: (f64, f64) = (100.0, 0.1);
+const FILES: [(&str, &str); 4] = [
+    ("branches", "branches.csv"),
+    ("branch_chart", "branches.svg"),
+    ("curves", "curves.csv"),
+    ("curve_chart", "curves.svg"),
+];
 
-/// Largest step of a range, so that its chart has no corners.
-fn step(family: &Along<Model, 1>, (low, high): (f64, f64)) -> f64 {
-    let [scale] = family.parameter_scales();
-    let (steps, least) = NARROW;
-    ((high - low) / (steps * scale)).clamp(least * STEP, STEP)
+fn help() -> String {
+    let curves = column::help("curves.csv", &tables::curve_columns());
+    EXAMPLES.to_owned() + &column::help("branches.csv", &tables::branch_columns()) + &curves
 }
 
 /// Follows the motion and writes tables and charts.
@@ -136,43 +133,41 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
         }
         _ => None,
     };
-    let names: &[&str] = if second.is_some() {
-        &["branches.csv", "branches.svg", "curves.csv", "curves.svg"]
+    let files = if second.is_some() {
+        &FILES[..]
     } else {
-        &["branches.csv", "branches.svg"]
+        &FILES[..2]
     };
-    let folder = Folder::open(&arguments.output, names)?;
+    let export = Export::open(&arguments.output, files)?;
     let limits = Limits {
         range,
         points: arguments.points,
     };
-    let branches = branches(arguments, &model, &family, start, &limits)?;
-    write_branches(&folder, arguments.parameter, &branches)?;
-    let curves = match second {
-        Some(second) => Some(curves(
-            &model,
-            arguments,
-            &second,
-            range,
-            &branches[0],
-            &folder,
-        )?),
+    let branches = branches::branches(arguments, &model, &family, start, &limits)?;
+    export.table(
+        "branches",
+        &tables::branch_columns(),
+        tables::branch_rows(&branches),
+    )?;
+    let chart = BranchChart::new(arguments.parameter, &branches).svg();
+    export.file("branch_chart", chart.as_bytes())?;
+    let curves = match &second {
+        Some(second) => {
+            let curves = curves::curves(&model, arguments, second, range, &branches[0])?;
+            export.table(
+                "curves",
+                &tables::curve_columns(),
+                tables::curve_rows(&curves),
+            )?;
+            let parameters = [arguments.parameter, second.parameter];
+            let chart = CurveChart::new(parameters, &curves).svg();
+            export.file("curve_chart", chart.as_bytes())?;
+            Some((second.parameter, curves))
+        }
         None => None,
     };
-    let report = ContinuationReport {
-        parameter: arguments.parameter.name(),
-        branches: branches.iter().map(BranchReport::new).collect(),
-        curves,
-        files: names
-            .iter()
-            .map(|name| folder.place(name).display().to_string())
-            .collect(),
-    };
-    folder.commit(names)?;
-    output::print(&match arguments.format {
-        Format::Json => output::json(&report)?,
-        Format::Text => text::text(&report),
-    })
+    let report = ContinuationReport::new(arguments, &branches, curves.as_ref());
+    export.finish(&report, arguments.format)
 }
 
 fn model(arguments: &ContinueArguments) -> Result<Model, Failure> {
@@ -234,153 +229,3 @@ fn second(
         range: range(parameter, start, ends, "second-")?,
     })
 }
-
-/// Counts a point; asks to stop after Ctrl-C.
-fn count(bar: &Progress) -> ControlFlow<()> {
-    match bar.step() {
-        Ok(()) => ControlFlow::Continue(()),
-        Err(_) => ControlFlow::Break(()),
-    }
-}
-
-/// The branch of the start, and doubled ones.
-fn branches(
-    arguments: &ContinueArguments,
-    model: &Model,
-    family: &Along<Model, 1>,
-    start: f64,
-    limits: &Limits,
-) -> Result<Vec<Branch>, Failure> {
-    let scene = model
-        .scene()
-        .map_err(|error| Failure::usage(error.to_string()))?;
-    let state = match arguments.state {
-        Some(state) => state,
-        None => seed::find(&scene, arguments.orbit)?.state(),
-    };
-    let bar = Progress::open("points");
-    let largest = step(family, limits.range);
-    let follower = Follower::new(family, arguments.orbit.periods).with_steps(largest);
-    let first = follower
-        .branch(start, state, limits, |_| count(&bar))
-        .map_err(|error| anyhow!(error).context("no orbit to start from"))?;
-    let mut branches = vec![first];
-    let mut done = 0;
-    for _ in 0..arguments.double {
-        let last = branches.len();
-        let doubled: Vec<Branch> = branches[done..last]
-            .iter()
-            .flat_map(|branch| doubled(family, branch, limits, &bar))
-            .collect();
-        branches.extend(doubled);
-        done = last;
-    }
-    drop(bar);
-    if interrupt::requested() {
-        return Err(Failure::Interrupted);
-    }
-    Ok(branches)
-}
-
-/// The branches of twice the period from the flips of one.
-fn doubled(
-    family: &Along<Model, 1>,
-    branch: &Branch,
-    limits: &Limits,
-    bar: &Progress,
-) -> Vec<Branch> {
-    let follower = Follower::new(family, branch.periods).with_steps(step(family, limits.range));
-    let flips = branch
-        .specials
-        .iter()
-        .filter(|special| special.kind == SpecialKind::Critical(Test::Flip));
-    flips
-        .filter_map(|flip| follower.doubled(&flip.point, limits, |_| count(bar)).ok())
-        .collect()
-}
-
-fn write_branches(
-    folder: &Folder,
-    parameter: Parameter,
-    branches: &[Branch],
-) -> Result<(), Failure> {
-    let mut table = folder.create("branches.csv")?;
-    table.header(&report::BRANCH_COLUMNS)?;
-    for (number, branch) in branches.iter().enumerate() {
-        for row in report::branch_rows(number, branch) {
-            table.row(&row)?;
-        }
-    }
-    table.close()?;
-    let chart = BranchChart::new(parameter, branches).svg();
-    folder.stage("branches.svg", chart.as_bytes())
-}
-
-/// Follows the special points of a branch in both parameters.
-fn curves(
-    model: &Model,
-    arguments: &ContinueArguments,
-    second: &Second,
-    range: (f64, f64),
-    branch: &Branch,
-    folder: &Folder,
-) -> Result<CurvesReport, Failure> {
-    let parameters = [arguments.parameter, second.parameter];
-    let family = family(model, parameters)?;
-    let region = Region {
-        ranges: [range, second.range],
-        points: arguments.points,
-        step: STEP,
-    };
-    let bar = Progress::open("points of curves");
-    let mut found: Vec<Curve> = Vec::new();
-    for special in &branch.specials {
-        let start = [special.point.parameter, second.start];
-        let known = found.iter().any(|curve| passes(curve, special.kind, start));
-        if known {
-            continue;
-        }
-        let kind = (special.kind, &special.point);
-        let curve = curve(&family, branch.periods, kind, start, &region, |_| {
-            count(&bar)
-        });
-        found.push(curve.map_err(|error| {
-            anyhow!(error).context(format!("no curve of the {}", special.kind.name()))
-        })?);
-    }
-    drop(bar);
-    if interrupt::requested() {
-        return Err(Failure::Interrupted);
-    }
-    let mut table = folder.create("curves.csv")?;
-    table.header(&report::CURVE_COLUMNS)?;
-    for (number, curve) in found.iter().enumerate() {
-        for row in report::curve_rows(number, curve) {
-            table.row(&row)?;
-        }
-    }
-    table.close()?;
-    let chart = CurveChart::new(parameters, &found).svg();
-    folder.stage("curves.svg", chart.as_bytes())?;
-    Ok(CurvesReport {
-        parameter: second.parameter.name(),
-        curves: found.iter().map(CurveReport::new).collect(),
-    })
-}
-
-/// True if a curve of the same kind passes a point.
-fn passes(curve: &Curve, kind: SpecialKind, [p, q]: [f64; 2]) -> bool {
-    let between = |a: f64, b: f64, value: f64| (a - value) * (b - value) <= 0.0;
-    let crosses = |pair: &[softstop_dynamics::continuation::CurvePoint]| {
-        let ([a, c], [b, d]) = (pair[0].parameters, pair[1].parameters);
-        if !between(c, d, q) || c == d {
-            return false;
-        }
-        let at = a + (b - a) * (q - c) / (d - c);
-        (at - p).abs() < SAME * (b - a).abs().max(SAME * p.abs())
-    };
-    curve.kind.symbol() == kind.symbol() && curve.points.windows(2).any(crosses)
-}
-
-/// Share of a step of a curve within which it passes a point.
-const SAME: f64 = 0.1;

@@ -1,11 +1,17 @@
-//! The results as tables and JSON.
+//! What `softstop continue` found.
 
 use serde::Serialize;
 use softstop::MotionError;
 use softstop_dynamics::continuation::{
-    Branch, BranchPoint, Curve, CurveEnd, CurvePoint, End, Special, SpecialKind,
+    Branch, BranchPoint, Curve, CurveEnd, CurvePoint, End, Parameter, Special, SpecialKind,
 };
-use softstop_dynamics::orbit::{OrbitError, multipliers};
+use softstop_dynamics::orbit::OrbitError;
+
+use super::ContinueArguments;
+use softstop_console::column::{self, Column, Units};
+use softstop_console::columns;
+use softstop_console::export::Report;
+use softstop_console::table::heading;
 
 /// Everything that `softstop continue` found.
 #[derive(Debug, Serialize)]
@@ -16,8 +22,6 @@ pub struct ContinuationReport {
     pub branches: Vec<BranchReport>,
     /// The second parameter and the curves, if they were asked for.
     pub curves: Option<CurvesReport>,
-    /// The files.
-    pub files: Vec<String>,
 }
 
 /// One branch.
@@ -44,8 +48,8 @@ pub struct SpecialReport {
     pub symbol: &'static str,
     /// In words.
     pub name: String,
-    /// The parameter.
-    pub parameter: f64,
+    /// Value of the parameter.
+    pub value: f64,
     /// Position at drive angle 0 of the scene.
     pub position: f64,
     /// Velocity there.
@@ -95,16 +99,21 @@ pub fn describe(kind: &SpecialKind) -> String {
     format!("grazing of {:?}: {what}", graze.face).to_lowercase()
 }
 
-fn end(end: &End) -> String {
+fn end(end: &End, points: usize) -> String {
     match end {
         End::Range => "the range ends".to_owned(),
-        End::Points => "there are --points of them".to_owned(),
+        End::Points => limit(points),
         End::Closed => "the branch is closed".to_owned(),
         End::Grazing => "the orbit grazes".to_owned(),
         End::Merged => "it merges into the orbit of half its period".to_owned(),
         End::Stopped => "stopped".to_owned(),
         End::Lost(error) => lost(error),
     }
+}
+
+/// Why it stops at the most points that there may be.
+fn limit(points: usize) -> String {
+    format!("stopped at the limit of {points} points; raise --points")
 }
 
 /// Why something cannot be followed any farther.
@@ -116,10 +125,10 @@ fn lost(error: &OrbitError) -> String {
     }
 }
 
-fn curve_end(end: &CurveEnd) -> String {
+fn curve_end(end: &CurveEnd, points: usize) -> String {
     match end {
         CurveEnd::Range => "a range ends".to_owned(),
-        CurveEnd::Points => "there are --points of them".to_owned(),
+        CurveEnd::Points => limit(points),
         CurveEnd::Closed => "the curve is closed".to_owned(),
         CurveEnd::Grazing => "the orbit grazes elsewhere".to_owned(),
         CurveEnd::Stopped => "stopped".to_owned(),
@@ -127,9 +136,33 @@ fn curve_end(end: &CurveEnd) -> String {
     }
 }
 
+impl ContinuationReport {
+    pub(super) fn new(
+        arguments: &ContinueArguments,
+        branches: &[Branch],
+        curves: Option<&(Parameter, Vec<Curve>)>,
+    ) -> Self {
+        let most = arguments.points;
+        Self {
+            parameter: arguments.parameter.name(),
+            branches: branches
+                .iter()
+                .map(|branch| BranchReport::new(branch, most))
+                .collect(),
+            curves: curves.map(|(parameter, curves)| CurvesReport {
+                parameter: parameter.name(),
+                curves: curves
+                    .iter()
+                    .map(|curve| CurveReport::new(curve, most))
+                    .collect(),
+            }),
+        }
+    }
+}
+
 impl BranchReport {
-    /// That of a branch.
-    pub fn new(branch: &Branch) -> Self {
+    /// That of a branch, followed for so many points at most.
+    pub fn new(branch: &Branch, most: usize) -> Self {
         let parameter =
             |point: Option<&BranchPoint>| point.map_or(f64::NAN, |point| point.parameter);
         Self {
@@ -137,7 +170,7 @@ impl BranchReport {
             points: branch.points.len(),
             from: parameter(branch.points.first()),
             to: parameter(branch.points.last()),
-            ends: [end(&branch.ends.0), end(&branch.ends.1)],
+            ends: [end(&branch.ends.0, most), end(&branch.ends.1, most)],
             specials: branch.specials.iter().map(SpecialReport::new).collect(),
         }
     }
@@ -148,7 +181,7 @@ impl SpecialReport {
         Self {
             symbol: kind.symbol(),
             name: describe(kind),
-            parameter: point.parameter,
+            value: point.parameter,
             position: point.position,
             velocity: point.velocity,
             before_impact_velocities: point.impacts.clone(),
@@ -159,8 +192,8 @@ impl SpecialReport {
 }
 
 impl CurveReport {
-    /// That of a curve.
-    pub fn new(curve: &Curve) -> Self {
+    /// That of a curve, followed for so many points at most.
+    pub fn new(curve: &Curve, most: usize) -> Self {
         let parameters =
             |point: Option<&CurvePoint>| point.map_or([f64::NAN; 2], |it| it.parameters);
         Self {
@@ -168,109 +201,73 @@ impl CurveReport {
             points: curve.points.len(),
             from: parameters(curve.points.first()),
             to: parameters(curve.points.last()),
-            ends: [curve_end(&curve.ends.0), curve_end(&curve.ends.1)],
+            ends: [
+                curve_end(&curve.ends.0, most),
+                curve_end(&curve.ends.1, most),
+            ],
         }
     }
 }
 
-/// Columns of the table of branches.
-pub const BRANCH_COLUMNS: [&str; 13] = [
-    "branch",
-    "periods",
-    "parameter",
-    "position",
-    "velocity",
-    "impacts",
-    "before_impact_velocity",
-    "multiplier1_real",
-    "multiplier1_imaginary",
-    "multiplier2_real",
-    "multiplier2_imaginary",
-    "stable",
-    "special",
-];
-
-/// One row of it.
-#[derive(Debug, Serialize)]
-pub struct BranchRow(
-    usize,
-    u64,
-    f64,
-    f64,
-    f64,
-    usize,
-    f64,
-    f64,
-    f64,
-    f64,
-    f64,
-    bool,
-    &'static str,
-);
-
-/// The rows of a branch.
-pub fn branch_rows(number: usize, branch: &Branch) -> impl Iterator<Item = BranchRow> + '_ {
-    branch.points.iter().map(move |point| {
-        let [one, other] = multipliers(&point.monodromy);
-        BranchRow(
-            number,
-            branch.periods,
-            point.parameter,
-            point.position,
-            point.velocity,
-            point.impacts.len(),
-            point.before_impact_velocity(),
-            one.re,
-            one.im,
-            other.re,
-            other.im,
-            point.is_stable(),
-            symbol_at(branch, point),
-        )
-    })
+impl Report for ContinuationReport {
+    fn text(&self) -> String {
+        let branches = self.branches.iter();
+        let mut text: Vec<String> = branches.map(|branch| branch.text(self.parameter)).collect();
+        if let Some(curves) = &self.curves {
+            let title = format!("Curves in {} and {}", self.parameter, curves.parameter);
+            let table = column::text(&curve_table(), &curves.curves, &Units::RATIOS);
+            text.push(heading(&title) + &table);
+        }
+        text.join("\n")
+    }
 }
 
-fn symbol_at(branch: &Branch, point: &BranchPoint) -> &'static str {
-    let here = |special: &&Special| {
-        special.point.parameter == point.parameter && special.point.state() == point.state()
-    };
-    branch
-        .specials
-        .iter()
-        .find(here)
-        .map_or("", |special| special.kind.symbol())
+impl BranchReport {
+    fn text(&self, parameter: &str) -> String {
+        let title = format!(
+            "Branch of period {}: {parameter} from {:.10} to {:.10}, {} points",
+            self.periods, self.from, self.to, self.points
+        );
+        let table = if self.specials.is_empty() {
+            "No special points.\n".to_owned()
+        } else {
+            column::text(&special_table(), &self.specials, &Units::RATIOS)
+        };
+        let [first, last] = &self.ends;
+        heading(&title) + &table + &format!("Ends: {first}; {last}.\n")
+    }
 }
 
-/// Columns of the table of curves.
-pub const CURVE_COLUMNS: [&str; 9] = [
-    "curve",
-    "kind",
-    "parameter",
-    "second",
-    "position",
-    "velocity",
-    "before_impact_velocity",
-    "trace",
-    "determinant",
-];
+fn special_table() -> [Column<SpecialReport>; 4] {
+    columns! { SpecialReport, special;
+        "special" [None] Plain, "symbol" => special.symbol;
+        "point" [None] Plain, "what it is" => special.name.as_str();
+        "value" [None] Fixed(12), "of the parameter" => special.value;
+        "before_impact_velocities" [Velocity] Plain, "of all impacts" => special.velocities();
+    }
+}
 
-/// One row of it.
-#[derive(Debug, Serialize)]
-pub struct CurveRow(usize, &'static str, f64, f64, f64, f64, f64, f64, f64);
+impl SpecialReport {
+    fn velocities(&self) -> String {
+        let velocities = self.before_impact_velocities.iter();
+        let written: Vec<String> = velocities
+            .map(|velocity| format!("{velocity:.6}"))
+            .collect();
+        if written.is_empty() {
+            "none".to_owned()
+        } else {
+            written.join(" ")
+        }
+    }
+}
 
-/// The rows of a curve.
-pub fn curve_rows(number: usize, curve: &Curve) -> impl Iterator<Item = CurveRow> + '_ {
-    curve.points.iter().map(move |point| {
-        CurveRow(
-            number,
-            curve.kind.symbol(),
-            point.parameters[0],
-            point.parameters[1],
-            point.position,
-            point.velocity,
-            point.impacts.iter().copied().fold(0.0, f64::max),
-            point.monodromy.trace(),
-            point.monodromy.determinant(),
-        )
-    })
+fn curve_table() -> [Column<CurveReport>; 6] {
+    columns! { CurveReport, curve;
+        "special" [None] Plain, "symbol" => curve.symbol;
+        "from" [None] Fixed(8), "first parameter" => curve.from[0];
+        "and" [None] Fixed(8), "second parameter" => curve.from[1];
+        "to" [None] Fixed(8), "first parameter" => curve.to[0];
+        "and" [None] Fixed(8), "second parameter" => curve.to[1];
+        "ends" [None] Plain, "why" => curve.ends.join("; ");
+    }
 }

@@ -7,7 +7,6 @@ pub mod regimes;
 mod report;
 mod structure;
 mod study;
-mod text;
 
 use std::path::PathBuf;
 
@@ -19,9 +18,11 @@ use crate::fidelity::chart::FidelityChart;
 use crate::fidelity::regimes::RegimeChart;
 use options::{Matched, Sweep};
 use report::FidelityReport;
+use softstop_console::column;
+use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::machine::require;
-use softstop_console::output::{self, Folder, Format};
+use softstop_console::output::Format;
 use softstop_console::scene_file::{self, SceneFile};
 use structure::Structure;
 use study::{Study, Task};
@@ -52,7 +53,7 @@ with --structure, structure.csv and structure.svg.";
 
 /// Arguments of `softstop fidelity`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+#[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct FidelityArguments {
     /// Machine in a TOML file, SI units; or A or B, the paper's points
     #[arg(value_name = "SCENE")]
@@ -98,10 +99,17 @@ pub struct FidelityArguments {
     pub format: Format,
 }
 
-const TABLE: &str = "fidelity.csv";
-const CHART: &str = "fidelity.svg";
-const REGIMES: &str = "structure.csv";
-const STRIPS: &str = "structure.svg";
+const FILES: [(&str, &str); 4] = [
+    ("table", "fidelity.csv"),
+    ("chart", "fidelity.svg"),
+    ("regimes", "structure.csv"),
+    ("regime_chart", "structure.svg"),
+];
+
+fn help() -> String {
+    let structure = column::help("structure.csv", &structure::columns());
+    EXAMPLES.to_owned() + &column::help("fidelity.csv", &report::columns()) + &structure
+}
 
 /// Compares the models, writes the files and prints the result.
 ///
@@ -111,12 +119,12 @@ const STRIPS: &str = "structure.svg";
 pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     check(arguments)?;
     let SceneFile { scene, start } = scene(arguments)?;
-    let names: &[&str] = if arguments.structure {
-        &[TABLE, CHART, REGIMES, STRIPS]
+    let files = if arguments.structure {
+        &FILES[..]
     } else {
-        &[TABLE, CHART]
+        &FILES[..2]
     };
-    let folder = Folder::open(&arguments.output, names)?;
+    let export = Export::open(&arguments.output, files)?;
     let task = Task {
         start,
         quantity: arguments.quantity,
@@ -131,23 +139,17 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
         true => Some(Structure::new(&study, arguments.sweep, arguments.points)?),
         false => None,
     };
-    let report = FidelityReport::new(arguments, &study, structure.as_ref(), &folder);
-    folder.stage(TABLE, report.csv()?.as_bytes())?;
-    folder.stage(
-        CHART,
-        FidelityChart::new(&report.picture()).svg().as_bytes(),
-    )?;
+    let report = FidelityReport::new(arguments, &study, structure.as_ref());
+    export.table("table", &report::columns(), report.rows())?;
+    let chart = FidelityChart::new(&report.picture()).svg();
+    export.file("chart", chart.as_bytes())?;
     if let Some(structure) = &structure {
-        folder.stage(REGIMES, structure.csv()?.as_bytes())?;
+        export.table("regimes", &structure::columns(), structure.table())?;
         let title = format!("Regimes of the models of {}", report.scene());
-        let chart = RegimeChart::new(title, structure.rows());
-        folder.stage(STRIPS, chart.svg().as_bytes())?;
+        let chart = RegimeChart::new(title, structure.rows()).svg();
+        export.file("regime_chart", chart.as_bytes())?;
     }
-    folder.commit(names)?;
-    output::print(&match arguments.format {
-        Format::Json => output::json(&report)?,
-        Format::Text => text::text(&report),
-    })
+    export.finish(&report, arguments.format)
 }
 
 fn check(arguments: &FidelityArguments) -> Result<(), Failure> {

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use anyhow::{Context, anyhow};
 use serde::Serialize;
 use softstop::Stop;
 use softstop_dynamics::models::{Likeness, Quantity, Rung};
@@ -10,10 +9,12 @@ use softstop_dynamics::models::{Likeness, Quantity, Rung};
 use super::cost::Cost;
 use super::structure::{Agreement, Origin, Structure, Track};
 use super::study::{Entry, Missing, Study, name};
-use super::{CHART, FidelityArguments, REGIMES, STRIPS, TABLE, word};
+use super::{FidelityArguments, word};
 use crate::fidelity::chart::{Candidate, FidelityPicture};
-use softstop_console::failure::Failure;
-use softstop_console::output::Folder;
+use softstop_console::column::{Column, Unit, Units, text};
+use softstop_console::columns;
+use softstop_console::export::Report;
+use softstop_console::table::heading;
 
 /// A model by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -40,8 +41,8 @@ pub(super) struct ModelReport {
     pub(super) is_scene: bool,
     stop: Stop,
     contact_damping: f64,
-    /// z = p/n of its motion, none if it does not repeat.
-    regime: Option<String>,
+    /// z = p/n; none if it does not repeat.
+    motion: Option<String>,
     /// Of the quantity that was asked for.
     pub(super) value: Option<f64>,
     pub(super) error: Option<f64>,
@@ -89,8 +90,7 @@ pub(super) struct FidelityReport {
     pub(super) cheapest_is_scene: bool,
     pub(super) models: Vec<ModelReport>,
     pub(super) unmatched: Vec<UnmatchedReport>,
-    pub(super) structure: Option<Vec<TrackReport>>,
-    pub(super) files: BTreeMap<&'static str, String>,
+    structure: Option<Vec<TrackReport>>,
 }
 
 impl FidelityReport {
@@ -98,15 +98,9 @@ impl FidelityReport {
         arguments: &FidelityArguments,
         study: &Study,
         structure: Option<&Structure>,
-        folder: &Folder,
     ) -> Self {
         let quantity = arguments.quantity;
         let cheapest = study.cheapest(arguments.tolerance);
-        let mut files = vec![("table", TABLE), ("chart", CHART)];
-        if structure.is_some() {
-            files.extend([("regimes", REGIMES), ("regime chart", STRIPS)]);
-        }
-        let place = |(what, name)| (what, folder.place(name).display().to_string());
         Self {
             scene: arguments.scene.display().to_string(),
             quantity,
@@ -127,7 +121,6 @@ impl FidelityReport {
                 let tracks = structure.tracks.iter();
                 tracks.map(|one| track(structure, one)).collect()
             }),
-            files: files.into_iter().map(place).collect(),
         }
     }
 
@@ -136,33 +129,35 @@ impl FidelityReport {
         &self.scene
     }
 
-    /// All quantities of all models as a table.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] if it cannot be written.
-    pub(super) fn csv(&self) -> Result<String, Failure> {
-        let mut table = csv::Writer::from_writer(Vec::new());
-        for model in &self.models {
-            for quantity in Quantity::ALL {
-                let answer = model.answers[quantity.name()];
-                table
-                    .serialize(Row {
-                        rung: model.named.rung,
-                        matched: model.named.matched,
-                        quantity,
-                        unit: quantity.unit(),
-                        value: answer.value,
-                        error: answer.error,
-                        evaluations_per_period: model.cost.evaluations_per_period,
-                        microseconds_per_period: model.cost.microseconds_per_period,
-                    })
-                    .context("cannot write a table")?;
+    /// The rows of `fidelity.csv`: all quantities of all models.
+    pub(super) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+        self.models.iter().flat_map(|model| {
+            Quantity::ALL.into_iter().map(move |quantity| Row {
+                model,
+                quantity,
+                answer: model.answers[quantity.name()],
+            })
+        })
+    }
+
+    /// Which model to take.
+    fn advice(&self) -> String {
+        let matched = match self.operating_velocity {
+            _ if self.predictive => {
+                "Matched at the velocity of each model's own motion.".to_owned()
             }
-        }
-        let bytes = table
-            .into_inner()
-            .map_err(|error| anyhow!("cannot write a table: {error}"))?;
-        Ok(String::from_utf8(bytes).context("cannot write a table")?)
+            Some(velocity) => format!("Matched at the scene's own {velocity:.6} m/s."),
+            None => "The scene's motion has no impact.".to_owned(),
+        };
+        let tolerance = self.tolerance;
+        let found = match self.cheapest {
+            None => format!("No model is within {tolerance}."),
+            Some(named) if self.cheapest_is_scene => format!(
+                "Within {tolerance} nothing costs less than the scene itself ({named}): take it as it is."
+            ),
+            Some(named) => format!("The cheapest model within {tolerance}: {named}."),
+        };
+        format!("{matched} Costs are per drive period.\n{found}\n")
     }
 
     /// What the chart shows.
@@ -188,16 +183,25 @@ impl std::fmt::Display for Named {
     }
 }
 
-#[derive(Serialize)]
-struct Row {
-    rung: Rung,
-    matched: Option<&'static str>,
+/// A row of `fidelity.csv`.
+pub(super) struct Row<'a> {
+    model: &'a ModelReport,
     quantity: Quantity,
-    unit: &'static str,
-    value: Option<f64>,
-    error: Option<f64>,
-    evaluations_per_period: f64,
-    microseconds_per_period: f64,
+    answer: Answer,
+}
+
+/// The columns of `fidelity.csv`.
+pub(super) fn columns<'a>() -> [Column<Row<'a>>; 8] {
+    columns! { Row<'a>, row;
+        "rung" [None], "the model's law" => row.model.named.rung.name();
+        "matched" [None], "what it shares with the contact, if anything" => row.model.named.matched;
+        "quantity" [None], "what is compared" => row.quantity.name();
+        "unit" [None], "of its value" => row.quantity.unit();
+        "value" [Of("unit")], "of the model" => row.answer.value;
+        "error" [None], "relative to the machine's own value" => row.answer.error;
+        "evaluations_per_period" [None], "of the law of force" => row.model.cost.evaluations_per_period;
+        "microseconds_per_period" [Of("us")], "median" => row.model.cost.microseconds_per_period;
+    }
 }
 
 fn named(rung: Rung, likeness: Option<Likeness>) -> Named {
@@ -219,7 +223,7 @@ fn model(entry: &Entry, quantity: Quantity, study: &Study) -> ModelReport {
         is_scene: entry.is_truth,
         stop: entry.scene.stop.clone(),
         contact_damping: entry.scene.contact_damping,
-        regime: regime.map(|regime| regime.to_string()),
+        motion: regime.map(|regime| format!("z = {regime}")),
         value: quantity.value(&entry.answers),
         error: entry.error,
         cost: entry.cost,
@@ -249,5 +253,60 @@ fn track(structure: &Structure, track: &Track) -> TrackReport {
         fold_frequency: bound(|bounds| bounds.fold),
         sequence_from_rest: Structure::sequence(track, Origin::Rest),
         sequence_flung: Structure::sequence(track, Origin::Flung),
+    }
+}
+
+impl Report for FidelityReport {
+    fn text(&self) -> String {
+        let value = Units::SI.label(self.quantity.name(), Unit::Of(self.unit));
+        let title = format!("Models of {} for its {value}", self.scene);
+        let mut text =
+            heading(&title) + &text(&models(), &self.models, &Units::SI) + "\n" + &self.advice();
+        for missing in &self.unmatched {
+            text += &format!("Without a model: {}: {}\n", missing.named, missing.reason);
+        }
+        if let Some(tracks) = &self.structure {
+            text += "\n";
+            text += &heading("Regimes over the sweep, from rest and from a flung start");
+            text += &self::text(&regimes(), tracks, &Units::SI);
+        }
+        text
+    }
+}
+
+fn models() -> [Column<ModelReport>; 5] {
+    columns! { ModelReport, model;
+        "model" [None] Plain, "its name" => model.name();
+        "value" [None] Fixed(6), "of the quantity" => model.value;
+        "error" [None] Plain, "of it" => error(model.error);
+        "evaluations" [None] Fixed(1), "per drive period" => model.cost.evaluations_per_period;
+        "time" [Of("us")] Fixed(2), "per drive period" => model.cost.microseconds_per_period;
+    }
+}
+
+fn regimes() -> [Column<TrackReport>; 6] {
+    columns! { TrackReport, track;
+        "model" [None] Plain, "its name" => track.named.to_string();
+        "same_z" [None] Percent(1), "share" => track.agreement.map(|it| it.same_regime);
+        "same_kind" [None] Percent(1), "share" => track.agreement.map(|it| it.same_kind);
+        "g0" [None] Fixed(6), "grazing" => track.grazing_frequency;
+        "s_PD" [None] Fixed(6), "flip" => track.flip_frequency;
+        "s_SN" [None] Fixed(6), "fold" => track.fold_frequency;
+    }
+}
+
+impl ModelReport {
+    fn name(&self) -> String {
+        let scene = if self.is_scene { " = the scene" } else { "" };
+        format!("{}{scene}", self.named)
+    }
+}
+
+fn error(error: Option<f64>) -> String {
+    match error {
+        None => "no value".to_owned(),
+        Some(0.0) => "0".to_owned(),
+        Some(error) if error.is_finite() => format!("{error:.2e}"),
+        Some(_) => "other".to_owned(),
     }
 }

@@ -1,6 +1,6 @@
 //! The regimes of all models over a range of drive frequencies, from two starts.
 
-use anyhow::{Context, anyhow};
+use anyhow::Context;
 use serde::Serialize;
 use softstop::{Scene, Start};
 use softstop_dynamics::models::{Bounds, Likeness, Rung};
@@ -10,6 +10,8 @@ use super::options::Sweep;
 use super::study::{Entry, Study};
 use super::word;
 use crate::fidelity::regimes::{RegimeRow, Strip};
+use softstop_console::column::Column;
+use softstop_console::columns;
 use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
 
@@ -20,13 +22,21 @@ const TRANSIENT: u64 = 200;
 const FLUNG: f64 = 1.4;
 
 /// Where a motion of the sweep starts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Origin {
     /// At rest.
     Rest,
     /// Towards the stop.
     Flung,
+}
+
+impl Origin {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Rest => "rest",
+            Self::Flung => "flung",
+        }
+    }
 }
 
 const ORIGINS: [Origin; 2] = [Origin::Rest, Origin::Flung];
@@ -142,7 +152,7 @@ impl Structure {
     pub(super) fn sequence(track: &Track, origin: Origin) -> Vec<String> {
         let mut names: Vec<String> = track.regimes[origin as usize]
             .iter()
-            .map(|regime| regime.map_or("irregular".to_owned(), |regime| regime.to_string()))
+            .map(|regime| regime.map_or("irregular".to_owned(), |regime| format!("z = {regime}")))
             .collect();
         names.dedup();
         names
@@ -153,33 +163,19 @@ impl Structure {
         bound.map(|frequency| frequency / self.unit)
     }
 
-    /// All motions as a table.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] if it cannot be written.
-    pub(super) fn csv(&self) -> Result<String, Failure> {
-        let mut table = csv::Writer::from_writer(Vec::new());
-        for track in &self.tracks {
-            for origin in ORIGINS {
-                let regimes = &track.regimes[origin as usize];
-                for (frequency, regime) in self.frequencies.iter().zip(regimes) {
-                    table
-                        .serialize(Row {
-                            rung: track.rung,
-                            matched: track.likeness.map(word),
-                            start: origin,
-                            frequency: *frequency,
-                            impacts: regime.map(|regime| regime.impacts),
-                            periods: regime.map(|regime| regime.periods),
-                        })
-                        .context("cannot write a table")?;
-                }
-            }
-        }
-        let bytes = table
-            .into_inner()
-            .map_err(|error| anyhow!("cannot write a table: {error}"))?;
-        Ok(String::from_utf8(bytes).context("cannot write a table")?)
+    /// The rows of `structure.csv`: all motions.
+    pub(super) fn table(&self) -> impl Iterator<Item = Row<'_>> {
+        self.tracks.iter().flat_map(move |track| {
+            ORIGINS.into_iter().flat_map(move |start| {
+                let regimes = self.frequencies.iter().zip(&track.regimes[start as usize]);
+                regimes.map(move |(frequency, regime)| Row {
+                    track,
+                    start,
+                    frequency: *frequency,
+                    regime: *regime,
+                })
+            })
+        })
     }
 
     /// The rows of the chart.
@@ -202,14 +198,24 @@ impl Structure {
     }
 }
 
-#[derive(Serialize)]
-struct Row {
-    rung: Rung,
-    matched: Option<&'static str>,
+/// A row of `structure.csv`.
+pub(super) struct Row<'a> {
+    track: &'a Track,
     start: Origin,
     frequency: f64,
-    impacts: Option<u64>,
-    periods: Option<u64>,
+    regime: Option<Regime>,
+}
+
+/// The columns of `structure.csv`.
+pub(super) fn columns<'a>() -> [Column<Row<'a>>; 6] {
+    columns! { Row<'a>, row;
+        "rung" [None], "the model's law" => row.track.rung.name();
+        "matched" [None], "what it shares with the contact, if anything" => row.track.likeness.map(word);
+        "start" [None], "rest, or flung towards the stop" => row.start.name();
+        "frequency" [Of("sqrt(k1/m)")], "of the drive" => row.frequency;
+        "impacts" [None], "p of z = p/n; empty if irregular" => row.regime.map(|regime| regime.impacts);
+        "periods" [None], "n of it" => row.regime.map(|regime| regime.periods);
+    }
 }
 
 fn regime(scene: &Scene, frequency: f64, origin: Origin) -> Result<Option<Regime>, Failure> {

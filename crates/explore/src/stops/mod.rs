@@ -8,10 +8,14 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::Args;
+use serde::Serialize;
 
 use crate::stops::loops::Loops;
+use softstop_console::column::{Column, Units, text};
+use softstop_console::columns;
+use softstop_console::export::{Export, Report};
 use softstop_console::failure::Failure;
-use softstop_console::output::{self, Folder};
+use softstop_console::output::Format;
 use stroke::Stroke;
 use zoo::{Exhibit, Specimen, ZOO};
 
@@ -33,6 +37,34 @@ pub struct StopsArguments {
     /// Folder for the pictures
     #[arg(long, value_name = "DIR", default_value = "softstop-stops")]
     pub output: PathBuf,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// What was drawn.
+#[derive(Debug, Serialize)]
+struct StopsReport {
+    pictures: Vec<PictureReport>,
+}
+
+/// One picture.
+#[derive(Debug, Serialize)]
+struct PictureReport {
+    name: &'static str,
+    title: &'static str,
+    velocity: f64,
+}
+
+impl Report for StopsReport {
+    fn text(&self) -> String {
+        let columns: [Column<PictureReport>; 3] = columns! { PictureReport, it;
+            "picture" [None] Plain, "its file" => it.name;
+            "law" [None] Plain, "what it shows" => it.title;
+            "first_touch" [Velocity] Plain, "velocity there" => it.velocity;
+        };
+        text(&columns, &self.pictures, &Units::SI)
+    }
 }
 
 /// Draws the zoo.
@@ -40,21 +72,21 @@ pub struct StopsArguments {
 /// # Errors
 /// [`Failure::Run`] if the folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &StopsArguments) -> Result<(), Failure> {
-    let names: Vec<String> = ZOO
-        .iter()
-        .map(|exhibit| format!("{}.svg", exhibit.name))
-        .collect();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    let folder = Folder::open(&arguments.output, &names)?;
-    for (exhibit, name) in ZOO.iter().zip(&names) {
-        folder.stage(name, picture(exhibit)?.as_bytes())?;
+    let files = ZOO.map(|exhibit| (exhibit.name, format!("{}.svg", exhibit.name)));
+    let files = files.each_ref().map(|(kind, file)| (*kind, file.as_str()));
+    let export = Export::open(&arguments.output, &files)?;
+    for exhibit in &ZOO {
+        export.file(exhibit.name, picture(exhibit)?.as_bytes())?;
     }
-    let places: Vec<String> = names
-        .iter()
-        .map(|name| format!("Written: {}\n", folder.place(name).display()))
-        .collect();
-    folder.commit(&names)?;
-    output::print(&places.concat())
+    let pictures = ZOO.map(|exhibit| PictureReport {
+        name: exhibit.name,
+        title: exhibit.title,
+        velocity: exhibit.speed,
+    });
+    let report = StopsReport {
+        pictures: pictures.into(),
+    };
+    export.finish(&report, arguments.format)
 }
 
 /// Free flight before the first touch and after the last that is drawn, over the depth.

@@ -14,6 +14,7 @@ use softstop_dynamics::sweep::{Chain, Direction, Jump, Plan, Settled, Step};
 
 use crate::continuation::chart::axis;
 use softstop_console::model::Model;
+use softstop_draw::scale::around;
 use softstop_draw::style;
 
 /// The diagram of all chains of a plan.
@@ -90,7 +91,18 @@ impl<'a> SweepChart<'a> {
     fn layout(&self, show: Show, name: &str, bottom: bool) -> Layout {
         let (low, high) = self.plan.range;
         let room = 0.02 * (high - low);
-        let layout = style::plain((low - room, high + room), self.range(show))
+        let (x, y) = ((low - room, high + room), self.range(show));
+        let plain = style::plain(x, y);
+        let is_empty = self
+            .chains
+            .iter()
+            .all(|chain| chain.steps.iter().all(|step| show(step).is_empty()));
+        let layout = if is_empty {
+            style::message(plain, x, y, "no impacts")
+        } else {
+            plain
+        };
+        let layout = layout
             .with_y_label(name)
             .with_x_label(axis(self.plan.parameter))
             .with_legend_position(LegendPosition::OutsideRightTop);
@@ -108,21 +120,12 @@ impl<'a> SweepChart<'a> {
             .iter()
             .flat_map(|chain| &chain.steps)
             .flat_map(show);
-        let ends = values.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, value| {
-            (ends.0.min(value), ends.1.max(value))
-        });
-        match ends {
-            (low, high) if low < high => {
-                let low = if low < 0.35 * high && low > 0.0 {
-                    0.0
-                } else {
-                    low
-                };
-                let room = 0.05 * (high - low);
-                (if low == 0.0 { 0.0 } else { low - room }, high + room)
-            }
-            (low, _) if low.is_finite() => (low - 1.0, low + 1.0),
-            _ => (0.0, 1.0),
+        let (low, high) = around(values, 0.0);
+        let is_low = 0.0 < low && low < 0.35 * high;
+        let room = 0.05 * (high - low);
+        match low {
+            low if is_low || low == 0.0 => (0.0, high + room),
+            low => (low - room, high + room),
         }
     }
 

@@ -3,7 +3,6 @@
 pub mod chart;
 mod keep;
 mod report;
-mod text;
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -15,11 +14,13 @@ use softstop_dynamics::sweep::{Chain, Direction, Plan};
 use crate::sweep::chart::SweepChart;
 use keep::Keep;
 use report::SweepReport;
+use softstop_console::column;
+use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::machine::{self, SceneSettings, require};
 use softstop_console::model::{self, Model};
-use softstop_console::output::{self, Folder, Format};
+use softstop_console::output::Format;
 use softstop_console::progress::Progress;
 use softstop_console::scene_file;
 
@@ -51,6 +52,10 @@ grow more than a hundredfold meanwhile, else unsettled.
 Files, whole or not at all: sweep.csv with a row for each step, sweep.svg with the largest position
 and the before-impact velocities over the parameter, sweep.json with the jumps.";
 
+fn help() -> String {
+    EXAMPLES.to_owned() + &column::help("sweep.csv", &report::columns())
+}
+
 /// Which ways to go.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Ways {
@@ -74,7 +79,7 @@ impl Ways {
 
 /// Arguments of `softstop sweep`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+#[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct SweepArguments {
     /// Scene in SI units as for `softstop simulate`, instead of the paper's machine
     #[arg(value_name = "SCENE.toml", conflicts_with = "scene")]
@@ -126,10 +131,11 @@ pub struct SweepArguments {
     pub machine: SceneSettings,
 }
 
-const TABLE: &str = "sweep.csv";
-const CHART: &str = "sweep.svg";
-const JSON: &str = "sweep.json";
-const NAMES: [&str; 3] = [TABLE, CHART, JSON];
+const FILES: [(&str, &str); 3] = [
+    ("table", "sweep.csv"),
+    ("chart", "sweep.svg"),
+    ("report", "sweep.json"),
+];
 /// How often what is done is kept for `--resume`.
 const KEEPING: Duration = Duration::from_secs(10);
 
@@ -141,23 +147,18 @@ const KEEPING: Duration = Duration::from_secs(10);
 pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let plan = plan(arguments)?;
     let mut chains = chains(arguments)?;
-    let folder = Folder::open(&arguments.output, &NAMES)?;
+    let export = Export::open(&arguments.output, &FILES)?;
     let keep = Keep::new(&arguments.output, &plan, &chains);
     if arguments.resume {
         keep.restore(&mut chains)?;
     }
     follow(&plan, &mut chains, &keep)?;
-    report::table(&plan, &chains, folder.create(TABLE)?)?;
-    folder.stage(CHART, SweepChart::new(&plan, &chains).svg().as_bytes())?;
-    let report = SweepReport::new(&plan, &chains, &NAMES.map(|name| folder.place(name)));
-    let json = output::json(&report)?;
-    folder.stage(JSON, json.as_bytes())?;
-    folder.commit(&NAMES)?;
+    export.table("table", &report::columns(), report::rows(&plan, &chains))?;
+    let chart = SweepChart::new(&plan, &chains).svg();
+    export.file("chart", chart.as_bytes())?;
+    export.finish(&SweepReport::new(&plan, &chains), arguments.format)?;
     keep.forget();
-    output::print(&match arguments.format {
-        Format::Json => json,
-        Format::Text => text::text(&report),
-    })
+    Ok(())
 }
 
 fn plan(arguments: &SweepArguments) -> Result<Plan, Failure> {

@@ -1,21 +1,18 @@
-//! What a sweep came to, as a table and as JSON.
-
-use std::path::PathBuf;
+//! What a sweep came to.
 
 use serde::Serialize;
+use softstop_console::column::{Column, Units, text};
+use softstop_console::columns;
+use softstop_console::export::Report;
+use softstop_console::model::Model;
 use softstop_dynamics::continuation::{Adjustable, Parameter};
 use softstop_dynamics::orbit::ImpactPattern;
 use softstop_dynamics::sweep::{
     Chain, Coexistence, Direction, Jump, Plan, Settled, Step, hysteresis,
 };
 
-use softstop_console::failure::Failure;
-use softstop_console::model::Model;
-use softstop_console::output::Staged;
-
 /// The result.
 #[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
 pub struct SweepReport {
     /// What was swept.
     pub parameter: &'static str,
@@ -31,13 +28,10 @@ pub struct SweepReport {
     pub sweeps: Vec<ChainReport>,
     /// Where up and down differ.
     pub hysteresis: Vec<ZoneReport>,
-    /// The files.
-    pub files: Vec<String>,
 }
 
 /// One sweep.
 #[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
 pub struct ChainReport {
     /// Clearance of the machine; none if that is swept.
     pub clearance: Option<f64>,
@@ -45,7 +39,7 @@ pub struct ChainReport {
     pub direction: &'static str,
     /// Steps done.
     pub steps: usize,
-    /// Steps of chaos, and unsettled ones.
+    /// Steps of chaos.
     pub chaotic: usize,
     /// Steps that have not settled.
     pub unsettled: usize,
@@ -57,7 +51,6 @@ pub struct ChainReport {
 
 /// One jump: between these two values.
 #[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
 pub struct JumpReport {
     /// Value before.
     pub from: f64,
@@ -67,15 +60,12 @@ pub struct JumpReport {
     pub before: String,
     /// Motion after.
     pub after: String,
-    /// Largest before-impact velocity before.
-    pub velocity_before: f64,
-    /// Largest before-impact velocity after.
-    pub velocity_after: f64,
+    /// Largest before-impact velocities before and after.
+    pub before_impact_velocities: [f64; 2],
 }
 
 /// One range in which up and down differ.
 #[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
 pub struct ZoneReport {
     /// Clearance of the machine; none if that is swept.
     pub clearance: Option<f64>,
@@ -89,22 +79,86 @@ pub struct ZoneReport {
     pub down: String,
 }
 
+/// A row of `sweep.csv`.
+pub(super) struct Row<'a> {
+    clearance: Option<f64>,
+    direction: Direction,
+    step: &'a Step,
+}
+
+/// The columns of `sweep.csv`.
+pub(super) fn columns<'a>() -> [Column<Row<'a>>; 13] {
+    columns! { Row<'a>, row;
+        "clearance" [Length], "of the machine, unless it is swept" => row.clearance;
+        "direction" [None], "up or down" => row.direction.name();
+        "value" [Of("own")], "of the parameter, in its own unit" => row.step.value;
+        "motion" [None], "p/n, chaos or unsettled" => motion(row.step);
+        "order" [None], "impacts in each drive period of n" => order(row.step);
+        "impacts_per_period" [None], "mean per drive period" => row.step.impacts_per_period;
+        "growth_per_period" [None], "ln of that of small differences, unless p/n" => growth(row.step);
+        "least_before_impact_velocity" [Velocity], "of all watched" => row.step.velocities.first().copied();
+        "before_impact_velocity" [Velocity], "the largest of them" => row.step.velocities.last().copied();
+        "max_position" [Length], "largest position" => row.step.max_position;
+        "end_position" [Length], "at the end, at drive angle phi" => row.step.end.position;
+        "end_velocity" [Velocity], "there" => row.step.end.velocity;
+        "before_impact_velocities" [Velocity], "all of them, rising" => velocities(row.step);
+    }
+}
+
+/// The rows of `sweep.csv`: one for each step.
+pub(super) fn rows<'a>(plan: &Plan, chains: &'a [Chain<Model>]) -> impl Iterator<Item = Row<'a>> {
+    chains.iter().flat_map(|chain| {
+        let clearance = clearance(plan, chain);
+        chain.steps.iter().map(move |step| Row {
+            clearance,
+            direction: chain.direction,
+            step,
+        })
+    })
+}
+
+fn motion(step: &Step) -> String {
+    kind(&step.settled).trim_start_matches("z = ").to_owned()
+}
+
+fn order(step: &Step) -> Option<String> {
+    step.order.as_ref().map(ToString::to_string)
+}
+
+fn growth(step: &Step) -> Option<f64> {
+    match step.settled {
+        Settled::Periodic(_) => None,
+        Settled::Chaotic { growth } | Settled::Unsettled { growth } => Some(growth),
+    }
+}
+
+fn velocities(step: &Step) -> String {
+    let written = step
+        .velocities
+        .iter()
+        .map(|velocity| format!("{velocity:.9}"));
+    written.collect::<Vec<_>>().join(" ")
+}
+
 impl SweepReport {
-    pub(super) fn new(plan: &Plan, chains: &[Chain<Model>], files: &[PathBuf]) -> Self {
+    pub(super) fn new(plan: &Plan, chains: &[Chain<Model>]) -> Self {
         let of_machine = |pair: &[Chain<Model>]| match pair {
             [up, down] if up.direction != down.direction => {
-                let zones = hysteresis(up, down);
                 let clearance = clearance(plan, up);
-                let report = |zone: &Coexistence| ZoneReport::new(clearance, zone);
-                zones.iter().map(report).collect()
+                let zones = hysteresis(up, down);
+                zones
+                    .iter()
+                    .map(|zone| ZoneReport::new(clearance, zone))
+                    .collect()
             }
             _ => Vec::new(),
         };
-        let both = chains.iter().any(|chain| chain.direction == Direction::Up)
-            && chains
-                .iter()
-                .any(|chain| chain.direction == Direction::Down);
-        let together = if both { 2 } else { 1 };
+        let goes = |way| chains.iter().any(|chain| chain.direction == way);
+        let together = if goes(Direction::Up) && goes(Direction::Down) {
+            2
+        } else {
+            1
+        };
         Self {
             parameter: plan.parameter.name(),
             range: plan.range.into(),
@@ -116,22 +170,21 @@ impl SweepReport {
                 .map(|chain| ChainReport::new(plan, chain))
                 .collect(),
             hysteresis: chains.chunks(together).flat_map(of_machine).collect(),
-            files: files
-                .iter()
-                .map(|file| file.display().to_string())
-                .collect(),
         }
+    }
+
+    /// Decimals that tell one value of the parameter from the next.
+    fn digits(&self) -> usize {
+        let step = (self.range[1] - self.range[0]).abs() / (self.steps - 1) as f64;
+        (1.0 - step.log10()).clamp(6.0, 15.0) as usize
     }
 }
 
 impl ChainReport {
     fn new(plan: &Plan, chain: &Chain<Model>) -> Self {
         let count = |which: fn(&Settled) -> bool| {
-            chain
-                .steps
-                .iter()
-                .filter(|step| which(&step.settled))
-                .count()
+            let steps = chain.steps.iter();
+            steps.filter(|step| which(&step.settled)).count()
         };
         Self {
             clearance: clearance(plan, chain),
@@ -152,8 +205,7 @@ impl JumpReport {
             to: jump.to,
             before: name(&jump.before, jump.orders[0].as_ref()),
             after: name(&jump.after, jump.orders[1].as_ref()),
-            velocity_before: jump.velocities.0,
-            velocity_after: jump.velocities.1,
+            before_impact_velocities: jump.velocities.into(),
         }
     }
 }
@@ -177,7 +229,7 @@ fn clearance(plan: &Plan, chain: &Chain<Model>) -> Option<f64> {
 }
 
 /// A motion in a word, with the order of its impacts.
-pub(super) fn name(settled: &Settled, order: Option<&ImpactPattern>) -> String {
+fn name(settled: &Settled, order: Option<&ImpactPattern>) -> String {
     match (settled, order) {
         (Settled::Periodic(regime), Some(order)) if regime.impacts > 1 => {
             format!("z = {regime} ({order})")
@@ -194,62 +246,69 @@ fn kind(settled: &Settled) -> String {
     }
 }
 
-/// Columns of the table.
-const COLUMNS: [&str; 13] = [
-    "clearance",
-    "direction",
-    "value",
-    "motion",
-    "order",
-    "impacts_per_period",
-    "growth_per_period",
-    "least_velocity",
-    "largest_velocity",
-    "max_position",
-    "end_position",
-    "end_velocity",
-    "velocities",
-];
+/// Jumps of a sweep that are told; the file holds all.
+const MOST: usize = 12;
 
-/// Writes a row for each step.
-pub(super) fn table(
-    plan: &Plan,
-    chains: &[Chain<Model>],
-    mut table: Staged,
-) -> Result<(), Failure> {
-    table.header(&COLUMNS)?;
-    for chain in chains {
-        let clearance = clearance(plan, chain);
-        for step in &chain.steps {
-            table.row(&row(clearance, chain.direction, step))?;
+impl Report for SweepReport {
+    fn text(&self) -> String {
+        let ([from, to], digits) = (self.range, self.digits());
+        let mut text = format!(
+            "{} from {from} to {to}: {} values of {} drive periods, {:.3e} per period\n",
+            self.parameter, self.steps, self.periods, self.rate_per_period,
+        );
+        for sweep in &self.sweeps {
+            text += &sweep.text(digits);
         }
+        if !self.hysteresis.is_empty() {
+            text += "\nHysteresis\n";
+            text += &self::text(&zones(digits), &self.hysteresis, &Units::RATIOS);
+        }
+        text
     }
-    table.close()
 }
 
-fn row(clearance: Option<f64>, direction: Direction, step: &Step) -> impl Serialize {
-    let growth = match step.settled {
-        Settled::Periodic(_) => None,
-        Settled::Chaotic { growth } | Settled::Unsettled { growth } => Some(growth),
-    };
-    let velocities: Vec<String> = step
-        .velocities
-        .iter()
-        .map(|velocity| format!("{velocity:.9}"))
-        .collect();
-    (
-        clearance,
-        direction.name(),
-        step.value,
-        kind(&step.settled).trim_start_matches("z = ").to_owned(),
-        step.order.as_ref().map(ToString::to_string),
-        step.impacts_per_period,
-        growth,
-        step.velocities.first().copied(),
-        step.velocities.last().copied(),
-        step.max_position,
-        step.end.position,
-        step.end.velocity,
-        velocities.join(" "),
-    )
+impl ChainReport {
+    fn text(&self, digits: usize) -> String {
+        let clearance = self.clearance.map(|value| format!("clearance {value}, "));
+        let mut text = format!(
+            "\n{}{}: {} steps, {} of chaos, {} unsettled\n",
+            clearance.unwrap_or_default(),
+            self.direction,
+            self.steps,
+            self.chaotic,
+            self.unsettled
+        );
+        if !self.jumps.is_empty() {
+            let told = self.jumps.iter().take(MOST);
+            text += &self::text(&jumps(digits), told, &Units::RATIOS);
+        }
+        if self.jumps.len() > MOST {
+            text += &format!("and {} more\n", self.jumps.len() - MOST);
+        }
+        if let Some(error) = &self.error {
+            text += &format!("ended early: {error}\n");
+        }
+        text
+    }
+}
+
+fn jumps(digits: usize) -> [Column<JumpReport>; 6] {
+    columns! { JumpReport, jump;
+        "jump_from" [None] Fixed(digits), "value before" => jump.from;
+        "to" [None] Fixed(digits), "value after" => jump.to;
+        "before" [None] Plain, "motion" => jump.before.as_str();
+        "after" [None] Plain, "motion" => jump.after.as_str();
+        "impact_before" [Velocity] Fixed(4), "hardest" => jump.before_impact_velocities[0];
+        "impact_after" [Velocity] Fixed(4), "hardest" => jump.before_impact_velocities[1];
+    }
+}
+
+fn zones(digits: usize) -> [Column<ZoneReport>; 5] {
+    columns! { ZoneReport, zone;
+        "clearance" [Length] Plain, "of the machine" => zone.clearance;
+        "from" [None] Fixed(digits), "least value" => zone.from;
+        "to" [None] Fixed(digits), "largest value" => zone.to;
+        "up" [None] Plain, "motion" => zone.up.as_str();
+        "down" [None] Plain, "motion" => zone.down.as_str();
+    }
 }

@@ -10,7 +10,7 @@ const SMALL: u32 = 11;
 /// Room between an axis and its numbers.
 const TICK: f64 = 4.0;
 /// Dashes of the line where a contact is as short as a step.
-pub(super) const DASHES: &str = "2 3";
+pub(super) const DASHES: (f64, f64) = (2.0, 3.0);
 
 /// Where the cells of a map lie on the page.
 #[derive(Debug, Clone, Copy)]
@@ -75,7 +75,7 @@ impl Grid<'_> {
     }
 
     /// A line of steps over stiffness, as far as it lies on the map.
-    pub(super) fn line(&self, pen: &mut Pen, steps: &[Option<f64>], dashes: Option<&str>) {
+    pub(super) fn line(&self, pen: &mut Pen, steps: &[Option<f64>], dashes: Option<(f64, f64)>) {
         let (_, top, _, height) = self.area();
         let point = |(stiffness, step): (&f64, &Option<f64>)| {
             let (x, y) = (self.x(*stiffness), self.y((*step)?));
@@ -86,7 +86,7 @@ impl Grid<'_> {
         for piece in points.split(Option::is_none) {
             let piece: Vec<(f64, f64)> = piece.iter().copied().flatten().collect();
             if piece.len() > 1 {
-                pen.curve(&piece, dashes);
+                pen.rimmed(&piece, dashes);
             }
         }
     }

@@ -208,7 +208,7 @@ impl<'a> Page<'a> {
         for (dashes, name) in lines {
             let (x, y) = place(index);
             let line = [(x, y + 7.0), (x + 26.0, y + 7.0)];
-            self.pen.curve(&line, dashes);
+            self.pen.rimmed(&line, dashes);
             self.pen.text((x + 34.0, y + 11.5), 12, Align::Left, name);
             index += 1;
         }

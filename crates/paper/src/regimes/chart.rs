@@ -1,7 +1,7 @@
 //! The regimes z = p/n over drive frequency and clearance, as a page of maps.
 
+use softstop_draw::panel::{Axes, Panel};
 use softstop_draw::pen::{Align, Pen};
-use softstop_draw::plane::Plane;
 use softstop_explore::basin::cells::{RegimeClass, RegimeMap};
 
 /// A boundary over frequency and clearance.
@@ -44,6 +44,13 @@ const LINE: f64 = 26.0;
 const COLUMNS: (f64, f64) = (270.0, 150.0);
 /// Letters: title, headings, text.
 const LETTERS: (u32, u32, u32) = (24, 19, 18);
+/// The axes of all maps.
+const AXES: Axes<'static> = Axes {
+    letters: LETTERS.2,
+    across: Some("frequency η"),
+    upwards: "clearance ρ",
+    ticks: (6, 6),
+};
 /// Pixels for each unit of length.
 const SCALE: f32 = 2.0;
 /// Where on a map's height the names of curves stand, as a share of it.
@@ -112,42 +119,41 @@ impl RegimePage {
 
 impl RegimePanel {
     fn draw(&self, pen: &mut Pen, index: usize, (left, top): (f64, f64)) {
-        let plane = Plane {
+        let panel = Panel {
             area: (left, top, MAP.0, MAP.1),
             x: self.map.eta,
             y: self.map.rho,
-            letters: LETTERS.2,
         };
         let heading = format!("{} {}", letter(index), self.name);
         pen.heading((left, top - 12.0), LETTERS.1, Align::Left, &heading);
         let cells = self.map.cells.iter();
         let colors: Vec<&str> = cells.map(|cell| cell.class().color()).collect();
-        plane.cells(pen, self.map.columns, &colors);
+        panel.cells(pen, self.map.columns, &colors);
         for curve in &self.curves {
-            plane.curve(pen, &curve.points, dashes(curve.name));
+            panel.rimmed(pen, &curve.points, dashes(curve.name));
         }
-        plane.axes(pen, "frequency η", "clearance ρ");
-        self.names(pen, &plane);
+        panel.axes(pen, &AXES);
+        self.names(pen, &panel);
         let (name, point) = self.point;
-        if plane.holds(point) {
-            let place = plane.place(point);
+        if panel.holds(point) {
+            let place = panel.place(point);
             pen.spot(place, 6.0);
             pen.label((place.0 + 18.0, place.1 - 10.0), LETTERS.2, name);
         }
     }
 
     /// Names of wide regimes and of curves.
-    fn names(&self, pen: &mut Pen, plane: &Plane) {
+    fn names(&self, pen: &mut Pen, panel: &Panel) {
         for class in [RegimeClass::Zero, RegimeClass::One, RegimeClass::TwoThirds] {
             if let Some(place) = self.map.widest(class) {
-                pen.label(plane.place(place), LETTERS.2, class.name());
+                pen.label(panel.place(place), LETTERS.2, class.name());
             }
         }
-        let rho = plane.y.0 + NAMES_AT * (plane.y.1 - plane.y.0);
+        let rho = panel.y.0 + NAMES_AT * (panel.y.1 - panel.y.0);
         for curve in &self.curves {
             for eta in crossings(&curve.points, rho) {
-                if plane.holds((eta, rho)) {
-                    pen.label(plane.place((eta, rho)), LETTERS.2, curve.name);
+                if panel.holds((eta, rho)) {
+                    pen.label(panel.place((eta, rho)), LETTERS.2, curve.name);
                 }
             }
         }

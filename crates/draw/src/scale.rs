@@ -1,0 +1,72 @@
+//! Scales: the range of an axis, and the round values on it.
+
+/// A range narrower than this is rounding.
+const TINY: f64 = 1e-12;
+
+/// From the least to the greatest finite value, with this share of room on both sides; a range around the
+/// value if there is but one, and from 0 to 1 if there is none.
+pub fn around(values: impl IntoIterator<Item = f64>, room: f64) -> (f64, f64) {
+    let values = values.into_iter().filter(|value| value.is_finite());
+    let ends = (f64::INFINITY, f64::NEG_INFINITY);
+    let (low, high) = values.fold(ends, |(low, high), value| (low.min(value), high.max(value)));
+    if high < low {
+        return (0.0, 1.0);
+    }
+    let room = room * (high - low);
+    if high - low > TINY * low.abs().max(high.abs()).max(1.0) {
+        (low - room, high + room)
+    } else {
+        (low - 1.0, low + 1.0)
+    }
+}
+
+/// Round values in a range, about so many, and how they are written.
+pub(crate) fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
+    let width = high - low;
+    if !width.is_finite() || width <= 0.0 {
+        return Vec::new();
+    }
+    let rough = width / count.max(1) as f64;
+    let power = 10f64.powf(rough.log10().floor());
+    let factor = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .find(|factor| factor * power >= 0.999 * rough);
+    let step = factor.unwrap_or(10.0) * power;
+    let decimals = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
+    let (first, last) = (
+        (low / step - 1e-6).ceil() as i64,
+        (high / step + 1e-6).floor() as i64,
+    );
+    let written = |index: i64| {
+        let value = index as f64 * step;
+        (value, format!("{value:.decimals$}").replace('-', "−"))
+    };
+    (first..=last).map(written).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{around, ticks};
+
+    #[test]
+    fn ticks_are_round_and_inside() {
+        let names = |range, count| -> Vec<String> {
+            ticks(range, count).into_iter().map(|tick| tick.1).collect()
+        };
+        assert_eq!(
+            names((0.8, 1.0), 4),
+            ["0.80", "0.85", "0.90", "0.95", "1.00"]
+        );
+        assert_eq!(names((-1.0, 1.0), 4), ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
+        assert_eq!(names((0.0, 25.0), 5), ["0", "5", "10", "15", "20", "25"]);
+    }
+
+    #[test]
+    fn ranges_are_never_empty() {
+        assert_eq!(around([], 0.1), (0.0, 1.0));
+        assert_eq!(around([3.0], 0.1), (2.0, 4.0));
+        assert_eq!(around([0.0, 12.5e-48], 0.1), (-1.0, 1.0));
+        assert_eq!(around([1.0, f64::NAN, 3.0], 0.5), (0.0, 4.0));
+        assert!(ticks((1.0, 1.0), 5).is_empty());
+    }
+}

@@ -1,0 +1,77 @@
+//! Shapes made of others: arrows, rings, rimmed lines, labels, badges.
+
+use crate::pen::{Align, Pen};
+use crate::stroke::{Point, Stroke};
+use crate::style;
+
+/// Width of the line and of the light rim that tells it from dark grounds.
+const LINE: (f64, f64) = (1.6, 3.6);
+/// Length and half the width of an arrow's head, in units of the line's width, and the least of both.
+const HEAD: (f64, f64) = (6.0, 2.6);
+/// Sides of the polygon that stands for an ellipse.
+const SIDES: u32 = 180;
+
+impl Pen {
+    /// A line that is seen on any ground, by its light rim; with lengths of dashes and gaps it is dashed.
+    pub fn rimmed(&mut self, points: &[Point], dashes: Option<(f64, f64)>) {
+        self.line(points, Stroke::solid("#ffffff", LINE.1));
+        self.line(
+            points,
+            Stroke {
+                dashes,
+                ..Stroke::solid(style::INK, LINE.0)
+            },
+        );
+    }
+
+    /// A line with a head at its end.
+    pub fn arrow(&mut self, from: Point, to: Point, stroke: Stroke) {
+        let (x, y) = (to.0 - from.0, to.1 - from.1);
+        let length = x.hypot(y);
+        if length == 0.0 {
+            return;
+        }
+        let (x, y) = (x / length, y / length);
+        let (long, wide) = (
+            HEAD.0 * stroke.width.max(1.0),
+            HEAD.1 * stroke.width.max(1.0),
+        );
+        let neck = (to.0 - long * x, to.1 - long * y);
+        if length > long {
+            self.line(&[from, neck], stroke);
+        }
+        let sides = [
+            (neck.0 - wide * y, neck.1 + wide * x),
+            (neck.0 + wide * y, neck.1 - wide * x),
+        ];
+        self.area(&[to, sides[0], sides[1]], stroke.color);
+    }
+
+    /// Text on a white ground, its middle at this place.
+    pub fn label(&mut self, (x, y): Point, size: u32, text: &str) {
+        let letters = f64::from(size);
+        let width = 0.6 * letters * text.chars().count() as f64 + 4.0;
+        let height = 1.15 * letters;
+        self.fill(
+            &[(x - 0.5 * width, y - 0.5 * height, width, height)],
+            "#ffffff",
+        );
+        self.text((x, y + 0.35 * letters), size, Align::Middle, text);
+    }
+
+    /// An ellipse that is seen on any ground; the half-axes are those along x and y.
+    pub fn ring(&mut self, (cx, cy): Point, (across, up): (f64, f64)) {
+        let point = |k: u32| {
+            let (sin, cos) = (f64::from(k) / f64::from(SIDES) * std::f64::consts::TAU).sin_cos();
+            (cx + across * cos, cy + up * sin)
+        };
+        let points: Vec<Point> = (0..=SIDES).map(point).collect();
+        self.rimmed(&points, None);
+    }
+
+    /// A number in a white circle.
+    pub fn badge(&mut self, (x, y): Point, size: u32, text: &str) {
+        self.spot((x, y), 0.88 * f64::from(size));
+        self.text((x, y + 0.36 * f64::from(size)), size, Align::Middle, text);
+    }
+}

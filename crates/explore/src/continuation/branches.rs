@@ -1,0 +1,93 @@
+//! The branch of the motion to start from, and those of its doublings.
+
+use std::ops::ControlFlow;
+
+use anyhow::anyhow;
+use softstop_dynamics::continuation::{
+    Adjustable, Along, Branch, Family, Follower, Limits, SpecialKind, Test,
+};
+
+use super::{ContinueArguments, seed};
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::model::Model;
+use softstop_console::progress::Progress;
+
+/// Largest steps along branches and curves, scaled: fine enough for charts of wide ranges.
+pub(super) const STEP: f64 = 0.02;
+/// Steps of a narrow range, and the least share of `STEP` that they are.
+const NARROW: (f64, f64) = (100.0, 0.1);
+
+/// Largest step of a range, so that its chart has no corners.
+fn step(family: &Along<Model, 1>, (low, high): (f64, f64)) -> f64 {
+    let [scale] = family.parameter_scales();
+    let (steps, least) = NARROW;
+    ((high - low) / (steps * scale)).clamp(least * STEP, STEP)
+}
+
+/// Counts a point; asks to stop after Ctrl-C.
+pub(super) fn count(bar: &Progress) -> ControlFlow<()> {
+    match bar.step() {
+        Ok(()) => ControlFlow::Continue(()),
+        Err(_) => ControlFlow::Break(()),
+    }
+}
+
+/// The branch of the start, and doubled ones.
+///
+/// # Errors
+/// [`Failure::Run`] if there is no orbit to start from, [`Failure::Interrupted`] after Ctrl-C.
+pub(super) fn branches(
+    arguments: &ContinueArguments,
+    model: &Model,
+    family: &Along<Model, 1>,
+    start: f64,
+    limits: &Limits,
+) -> Result<Vec<Branch>, Failure> {
+    let scene = model
+        .scene()
+        .map_err(|error| Failure::usage(error.to_string()))?;
+    let state = match arguments.state {
+        Some(state) => state,
+        None => seed::find(&scene, arguments.orbit)?.state(),
+    };
+    let bar = Progress::open("points");
+    let largest = step(family, limits.range);
+    let follower = Follower::new(family, arguments.orbit.periods).with_steps(largest);
+    let first = follower
+        .branch(start, state, limits, |_| count(&bar))
+        .map_err(|error| anyhow!(error).context("no orbit to start from"))?;
+    let mut branches = vec![first];
+    let mut done = 0;
+    for _ in 0..arguments.double {
+        let last = branches.len();
+        let doubled: Vec<Branch> = branches[done..last]
+            .iter()
+            .flat_map(|branch| doubled(family, branch, limits, &bar))
+            .collect();
+        branches.extend(doubled);
+        done = last;
+    }
+    drop(bar);
+    if interrupt::requested() {
+        return Err(Failure::Interrupted);
+    }
+    Ok(branches)
+}
+
+/// The branches of twice the period from the flips of one.
+fn doubled(
+    family: &Along<Model, 1>,
+    branch: &Branch,
+    limits: &Limits,
+    bar: &Progress,
+) -> Vec<Branch> {
+    let follower = Follower::new(family, branch.periods).with_steps(step(family, limits.range));
+    let flips = branch
+        .specials
+        .iter()
+        .filter(|special| special.kind == SpecialKind::Critical(Test::Flip));
+    flips
+        .filter_map(|flip| follower.doubled(&flip.point, limits, |_| count(bar)).ok())
+        .collect()
+}

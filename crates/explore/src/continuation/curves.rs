@@ -1,0 +1,69 @@
+//! Special points as curves in two parameters.
+
+use anyhow::anyhow;
+use softstop_dynamics::continuation::{Branch, Curve, CurvePoint, Region, SpecialKind, curve};
+
+use super::branches::{STEP, count};
+use super::{ContinueArguments, Second, family};
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::model::Model;
+use softstop_console::progress::Progress;
+
+/// Follows the special points of a branch in both parameters.
+///
+/// # Errors
+/// [`Failure::Run`] if one cannot be followed, [`Failure::Interrupted`] after Ctrl-C.
+pub(super) fn curves(
+    model: &Model,
+    arguments: &ContinueArguments,
+    second: &Second,
+    range: (f64, f64),
+    branch: &Branch,
+) -> Result<Vec<Curve>, Failure> {
+    let parameters = [arguments.parameter, second.parameter];
+    let family = family(model, parameters)?;
+    let region = Region {
+        ranges: [range, second.range],
+        points: arguments.points,
+        step: STEP,
+    };
+    let bar = Progress::open("points of curves");
+    let mut found: Vec<Curve> = Vec::new();
+    for special in &branch.specials {
+        let start = [special.point.parameter, second.start];
+        let known = found.iter().any(|curve| passes(curve, special.kind, start));
+        if known {
+            continue;
+        }
+        let kind = (special.kind, &special.point);
+        let curve = curve(&family, branch.periods, kind, start, &region, |_| {
+            count(&bar)
+        });
+        found.push(curve.map_err(|error| {
+            anyhow!(error).context(format!("no curve of the {}", special.kind.name()))
+        })?);
+    }
+    drop(bar);
+    if interrupt::requested() {
+        return Err(Failure::Interrupted);
+    }
+    Ok(found)
+}
+
+/// True if a curve of the same kind passes a point.
+fn passes(curve: &Curve, kind: SpecialKind, [p, q]: [f64; 2]) -> bool {
+    let between = |a: f64, b: f64, value: f64| (a - value) * (b - value) <= 0.0;
+    let crosses = |pair: &[CurvePoint]| {
+        let ([a, c], [b, d]) = (pair[0].parameters, pair[1].parameters);
+        if !between(c, d, q) || c == d {
+            return false;
+        }
+        let at = a + (b - a) * (q - c) / (d - c);
+        (at - p).abs() < SAME * (b - a).abs().max(SAME * p.abs())
+    };
+    curve.kind.symbol() == kind.symbol() && curve.points.windows(2).any(crosses)
+}
+
+/// Share of a step of a curve within which it passes a point.
+const SAME: f64 = 0.1;

@@ -1,0 +1,91 @@
+//! The tables of branches and curves: a row for each point.
+
+use nalgebra::Complex;
+use softstop_console::column::Column;
+use softstop_console::columns;
+use softstop_dynamics::continuation::{Branch, BranchPoint, Curve, CurvePoint, Special};
+use softstop_dynamics::orbit::multipliers;
+
+/// A row of `branches.csv`.
+pub(super) struct BranchRow<'a> {
+    number: usize,
+    branch: &'a Branch,
+    point: &'a BranchPoint,
+    multipliers: [Complex<f64>; 2],
+}
+
+/// The columns of `branches.csv`.
+pub(super) fn branch_columns<'a>() -> [Column<BranchRow<'a>>; 13] {
+    columns! { BranchRow<'a>, row;
+        "branch" [None], "its number, that of the start first" => row.number;
+        "periods" [None], "drive periods n of its orbits" => row.branch.periods;
+        "value" [Of("own")], "of the parameter, in its own unit" => row.point.parameter;
+        "position" [Length], "at drive angle 0" => row.point.position;
+        "velocity" [Velocity], "there" => row.point.velocity;
+        "impacts" [None], "in n drive periods" => row.point.impacts.len();
+        "before_impact_velocity" [Velocity], "of the hardest impact" => row.point.before_impact_velocity();
+        "multiplier1_real" [None], "of the first Floquet multiplier" => row.multipliers[0].re;
+        "multiplier1_imaginary" [None], "of the same" => row.multipliers[0].im;
+        "multiplier2_real" [None], "of the second Floquet multiplier" => row.multipliers[1].re;
+        "multiplier2_imaginary" [None], "of the same" => row.multipliers[1].im;
+        "stable" [None], "true or false" => row.point.is_stable();
+        "special" [None], "SN, PD, NS or G where the point is one" => symbol_at(row.branch, row.point);
+    }
+}
+
+/// The rows of `branches.csv`.
+pub(super) fn branch_rows(branches: &[Branch]) -> impl Iterator<Item = BranchRow<'_>> {
+    branches.iter().enumerate().flat_map(|(number, branch)| {
+        branch.points.iter().map(move |point| BranchRow {
+            number,
+            branch,
+            point,
+            multipliers: multipliers(&point.monodromy),
+        })
+    })
+}
+
+fn symbol_at(branch: &Branch, point: &BranchPoint) -> &'static str {
+    let here = |special: &&Special| {
+        special.point.parameter == point.parameter && special.point.state() == point.state()
+    };
+    let special = branch.specials.iter().find(here);
+    special.map_or("", |special| special.kind.symbol())
+}
+
+/// A row of `curves.csv`.
+pub(super) struct CurveRow<'a> {
+    number: usize,
+    curve: &'a Curve,
+    point: &'a CurvePoint,
+}
+
+/// The columns of `curves.csv`.
+pub(super) fn curve_columns<'a>() -> [Column<CurveRow<'a>>; 9] {
+    columns! { CurveRow<'a>, row;
+        "curve" [None], "its number" => row.number;
+        "special" [None], "SN, PD, NS or G" => row.curve.kind.symbol();
+        "value" [Of("own")], "of the parameter, in its own unit" => row.point.parameters[0];
+        "second_value" [Of("own")], "of the second parameter" => row.point.parameters[1];
+        "position" [Length], "at drive angle 0" => row.point.position;
+        "velocity" [Velocity], "there" => row.point.velocity;
+        "before_impact_velocity" [Velocity], "of the hardest impact" => hardest(row.point);
+        "trace" [None], "of the monodromy matrix" => row.point.monodromy.trace();
+        "determinant" [None], "of the same" => row.point.monodromy.determinant();
+    }
+}
+
+/// The rows of `curves.csv`.
+pub(super) fn curve_rows(curves: &[Curve]) -> impl Iterator<Item = CurveRow<'_>> {
+    curves.iter().enumerate().flat_map(|(number, curve)| {
+        curve.points.iter().map(move |point| CurveRow {
+            number,
+            curve,
+            point,
+        })
+    })
+}
+
+fn hardest(point: &CurvePoint) -> f64 {
+    point.impacts.iter().copied().fold(0.0, f64::max)
+}
