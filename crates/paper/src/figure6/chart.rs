@@ -4,6 +4,7 @@
 use softstop::Ratios;
 use softstop_dynamics::sweep::{Chain, Direction, Jump, Step};
 
+use super::piercing::{self, Ranges};
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Pen, Stroke};
 use softstop_draw::style;
@@ -17,9 +18,8 @@ const SCALE: f32 = 2.0;
 const WIDTH: f64 = 1200.0;
 /// Left and right end of the panels.
 const SIDES: (f64, f64) = (84.0, 1176.0);
-/// Height of the panels, and of a row of the piercing lines.
+/// Height of the panels.
 const HEIGHT: f64 = 560.0;
-const ROW: f64 = 19.0;
 /// Size of letters, and of the dots.
 const LETTERS: u32 = 15;
 const DOT: f64 = 0.65;
@@ -32,9 +32,6 @@ const TOP: (f64, f64) = (27.0, 20.0);
 const RESPONSE: Stroke = Stroke::solid(style::INK, 1.5);
 const FOLD: Stroke = Stroke::dashed(style::INK, 1.7, (8.0, 4.0));
 const FLIP: Stroke = Stroke::dashed(style::INK, 1.7, (2.0, 3.0));
-
-/// Ranges of eta.
-pub type Ranges = Vec<(f64, f64)>;
 
 /// The diagram of one clearance.
 #[derive(Debug, Clone)]
@@ -84,10 +81,8 @@ impl ClearanceChart<'_> {
     /// # Errors
     /// What the encoder says.
     pub fn png(&self) -> Result<Vec<u8>, String> {
-        let strip = match &self.piercing {
-            Some(rows) => 34.0 + ROW * rows.len() as f64,
-            None => 0.0,
-        };
+        let rows = self.piercing.as_deref();
+        let strip = rows.map_or(0.0, |rows| 26.0 + piercing::height(rows.len()));
         let top = 74.0;
         let low = top + HEIGHT + 26.0 + strip;
         let mut pen = Pen::new(WIDTH, low + HEIGHT + 66.0);
@@ -98,8 +93,17 @@ impl ClearanceChart<'_> {
             y: (0.0, highest),
         };
         self.positions(&mut pen, &panel(top, TOP.0));
-        if let Some(rows) = &self.piercing {
-            self.strip(&mut pen, top + HEIGHT + 26.0, rows);
+        if let Some(rows) = rows {
+            let top = top + HEIGHT + 26.0;
+            let height = piercing::height(rows.len());
+            let panel = Panel {
+                area: (SIDES.0, top, SIDES.1 - SIDES.0, height),
+                x: self.range,
+                y: (0.0, 1.0),
+            };
+            let lines = rows.iter().zip(self.rows).zip(COLOURS);
+            let lines = lines.map(|((ways, row), color)| (row.clearance, ways, color));
+            piercing::draw(&mut pen, &panel, lines);
         }
         self.velocities(&mut pen, &panel(low, TOP.1));
         pen.png_at(SCALE)
@@ -249,44 +253,6 @@ impl ClearanceChart<'_> {
                 y += 20.0;
             }
         }
-    }
-
-    /// A couple of lines for each clearance: where the motion pierces, up and down.
-    fn strip(&self, pen: &mut Pen, top: f64, rows: &[[Ranges; 2]]) {
-        let panel = Panel {
-            area: (
-                SIDES.0,
-                top,
-                SIDES.1 - SIDES.0,
-                ROW * rows.len() as f64 + 8.0,
-            ),
-            x: self.range,
-            y: (0.0, 1.0),
-        };
-        pen.frame(panel.area);
-        let text = "the strip is pierced: Xₘ > ρ + σ";
-        pen.words(
-            (panel.right() - 8.0, panel.bottom() - 9.0),
-            LETTERS - 1,
-            Align::Right,
-            (style::INK, false),
-            text,
-        );
-        for (index, ((ways, row), color)) in rows.iter().zip(self.rows).zip(COLOURS).enumerate() {
-            let middle = top + 4.0 + ROW * (index as f64 + 0.5);
-            for (way, (ranges, shift)) in ways.iter().zip([-3.6, 3.6]).enumerate() {
-                for (from, to) in ranges {
-                    let ends = [*from, *to].map(|eta| (panel.across(eta), middle + shift));
-                    let [tail, head] = if way == 0 { ends } else { [ends[1], ends[0]] };
-                    pen.arrow(tail, head, Stroke::solid(color, 1.8));
-                }
-            }
-            let name = format!("{}", row.clearance);
-            let place = (SIDES.0 - 9.0, middle + 5.0);
-            pen.words(place, LETTERS - 2, Align::Right, (color, false), &name);
-        }
-        let middle = top + 0.5 * panel.area.3;
-        pen.text((SIDES.0 - 42.0, middle), LETTERS + 1, Align::Upwards, "ρ");
     }
 }
 

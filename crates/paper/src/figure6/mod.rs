@@ -2,6 +2,7 @@
 
 mod boundaries;
 mod chart;
+mod piercing;
 
 use anyhow::{Error, Result};
 use softstop::Ratios;
@@ -11,7 +12,8 @@ use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
 use crate::diagram::{self, Job};
 use crate::figure::{self, Detail, Drawn, Figure};
-use crate::figure6::chart::{ClearanceChart, ClearanceRow, Ranges};
+use crate::figure6::chart::{ClearanceChart, ClearanceRow};
+use crate::figure6::piercing::Ranges;
 use boundaries::Ends;
 use softstop_console::progress::Progress;
 

@@ -12,7 +12,7 @@ use anyhow::Result;
 use softstop_dynamics::sweep::Step;
 
 use crate::figure::{self, Drawn, Figure, Studio};
-use crate::hardening::chart::{HardeningChart, StopDiagram, StopFolds, StopMap, StopOrders};
+use crate::hardening::chart::{HardeningChart, StopFolds, StopOrders};
 use orders::Subharmonic;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
@@ -91,20 +91,14 @@ fn chart(
     folds: &[StopFolds],
     subharmonics: &[Subharmonic],
 ) -> HardeningChart {
-    let impacts = |steps: &[Step]| {
-        let of = |step: &Step| {
-            let value = step.value;
-            let velocities = step.velocities.clone();
-            velocities
-                .into_iter()
-                .map(move |velocity| (value, velocity))
-        };
-        steps.iter().flat_map(of).collect()
+    let of = |step: &Step| -> Vec<(f64, f64)> {
+        let velocities = step.velocities.iter();
+        velocities.map(|velocity| (step.value, *velocity)).collect()
     };
-    let diagram = |swept: &Swept| StopDiagram {
-        title: swept.law.name(),
-        up: impacts(&swept.up),
-        down: impacts(&swept.down),
+    let diagram = |swept: &Swept| {
+        let ways = [&swept.up, &swept.down];
+        let ways = ways.map(|steps| steps.iter().flat_map(of).collect());
+        (swept.law.name(), ways)
     };
     let row = |swept: &Swept| {
         let pairs = swept.up.iter().zip(&swept.down);
@@ -118,10 +112,8 @@ fn chart(
         grazing: grazing(CLEARANCE),
         frequencies: RANGE,
         diagrams: drawn.iter().map(diagram).collect(),
-        map: StopMap {
-            decades: DECADES,
-            rows: map.iter().map(row).collect(),
-        },
+        decades: DECADES,
+        map: map.iter().map(row).collect(),
         folds: folds.to_vec(),
         orders: orders(subharmonics),
     }

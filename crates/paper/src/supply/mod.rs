@@ -17,7 +17,6 @@ use softstop_dynamics::orbit::{StroboscopicMap, find};
 use softstop_dynamics::zone::{self, Zone};
 
 use crate::figure::{Detail, Drawn, Figure, Studio};
-use crate::supply::chart::{SupplyChart, SupplyCurve};
 use softstop_console::output;
 use softstop_console::progress::Progress;
 
@@ -65,16 +64,12 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     let etas = etas(zones, count);
     let progress = Progress::new((etas.len() * RUNS.len()) as u64, "frequencies");
     let outcomes = survey(clearance, zones, &etas, detail, &progress)?;
-    let curve = |mean: &f64| SupplyCurve {
-        name: format!("runs of {mean} periods"),
-        points: of_run(&outcomes, *mean).map(point).collect(),
+    let curve = |mean: f64| {
+        let points = of_run(&outcomes, mean).map(point);
+        (format!("runs of {mean} periods"), points.collect())
     };
-    let chart = SupplyChart {
-        curves: RUNS.iter().map(curve).collect(),
-        folds: [zones.loaded, zones.unloaded],
-        grazing: zones.grazing,
-        clearance,
-    };
+    let folds = [zones.loaded, zones.unloaded];
+    let svg = chart::svg(&RUNS.map(curve), zones.grazing, folds, clearance);
     let mut findings = vec![
         ("eta_SN loaded".to_owned(), zones.loaded),
         ("eta_SN unloaded".to_owned(), zones.unloaded),
@@ -88,7 +83,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
         ));
     }
     Ok(Drawn {
-        files: vec![chart.svg().into_bytes(), output::csv(&outcomes)?],
+        files: vec![svg.into_bytes(), output::csv(&outcomes)?],
         findings,
     })
 }

@@ -13,7 +13,7 @@ impl HardeningChart {
         let panel = Panel {
             area,
             x: self.frequencies,
-            y: self.map.decades,
+            y: self.decades,
         };
         for regime in StopRegime::ALL {
             let cells = self.cells(&panel, |(up, _)| up == regime);
@@ -43,9 +43,9 @@ impl HardeningChart {
 
     /// The cells with such motions.
     fn cells(&self, panel: &Panel, wanted: impl Fn((StopRegime, StopRegime)) -> bool) -> Vec<Area> {
-        let height = panel.area.3 / self.map.rows.len().max(1) as f64;
+        let height = panel.area.3 / self.map.len().max(1) as f64;
         let mut cells = Vec::new();
-        for (index, row) in self.map.rows.iter().enumerate() {
+        for (index, row) in self.map.iter().enumerate() {
             let top = panel.bottom() - height * (index + 1) as f64;
             let width = panel.area.2 / row.len().max(1) as f64;
             for (column, motions) in row.iter().enumerate() {
@@ -91,7 +91,7 @@ impl HardeningChart {
     /// The motions that occur.
     fn legend(&self, pen: &mut Pen, (left, y): (f64, f64)) {
         let occurs = |regime: &StopRegime| {
-            let mut motions = self.map.rows.iter().flatten();
+            let mut motions = self.map.iter().flatten();
             motions.any(|(up, _)| up == regime)
         };
         let mut x = left;

@@ -64,26 +64,6 @@ impl StopRegime {
     }
 }
 
-/// The diagram of a stop.
-#[derive(Debug, Clone)]
-pub struct StopDiagram {
-    /// The stop.
-    pub title: String,
-    /// η and X'₋ on the way up.
-    pub up: Vec<(f64, f64)>,
-    /// The same on the way down.
-    pub down: Vec<(f64, f64)>,
-}
-
-/// Motions over frequency and stiffness.
-#[derive(Debug, Clone)]
-pub struct StopMap {
-    /// log10 of the least and the largest k2/k1.
-    pub decades: (f64, f64),
-    /// For each stiffness, rising, the motions on the way up and on the way down.
-    pub rows: Vec<Vec<(StopRegime, StopRegime)>>,
-}
-
 /// Where the branch of z = 1 bends.
 #[derive(Debug, Clone, Copy)]
 pub struct StopFolds {
@@ -112,6 +92,9 @@ pub struct StopOrders {
     pub found: Vec<(String, Vec<(f64, f64)>)>,
 }
 
+/// A stop's name, and η and X'₋ on the way up and on the way down.
+pub type Diagram = (String, [Vec<(f64, f64)>; 2]);
+
 /// The chart.
 #[derive(Debug, Clone)]
 pub struct HardeningChart {
@@ -122,9 +105,11 @@ pub struct HardeningChart {
     /// Range of η.
     pub frequencies: (f64, f64),
     /// The diagrams.
-    pub diagrams: Vec<StopDiagram>,
-    /// The map.
-    pub map: StopMap,
+    pub diagrams: Vec<Diagram>,
+    /// log10 of the least and the largest k2/k1 of the map.
+    pub decades: (f64, f64),
+    /// For each stiffness, rising, the motions on the way up and on the way down.
+    pub map: Vec<Vec<(StopRegime, StopRegime)>>,
     /// The folds, by rising stiffness.
     pub folds: Vec<StopFolds>,
     /// Motions of higher order.
@@ -165,10 +150,10 @@ impl HardeningChart {
         pen.svg()
     }
 
-    fn diagram(&self, pen: &mut Pen, at: (usize, usize), diagram: &StopDiagram, top: f64) {
-        let ((left, first), (right, down), (width, height)) = DIAGRAM;
+    fn diagram(&self, pen: &mut Pen, at: (usize, usize), (title, [up, down]): &Diagram, top: f64) {
+        let ((left, first), (across, below), (width, height)) = DIAGRAM;
         let (column, row) = at;
-        let corner = (left + right * column as f64, first + down * row as f64);
+        let corner = (left + across * column as f64, first + below * row as f64);
         let panel = Panel {
             area: (corner.0, corner.1, width, height),
             x: self.frequencies,
@@ -189,18 +174,16 @@ impl HardeningChart {
         for eta in [self.grazing.0, self.grazing.1] {
             panel.curve(pen, &[(eta, 0.0), (eta, top)], GRAZING);
         }
-        panel.dots(pen, diagram.down.iter().copied(), DOT, style::OPTIMUM);
-        panel.dots(pen, diagram.up.iter().copied(), DOT, style::DESIGN);
+        panel.dots(pen, down.iter().copied(), DOT, style::OPTIMUM);
+        panel.dots(pen, up.iter().copied(), DOT, style::DESIGN);
         panel.axes(pen, &axes);
-        pen.heading((corner.0, corner.1 - 8.0), 15, Align::Left, &diagram.title);
+        pen.heading((corner.0, corner.1 - 8.0), 15, Align::Left, title);
     }
 }
 
 /// A little more than the highest velocity.
-fn fastest(diagrams: &[StopDiagram]) -> f64 {
-    let points = diagrams
-        .iter()
-        .flat_map(|diagram| diagram.up.iter().chain(&diagram.down));
+fn fastest(diagrams: &[Diagram]) -> f64 {
+    let points = diagrams.iter().flat_map(|(_, ways)| ways).flatten();
     1.08 * points.map(|point| point.1).fold(0.0, f64::max)
 }
 

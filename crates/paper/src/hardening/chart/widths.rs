@@ -27,7 +27,7 @@ impl HardeningChart {
         let lowest = weak.iter().map(|point| point.1).fold(0.0, f64::min);
         let panel = Panel {
             area,
-            x: (0.0, self.map.decades.1),
+            x: (0.0, self.decades.1),
             y: (lowest - ROOM, ROOM),
         };
         let axes = Axes {
