@@ -1,9 +1,11 @@
 //! Every law of a stop against independent 40-digit integrations (tests/reference/stops.py).
 
+use approx::abs_diff_eq;
 use serde_json::Value;
 use softstop::{PhaseKind, Scene, Start, Trajectory};
 use softstop_testing::reference::{STOPS, list, number};
 use softstop_testing::scenes::{instant, scene};
+use softstop_testing::tolerance::SOLVED;
 
 /// Rounding errors, in units of 2^-53 times the growth of a perturbation, that a motion may show. The
 /// most are seen where an overdamped contact is left slowly: its end then hangs on the last digit of the
@@ -117,8 +119,10 @@ fn compare_rests(case: &Value, trajectory: &Trajectory) -> Option<String> {
         } else {
             number(rest, "to").min(end)
         };
-        let is_this =
-            |(start, end): &&(f64, f64)| (start - from).abs() < 1e-9 && (end - to).abs() < 1e-9;
+        let is_this = |(start, end): &&(f64, f64)| {
+            abs_diff_eq!(*start, from, epsilon = 10.0 * SOLVED)
+                && abs_diff_eq!(*end, to, epsilon = 10.0 * SOLVED)
+        };
         if to - from > 1e-6 && !found.iter().any(|rest| is_this(&rest)) {
             return Some(format!(
                 "{name}: no rest from {from} to {to} among {found:?}"

@@ -98,7 +98,10 @@ fn a_sweep_loses_the_motion_after_its_end() {
         };
         let chains = run(&plan, vec![Chain::new(Ratios::unloaded(), Direction::Up)]);
         let lost = lost(&chains[0]);
-        assert!(lost > FOLD && (lost - 1.371).abs() < 2e-3, "{lost}");
+        assert!(
+            lost > FOLD && abs_diff_eq!(lost, 1.371, epsilon = 2e-3),
+            "{lost}"
+        );
     }
 }
 

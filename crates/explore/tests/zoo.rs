@@ -1,7 +1,6 @@
 //! The zoo of stops: its pictures, its page and its example scenes say what the library does.
 
 use std::fs;
-use std::path::PathBuf;
 
 use softstop::scene::{Release, Slope};
 use softstop::{PhaseKind, Scene, Stop};
@@ -9,14 +8,9 @@ use softstop_console::scene_file;
 use softstop_explore::simulate::name;
 use softstop_explore::stops::stroke::Stroke;
 use softstop_explore::stops::{picture, zoo::ZOO};
+use softstop_testing::docs;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
-
-fn docs(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("../../docs")
-        .join(name)
-}
 
 fn scene(name: &str) -> Result<Scene, Box<dyn std::error::Error>> {
     let text = fs::read_to_string(docs("scenes").join(name))?;

@@ -1,19 +1,13 @@
 //! Figures 6 and 8 of the paper and the exponents, as `softstop-lab paper` draws them in draft.
 
 use crate::figure::Figure;
+use softstop_testing::reference::FOLDS;
 use softstop_testing::tolerance::{MOTION, printed};
 
 #[test]
 fn folds_and_flips_are_where_they_were_found_before() {
     let found = Figure::of("6a");
-    let known = [
-        (2, 1.69031, 10.74),
-        (6, 1.49593, 17.34),
-        (10, 1.36904, 16.87),
-        (14, 1.26746, 15.37),
-        (18, 1.18034, 12.81),
-    ];
-    for (clearance, eta, velocity) in known {
+    for (clearance, velocity, eta) in FOLDS.into_iter().step_by(2) {
         found.near(&format!("eta_SN at rho = {clearance}"), eta, printed(5));
         let name = format!("velocity at the fold at rho = {clearance}");
         found.near(&name, velocity, printed(2));

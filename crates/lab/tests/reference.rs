@@ -17,7 +17,7 @@ use softstop_lab::reference::number::{Digits, Real, float, size};
 use softstop_lab::reference::walk::Walk;
 use softstop_lab::reference::{ReferenceError, solve};
 use softstop_testing::reference::{STOPS, list, number};
-use softstop_testing::start_at;
+use softstop_testing::{start_at, unloaded};
 
 /// Half a unit in the 30th digit of numbers up to 1000, to which stops.json is written, ten times over.
 const ALLOWED: f64 = 1e-26;
@@ -104,28 +104,6 @@ fn piecewise_linear_stops_agree_with_56_digits() {
     agrees("piecewiseLinear", 14);
 }
 
-/// The machine of points A and B without a strip.
-fn machine() -> Scene {
-    Scene {
-        mass: 1.0,
-        stiffness: 1.0,
-        damping: 0.04,
-        excitation: Excitation {
-            amplitude: 1.0,
-            frequency: 1.15,
-            phase: 0.0,
-        },
-        clearance: 10.0,
-        contact_damping: 0.18,
-        stop: Stop::Preloaded {
-            stiffness: 7.0,
-            preload: 70.0,
-        },
-        piercing: None,
-        rigid: None,
-    }
-}
-
 /// x'' + x = cos 2t from (1, 0): x = (4 cos t - cos 2t)/3.
 #[test]
 fn a_machine_without_a_stop_has_its_closed_form() {
@@ -137,7 +115,7 @@ fn a_machine_without_a_stop_has_its_closed_form() {
             phase: 0.0,
         },
         stop: Stop::None,
-        ..machine()
+        ..unloaded(1.15)
     };
     // 7.5 periods of pi: cos t = 0, sin t = -1, cos 2t = -1, sin 2t = 0.
     let reference = solve(&task(scene, (1.0, 0.0), 7.5), &|_| true).expect("a reference");
@@ -156,7 +134,7 @@ fn a_machine_without_a_stop_has_its_closed_form() {
 /// In chaos the 48 digits shrink, and the reference tells by how much.
 #[test]
 fn chaos_shows_in_the_doubt() {
-    let mut scene = machine();
+    let mut scene = unloaded(1.15);
     let calm = solve(&task(scene.clone(), (0.0, 14.0), 20.0), &|_| true).expect("a reference");
     scene.excitation.frequency = 0.9875;
     let chaos = solve(&task(scene, (0.0, 14.0), 60.0), &|_| true).expect("a reference");
@@ -171,7 +149,7 @@ fn chaos_shows_in_the_doubt() {
 
 #[test]
 fn progress_is_told_and_a_refusal_ends_the_run() {
-    let task = task(machine(), (0.0, 14.0), 2.0);
+    let task = task(unloaded(1.15), (0.0, 14.0), 2.0);
     let shares = RefCell::new(vec![0.0]);
     let note = |share| {
         shares.borrow_mut().push(share);
@@ -188,7 +166,7 @@ fn progress_is_told_and_a_refusal_ends_the_run() {
 
 #[test]
 fn power_laws_and_starts_beyond_a_wall_are_refused() {
-    let mut scene = machine();
+    let mut scene = unloaded(1.15);
     scene.stop = Stop::Hertz {
         stiffness: 50.0,
         exponent: 1.5,

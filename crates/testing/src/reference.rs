@@ -5,6 +5,20 @@ use std::sync::LazyLock;
 use serde_json::Value;
 use softstop::{PiercingRatios, Ratios};
 
+/// Clearance, and velocity and frequency at the fold of z = 1, unloaded, k4/k1 = 7 (from an independent exact
+/// integrator).
+pub const FOLDS: [(f64, f64, f64); 9] = [
+    (2.0, 10.74, 1.69031),
+    (4.0, 16.10, 1.57552),
+    (6.0, 17.34, 1.49593),
+    (8.0, 17.27, 1.42847),
+    (10.0, 16.87, 1.36904),
+    (12.0, 16.23, 1.31583),
+    (14.0, 15.37, 1.26746),
+    (16.0, 14.25, 1.22271),
+    (18.0, 12.81, 1.18034),
+];
+
 /// A number that the reference files hold as text (30 or 40 digits) or as a double.
 pub fn number(value: &Value, key: &str) -> f64 {
     match &value[key] {

@@ -47,17 +47,6 @@ fn at_clearance(curve: &Curve, clearance: f64) -> &CurvePoint {
 /// s_SN over rho: the fold's curve passes through all of them, to their digits.
 #[test]
 fn fold_curve_passes_through_all_known_folds() {
-    const FOLDS: [(f64, f64, f64); 9] = [
-        (2.0, 10.74, 1.69031),
-        (4.0, 16.10, 1.57552),
-        (6.0, 17.34, 1.49593),
-        (8.0, 17.27, 1.42847),
-        (10.0, 16.87, 1.36904),
-        (12.0, 16.23, 1.31583),
-        (14.0, 15.37, 1.26746),
-        (16.0, 14.25, 1.22271),
-        (18.0, 12.81, 1.18034),
-    ];
     let fold = of_kind(&all_of_z1(), "SN").remove(0);
     let family = plane(FREQUENCY_CLEARANCE);
     for (clearance, velocity, frequency) in FOLDS {

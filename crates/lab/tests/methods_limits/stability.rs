@@ -1,7 +1,7 @@
 //! Limits of stability, and gain and loss of energy.
 
 use super::*;
-use approx::abs_diff_eq;
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use softstop_testing::tolerance::SOLVED;
 
 fn energy(found: &Solution) -> f64 {
@@ -76,7 +76,8 @@ fn a_stiff_stop_sets_the_limit() {
             method.integrate(&task).expect("bounded")
         };
         let below = end(0.99);
-        assert!((below.end.0 - 1e-6).abs() < 1e-9 && below.impacts.is_empty());
+        assert_abs_diff_eq!(below.end.0, 1e-6, epsilon = 1e-9);
+        assert!(below.impacts.is_empty());
         assert!((end(1.01).end.0 - 1e-6).abs() > 1e-7);
     }
 }
