@@ -1,10 +1,7 @@
 //! The library as a C program sees it: loaded at run time, by function types from the standard.
 #![cfg(unix)]
 
-#[path = "common/c_program.rs"]
-mod c_program;
-
-use c_program::{Program, available, succeeded};
+use crate::common::c_program::{Program, available, succeeded};
 
 #[test]
 fn all_calls_from_c() {

@@ -1,11 +1,8 @@
 //! What calls cost from C. The figures are for reading, nothing is asserted about them:
-//! `cargo test --release --package softstop-fmu --test c_speed -- --ignored --nocapture`
+//! `cargo test --release --package softstop-fmu --test fmu c_speed -- --ignored --nocapture`
 #![cfg(unix)]
 
-#[path = "common/c_program.rs"]
-mod c_program;
-
-use c_program::{Program, succeeded};
+use crate::common::c_program::{Program, succeeded};
 
 #[test]
 #[ignore = "a measurement, to be run alone and in release mode"]

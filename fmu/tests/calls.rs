@@ -1,12 +1,10 @@
 //! The lifecycle and its misuse, through the C functions.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
-mod common;
-
 use std::ffi::{c_char, c_int, c_void};
 use std::ptr;
 
-use common::{ERROR, OK, Unit, reference};
+use crate::common::{ERROR, OK, Unit, reference};
 use softstop_fmu::ffi::*;
 use softstop_fmu::library_guid;
 

@@ -1,9 +1,7 @@
 //! Directional derivatives against differences, through the C functions.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
-mod common;
-
-use common::{OK, OUTPUTS, Unit};
+use crate::common::{OK, OUTPUTS, Unit};
 use softstop_fmu::ffi::*;
 
 fn outputs(unit: &Unit) -> [f64; 9] {

@@ -1,12 +1,10 @@
 //! Steps that cannot be carried out as a whole.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
-mod common;
-
 use std::ffi::c_int;
 use std::ptr;
 
-use common::{DISCARD, OK, Unit};
+use crate::common::{DISCARD, OK, Unit};
 use softstop_fmu::ffi::*;
 
 fn last_successful_time(unit: &Unit) -> f64 {

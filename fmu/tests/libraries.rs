@@ -4,9 +4,7 @@
 //! The FMU is the file that `SOFTSTOP_FMU` names; without it one is packed from the library that
 //! was built along with this test.
 
-#[path = "common/library.rs"]
-mod library;
-
+use crate::common::library;
 use std::collections::BTreeSet;
 use std::env;
 use std::fs;

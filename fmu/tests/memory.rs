@@ -1,10 +1,7 @@
 //! Memory over thousands of loads and in a crowd of instances, as a C program sees it.
 #![cfg(target_os = "linux")]
 
-#[path = "common/c_program.rs"]
-mod c_program;
-
-use c_program::{Program, succeeded};
+use crate::common::c_program::{Program, succeeded};
 
 /// `RUST_BACKTRACE` would make a panic's backtrace read symbol tables that are never given back.
 #[test]

@@ -4,9 +4,7 @@
     reason = "loads the packaged library and calls its C functions"
 )]
 
-#[path = "common/library.rs"]
-mod built;
-
+use crate::common::library as built;
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 use std::fs;
 use std::io::{Cursor, Read};

@@ -4,33 +4,23 @@
 //! leave one line in the log that names it, and nothing else that could be read.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
-mod common;
-#[path = "../../tests/common/random.rs"]
-mod random;
-
-#[path = "state_machine/calls.rs"]
 mod calls;
-#[path = "state_machine/draw.rs"]
 mod draw;
-#[path = "state_machine/model.rs"]
 mod model;
-#[path = "state_machine/perform.rs"]
 mod perform;
-#[path = "state_machine/probe.rs"]
 mod probe;
-#[path = "state_machine/snapshots.rs"]
 mod snapshots;
-#[path = "state_machine/world.rs"]
 mod world;
 
 use std::ffi::c_void;
 
+use crate::common::OK;
 use calls::{Call, UNITS};
-use common::OK;
 use perform::perform;
 use probe::{Probe, silent};
 use proptest::prelude::*;
 use softstop_fmu::ffi::*;
+use softstop_testing::cases;
 use world::World;
 
 /// Three steps from the beginning: all that can be read after each.
@@ -85,7 +75,7 @@ impl World {
 }
 
 proptest! {
-    #![proptest_config(random::cases(2000))]
+    #![proptest_config(cases(2000))]
 
     #[test]
     fn all_calls_in_any_order(calls in draw::sequence()) {

@@ -1,12 +1,10 @@
 //! States kept, written to bytes and taken up again, through the C functions.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
-mod common;
-
 use std::ffi::{c_char, c_int, c_void};
 use std::ptr;
 
-use common::{OK, OUTPUTS, Unit};
+use crate::common::{OK, OUTPUTS, Unit};
 use softstop_fmu::ffi::*;
 
 fn keep(unit: &Unit) -> *mut c_void {

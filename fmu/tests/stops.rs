@@ -1,11 +1,9 @@
 //! The stops through the C functions: what is refused, and what is left then.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
-mod common;
-
 use std::ffi::c_int;
 
-use common::{OK, Unit};
+use crate::common::{OK, Unit};
 use softstop_fmu::ffi::*;
 
 const PIECEWISE_LINEAR: c_int = 3;

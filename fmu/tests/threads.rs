@@ -1,11 +1,9 @@
 //! Instances that wander between threads: made in one, stepped in others, freed in the last.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
-mod common;
-
 use std::thread;
 
-use common::{OK, Unit};
+use crate::common::{OK, Unit};
 
 const THREADS: usize = 4;
 const UNITS: usize = 200;

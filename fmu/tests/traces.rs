@@ -2,12 +2,10 @@
 //! standard allows.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
-mod common;
-
 use std::ffi::{c_char, c_int, c_void};
 use std::ptr;
 
-use common::{ERROR, OK, Unit, reference};
+use crate::common::{ERROR, OK, Unit, reference};
 use softstop_fmu::ffi::*;
 
 const DISCARD: c_int = 2;

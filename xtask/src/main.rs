@@ -90,7 +90,7 @@ fn run_task(task: &Task) -> Result<()> {
         Task::Bench => {
             cargo(&["bench", "--workspace", "--benches"])?;
             let calls =
-                "test --release --package softstop-fmu --test c_speed -- --ignored --nocapture";
+                "test --release --package softstop-fmu --test fmu c_speed -- --ignored --nocapture";
             cargo(&calls.split(' ').collect::<Vec<_>>())
         }
     }

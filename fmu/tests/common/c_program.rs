@@ -1,14 +1,11 @@
 //! C programs of `tests/c`, compiled where there is a C compiler, and the unit they load.
-#![allow(dead_code, reason = "each test file uses a part")]
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use tempfile::TempDir;
 
-#[path = "library.rs"]
-mod library;
-use library::library_path;
+use super::library::library_path;
 
 const STRICT: [&str; 7] = [
     "-std=c99",

@@ -1,6 +1,8 @@
 //! An importer in a few lines: it calls the C functions and keeps the log.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
-#![allow(dead_code, reason = "each test file uses a part")]
+
+pub mod c_program;
+pub mod library;
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;

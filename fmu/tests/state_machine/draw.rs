@@ -6,7 +6,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
 
-use crate::calls::{Birth, Call, Damage, Null, Point, STATES, StatusOf, Type, UNITS, reference};
+use super::calls::{Birth, Call, Damage, Null, Point, STATES, StatusOf, Type, UNITS, reference};
 
 fn null() -> impl Strategy<Value = Null> {
     prop_oneof![20 => Just(Null::Nothing), 1 => Just(Null::First), 1 => Just(Null::Second)]

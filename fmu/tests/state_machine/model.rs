@@ -6,7 +6,7 @@ use softstop_fmi::Row;
 use softstop_fmi::variable::{Access, Kind};
 use softstop_fmu::{Machine, StartValues, table};
 
-use crate::calls::{Call, Null, StatusOf, Type, reference};
+use super::calls::{Call, Null, StatusOf, Type, reference};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Expected {

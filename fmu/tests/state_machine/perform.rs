@@ -5,7 +5,7 @@ use std::ptr;
 
 use softstop_fmu::ffi::*;
 
-use crate::calls::{Call, Null, StatusOf, Type};
+use super::calls::{Call, Null, StatusOf, Type};
 
 /// The pointer to an argument unless this one is to be NULL.
 fn unless<T>(null: Null, place: Null, pointer: *const T) -> *const T {

@@ -7,8 +7,8 @@ use softstop_fmi::variable::Kind;
 use softstop_fmu::ffi::*;
 use softstop_fmu::{library_guid, table};
 
-use crate::calls::{Call, Null, Type, reference};
-use crate::perform::perform;
+use super::calls::{Call, Null, Type, reference};
+use super::perform::perform;
 
 /// An instance without a log.
 pub fn silent() -> *mut c_void {

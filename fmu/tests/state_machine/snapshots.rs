@@ -5,10 +5,10 @@ use std::ptr;
 
 use softstop_fmu::ffi::*;
 
-use crate::calls::{Call, Damage, Null};
+use super::calls::{Call, Damage, Null};
+use super::model::Expected;
+use super::world::{Kept, World};
 use crate::common::OK;
-use crate::model::Expected;
-use crate::world::{Kept, World};
 
 fn expected(conditions: &[bool]) -> Expected {
     if conditions.iter().all(|holds| *holds) {

@@ -10,11 +10,11 @@ use std::ptr;
 use softstop_fmu::ffi::*;
 use softstop_fmu::{library_guid, table};
 
-use crate::calls::{Birth, Call, Null, Point, STATES, Type, UNITS, reference};
+use super::calls::{Birth, Call, Null, Point, STATES, Type, UNITS, reference};
+use super::model::{Expected, Life, Model};
+use super::perform::{name_of, perform};
+use super::probe::{Probe, silent};
 use crate::common::{ERROR, Log, OK, callbacks};
-use crate::model::{Expected, Life, Model};
-use crate::perform::{name_of, perform};
-use crate::probe::{Probe, silent};
 
 pub struct Slot {
     pub component: *mut c_void,

@@ -1,0 +1,19 @@
+//! The tests of the unit, as one program.
+
+mod abi;
+mod c_driver;
+mod c_speed;
+mod calls;
+mod common;
+mod directional;
+mod discard;
+mod libraries;
+mod memory;
+mod package;
+mod start_values;
+mod state_machine;
+mod states;
+mod stops;
+mod table;
+mod threads;
+mod traces;
