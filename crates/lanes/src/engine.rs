@@ -32,24 +32,48 @@ pub(super) fn run<'a>(
         },
     };
     match (plain, instructions) {
-        (true, Instructions::OneByOne) => dispatch(Plain::<1>(task), instructions),
+        (true, Instructions::OneByOne) => alone(task),
         (true, _) => dispatch(Plain::<ABREAST>(task), instructions),
-        (false, Instructions::OneByOne) => dispatch(Guarded::<1>(task), instructions),
-        (false, _) => dispatch(Guarded::<ABREAST>(task), instructions),
+        (false, _) => dispatch(Guarded(task), instructions),
     }
 }
 
-/// Does a task with an instruction set, or the widest below it that the processor has.
+/// Does a task with an instruction set, or the widest below it that the processor has. Each is the whole engine
+/// once more, so none is compiled twice.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+pub(super) fn dispatch<T: WithSimd>(task: T, instructions: Instructions) -> T::Output {
+    use pulp::x86::{V3, V4};
+
+    let wide = match instructions {
+        Instructions::Widest => V4::try_new(),
+        _ => None,
+    };
+    let narrow = match instructions {
+        Instructions::Portable => None,
+        _ => V3::try_new(),
+    };
+    match (wide, narrow) {
+        (Some(simd), _) => Simd::vectorize(simd, task),
+        (None, Some(simd)) => Simd::vectorize(simd, task),
+        (None, None) => Simd::vectorize(pulp::Scalar, task),
+    }
+}
+
+#[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
 pub(super) fn dispatch<T: WithSimd>(task: T, instructions: Instructions) -> T::Output {
     match instructions {
         Instructions::Widest => pulp::Arch::new().dispatch(task),
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        Instructions::Avx2 | Instructions::OneByOne => match pulp::x86::V3::try_new() {
-            Some(simd) => Simd::vectorize(simd, task),
-            None => Simd::vectorize(pulp::Scalar, task),
-        },
         _ => Simd::vectorize(pulp::Scalar, task),
     }
+}
+
+/// Does a task in one register alone where registers are wide.
+fn alone(task: Task) -> Vec<Outcome> {
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    if let Some(simd) = pulp::x86::V3::try_new() {
+        return Simd::vectorize(simd, Plain::<1>(task));
+    }
+    dispatch(Plain::<ABREAST>(task), Instructions::Portable)
 }
 
 pub(super) struct Task<'a> {
@@ -63,7 +87,7 @@ pub(super) struct Task<'a> {
 /// One position ends a phase.
 struct Plain<'a, const N: usize>(Task<'a>);
 /// Phases may end by two positions and a further guard.
-struct Guarded<'a, const N: usize>(Task<'a>);
+struct Guarded<'a>(Task<'a>);
 
 impl<const N: usize> WithSimd for Plain<'_, N> {
     type Output = Vec<Outcome>;
@@ -74,12 +98,12 @@ impl<const N: usize> WithSimd for Plain<'_, N> {
     }
 }
 
-impl<const N: usize> WithSimd for Guarded<'_, N> {
+impl WithSimd for Guarded<'_> {
     type Output = Vec<Outcome>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        Engine::<S, true, N>::new(simd, self.0).run()
+        Engine::<S, true, ABREAST>::new(simd, self.0).run()
     }
 }
 
@@ -279,7 +303,7 @@ impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N>
     /// by rounding is put beside it, or the safe engine would take the crossing for done.
     fn within_phase(&self, lane: usize) -> Start {
         let Start { position, velocity } = self.state.state(lane);
-        let law = self.law();
+        let law = &self.laws[self.state.phase.get(lane) as usize];
         let position = if velocity > 0.0 {
             position.min(law.high.get(lane).next_down())
         } else if velocity < 0.0 {

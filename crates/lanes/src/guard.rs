@@ -233,7 +233,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         let ends_there = (-self.grain).below(right.0) & g[0].like(0.0).below(right.1);
         doubtful = doubtful | (clear & single & ends_there);
         rises = rises.and_not(doubtful);
-        let Zero { at, slope, sure } = first_rise(&g, verdict.leaves, end, top, rises);
+        let Zero { at, slope, sure } = first_rise(g, verdict.leaves, end, top, rises);
         Found {
             clear: clear.and_not(doubtful),
             hits: rises & sure,
@@ -266,48 +266,31 @@ fn summit<S: Simd, const N: usize>(
 /// lanes that leave zero at 0 the rise is that of g(t)/t.
 #[inline(always)]
 fn first_rise<S: Simd, const N: usize>(
-    g: &Series<S, N>,
+    mut g: Series<S, N>,
     leaves: Mask<S, N>,
     end: Lanes<S, N>,
     top: (Lanes<S, N>, Lanes<S, N>),
     of: Mask<S, N>,
 ) -> Zero<S, N> {
-    if (leaves & of).any() {
-        return rise_after_leaving(g, leaves, end, top, of);
+    let mut right = top;
+    let divided = leaves & of;
+    if divided.any() {
+        let quotient = shifted(&g);
+        for (to, from) in g.iter_mut().zip(quotient) {
+            *to = divided.choose(from, *to);
+        }
+        let mean = top.0 / end;
+        right.0 = divided.choose(mean, top.0);
+        right.1 = divided.choose((top.1 - mean) / end, top.1);
     }
     let bracket = Bracket {
-        series: g,
+        series: &g,
         span: end,
-        guess: guess((g[0], g[1]), top, end),
-    };
-    bracket.solve(of)
-}
-
-#[inline(always)]
-fn rise_after_leaving<S: Simd, const N: usize>(
-    g: &Series<S, N>,
-    leaves: Mask<S, N>,
-    end: Lanes<S, N>,
-    top: (Lanes<S, N>, Lanes<S, N>),
-    of: Mask<S, N>,
-) -> Zero<S, N> {
-    let mut series = *g;
-    for (to, from) in series.iter_mut().zip(shifted(g)) {
-        *to = leaves.choose(from, *to);
-    }
-    let mean = top.0 / end;
-    let right = (
-        leaves.choose(mean, top.0),
-        leaves.choose((top.1 - mean) / end, top.1),
-    );
-    let bracket = Bracket {
-        series: &series,
-        span: end,
-        guess: guess((series[0], series[1]), right, end),
+        guess: guess((g[0], g[1]), right, end),
     };
     let zero = bracket.solve(of);
     Zero {
-        slope: leaves.choose(zero.slope * zero.at, zero.slope),
+        slope: divided.choose(zero.slope * zero.at, zero.slope),
         ..zero
     }
 }
