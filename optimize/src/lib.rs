@@ -2,14 +2,11 @@
 //! designs of machines whose mass strikes a stop (F. Peterka, Chaos, Solitons & Fractals 18
 //! (2003) 79-88).
 //!
-//! One way through it: [`arguments`] and [`configuration`] turn what the user wrote into a
-//! [`arguments::Machine`], [`scene_file`] reads any scene; a subcommand ([`orbit`], [`motions`],
-//! [`continuation`], [`sweep`], [`basin`], [`table1`], [`paper`], [`zone`], [`optimize`], [`simulate`],
-//! [`stops`], [`fidelity`], [`charts`], [`throughput`]) asks the core or the search in [`design`]; [`report`]
-//! and [`chart`] say and draw the answer; [`output`] puts files in place whole or not at all.
+//! The commands that look at one machine are in `softstop-explore`; here are the search ([`design`]), its
+//! command ([`optimize`]) and [`report`], and machines as FMUs ([`fmu`]).
 
 pub mod design;
-pub mod library;
+pub mod fmu;
 pub mod optimize;
 pub mod report;
 
@@ -41,11 +38,12 @@ Examples:
   softstop sweep --from 0.8 --to 1.8               bifurcation diagram, up and down
   softstop basin --size 1000                       which start leads to which motion
   softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
+  softstop fmu docs/scenes/hertz.toml              the same machine for FMI 2.0 co-simulation
   softstop stops                                   pictures of all the stops' laws
   softstop fidelity B --tolerance 0.02             the simplest model that will do
 
 Exit codes: 0 done, 1 the run could not do it, 2 bad usage or values, 130 interrupted.
-optimize, orbit, zone and continue use the paper's dimensionless ratios: m = k1 = F0 = 1.";
+A MACHINE is a TOML file in SI units or ratios, or one of the paper's, unloaded or loaded; --set changes it.";
 
 /// The subcommands.
 #[derive(Debug, Subcommand)]
@@ -64,6 +62,8 @@ pub enum Command {
     Basin(basin::BasinArguments),
     /// Search stiffness, clearance and frequency for the hardest impact
     Optimize(optimize::OptimizeArguments),
+    /// Pack a machine as an FMU for co-simulation
+    Fmu(fmu::FmuArguments),
     /// Run any scene: a motion as tables, a chart and a summary
     Simulate(simulate::SimulateArguments),
     /// Draw the laws of all stops: contact force over deflection
@@ -90,6 +90,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Basin(arguments) => basin::run(&arguments),
         Command::Optimize(arguments) => optimize::run(&arguments),
+        Command::Fmu(arguments) => fmu::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Stops(arguments) => stops::run(&arguments),
         Command::Fidelity(arguments) => fidelity::run(&arguments),

@@ -4,7 +4,6 @@ mod best;
 mod branch;
 mod chart;
 mod configuration;
-mod fmu;
 mod named;
 mod reference;
 mod task;
@@ -12,14 +11,14 @@ mod task;
 use std::path::PathBuf;
 
 use clap::Args;
-use softstop::Parameter;
+use softstop::{Dimension, Machine, Parameter, Start};
 use softstop_console::arguments::MachineArguments;
 use softstop_console::failure::Failure;
 use softstop_console::output::{self, Folder, Format};
 
 use crate::design::search::{self, SearchError};
 use crate::design::{Design, Problem};
-use crate::library::library;
+use crate::fmu::{archive, library};
 use crate::report::{self, DesignReport, OptimizeReport, ReferenceReport, SearchReport};
 use best::Best;
 use chart::Chart;
@@ -109,12 +108,38 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let chart = Chart::new(design, job.problem.margin, beside);
     folder.stage(JSON, json.as_bytes())?;
     folder.stage(CHART, chart.svg().as_bytes())?;
-    folder.stage(FMU, &fmu::archive(&library, design)?)?;
+    folder.stage(FMU, &archive(&library, &named(design), start(design))?)?;
     folder.commit(&[JSON, CHART, FMU])?;
     output::print(&match job.format {
         Format::Json => json,
         Format::Text => report::text::optimize(&report, &job.problem, design, &references),
     })
+}
+
+/// The design's machine under the name of a design.
+fn named(design: &Design) -> Machine {
+    let machine = &design.machine;
+    let name = machine.name.as_deref().unwrap_or("machine");
+    let frequency = design.frequency();
+    let unit = machine.unit(Dimension::Frequency);
+    Machine {
+        name: Some(format!("{name} design")),
+        description: Some(format!(
+            "Design of the machine {name} for the hardest impact inside its hysteresis zone: drive \
+             frequency {frequency:.6} {unit}, before-impact velocity {:.6} {}",
+            design.before_impact_velocity(),
+            machine.unit(Dimension::Velocity)
+        )),
+        ..machine.clone()
+    }
+}
+
+/// The stroboscopic state of the design's motion.
+const fn start(design: &Design) -> Start {
+    Start {
+        position: design.orbit.position,
+        velocity: design.orbit.velocity,
+    }
 }
 
 /// What came of a search.

@@ -1,0 +1,95 @@
+//! `softstop fmu`: a machine as an FMU, the library that this program holds with the machine's start values,
+//! name and description.
+
+use std::path::{Path, PathBuf};
+use std::slice;
+
+use anyhow::{Context, Result, anyhow, ensure};
+use clap::Args;
+use softstop::{Machine, Start};
+use softstop_console::arguments::MachineArguments;
+use softstop_console::failure::Failure;
+use softstop_console::output::{self, Folder};
+use softstop_fmu::package::{self, HOST_PLATFORM, Library};
+use softstop_fmu::{Imprint, StartValues};
+
+/// Compiled along with this program, from the same engine.
+static BYTES: &[u8] = include_bytes!(env!("SOFTSTOP_FMU_LIBRARY"));
+
+/// The FMU's library for this machine.
+///
+/// # Errors
+/// If this program was built without it.
+pub fn library() -> Result<Library> {
+    ensure!(
+        !BYTES.is_empty(),
+        "cannot make the FMU: this program was built without its library; build it with `cargo build` \
+         or `cargo install --path optimize` in the folder of its source"
+    );
+    Ok(Library {
+        platform: HOST_PLATFORM.to_owned(),
+        bytes: BYTES.to_vec(),
+    })
+}
+
+/// The bytes of the FMU that runs a machine (with m = 1 kg, k1 = 1 N/m, F0 = 1 N if it speaks ratios) from a
+/// state at time 0, under the machine's own name and description.
+///
+/// # Errors
+/// If the FMU has no parameters for such a machine, or its name or description is too long.
+pub fn archive(library: &Library, machine: &Machine, start: Start) -> Result<Vec<u8>> {
+    let values = StartValues::from_scene(&machine.scene, start)?;
+    let mut imprint = Imprint::from(values);
+    if let Some(name) = &machine.name {
+        imprint = imprint.named(name)?;
+    }
+    if let Some(description) = &machine.description {
+        imprint = imprint.described(description)?;
+    }
+    package::archive(&imprint, slice::from_ref(library)).context("cannot make the FMU")
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  softstop fmu press.toml
+      the machine of the file as press.fmu, under its name and in its units (SI)
+  softstop fmu loaded --set excitation.frequency=1.2 --output b.fmu
+      the paper's loaded machine, with m = 1 kg, k1 = 1 N/m, F0 = 1 N, at eta = 1.2
+
+The FMU is for FMI 2.0 co-simulation and holds the library for this platform. It starts at the machine's
+initial state at time 0; an importer may set parameters and inputs by the names of the machine's file.";
+
+/// Arguments of `softstop fmu`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct FmuArguments {
+    /// The machine.
+    #[command(flatten)]
+    pub machine: MachineArguments,
+    /// File to write [default: NAME.fmu, by the machine's name]
+    #[arg(long, value_name = "FILE.fmu")]
+    pub output: Option<PathBuf>,
+}
+
+/// Packs the machine.
+///
+/// # Errors
+/// [`Failure::Usage`] for values no machine can have, [`Failure::Run`] if the FMU cannot hold the machine or
+/// the file cannot be written.
+pub fn run(arguments: &FmuArguments) -> Result<(), Failure> {
+    let machine = arguments.machine.machine()?;
+    let name = machine.name.as_deref().unwrap_or("machine");
+    let place = match &arguments.output {
+        Some(place) => place.clone(),
+        None => format!("{}.fmu", name.replace(['/', '\\'], "_")).into(),
+    };
+    let file = place.file_name().and_then(|name| name.to_str());
+    let file = file.ok_or_else(|| anyhow!("{}: is no name of a file", place.display()))?;
+    let folder = place
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    let folder = Folder::open(folder.unwrap_or(Path::new(".")), &[file])?;
+    folder.stage(file, &archive(&library()?, &machine, machine.start)?)?;
+    folder.commit(&[file])?;
+    output::print(&format!("Written: {}\n", place.display()))
+}
