@@ -20,7 +20,7 @@ fn errors_name_parameter_and_value() {
         ("damping = inf", |s| s.damping = f64::INFINITY),
         ("excitation.frequency = 0", |s| s.excitation.frequency = 0.0),
         ("clearance = NaN", |s| s.clearance = f64::NAN),
-        ("contact_damping = -0.1", |s| s.contact_damping = -0.1),
+        ("contact.damping = -0.1", |s| s.contact_damping = -0.1),
         ("stop.preload = -5", |s| {
             s.stop = Stop::Preloaded {
                 stiffness: 1.0,

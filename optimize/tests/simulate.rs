@@ -215,7 +215,7 @@ fn bad_scenes_are_named_with_key_value_and_range() -> Outcome {
         (
             "velocity = 9.5",
             "velocity = inf",
-            &["start.velocity = inf", "finite"],
+            &["initial.velocity = inf", "finite"],
         ),
     ];
     for (old, new, words) in cases {

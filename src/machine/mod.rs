@@ -228,7 +228,7 @@ impl Machine {
     /// if the machine speaks ratios.
     pub fn label(&self, what: &str, symbol: &str, dimension: Dimension) -> String {
         match (self.speaks, self.unit(dimension)) {
-            (Language::Ratios, _) => format!("{what} {symbol}"),
+            (Language::Ratios, _) if !symbol.is_empty() => format!("{what} {symbol}"),
             (_, "") => what.to_owned(),
             (_, unit) => format!("{what} ({unit})"),
         }

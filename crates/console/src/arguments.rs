@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::Args;
-use softstop::{Language, Machine};
+use softstop::{Language, Machine, Parameter};
 
 use crate::failure::Failure;
 use crate::machine::{Regime, SceneSettings};
@@ -79,6 +79,22 @@ impl MachineArguments {
             .apply(changes.map(|change| (change.key.as_str(), change.value.as_str())))
             .map_err(|error| Failure::usage(format!("--set {error}")))?;
         Ok(machine)
+    }
+
+    /// Refuses a parameter that is given on the command line, and why.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] naming it.
+    pub fn refuse(&self, parameter: Parameter, why: &str) -> Result<(), Failure> {
+        let given = self.ratios.given();
+        let mut names = given
+            .iter()
+            .map(|(name, _)| *name)
+            .chain(self.set.iter().map(|change| change.key.as_str()));
+        match names.find(|name| parameter.is_called(name)) {
+            Some(name) => Err(Failure::usage(format!("{name}: {why}"))),
+            None => Ok(()),
+        }
     }
 
     /// The paper's machine that is asked for; none if it is a file's.

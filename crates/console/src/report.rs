@@ -1,5 +1,7 @@
 //! What several commands report: plain data whose field names are the keys of the JSON.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 use serde_json::{Map, Value};
 use softstop::{Dimension, Language, Machine, Parameter};
@@ -59,22 +61,34 @@ impl MachineReport {
         }
         let name = machine.name.as_deref().unwrap_or("machine");
         report.insert("machine".to_owned(), name.into());
-        let units = [
-            ("frequency", Dimension::Frequency),
-            ("length", Dimension::Length),
-            ("velocity", Dimension::Velocity),
-            ("force", Dimension::Force),
-        ];
-        let units = units.map(|(what, of)| (what.to_owned(), machine.unit(of).into()));
-        if machine.speaks != Language::Ratios {
-            report.insert("units".to_owned(), Map::from_iter(units).into());
-        }
+        report.insert("clearance".to_owned(), value(Parameter::Clearance).into());
+        let units = units(machine).into_iter();
+        let units = units.map(|(what, unit)| (what.to_owned(), unit.into()));
+        report.insert("units".to_owned(), Map::from_iter(units).into());
         let parameters = parameters.map(|it| (key(machine.name(it)), value(it).into()));
         let model = ("stop_model".to_owned(), machine.scene.stop.model().into());
         let parameters = Map::from_iter(parameters.chain([model]));
         report.insert("parameters".to_owned(), parameters.into());
         Self(report)
     }
+}
+
+/// The names of a machine's units.
+#[must_use]
+pub fn units(machine: &Machine) -> BTreeMap<&'static str, &'static str> {
+    let name = |dimension, ratio| match machine.speaks {
+        Language::Ratios => ratio,
+        _ => machine.unit(dimension),
+    };
+    [
+        ("length", name(Dimension::Length, "F0/k1")),
+        ("velocity", name(Dimension::Velocity, "F0/sqrt(m k1)")),
+        ("frequency", name(Dimension::Frequency, "sqrt(k1/m)")),
+        ("force", name(Dimension::Force, "F0")),
+        ("time", name(Dimension::Time, "sqrt(m/k1)")),
+        ("energy", name(Dimension::Energy, "F0^2/k1")),
+    ]
+    .into()
 }
 
 /// A dotted name as a key of JSON.
@@ -139,12 +153,13 @@ impl MotionReport {
 /// The machine as rows of a table.
 #[must_use]
 pub fn machine(machine: &Machine) -> Vec<Row> {
+    let name = row("machine", [machine.name.clone().unwrap_or_default()]);
     let stop = row("stop", [machine.scene.stop.model().to_owned()]);
     let values = machine.parameters().map(|parameter| {
         let value = machine.value(parameter).unwrap_or(f64::NAN);
         row(&machine.label_of(parameter), [number(value)])
     });
-    values.chain([stop]).collect()
+    [name, stop].into_iter().chain(values).collect()
 }
 
 /// The motion as rows of a table.

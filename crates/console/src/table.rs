@@ -25,6 +25,20 @@ pub fn number(value: f64) -> String {
     }
 }
 
+/// A number with seven significant digits.
+#[must_use]
+pub fn figure(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e7).contains(&size) {
+        let decimals = 6 - size.log10().floor() as i32;
+        format!("{value:.*}", usize::try_from(decimals).unwrap_or(0))
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
 /// Labels to the left, cells to the right, every column as wide as its widest cell.
 #[must_use]
 pub fn table(rows: &[Row]) -> String {

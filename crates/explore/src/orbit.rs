@@ -14,12 +14,14 @@ use softstop_console::table::{heading, table};
 
 const EXAMPLES: &str = "\
 Examples:
-  softstop orbit --regime unloaded --frequency 1.15 --clearance 10
+  softstop orbit unloaded --set frequency=1.15 --set clearance=10
       the paper's point A: before-impact velocity 6.494627
   softstop orbit --regime loaded --frequency 1.15 --clearance 10 --format json
-      its point B, for programs
+      its point B by the shorthands of the paper's machines, for programs
+  softstop orbit docs/scenes/kelvin-voigt.toml --set excitation.frequency=1.1
+      any machine with any stop, in the units of its file
   softstop orbit --scene machine.toml --frequency 1.2
-      with machine.toml holding, say,
+      with machine.toml holding the paper's ratios, say,
           regime = \"loaded\"
           clearance = 8.0
           contact_damping = 0.1

@@ -1,6 +1,6 @@
 //! `softstop zone`: the hysteresis zone between grazing and fold.
 
-use anyhow::Context;
+use anyhow::anyhow;
 use clap::Args;
 use serde::Serialize;
 
@@ -10,14 +10,16 @@ use softstop_console::failure::Failure;
 use softstop_console::output::{self, Format};
 use softstop_console::report::{self, MachineReport};
 use softstop_console::table::{heading, number, row, table};
-use softstop_dynamics::zone::Zone;
+use softstop_dynamics::zone::{Zone, ZoneError};
 
 const EXAMPLES: &str = "\
 Examples:
-  softstop zone --regime unloaded --clearance 10
+  softstop zone unloaded --set clearance=10
       the paper's Fig. 8: from g0 = 1.04444 to s_SN = 1.369036
   softstop zone --regime loaded --clearance 10 --stiffness 12 --format json
-      with a stiffer stop, for programs
+      with a stiffer stop, by the shorthands of the paper's machines, for programs
+  softstop zone docs/scenes/kelvin-voigt.toml --set stop.stiffness=50
+      any machine with any stop, in the units of its file
 
 Between g0, where the motion without impacts just reaches the clearance (above resonance),
 and the fold s_SN, where the z = 1 motion ends, both motions exist; the start decides which
@@ -38,11 +40,19 @@ pub struct ZoneArguments {
 /// Finds both ends of the zone and prints them.
 ///
 /// # Errors
-/// [`Failure::Usage`] for values no machine can have, [`Failure::Run`] if there is no zone.
+/// [`Failure::Usage`] for values no machine can have, or none with a zone; [`Failure::Run`] if none is found.
 pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
+    let why = "the zone is a range of drive frequencies, whatever the machine's own";
+    arguments.machine.refuse(Parameter::Frequency, why)?;
     let machine = arguments.machine.machine()?;
-    let zone = softstop_dynamics::zone::hysteresis(&machine.scene)
-        .with_context(|| format!("no hysteresis zone found of {}", title(&machine)))?;
+    let zone = softstop_dynamics::zone::hysteresis(&machine.scene);
+    let zone = zone.map_err(|error| match error {
+        ZoneError::NoGrazing { .. } => Failure::usage(error.to_string()),
+        error => {
+            let place = format!("no hysteresis zone found of {}", title(&machine));
+            Failure::Run(anyhow!(error).context(place))
+        }
+    })?;
     let report = ZoneReport::new(&machine, &zone);
     output::print(&match arguments.format {
         Format::Json => output::json(&report)?,

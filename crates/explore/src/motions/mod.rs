@@ -3,20 +3,16 @@
 mod report;
 mod text;
 
-use std::path::PathBuf;
-
 use anyhow::anyhow;
 use clap::Args;
-use softstop::Scene;
 use softstop_dynamics::attractors::{Options, SurveyError, attractors_watched};
 
 pub use report::{ExponentReport, MotionsReport, SettledReport};
+use softstop_console::arguments::MachineArguments;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::machine::{Machine, SceneSettings};
 use softstop_console::output::{self, Format};
 use softstop_console::progress::Progress;
-use softstop_console::scene_file;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -25,7 +21,7 @@ Examples:
   softstop motions --frequency 0.9526475
       below g0: z = 0, and chaos that ends after some 15,000 periods
   softstop motions docs/scenes/rigid.toml --starts 1000
-      any machine with any stop, in SI units; more starts find smaller basins
+      any machine with any stop, in the units of its file; more starts find smaller basins
   softstop motions --regime loaded --frequency 1.15 --format json
       for programs
 
@@ -46,9 +42,6 @@ worse. Where three motions coexist, at eta = 0.9875, 16 starts found all in 100 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct MotionsArguments {
-    /// Machine in a TOML file, SI units; instead of the paper's ratios below
-    #[arg(value_name = "SCENE.toml")]
-    pub scene: Option<PathBuf>,
     /// Starts, 1 to 1000000
     #[arg(long, value_name = "N", default_value_t = Options::default().starts)]
     pub starts: usize,
@@ -70,7 +63,7 @@ pub struct MotionsArguments {
     pub format: Format,
     /// The machine.
     #[command(flatten)]
-    pub machine: SceneSettings,
+    pub machine: MachineArguments,
 }
 
 /// Finds the motions and prints them.
@@ -80,21 +73,22 @@ pub struct MotionsArguments {
 /// [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
     let options = options(arguments)?;
-    let (name, scene) = scene(arguments)?;
+    let machine = arguments.machine.machine()?;
     let progress = Progress::new(1, "drive periods at most");
     let watcher = |done, planned| {
         progress.at_of(done, planned);
         !interrupt::requested()
     };
-    let survey = attractors_watched(&scene, &options, &watcher).map_err(|error| match error {
-        SurveyError::Stopped => Failure::Interrupted,
-        SurveyError::Motion(error) => Failure::Run(anyhow!(error)),
-    })?;
+    let survey =
+        attractors_watched(&machine.scene, &options, &watcher).map_err(|error| match error {
+            SurveyError::Stopped => Failure::Interrupted,
+            SurveyError::Motion(error) => Failure::Run(anyhow!(error)),
+        })?;
     drop(progress);
-    let report = MotionsReport::new(name, &scene, &options, &survey);
+    let report = MotionsReport::new(&machine, &options, &survey);
     output::print(&match arguments.format {
         Format::Json => output::json(&report)?,
-        Format::Text => text::text(&report),
+        Format::Text => text::text(&machine, &report),
     })
 }
 
@@ -119,31 +113,4 @@ fn options(arguments: &MotionsArguments) -> Result<Options, Failure> {
         patience: arguments.patience,
         region: None,
     })
-}
-
-/// The machine and its name.
-fn scene(arguments: &MotionsArguments) -> Result<(String, Scene), Failure> {
-    let settings = &arguments.machine;
-    let Some(path) = &arguments.scene else {
-        let machine = Machine::from_layers(&[settings])?;
-        let ratios = machine.ratios;
-        let scene = ratios
-            .scene()
-            .map_err(|error| Failure::usage(error.to_string()))?;
-        let name = format!(
-            "the {} machine at eta = {}, rho = {}",
-            machine.regime.name(),
-            ratios.frequency,
-            ratios.clearance
-        );
-        return Ok((name, scene));
-    };
-    if *settings != SceneSettings::default() {
-        return Err(Failure::usage(format!(
-            "{}: a scene file says all of the machine; it goes with none of the paper's ratios",
-            path.display()
-        )));
-    }
-    let name = path.display().to_string();
-    Ok((name, scene_file::read(path)?.scene))
 }

@@ -1,17 +1,22 @@
 //! What `softstop motions` reports.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
-use softstop::Scene;
+use softstop::{Machine, Scene};
 use softstop_dynamics::attractors::{Attractor, Chaos, Kind, Options, Survey};
 use softstop_dynamics::orbit::{Exponents, Orbit};
 
-use softstop_console::report::Multiplier;
+use softstop_console::arguments::title;
+use softstop_console::report::{Multiplier, units};
 
 /// All motions of a machine.
 #[derive(Debug, Clone, Serialize)]
 pub struct MotionsReport {
     /// The machine's name.
     pub machine: String,
+    /// Its units.
+    pub units: BTreeMap<&'static str, &'static str>,
     /// The machine, SI units.
     pub scene: Scene,
     /// The motions, that with the largest share of starts first.
@@ -143,11 +148,12 @@ pub struct ExponentReport {
 impl MotionsReport {
     /// The report of a survey.
     #[must_use]
-    pub fn new(machine: String, scene: &Scene, options: &Options, survey: &Survey) -> Self {
+    pub fn new(machine: &Machine, options: &Options, survey: &Survey) -> Self {
         let lost = survey.lost.as_ref();
         Self {
-            machine,
-            scene: scene.clone(),
+            machine: title(machine),
+            units: units(machine),
+            scene: machine.scene.clone(),
             motions: survey.attractors.iter().map(SettledReport::new).collect(),
             starts: survey.starts,
             lost: lost.map_or(0, |(count, _)| *count),

@@ -3,13 +3,48 @@
 use super::report::{
     ChaosReport, ExponentReport, MotionsReport, PeriodicReport, SettledReport, What,
 };
+use softstop::Machine;
+use softstop::scene::Dimension;
 use softstop_console::table::{Row, heading, row, table};
+
+/// The signs of a machine's units, with a space before them; empty if it speaks ratios.
+struct Signs {
+    length: String,
+    velocity: String,
+    rate: &'static str,
+}
+
+impl Signs {
+    fn new(machine: &Machine) -> Self {
+        let after = |dimension| match machine.unit(dimension) {
+            "" => String::new(),
+            unit => format!(" {unit}"),
+        };
+        Self {
+            length: after(Dimension::Length),
+            velocity: after(Dimension::Velocity),
+            rate: match machine.unit(Dimension::Time) {
+                "" => "Omega",
+                _ => "1/s",
+            },
+        }
+    }
+
+    fn impact(&self) -> String {
+        match self.velocity.as_str() {
+            "" => "before impact, X'-".to_owned(),
+            unit => format!("before impact,{unit}"),
+        }
+    }
+}
 
 /// Before-impact velocities that are written out.
 const MOST_VELOCITIES: usize = 8;
 
 /// One motion after the other, then where they were looked for.
-pub(super) fn text(report: &MotionsReport) -> String {
+pub(super) fn text(machine: &Machine, report: &MotionsReport) -> String {
+    let signs = Signs::new(machine);
+    let (m, v) = (&signs.length, &signs.velocity);
     let mut text = heading(&format!("All motions of {}", report.machine));
     for motion in &report.motions {
         text += &format!(
@@ -17,11 +52,11 @@ pub(super) fn text(report: &MotionsReport) -> String {
             name(&motion.what),
             100.0 * motion.share
         );
-        text += &table(&rows(motion));
+        text += &table(&rows(motion, &signs));
     }
     let ([x0, x1], [v0, v1]) = (report.region_position, report.region_velocity);
     text += &format!(
-        "\n{} starts with {x0:.4} <= x <= {x1:.4} m and {v0:.4} <= x' <= {v1:.4} m/s; {} drive periods computed.\n",
+        "\n{} starts with {x0:.4} <= x <= {x1:.4}{m} and {v0:.4} <= x' <= {v1:.4}{v}; {} drive periods computed.\n",
         report.starts, report.periods_computed
     );
     if let Some(reason) = &report.reason {
@@ -44,16 +79,19 @@ fn name(what: &What) -> String {
     }
 }
 
-fn rows(motion: &SettledReport) -> Vec<Row> {
+fn rows(motion: &SettledReport, signs: &Signs) -> Vec<Row> {
     match &motion.what {
-        What::Periodic(orbit) => periodic(orbit),
+        What::Periodic(orbit) => periodic(orbit, signs),
         What::Rest {
             positions: [low, high],
         } => {
-            vec![line("held at x", format!("{low:.6} to {high:.6} m"))]
+            vec![line(
+                "held at x",
+                format!("{low:.6} to {high:.6}{}", signs.length),
+            )]
         }
         What::Chaos(chaos) => {
-            let mut rows = self::chaos(chaos);
+            let mut rows = self::chaos(chaos, signs);
             let least = chaos.watched / 3;
             rows.push(line(
                 "lifetime",
@@ -66,13 +104,13 @@ fn rows(motion: &SettledReport) -> Vec<Row> {
             entered,
             chaos,
         } => {
-            let mut rows = self::chaos(chaos);
+            let mut rows = self::chaos(chaos, signs);
             let lifetime =
                 format!("{lifetime:.0} periods on average; {entered} starts came here first");
             rows.push(line("lifetime", lifetime));
             rows
         }
-        What::Unsettled { exponents, .. } => vec![exponent(exponents)],
+        What::Unsettled { exponents, .. } => vec![exponent(exponents, signs)],
     }
 }
 
@@ -80,23 +118,23 @@ fn line(label: &str, value: String) -> Row {
     row(&format!("  {label}"), [value])
 }
 
-fn periodic(orbit: &PeriodicReport) -> Vec<Row> {
+fn periodic(orbit: &PeriodicReport, signs: &Signs) -> Vec<Row> {
     let mut rows = Vec::new();
     if orbit.impacts > 0 {
         rows.push(line("order of impacts", orbit.order.clone()));
         rows.push(line(
-            "before impact, m/s",
+            &signs.impact(),
             velocities(&orbit.before_impact_velocities),
         ));
     }
     let (x, v) = (orbit.position, orbit.velocity);
     rows.push(line(
         "state at drive angle phi",
-        format!("x = {x:.9} m, x' = {v:.9} m/s"),
+        format!("x = {x:.9}{}, x' = {v:.9}{}", signs.length, signs.velocity),
     ));
     rows.push(line(
         "largest position",
-        format!("{:.6} m", orbit.max_position),
+        format!("{:.6}{}", orbit.max_position, signs.length),
     ));
     let [first, second] = orbit.multipliers;
     let multipliers = if first.im == 0.0 {
@@ -112,7 +150,7 @@ fn periodic(orbit: &PeriodicReport) -> Vec<Row> {
     let exponents = format!("{}, {} per drive period", rate(first), rate(second));
     rows.push(line("Lyapunov exponents", exponents));
     let returned = format!(
-        "{:.1e} when met, {:.1e} m and m/s when polished",
+        "{:.1e} when met, {:.1e} when polished",
         orbit.returned, orbit.residual
     );
     rows.push(line("returns to within", returned));
@@ -140,26 +178,26 @@ fn velocities(velocities: &[f64]) -> String {
     text
 }
 
-fn chaos(chaos: &ChaosReport) -> Vec<Row> {
-    let mut rows = vec![exponent(&chaos.exponents)];
+fn chaos(chaos: &ChaosReport, signs: &Signs) -> Vec<Row> {
+    let mut rows = vec![exponent(&chaos.exponents, signs)];
     rows.push(line(
         "impacts per drive period",
         format!("{:.3}", chaos.impacts_per_period),
     ));
     if let Some([least, largest]) = chaos.velocities {
-        rows.push(line(
-            "before impact, m/s",
-            format!("{least:.4} to {largest:.4}"),
-        ));
+        rows.push(line(&signs.impact(), format!("{least:.4} to {largest:.4}")));
     }
     rows
 }
 
-fn exponent(exponents: &ExponentReport) -> Row {
+fn exponent(exponents: &ExponentReport, signs: &Signs) -> Row {
     let ([period, _], [second, _]) = (exponents.per_period, exponents.per_second);
     let error = exponents.error;
     line(
         "Lyapunov exponent",
-        format!("{period:.4} +- {error:.4} per drive period ({second:.5} 1/s)"),
+        format!(
+            "{period:.4} +- {error:.4} per drive period ({second:.5} {})",
+            signs.rate
+        ),
     )
 }

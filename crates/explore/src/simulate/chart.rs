@@ -8,7 +8,8 @@ use kuva::render::annotations::{ReferenceLine, ShadedRegion};
 use kuva::render::figure::Figure;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
-use softstop::PhaseKind;
+use softstop::scene::Dimension;
+use softstop::{Machine, PhaseKind};
 
 use softstop_draw::style;
 
@@ -28,17 +29,22 @@ pub struct MotionChart {
     pub drawing: Drawing,
     /// Its title.
     pub title: String,
+    /// The names of its quantities.
+    pub names: [String; 4],
     /// The positions in m at which laws change.
     pub faces: Vec<f64>,
 }
 
-/// Names of the quantities of [`Drawing::points`].
-const NAMES: [&str; 4] = [
-    "time t (s)",
-    "position x (m)",
-    "velocity v (m/s)",
-    "contact force F (N)",
-];
+/// Names of the quantities of [`Drawing::points`] in a machine's units.
+#[must_use]
+pub fn names(machine: &Machine) -> [String; 4] {
+    [
+        machine.label("time", "τ", Dimension::Time),
+        machine.label("position", "X", Dimension::Length),
+        machine.label("velocity", "X′", Dimension::Velocity),
+        machine.label("contact force", "F", Dimension::Force),
+    ]
+}
 
 impl MotionChart {
     /// The chart as an SVG document.
@@ -87,8 +93,8 @@ impl MotionChart {
     fn series(&self, row: usize) -> Layout {
         let (left, right) = self.exact(0);
         let mut layout = style::plain((left, right), self.padded(row))
-            .with_x_label(NAMES[0])
-            .with_y_label(NAMES[row])
+            .with_x_label(self.names[0].clone())
+            .with_y_label(self.names[row].clone())
             .with_ticks(5);
         for &(kind, begin, end) in &self.drawing.phases {
             if let Some(color) = color(kind) {
@@ -104,8 +110,8 @@ impl MotionChart {
 
     fn plane(&self) -> Layout {
         let layout = style::plain(self.padded(1), self.padded(2))
-            .with_x_label(NAMES[1])
-            .with_y_label(NAMES[2])
+            .with_x_label(self.names[1].clone())
+            .with_y_label(self.names[2].clone())
             .with_ticks(6);
         self.with_faces(layout, ReferenceLine::vertical)
     }

@@ -9,14 +9,14 @@ mod tally;
 use std::path::PathBuf;
 
 use clap::Args;
-use softstop::{PhaseKind, Start};
+use softstop::{Machine, PhaseKind, Start};
 
 use crate::simulate::chart::MotionChart;
 use report::SimulateReport;
+use softstop_console::arguments::MachineArguments;
 use softstop_console::failure::Failure;
 use softstop_console::machine::require;
 use softstop_console::output::{self, Folder, Format};
-use softstop_console::scene_file::{self, SceneFile};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -26,13 +26,13 @@ Examples:
       bounces on a rigid stop that pile up to rest
   softstop simulate docs/scenes/hertz.toml --position 0 --velocity 14 --format json
       another start; the summary for programs
-  softstop simulate machine.toml
-      with machine.toml holding, in SI units, say
+  softstop simulate machine.toml --set stop.stiffness=8
+      another stop, with machine.toml holding, in SI units, say
           mass = 1.0
           stiffness = 1.0
           damping = 0.04
           clearance = 10.0
-          contact_damping = 0.18
+          contact.damping = 0.18
           [excitation]
           amplitude = 1.0
           frequency = 1.15
@@ -40,7 +40,7 @@ Examples:
           model = \"preloaded\"
           stiffness = 7.0
           preload = 70.0
-          [start]
+          [initial]
           position = 6.9
           velocity = 9.5
 
@@ -52,16 +52,13 @@ states on both sides) and motion.svg (the last periods). docs/stops.md explains 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub struct SimulateArguments {
-    /// Machine in a TOML file, SI units
-    #[arg(value_name = "SCENE.toml")]
-    pub scene: PathBuf,
     /// Whole drive periods to run, 1 to 1000000
     #[arg(long, value_name = "N", default_value_t = 100)]
     pub periods: u64,
-    /// Position in m to start from [default: that of the file, else 0]
+    /// Position to start from [default: that of the machine]
     #[arg(long, value_name = "X")]
     pub position: Option<f64>,
-    /// Velocity in m/s to start with [default: that of the file, else 0]
+    /// Velocity to start with [default: that of the machine]
     #[arg(long, value_name = "V")]
     pub velocity: Option<f64>,
     /// Rows of motion.csv in each period, 1 to 100000; they change nothing in the motion
@@ -73,6 +70,9 @@ pub struct SimulateArguments {
     /// How to print the summary
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
+    /// The machine.
+    #[command(flatten)]
+    pub machine: MachineArguments,
 }
 
 const MOTION: &str = "motion.csv";
@@ -88,7 +88,8 @@ const MOST_ROWS: u64 = 20_000_000;
 /// on or the folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
     check(arguments)?;
-    let SceneFile { scene, start } = scene_file::read(&arguments.scene)?;
+    let machine = arguments.machine.machine()?;
+    let Machine { scene, start, .. } = &machine;
     let start = Start {
         position: arguments.position.unwrap_or(start.position),
         velocity: arguments.velocity.unwrap_or(start.velocity),
@@ -98,22 +99,23 @@ pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
     let crossings = folder.create(CROSSINGS)?;
     let samples = folder.create(MOTION)?;
     let plan = run::Plan {
-        scene: &scene,
+        scene,
         periods: arguments.periods,
         samples: arguments.samples_per_period,
     };
     let outcome = plan.run(motion, samples, crossings)?;
-    let report = SimulateReport::new(arguments, &scene, start, &outcome, &folder);
+    let report = SimulateReport::new(arguments, &machine, start, &outcome, &folder);
     let chart = MotionChart {
         drawing: outcome.drawing,
         title: report.title(),
-        faces: run::faces(&scene),
+        names: chart::names(&machine),
+        faces: run::faces(scene),
     };
     folder.stage(CHART, chart.svg().as_bytes())?;
     folder.commit(&[MOTION, CROSSINGS, CHART])?;
     output::print(&match arguments.format {
         Format::Json => output::json(&report)?,
-        Format::Text => report.text(),
+        Format::Text => report.text(&machine),
     })
 }
 

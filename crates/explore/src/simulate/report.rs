@@ -3,13 +3,16 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use softstop::{PhaseKind, Scene, Start};
+use softstop::scene::Dimension;
+use softstop::{Machine, PhaseKind, Start};
 
 use super::run::{DRAWN, Outcome};
 use super::tally::{Impact, Rest};
 use super::{CHART, CROSSINGS, MOTION, SimulateArguments, name};
+use softstop_console::arguments::title;
 use softstop_console::output::Folder;
-use softstop_console::table::{Row, heading, row, table};
+use softstop_console::report::units;
+use softstop_console::table::{Row, figure, heading, row, table};
 
 /// A state.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -52,7 +55,8 @@ struct PhaseReport {
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct SimulateReport {
     scene: String,
-    stop: String,
+    units: BTreeMap<&'static str, &'static str>,
+    stop: &'static str,
     periods: u64,
     period: f64,
     duration: f64,
@@ -70,7 +74,7 @@ pub(super) struct SimulateReport {
 impl SimulateReport {
     pub(super) fn new(
         arguments: &SimulateArguments,
-        scene: &Scene,
+        machine: &Machine,
         start: Start,
         outcome: &Outcome,
         folder: &Folder,
@@ -78,10 +82,11 @@ impl SimulateReport {
         let tally = &outcome.tally;
         let files = [("motion", MOTION), ("crossings", CROSSINGS), ("svg", CHART)];
         Self {
-            scene: arguments.scene.display().to_string(),
-            stop: model(scene),
+            scene: title(machine),
+            units: units(machine),
+            stop: machine.scene.stop.model(),
             periods: arguments.periods,
-            period: scene.period(),
+            period: machine.scene.period(),
             duration: outcome.duration,
             start: state(start),
             end: state(outcome.end),
@@ -100,10 +105,7 @@ impl SimulateReport {
     /// The chart's title.
     pub(super) fn title(&self) -> String {
         let drawn = self.periods.min(DRAWN);
-        let file = std::path::Path::new(&self.scene);
-        let file = file
-            .file_stem()
-            .map_or(self.scene.as_str().into(), |stem| stem.to_string_lossy());
+        let file = &self.scene;
         if drawn == self.periods {
             format!("{file}: {drawn} drive periods")
         } else {
@@ -112,14 +114,14 @@ impl SimulateReport {
     }
 
     /// The summary for people.
-    pub(super) fn text(&self) -> String {
+    pub(super) fn text(&self, machine: &Machine) -> String {
         let title = format!("Motion of {} (stop: {})", self.scene, self.stop);
         let mut text = heading(&title);
-        text += &table(&self.overview());
+        text += &table(&self.overview(machine));
         text += "\nPhases visited\n";
-        text += &table(&self.visited());
-        text += &self.rests_text();
-        text += &self.last_impacts();
+        text += &table(&self.visited(machine));
+        text += &self.rests_text(machine);
+        text += &self.last_impacts(machine);
         text.push('\n');
         for path in self.files.values() {
             text += &format!("Written: {path}\n");
@@ -127,38 +129,60 @@ impl SimulateReport {
         text
     }
 
-    fn overview(&self) -> Vec<Row> {
+    fn overview(&self, machine: &Machine) -> Vec<Row> {
+        let label = |what: &str, dimension| machine.label(what, "", dimension);
+        let state = |when: &str| {
+            let position = label("position", Dimension::Length);
+            format!(
+                "{when}: {position}, {}",
+                label("velocity", Dimension::Velocity)
+            )
+        };
+        let energies = |what: &str| label(what, Dimension::Energy);
         let impacts = &self.impacts;
         let or_none = |value: Option<f64>| value.map_or_else(|| "-".into(), figure);
         let pair = |state: State| [figure(state.position), figure(state.velocity)];
         let energy = &self.energy;
         vec![
             row("drive periods", [self.periods.to_string()]),
-            row("time (s)", [figure(self.duration)]),
-            row("start: position (m), velocity (m/s)", pair(self.start)),
-            row("end: position (m), velocity (m/s)", pair(self.end)),
+            row(&label("time", Dimension::Time), [figure(self.duration)]),
+            row(&state("start"), pair(self.start)),
+            row(&state("end"), pair(self.end)),
             row("impacts", [impacts.count.to_string()]),
             row("  per period", [figure(impacts.per_period)]),
             row(
-                "  lowest before-impact velocity (m/s)",
+                &label("  lowest before-impact velocity", Dimension::Velocity),
                 [or_none(impacts.lowest_velocity)],
             ),
-            row("  mean (m/s)", [or_none(impacts.mean_velocity)]),
-            row("  highest (m/s)", [or_none(impacts.highest_velocity)]),
+            row(
+                &label("  mean", Dimension::Velocity),
+                [or_none(impacts.mean_velocity)],
+            ),
+            row(
+                &label("  highest", Dimension::Velocity),
+                [or_none(impacts.highest_velocity)],
+            ),
             row("strips pierced", [self.pierced.to_string()]),
             row("rests", [self.rest_count.to_string()]),
-            row("energy supplied (J)", [figure(energy.supplied)]),
-            row("  dissipated (J)", [figure(energy.dissipated)]),
-            row("  stored (J)", [figure(energy.stored)]),
+            row(&energies("energy supplied"), [figure(energy.supplied)]),
+            row(&energies("  dissipated"), [figure(energy.dissipated)]),
+            row(&energies("  stored"), [figure(energy.stored)]),
             row(
-                "  balance, zero but for rounding (J)",
+                &energies("  balance, zero but for rounding"),
                 [figure(energy.defect)],
             ),
         ]
     }
 
-    fn visited(&self) -> Vec<Row> {
-        let head = row("  phase", ["visits", "time (s)", "share"].map(String::from));
+    fn visited(&self, machine: &Machine) -> Vec<Row> {
+        let head = row(
+            "  phase",
+            [
+                "visits".to_owned(),
+                machine.label("time", "", Dimension::Time),
+                "share".to_owned(),
+            ],
+        );
         let rows = self.phases.iter().map(|seen| {
             let share = format!("{:.3} %", 100.0 * seen.share);
             let cells = [seen.visits.to_string(), figure(seen.time), share];
@@ -167,13 +191,17 @@ impl SimulateReport {
         std::iter::once(head).chain(rows).collect()
     }
 
-    fn rests_text(&self) -> String {
+    fn rests_text(&self, machine: &Machine) -> String {
         if self.rests.is_empty() {
             return String::new();
         }
         let head = row(
             "  held by",
-            ["begin (s)", "end (s)", "position (m)"].map(String::from),
+            [
+                machine.label("begin", "", Dimension::Time),
+                machine.label("end", "", Dimension::Time),
+                machine.label("position", "", Dimension::Length),
+            ],
         );
         let rows = self.rests.iter().take(SHOWN).map(|rest| {
             let end = rest.end.map_or_else(|| "lasts".into(), figure);
@@ -189,11 +217,14 @@ impl SimulateReport {
         format!("\nRests{more}\n{}", table(&rows))
     }
 
-    fn last_impacts(&self) -> String {
+    fn last_impacts(&self, machine: &Machine) -> String {
         if self.impacts.last.is_empty() {
             return String::new();
         }
-        let head = row("  time (s)", ["velocity (m/s)".to_owned()]);
+        let head = row(
+            &machine.label("  time", "", Dimension::Time),
+            [machine.label("velocity", "", Dimension::Velocity)],
+        );
         let rows = self.impacts.last.iter().map(|impact| {
             let velocity = figure(impact.before_impact_velocity);
             row(&format!("  {}", figure(impact.time)), [velocity])
@@ -211,12 +242,6 @@ const fn state(state: Start) -> State {
         position: state.position,
         velocity: state.velocity,
     }
-}
-
-/// The stop's model as in TOML.
-fn model(scene: &Scene) -> String {
-    let value = serde_json::to_value(&scene.stop).unwrap_or_default();
-    value["model"].as_str().unwrap_or_default().to_owned()
 }
 
 fn impacts(outcome: &Outcome, periods: u64) -> ImpactsReport {
@@ -250,17 +275,4 @@ fn phases(outcome: &Outcome) -> Vec<PhaseReport> {
         share: visit.time / outcome.duration,
     })
     .collect()
-}
-
-/// Seven significant digits.
-fn figure(value: f64) -> String {
-    let size = value.abs();
-    if size == 0.0 {
-        "0".to_owned()
-    } else if (1e-3..1e7).contains(&size) {
-        let decimals = 6 - size.log10().floor() as i32;
-        format!("{value:.*}", usize::try_from(decimals).unwrap_or(0))
-    } else {
-        format!("{value:.3e}")
-    }
 }
