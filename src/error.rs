@@ -131,7 +131,7 @@ fn at(line: Option<usize>) -> String {
 }
 
 fn did_you_mean(key: Option<&str>) -> String {
-    key.map_or_else(String::new, |key| format!(", did you mean {key}?"))
+    key.map_or_else(String::new, |key| format!(" (did you mean {key}?)"))
 }
 
 /// A motion that cannot be carried on.

@@ -86,13 +86,8 @@ impl MachineArguments {
     /// # Errors
     /// [`Failure::Usage`] naming it.
     pub fn refuse(&self, parameter: Parameter, why: &str) -> Result<(), Failure> {
-        let given = self.ratios.given();
-        let mut names = given
-            .iter()
-            .map(|(name, _)| *name)
-            .chain(self.set.iter().map(|change| change.key.as_str()));
-        match names.find(|name| parameter.is_called(name)) {
-            Some(name) => Err(Failure::usage(format!("{name}: {why}"))),
+        match self.keys().iter().find(|key| parameter.is_called(key)) {
+            Some(key) => Err(Failure::usage(format!("{key}: {why}"))),
             None => Ok(()),
         }
     }
@@ -137,9 +132,13 @@ impl MachineArguments {
     /// The machine of the file.
     fn file(&self) -> Result<Machine, Failure> {
         let path = self.machine.as_deref().unwrap_or(Path::new(""));
+        let key = |name| Machine::named(Regime::Loaded.name())?.parameter(name).ok();
         let flag = match (self.ratios.regime, self.ratios.given().first()) {
             (Some(_), _) => Some(("regime", String::new())),
-            (_, Some((name, value))) => Some((*name, format!("; say --set KEY={value}"))),
+            (_, Some((name, value))) => {
+                let key = key(name).map_or(*name, Parameter::name);
+                Some((*name, format!("; say --set {key}={value}")))
+            }
             _ => None,
         };
         if let Some((name, instead)) = flag {
