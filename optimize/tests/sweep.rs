@@ -35,7 +35,7 @@ fn the_hysteresis_zone_of_clearance_10() -> Outcome {
     let range = ["--from", "1.02", "--to", "1.4"];
     let few = ["--steps", "39", "--periods", "300"];
     let report = json(folder.path(), &[range, few].concat())?;
-    assert_eq!(report["parameter"], "frequency");
+    assert_eq!(report["parameter"], "excitation.frequency");
     assert!((number(&report["rate_per_period"]) - 0.01 / 300.0).abs() < 1e-12);
     // Up: z = 1 up to the fold at 1.369036, which the step of 1.37 passes too slowly to settle. Down: z = 0
     // down to g0 = 1.04444.
