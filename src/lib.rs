@@ -17,9 +17,6 @@
 //! let last = motion.impacts().last().expect("it strikes in every period");
 //! assert!((last.before_impact_velocity - 6.494_627_429_363).abs() < 1e-10);
 //! assert!(motion.energy_defect().abs() < 1e-11 * motion.work.supplied);
-//!
-//! let orbit = softstop_dynamics::orbit::find(&scene)?;
-//! assert!(orbit.is_stable());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![forbid(unsafe_code)]

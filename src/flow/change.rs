@@ -1,5 +1,7 @@
 //! How a course changes with its start and with the push: variational equations, exact.
 
+use nalgebra::Matrix2;
+
 use super::course::{Course, Form};
 use super::response::Responses;
 use super::segment::Segment;
@@ -86,6 +88,24 @@ impl Course {
 }
 
 impl Segment {
+    /// d(state)/d(state at the start) after `elapsed`, and the integral of damping over mass: the
+    /// equation y'' + damping y' + stiffness y = 0 along the motion, in sigma.
+    pub fn transition(&self, elapsed: f64) -> (Matrix2<f64>, f64) {
+        let sigma = self.parameter_at(elapsed);
+        let column = |position: f64, velocity: f64| {
+            let by = Change {
+                position,
+                velocity,
+                push: 0.0,
+            };
+            let (y, u) = self.changed(by);
+            (value(&y, sigma), value(&u, sigma))
+        };
+        let (first, second) = (column(1.0, 0.0), column(0.0, 1.0));
+        let matrix = Matrix2::new(first.0, second.0, first.1, second.1);
+        (matrix, self.damping_integral(sigma))
+    }
+
     /// Changes of position and velocity as series in sigma: y'' + damping y' + stiffness y = push along
     /// the motion.
     pub(super) fn changed(&self, by: Change) -> (Series, Series) {

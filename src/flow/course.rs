@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::node::Node;
 use super::particular::Particular;
+use super::place::Node;
 use super::response::Responses;
 use super::{Chatter, Flow, Hertz, LARGEST_LOSS, Polynomial, Segment, Taylor};
 

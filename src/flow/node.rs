@@ -1,25 +1,7 @@
-//! Nodes: states on a course from which it is scanned window by window.
-
-use serde::{Deserialize, Serialize};
+//! From node to node: a course is scanned window by window.
 
 use super::course::{Course, Form};
-
-/// A motion's state at one time after departure.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Node {
-    /// Time since departure in s.
-    pub elapsed: f64,
-    /// Position in m.
-    pub position: f64,
-    /// Velocity in m/s.
-    pub velocity: f64,
-    /// cos and sin of the drive angle.
-    pub drive: (f64, f64),
-    pub(super) deviation: (f64, f64),
-    /// Scan windows are counted from here, so that their times do not drift.
-    origin: f64,
-    windows: u32,
-}
+use super::place::Node;
 
 /// Windows counted from one origin.
 const MOST_WINDOWS: u32 = 1 << 31;

@@ -3,8 +3,8 @@
 use nalgebra::Complex;
 
 use super::course::{Course, Form};
-use super::node::Node;
 use super::particular::Particular;
+use super::place::Node;
 
 /// Nodes and weights of the eight-point Gauss rule on [-1, 1] (Abramowitz and Stegun, table 25.4),
 /// positive half. Over one Taylor reach its error on the products below is under 1e-17.

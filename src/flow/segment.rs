@@ -15,11 +15,9 @@
 //! the face, where sigma is time itself; and so it is in slow motion under heavy damping
 //! ([`super::creep`]) and where there is no power law ([`super::pushed`]).
 
-use nalgebra::Matrix2;
 use serde::{Deserialize, Serialize};
 
 use super::Flow;
-use super::change::Change;
 use super::creep::Creep;
 use super::hertz::Hertz;
 use super::power::gauss_nodes;
@@ -223,24 +221,6 @@ impl Segment {
         (supplied, 2.0 * self.flow.modes.decay * square)
     }
 
-    /// d(state)/d(state at the start) after `elapsed`, and the integral of damping over mass: the
-    /// equation y'' + damping y' + stiffness y = 0 along the motion, in sigma.
-    pub fn transition(&self, elapsed: f64) -> (Matrix2<f64>, f64) {
-        let sigma = self.parameter_at(elapsed);
-        let column = |position: f64, velocity: f64| {
-            let by = Change {
-                position,
-                velocity,
-                push: 0.0,
-            };
-            let (y, u) = self.changed(by);
-            (value(&y, sigma), value(&u, sigma))
-        };
-        let (first, second) = (column(1.0, 0.0), column(0.0, 1.0));
-        let matrix = Matrix2::new(first.0, second.0, first.1, second.1);
-        (matrix, self.damping_integral(sigma))
-    }
-
     /// 2 a + kappa lambda d^n.
     pub fn damping(&self) -> Series {
         let factor = self.hertz.rate() * self.hertz.dissipation;
@@ -250,7 +230,7 @@ impl Segment {
     }
 
     /// Its integral over time.
-    fn damping_integral(&self, sigma: f64) -> f64 {
+    pub(super) fn damping_integral(&self, sigma: f64) -> f64 {
         product(&derivative(&self.time), &self.damping())
             .iter()
             .enumerate()

@@ -4,6 +4,8 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
+use crate::scene::Scene;
+
 /// 2 pi - TAU: the part of 2 pi that the double lacks.
 const TAU_LOW: f64 = 2.449_293_598_294_706_4e-16;
 
@@ -25,6 +27,13 @@ pub struct Clock {
     pub phase: f64,
     period: f64,
     period_low: f64,
+}
+
+impl Scene {
+    /// The clock of its drive.
+    pub fn clock(&self) -> Clock {
+        Clock::new(self.excitation.frequency, self.excitation.phase)
+    }
 }
 
 impl Clock {

@@ -8,6 +8,7 @@ mod evaluations;
 mod force;
 mod hum;
 mod landing;
+mod mark;
 mod motion;
 mod observer;
 mod outputs;

@@ -3,9 +3,9 @@
 use super::clock::{Clock, Instant};
 use super::effort::Effort;
 use super::force::polynomial;
+use super::mark::{Mark, Origin};
 use super::mechanical_energy;
 use super::motion::{Motion, Start};
-use super::stretch::{Mark, Origin};
 use super::tallies::{Counts, Tallies};
 use crate::error::MotionError;
 use crate::flow::Polynomial;
@@ -60,7 +60,7 @@ impl Simulation {
                 value: time,
             });
         }
-        let clock = Clock::new(scene.excitation.frequency, scene.excitation.phase);
+        let clock = scene.clock();
         within_reach(&clock, time, 0.0)?;
         let phases = scene.phases();
         let tallies = Tallies {

@@ -1,26 +1,8 @@
 //! The last advance: where it began, and how to take it back.
 
-use super::clock::Instant;
+use super::mark::Mark;
 use super::motion::Motion;
 use super::simulation::Simulation;
-use super::tallies::Counts;
-
-/// Where the last advance began.
-#[derive(Debug, Clone)]
-pub(super) enum Mark {
-    /// On the arc that is under way.
-    OnArc(Instant),
-    /// Some crossings ago.
-    Before(Box<Origin>),
-}
-
-/// A machine as it was before an advance.
-#[derive(Debug, Clone)]
-pub(super) struct Origin {
-    pub motion: Motion,
-    pub counts: Counts,
-    pub now: f64,
-}
 
 impl Simulation {
     /// The machine as it was before the last advance, if that met a crossing or stopped on its way and

@@ -12,12 +12,14 @@
 
 mod parameter;
 mod ratios;
+mod scales;
 mod stop;
 mod units;
 mod validate;
 
 pub use parameter::{About, Allowed, Dimension, Parameter};
 pub use ratios::{PiercingRatios, Ratios};
+pub use scales::Scales;
 pub(crate) use stop::stiffness_from;
 pub use stop::{Release, RigidStop, Slope, Stop, force_of};
 pub use units::Units;

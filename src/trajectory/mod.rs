@@ -116,7 +116,7 @@ impl Scene {
     pub fn motion(&self, start: Start) -> Result<Motion, MotionError> {
         self.validate()?;
         start.validate()?;
-        let clock = Clock::new(self.excitation.frequency, self.excitation.phase);
+        let clock = self.clock();
         Motion::new(self.phases(), clock, Clock::at_cycle(0), start)
     }
 }

@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 use softstop::integrator::{Arc, Crossing, Observer};
-use softstop::{Clock, PhaseKind, Scene, Start};
+use softstop::{PhaseKind, Scene, Start};
 
 /// The motion from one crossing to the next.
 #[derive(Debug, Clone)]
@@ -80,7 +80,7 @@ impl Observer for Recorder<'_> {
 /// # Errors
 /// What the library refuses, or that it runs away, with the last legs.
 pub fn record(scene: &Scene, start: Start, periods: f64, most: usize) -> Result<Vec<Leg>, String> {
-    let clock = Clock::new(scene.excitation.frequency, scene.excitation.phase);
+    let clock = scene.clock();
     let mut motion = scene.motion(start).map_err(|error| error.to_string())?;
     let mut recorder = Recorder {
         scene,

@@ -1,5 +1,6 @@
 //! Ctrl-C: the first asks the run to end in good order, the second ends it at once.
 
+use std::ops::ControlFlow;
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -19,6 +20,14 @@ pub fn install() {
             eprintln!("warning: Ctrl-C will end the run at once ({error})");
         }
     });
+}
+
+/// Stops work that is watched once the user asked the run to end.
+pub fn go_on() -> ControlFlow<()> {
+    match requested() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    }
 }
 
 /// Whether the user asked the run to end.

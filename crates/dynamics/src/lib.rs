@@ -11,4 +11,5 @@ pub mod models;
 pub mod orbit;
 pub mod sweep;
 pub mod transitions;
+pub mod watch;
 pub mod zone;

@@ -9,6 +9,7 @@ use softstop_dynamics::basin::{
     Axis, Basins, Grid, Kind, Options, basins, basins_watched, establishing,
 };
 use softstop_dynamics::orbit::{Orbit, Regime, StroboscopicMap};
+use softstop_dynamics::watch::{stop_if, unwatched};
 use softstop_dynamics::zone;
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::{start_at, unloaded};
@@ -187,10 +188,8 @@ fn cells_in_a_basin_go_to_its_orbit_and_the_largest_ball_is_inside() {
 fn the_certainty_falls_along_the_zone() {
     let zone = zone::hysteresis(&Ratios::unloaded().scene().expect("valid")).expect("there is one");
     let places = [0.0, 0.25, 0.5, 0.75, 0.98];
-    let found = establishing(&zone, &places, &states(30), &Options::default(), &|_, _| {
-        true
-    })
-    .expect("there is one");
+    let found = establishing(&zone, &places, &states(30), &Options::default(), &unwatched)
+        .expect("there is one");
     let shares: Vec<f64> = found.iter().map(|place| place.certainty).collect();
     // The paper says from 1 at g0 to 0 at s_SN. A few starts at g0 lead to z = 3/4, and near the fold a share
     // above zero is left; in between the certainty hardly falls.
@@ -218,7 +217,7 @@ fn it_stops_when_told() {
         &Options::default(),
         &|done, all| {
             assert!(done <= all && all == 6400);
-            done < 1000
+            stop_if(done >= 1000)
         },
     );
     assert_eq!(stopped, Err(SurveyError::Stopped));

@@ -13,3 +13,4 @@ mod machine_reference;
 mod stop_invariants;
 mod sweep;
 mod zone_reference;
+mod zone_units;

@@ -2,13 +2,13 @@
 
 use pulp::{Simd, WithSimd};
 
+use super::job::{Instructions, Job, Outcome};
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::machine::Machine;
 use super::safe::{self, Place, Resumed};
 use super::state::State;
 use super::watch::Listener;
-use super::{Instructions, Job, Outcome};
 use softstop::integrator::Start;
 
 /// Registers that go side by side.

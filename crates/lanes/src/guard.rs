@@ -5,8 +5,8 @@ use pulp::Simd;
 use super::judge::Stretch;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
+use super::parts::{Hull, Parts};
 use super::root::{Bracket, Zero, guess};
-use super::scan::{Hull, Parts};
 use super::state::State;
 use super::taylor::{Series, derivative, evaluate, expand, shifted};
 

@@ -6,7 +6,8 @@ use super::engine::Engine;
 use super::guard::{Ahead, Found, Guard};
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
-use super::scan::{Parts, Reached};
+use super::parts::Parts;
+use super::scan::Reached;
 
 /// Shortest stretch, in windows, that is looked at.
 const LEAST: f64 = 1e-12;

@@ -38,7 +38,7 @@ impl Machine {
         let (sin, cos) = drive.phase.sin_cos();
         Ok(Self {
             laws: if for_lanes { laws.collect() } else { None },
-            clock: Clock::new(drive.frequency, drive.phase),
+            clock: scene.clock(),
             phases: Arc::new(phases),
             frequency: drive.frequency,
             angle: (cos, sin),

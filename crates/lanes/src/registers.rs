@@ -2,8 +2,8 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::Instructions;
 use super::engine::{ABREAST, dispatch};
+use super::job::Instructions;
 use super::lanes::Lanes;
 
 /// What the lanes are made of.

@@ -1,6 +1,6 @@
 //! Where the safe engine takes over.
 
-use super::Outcome;
+use super::job::Outcome;
 use super::machine::Machine;
 use super::watch::Listener;
 use softstop::error::MotionError;

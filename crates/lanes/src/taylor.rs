@@ -6,7 +6,7 @@ use pulp::Simd;
 
 use super::lanes::Lanes;
 use super::law::Law;
-use super::scan::Parts;
+use super::parts::Parts;
 
 /// Degree of the polynomials: over one window, (rate t)^16 / 16! < 2e-17.
 const DEGREE: usize = 15;

@@ -96,7 +96,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     for (index, plane) in PLANES.iter().enumerate() {
         let watcher = |done, _| {
             progress.at(each * index as u64 + done);
-            !interrupt::requested()
+            interrupt::go_on()
         };
         let scene = plane.scene()?;
         let basins = basins_watched(&scene, &plane.grid(cells), &Options::default(), &watcher);

@@ -1,10 +1,12 @@
 //! Many motions of one scene, carried on together.
 
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-use super::{SurveyError, Watcher};
+use super::SurveyError;
+use crate::watch::Watcher;
 use softstop::error::MotionError;
 use softstop::integrator::Start;
 use softstop::scene::Scene;
@@ -69,10 +71,9 @@ impl<'a> Fleet<'a> {
     /// Counts work; an error if the watcher wants to stop.
     pub(crate) fn note(&self, periods: u64) -> Result<(), SurveyError> {
         let done = self.done.fetch_add(periods, Ordering::Relaxed) + periods;
-        if (self.watcher)(done, self.planned.max(done)) {
-            Ok(())
-        } else {
-            Err(SurveyError::Stopped)
+        match (self.watcher)(done, self.planned.max(done)) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(SurveyError::Stopped),
         }
     }
 

@@ -21,6 +21,7 @@ pub use starts::Region;
 use thiserror::Error;
 
 use crate::orbit::{Exponents, Orbit};
+use crate::watch::{Watcher, unwatched};
 use softstop::error::{MotionError, SceneError};
 use softstop::integrator::Start;
 use softstop::scene::Scene;
@@ -67,7 +68,7 @@ pub struct Certainty {
     /// Largest distance between states of the simulated motion one of its periods apart, in units of its
     /// size, when it was first met.
     pub returned: f64,
-    /// |P(s) - s| of the polished orbit in m and m/s.
+    /// |P(s) - s| of the polished orbit in the scene's scales.
     pub residual: f64,
     /// What rounding alone may leave of it.
     pub rounding: f64,
@@ -146,15 +147,12 @@ impl From<SceneError> for SurveyError {
     }
 }
 
-/// Told of the drive periods done and of those that will be done at most; goes on while it says true.
-pub type Watcher<'a> = &'a (dyn Fn(u64, u64) -> bool + Sync);
-
 /// All motions on which a scene settles. The result depends on scene and options alone, not on the number of
 /// threads.
 ///
 /// ```
 /// use softstop::Ratios;
-/// use crate::attractors::{Options, attractors};
+/// use softstop_dynamics::attractors::{Options, attractors};
 ///
 /// let options = Options { starts: 64, ..Options::default() };
 /// let survey = attractors(&Ratios::unloaded().scene()?, &options)?;
@@ -166,10 +164,10 @@ pub type Watcher<'a> = &'a (dyn Fn(u64, u64) -> bool + Sync);
 /// # Errors
 /// [`SurveyError::Motion`] if the scene is invalid.
 pub fn attractors(scene: &Scene, options: &Options) -> Result<Survey, SurveyError> {
-    attractors_watched(scene, options, &|_, _| true)
+    attractors_watched(scene, options, &unwatched)
 }
 
-/// The same, stopped when the watcher says so.
+/// The same, told of the drive periods; stopped when the watcher says so.
 ///
 /// # Errors
 /// As [`attractors`]; [`SurveyError::Stopped`].

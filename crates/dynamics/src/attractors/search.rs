@@ -9,8 +9,9 @@ use super::chaos::Chaos;
 use super::fleet::{Fleet, Voyage};
 use super::known::{Book, Standing};
 use super::lifetime::Looks;
-use super::{Arrival, Kind, Options, Region, Survey, SurveyError, Watcher};
+use super::{Arrival, Kind, Options, Region, Survey, SurveyError};
 use crate::orbit::Exponents;
+use crate::watch::{Watcher, unwatched};
 use softstop::integrator::Start;
 use softstop::scene::Scene;
 
@@ -75,7 +76,7 @@ pub(super) fn classify(
     start: Start,
     options: &Options,
 ) -> Result<Kind, SurveyError> {
-    let mut search = Search::new(scene, options, &|_, _| true)?;
+    let mut search = Search::new(scene, options, &unwatched)?;
     start.validate()?;
     search.launch(vec![start], true)?;
     if let Some(error) = &search.members[0].voyage.error {

@@ -1,7 +1,7 @@
 //! Where starts lie.
 
 use softstop::integrator::Start;
-use softstop::scene::Scene;
+use softstop::scene::{Scales, Scene};
 
 /// A rectangle of states at drive angle phi.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,8 +25,8 @@ const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
 impl Region {
     /// Far and wide about the origin.
     pub(super) fn far(scene: &Scene) -> Self {
-        let (w, length) = scales(scene);
-        let (x, v) = (FAR * length, FAR * w * length);
+        let Scales { length, rate } = scene.motion_scales();
+        let (x, v) = (FAR * length, FAR * rate * length);
         Self {
             position: [-x, x],
             velocity: [-v, v],
@@ -48,14 +48,14 @@ impl Region {
             include(&mut position, state.position);
             include(&mut velocity, state.velocity);
         }
-        let (w, length) = scales(scene);
+        let Scales { length, rate } = scene.motion_scales();
         let widen = |[low, high]: [f64; 2], least: f64| {
             let margin = (MARGIN * (high - low)).max(least);
             [low - margin, high + margin]
         };
         let region = Self {
             position: widen(position, LEAST * length),
-            velocity: widen(velocity, LEAST * w * length),
+            velocity: widen(velocity, LEAST * rate * length),
         };
         position[0].is_finite().then(|| region.before(scene))
     }
@@ -85,14 +85,6 @@ impl Region {
         };
         (0..count).map(start).collect()
     }
-}
-
-/// The drive's frequency in rad/s and the length of the motion in m.
-fn scales(scene: &Scene) -> (f64, f64) {
-    let w = scene.excitation.frequency;
-    let drive = scene.excitation.amplitude / scene.mass / (w * w);
-    let length = scene.clearance.abs().max(drive);
-    (w, if length > 0.0 { length } else { 1.0 })
 }
 
 /// A number in 0..1 from a seed (SplitMix64, Steele et al. 2014).

@@ -3,8 +3,9 @@
 use thiserror::Error;
 
 use super::{Basins, Grid, Options, basins_watched};
-use crate::attractors::{SurveyError, Watcher};
+use crate::attractors::SurveyError;
 use crate::orbit::Regime;
+use crate::watch::Watcher;
 use crate::zone::{Zone, ZoneError};
 
 /// The basins at one place of the zone.

@@ -12,7 +12,7 @@
 //!
 //! ```
 //! use softstop::Ratios;
-//! use crate::basin::{Axis, Grid, Options, basins};
+//! use softstop_dynamics::basin::{Axis, Grid, Options, basins};
 //!
 //! let scene = Ratios::unloaded().scene()?;
 //! let grid = Grid::states(Axis::position(-20.0, 10.0, 30), Axis::velocity(-25.0, 25.0, 30), 0.0);
@@ -35,8 +35,9 @@ pub use grid::{Axis, Grid, Quantity};
 pub use integrity::{Clearing, clearing};
 pub use share::wilson;
 
-use crate::attractors::{SurveyError, Watcher};
+use crate::attractors::SurveyError;
 use crate::orbit::{Exponents, Orbit, Regime};
+use crate::watch::{Watcher, unwatched};
 use softstop::error::MotionError;
 use softstop::scene::Scene;
 
@@ -151,7 +152,7 @@ impl Default for Options {
 /// # Errors
 /// [`SurveyError::Motion`] if the scene is invalid.
 pub fn basins(scene: &Scene, grid: &Grid, options: &Options) -> Result<Basins, SurveyError> {
-    basins_watched(scene, grid, options, &|_, _| true)
+    basins_watched(scene, grid, options, &unwatched)
 }
 
 /// The same, told of the cells done and of all cells; stopped when the watcher says so.

@@ -1,16 +1,18 @@
 //! Following the motions of all cells.
 
 use std::f64::consts::TAU;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
 use super::ball::Ball;
 use super::{Basins, Class, Grid, Kind, Options, wilson};
+use crate::attractors::SurveyError;
 use crate::attractors::fleet::{Fleet, Voyage};
 use crate::attractors::known::{Book, Standing};
-use crate::attractors::{SurveyError, Watcher};
 use crate::orbit::Exponents;
+use crate::watch::{Watcher, stop_if};
 use softstop::error::MotionError;
 use softstop::integrator::{Clock, Motion, Start};
 use softstop::scene::Scene;
@@ -215,10 +217,9 @@ impl Survey<'_> {
     /// Counts cells.
     fn note(&self, cells: usize) -> Result<(), SurveyError> {
         let done = self.done.fetch_add(cells, Ordering::Relaxed) + cells;
-        if (self.watcher)(done as u64, self.grid.cells() as u64) {
-            Ok(())
-        } else {
-            Err(SurveyError::Stopped)
+        match (self.watcher)(done as u64, self.grid.cells() as u64) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(SurveyError::Stopped),
         }
     }
 
@@ -236,7 +237,7 @@ impl Survey<'_> {
         let logged = 2 * self.options.longest + 1;
         let states = cells.iter().map(|cell| Voyage::new(self.states[*cell]));
         let mut voyages: Vec<Voyage> = states.collect();
-        let go_on = |_, _| self.note(0).is_ok();
+        let go_on = |_, _| stop_if(self.note(0).is_err());
         let fleet = Fleet::new(self.scene, &go_on)?;
         let mut all: Vec<&mut Voyage> = voyages.iter_mut().collect();
         fleet.sail(&mut all, periods + logged as u64, logged)?;

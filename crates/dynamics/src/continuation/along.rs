@@ -104,7 +104,7 @@ impl<M: Adjustable + Clone, const N: usize> Along<M, N> {
     /// # Errors
     /// [`SceneError`] if it lacks one, or is none.
     pub fn new(machine: M, parameters: [Parameter; N]) -> Result<Self, SceneError> {
-        let scene = machine.scene()?;
+        let scales = machine.scene()?.motion_scales();
         let mut parameter_scales = [TYPICAL; N];
         for (scale, parameter) in parameter_scales.iter_mut().zip(parameters) {
             let value = machine
@@ -117,7 +117,7 @@ impl<M: Adjustable + Clone, const N: usize> Along<M, N> {
         Ok(Self {
             machine,
             parameters,
-            state_scales: state_scales(&scene),
+            state_scales: [scales.length, scales.speed()],
             parameter_scales,
         })
     }
@@ -126,19 +126,6 @@ impl<M: Adjustable + Clone, const N: usize> Along<M, N> {
     pub fn values(&self) -> [f64; N] {
         self.parameters
             .map(|parameter| self.machine.value(parameter).unwrap_or(f64::NAN))
-    }
-}
-
-/// Clearance or amplitude of a free mass, whichever is larger, and the speed that the drive's frequency
-/// makes of it.
-fn state_scales(scene: &Scene) -> [f64; 2] {
-    let w = scene.excitation.frequency;
-    let free = scene.excitation.amplitude / (scene.mass * w * w);
-    let length = scene.clearance.abs().max(free);
-    if length > 0.0 {
-        [length, length * w]
-    } else {
-        [1.0, w]
     }
 }
 

@@ -10,37 +10,11 @@ use super::caution::SHORT;
 use super::detect::passes_by;
 use super::follower::{Follower, Heading, WIDTH};
 use super::graze::Approach;
-use super::point::{BranchPoint, Special};
+use super::point::{BranchPoint, Special, SpecialKind};
 use super::round::Round;
+use super::test::Test;
+use super::way::{End, Limits, Way};
 use crate::orbit::OrbitError;
-
-/// How far a branch is followed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
-    /// Lowest and highest value of the parameter.
-    pub range: (f64, f64),
-    /// Points in each direction.
-    pub points: usize,
-}
-
-/// Why a branch ends.
-#[derive(Debug, Clone)]
-pub enum End {
-    /// The parameter reaches the end of its range; the last point is there.
-    Range,
-    /// There are as many points as asked for.
-    Points,
-    /// The branch is closed: it comes back to its start.
-    Closed,
-    /// The orbit grazes the stop; the last point does.
-    Grazing,
-    /// The orbit becomes one of half as many periods, at its flip; the last point is that.
-    Merged,
-    /// The watcher asked for it.
-    Stopped,
-    /// It cannot be followed even with the smallest step.
-    Lost(OrbitError),
-}
 
 /// A branch of orbits, in order of arclength.
 #[derive(Debug, Clone)]
@@ -55,19 +29,23 @@ pub struct Branch {
     pub ends: (End, End),
 }
 
-/// One direction of a branch, its start left out.
-pub(super) struct Way {
-    pub(super) points: Vec<BranchPoint>,
-    pub(super) specials: Vec<Special>,
-    pub(super) end: End,
-}
-
 /// Steps shorter than that in a row after which an orbit is too unstable to be followed.
 const LONGEST_CRAWL: usize = 60;
 /// Scaled distance within which an orbit repeats.
 const REPEATS: f64 = 1e-7;
 /// Points after which a branch may be found closed.
 const SHORTEST_LOOP: usize = 8;
+
+impl Branch {
+    /// The orbits on it at which a test vanishes, in their order.
+    pub fn critical(&self, test: Test) -> impl Iterator<Item = &BranchPoint> {
+        let own = move |special: &&Special| special.kind == SpecialKind::Critical(test);
+        self.specials
+            .iter()
+            .filter(own)
+            .map(|special| &special.point)
+    }
+}
 
 impl<F: Family> Follower<'_, F> {
     /// The branch through the orbit near a state, towards falling and rising parameters, with every
@@ -252,24 +230,3 @@ impl<F: Family> Follower<'_, F> {
 
 /// No step is short enough.
 const UNSTABLE: OrbitError = OrbitError::Diverged { residual: f64::NAN };
-
-impl Way {
-    /// Ends in a grazing; false if there is none.
-    pub(super) fn grazes(&mut self, special: Option<Special>) -> bool {
-        let Some(special) = special else {
-            return false;
-        };
-        self.points.push(special.point.clone());
-        self.specials.push(special);
-        self.end = End::Grazing;
-        true
-    }
-
-    fn none() -> Self {
-        Self {
-            points: Vec::new(),
-            specials: Vec::new(),
-            end: End::Points,
-        }
-    }
-}

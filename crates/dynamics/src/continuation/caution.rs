@@ -2,13 +2,13 @@
 
 use super::Family;
 use super::arclength::{Node, Stride, Walker};
-use super::branch::{End, Limits, Way};
 use super::follower::Follower;
 use super::graze::Approach;
 use super::point::Special;
 use super::round::{Round, grazes_gently};
 use super::shooting::Shooting;
 use super::test::Test;
+use super::way::{End, Limits, Way};
 use crate::orbit::OrbitError;
 
 /// Largest change of a test function per step.

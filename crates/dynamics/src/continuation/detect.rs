@@ -2,12 +2,12 @@
 
 use super::Family;
 use super::arclength::{self, Node};
-use super::branch::Limits;
 use super::follower::{Follower, WIDTH};
 use super::graze::Approach;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::round::Round;
 use super::test::Test;
+use super::way::Limits;
 use crate::orbit::OrbitError;
 
 /// Share of its way across that half a round may have left where an orbit has become one of half as many
@@ -102,7 +102,8 @@ impl<F: Family> Follower<'_, F> {
         }
         let asymmetry = |node: &Node<Round>| {
             let half = node.here.point.ends[periods as usize / 2 - 1];
-            half - self.shooting.state(&node.at)
+            self.shooting
+                .scaled(half - self.shooting.state(&node.at), [0.0])
         };
         let (a, b) = (asymmetry(from), asymmetry(to));
         if a.dot(&b) >= 0.0 && b.norm() > MERGED * a.norm() {

@@ -1,5 +1,7 @@
 //! Orbits of a family followed along its parameter.
 
+use std::ops::ControlFlow;
+
 use nalgebra::{DVector, Vector2};
 
 use super::Family;
@@ -76,7 +78,7 @@ impl<'a, F: Family> Follower<'a, F> {
         DVector::from_vec(vec![0.0, 0.0, way])
     }
 
-    /// The branch of z = 1 motions from an orbit at `parameter`, until `stop` says so of its last point or `limit` points are there, or until it cannot be followed any
+    /// The branch of z = 1 motions from an orbit at `parameter`, until `watch` stops it at its last point or `limit` points are there, or until it cannot be followed any
     /// farther even with the smallest step (where the regime ends).
     ///
     /// # Errors
@@ -87,7 +89,7 @@ impl<'a, F: Family> Follower<'a, F> {
         parameter: f64,
         heading: Heading,
         limit: usize,
-        stop: impl Fn(&BranchPoint) -> bool,
+        mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Vec<BranchPoint>, OrbitError> {
         let state = Vector2::new(start.position, start.velocity);
         let node = self.start(parameter, state)?;
@@ -104,7 +106,7 @@ impl<'a, F: Family> Follower<'a, F> {
                 Ok(stride) if stride.node.here.point.sequence == sequence => {
                     walker.take(stride);
                     let point = self.point_at(&walker.node);
-                    let ends = stop(&point);
+                    let ends = watch(&point).is_break();
                     points.push(point);
                     if ends {
                         break;

@@ -11,7 +11,7 @@
 //! use std::ops::ControlFlow;
 //!
 //! use nalgebra::Vector2;
-//! use crate::continuation::{Along, Follower, Limits, Parameter};
+//! use softstop_dynamics::continuation::{Along, Follower, Limits, Parameter};
 //! use softstop::Ratios;
 //!
 //! let family = Along::new(Ratios::unloaded(), [Parameter::Frequency])?;
@@ -40,14 +40,16 @@ mod shooting;
 mod switch;
 mod test;
 mod touching;
+mod way;
 
 pub use along::{Adjustable, Along};
-pub use branch::{Branch, End, Limits};
+pub use branch::Branch;
 pub use curve::{Curve, CurveEnd, CurvePoint, Region, curve};
 pub use follower::{Follower, Heading};
 pub use point::{BranchPoint, Graze, Special, SpecialKind};
 pub use round::Face;
 pub use test::Test;
+pub use way::{End, Limits};
 
 pub use softstop::scene::Parameter;
 

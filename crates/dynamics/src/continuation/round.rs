@@ -55,7 +55,7 @@ impl Face {
 
     /// The face at a position, to rounding.
     fn at(scene: &Scene, position: f64) -> Option<Self> {
-        let near = 1e-9 * (1.0 + position.abs());
+        let near = 1e-9 * (scene.scales().length + position.abs());
         let stands = |face: &Self| {
             face.position(scene)
                 .is_some_and(|level| (level - position).abs() < near)
@@ -135,8 +135,7 @@ pub(crate) fn begin(scene: &Scene, state: Vector2<f64>) -> Result<Motion, Motion
         velocity: state.y,
     };
     start.validate()?;
-    let clock = Clock::new(scene.excitation.frequency, scene.excitation.phase);
-    Motion::new(scene.phases(), clock, Clock::at_cycle(0), start)
+    Motion::new(scene.phases(), scene.clock(), Clock::at_cycle(0), start)
 }
 
 /// Work that an orbit may cost per drive period, in scan windows: 260,000 crossings. A mass that bounces more

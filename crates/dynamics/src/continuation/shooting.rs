@@ -1,6 +1,6 @@
 //! The equations of a periodic orbit: P(s) = s over a number of drive periods.
 
-use nalgebra::{DMatrix, DVector, Vector2};
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Evaluation, differences};
@@ -63,11 +63,12 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Round>, OrbitError> {
         let state = self.state(at);
-        let round = Round::of(&self.scene(at)?, self.periods, state)?;
+        let scene = self.scene(at)?;
+        let round = Round::of(&scene, self.periods, state)?;
         let gap = round.end() - state;
         Ok(Evaluation {
             residual: DVector::from_vec(vec![gap.x / self.scales[0], gap.y / self.scales[1]]),
-            tolerance: round_off(&state, round.monodromy.norm()) / self.scales.rows(0, 2).min(),
+            tolerance: round_off(&scene, &state, &round.monodromy, self.family.state_scales()),
             point: round,
         })
     }
@@ -91,9 +92,16 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
     }
 }
 
-/// The residual that rounding alone may leave: that of the state, as the map stretches it.
-pub(crate) fn round_off(state: &Vector2<f64>, stretch: f64) -> f64 {
-    1e-13 * (1.0 + state.norm()) * (1.0 + stretch)
+/// What rounding alone may leave of P(s) - s in units of `sizes`.
+pub(crate) fn round_off(
+    scene: &Scene,
+    state: &Vector2<f64>,
+    jacobian: &Matrix2<f64>,
+    [length, speed]: [f64; 2],
+) -> f64 {
+    let scales = scene.scales();
+    let least = (length / scales.length).min(speed / scales.speed());
+    scales.rounding(state, jacobian) / least
 }
 
 /// Periodic orbits on which a test function vanishes besides.

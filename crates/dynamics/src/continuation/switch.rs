@@ -6,12 +6,14 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::{Node, correct};
-use super::branch::{Branch, Limits};
+use super::branch::Branch;
 use super::follower::Follower;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::round::Round;
 use super::test::Test;
+use super::way::Limits;
 use crate::orbit::OrbitError;
+use crate::watch::stop_if;
 
 /// Scaled distances from the flip at which the doubled branch is looked for.
 const DISTANCES: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-5];
@@ -69,11 +71,7 @@ impl<F: Family> Follower<'_, F> {
             let branch = follower.doubled(flip, limits, |point| {
                 let flipped = last.is_some_and(|sign| sign != flip_sign(point));
                 last = Some(flip_sign(point));
-                if flipped {
-                    ControlFlow::Break(())
-                } else {
-                    ControlFlow::Continue(())
-                }
+                stop_if(flipped)
             })?;
             let Some(next) = branch.specials.into_iter().find(is_flip) else {
                 break;

@@ -113,7 +113,7 @@ impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
         let [length, speed] = self.family.state_scales();
         Ok(Evaluation {
             residual: DVector::from_vec(vec![drift.x / length, drift.y / speed]),
-            tolerance: round_off(&touch, monodromy.norm()) / length.min(speed),
+            tolerance: round_off(&scene, &touch, &monodromy, [length, speed]),
             point: Contact {
                 monodromy,
                 impacts: watch.impacts,

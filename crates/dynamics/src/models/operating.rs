@@ -31,11 +31,7 @@ pub fn from_model(
     start: Start,
 ) -> Result<(Model, Observation), FidelityError> {
     let truth = &ladder.truth;
-    let w = truth.excitation.frequency;
-    let mut velocity = w * truth
-        .clearance
-        .abs()
-        .max(truth.excitation.amplitude / truth.mass / (w * w));
+    let mut velocity = truth.motion_scales().speed();
     let mut hint = None;
     for _ in 0..ROUNDS {
         let model = ladder.model(rung, velocity)?;

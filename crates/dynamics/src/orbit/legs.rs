@@ -53,9 +53,7 @@ struct Attempt {
 impl<'a> Legs<'a> {
     /// None if the scene has no stop.
     pub(super) fn new(scene: &'a Scene, periods: u64) -> Option<Self> {
-        let drive = scene.excitation;
-        let clock = Clock::new(drive.frequency, drive.phase);
-        let face = Face::new(Shared::new(scene.phases()), clock)?;
+        let face = Face::new(Shared::new(scene.phases()), scene.clock())?;
         Some(Self {
             scene,
             face,
@@ -93,7 +91,14 @@ impl<'a> Legs<'a> {
     fn rounding(&self, at: &Unknowns, attempt: &Attempt) -> f64 {
         let velocities = at.iter().skip(1).step_by(2);
         let fastest = velocities.fold(0.0, |fastest: f64, velocity| fastest.max(*velocity));
-        1e-14 * (1.0 + self.face.position().abs() + fastest) * (1.0 + attempt.jacobian.norm())
+        let scales = self.scene.scales();
+        let state = self.face.position().abs() / scales.length + fastest / scales.speed();
+        let mut jacobian = attempt.jacobian.clone();
+        let units = [1.0 / scales.rate, scales.speed()].into_iter().cycle();
+        for (mut column, unit) in jacobian.column_iter_mut().zip(units) {
+            column *= unit;
+        }
+        1e-14 * (1.0 + state) * (1.0 + jacobian.norm())
     }
 
     /// The unknowns after as much of a step as can be taken.
@@ -119,7 +124,7 @@ impl<'a> Legs<'a> {
 
     /// All legs; none where there is no such motion.
     fn attempt(&self, at: &Unknowns) -> Option<Attempt> {
-        let count = at.len() / 2;
+        let (count, scales) = (at.len() / 2, self.scene.scales());
         let mut attempt = Attempt {
             passings: Vec::with_capacity(count),
             residual: DVector::zeros(2 * count),
@@ -144,9 +149,11 @@ impl<'a> Legs<'a> {
             let acceleration = course.flow.acceleration(position, velocity, push);
             let through = course.flow.transition(flight) * passing.tangent.matrix;
             let (rows, column, ahead) = (2 * leg, 2 * leg, 2 * next);
-            attempt.residual[rows] = position - self.face.position();
-            attempt.residual[rows + 1] = velocity - at[ahead + 1];
+            let gap = Vector2::new(position - self.face.position(), velocity - at[ahead + 1]);
+            let mut fit = attempt.residual.fixed_rows_mut::<2>(rows);
+            fit.copy_from(&scales.state(&gap));
             let mut add = |column: usize, by: Vector2<f64>| {
+                let by = scales.state(&by);
                 attempt.jacobian[(rows, column)] += by.x;
                 attempt.jacobian[(rows + 1, column)] += by.y;
             };

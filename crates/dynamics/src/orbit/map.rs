@@ -9,7 +9,7 @@ use softstop::events::{Guard, Outlook, first_crossing};
 use softstop::flow::Course;
 use softstop::integrator::{Arc, Clock, Crossing, CrossingKind, Instant, Motion, Observer, Start};
 use softstop::phases::Phases;
-use softstop::scene::Scene;
+use softstop::scene::{Scales, Scene};
 use softstop::tangent::Tangent;
 
 /// The map of one scene over a number of drive periods, from time 0.
@@ -18,6 +18,7 @@ pub struct StroboscopicMap {
     phases: Shared<Phases>,
     clock: Clock,
     periods: u64,
+    scales: Scales,
 }
 
 /// One application of the map.
@@ -45,17 +46,22 @@ impl StroboscopicMap {
     /// [`MotionError::Scene`] if the scene is invalid.
     pub fn new(scene: &Scene, periods: u64) -> Result<Self, MotionError> {
         scene.validate()?;
-        let clock = Clock::new(scene.excitation.frequency, scene.excitation.phase);
         Ok(Self {
             phases: scene.phases().into(),
-            clock,
+            clock: scene.clock(),
             periods,
+            scales: scene.scales(),
         })
     }
 
     /// The drive periods of one application.
     pub fn periods(&self) -> u64 {
         self.periods
+    }
+
+    /// The measure of its states.
+    pub(crate) fn scales(&self) -> &Scales {
+        &self.scales
     }
 
     /// The clock of the drive.

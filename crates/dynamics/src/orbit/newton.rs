@@ -20,6 +20,8 @@ pub fn fixed_point(
 ) -> Result<(Vector2<f64>, Passage), OrbitError> {
     let mut state = start;
     let mut passage = map.apply(state)?;
+    let scales = map.scales();
+    let size = |residual: &Vector2<f64>| scales.state(residual).norm();
     let mut residual = passage.end - state;
     for _ in 0..NEWTON_STEPS {
         let matrix = Matrix2::identity() - passage.monodromy;
@@ -28,17 +30,17 @@ pub fn fixed_point(
         };
         let (next, next_passage) = within_walls(map, state, step)?;
         let next_residual = next_passage.end - next;
-        let shrinks = next_residual.norm() < residual.norm();
-        if !shrinks && residual.norm() <= round_off(&state, &passage) {
+        let shrinks = size(&next_residual) < size(&residual);
+        if !shrinks && size(&residual) <= scales.rounding(&state, &passage.monodromy) {
             return Ok((state, passage));
         }
         (state, passage, residual) = (next, next_passage, next_residual);
     }
-    if residual.norm() <= round_off(&state, &passage) {
+    if size(&residual) <= scales.rounding(&state, &passage.monodromy) {
         return Ok((state, passage));
     }
     Err(OrbitError::Diverged {
-        residual: residual.norm(),
+        residual: size(&residual),
     })
 }
 
@@ -63,9 +65,4 @@ fn within_walls(
         name: "Newton step",
         value: step.norm(),
     }))
-}
-
-/// The residual that rounding alone may leave: that of the state, as the map stretches it.
-pub(crate) fn round_off(state: &Vector2<f64>, passage: &Passage) -> f64 {
-    1e-13 * (1.0 + state.norm()) * (1.0 + passage.monodromy.norm())
 }

@@ -4,10 +4,10 @@ use nalgebra::{Complex, Matrix2, Vector2};
 
 use super::guess::guesses;
 use super::legs::Legs;
-use super::newton::{fixed_point, round_off};
+use super::newton::fixed_point;
 use super::{ImpactPattern, OrbitError, Passage, Regime, StroboscopicMap, is_stable, roots};
 use softstop::error::MotionError;
-use softstop::integrator::{Clock, Instant};
+use softstop::integrator::Instant;
 use softstop::scene::Scene;
 use softstop::trajectory::Touch;
 
@@ -130,24 +130,27 @@ impl Orbit {
 
     /// True if the impacts are the same after `part` drive periods.
     fn repeats(&self, impacts: &[(f64, f64)], part: u64) -> bool {
-        let period = self.clock().period();
+        let period = self.scene.clock().period();
         let shift = impacts.len() * part as usize / self.periods as usize;
         let span = period * part as f64;
+        let speed = self.scene.scales().speed();
         let pairs = impacts.iter().zip(&impacts[shift..]);
-        let mut pairs = pairs.map(|(a, b)| ((b.0 - a.0 - span) / period, b.1 - a.1));
-        pairs.all(|(time, velocity)| time.hypot(velocity) <= SAME * (1.0 + self.velocity.abs()))
+        let mut pairs = pairs.map(|(a, b)| ((b.0 - a.0 - span) / period, (b.1 - a.1) / speed));
+        let most = SAME * (1.0 + self.velocity.abs() / speed);
+        pairs.all(|(time, velocity)| time.hypot(velocity) <= most)
     }
 
     /// Times in s and before-impact velocities in m/s of its impacts.
     fn timed_impacts(&self) -> Vec<(f64, f64)> {
-        let clock = self.clock();
+        let clock = self.scene.clock();
         let timed = |touch: &Touch| (clock.time(touch.instant), touch.before_impact_velocity);
         self.impacts.iter().map(timed).collect()
     }
 
     /// True if the map is steep by a weak impact, so that rounding of the state tells in that impact.
     fn is_weak(&self) -> bool {
-        !self.impacts.is_empty() && self.rests.is_empty() && self.monodromy.norm() > STEEP
+        let steepness = self.scene.scales().jacobian(&self.monodromy).norm();
+        !self.impacts.is_empty() && self.rests.is_empty() && steepness > STEEP
     }
 
     /// The same by Newton's method on the map.
@@ -156,8 +159,8 @@ impl Orbit {
         let (state, passage) = fixed_point(&map, state)?;
         for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
             let shorter = StroboscopicMap::new(scene, part)?;
-            let gap = (shorter.image(state)? - state).norm();
-            if gap > SAME * (1.0 + state.norm()) {
+            let size = |state: &Vector2<f64>| map.scales().state(state).norm();
+            if size(&(shorter.image(state)? - state)) > SAME * (1.0 + size(&state)) {
                 continue;
             }
             if let Ok((state, passage)) = fixed_point(&shorter, state) {
@@ -208,7 +211,12 @@ impl Orbit {
     /// The order of its impacts.
     pub fn pattern(&self) -> ImpactPattern {
         let instants: Vec<Instant> = self.impacts.iter().map(|touch| touch.instant).collect();
-        ImpactPattern::new(&instants, &self.rests, self.periods, self.clock().period())
+        ImpactPattern::new(
+            &instants,
+            &self.rests,
+            self.periods,
+            self.scene.clock().period(),
+        )
     }
 
     /// True if there are infinitely many impacts in its period, ever weaker ones that end in rest.
@@ -254,20 +262,17 @@ impl Orbit {
         Vector2::new(self.position, self.velocity)
     }
 
-    fn clock(&self) -> Clock {
-        Clock::new(self.scene.excitation.frequency, self.scene.excitation.phase)
-    }
-
-    /// How far its state is from where it began after the period, in m and m/s, and what rounding alone
-    /// may leave.
+    /// How far its state is from where it began after the period, and what rounding alone may leave,
+    /// both in the scene's scales.
     ///
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.
     pub fn residual(&self) -> Result<(f64, f64), MotionError> {
         let map = StroboscopicMap::new(&self.scene, self.periods)?;
         let passage = map.apply(self.state())?;
-        let gap = (passage.end - self.state()).norm();
-        Ok((gap, round_off(&self.state(), &passage)))
+        let scales = map.scales();
+        let gap = scales.state(&(passage.end - self.state())).norm();
+        Ok((gap, scales.rounding(&self.state(), &passage.monodromy)))
     }
 
     /// Trace of the monodromy matrix.

@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 
 use super::{Orbit, OrbitError};
 use softstop::integrator::Start;
-use softstop::scene::Scene;
+use softstop::scene::{Scales, Scene};
 use softstop_lanes::{Job, Machine, Watch};
 
 /// Speeds of the starts, in units of w times the length of the motion.
@@ -86,15 +86,13 @@ impl Watch for Stages<'_> {
 
 /// Starts on circles in (w x, x') about the origin.
 fn starts(scene: &Scene) -> impl Iterator<Item = Start> + use<> {
-    let w = scene.excitation.frequency;
-    let drive = scene.excitation.amplitude / scene.mass / (w * w);
-    let length = scene.clearance.abs().max(drive);
+    let Scales { length, rate } = scene.motion_scales();
     SPEEDS.into_iter().flat_map(move |speed| {
         (0..DIRECTIONS).map(move |k| {
             let angle = TAU * k as f64 / DIRECTIONS as f64;
             Start {
                 position: speed * length * angle.cos(),
-                velocity: speed * length * (w * angle.sin()),
+                velocity: speed * length * (rate * angle.sin()),
             }
         })
     })

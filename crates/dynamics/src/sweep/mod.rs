@@ -11,8 +11,8 @@
 //!
 //! ```
 //! use softstop::Ratios;
-//! use crate::continuation::Parameter;
-//! use crate::sweep::{Chain, Direction, Plan, hysteresis};
+//! use softstop_dynamics::continuation::Parameter;
+//! use softstop_dynamics::sweep::{Chain, Direction, Plan, hysteresis};
 //!
 //! let plan = Plan::new(Parameter::Frequency, (1.01, 1.4), 40, 200)?;
 //! let mut chains = [Direction::Up, Direction::Down].map(|way| Chain::new(Ratios::unloaded(), way));
@@ -21,7 +21,7 @@
 //! // Between g0 = 1.04444 and s_SN = 1.369036 the way matters.
 //! assert_eq!(zones.len(), 1);
 //! assert!((zones[0].from - 1.05).abs() < 1e-9 && (zones[0].to - 1.36).abs() < 1e-9);
-//! # Ok::<(), crate::sweep::PlanError>(())
+//! # Ok::<(), softstop_dynamics::sweep::PlanError>(())
 //! ```
 
 mod compare;

@@ -1,7 +1,6 @@
 //! Where chaos ends: by its lifetime.
 
-use super::departure::Gathering;
-use super::explore::Stage;
+use super::stage::{Gathering, Stage, most};
 use super::{Motion, TransitionError};
 use crate::attractors::Arrival;
 use crate::continuation::Family;
@@ -73,7 +72,7 @@ impl<F: Family + Sync> Stage<'_, F> {
         let settled = arrivals.into_iter().filter(|it| it.orbit.is_some());
         let end = ChaosEnd {
             value: 0.5 * (good + after),
-            gathering: super::departure::most(settled.collect()),
+            gathering: most(settled.collect()),
             after,
         };
         Ok((good, Some(end)))

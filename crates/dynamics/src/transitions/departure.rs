@@ -3,35 +3,18 @@
 use nalgebra::Vector2;
 
 use super::cause::Course;
-use super::explore::Stage;
+use super::stage::{Gathering, Stage};
 use super::way::Way;
 use super::window::{EndKind, Window, WindowEnd};
 use super::{Motion, Transition, TransitionError};
-use crate::attractors::{Arrival, Options};
-use crate::continuation::{Family, Limits, SpecialKind, Test};
-use crate::orbit::{Exponents, Orbit};
+use crate::continuation::{Family, Follower, Limits};
+use crate::watch::stop_if;
 use softstop::integrator::Start;
-use softstop::scene::Scene;
 
-/// Relative differences between motions started side by side.
-const SPREAD: f64 = 1e-9;
-/// Drive periods in each batch of an exponent.
-const BATCH: u64 = 1600;
 /// Share of a window within which the way back is tried.
 const INSIDE: f64 = 0.25;
 /// Points of a doubled branch on which its first special point is looked for.
 const DOUBLED: usize = 300;
-
-/// Where most of several motions are.
-#[derive(Debug, Clone)]
-pub(super) struct Gathering {
-    /// What they do; none if that cannot be said yet.
-    pub motion: Option<Motion>,
-    /// The orbit, if they repeat.
-    pub orbit: Option<Orbit>,
-    /// Those that do so.
-    pub states: Vec<Start>,
-}
 
 /// A motion that has left its window.
 pub(super) struct Departure {
@@ -42,42 +25,6 @@ pub(super) struct Departure {
 }
 
 impl<F: Family + Sync> Stage<'_, F> {
-    /// Holds the parameter and lets motions settle.
-    pub fn hold(
-        &self,
-        value: f64,
-        starts: &[Start],
-        periods: u64,
-    ) -> Result<Vec<Arrival>, TransitionError> {
-        let options = Options {
-            transient: periods,
-            ..self.rules.survey
-        };
-        let scene = self.family.scene([value])?;
-        let watcher = |_, _| (self.watcher)();
-        Ok(crate::attractors::settle(
-            &scene, starts, &options, &watcher,
-        )?)
-    }
-
-    /// What most of them do then.
-    pub fn gather(&self, value: f64, starts: &[Start]) -> Result<Gathering, TransitionError> {
-        let arrivals = self.hold(value, starts, self.rules.patience)?;
-        let (settled, wandering): (Vec<Arrival>, Vec<Arrival>) =
-            arrivals.into_iter().partition(|it| it.orbit.is_some());
-        if wandering.len() > settled.len() {
-            let states: Vec<Start> = wandering.into_iter().map(|it| it.state).collect();
-            let scene = self.family.scene([value])?;
-            let motion = is_chaotic(&scene, states[0])?.then_some(Motion::Chaos);
-            return Ok(Gathering {
-                motion,
-                orbit: None,
-                states,
-            });
-        }
-        Ok(most(settled))
-    }
-
     /// What follows beyond an end of a window: held at ever larger distances from it.
     pub fn depart(
         &self,
@@ -173,24 +120,6 @@ impl<F: Family + Sync> Stage<'_, F> {
         self.fill(&[state.into()])
     }
 
-    /// As many motions as the rules ask for: the given ones, and others beside them.
-    pub fn fill(&self, states: &[Start]) -> Vec<Start> {
-        let beside = |(index, state): (usize, &Start)| {
-            let round = (index / states.len()) as f64;
-            Start {
-                position: state.position * (1.0 + SPREAD * round),
-                velocity: state.velocity * (1.0 + SPREAD * round),
-            }
-        };
-        states
-            .iter()
-            .cycle()
-            .take(self.rules.motions)
-            .enumerate()
-            .map(beside)
-            .collect()
-    }
-
     /// How the last doubled motion on the way ends.
     fn end_of_doubled(
         &self,
@@ -213,58 +142,15 @@ impl<F: Family + Sync> Stage<'_, F> {
             range: self.range,
             points: self.rules.points,
         };
-        let follower = crate::continuation::Follower::new(self.family, periods);
+        let follower = Follower::new(self.family, periods);
         // Its first special point is the end of the doubled motion or, where the flip is hard, the fold from
         // which the doubled motion comes.
         let mut seen = 0;
         let branch = follower.doubled(&end.point, &limits, |_| {
             seen += 1;
-            if seen < DOUBLED {
-                std::ops::ControlFlow::Continue(())
-            } else {
-                std::ops::ControlFlow::Break(())
-            }
+            stop_if(seen == DOUBLED)
         });
         let first = branch.ok().and_then(|it| it.specials.into_iter().next());
-        Ok(first.map(|special| {
-            let kind = match special.kind {
-                SpecialKind::Grazing(graze) => EndKind::Grazing { dies: graze.dies },
-                SpecialKind::Critical(Test::Fold) => EndKind::Fold,
-                SpecialKind::Critical(Test::Flip) => EndKind::Flip,
-                SpecialKind::Critical(_) => EndKind::Lost,
-            };
-            (kind, special.point.parameter)
-        }))
+        Ok(first.map(|special| (special.kind.into(), special.point.parameter)))
     }
-}
-
-/// The commonest orbit of motions that have settled.
-pub(super) fn most(settled: Vec<Arrival>) -> Gathering {
-    let mut kinds: Vec<(Motion, Orbit, Vec<Start>)> = Vec::new();
-    for arrival in settled {
-        let Some(orbit) = arrival.orbit else { continue };
-        let motion = Motion::of(&orbit);
-        match kinds.iter_mut().find(|kind| kind.0 == motion) {
-            Some(kind) => kind.2.push(arrival.state),
-            None => kinds.push((motion, orbit, vec![arrival.state])),
-        }
-    }
-    let most = kinds.into_iter().max_by_key(|kind| kind.2.len());
-    match most {
-        Some((motion, orbit, states)) => Gathering {
-            motion: Some(motion),
-            orbit: Some(orbit),
-            states,
-        },
-        None => Gathering {
-            motion: None,
-            orbit: None,
-            states: Vec::new(),
-        },
-    }
-}
-
-fn is_chaotic(scene: &Scene, state: Start) -> Result<bool, TransitionError> {
-    let (exponents, _) = Exponents::along(scene, state.into(), BATCH)?;
-    Ok(exponents.is_positive())
 }

@@ -4,21 +4,15 @@ use rayon::prelude::*;
 
 use super::cause::Cause;
 use super::departure::Departure;
+use super::stage::Stage;
 use super::way::is_doubled;
 use super::window::Window;
 use super::{Motion, Rules, Transition, TransitionError};
 use crate::attractors::{Kind, attractors_watched};
 use crate::continuation::Family;
 use crate::orbit::Orbit;
+use crate::watch::Watcher;
 use softstop::integrator::Start;
-
-/// What all parts of the search share.
-pub(super) struct Stage<'a, F> {
-    pub family: &'a F,
-    pub range: (f64, f64),
-    pub rules: Rules,
-    pub watcher: &'a (dyn Fn() -> bool + Sync),
-}
 
 /// Finds transitions of a family's motions.
 pub struct Explorer<'a, F> {
@@ -45,13 +39,9 @@ const ROUNDS: usize = 6;
 const SAME: f64 = 1e-4;
 
 impl<'a, F: Family + Sync> Explorer<'a, F> {
-    /// A search in a range of the parameter. It stops when `watcher`, asked often, says false.
-    pub fn new(
-        family: &'a F,
-        range: (f64, f64),
-        rules: Rules,
-        watcher: &'a (dyn Fn() -> bool + Sync),
-    ) -> Self {
+    /// A search in a range of the parameter. The watcher is told of the drive periods of one look at
+    /// motions after the other.
+    pub fn new(family: &'a F, range: (f64, f64), rules: Rules, watcher: Watcher<'a>) -> Self {
         let stage = Stage {
             family,
             range,
@@ -103,8 +93,7 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
         seeds: &mut Vec<Seed>,
     ) -> Result<(), TransitionError> {
         let scene = self.stage.family.scene([value])?;
-        let watcher = |_, _| (self.stage.watcher)();
-        let survey = attractors_watched(&scene, &self.stage.rules.survey, &watcher)?;
+        let survey = attractors_watched(&scene, &self.stage.rules.survey, self.stage.watcher)?;
         for attractor in survey.attractors {
             match attractor.kind {
                 Kind::Periodic { orbit, .. } => met.push((value, *orbit)),

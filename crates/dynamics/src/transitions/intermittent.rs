@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::explore::Stage;
+use super::stage::Stage;
 use super::{Motion, TransitionError};
 use crate::continuation::Family;
 use crate::orbit::{Exponents, Orbit, StroboscopicMap};

@@ -8,11 +8,12 @@
 //!
 //! ```
 //! use softstop::Ratios;
-//! use crate::continuation::{Along, Parameter};
-//! use crate::transitions::{Explorer, Rules};
+//! use softstop_dynamics::continuation::{Along, Parameter};
+//! use softstop_dynamics::transitions::{Explorer, Rules};
+//! use softstop_dynamics::watch::unwatched;
 //!
 //! let family = Along::new(Ratios::unloaded(), [Parameter::Frequency])?;
-//! let explorer = Explorer::new(&family, (1.0, 1.5), Rules::default(), &|| true);
+//! let explorer = Explorer::new(&family, (1.0, 1.5), Rules::default(), &unwatched);
 //! let transitions = explorer.explore(&[1.2])?;
 //! // The grazing of z = 0 at g0 and the fold of z = 1, both with hysteresis.
 //! let symbols: Vec<String> = transitions.iter().map(|it| it.symbols()).collect();
@@ -26,6 +27,7 @@ mod chaos;
 mod departure;
 mod explore;
 mod intermittent;
+mod stage;
 mod way;
 mod window;
 

@@ -1,7 +1,7 @@
 //! What a motion meets beyond the end of its window.
 
 use super::Motion;
-use super::departure::Gathering;
+use super::stage::Gathering;
 use super::window::{EndKind, Window};
 use crate::orbit::Orbit;
 use softstop::integrator::Start;

@@ -1,10 +1,9 @@
 //! The values of the parameter for which a periodic motion is stable.
 
-use std::ops::ControlFlow;
-
 use super::{Motion, Rules, TransitionError};
 use crate::continuation::{Branch, BranchPoint, End, Family, Follower, Limits, SpecialKind, Test};
 use crate::orbit::Orbit;
+use crate::watch::stop_if;
 
 /// By what a window ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,6 +23,17 @@ pub enum EndKind {
     Range,
     /// It could not be followed any farther.
     Lost,
+}
+
+impl From<SpecialKind> for EndKind {
+    fn from(kind: SpecialKind) -> Self {
+        match kind {
+            SpecialKind::Grazing(graze) => Self::Grazing { dies: graze.dies },
+            SpecialKind::Critical(Test::Fold) => Self::Fold,
+            SpecialKind::Critical(Test::Flip) => Self::Flip,
+            SpecialKind::Critical(Test::NeimarkSacker) => Self::Lost,
+        }
+    }
 }
 
 /// One end.
@@ -61,11 +71,8 @@ impl Window {
             points: rules.points,
         };
         let follower = Follower::new(family, orbit.periods);
-        let watch = |point: &BranchPoint| match point.is_stable() {
-            true => ControlFlow::Continue(()),
-            // One point beyond a fold or flip is enough to have it located.
-            false => ControlFlow::Break(()),
-        };
+        // One point beyond a fold or flip is enough to have it located.
+        let watch = |point: &BranchPoint| stop_if(!point.is_stable());
         let branch = follower.branch(value, orbit.state(), &limits, watch)?;
         let start = nearest(&branch, value, orbit);
         let mut ends = [end(&branch, start, true), end(&branch, start, false)];
@@ -134,10 +141,5 @@ fn special(branch: &Branch, point: &BranchPoint) -> Option<EndKind> {
     let here = branch.specials.iter().find(|special| {
         special.point.parameter == point.parameter && special.point.state() == point.state()
     })?;
-    Some(match here.kind {
-        SpecialKind::Grazing(graze) => EndKind::Grazing { dies: graze.dies },
-        SpecialKind::Critical(Test::Fold) => EndKind::Fold,
-        SpecialKind::Critical(Test::Flip) => EndKind::Flip,
-        SpecialKind::Critical(_) => EndKind::Lost,
-    })
+    Some(here.kind.into())
 }

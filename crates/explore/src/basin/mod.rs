@@ -203,7 +203,7 @@ fn picture(
     let progress = Progress::new(grid.cells() as u64, "cells");
     let watcher = |done, _| {
         progress.at(done);
-        !interrupt::requested()
+        interrupt::go_on()
     };
     let basins = basins_watched(scene, &grid, options, &watcher).map_err(failure)?;
     drop(progress);
@@ -235,7 +235,7 @@ fn along(
     let progress = Progress::new((grid.cells() * places) as u64, "cells");
     let watcher = |done, _| {
         progress.at(done);
-        !interrupt::requested()
+        interrupt::go_on()
     };
     let found =
         establishing(&zone, &shares, &grid, options, &watcher).map_err(|error| match error {

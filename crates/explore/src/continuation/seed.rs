@@ -79,7 +79,7 @@ pub fn find(scene: &Scene, wanted: Wanted) -> Result<Orbit, Failure> {
     let bar = Progress::new(1, "drive periods at most, in search of the orbit");
     let survey = attractors_watched(scene, &options, &|done, planned| {
         bar.at_of(done, planned);
-        !interrupt::requested()
+        interrupt::go_on()
     });
     drop(bar);
     let survey = survey.map_err(|error| match error {

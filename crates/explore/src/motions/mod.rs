@@ -77,7 +77,7 @@ pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
     let progress = Progress::new(1, "drive periods at most");
     let watcher = |done, planned| {
         progress.at_of(done, planned);
-        !interrupt::requested()
+        interrupt::go_on()
     };
     let survey =
         attractors_watched(&machine.scene, &options, &watcher).map_err(|error| match error {

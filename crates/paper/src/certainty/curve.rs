@@ -9,6 +9,7 @@ use softstop_dynamics::basin::{Axis, Establishing, Grid, Options, establishing};
 use softstop_dynamics::orbit::Regime;
 use softstop_dynamics::zone::{self, Zone};
 
+use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
 /// Which states are asked.
@@ -99,7 +100,10 @@ impl Curve {
 
     fn at(&self, place: f64, cells: usize, progress: &Progress) -> Result<Place> {
         let grid = self.starts.grid(self.clearance(), cells);
-        let watcher = |_, _| progress.steps(0).is_ok();
+        let watcher = |_, _| {
+            progress.beat();
+            interrupt::go_on()
+        };
         let found = establishing(&self.zone, &[place], &grid, &Options::default(), &watcher);
         let found = found?;
         progress.steps((cells * cells) as u64)?;

@@ -1,16 +1,15 @@
 //! The boundaries g0, s_SN and s_PD across the clearances.
 
-use std::ops::ControlFlow;
-
 use anyhow::{Context, Result};
 use rayon::prelude::*;
 use softstop::{Ratios, Scene};
 use softstop_dynamics::continuation::{
-    Along, BranchPoint, Curve, Family, Follower, Limits, Parameter, Region, SpecialKind, Test,
-    curve,
+    Along, BranchPoint, Curve, Family, Heading, Parameter, Region, SpecialKind, Test, curve,
 };
-use softstop_dynamics::orbit::{StroboscopicMap, find};
-use softstop_dynamics::zone::{grazing_frequencies, hysteresis};
+use softstop_dynamics::orbit::{Orbit, StroboscopicMap, find};
+use softstop_dynamics::zone::{
+    ZoneError, free_amplitude, grazing_frequencies, hysteresis, loss_of_stability,
+};
 
 use crate::figure;
 use crate::figure6::chart::Boundaries;
@@ -23,8 +22,7 @@ const RANGE: (f64, f64) = (0.7, 1.9);
 const CLEARANCES: (f64, f64) = (1.0, 24.5);
 /// Clearances from one point of g0 to the next.
 const SPACING: f64 = 0.5;
-/// Most points of a branch and of a curve in each direction: a curve that comes to an orbit that grazes creeps.
-const POINTS: usize = 4000;
+/// Most points of a curve in each direction: one that comes to an orbit that grazes creeps.
 const CURVE_POINTS: usize = 300;
 /// Width to which the best clearance is found.
 const WIDTH: f64 = 1e-3;
@@ -60,59 +58,43 @@ pub(super) fn ends(machine: &Ratios, clearances: &[f64], progress: &Progress) ->
 }
 
 fn ends_of(machine: &Ratios) -> Result<Ends> {
-    let grazing = grazing(machine)?;
-    let machine = machine.at_frequency(grazing[0]);
-    let family = Along::new(machine, [Parameter::Frequency])?;
-    let state = find(&machine.scene()?)?.state();
-    let limits = Limits {
-        range: RANGE,
-        points: POINTS,
-    };
-    // Unstable stretches between two folds are passed over: the last fold counts. The first flip is the end.
-    let watch = |point: &BranchPoint| {
-        let is_flipped = !point.is_stable() && point.fold_test() > 0.0;
-        match is_flipped || point.fold_test() < -1.0 {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
-    };
-    let branch = Follower::new(&family, 1).branch(grazing[0], state, &limits, watch)?;
-    let of_test = |test: Test| {
-        let all = branch.specials.iter();
-        all.filter(move |special| special.kind == SpecialKind::Critical(test))
-            .map(|special| &special.point)
-    };
-    let folds = of_test(Test::Fold).filter(|point| point.parameter > grazing[0]);
-    let fold = folds.max_by(|a, b| a.parameter.total_cmp(&b.parameter));
-    let flips = of_test(Test::Flip).filter(|point| point.parameter < grazing[0]);
-    let flip = flips.max_by(|a, b| a.parameter.total_cmp(&b.parameter));
-    let described = |point: Option<&BranchPoint>| -> Result<_> {
+    let scene = machine.scene()?;
+    let at_g0 = grazing(&scene)?;
+    let described = |point: Option<BranchPoint>| -> Result<_> {
         let Some(point) = point else { return Ok(None) };
-        let scene = family.scene([point.parameter])?;
-        Ok(Some((
-            point.clone(),
-            describe(&scene, point.parameter, point)?,
-        )))
+        let mut scene = scene.clone();
+        scene.excitation.frequency = point.parameter;
+        let found = describe(&scene, point.parameter, &point)?;
+        Ok(Some((point, found)))
     };
+    let fold = match hysteresis(&scene) {
+        Ok(zone) => Some(zone.fold),
+        Err(ZoneError::NoFold { .. } | ZoneError::Flip { .. }) => None,
+        Err(error) => return Err(error.into()),
+    };
+    let flip = loss_of_stability(&at_g0, Heading::Down, Test::Flip)?;
     Ok(Ends {
         clearance: machine.clearance,
-        grazing,
+        grazing: figures(&at_g0),
         fold: described(fold)?,
-        flip: described(flip)?,
+        flip: described(flip.filter(|point| point.parameter > RANGE.0))?,
     })
 }
 
-/// z = 1 at g0: eta, X_m, X'-.
-fn grazing(machine: &Ratios) -> Result<[f64; 3]> {
-    let mut scene = machine.scene()?;
-    let (_, frequency) = grazing_frequencies(&scene)?;
-    scene.excitation.frequency = frequency;
-    let orbit = find(&scene)?;
-    Ok([
-        frequency,
+/// z = 1 at g0.
+fn grazing(scene: &Scene) -> Result<Orbit> {
+    let mut scene = scene.clone();
+    scene.excitation.frequency = grazing_frequencies(&scene)?.1;
+    Ok(find(&scene)?)
+}
+
+/// eta, X_m, X'-.
+fn figures(orbit: &Orbit) -> [f64; 3] {
+    [
+        orbit.scene.excitation.frequency,
         orbit.max_position,
         orbit.before_impact_velocity(),
-    ])
+    ]
 }
 
 fn describe(
@@ -159,11 +141,14 @@ pub(super) fn across(
         .collect::<Vec<f64>>()
         .into_par_iter()
         .map(|clearance| {
-            let machine = machine.at_clearance(clearance);
-            grazing(&machine).ok()
+            let machine = Ratios {
+                clearance,
+                ..*machine
+            };
+            Some(figures(&grazing(&machine.scene().ok()?).ok()?))
         });
     Ok(Boundaries {
-        response: response(machine),
+        response: machine.scene().map_or(Vec::new(), |scene| response(&scene)),
         grazing: at_grazing.flatten().collect(),
         folds: follow(Test::Fold, |ends| ends.fold.as_ref())?,
         flips: follow(Test::Flip, |ends| ends.flip.as_ref())?,
@@ -193,11 +178,9 @@ fn piece(
     };
     let start = (SpecialKind::Critical(test), point);
     let parameters = [point.parameter, clearance];
-    let watch = |_: &_| match interrupt::requested() {
-        true => ControlFlow::Break(()),
-        false => ControlFlow::Continue(()),
-    };
-    let found = curve(&family, 1, start, parameters, &region, watch);
+    let found = curve(&family, 1, start, parameters, &region, |_| {
+        interrupt::go_on()
+    });
     let described = |curve: Curve| {
         let points = curve.points.iter().filter_map(|at| {
             let scene = family.scene(at.parameters).ok()?;
@@ -215,11 +198,10 @@ fn piece(
     found.map(described).unwrap_or_default()
 }
 
-/// Amplitude of the free mass, 1 / sqrt((1 - eta^2)^2 + (2 beta1 eta)^2), over eta.
-fn response(machine: &Ratios) -> Vec<(f64, f64)> {
-    let amplitude = |eta: f64| 1.0 / (1.0 - eta * eta).hypot(2.0 * machine.damping * eta);
+/// Amplitude of the free mass over eta.
+fn response(scene: &Scene) -> Vec<(f64, f64)> {
     let etas = (0..=2400).map(|index| RANGE.0 + (RANGE.1 - RANGE.0) * f64::from(index) / 2400.0);
-    etas.map(|eta| (eta, amplitude(eta))).collect()
+    etas.map(|eta| (eta, free_amplitude(scene, eta))).collect()
 }
 
 /// The clearance of the highest velocity at the fold, and that velocity, by golden section between the

@@ -73,7 +73,7 @@ fn seeds(known: &[&Diagram], detail: Detail) -> Result<Vec<Seed>> {
     for eta in some {
         let machine = Ratios::unloaded().at_frequency(eta);
         let scene = machine.scene()?;
-        let survey = attractors_watched(&scene, &options, &|_, _| !interrupt::requested());
+        let survey = attractors_watched(&scene, &options, &|_, _| interrupt::go_on());
         let survey = survey?;
         for attractor in survey.attractors {
             let Kind::Periodic { orbit, .. } = attractor.kind else {

@@ -141,7 +141,7 @@ fn survey(asked: &Asked, detail: Detail, progress: &Progress) -> Result<Survey> 
     };
     let watcher = |_, _| {
         progress.beat();
-        !interrupt::requested()
+        interrupt::go_on()
     };
     Ok(attractors_watched(&scene, &options, &watcher)?)
 }

@@ -1,11 +1,10 @@
 //! The branch of z = 1 from grazing to grazing: its folds and flips.
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 use anyhow::Result;
 use rayon::prelude::*;
-use softstop_dynamics::continuation::{Along, Follower, Limits, Parameter, Special};
+use softstop_dynamics::continuation::{Along, BranchPoint, Follower, Limits, Parameter, Test};
 use softstop_dynamics::orbit::{OrbitError, find};
 
 use super::stops::{CLEARANCE, Law, grazing};
@@ -81,28 +80,18 @@ fn of(stiffness: f64) -> Result<StopFolds, OrbitError> {
         range: RANGE,
         points: 2000,
     };
-    let go_on = |_: &_| {
-        if interrupt::requested() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    };
-    let branch = Follower::new(&family, 1)
-        .with_steps(LARGEST)
-        .branch(FREQUENCY, state, &limits, go_on)?;
-    let named = |symbol: &'static str| {
-        let fits = move |special: &&Special| special.kind.symbol() == symbol;
-        branch
-            .specials
-            .iter()
-            .filter(fits)
-            .map(|special| &special.point)
-    };
-    let folds = || named("SN").map(|point| (point.parameter, point.before_impact_velocity()));
+    let branch =
+        Follower::new(&family, 1)
+            .with_steps(LARGEST)
+            .branch(FREQUENCY, state, &limits, |_| interrupt::go_on())?;
+    let described = |point: &BranchPoint| (point.parameter, point.before_impact_velocity());
+    let folds = || branch.critical(Test::Fold).map(described);
     let strong = folds().reduce(|a, b| if a.1 > b.1 { a } else { b });
     let weak = folds().reduce(|a, b| if a.1 < b.1 { a } else { b });
-    let flips: Vec<f64> = named("PD").map(|point| point.parameter).collect();
+    let flips: Vec<f64> = branch
+        .critical(Test::Flip)
+        .map(|point| point.parameter)
+        .collect();
     let first = flips.iter().copied().reduce(f64::min);
     Ok(StopFolds {
         stiffness,

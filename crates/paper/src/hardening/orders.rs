@@ -62,7 +62,7 @@ fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmoni
         ..Options::default()
     };
     let scene = Law::KelvinVoigt(stiffness).scene(frequency, NARROW);
-    let survey = attractors_watched(&scene, &options, &|_, _| !interrupt::requested());
+    let survey = attractors_watched(&scene, &options, &|_, _| interrupt::go_on());
     let survey = survey?;
     let subharmonic = |kind: &Kind| match kind {
         Kind::Periodic { orbit, .. } if orbit.periods > 1 && !orbit.impacts.is_empty() => {

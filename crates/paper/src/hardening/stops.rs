@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use softstop::scene::{Release, Slope};
 use softstop::{Excitation, Scene, Stop};
+use softstop_dynamics::zone::grazing_frequencies;
 
 /// The clearance rho of the diagrams.
 pub(super) const CLEARANCE: f64 = 2.0;
@@ -113,10 +114,11 @@ fn damping_ratio() -> f64 {
     decrement / decrement.hypot(PI)
 }
 
-/// The frequencies at which the impact-less motion grazes: 1/sqrt((1 - eta^2)^2 + (2 beta1 eta)^2) = rho. The
-/// lower one is 0 if already the static deflection is larger than the clearance.
+/// The frequencies at which the impact-less motion grazes. The lower one is 0 if already the static
+/// deflection is larger than the clearance.
 pub(super) fn grazing(clearance: f64) -> (f64, f64) {
-    let half = 1.0 - 0.5 * DAMPING * DAMPING;
-    let root = (half * half - 1.0 + clearance.powi(-2)).max(0.0).sqrt();
-    ((half - root).max(0.0).sqrt(), (half + root).sqrt())
+    let found = grazing_frequencies(&Law::Rigid.scene(1.0, clearance));
+    found.map_or((0.0, f64::NAN), |(below, above)| {
+        (below.unwrap_or(0.0), above)
+    })
 }

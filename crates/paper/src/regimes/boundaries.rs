@@ -1,13 +1,12 @@
 //! The boundaries of the z = 1 motion: where it grazes first, doubles its period, and turns back.
 
-use std::ops::ControlFlow;
-
 use anyhow::{Context, Result};
-use softstop::Ratios;
+use softstop::{Ratios, Scene};
 use softstop_dynamics::continuation::{
     Along, Curve, CurvePoint, Follower, Limits, Parameter, Region, Special, SpecialKind, Test,
     curve,
 };
+use softstop_dynamics::zone::free_amplitude;
 
 use super::Window;
 use crate::regimes::chart::BoundaryCurve;
@@ -47,7 +46,7 @@ impl Boundaries {
         };
         let branch = Follower::new(&family, 1)
             .with_steps(STEP)
-            .branch(start, orbit.state(), &limits, |_| go_on())
+            .branch(start, orbit.state(), &limits, |_| interrupt::go_on())
             .context("the z = 1 motion cannot be followed")?;
         let of = |test| {
             let kind = SpecialKind::Critical(test);
@@ -57,7 +56,7 @@ impl Boundaries {
                 .collect::<Result<Vec<Curve>>>()
         };
         let boundaries = Self {
-            grazing: grazing(machine, window),
+            grazing: grazing(&scene, window),
             flips: of(Test::Flip)?,
             folds: of(Test::Fold)?,
         };
@@ -106,14 +105,6 @@ fn points(curve: &Curve) -> Vec<(f64, f64)> {
         .collect()
 }
 
-fn go_on() -> ControlFlow<()> {
-    if interrupt::requested() {
-        ControlFlow::Break(())
-    } else {
-        ControlFlow::Continue(())
-    }
-}
-
 fn follow(machine: &Ratios, window: &Window, special: &Special) -> Result<Curve> {
     let parameters = [Parameter::Frequency, Parameter::Clearance];
     let family = Along::new(*machine, parameters)?;
@@ -129,18 +120,16 @@ fn follow(machine: &Ratios, window: &Window, special: &Special) -> Result<Curve>
         (special.kind, &special.point),
         at,
         &region,
-        |_| go_on(),
+        |_| interrupt::go_on(),
     );
     Ok(found.with_context(|| format!("no curve of the {}", special.kind.name()))?)
 }
 
-/// rho = 1 / sqrt((1 - eta^2)^2 + (2 beta1 eta)^2): the amplitude of the linear oscillator.
-fn grazing(machine: &Ratios, window: &Window) -> Vec<(f64, f64)> {
-    let amplitude = |eta: f64| {
-        let square = (1.0 - eta * eta).powi(2) + (2.0 * machine.damping * eta).powi(2);
-        1.0 / square.sqrt()
-    };
+/// rho = the amplitude of the linear oscillator.
+fn grazing(scene: &Scene, window: &Window) -> Vec<(f64, f64)> {
     let (from, to) = window.eta;
     let points = (0..=POINTS).map(|k| from + k as f64 / POINTS as f64 * (to - from));
-    points.map(|eta| (eta, amplitude(eta))).collect()
+    points
+        .map(|eta| (eta, free_amplitude(scene, eta)))
+        .collect()
 }

@@ -61,7 +61,7 @@ fn of_one(machine: &Ratios, count: usize) -> Result<RegimeCell> {
         ..Options::default()
     };
     let starts = starts(machine, count);
-    let arrivals = settle(&scene, &starts, &options, &|_, _| !interrupt::requested());
+    let arrivals = settle(&scene, &starts, &options, &|_, _| interrupt::go_on());
     let arrivals = match arrivals {
         Ok(arrivals) => arrivals,
         Err(SurveyError::Stopped) => return Err(SurveyError::Stopped.into()),

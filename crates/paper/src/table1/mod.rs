@@ -145,9 +145,9 @@ pub fn values(intervals: &[(f64, f64, usize)]) -> Vec<f64> {
 pub fn transitions(rules: &Rules, range: (f64, f64), values: &[f64]) -> Result<Vec<Transition>> {
     let family = Along::new(Ratios::unloaded(), [Parameter::Frequency])?;
     let bar = Progress::open("looks at motions");
-    let watcher = || {
+    let watcher = |_, _| {
         bar.one();
-        !interrupt::requested()
+        interrupt::go_on()
     };
     let found = Explorer::new(&family, range, *rules, &watcher).explore(values);
     drop(bar);

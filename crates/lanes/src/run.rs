@@ -1,15 +1,36 @@
-//! A batch on all threads.
+//! A batch on this thread, or on all.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::{Instructions, Job, Machine, Outcome, Watch, run_with};
+use super::engine;
+use super::job::{Instructions, Job, Outcome};
+use super::machine::Machine;
+use super::watch::{Listener, Watch};
 use softstop::integrator::Start;
 
 /// Jobs of a part. Lanes that go together round together, so the parts may not depend on how many threads
 /// there are; and they are long enough for all lanes to be busy nearly to the end.
 const PART: usize = 128;
+
+/// Follows all jobs on this thread.
+///
+/// # Panics
+/// If a job names a machine that is not there.
+pub fn run(machines: &[Machine], jobs: &[Job], watch: &mut impl Watch) -> Vec<Outcome> {
+    run_with(Instructions::Widest, machines, jobs, watch)
+}
+
+/// The same with the instruction set chosen.
+pub fn run_with(
+    instructions: Instructions,
+    machines: &[Machine],
+    jobs: &[Job],
+    watch: &mut impl Watch,
+) -> Vec<Outcome> {
+    engine::run(machines, jobs, Listener::of(watch), instructions)
+}
 
 /// Follows all jobs on the threads of rayon's pool, part by part, with the same result for any number of
 /// threads. Each part has a watcher of its own, which `watch` makes for the jobs in this range; they come

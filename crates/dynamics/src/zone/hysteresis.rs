@@ -1,65 +1,10 @@
-//! The hysteresis zone above resonance: from grazing of the impact-less motion (g0) to the fold of
-//! the z = 1 motion (s_SN), Peterka 2003, section 3.
+//! From grazing of the impact-less motion to the fold of z = 1.
 
-use thiserror::Error;
-
-use crate::continuation::{BranchPoint, Family, Follower, Heading};
+use super::{Frequencies, ZoneError, at, grazing_frequencies};
+use crate::continuation::{BranchPoint, Follower, Heading};
 use crate::orbit::{Orbit, OrbitError, find};
-use softstop::error::{MotionError, SceneError};
+use crate::watch::stop_if;
 use softstop::scene::Scene;
-
-/// Why a machine has no hysteresis zone.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum ZoneError {
-    /// The impact-less motion never reaches the stop.
-    #[error(
-        "clearance = {clearance}: must be > 0 and below {largest}, the largest amplitude of the \
-         impact-less motion, for a grazing boundary to exist"
-    )]
-    NoGrazing {
-        /// The clearance in m.
-        clearance: f64,
-        /// The amplitude at resonance in m.
-        largest: f64,
-    },
-    /// There is no stable z = 1 motion where the zone would begin.
-    #[error(
-        "no hysteresis: no stable z = 1 motion at the grazing boundary frequency = {frequency}"
-    )]
-    NoOrbit {
-        /// Frequency of the grazing boundary in rad/s.
-        frequency: f64,
-    },
-    /// The z = 1 branch loses its stability otherwise than by a fold.
-    #[error(
-        "the z = 1 branch loses its stability by a flip near frequency = {frequency}, before any fold"
-    )]
-    Flip {
-        /// Frequency in rad/s at which it is first seen unstable.
-        frequency: f64,
-    },
-    /// The z = 1 branch goes on without a fold.
-    #[error("the z = 1 branch was followed to frequency = {frequency} without meeting a fold")]
-    NoFold {
-        /// Frequency in rad/s up to which it was followed.
-        frequency: f64,
-    },
-    /// A place outside the zone was asked for.
-    #[error("s = {share}: must lie in [0, 1], from g0 to s_SN")]
-    Outside {
-        /// The share that was asked for.
-        share: f64,
-    },
-    /// The branch could not be computed.
-    #[error(transparent)]
-    Orbit(#[from] OrbitError),
-}
-
-impl From<SceneError> for ZoneError {
-    fn from(error: SceneError) -> Self {
-        Self::Orbit(error.into())
-    }
-}
 
 /// The hysteresis zone of one machine, with its branch of z = 1 motions.
 #[derive(Debug, Clone)]
@@ -75,6 +20,8 @@ pub struct Zone {
     pub frequency_sn: f64,
     /// Before-impact velocity at the fold in m/s.
     pub velocity_sn: f64,
+    /// The orbit there.
+    pub fold: BranchPoint,
     /// The branch from g0 on, through all its folds, in order of arclength.
     pub branch: Vec<BranchPoint>,
 }
@@ -92,45 +39,13 @@ const AT_FOLD: f64 = 1e-7;
 /// Frequency in units of g0 beyond which no fold is looked for.
 const FARTHEST: f64 = 8.0;
 
-/// Frequencies in rad/s at which the impact-less motion grazes the stop: (below resonance, above).
-///
-/// Its amplitude F0 / |k1 - m w^2 + i b1 w| equals the clearance r where
-/// m w^2 = k1 - b1^2 / (2 m) +- sqrt((F0 / r)^2 - b1^2 (k1 / m - b1^2 / (2 m)^2)).
-///
-/// # Errors
-/// [`ZoneError::NoGrazing`] if the amplitude never equals the clearance, [`ZoneError::Orbit`] for a
-/// scene that is none.
-pub fn grazing_frequencies(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
-    scene.validate()?;
-    let (m, k, r) = (scene.mass, scene.stiffness, scene.clearance);
-    let (force, square) = (scene.excitation.amplitude, scene.damping * scene.damping);
-    let centre = m * k - 0.5 * square;
-    let least = square * (m * k - 0.25 * square);
-    let discriminant = m * m * (force * force / (r * r)) - least;
-    let largest = if centre > 0.0 {
-        m * force / least.sqrt()
-    } else {
-        force / k
-    };
-    let above = (centre + discriminant.sqrt()) / (m * m);
-    if !(r > 0.0 && force > 0.0 && discriminant >= 0.0 && above > 0.0) {
-        return Err(ZoneError::NoGrazing {
-            clearance: r,
-            largest,
-        });
-    }
-    // The product of the roots: no cancellation for the smaller one.
-    let below = (k - force / r) * (k + force / r) / (m * m) / above;
-    Ok(((below > 0.0).then(|| below.sqrt()), above.sqrt()))
-}
-
 /// The hysteresis zone of a scene with any stop; the frequency of its drive plays no part.
 ///
 /// # Errors
 /// [`ZoneError`] if there is no grazing boundary, no z = 1 motion at it, or no fold.
 pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
     let (frequency_g0_below, frequency_g0) = grazing_frequencies(scene)?;
-    let family = Frequencies::of(scene, frequency_g0);
+    let family = Frequencies(scene);
     let start = find(&at(scene, frequency_g0)).map_err(|_| ZoneError::NoOrbit {
         frequency: frequency_g0,
     })?;
@@ -142,7 +57,7 @@ pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
             let outside =
                 point.parameter < frequency_g0 || point.parameter > FARTHEST * frequency_g0;
             let ends_in_grazing = point.fold_test() < STEEPEST || (weak && point.fold_test() < 0.0);
-            flipped || outside || ends_in_grazing
+            stop_if(flipped || outside || ends_in_grazing)
         })?;
     insert_folds(&follower, &mut branch)?;
     let fold = branch
@@ -156,15 +71,9 @@ pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
         frequency_g0,
         frequency_sn: fold.parameter,
         velocity_sn: fold.before_impact_velocity(),
+        fold: fold.clone(),
         branch,
     })
-}
-
-/// A scene at another frequency of its drive.
-fn at(scene: &Scene, frequency: f64) -> Scene {
-    let mut scene = scene.clone();
-    scene.excitation.frequency = frequency;
-    scene
 }
 
 /// Adds the folds to a branch, between the neighbours where 1 - tr + det changes its sign.
@@ -214,7 +123,7 @@ impl Zone {
         if !(0.0..=1.0).contains(&share) {
             return Err(ZoneError::Outside { share });
         }
-        let family = Frequencies::of(&self.scene, self.frequency_g0);
+        let family = Frequencies(&self.scene);
         let follower = Follower::new(&family, 1);
         let target = self.frequency_at(share);
         let mut best: Option<BranchPoint> = None;
@@ -242,48 +151,5 @@ impl Zone {
             clearance: self.scene.clearance,
         };
         Ok(follower.orbit(&best.ok_or(lost)?)?)
-    }
-}
-
-/// One scene at all frequencies.
-struct Frequencies<'a> {
-    scene: &'a Scene,
-    /// Omega = sqrt(k1/m) in rad/s.
-    natural: f64,
-    /// Clearance or static deflection in m, whichever is larger.
-    length: f64,
-}
-
-impl<'a> Frequencies<'a> {
-    /// `grazing` is the scale of the frequencies of a mass without a suspension.
-    fn of(scene: &'a Scene, grazing: f64) -> Self {
-        let (k, r) = (scene.stiffness, scene.clearance.abs());
-        let (natural, length) = if k > 0.0 {
-            let deflection = scene.excitation.amplitude / k;
-            ((k / scene.mass).sqrt(), r.max(deflection))
-        } else {
-            (grazing, r)
-        };
-        Self {
-            scene,
-            natural,
-            length,
-        }
-    }
-}
-
-impl Family for Frequencies<'_> {
-    fn scene(&self, [frequency]: [f64; 1]) -> Result<Scene, MotionError> {
-        let scene = at(self.scene, frequency);
-        scene.validate()?;
-        Ok(scene)
-    }
-
-    fn state_scales(&self) -> [f64; 2] {
-        [self.length, self.length * self.natural]
-    }
-
-    fn parameter_scales(&self) -> [f64; 1] {
-        [0.2 * self.natural]
     }
 }

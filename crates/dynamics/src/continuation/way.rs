@@ -1,0 +1,60 @@
+//! How far a branch is followed one way, and why it ends.
+
+use super::point::{BranchPoint, Special};
+use crate::orbit::OrbitError;
+
+/// How far a branch is followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Lowest and highest value of the parameter.
+    pub range: (f64, f64),
+    /// Points in each direction.
+    pub points: usize,
+}
+
+/// Why a branch ends.
+#[derive(Debug, Clone)]
+pub enum End {
+    /// The parameter reaches the end of its range; the last point is there.
+    Range,
+    /// There are as many points as asked for.
+    Points,
+    /// The branch is closed: it comes back to its start.
+    Closed,
+    /// The orbit grazes the stop; the last point does.
+    Grazing,
+    /// The orbit becomes one of half as many periods, at its flip; the last point is that.
+    Merged,
+    /// The watcher asked for it.
+    Stopped,
+    /// It cannot be followed even with the smallest step.
+    Lost(OrbitError),
+}
+
+/// One direction of a branch, its start left out.
+pub(super) struct Way {
+    pub(super) points: Vec<BranchPoint>,
+    pub(super) specials: Vec<Special>,
+    pub(super) end: End,
+}
+
+impl Way {
+    /// Ends in a grazing; false if there is none.
+    pub(super) fn grazes(&mut self, special: Option<Special>) -> bool {
+        let Some(special) = special else {
+            return false;
+        };
+        self.points.push(special.point.clone());
+        self.specials.push(special);
+        self.end = End::Grazing;
+        true
+    }
+
+    pub(super) fn none() -> Self {
+        Self {
+            points: Vec::new(),
+            specials: Vec::new(),
+            end: End::Points,
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! What all parts of the search share: several motions side by side, and what most of them do.
+
+use super::{Motion, Rules, TransitionError};
+use crate::attractors::{Arrival, Options, settle};
+use crate::continuation::Family;
+use crate::orbit::{Exponents, Orbit};
+use crate::watch::Watcher;
+use softstop::integrator::Start;
+use softstop::scene::Scene;
+
+/// Relative differences between motions started side by side.
+const SPREAD: f64 = 1e-9;
+/// Drive periods in each batch of an exponent.
+const BATCH: u64 = 1600;
+/// What all parts of the search share.
+pub(super) struct Stage<'a, F> {
+    pub family: &'a F,
+    pub range: (f64, f64),
+    pub rules: Rules,
+    pub watcher: Watcher<'a>,
+}
+
+/// Where most of several motions are.
+#[derive(Debug, Clone)]
+pub(super) struct Gathering {
+    /// What they do; none if that cannot be said yet.
+    pub motion: Option<Motion>,
+    /// The orbit, if they repeat.
+    pub orbit: Option<Orbit>,
+    /// Those that do so.
+    pub states: Vec<Start>,
+}
+
+impl<F: Family + Sync> Stage<'_, F> {
+    /// Holds the parameter and lets motions settle.
+    pub fn hold(
+        &self,
+        value: f64,
+        starts: &[Start],
+        periods: u64,
+    ) -> Result<Vec<Arrival>, TransitionError> {
+        let options = Options {
+            transient: periods,
+            ..self.rules.survey
+        };
+        let scene = self.family.scene([value])?;
+        Ok(settle(&scene, starts, &options, self.watcher)?)
+    }
+
+    /// What most of them do then.
+    pub fn gather(&self, value: f64, starts: &[Start]) -> Result<Gathering, TransitionError> {
+        let arrivals = self.hold(value, starts, self.rules.patience)?;
+        let (settled, wandering): (Vec<Arrival>, Vec<Arrival>) =
+            arrivals.into_iter().partition(|it| it.orbit.is_some());
+        if wandering.len() > settled.len() {
+            let states: Vec<Start> = wandering.into_iter().map(|it| it.state).collect();
+            let scene = self.family.scene([value])?;
+            let motion = is_chaotic(&scene, states[0])?.then_some(Motion::Chaos);
+            return Ok(Gathering {
+                motion,
+                orbit: None,
+                states,
+            });
+        }
+        Ok(most(settled))
+    }
+
+    /// As many motions as the rules ask for: the given ones, and others beside them.
+    pub fn fill(&self, states: &[Start]) -> Vec<Start> {
+        let beside = |(index, state): (usize, &Start)| {
+            let round = (index / states.len()) as f64;
+            Start {
+                position: state.position * (1.0 + SPREAD * round),
+                velocity: state.velocity * (1.0 + SPREAD * round),
+            }
+        };
+        states
+            .iter()
+            .cycle()
+            .take(self.rules.motions)
+            .enumerate()
+            .map(beside)
+            .collect()
+    }
+}
+
+/// The commonest orbit of motions that have settled.
+pub(super) fn most(settled: Vec<Arrival>) -> Gathering {
+    let mut kinds: Vec<(Motion, Orbit, Vec<Start>)> = Vec::new();
+    for arrival in settled {
+        let Some(orbit) = arrival.orbit else { continue };
+        let motion = Motion::of(&orbit);
+        match kinds.iter_mut().find(|kind| kind.0 == motion) {
+            Some(kind) => kind.2.push(arrival.state),
+            None => kinds.push((motion, orbit, vec![arrival.state])),
+        }
+    }
+    let most = kinds.into_iter().max_by_key(|kind| kind.2.len());
+    match most {
+        Some((motion, orbit, states)) => Gathering {
+            motion: Some(motion),
+            orbit: Some(orbit),
+            states,
+        },
+        None => Gathering {
+            motion: None,
+            orbit: None,
+            states: Vec::new(),
+        },
+    }
+}
+
+fn is_chaotic(scene: &Scene, state: Start) -> Result<bool, TransitionError> {
+    let (exponents, _) = Exponents::along(scene, state.into(), BATCH)?;
+    Ok(exponents.is_positive())
+}

@@ -1,0 +1,81 @@
+//! A machine in SI has the zone of the same machine in ratios, whatever its stop.
+
+use proptest::prelude::*;
+use softstop::{PiercingRatios, Ratios, Scene, Stop, Units};
+use softstop_dynamics::continuation::{Heading, Test};
+use softstop_dynamics::zone::{hysteresis, loss_of_stability};
+use softstop_testing::random;
+
+/// A machine by its clearance, its damping and which stop it has.
+fn machine(clearance: f64, damping: f64, which: usize) -> Scene {
+    let ratios = Ratios {
+        clearance,
+        damping,
+        piercing: (which == 5).then_some(PiercingRatios::PAPER),
+        ..Ratios::unloaded()
+    };
+    let mut scene = ratios.scene().expect("valid");
+    match which {
+        1 => scene.stop = Stop::Rigid { restitution: 0.6 },
+        2 => {
+            scene.stop = Stop::KelvinVoigt {
+                stiffness: 40.0,
+                release: Default::default(),
+            }
+        }
+        3 => {
+            scene.stop = Stop::Hertz {
+                stiffness: 30.0,
+                exponent: 1.5,
+                dissipation: 0.02,
+            }
+        }
+        4 => {
+            scene.stop = Stop::Preloaded {
+                stiffness: 3.0,
+                preload: 5.0,
+            }
+        }
+        _ => {}
+    }
+    scene
+}
+
+/// The bounds of z = 1: g0, s_SN, the velocity there, s_PD.
+fn bounds(scene: &Scene) -> Result<[f64; 4], String> {
+    let zone = hysteresis(scene).map_err(|error| format!("{error:?}"))?;
+    let orbit = zone.orbit_at(0.5).map_err(|error| format!("{error:?}"))?;
+    let flip = loss_of_stability(&orbit, Heading::Down, Test::Flip).expect("a branch");
+    let flip = flip.map_or(f64::NAN, |point| point.parameter);
+    Ok([zone.frequency_g0, zone.frequency_sn, zone.velocity_sn, flip])
+}
+
+proptest! {
+    #![proptest_config(random::cases(24))]
+
+    #[test]
+    fn zones_do_not_depend_on_units(
+        clearance in 2.0..16.0f64,
+        damping in 0.01..0.04f64,
+        which in 0..6usize,
+        powers in (-4.0..4.0f64, -3.0..8.0f64, -3.0..5.0f64),
+    ) {
+        let units = Units {
+            mass: 10f64.powf(powers.0),
+            stiffness: 10f64.powf(powers.1),
+            force: 10f64.powf(powers.2),
+        };
+        let plain = machine(clearance, damping, which);
+        let other = plain.in_units(units).expect("valid");
+        let (w, speed) = (units.frequency(), units.frequency() * units.length());
+        match (bounds(&plain), bounds(&other)) {
+            (Ok(plain), Ok(other)) => {
+                for ((plain, other), unit) in plain.iter().zip(other).zip([w, w, speed, w]) {
+                    let same = (other / unit / plain - 1.0).abs() < 1e-9;
+                    prop_assert!(same || (plain.is_nan() && other.is_nan()), "{plain} {other}");
+                }
+            }
+            (plain, other) => prop_assert!(plain.is_err() && other.is_err(), "{plain:?} {other:?}"),
+        }
+    }
+}

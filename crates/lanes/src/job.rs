@@ -1,0 +1,41 @@
+//! What the lanes are given and what they give back.
+
+use softstop::error::MotionError;
+use softstop::integrator::Start;
+
+/// One motion to follow, from drive period 0 on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Job {
+    /// Which of the machines.
+    pub machine: usize,
+    /// State at time 0.
+    pub start: Start,
+    /// Drive periods to follow it.
+    pub periods: u64,
+}
+
+/// What became of a job.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// State at the end.
+    pub end: Start,
+    /// Impacts on the way.
+    pub impacts: u64,
+    /// Drive periods that the safe engine followed, in part or whole.
+    pub handed_over: u64,
+    /// Why it ended early, if it did.
+    pub error: Option<MotionError>,
+}
+
+/// The instruction set that the lanes use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Instructions {
+    /// The widest that the processor has.
+    Widest,
+    /// At most 256-bit registers.
+    Avx2,
+    /// No vector instructions but those that every processor of its kind has.
+    Portable,
+    /// One motion after another, each alone in one register of at most 256 bits.
+    OneByOne,
+}

@@ -1,0 +1,101 @@
+//! A motion in its free and its steady part, and what encloses it.
+
+use pulp::Simd;
+
+use super::lanes::{Lanes, Mask};
+use super::law::Law;
+
+/// A motion as the sum of a free one (y, u) and the steady one (p, q): positions and velocities.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Parts<S: Simd, const N: usize> {
+    pub y: Lanes<S, N>,
+    pub u: Lanes<S, N>,
+    pub p: Lanes<S, N>,
+    pub q: Lanes<S, N>,
+}
+
+/// The enclosure of a motion over a stretch of time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hull<S: Simd, const N: usize> {
+    /// Positions that it stays between.
+    pub low: Lanes<S, N>,
+    pub high: Lanes<S, N>,
+}
+
+impl<S: Simd, const N: usize> Hull<S, N> {
+    /// Of a motion with these positions and velocities at both ends, |x''''| span^4 / 384 <= slack.
+    #[inline(always)]
+    pub fn of(
+        left: (Lanes<S, N>, Lanes<S, N>),
+        right: (Lanes<S, N>, Lanes<S, N>),
+        third: Lanes<S, N>,
+        slack: Lanes<S, N>,
+    ) -> Self {
+        let (b1, b2) = (third.mul_add(left.1, left.0), right.0 - third * right.1);
+        Self {
+            low: left.0.min(right.0).min(b1.min(b2)) - slack,
+            high: left.0.max(right.0).max(b1.max(b2)) + slack,
+        }
+    }
+}
+
+impl<S: Simd, const N: usize> Parts<S, N> {
+    /// The parts one window later.
+    #[inline(always)]
+    pub fn next(&self, law: &Law<S, N>) -> Self {
+        let Self { y, u, p, q } = *self;
+        Self {
+            y: law.xx.mul_add(y, law.xv * u),
+            u: law.vx.mul_add(y, law.vv * u),
+            p: law.turn.mul_add(p, law.turn_by_velocity * q),
+            q: law.turn.mul_add(q, law.turn_by_position * p),
+        }
+    }
+
+    #[inline(always)]
+    pub fn choose(mask: Mask<S, N>, yes: &Self, no: &Self) -> Self {
+        Self {
+            y: mask.choose(yes.y, no.y),
+            u: mask.choose(yes.u, no.u),
+            p: mask.choose(yes.p, no.p),
+            q: mask.choose(yes.q, no.q),
+        }
+    }
+}
+
+impl<S: Simd, const N: usize> Law<S, N> {
+    /// |x''''| window^4 / 384 over the next window, of a motion whose free part is (y, u). In phases that only
+    /// a position ends, over all windows of a scan.
+    #[inline(always)]
+    pub fn slack(&self, parts: &Parts<S, N>) -> Lanes<S, N> {
+        let Parts { y, u, .. } = *parts;
+        let fourth = self.fourth_x.mul_add(y, self.fourth_v * u).abs();
+        let fifth = self.fifth_x.mul_add(y, self.fifth_v * u).abs();
+        self.steady + fourth + fifth
+    }
+
+    /// The same of |v''''|.
+    #[inline(always)]
+    pub fn rate_slack(&self, parts: &Parts<S, N>) -> Lanes<S, N> {
+        let Parts { y, u, .. } = *parts;
+        let fifth = self.rate_fifth_x.mul_add(y, self.rate_fifth_v * u).abs();
+        let sixth = self.rate_sixth_x.mul_add(y, self.rate_sixth_v * u).abs();
+        self.rate_steady + fifth + sixth
+    }
+
+    /// x'' of the two parts together.
+    #[inline(always)]
+    pub fn acceleration(&self, frequency: Lanes<S, N>, parts: &Parts<S, N>) -> Lanes<S, N> {
+        let steady = -(frequency * frequency * parts.p);
+        self.stiffness
+            .mul_add(parts.y, self.damping.mul_add(parts.u, steady))
+    }
+
+    /// Largest value of the further guard's weighted sum within the hulls of position and velocity.
+    #[inline(always)]
+    pub fn guard_top(&self, positions: &Hull<S, N>, velocities: &Hull<S, N>) -> Lanes<S, N> {
+        let (a, b) = (self.by_position, self.by_velocity);
+        let x = (a * positions.low).max(a * positions.high);
+        x + (b * velocities.low).max(b * velocities.high)
+    }
+}

@@ -1,0 +1,72 @@
+//! What is large and what is small on a machine.
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::Scene;
+
+/// A typical length and a typical rate: the measure of states and of maps between them, so that a
+/// machine in other units behaves the same.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scales {
+    /// In m.
+    pub length: f64,
+    /// In rad/s.
+    pub rate: f64,
+}
+
+/// Share of m w^2 below which the suspension is too soft to be a measure.
+const SOFT: f64 = 0.01;
+
+impl Scene {
+    /// Those of the machine, the units of [`Ratios`](super::Ratios): the static deflection F0/k1 and
+    /// Omega = sqrt(k1/m). A suspension far softer than m w^2 is replaced by that.
+    pub fn scales(&self) -> Scales {
+        let w = self.excitation.frequency;
+        let stiffness = self.stiffness.max(SOFT * self.mass * w * w);
+        Scales {
+            length: or_one(self.excitation.amplitude / stiffness, self.clearance),
+            rate: (stiffness / self.mass).sqrt(),
+        }
+    }
+
+    /// Those of its motions under this drive: the clearance or the amplitude F0/(m w^2) of a free mass,
+    /// whichever is larger, and w.
+    pub fn motion_scales(&self) -> Scales {
+        let w = self.excitation.frequency;
+        let free = self.excitation.amplitude / self.mass / (w * w);
+        Scales {
+            length: or_one(self.clearance.abs().max(free), 0.0),
+            rate: w,
+        }
+    }
+}
+
+/// A length, or another one where it vanishes.
+fn or_one(length: f64, other: f64) -> f64 {
+    let mut lengths = [length, other.abs()].into_iter();
+    lengths.find(|length| *length > 0.0).unwrap_or(1.0)
+}
+
+impl Scales {
+    /// In m/s.
+    pub fn speed(&self) -> f64 {
+        self.length * self.rate
+    }
+
+    /// A state in these units.
+    pub fn state(&self, state: &Vector2<f64>) -> Vector2<f64> {
+        Vector2::new(state.x / self.length, state.y / self.speed())
+    }
+
+    /// The Jacobian of a map of states in these units.
+    pub fn jacobian(&self, jacobian: &Matrix2<f64>) -> Matrix2<f64> {
+        let [[xx, vx], [xv, vv]] = jacobian.data.0;
+        Matrix2::new(xx, xv * self.rate, vx / self.rate, vv)
+    }
+
+    /// What rounding alone may leave of P(s) - s in these units: that of the state, as the map
+    /// stretches it.
+    pub fn rounding(&self, state: &Vector2<f64>, jacobian: &Matrix2<f64>) -> f64 {
+        1e-13 * (1.0 + self.state(state).norm()) * (1.0 + self.jacobian(jacobian).norm())
+    }
+}
