@@ -41,3 +41,5 @@ pub use scene::{
     Dimension, Excitation, Parameter, Piercing, PiercingRatios, Ratios, Scene, Stop, Units,
 };
 pub use trajectory::Trajectory;
+
+pub use nalgebra;

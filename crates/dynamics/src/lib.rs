@@ -13,3 +13,6 @@ pub mod sweep;
 pub mod transitions;
 pub mod watch;
 pub mod zone;
+
+pub use nalgebra;
+pub use softstop;

@@ -4,6 +4,7 @@ mod attractors;
 mod basin;
 mod continuation;
 mod corners;
+mod examples;
 mod exponents;
 mod fidelity;
 mod grazing;

@@ -1,0 +1,22 @@
+//! Which starts lead to z = 1 and which to rest.
+
+use softstop::Ratios;
+use softstop_dynamics::basin::{Axis, Grid, Options, basins};
+use softstop_dynamics::orbit::Regime;
+
+/// Runs the example.
+pub fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let scene = Ratios::unloaded().scene()?;
+    let grid = Grid::states(
+        Axis::position(-20.0, 10.0, 24),
+        Axis::velocity(-20.0, 20.0, 24),
+        0.0,
+    );
+    let basins = basins(&scene, &grid, &Options::default())?;
+    for class in &basins.classes {
+        println!("{}: {:.1} %", class.kind.name(), 100.0 * class.share);
+    }
+    let (share, [low, high]) = basins.share(Regime::ONE);
+    assert!(0.0 < low && low < share && share < high && high < 1.0);
+    Ok(())
+}

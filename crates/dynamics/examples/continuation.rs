@@ -1,0 +1,33 @@
+//! The branch of z = 1 from grazing to grazing, with its flip and its fold.
+
+use std::ops::ControlFlow;
+
+use softstop::Ratios;
+use softstop_dynamics::continuation::{Along, Follower, Limits, Parameter};
+use softstop_dynamics::orbit;
+
+/// Runs the example.
+pub fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let machine = Ratios::unloaded();
+    let state = orbit::find(&machine.scene()?)?.state();
+    let family = Along::new(machine, [Parameter::Frequency])?;
+    let limits = Limits {
+        range: (0.9, 1.5),
+        points: 500,
+    };
+    let follower = Follower::new(&family, 1);
+    let branch = follower.branch(machine.frequency, state, &limits, |_| {
+        ControlFlow::Continue(())
+    })?;
+    for special in &branch.specials {
+        println!(
+            "{} at eta = {}",
+            special.kind.symbol(),
+            special.point.parameter
+        );
+    }
+    let symbols: Vec<&str> = branch.specials.iter().map(|it| it.kind.symbol()).collect();
+    assert_eq!(symbols, ["G", "PD", "SN", "G"]);
+    assert!((branch.specials[2].point.parameter - 1.369_036).abs() < 1e-6);
+    Ok(())
+}

@@ -1,0 +1,22 @@
+//! A periodic motion with its Floquet multipliers and its Lyapunov exponents.
+
+use softstop::Ratios;
+use softstop_dynamics::orbit::{self, Exponents};
+
+/// Runs the example.
+pub fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let orbit = orbit::find(&Ratios::unloaded().scene()?)?;
+    let exponents = Exponents::of(&orbit);
+    println!(
+        "z = {}: X'- = {}",
+        orbit.regime(),
+        orbit.before_impact_velocity()
+    );
+    println!("multipliers {:?}", orbit.multipliers());
+    assert!((orbit.before_impact_velocity() - 6.494_627_429_363).abs() < 1e-10);
+    assert!(orbit.is_stable() && exponents.per_period[0] < 0.0);
+    // No sliding: the determinant is that of the damping alone.
+    let damped = (-orbit.damping_integral).exp();
+    assert!((orbit.determinant() / damped - 1.0).abs() < 1e-9);
+    Ok(())
+}

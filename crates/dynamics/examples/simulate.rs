@@ -1,0 +1,24 @@
+//! A machine simulated from a start: its impacts and its energy.
+
+use softstop::{Ratios, Start};
+
+/// Runs the example.
+pub fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let scene = Ratios::unloaded().scene()?;
+    let start = Start {
+        position: 0.0,
+        velocity: 14.0,
+    };
+    let motion = scene.trajectory(start, 1000)?;
+    let last = motion
+        .impacts()
+        .last()
+        .ok_or("it strikes in every period")?;
+    println!(
+        "velocity before the last impact: {}",
+        last.before_impact_velocity
+    );
+    assert!((last.before_impact_velocity - 6.494_627_429_363).abs() < 1e-10);
+    assert!(motion.energy_defect().abs() < 1e-11 * motion.work.supplied);
+    Ok(())
+}
