@@ -67,7 +67,7 @@ fn point_a_has_two_basins_and_the_same_in_all_files() -> Outcome {
 #[test]
 fn chaos_and_two_isolated_motions_are_found_side_by_side() -> Outcome {
     let folder = tempfile::tempdir()?;
-    let plane = ["--frequency", "0.9875", "--x", "0,15", "--v=-20,20"];
+    let plane = ["--frequency", "0.9875", "--x", "0:15", "--v=-20:20"];
     let report = json(folder.path(), &[&plane[..], &["--size", "30"]].concat())?;
     let (names, _) = motions(&report);
     assert_eq!(names, ["z = 2/3", "z = 2/4", "chaos"]);
@@ -120,12 +120,17 @@ fn bad_values_are_named() {
     refuses(&["--size", "1"], &["size", "2 to 4000"]);
     refuses(&["--transient", "0"], &["transient", "1 to 1000000"]);
     refuses(&["--longest", "0"], &["longest"]);
-    refuses(&["--x", "3,1"], &["--x", "the first below the second"]);
+    refuses(&["--x", "3:1"], &["--x", "LOW < HIGH"]);
     refuses(&["--plane", "x,x"], &["--plane", "two different"]);
     refuses(&["--at", "nan"], &["at"]);
     refuses(&["--along-zone", "1"], &["along-zone", "2 to 1000"]);
     refuses(&["--clearance", "-1e400"], &["clearance"]);
     refuses(&["none.toml"], &["none.toml"]);
+    let along = ["--along-zone", "3"];
+    refuses(
+        &[&along[..], &["--frequency", "1.2"]].concat(),
+        &["frequency", "is not used"],
+    );
 }
 
 #[cfg(unix)]

@@ -169,11 +169,11 @@ fn values_that_cannot_be_are_refused_by_name_value_and_range() -> Outcome {
         ),
         (
             &["--parameter", "F0", "--from", "1", "--to", "2"],
-            &["amplitude", "has no such parameter"],
+            &["--parameter F0", "has no such parameter"],
         ),
         (
             &["--parameter", "mass", "--from", "1", "--to", "2"],
-            &["mass", "frequency (eta)", "travel (nu)"],
+            &["mass", "has no such parameter", "excitation.frequency"],
         ),
         (
             &[

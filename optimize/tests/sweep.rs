@@ -93,18 +93,56 @@ fn refuses(arguments: &[&str], words: &[&str]) {
 #[test]
 fn bad_values_are_named() {
     let with = |rest: &[&'static str]| [&["--from", "0.8", "--to", "1.8"], rest].concat();
-    refuses(&["--from", "1.8", "--to", "0.8"], &["range", "rising"]);
-    refuses(&with(&["--steps", "1"]), &["steps", "2 to 10000000"]);
+    refuses(&["--from", "1", "--to", "1"], &["range", "rising"]);
+    refuses(&with(&["--steps", "1"]), &["steps", "2 to 1000000"]);
     refuses(&with(&["--periods", "0"]), &["periods"]);
     refuses(&with(&["--tolerance", "1"]), &["tolerance", "> 0 and < 1"]);
     refuses(
         &with(&["--parameter", "restitution"]),
-        &["restitution", "has none"],
+        &["--parameter restitution", "has no"],
     );
     refuses(&with(&["--parameter", "colour"]), &["colour"]);
     refuses(&with(&["--clearances", "2,x"]), &["--clearances"]);
     refuses(&["--from", "-1", "--to", "1"], &["frequency"]);
     refuses(&with(&["--resume"]), &["--resume"]);
+    refuses(
+        &with(&["--steps", "600000"]),
+        &["600000 in each of 2 sweeps", "0.6 GB"],
+    );
+    refuses(
+        &with(&["--frequency", "1.2"]),
+        &["frequency", "is not used"],
+    );
+}
+
+#[test]
+fn a_machine_is_swept_downwards_along_its_mass() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes/rigid.toml");
+    let machine = [scene, "--set", "clearance=1", "--parameter", "mass"];
+    let range = [
+        "--from",
+        "2",
+        "--to",
+        "1",
+        "--steps",
+        "5",
+        "--periods",
+        "20",
+    ];
+    let report = json(folder.path(), &[&machine[..], &range[..]].concat())?;
+    assert_eq!(
+        (&report["parameter"], &report["unit"]),
+        (&"mass".into(), &"kg".into())
+    );
+    let sweeps = report["sweeps"].as_array().ok_or("no sweeps")?;
+    assert_eq!(sweeps.len(), 1);
+    assert_eq!(sweeps[0]["direction"], "down");
+    let chart = fs::read_to_string(folder.path().join("sweep.svg"))?;
+    for words in ["mass (kg)", "before-impact velocity (m/s)"] {
+        assert!(chart.contains(words), "{words}");
+    }
+    Ok(())
 }
 
 #[cfg(unix)]

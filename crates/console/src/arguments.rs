@@ -110,6 +110,20 @@ impl MachineArguments {
         }
     }
 
+    /// The parameter of this name that the machine has; `flag` asks for it.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] naming the flag, and what the machine has instead.
+    pub fn parameter(
+        &self,
+        machine: &Machine,
+        flag: &str,
+        name: &str,
+    ) -> Result<Parameter, Failure> {
+        let found = machine.parameter(name);
+        found.map_err(|error| Failure::usage(format!("--{flag} {name}: {error}")))
+    }
+
     /// The keys that the command line states.
     #[must_use]
     pub fn keys(&self) -> Vec<String> {

@@ -1,5 +1,5 @@
 //! What the programs share: the [`machine`] as the user states it, [`scene_file`]s, [`progress`],
-//! [`interrupt`], [`failure`], and one [`export`] of every report: [`column`]s said once, text [`table`]s, [`units`], and
+//! [`interrupt`], [`failure`], and one [`export`] of every report: [`column`]s said once, text [`table`]s, [`units`], [`range`]s, and
 //! [`output`] that is there whole or not at all.
 #![forbid(unsafe_code)]
 
@@ -9,9 +9,9 @@ pub mod export;
 pub mod failure;
 pub mod interrupt;
 pub mod machine;
-pub mod model;
 pub mod output;
 pub mod progress;
+pub mod range;
 pub mod report;
 pub mod scene_file;
 pub mod table;

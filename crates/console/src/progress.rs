@@ -1,7 +1,8 @@
-//! The progress bar of a long run, on stderr: nothing is drawn where stderr is not a terminal, or before the
-//! run has taken two seconds.
+//! The progress of a long run, on stderr: a bar on a terminal once the run has taken two seconds, elsewhere a
+//! line every ten seconds.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::io::{self, IsTerminal, Write};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -11,6 +12,8 @@ use crate::interrupt;
 
 /// A run that is over sooner shows no bar.
 const PATIENCE: Duration = Duration::from_secs(2);
+/// Seconds between two lines where there is no terminal.
+const PAUSE: u64 = 10;
 /// How often a bar that is shown is drawn anew.
 const TICK: Duration = Duration::from_millis(200);
 
@@ -19,7 +22,9 @@ const TICK: Duration = Duration::from_millis(200);
 pub struct Progress {
     begin: Instant,
     bar: ProgressBar,
-    is_shown: AtomicBool,
+    what: String,
+    /// Lines written, or 1 once the bar is shown.
+    shown: AtomicU64,
 }
 
 impl Progress {
@@ -31,7 +36,7 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template(&style) {
             bar.set_style(style);
         }
-        Self::of(bar)
+        Self::of(bar, what)
     }
 
     /// A count of things called `what`, nobody knows how many.
@@ -43,23 +48,52 @@ impl Progress {
         {
             bar.set_style(style);
         }
-        Self::of(bar)
+        Self::of(bar, what)
     }
 
-    fn of(bar: ProgressBar) -> Self {
+    fn of(bar: ProgressBar, what: &str) -> Self {
         Self {
             begin: Instant::now(),
             bar,
-            is_shown: AtomicBool::new(false),
+            what: what.to_owned(),
+            shown: AtomicU64::new(0),
         }
     }
 
-    /// The run is under way; shows the bar once it has taken long.
+    /// The run is under way; says so once it has taken long.
     pub fn beat(&self) {
-        if self.begin.elapsed() > PATIENCE && !self.is_shown.swap(true, Ordering::Relaxed) {
+        let (elapsed, shown) = (self.begin.elapsed(), self.shown.load(Ordering::Relaxed));
+        let is_terminal = io::stderr().is_terminal();
+        let due = if is_terminal {
+            u64::from(elapsed > PATIENCE)
+        } else {
+            elapsed.as_secs() / PAUSE
+        };
+        let order = Ordering::Relaxed;
+        if due <= shown
+            || self
+                .shown
+                .compare_exchange(shown, due, order, order)
+                .is_err()
+        {
+            return;
+        }
+        if is_terminal {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
             self.bar.enable_steady_tick(TICK);
+        } else {
+            self.line();
         }
+    }
+
+    /// How far the run is, in a line.
+    fn line(&self) {
+        let all = self
+            .bar
+            .length()
+            .map_or_else(String::new, |all| format!(" of {all}"));
+        let (done, seconds) = (self.bar.position(), self.begin.elapsed().as_secs());
+        let _ = writeln!(io::stderr(), "{done}{all} {} after {seconds} s", self.what);
     }
 
     /// One more is done.

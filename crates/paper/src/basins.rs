@@ -76,9 +76,9 @@ const PLANES: [Plane; 4] = [
 ];
 
 impl Plane {
-    fn scene(&self) -> Result<Scene> {
-        let machine = Ratios::unloaded().at_frequency(self.frequency);
-        Ok(machine.scene()?)
+    fn machine(&self) -> Result<softstop::Machine> {
+        let ratios = Ratios::unloaded().at_frequency(self.frequency);
+        Ok(softstop::Machine::of_ratios(&ratios)?)
     }
 
     fn grid(&self, cells: usize) -> Grid {
@@ -98,20 +98,21 @@ fn draw(studio: &Studio) -> Result<Drawn> {
             progress.at(each * index as u64 + done);
             interrupt::go_on()
         };
-        let scene = plane.scene()?;
-        let basins = basins_watched(&scene, &plane.grid(cells), &Options::default(), &watcher);
+        let machine = plane.machine()?;
+        let scene = &machine.scene;
+        let basins = basins_watched(scene, &plane.grid(cells), &Options::default(), &watcher);
         let basins = basins?;
-        let wandering = wandering(&scene, &basins)?;
-        found.push((basins, wandering));
+        let wandering = wandering(scene, &basins)?;
+        found.push((machine, basins, wandering));
     }
     drop(progress);
     let mut pictures = Vec::new();
-    for (plane, (basins, wandering)) in PLANES.iter().zip(&found) {
-        let picture = BasinPicture::new(basins, plane.title, 0.0);
+    for (plane, (machine, basins, wandering)) in PLANES.iter().zip(&found) {
+        let picture = BasinPicture::new(machine, basins, plane.title);
         pictures.push(picture.with_wandering(wandering));
     }
     let png = BasinPage { pictures }.png().map_err(Error::msg)?;
-    let basins: Vec<&Basins> = found.iter().map(|(basins, _)| basins).collect();
+    let basins: Vec<&Basins> = found.iter().map(|(_, basins, _)| basins).collect();
     Ok(Drawn {
         files: vec![png, table(&basins)?],
         findings: findings(&basins),

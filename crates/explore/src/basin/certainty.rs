@@ -8,6 +8,7 @@ use kuva::render::figure::Figure;
 use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::{collect_legend_entries, render_multiple};
+use softstop::{Dimension, Machine, Parameter};
 use softstop_dynamics::basin::Establishing;
 
 use softstop_draw::style;
@@ -15,6 +16,7 @@ use softstop_draw::style;
 /// Certainty of z = 1 along the hysteresis zone of one machine.
 #[derive(Debug, Clone, Copy)]
 pub struct CertaintyChart<'a> {
+    machine: &'a Machine,
     places: &'a [Establishing],
     title: &'a str,
 }
@@ -22,18 +24,23 @@ pub struct CertaintyChart<'a> {
 impl<'a> CertaintyChart<'a> {
     /// The chart of these places.
     #[must_use]
-    pub fn new(places: &'a [Establishing], title: &'a str) -> Self {
-        Self { places, title }
+    pub fn new(machine: &'a Machine, places: &'a [Establishing], title: &'a str) -> Self {
+        Self {
+            machine,
+            places,
+            title,
+        }
     }
 
     /// The chart as an SVG document.
     #[must_use]
     pub fn svg(&self) -> String {
         let ends = [self.places.first(), self.places.last()];
-        let [low, high] = ends.map(|place| place.map_or(0.0, |place| place.frequency));
-        let room = 0.03 * (high - low).max(1e-3);
+        let own = |frequency| self.machine.to_own(Dimension::Frequency, frequency);
+        let [low, high] = ends.map(|place| place.map_or(0.0, |place| own(place.frequency)));
+        let room = 0.03 * (high - low).max(1e-3 * high);
         let points = self.places.iter().map(|place| CertaintyPoint {
-            place: place.frequency,
+            place: own(place.frequency),
             value: place.certainty,
             interval: Some(place.interval),
         });
@@ -48,7 +55,10 @@ impl<'a> CertaintyChart<'a> {
             .with_height(560.0)
             .with_title(self.title)
             .with_subtitle("share of initial states that lead to z = 1, with 95 % interval")
-            .with_x_label("drive frequency η = ω/Ω, from g₀ to s_SN")
+            .with_x_label(format!(
+                "{}, from g₀ to s_SN",
+                self.machine.label_of(Parameter::Frequency)
+            ))
             .with_y_label("establishing certainty of z = 1");
         SvgBackend::new()
             .with_pretty(true)

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, anyhow};
 use clap::Args;
-use softstop::{Ratios, Scene};
+use softstop::{Machine, Parameter};
 use softstop_dynamics::attractors::SurveyError;
 use softstop_dynamics::basin::{CertaintyError, Options, basins_watched, establishing};
 use softstop_dynamics::zone;
@@ -19,20 +19,21 @@ use crate::basin::certainty::CertaintyChart;
 use crate::basin::picture::BasinPicture;
 use plane::Plane;
 use report::{BasinReport, CertaintyReport};
+use softstop_console::arguments::{MachineArguments, title};
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::machine::{self, Machine, SceneSettings, require};
+use softstop_console::machine::require;
 use softstop_console::output::Format;
 use softstop_console::progress::Progress;
-use softstop_console::scene_file;
+use softstop_console::range;
 
 const EXAMPLES: &str = "\
 Examples:
   softstop basin --size 1000
       the paper's point A: which of a million initial states lead to z = 1
-  softstop basin --frequency 0.9875 --x 0,15 --v=-20,20
+  softstop basin --frequency 0.9875 --x 0:15 --v=-20:20
       chaos, z = 2/3 and z = (2/4)B side by side
   softstop basin --plane phi,v --at 0
       over drive angle and velocity, from position 0
@@ -40,7 +41,7 @@ Examples:
       establishing certainty of z = 1 at 21 places from g0 to s_SN: the share of initial states
       that lead to it, for the same plane at all of them
   softstop basin docs/scenes/rigid.toml --size 400 --format json
-      any machine with any stop, in SI units
+      any machine with any stop, in its own units
 
 Each cell's motion is followed until it lies in a ball about a stable orbit in which the map
 contracts; what no ball has caught after --transient drive periods is looked at one by one: what
@@ -55,10 +56,7 @@ a row for each basin, basin.json; with --along-zone certainty.svg, certainty.csv
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct BasinArguments {
-    /// Scene in SI units as for `softstop simulate`, instead of the paper's machine
-    #[arg(value_name = "SCENE.toml", conflicts_with = "scene")]
-    pub file: Option<PathBuf>,
-    /// Cells on each side of the plane, 2 to 4000 (1.6 GB)
+    /// Cells on each side of the plane, 2 to 4000 (2.0 GB)
     #[arg(long, value_name = "N", default_value_t = 400)]
     pub size: usize,
     /// Plane of initial states: the quantity across, and the one upwards, of x, v and phi
@@ -68,13 +66,13 @@ pub struct BasinArguments {
     #[arg(long, value_name = "VALUE", default_value_t = 0.0)]
     pub at: f64,
     /// Range of the initial position [default: twice the clearance both ways]
-    #[arg(long, value_name = "FROM,TO", value_parser = plane::range, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LOW:HIGH", value_parser = range::rising, allow_hyphen_values = true)]
     pub x: Option<[f64; 2]>,
     /// Range of the initial velocity [default: that of x times the drive frequency]
-    #[arg(long, value_name = "FROM,TO", value_parser = plane::range, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LOW:HIGH", value_parser = range::rising, allow_hyphen_values = true)]
     pub v: Option<[f64; 2]>,
     /// Range of the drive angle in rad [default: a whole turn]
-    #[arg(long, value_name = "FROM,TO", value_parser = plane::range, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LOW:HIGH", value_parser = range::rising, allow_hyphen_values = true)]
     pub phi: Option<[f64; 2]>,
     /// Drive periods after which what has not arrived is looked at, 1 to 1000000
     #[arg(long, value_name = "N", default_value_t = Options::default().transient)]
@@ -83,8 +81,8 @@ pub struct BasinArguments {
     #[arg(long, value_name = "N", default_value_t = Options::default().longest)]
     pub longest: usize,
     /// Instead of one picture: the certainty of z = 1 at so many places of the hysteresis zone,
-    /// 2 to 1000; not for scene files
-    #[arg(long, value_name = "N", conflicts_with = "file")]
+    /// 2 to 1000
+    #[arg(long, value_name = "N")]
     pub along_zone: Option<usize>,
     /// Folder for the files
     #[arg(long, value_name = "DIR", default_value = "softstop-basin")]
@@ -92,12 +90,9 @@ pub struct BasinArguments {
     /// How to print the result
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
-    /// Machine in a TOML file, by the names below; the command line has the last word
-    #[arg(long, value_name = "FILE.toml")]
-    pub scene: Option<PathBuf>,
     /// The machine.
     #[command(flatten)]
-    pub machine: SceneSettings,
+    pub machine: MachineArguments,
 }
 
 const PICTURE: [(&str, &str); 3] = [
@@ -123,44 +118,18 @@ fn help() -> String {
 /// written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &BasinArguments) -> Result<(), Failure> {
     let options = options(arguments)?;
-    match (&arguments.file, arguments.along_zone) {
-        (Some(path), _) if arguments.machine == SceneSettings::default() => {
-            let scene = scene_file::read(path)?.scene;
-            picture(arguments, &options, &path.display().to_string(), &scene)
+    let machine = arguments.machine.machine()?;
+    match arguments.along_zone {
+        Some(places) => {
+            let why = "is not used, for the zone has its own frequencies";
+            arguments.machine.refuse(Parameter::Frequency, why)?;
+            along(arguments, &options, &machine, places)
         }
-        (Some(path), _) => Err(Failure::usage(format!(
-            "{}: a scene file says all of the machine; it goes with none of the paper's ratios",
-            path.display()
-        ))),
-        (None, places) => {
-            let machine = machine::machine(arguments.scene.as_ref(), &arguments.machine)?;
-            match places {
-                Some(places) => along(arguments, &options, &machine, places),
-                None => {
-                    let scene = machine
-                        .ratios
-                        .scene()
-                        .map_err(|error| Failure::usage(error.to_string()))?;
-                    picture(arguments, &options, &name(&machine), &scene)
-                }
-            }
-        }
+        None => picture(arguments, &options, &machine),
     }
 }
 
-fn name(machine: &Machine) -> String {
-    let Ratios {
-        frequency,
-        clearance,
-        ..
-    } = machine.ratios;
-    format!(
-        "{} machine, η = {frequency}, ρ = {clearance}",
-        machine.regime.name()
-    )
-}
-
-/// Most cells on a side: each takes a hundred bytes.
+/// Most cells on a side: each takes 125 bytes.
 const LARGEST: u64 = 4000;
 
 fn options(arguments: &BasinArguments) -> Result<Options, Failure> {
@@ -195,9 +164,9 @@ fn failure(error: SurveyError) -> Failure {
 fn picture(
     arguments: &BasinArguments,
     options: &Options,
-    name: &str,
-    scene: &Scene,
+    machine: &Machine,
 ) -> Result<(), Failure> {
+    let scene = &machine.scene;
     let grid = plane::grid(arguments, scene)?;
     let export = Export::open(&arguments.output, &PICTURE)?;
     let progress = Progress::new(grid.cells() as u64, "cells");
@@ -207,12 +176,12 @@ fn picture(
     };
     let basins = basins_watched(scene, &grid, options, &watcher).map_err(failure)?;
     drop(progress);
-    let title = format!("Basins: {name}");
-    let png = BasinPicture::new(&basins, &title, scene.excitation.phase)
+    let title = format!("Basins: {}", title(machine));
+    let png = BasinPicture::new(machine, &basins, &title)
         .png()
         .map_err(|error| anyhow!("cannot draw basin.png: {error}"))?;
     export.file("picture", &png)?;
-    let report = BasinReport::new(name, &basins);
+    let report = BasinReport::new(machine, &basins);
     export.table("table", &report::columns(), &report.basins)?;
     export.finish(&report, arguments.format)
 }
@@ -224,9 +193,8 @@ fn along(
     machine: &Machine,
     places: usize,
 ) -> Result<(), Failure> {
-    let scene = machine.ratios.scene();
-    let scene = scene.map_err(|error| Failure::usage(error.to_string()))?;
-    let zone = zone::hysteresis(&scene).context("no hysteresis zone found")?;
+    let zone = zone::hysteresis(&machine.scene)
+        .with_context(|| format!("no hysteresis zone found of {}", title(machine)))?;
     let grid = plane::grid(arguments, &zone.scene_at(0.0))?;
     let export = Export::open(&arguments.output, &ALONG)?;
     let shares: Vec<f64> = (0..places)
@@ -243,14 +211,10 @@ fn along(
             CertaintyError::Zone(error) => Failure::Run(anyhow!(error)),
         })?;
     drop(progress);
-    let title = format!(
-        "Establishing certainty: {} machine, ρ = {}",
-        machine.regime.name(),
-        machine.ratios.clearance
-    );
-    let chart = CertaintyChart::new(&found, &title).svg();
+    let title = format!("Establishing certainty: {}", title(machine));
+    let chart = CertaintyChart::new(machine, &found, &title).svg();
     export.file("chart", chart.as_bytes())?;
-    let report = CertaintyReport::new(&grid, &found);
+    let report = CertaintyReport::new(machine, &grid, &found);
     export.table("table", &report::places(), &report.places)?;
     export.finish(&report, arguments.format)
 }

@@ -1,5 +1,6 @@
 //! Pictures of basins: cells of colour, the motions' own points, the largest ball inside a basin.
 
+use softstop::{Dimension, Machine};
 use softstop_dynamics::basin::{Axis, Basins, Clearing, Kind, Quantity};
 use softstop_dynamics::orbit::{Orbit, Regime};
 
@@ -12,8 +13,7 @@ use softstop_draw::pen::{Align, Area, Pen};
 pub struct BasinPicture<'a> {
     basins: &'a Basins,
     title: &'a str,
-    /// Drive angle at which the orbits' own states are known.
-    angle: f64,
+    machine: &'a Machine,
     /// Places of the plane on which chaos moves.
     wandering: &'a [(f64, f64)],
 }
@@ -37,13 +37,13 @@ const SPOT: f64 = 5.0;
 const DOT: f64 = 0.8;
 
 impl<'a> BasinPicture<'a> {
-    /// The picture of basins; `angle`: the drive angle of the machine at time 0.
+    /// The picture of a machine's basins.
     #[must_use]
-    pub fn new(basins: &'a Basins, title: &'a str, angle: f64) -> Self {
+    pub fn new(machine: &'a Machine, basins: &'a Basins, title: &'a str) -> Self {
         Self {
             basins,
             title,
-            angle,
+            machine,
             wandering: &[],
         }
     }
@@ -104,8 +104,8 @@ impl<'a> BasinPicture<'a> {
         }
         let axes = Axes {
             letters,
-            across: Some(name(&grid.across)),
-            upwards: name(&grid.up),
+            across: Some(&self.name(&grid.across)),
+            upwards: &self.name(&grid.up),
             ticks: TICKS,
         };
         panel.axes(pen, &axes);
@@ -116,7 +116,9 @@ impl<'a> BasinPicture<'a> {
     fn motions(&self, pen: &mut Pen, panel: &Panel) {
         let grid = &self.basins.grid;
         let shown = (grid.across.quantity, grid.up.quantity);
-        if shown != (Quantity::Position, Quantity::Velocity) || grid.angle != self.angle {
+        if shown != (Quantity::Position, Quantity::Velocity)
+            || grid.angle != self.machine.scene.excitation.phase
+        {
             return;
         }
         let inside = |point: &(f64, f64)| panel.holds(*point);
@@ -151,6 +153,15 @@ impl<'a> BasinPicture<'a> {
             taken.push(color);
         }
         taken
+    }
+
+    fn name(&self, axis: &Axis) -> String {
+        let label = |what, symbol, dimension| self.machine.label(what, symbol, dimension);
+        match axis.quantity {
+            Quantity::Position => label("initial position", "X", Dimension::Length),
+            Quantity::Velocity => label("initial velocity", "X′", Dimension::Velocity),
+            Quantity::Angle => "initial drive angle φ in rad".to_owned(),
+        }
     }
 
     fn orbits(&self) -> impl Iterator<Item = &Orbit> {
@@ -208,14 +219,6 @@ fn label(kind: &Kind) -> String {
             format!("{regime}: {}", orbit.pattern())
         }
         kind => kind.name(),
-    }
-}
-
-const fn name(axis: &Axis) -> &'static str {
-    match axis.quantity {
-        Quantity::Position => "initial position X",
-        Quantity::Velocity => "initial velocity X′",
-        Quantity::Angle => "initial drive angle φ in rad",
     }
 }
 

@@ -39,24 +39,6 @@ impl FromStr for Plane {
     }
 }
 
-/// A range as FROM,TO.
-///
-/// # Errors
-/// What is allowed.
-pub(super) fn range(text: &str) -> Result<[f64; 2], String> {
-    let number = |part: &str| {
-        part.trim()
-            .parse::<f64>()
-            .ok()
-            .filter(|value| value.is_finite())
-    };
-    let pair = text.split_once(',');
-    match pair.and_then(|(from, to)| Some([number(from)?, number(to)?])) {
-        Some([from, to]) if from < to => Ok([from, to]),
-        _ => Err("must be two finite numbers, the first below the second, as in -20,20".to_owned()),
-    }
-}
-
 /// The grid for a scene.
 pub(super) fn grid(arguments: &BasinArguments, scene: &Scene) -> Result<Grid, Failure> {
     finite("at", arguments.at)?;

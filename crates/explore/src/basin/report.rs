@@ -1,9 +1,12 @@
 //! What basins came to.
 
 use serde::Serialize;
+use softstop::{Dimension, Machine};
+use softstop_console::arguments::title;
 use softstop_console::column::{Column, Units, text};
 use softstop_console::columns;
 use softstop_console::export::Report;
+use softstop_console::report::MachineReport;
 use softstop_dynamics::basin::{Basins, Establishing, Grid, Kind};
 use softstop_dynamics::orbit::Regime;
 
@@ -11,11 +14,15 @@ use softstop_dynamics::orbit::Regime;
 #[derive(Debug, Serialize)]
 pub struct BasinReport {
     /// The machine.
-    pub machine: String,
+    pub machine: MachineReport,
     /// Where the cells lie.
     pub grid: Grid,
     /// The basins.
     pub basins: Vec<ClassReport>,
+    #[serde(skip)]
+    title: String,
+    #[serde(skip)]
+    units: Units,
 }
 
 /// One basin.
@@ -46,10 +53,16 @@ pub struct ClassReport {
 /// The certainty of z = 1 along the hysteresis zone.
 #[derive(Debug, Serialize)]
 pub struct CertaintyReport {
+    /// The machine; its own frequency plays no part.
+    pub machine: MachineReport,
     /// Where the cells lie.
     pub grid: Grid,
     /// The places.
     pub places: Vec<PlaceReport>,
+    #[serde(skip)]
+    title: String,
+    #[serde(skip)]
+    units: Units,
 }
 
 /// One place of the zone.
@@ -72,12 +85,14 @@ pub struct PlaceReport {
 }
 
 impl BasinReport {
-    pub(super) fn new(machine: &str, basins: &Basins) -> Self {
+    pub(super) fn new(machine: &Machine, basins: &Basins) -> Self {
         let class = |index| ClassReport::new(basins, index);
         Self {
-            machine: machine.to_owned(),
+            machine: MachineReport::of(machine),
             grid: basins.grid,
             basins: (0..basins.classes.len()).map(class).collect(),
+            title: title(machine),
+            units: Units::of(machine),
         }
     }
 }
@@ -110,21 +125,25 @@ impl ClassReport {
 }
 
 impl CertaintyReport {
-    pub(super) fn new(grid: &Grid, places: &[Establishing]) -> Self {
+    pub(super) fn new(machine: &Machine, grid: &Grid, places: &[Establishing]) -> Self {
+        let report = |place| PlaceReport::new(machine, place);
         Self {
+            machine: MachineReport::of(machine),
             grid: *grid,
-            places: places.iter().map(PlaceReport::new).collect(),
+            places: places.iter().map(report).collect(),
+            title: title(machine),
+            units: Units::of(machine),
         }
     }
 }
 
 impl PlaceReport {
-    fn new(place: &Establishing) -> Self {
+    fn new(machine: &Machine, place: &Establishing) -> Self {
         let basins = &place.basins;
         let classes = basins.classes.iter();
         Self {
             place: place.place,
-            frequency: place.frequency,
+            frequency: machine.to_own(Dimension::Frequency, place.frequency),
             certainty: place.certainty,
             certainty_low: place.interval[0],
             certainty_high: place.interval[1],
@@ -173,8 +192,8 @@ pub(super) fn places() -> [Column<PlaceReport>; 7] {
 impl Report for BasinReport {
     fn text(&self) -> String {
         let (across, up) = (self.grid.across.cells, self.grid.up.cells);
-        format!("{}: {across} x {up} initial states\n\n", self.machine)
-            + &text(&columns(), &self.basins, &Units::RATIOS)
+        format!("{}: {across} x {up} initial states\n\n", self.title)
+            + &text(&columns(), &self.basins, &self.units)
     }
 }
 
@@ -182,7 +201,8 @@ impl Report for CertaintyReport {
     fn text(&self) -> String {
         let (across, up) = (self.grid.across.cells, self.grid.up.cells);
         format!(
-            "Establishing certainty of z = 1 from g0 (place 0) to s_SN (place 1), {across} x {up} initial states\n\n"
-        ) + &text(&places(), &self.places, &Units::RATIOS)
+            "Establishing certainty of z = 1 of {}, from g0 (place 0) to s_SN (place 1), {across} x {up} initial states\n\n",
+            self.title
+        ) + &text(&places(), &self.places, &self.units)
     }
 }

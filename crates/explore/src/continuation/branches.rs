@@ -3,14 +3,12 @@
 use std::ops::ControlFlow;
 
 use anyhow::anyhow;
-use softstop_dynamics::continuation::{
-    Adjustable, Along, Branch, Family, Follower, Limits, SpecialKind, Test,
-};
+use softstop::Machine;
+use softstop_dynamics::continuation::{Along, Branch, Family, Follower, Limits, SpecialKind, Test};
 
-use super::{ContinueArguments, seed};
+use super::{ContinueArguments, Followed, family, seed};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::model::Model;
 use softstop_console::progress::Progress;
 
 /// Largest steps along branches and curves, scaled: fine enough for charts of wide ranges.
@@ -19,7 +17,7 @@ pub(super) const STEP: f64 = 0.02;
 const NARROW: (f64, f64) = (100.0, 0.1);
 
 /// Largest step of a range, so that its chart has no corners.
-fn step(family: &Along<Model, 1>, (low, high): (f64, f64)) -> f64 {
+fn step(family: &Along<Machine, 1>, (low, high): (f64, f64)) -> f64 {
     let [scale] = family.parameter_scales();
     let (steps, least) = NARROW;
     ((high - low) / (steps * scale)).clamp(least * STEP, STEP)
@@ -39,23 +37,23 @@ pub(super) fn count(bar: &Progress) -> ControlFlow<()> {
 /// [`Failure::Run`] if there is no orbit to start from, [`Failure::Interrupted`] after Ctrl-C.
 pub(super) fn branches(
     arguments: &ContinueArguments,
-    model: &Model,
-    family: &Along<Model, 1>,
-    start: f64,
-    limits: &Limits,
+    machine: &Machine,
+    along: &Followed,
 ) -> Result<Vec<Branch>, Failure> {
-    let scene = model
-        .scene()
-        .map_err(|error| Failure::usage(error.to_string()))?;
+    let family = &family(machine, [along.parameter])?;
+    let limits = &Limits {
+        range: along.range,
+        points: arguments.points,
+    };
     let state = match arguments.state {
         Some(state) => state,
-        None => seed::find(&scene, arguments.orbit)?.state(),
+        None => seed::find(&machine.scene, arguments.orbit)?.state(),
     };
     let bar = Progress::open("points");
     let largest = step(family, limits.range);
     let follower = Follower::new(family, arguments.orbit.periods).with_steps(largest);
     let first = follower
-        .branch(start, state, limits, |_| count(&bar))
+        .branch(along.start, state, limits, |_| count(&bar))
         .map_err(|error| anyhow!(error).context("no orbit to start from"))?;
     let mut branches = vec![first];
     let mut done = 0;
@@ -77,7 +75,7 @@ pub(super) fn branches(
 
 /// The branches of twice the period from the flips of one.
 fn doubled(
-    family: &Along<Model, 1>,
+    family: &Along<Machine, 1>,
     branch: &Branch,
     limits: &Limits,
     bar: &Progress,

@@ -6,9 +6,8 @@ use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{LinePlot, LineStyle, ScatterPlot};
 use kuva::render::plots::Plot;
 use kuva::render::render::{collect_legend_entries, render_multiple};
-use softstop_dynamics::continuation::{
-    Branch, BranchPoint, Curve, Parameter, Special, SpecialKind, Test,
-};
+use softstop::{Dimension, Machine, Parameter};
+use softstop_dynamics::continuation::{Branch, BranchPoint, Curve, Special, SpecialKind, Test};
 
 use softstop_draw::scale::around;
 use softstop_draw::style;
@@ -16,6 +15,7 @@ use softstop_draw::style;
 /// The impact velocities of branches over the parameter.
 #[derive(Debug, Clone)]
 pub struct BranchChart<'a> {
+    machine: &'a Machine,
     parameter: Parameter,
     branches: &'a [Branch],
 }
@@ -23,6 +23,7 @@ pub struct BranchChart<'a> {
 /// Curves of special points in the plane of two parameters.
 #[derive(Debug, Clone)]
 pub struct CurveChart<'a> {
+    machine: &'a Machine,
     parameters: [Parameter; 2],
     curves: &'a [Curve],
 }
@@ -77,8 +78,9 @@ const COLOURS: [&str; 4] = [style::DESIGN, style::REFERENCE, "#009E73", "#CC79A7
 impl<'a> BranchChart<'a> {
     /// The chart of branches along a parameter.
     #[must_use]
-    pub fn new(parameter: Parameter, branches: &'a [Branch]) -> Self {
+    pub fn new(machine: &'a Machine, parameter: Parameter, branches: &'a [Branch]) -> Self {
         Self {
+            machine,
             parameter,
             branches,
         }
@@ -104,8 +106,10 @@ impl<'a> BranchChart<'a> {
         render(
             plots,
             (x, (-0.03 * top, top)),
-            &axis(self.parameter),
-            "before-impact velocity X′₋",
+            &self.machine.label_of(self.parameter),
+            &self
+                .machine
+                .label("before-impact velocity", "X′₋", Dimension::Velocity),
             "Periodic motions: stable solid, unstable dashed",
         )
     }
@@ -114,8 +118,12 @@ impl<'a> BranchChart<'a> {
 impl<'a> CurveChart<'a> {
     /// The chart of curves in two parameters.
     #[must_use]
-    pub fn new(parameters: [Parameter; 2], curves: &'a [Curve]) -> Self {
-        Self { parameters, curves }
+    pub fn new(machine: &'a Machine, parameters: [Parameter; 2], curves: &'a [Curve]) -> Self {
+        Self {
+            machine,
+            parameters,
+            curves,
+        }
     }
 
     /// The picture as an SVG document.
@@ -150,8 +158,8 @@ impl<'a> CurveChart<'a> {
         render(
             plots,
             (values(0), values(1)),
-            &axis(self.parameters[0]),
-            &axis(self.parameters[1]),
+            &self.machine.label_of(self.parameters[0]),
+            &self.machine.label_of(self.parameters[1]),
             "Bifurcations of periodic motions",
         )
     }
@@ -279,10 +287,4 @@ fn marks(branches: &[Branch]) -> Vec<Plot> {
         ));
     }
     plots
-}
-
-/// The name of an axis.
-pub fn axis(parameter: Parameter) -> String {
-    let about = parameter.about();
-    format!("{} {}", about.meaning, about.symbol)
 }

@@ -1,13 +1,13 @@
 //! Special points as curves in two parameters.
 
 use anyhow::anyhow;
+use softstop::Machine;
 use softstop_dynamics::continuation::{Branch, Curve, CurvePoint, Region, SpecialKind, curve};
 
 use super::branches::{STEP, count};
-use super::{ContinueArguments, Second, family};
+use super::{ContinueArguments, Followed, family};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::model::Model;
 use softstop_console::progress::Progress;
 
 /// Follows the special points of a branch in both parameters.
@@ -15,23 +15,21 @@ use softstop_console::progress::Progress;
 /// # Errors
 /// [`Failure::Run`] if one cannot be followed, [`Failure::Interrupted`] after Ctrl-C.
 pub(super) fn curves(
-    model: &Model,
+    machine: &Machine,
     arguments: &ContinueArguments,
-    second: &Second,
-    range: (f64, f64),
+    both: [&Followed; 2],
     branch: &Branch,
 ) -> Result<Vec<Curve>, Failure> {
-    let parameters = [arguments.parameter, second.parameter];
-    let family = family(model, parameters)?;
+    let family = family(machine, both.map(|one| one.parameter))?;
     let region = Region {
-        ranges: [range, second.range],
+        ranges: both.map(|one| one.range),
         points: arguments.points,
         step: STEP,
     };
     let bar = Progress::open("points of curves");
     let mut found: Vec<Curve> = Vec::new();
     for special in &branch.specials {
-        let start = [special.point.parameter, second.start];
+        let start = [special.point.parameter, both[1].start];
         let known = found.iter().any(|curve| passes(curve, special.kind, start));
         if known {
             continue;

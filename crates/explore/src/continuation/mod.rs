@@ -11,18 +11,17 @@ use std::path::PathBuf;
 
 use clap::Args;
 use nalgebra::Vector2;
-use softstop_dynamics::continuation::{Along, Limits, Parameter};
+use softstop::{Machine, Parameter};
+use softstop_dynamics::continuation::Along;
 
 use crate::continuation::chart::{BranchChart, CurveChart};
 use report::ContinuationReport;
 use seed::Wanted;
+use softstop_console::arguments::MachineArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
-use softstop_console::machine::{self, SceneSettings};
-use softstop_console::model::{self, Model};
 use softstop_console::output::Format;
-use softstop_console::scene_file;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -34,7 +33,7 @@ Examples:
   softstop continue --parameter eta --from 0.9 --to 1.8 --second rho --second-from 2 --second-to 18
       besides, each special point as a curve in (eta, rho): regions of the z = 1 motion
   softstop continue --parameter rho --from -1 --to 20 --double 4 docs/scenes/rigid.toml
-      a scene in SI units; from each flip on to the orbits of twice the period, four times
+      any machine in its own units; from each flip on to the orbits of twice the period, four times
   softstop continue --parameter k4 --from 1 --to 40 --state 6.9,9.5
       along the stop's stiffness, from an orbit near a state: an unstable one if that is nearest
 
@@ -49,15 +48,10 @@ The parameter starts at the machine's own value, which must lie between --from a
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct ContinueArguments {
-    /// Scene in SI units as for `softstop simulate`, instead of the paper's machine
-    #[arg(value_name = "SCENE.toml", conflicts_with = "scene")]
-    pub file: Option<PathBuf>,
-    /// Parameter to follow the motion along, by the name of its option or the paper's letter:
-    /// frequency (eta), clearance (rho), stiffness (k4), preload (Fp), damping (beta1),
-    /// contact_damping (beta), restitution (R), amplitude (F0), rigid_travel (epsilon), and of
-    /// the strip k2, k3, sigma, nu
-    #[arg(long, value_name = "NAME", value_parser = model::parameter)]
-    pub parameter: Parameter,
+    /// Parameter to follow the motion along, by its key in the file or its letter, such as
+    /// excitation.frequency (eta), clearance (rho), stop.stiffness (k4) or mass
+    #[arg(long, value_name = "NAME")]
+    pub parameter: String,
     /// Lowest value of the parameter
     #[arg(long, value_name = "VALUE")]
     pub from: f64,
@@ -75,8 +69,8 @@ pub struct ContinueArguments {
     #[arg(long, value_name = "TIMES", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=6))]
     pub double: u32,
     /// Second parameter: follow each special point as a curve in both
-    #[arg(long, value_name = "NAME", value_parser = model::parameter, requires_all = ["second_from", "second_to"])]
-    pub second: Option<Parameter>,
+    #[arg(long, value_name = "NAME", requires_all = ["second_from", "second_to"])]
+    pub second: Option<String>,
     /// Lowest value of the second parameter
     #[arg(long, value_name = "VALUE", requires = "second")]
     pub second_from: Option<f64>,
@@ -92,12 +86,9 @@ pub struct ContinueArguments {
     /// How to print the result
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
-    /// Machine in a TOML file, by the names below; the command line has the last word
-    #[arg(long, value_name = "FILE.toml")]
-    pub scene: Option<PathBuf>,
     /// The machine.
     #[command(flatten)]
-    pub machine: SceneSettings,
+    pub machine: MachineArguments,
 }
 
 const FILES: [(&str, &str); 4] = [
@@ -118,114 +109,111 @@ fn help() -> String {
 /// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if there is no orbit to start from,
 /// [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
-    let model = model(arguments)?;
-    let family = family(&model, [arguments.parameter])?;
-    let [start] = family.values();
-    let range = range(
-        arguments.parameter,
-        start,
-        (arguments.from, arguments.to),
-        "",
+    let machine = arguments.machine.machine()?;
+    let ends = (arguments.from, arguments.to);
+    let first = Followed::new(
+        arguments,
+        &machine,
+        ["parameter", ""],
+        &arguments.parameter,
+        ends,
     )?;
-    let second = match (arguments.second, arguments.second_from, arguments.second_to) {
-        (Some(parameter), Some(from), Some(to)) => {
-            Some(second(arguments, &model, parameter, (from, to))?)
+    let second = match (
+        &arguments.second,
+        arguments.second_from,
+        arguments.second_to,
+    ) {
+        (Some(name), Some(from), Some(to)) => {
+            let flags = ["second", "second-"];
+            Some(Followed::new(arguments, &machine, flags, name, (from, to))?)
         }
         _ => None,
     };
+    if second
+        .as_ref()
+        .is_some_and(|second| second.parameter == first.parameter)
+    {
+        let name = machine.name(first.parameter);
+        return Err(Failure::usage(format!(
+            "--second {name}: must be another one than --parameter"
+        )));
+    }
     let files = if second.is_some() {
         &FILES[..]
     } else {
         &FILES[..2]
     };
     let export = Export::open(&arguments.output, files)?;
-    let limits = Limits {
-        range,
-        points: arguments.points,
-    };
-    let branches = branches::branches(arguments, &model, &family, start, &limits)?;
+    let branches = branches::branches(arguments, &machine, &first)?;
     export.table(
         "branches",
         &tables::branch_columns(),
         tables::branch_rows(&branches),
     )?;
-    let chart = BranchChart::new(arguments.parameter, &branches).svg();
+    let chart = BranchChart::new(&machine, first.parameter, &branches).svg();
     export.file("branch_chart", chart.as_bytes())?;
     let curves = match &second {
         Some(second) => {
-            let curves = curves::curves(&model, arguments, second, range, &branches[0])?;
+            let both = [&first, second];
+            let curves = curves::curves(&machine, arguments, both, &branches[0])?;
             export.table(
                 "curves",
                 &tables::curve_columns(),
                 tables::curve_rows(&curves),
             )?;
-            let parameters = [arguments.parameter, second.parameter];
-            let chart = CurveChart::new(parameters, &curves).svg();
+            let parameters = both.map(|one| one.parameter);
+            let chart = CurveChart::new(&machine, parameters, &curves).svg();
             export.file("curve_chart", chart.as_bytes())?;
             Some((second.parameter, curves))
         }
         None => None,
     };
-    let report = ContinuationReport::new(arguments, &branches, curves.as_ref());
+    let report = ContinuationReport::new(
+        &machine,
+        first.parameter,
+        arguments.points,
+        &branches,
+        curves.as_ref(),
+    );
     export.finish(&report, arguments.format)
 }
 
-fn model(arguments: &ContinueArguments) -> Result<Model, Failure> {
-    Ok(match &arguments.file {
-        Some(path) => Model::Scene(Box::new(scene_file::read(path)?.scene)),
-        None => Model::Paper(machine::machine(
-            arguments.scene.as_ref(),
-            &arguments.machine,
-        )?),
-    })
-}
-
-fn family<const N: usize>(
-    model: &Model,
-    parameters: [Parameter; N],
-) -> Result<Along<Model, N>, Failure> {
-    Along::new(model.clone(), parameters).map_err(|error| Failure::usage(error.to_string()))
-}
-
-/// The range of a parameter around its start.
-fn range(
-    parameter: Parameter,
-    start: f64,
-    (from, to): (f64, f64),
-    option: &str,
-) -> Result<(f64, f64), Failure> {
-    if from.is_finite() && to.is_finite() && from < to && (from..=to).contains(&start) {
-        return Ok((from, to));
-    }
-    Err(Failure::usage(format!(
-        "--{option}from {from} --{option}to {to}: must be finite and enclose the machine's own {} = {start}",
-        parameter.name()
-    )))
-}
-
-/// The second parameter, its start and its range.
-struct Second {
+/// A parameter that is followed, where it starts and how far it goes.
+struct Followed {
     parameter: Parameter,
     start: f64,
     range: (f64, f64),
 }
 
-fn second(
-    arguments: &ContinueArguments,
-    model: &Model,
-    parameter: Parameter,
-    ends: (f64, f64),
-) -> Result<Second, Failure> {
-    if parameter == arguments.parameter {
-        return Err(Failure::usage(format!(
-            "--second {}: must be another one than --parameter",
-            parameter.name()
-        )));
+impl Followed {
+    /// The one of this name; its flag and the beginning of the flags of its range.
+    fn new(
+        arguments: &ContinueArguments,
+        machine: &Machine,
+        [flag, prefix]: [&str; 2],
+        name: &str,
+        (from, to): (f64, f64),
+    ) -> Result<Self, Failure> {
+        let parameter = arguments.machine.parameter(machine, flag, name)?;
+        let start = machine.value(parameter).unwrap_or(f64::NAN);
+        if from.is_finite() && to.is_finite() && from < to && (from..=to).contains(&start) {
+            return Ok(Self {
+                parameter,
+                start,
+                range: (from, to),
+            });
+        }
+        Err(Failure::usage(format!(
+            "--{prefix}from {from} --{prefix}to {to}: must be finite and enclose the machine's own {} = {start}",
+            machine.name(parameter)
+        )))
     }
-    let [start] = family(model, [parameter])?.values();
-    Ok(Second {
-        parameter,
-        start,
-        range: range(parameter, start, ends, "second-")?,
-    })
+}
+
+/// A machine along some of its parameters.
+fn family<const N: usize>(
+    machine: &Machine,
+    parameters: [Parameter; N],
+) -> Result<Along<Machine, N>, Failure> {
+    Along::new(machine.clone(), parameters).map_err(|error| Failure::usage(error.to_string()))
 }

@@ -1,27 +1,33 @@
 //! What `softstop continue` found.
 
 use serde::Serialize;
-use softstop::MotionError;
+use softstop::{Machine, MotionError, Parameter};
 use softstop_dynamics::continuation::{
-    Branch, BranchPoint, Curve, CurveEnd, CurvePoint, End, Parameter, Special, SpecialKind,
+    Branch, BranchPoint, Curve, CurveEnd, CurvePoint, End, Special, SpecialKind,
 };
 use softstop_dynamics::orbit::OrbitError;
 
-use super::ContinueArguments;
-use softstop_console::column::{self, Column, Units};
+use softstop_console::column::{self, Column, Unit, Units};
 use softstop_console::columns;
 use softstop_console::export::Report;
+use softstop_console::report::MachineReport;
 use softstop_console::table::heading;
 
 /// Everything that `softstop continue` found.
 #[derive(Debug, Serialize)]
 pub struct ContinuationReport {
+    /// The machine.
+    pub machine: MachineReport,
     /// The parameter.
     pub parameter: &'static str,
+    /// Its unit, empty for ratios.
+    pub unit: &'static str,
     /// The branches: that of the start, and doubled ones.
     pub branches: Vec<BranchReport>,
     /// The second parameter and the curves, if they were asked for.
     pub curves: Option<CurvesReport>,
+    #[serde(skip)]
+    units: Units,
 }
 
 /// One branch.
@@ -67,6 +73,8 @@ pub struct SpecialReport {
 pub struct CurvesReport {
     /// The second parameter.
     pub parameter: &'static str,
+    /// Its unit, empty for ratios.
+    pub unit: &'static str,
     /// The curves.
     pub curves: Vec<CurveReport>,
 }
@@ -138,24 +146,26 @@ fn curve_end(end: &CurveEnd, points: usize) -> String {
 
 impl ContinuationReport {
     pub(super) fn new(
-        arguments: &ContinueArguments,
+        machine: &Machine,
+        parameter: Parameter,
+        most: usize,
         branches: &[Branch],
         curves: Option<&(Parameter, Vec<Curve>)>,
     ) -> Self {
-        let most = arguments.points;
+        let branch = |branch| BranchReport::new(branch, most);
+        let curve = |curve| CurveReport::new(curve, most);
+        let unit = |parameter: Parameter| machine.unit(parameter.about().dimension);
         Self {
-            parameter: arguments.parameter.name(),
-            branches: branches
-                .iter()
-                .map(|branch| BranchReport::new(branch, most))
-                .collect(),
-            curves: curves.map(|(parameter, curves)| CurvesReport {
-                parameter: parameter.name(),
-                curves: curves
-                    .iter()
-                    .map(|curve| CurveReport::new(curve, most))
-                    .collect(),
+            machine: MachineReport::of(machine),
+            parameter: machine.name(parameter),
+            unit: unit(parameter),
+            branches: branches.iter().map(branch).collect(),
+            curves: curves.map(|(second, curves)| CurvesReport {
+                parameter: machine.name(*second),
+                unit: unit(*second),
+                curves: curves.iter().map(curve).collect(),
             }),
+            units: Units::of(machine),
         }
     }
 }
@@ -211,19 +221,22 @@ impl CurveReport {
 
 impl Report for ContinuationReport {
     fn text(&self) -> String {
+        let parameter = self.units.label(self.parameter, Unit::Of(self.unit));
         let branches = self.branches.iter();
-        let mut text: Vec<String> = branches.map(|branch| branch.text(self.parameter)).collect();
+        let mut text: Vec<String> = branches
+            .map(|branch| branch.text(&parameter, &self.units))
+            .collect();
         if let Some(curves) = &self.curves {
-            let title = format!("Curves in {} and {}", self.parameter, curves.parameter);
-            let table = column::text(&curve_table(), &curves.curves, &Units::RATIOS);
-            text.push(heading(&title) + &table);
+            let second = self.units.label(curves.parameter, Unit::Of(curves.unit));
+            let title = heading(&format!("Curves in {parameter} and {second}"));
+            text.push(title + &column::text(&curve_table(), &curves.curves, &self.units));
         }
         text.join("\n")
     }
 }
 
 impl BranchReport {
-    fn text(&self, parameter: &str) -> String {
+    fn text(&self, parameter: &str, units: &Units) -> String {
         let title = format!(
             "Branch of period {}: {parameter} from {:.10} to {:.10}, {} points",
             self.periods, self.from, self.to, self.points
@@ -231,7 +244,7 @@ impl BranchReport {
         let table = if self.specials.is_empty() {
             "No special points.\n".to_owned()
         } else {
-            column::text(&special_table(), &self.specials, &Units::RATIOS)
+            column::text(&special_table(), &self.specials, units)
         };
         let [first, last] = &self.ends;
         heading(&title) + &table + &format!("Ends: {first}; {last}.\n")

@@ -7,23 +7,25 @@ pub mod regimes;
 mod report;
 mod structure;
 mod study;
+mod text;
 
 use std::path::PathBuf;
 
 use clap::Args;
-use softstop::{Ratios, Start};
+use softstop::Machine;
 use softstop_dynamics::models::{Likeness, Quantity};
 
 use crate::fidelity::chart::FidelityChart;
 use crate::fidelity::regimes::RegimeChart;
-use options::{Matched, Sweep};
+use options::Matched;
 use report::FidelityReport;
+use softstop_console::arguments::MachineArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::machine::require;
 use softstop_console::output::Format;
-use softstop_console::scene_file::{self, SceneFile};
+use softstop_console::range;
 use structure::Structure;
 use study::{Study, Task};
 
@@ -34,7 +36,7 @@ Examples:
   softstop fidelity A --quantity impact-phase --tolerance 1e-3
       the unloaded machine; the answer depends on what is asked
   softstop fidelity docs/scenes/stiff.toml --tolerance 0.02 --format json
-      any scene; a stiff stop may well be taken as rigid
+      any machine; a stiff stop may well be taken as rigid
   softstop fidelity B --predictive
       models matched at the velocity of their own motion, as if that of B were unknown
   softstop fidelity A --structure
@@ -55,9 +57,6 @@ with --structure, structure.csv and structure.svg.";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct FidelityArguments {
-    /// Machine in a TOML file, SI units; or A or B, the paper's points
-    #[arg(value_name = "SCENE")]
-    pub scene: PathBuf,
     /// What the model is wanted for
     #[arg(long, value_name = "QUANTITY", value_parser = options::quantity(),
           default_value = Quantity::BeforeImpactVelocity.name())]
@@ -74,14 +73,9 @@ pub struct FidelityArguments {
     /// Compare the regimes of all models over a range of drive frequencies
     #[arg(long)]
     pub structure: bool,
-    /// Drive frequencies of --structure, in units of sqrt(k1/m)
-    #[arg(
-        long,
-        value_name = "LOW:HIGH",
-        default_value = "0.95:1.4",
-        requires = "structure"
-    )]
-    pub sweep: Sweep,
+    /// Drive frequencies of --structure [default: 0.95 to 1.4 times sqrt(k1/m)]
+    #[arg(long, value_name = "LOW:HIGH", value_parser = range::rising, requires = "structure")]
+    pub sweep: Option<[f64; 2]>,
     /// How many of them, 2 to 10000
     #[arg(long, value_name = "N", default_value_t = 91, requires = "structure")]
     pub points: u64,
@@ -97,6 +91,9 @@ pub struct FidelityArguments {
     /// How to print the result
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
+    /// The machine; A and B are the paper's points, unloaded and loaded.
+    #[command(flatten)]
+    pub machine: MachineArguments,
 }
 
 const FILES: [(&str, &str); 4] = [
@@ -118,7 +115,7 @@ fn help() -> String {
 /// folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     check(arguments)?;
-    let SceneFile { scene, start } = scene(arguments)?;
+    let machine = machine(arguments)?;
     let files = if arguments.structure {
         &FILES[..]
     } else {
@@ -126,7 +123,7 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     };
     let export = Export::open(&arguments.output, files)?;
     let task = Task {
-        start,
+        start: machine.start,
         quantity: arguments.quantity,
         likenesses: arguments.matched.likenesses(),
         predictive: arguments.predictive,
@@ -134,19 +131,19 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
         periods: arguments.periods,
         repeats: arguments.repeats,
     };
-    let study = Study::new(&scene, &task)?;
+    let study = Study::new(&machine.scene, &task)?;
     let structure = match arguments.structure {
-        true => Some(Structure::new(&study, arguments.sweep, arguments.points)?),
+        true => Some(Structure::new(&machine, &study, arguments)?),
         false => None,
     };
-    let report = FidelityReport::new(arguments, &study, structure.as_ref());
+    let report = FidelityReport::new(arguments, &machine, &study, structure.as_ref());
     export.table("table", &report::columns(), report.rows())?;
     let chart = FidelityChart::new(&report.picture()).svg();
     export.file("chart", chart.as_bytes())?;
     if let Some(structure) = &structure {
         export.table("regimes", &structure::columns(), structure.table())?;
         let title = format!("Regimes of the models of {}", report.scene());
-        let chart = RegimeChart::new(title, structure.rows()).svg();
+        let chart = RegimeChart::new(title, &machine, structure.rows()).svg();
         export.file("regime_chart", chart.as_bytes())?;
     }
     export.finish(&report, arguments.format)
@@ -169,21 +166,15 @@ fn check(arguments: &FidelityArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The scene of a file, or one of the paper's points.
-fn scene(arguments: &FidelityArguments) -> Result<SceneFile, Failure> {
-    let ratios = match arguments.scene.to_str() {
-        Some("A") => Ratios::unloaded(),
-        Some("B") => Ratios::loaded(),
-        _ => return scene_file::read(&arguments.scene),
-    };
-    let scene = ratios
-        .scene()
-        .map_err(|error| Failure::usage(error.to_string()))?;
-    let start = Start {
-        position: 0.0,
-        velocity: 14.0,
-    };
-    Ok(SceneFile { scene, start })
+/// The machine; A and B are the paper's names of its points.
+fn machine(arguments: &FidelityArguments) -> Result<Machine, Failure> {
+    let mut named = arguments.machine.clone();
+    named.machine = named.machine.map(|path| match path.to_str() {
+        Some("A") => "unloaded".into(),
+        Some("B") => "loaded".into(),
+        _ => path,
+    });
+    named.machine()
 }
 
 /// What a model has in common with the contact, in a word.

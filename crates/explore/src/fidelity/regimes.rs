@@ -7,6 +7,7 @@ use kuva::plot::scatter::MarkerShape;
 use kuva::render::figure::Figure;
 use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
+use softstop::{Machine, Parameter};
 use softstop_dynamics::orbit::Regime;
 
 use softstop_draw::style;
@@ -14,7 +15,7 @@ use softstop_draw::style;
 /// Regimes over frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Strip {
-    /// In units of sqrt(k1/m), rising.
+    /// Rising, in the machine's own units.
     pub frequencies: Vec<f64>,
     /// The regime at each; none where nothing repeats.
     pub regimes: Vec<Option<Regime>>,
@@ -38,6 +39,7 @@ type Pick = fn(&RegimeRow) -> &Strip;
 #[derive(Debug, Clone)]
 pub struct RegimeChart {
     title: String,
+    x_label: String,
     rows: Vec<RegimeRow>,
 }
 
@@ -74,8 +76,12 @@ const ROW: f64 = 26.0;
 impl RegimeChart {
     /// The chart of these models.
     #[must_use]
-    pub fn new(title: String, rows: Vec<RegimeRow>) -> Self {
-        Self { title, rows }
+    pub fn new(title: String, machine: &Machine, rows: Vec<RegimeRow>) -> Self {
+        Self {
+            title,
+            x_label: machine.label_of(Parameter::Frequency),
+            rows,
+        }
     }
 
     /// The chart as an SVG document.
@@ -147,8 +153,8 @@ impl RegimeChart {
         let names = self.rows.iter().rev().map(|row| row.name.clone());
         style::plain((low - pad, high + pad), (0.5, self.rows.len() as f64 + 0.5))
             .with_title(start)
-            .with_x_label("drive frequency η = ω/Ω")
-            .with_x_tick_format(TickFormat::Fixed(2))
+            .with_x_label(self.x_label.clone())
+            .with_x_tick_format(TickFormat::Fixed(if high - low < 10.0 { 2 } else { 0 }))
             .with_y_categories(names.collect())
             .with_legend_position(LegendPosition::OutsideRightTop)
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use softstop::Stop;
+use softstop::{Dimension, Language, Machine, Stop};
 use softstop_dynamics::models::{Likeness, Quantity, Rung};
 
 use super::cost::Cost;
@@ -11,10 +11,10 @@ use super::structure::{Agreement, Origin, Structure, Track};
 use super::study::{Entry, Missing, Study, name};
 use super::{FidelityArguments, word};
 use crate::fidelity::chart::{Candidate, FidelityPicture};
-use softstop_console::column::{Column, Unit, Units, text};
+use softstop_console::arguments::title;
+use softstop_console::column::{Column, Units};
 use softstop_console::columns;
-use softstop_console::export::Report;
-use softstop_console::table::heading;
+use softstop_console::report::MachineReport;
 
 /// A model by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -30,6 +30,7 @@ pub(super) struct Named {
 #[derive(Debug, Clone, Copy, Serialize)]
 struct Answer {
     value: Option<f64>,
+    unit: &'static str,
     error: Option<f64>,
 }
 
@@ -60,7 +61,7 @@ pub(super) struct UnmatchedReport {
     pub(super) reason: String,
 }
 
-/// The regimes of a model over the sweep. Frequencies in units of sqrt(k1/m).
+/// The regimes of a model over the sweep.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct TrackReport {
     #[serde(flatten)]
@@ -74,39 +75,46 @@ pub(super) struct TrackReport {
     sequence_flung: Vec<String>,
 }
 
-/// The whole result, SI units.
+/// The whole result, in the machine's own units.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct FidelityReport {
-    scene: String,
+    machine: MachineReport,
+    #[serde(skip)]
+    pub(super) title: String,
+    #[serde(skip)]
+    pub(super) units: Units,
     pub(super) quantity: Quantity,
-    unit: &'static str,
+    pub(super) unit: &'static str,
     pub(super) tolerance: f64,
     /// The scene's own value.
     value: Option<f64>,
-    /// Before-impact velocity in m/s of the scene's motion.
+    /// Before-impact velocity of the machine's motion.
     pub(super) operating_velocity: Option<f64>,
     pub(super) predictive: bool,
     pub(super) cheapest: Option<Named>,
     pub(super) cheapest_is_scene: bool,
     pub(super) models: Vec<ModelReport>,
     pub(super) unmatched: Vec<UnmatchedReport>,
-    structure: Option<Vec<TrackReport>>,
+    pub(super) structure: Option<Vec<TrackReport>>,
 }
 
 impl FidelityReport {
     pub(super) fn new(
         arguments: &FidelityArguments,
+        machine: &Machine,
         study: &Study,
         structure: Option<&Structure>,
     ) -> Self {
         let quantity = arguments.quantity;
         let cheapest = study.cheapest(arguments.tolerance);
         Self {
-            scene: arguments.scene.display().to_string(),
+            title: title(machine),
+            units: Units::of(machine),
+            machine: MachineReport::of(machine),
             quantity,
-            unit: quantity.unit(),
+            unit: unit(machine, quantity),
             tolerance: arguments.tolerance,
-            value: quantity.value(&study.truth),
+            value: own(machine, quantity, quantity.value(&study.truth)),
             operating_velocity: study.velocity,
             predictive: arguments.predictive,
             cheapest: cheapest.map(|entry| named(entry.rung, entry.likeness)),
@@ -114,19 +122,19 @@ impl FidelityReport {
             models: study
                 .entries
                 .iter()
-                .map(|entry| model(entry, quantity, study))
+                .map(|entry| model(machine, entry, quantity, study))
                 .collect(),
             unmatched: study.missing.iter().map(unmatched).collect(),
             structure: structure.map(|structure| {
                 let tracks = structure.tracks.iter();
-                tracks.map(|one| track(structure, one)).collect()
+                tracks.map(|one| track(machine, structure, one)).collect()
             }),
         }
     }
 
     /// What the scene is called.
     pub(super) fn scene(&self) -> &str {
-        &self.scene
+        &self.title
     }
 
     /// The rows of `fidelity.csv`: all quantities of all models.
@@ -140,26 +148,6 @@ impl FidelityReport {
         })
     }
 
-    /// Which model to take.
-    fn advice(&self) -> String {
-        let matched = match self.operating_velocity {
-            _ if self.predictive => {
-                "Matched at the velocity of each model's own motion.".to_owned()
-            }
-            Some(velocity) => format!("Matched at the scene's own {velocity:.6} m/s."),
-            None => "The scene's motion has no impact.".to_owned(),
-        };
-        let tolerance = self.tolerance;
-        let found = match self.cheapest {
-            None => format!("No model is within {tolerance}."),
-            Some(named) if self.cheapest_is_scene => format!(
-                "Within {tolerance} nothing costs less than the scene itself ({named}): take it as it is."
-            ),
-            Some(named) => format!("The cheapest model within {tolerance}: {named}."),
-        };
-        format!("{matched} Costs are per drive period.\n{found}\n")
-    }
-
     /// What the chart shows.
     pub(super) fn picture(&self) -> FidelityPicture {
         let candidate = |model: &ModelReport| Candidate {
@@ -169,7 +157,7 @@ impl FidelityReport {
             is_chosen: Some(model.named) == self.cheapest,
         };
         FidelityPicture {
-            title: format!("How simple a model of {} may be", self.scene),
+            title: format!("How simple a model of {} may be", self.title),
             quantity: self.quantity.name().replace('-', " "),
             tolerance: self.tolerance,
             candidates: self.models.iter().map(candidate).collect(),
@@ -196,7 +184,7 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 8] {
         "rung" [None], "the model's law" => row.model.named.rung.name();
         "matched" [None], "what it shares with the contact, if anything" => row.model.named.matched;
         "quantity" [None], "what is compared" => row.quantity.name();
-        "unit" [None], "of its value" => row.quantity.unit();
+        "unit" [None], "of its value" => row.answer.unit;
         "value" [Of("unit")], "of the model" => row.answer.value;
         "error" [None], "relative to the machine's own value" => row.answer.error;
         "evaluations_per_period" [None], "of the law of force" => row.model.cost.evaluations_per_period;
@@ -212,9 +200,28 @@ fn named(rung: Rung, likeness: Option<Likeness>) -> Named {
     }
 }
 
-fn model(entry: &Entry, quantity: Quantity, study: &Study) -> ModelReport {
+/// The unit of a quantity as the machine has it.
+fn unit(machine: &Machine, quantity: Quantity) -> &'static str {
+    match (quantity.unit(), machine.speaks) {
+        ("rad/s", _) => machine.unit(Dimension::Frequency),
+        ("rad" | "impacts per period", _) => quantity.unit(),
+        (_, Language::Ratios) => "",
+        (unit, _) => unit,
+    }
+}
+
+/// A value of a quantity in the machine's own units.
+fn own(machine: &Machine, quantity: Quantity, value: Option<f64>) -> Option<f64> {
+    match quantity.unit() {
+        "rad/s" => value.map(|value| machine.to_own(Dimension::Frequency, value)),
+        _ => value,
+    }
+}
+
+fn model(machine: &Machine, entry: &Entry, quantity: Quantity, study: &Study) -> ModelReport {
     let answer = |quantity: Quantity| Answer {
-        value: quantity.value(&entry.answers),
+        value: own(machine, quantity, quantity.value(&entry.answers)),
+        unit: unit(machine, quantity),
         error: quantity.error(&study.truth, &entry.answers),
     };
     let regime = entry.answers.observed.regime;
@@ -224,7 +231,7 @@ fn model(entry: &Entry, quantity: Quantity, study: &Study) -> ModelReport {
         stop: entry.scene.stop.clone(),
         contact_damping: entry.scene.contact_damping,
         motion: regime.map(|regime| format!("z = {regime}")),
-        value: quantity.value(&entry.answers),
+        value: own(machine, quantity, quantity.value(&entry.answers)),
         error: entry.error,
         cost: entry.cost,
         answers: Quantity::ALL
@@ -241,9 +248,13 @@ fn unmatched(missing: &Missing) -> UnmatchedReport {
     }
 }
 
-fn track(structure: &Structure, track: &Track) -> TrackReport {
+fn track(machine: &Machine, structure: &Structure, track: &Track) -> TrackReport {
     let bound = |one: fn(&softstop_dynamics::models::Bounds) -> Option<f64>| {
-        structure.scaled(track.bounds.as_ref().and_then(one))
+        own(
+            machine,
+            Quantity::FoldFrequency,
+            track.bounds.as_ref().and_then(one),
+        )
     };
     TrackReport {
         named: named(track.rung, track.likeness),
@@ -253,60 +264,5 @@ fn track(structure: &Structure, track: &Track) -> TrackReport {
         fold_frequency: bound(|bounds| bounds.fold),
         sequence_from_rest: Structure::sequence(track, Origin::Rest),
         sequence_flung: Structure::sequence(track, Origin::Flung),
-    }
-}
-
-impl Report for FidelityReport {
-    fn text(&self) -> String {
-        let value = Units::SI.label(self.quantity.name(), Unit::Of(self.unit));
-        let title = format!("Models of {} for its {value}", self.scene);
-        let mut text =
-            heading(&title) + &text(&models(), &self.models, &Units::SI) + "\n" + &self.advice();
-        for missing in &self.unmatched {
-            text += &format!("Without a model: {}: {}\n", missing.named, missing.reason);
-        }
-        if let Some(tracks) = &self.structure {
-            text += "\n";
-            text += &heading("Regimes over the sweep, from rest and from a flung start");
-            text += &self::text(&regimes(), tracks, &Units::SI);
-        }
-        text
-    }
-}
-
-fn models() -> [Column<ModelReport>; 5] {
-    columns! { ModelReport, model;
-        "model" [None] Plain, "its name" => model.name();
-        "value" [None] Fixed(6), "of the quantity" => model.value;
-        "error" [None] Plain, "of it" => error(model.error);
-        "evaluations" [None] Fixed(1), "per drive period" => model.cost.evaluations_per_period;
-        "time" [Of("us")] Fixed(2), "per drive period" => model.cost.microseconds_per_period;
-    }
-}
-
-fn regimes() -> [Column<TrackReport>; 6] {
-    columns! { TrackReport, track;
-        "model" [None] Plain, "its name" => track.named.to_string();
-        "same_z" [None] Percent(1), "share" => track.agreement.map(|it| it.same_regime);
-        "same_kind" [None] Percent(1), "share" => track.agreement.map(|it| it.same_kind);
-        "g0" [None] Fixed(6), "grazing" => track.grazing_frequency;
-        "s_PD" [None] Fixed(6), "flip" => track.flip_frequency;
-        "s_SN" [None] Fixed(6), "fold" => track.fold_frequency;
-    }
-}
-
-impl ModelReport {
-    fn name(&self) -> String {
-        let scene = if self.is_scene { " = the scene" } else { "" };
-        format!("{}{scene}", self.named)
-    }
-}
-
-fn error(error: Option<f64>) -> String {
-    match error {
-        None => "no value".to_owned(),
-        Some(0.0) => "0".to_owned(),
-        Some(error) if error.is_finite() => format!("{error:.2e}"),
-        Some(_) => "other".to_owned(),
     }
 }

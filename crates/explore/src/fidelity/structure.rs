@@ -2,13 +2,12 @@
 
 use anyhow::Context;
 use serde::Serialize;
-use softstop::{Scene, Start};
+use softstop::{Dimension, Machine, Scene, Start};
 use softstop_dynamics::models::{Bounds, Likeness, Rung};
 use softstop_dynamics::orbit::Regime;
 
-use super::options::Sweep;
 use super::study::{Entry, Study};
-use super::word;
+use super::{FidelityArguments, word};
 use crate::fidelity::regimes::{RegimeRow, Strip};
 use softstop_console::column::Column;
 use softstop_console::columns;
@@ -55,9 +54,7 @@ pub(super) struct Track {
 /// The regimes of all models.
 #[derive(Debug, Clone)]
 pub(super) struct Structure {
-    /// sqrt(k1/m) in rad/s.
-    unit: f64,
-    /// In units of it.
+    /// In the machine's own units.
     pub(super) frequencies: Vec<f64>,
     pub(super) tracks: Vec<Track>,
 }
@@ -86,22 +83,22 @@ impl Structure {
     /// # Errors
     /// [`Failure::Usage`] if the scene has no suspension to measure frequencies by, [`Failure::Run`] if a
     /// motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
-    pub(super) fn new(study: &Study, sweep: Sweep, points: u64) -> Result<Self, Failure> {
-        let scene = &study.entries[0].scene;
-        let unit = (scene.stiffness / scene.mass).sqrt();
-        if unit == 0.0 {
-            return Err(Failure::usage(
-                "stiffness = 0: must be > 0 with --structure, whose frequencies are in units of \
-                 sqrt(stiffness/mass)",
-            ));
-        }
-        let frequencies = sweep.frequencies(points);
+    pub(super) fn new(
+        machine: &Machine,
+        study: &Study,
+        arguments: &FidelityArguments,
+    ) -> Result<Self, Failure> {
+        let frequencies = frequencies(machine, arguments.sweep, arguments.points)?;
         let count = ORIGINS.len() * frequencies.len() * study.entries.len();
         let progress = Progress::new(count as u64, "motions");
         let mut track = |entry: &Entry| -> Result<Track, Failure> {
             let regimes = |origin: Origin| -> Result<Vec<Option<Regime>>, Failure> {
                 let each = frequencies.iter().map(|frequency| {
-                    let regime = regime(&entry.scene, frequency * unit, origin)?;
+                    let regime = regime(
+                        &entry.scene,
+                        machine.to_si(Dimension::Frequency, *frequency),
+                        origin,
+                    )?;
                     progress.step()?;
                     Ok(regime)
                 });
@@ -122,7 +119,6 @@ impl Structure {
             .map(&mut track)
             .collect::<Result<_, _>>()?;
         Ok(Self {
-            unit,
             frequencies,
             tracks,
         })
@@ -156,11 +152,6 @@ impl Structure {
             .collect();
         names.dedup();
         names
-    }
-
-    /// A bound in units of sqrt(k1/m).
-    pub(super) fn scaled(&self, bound: Option<f64>) -> Option<f64> {
-        bound.map(|frequency| frequency / self.unit)
     }
 
     /// The rows of `structure.csv`: all motions.
@@ -212,10 +203,37 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 6] {
         "rung" [None], "the model's law" => row.track.rung.name();
         "matched" [None], "what it shares with the contact, if anything" => row.track.likeness.map(word);
         "start" [None], "rest, or flung towards the stop" => row.start.name();
-        "frequency" [Of("sqrt(k1/m)")], "of the drive" => row.frequency;
+        "frequency" [Frequency], "of the drive" => row.frequency;
         "impacts" [None], "p of z = p/n; empty if irregular" => row.regime.map(|regime| regime.impacts);
         "periods" [None], "n of it" => row.regime.map(|regime| regime.periods);
     }
+}
+
+/// Ends of the sweep unless they are given, in units of sqrt(k1/m).
+const SWEEP: [f64; 2] = [0.95, 1.4];
+
+/// The frequencies in the machine's own units, both ends included.
+fn frequencies(
+    machine: &Machine,
+    sweep: Option<[f64; 2]>,
+    points: u64,
+) -> Result<Vec<f64>, Failure> {
+    let scene = &machine.scene;
+    let unit = (scene.stiffness / scene.mass).sqrt();
+    let [low, high] = match sweep {
+        Some(range) => range,
+        None => SWEEP.map(|end| machine.to_own(Dimension::Frequency, end * unit)),
+    };
+    if unit == 0.0 || low <= 0.0 {
+        return Err(Failure::usage(format!(
+            "--sweep {low}:{high}, stiffness = {}: must both be > 0",
+            scene.stiffness
+        )));
+    }
+    let share = |point: u64| point as f64 / (points - 1) as f64;
+    Ok((0..points)
+        .map(|point| low + share(point) * (high - low))
+        .collect())
 }
 
 fn regime(scene: &Scene, frequency: f64, origin: Origin) -> Result<Option<Regime>, Failure> {

@@ -3,29 +3,28 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use kuva::backend::svg::SvgBackend;
+use kuva::plot::ScatterPlot;
 use kuva::plot::legend::{LegendEntry, LegendPosition, LegendShape};
-use kuva::plot::{LinePlot, ScatterPlot};
 use kuva::render::annotations::TextAnnotation;
 use kuva::render::figure::Figure;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
-use softstop_dynamics::continuation::{Adjustable, Parameter};
-use softstop_dynamics::sweep::{Chain, Direction, Jump, Plan, Settled, Step};
+use softstop::{Dimension, Language, Machine, Parameter};
+use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
 
-use crate::continuation::chart::axis;
-use softstop_console::model::Model;
 use softstop_draw::scale::around;
 use softstop_draw::style;
 
 /// The diagram of all chains of a plan.
 #[derive(Debug, Clone, Copy)]
 pub struct SweepChart<'a> {
+    machine: &'a Machine,
     plan: &'a Plan,
-    chains: &'a [Chain<Model>],
+    pub(super) chains: &'a [Chain<Machine>],
 }
 
 /// Where points are: seen on the way up, on the way down, or both.
-const WAYS: [(&str, &str); 3] = [
+pub(super) const WAYS: [(&str, &str); 3] = [
     ("both ways", "#555555"),
     ("up only →", style::DESIGN),
     ("down only ←", style::OPTIMUM),
@@ -38,19 +37,21 @@ const DOT: (f64, f64) = (0.9, 2.0);
 const FILLS: f64 = 0.45;
 /// Points in one square of this many pixels are one.
 const GRAIN: f64 = 0.8;
-/// Height of a jump, in units of the axis, that has an arrow.
-const SEEN: f64 = 0.15;
 
 /// The points of one panel and what they are.
 type Points = BTreeMap<(i64, i64), u8>;
 /// What a panel shows of a step.
-type Show = fn(&Step) -> Vec<f64>;
+pub(super) type Show = fn(&Step) -> Vec<f64>;
 
 impl<'a> SweepChart<'a> {
     /// The diagram.
     #[must_use]
-    pub fn new(plan: &'a Plan, chains: &'a [Chain<Model>]) -> Self {
-        Self { plan, chains }
+    pub fn new(machine: &'a Machine, plan: &'a Plan, chains: &'a [Chain<Machine>]) -> Self {
+        Self {
+            machine,
+            plan,
+            chains,
+        }
     }
 
     /// The picture as an SVG document.
@@ -69,8 +70,16 @@ impl<'a> SweepChart<'a> {
         let figure = Figure::new(2, 1)
             .with_plots(vec![upper, lower])
             .with_layouts(vec![
-                self.layout(positions, "largest position X_m", false),
-                self.layout(velocities, "before-impact velocity X′₋", true),
+                self.layout(
+                    positions,
+                    ("largest position", "X_m", Dimension::Length),
+                    false,
+                ),
+                self.layout(
+                    velocities,
+                    ("before-impact velocity", "X′₋", Dimension::Velocity),
+                    true,
+                ),
             ])
             .with_title(self.title())
             .with_cell_size(PANEL.0, PANEL.1)
@@ -82,13 +91,13 @@ impl<'a> SweepChart<'a> {
     fn title(&self) -> String {
         format!(
             "Motions swept along the {}: {} drive periods at each of {} values",
-            self.plan.parameter.name().replace('_', " "),
+            self.plan.parameter.about().meaning,
             self.plan.periods,
             self.plan.steps
         )
     }
 
-    fn layout(&self, show: Show, name: &str, bottom: bool) -> Layout {
+    fn layout(&self, show: Show, name: (&str, &str, Dimension), bottom: bool) -> Layout {
         let (low, high) = self.plan.range;
         let room = 0.02 * (high - low);
         let (x, y) = ((low - room, high + room), self.range(show));
@@ -103,8 +112,8 @@ impl<'a> SweepChart<'a> {
             plain
         };
         let layout = layout
-            .with_y_label(name)
-            .with_x_label(axis(self.plan.parameter))
+            .with_y_label(self.machine.label(name.0, name.1, name.2))
+            .with_x_label(self.machine.label_of(self.plan.parameter))
             .with_legend_position(LegendPosition::OutsideRightTop);
         if bottom {
             self.arrow_heads(layout)
@@ -114,7 +123,7 @@ impl<'a> SweepChart<'a> {
     }
 
     /// Least and largest value with some room.
-    fn range(&self, show: Show) -> (f64, f64) {
+    pub(super) fn range(&self, show: Show) -> (f64, f64) {
         let values = self
             .chains
             .iter()
@@ -182,55 +191,11 @@ impl<'a> SweepChart<'a> {
         plots.map(plot).collect()
     }
 
-    /// The jumps that are seen, and which way they go.
-    fn jumps(&self) -> Vec<(Direction, Jump)> {
-        let top = self.range(|step| step.velocities.clone()).1;
-        let jumps = self.chains.iter().flat_map(|chain| {
-            let jumps = chain.jumps().into_iter();
-            jumps.map(move |jump| (chain.direction, jump))
-        });
-        let far = |(_, jump): &(Direction, Jump)| {
-            (jump.velocities.0 - jump.velocities.1).abs() > SEEN * top
-        };
-        jumps.filter(far).collect()
-    }
-
-    /// The shafts of their arrows.
-    fn arrows(&self) -> Vec<Plot> {
-        let arrow = |(direction, jump): (Direction, Jump)| {
-            let (before, after) = jump.velocities;
-            Plot::Line(
-                LinePlot::new()
-                    .with_data([(jump.from, before), (jump.to, after)])
-                    .with_color(color(direction))
-                    .with_stroke_width(1.0),
-            )
-        };
-        self.jumps().into_iter().map(arrow).collect()
-    }
-
-    fn arrow_heads(&self, layout: Layout) -> Layout {
-        let (low, high) = self.range(|step| step.velocities.clone());
-        self.jumps()
-            .into_iter()
-            .fold(layout, |layout, (direction, jump)| {
-                let (before, after) = jump.velocities;
-                let (head, shift) = if after > before {
-                    ("▲", -0.02)
-                } else {
-                    ("▼", 0.01)
-                };
-                let place = after + shift * (high - low);
-                let head = TextAnnotation::new(head, jump.to, place).with_font_size(10);
-                layout.with_annotation(head.with_color(color(direction)))
-            })
-    }
-
     /// The clearance of each machine above its largest position, if there are several.
     fn names(&self, layout: Layout, show: Show) -> Layout {
         let several = self.chains.len() > 2 && self.plan.parameter != Parameter::Clearance;
         let (low, high) = self.range(show);
-        let ways = |chain: &&Chain<Model>| several && chain.direction == self.chains[0].direction;
+        let ways = |chain: &&Chain<Machine>| several && chain.direction == self.chains[0].direction;
         self.chains
             .iter()
             .filter(ways)
@@ -244,9 +209,16 @@ impl<'a> SweepChart<'a> {
                     return layout;
                 };
                 let place = step.max_position + 0.02 * (high - low);
-                let name = TextAnnotation::new(format!("ρ = {clearance}"), step.value, place);
+                let name = TextAnnotation::new(self.clearance(clearance), step.value, place);
                 layout.with_annotation(name.with_font_size(12))
             })
+    }
+
+    fn clearance(&self, value: f64) -> String {
+        match self.machine.speaks {
+            Language::Ratios => format!("ρ = {value}"),
+            _ => format!("clearance {value} m"),
+        }
     }
 
     fn legend(&self) -> Vec<LegendEntry> {
@@ -275,8 +247,8 @@ impl<'a> SweepChart<'a> {
 
 /// The values at which a machine moves chaotically both on the way up and on the way down: all points there belong
 /// to one motion.
-fn chaos_both_ways(machine: &[Chain<Model>]) -> BTreeSet<u64> {
-    let chaos = |chain: &Chain<Model>| -> BTreeSet<u64> {
+fn chaos_both_ways(machine: &[Chain<Machine>]) -> BTreeSet<u64> {
+    let chaos = |chain: &Chain<Machine>| -> BTreeSet<u64> {
         let steps = chain.steps.iter();
         let steps = steps.filter(|step| matches!(step.settled, Settled::Chaotic { .. }));
         steps.map(|step| step.value.to_bits()).collect()
@@ -284,12 +256,5 @@ fn chaos_both_ways(machine: &[Chain<Model>]) -> BTreeSet<u64> {
     match machine {
         [up, down] => chaos(up).intersection(&chaos(down)).copied().collect(),
         _ => BTreeSet::new(),
-    }
-}
-
-fn color(direction: Direction) -> &'static str {
-    match direction {
-        Direction::Up => WAYS[1].1,
-        Direction::Down => WAYS[2].1,
     }
 }

@@ -1,28 +1,29 @@
 //! `softstop sweep`: a parameter up and down, and where the motion jumps.
 
+mod arrows;
 pub mod chart;
 mod keep;
 mod report;
+mod steps;
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
-use softstop_dynamics::continuation::{Adjustable, Parameter};
+use softstop::{Machine, Parameter};
 use softstop_dynamics::sweep::{Chain, Direction, Plan};
 
 use crate::sweep::chart::SweepChart;
 use keep::Keep;
 use report::SweepReport;
+use softstop_console::arguments::MachineArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::machine::{self, SceneSettings, require};
-use softstop_console::model::{self, Model};
+use softstop_console::machine::require;
 use softstop_console::output::Format;
 use softstop_console::progress::Progress;
-use softstop_console::scene_file;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -36,8 +37,8 @@ Examples:
       a fast sweep: it loses z = 1 at 1.371, later than at the fold, 1.369036
   softstop sweep --parameter clearance --from 4 --to 20 --frequency 1.15
       along another parameter
-  softstop sweep docs/scenes/rigid.toml --parameter frequency --from 1 --to 3
-      any machine with any stop, in SI units
+  softstop sweep docs/scenes/rigid.toml --from 3 --to 1 --set clearance=0.5
+      any machine with any stop, in its own units, downwards
   softstop sweep --from 0.8 --to 1.8 --steps 100000 --periods 1000
       long: after Ctrl-C the same line with --resume goes on, with the same result
 
@@ -53,7 +54,7 @@ Files, whole or not at all: sweep.csv with a row for each step, sweep.svg with t
 and the before-impact velocities over the parameter, sweep.json with the jumps.";
 
 fn help() -> String {
-    EXAMPLES.to_owned() + &column::help("sweep.csv", &report::columns())
+    EXAMPLES.to_owned() + &column::help("sweep.csv", &steps::columns())
 }
 
 /// Which ways to go.
@@ -81,32 +82,28 @@ impl Ways {
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct SweepArguments {
-    /// Scene in SI units as for `softstop simulate`, instead of the paper's machine
-    #[arg(value_name = "SCENE.toml", conflicts_with = "scene")]
-    pub file: Option<PathBuf>,
-    /// Parameter to sweep, by the name of its option or the paper's letter, as for
-    /// `softstop continue`
-    #[arg(long, value_name = "NAME", value_parser = model::parameter, default_value = "frequency")]
-    pub parameter: Parameter,
-    /// Lowest value
+    /// Parameter to sweep, by its key in the file or its letter, such as clearance (rho) or mass
+    #[arg(long, value_name = "NAME", default_value = "excitation.frequency")]
+    pub parameter: String,
+    /// First value
     #[arg(long, value_name = "VALUE")]
     pub from: f64,
-    /// Highest value
+    /// Last value
     #[arg(long, value_name = "VALUE")]
     pub to: f64,
-    /// Number of values, 2 to 10000000
+    /// Number of values, >= 2; all sweeps together have at most 1000000 (0.6 GB)
     #[arg(long, value_name = "N", default_value_t = 1000)]
     pub steps: usize,
     /// Drive periods at each value, 1 to 1000000
     #[arg(long, value_name = "N", default_value_t = 200)]
     pub periods: u64,
-    /// Which way
-    #[arg(long, value_enum, default_value = "both")]
-    pub direction: Ways,
+    /// Which way [default: both; down if --from lies above --to]
+    #[arg(long, value_enum)]
+    pub direction: Option<Ways>,
     /// Several clearances, a sweep for each [default: that of the machine]
     #[arg(
         long,
-        value_name = "RHO,…",
+        value_name = "VALUE,…",
         value_delimiter = ',',
         conflicts_with = "clearance"
     )]
@@ -123,12 +120,9 @@ pub struct SweepArguments {
     /// How to print the result
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
-    /// Machine in a TOML file, by the names below; the command line has the last word
-    #[arg(long, value_name = "FILE.toml")]
-    pub scene: Option<PathBuf>,
     /// The machine.
     #[command(flatten)]
-    pub machine: SceneSettings,
+    pub machine: MachineArguments,
 }
 
 const FILES: [(&str, &str); 3] = [
@@ -145,104 +139,109 @@ const KEEPING: Duration = Duration::from_secs(10);
 /// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if the folder cannot be written,
 /// [`Failure::Suspended`] after Ctrl-C.
 pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
-    let plan = plan(arguments)?;
-    let mut chains = chains(arguments)?;
+    let machine = arguments.machine.machine()?;
+    let parameter = arguments
+        .machine
+        .parameter(&machine, "parameter", &arguments.parameter)?;
+    let why = "is not used, for it is swept: --from and --to have its values";
+    arguments.machine.refuse(parameter, why)?;
+    let plan = plan(arguments, parameter)?;
+    let mut chains = chains(arguments, &machine, parameter)?;
     let export = Export::open(&arguments.output, &FILES)?;
     let keep = Keep::new(&arguments.output, &plan, &chains);
     if arguments.resume {
         keep.restore(&mut chains)?;
     }
     follow(&plan, &mut chains, &keep)?;
-    export.table("table", &report::columns(), report::rows(&plan, &chains))?;
-    let chart = SweepChart::new(&plan, &chains).svg();
+    export.table("table", &steps::columns(), steps::rows(&plan, &chains))?;
+    let chart = SweepChart::new(&machine, &plan, &chains).svg();
     export.file("chart", chart.as_bytes())?;
-    export.finish(&SweepReport::new(&plan, &chains), arguments.format)?;
+    export.finish(
+        &SweepReport::new(&machine, &plan, &chains),
+        arguments.format,
+    )?;
     keep.forget();
     Ok(())
 }
 
-fn plan(arguments: &SweepArguments) -> Result<Plan, Failure> {
+fn plan(arguments: &SweepArguments, parameter: Parameter) -> Result<Plan, Failure> {
     let (steps, periods) = (arguments.steps, arguments.periods);
-    let fits = (2..=10_000_000).contains(&steps);
-    require(fits, "steps", steps as f64, "2 to 10000000")?;
+    let fits = (2..=MOST).contains(&steps);
+    require(fits, "steps", steps as f64, &format!("2 to {MOST}"))?;
     let fits = (1..=1_000_000).contains(&periods);
     require(fits, "periods", periods as f64, "1 to 1000000")?;
     let tolerance = arguments.tolerance;
     let fits = tolerance > 0.0 && tolerance < 1.0;
     require(fits, "tolerance", tolerance, "> 0 and < 1")?;
-    let range = (arguments.from, arguments.to);
-    let plan = Plan::new(arguments.parameter, range, steps, periods)
+    let (from, to) = (arguments.from, arguments.to);
+    let plan = Plan::new(parameter, (from.min(to), from.max(to)), steps, periods)
         .map_err(|error| Failure::usage(error.to_string()))?;
     Ok(Plan { tolerance, ..plan })
 }
 
+/// Most values of all sweeps together: each takes some 600 bytes.
+const MOST: usize = 1_000_000;
+
 /// A chain for each clearance and each way; refuses what no machine can have at either end.
-fn chains(arguments: &SweepArguments) -> Result<Vec<Chain<Model>>, Failure> {
-    let model = match &arguments.file {
-        Some(path) if arguments.machine == SceneSettings::default() => {
-            Model::Scene(Box::new(scene_file::read(path)?.scene))
-        }
-        Some(path) => {
-            return Err(Failure::usage(format!(
-                "{}: a scene file says all of the machine; it goes with none of the paper's ratios",
-                path.display()
-            )));
-        }
-        None => Model::Paper(machine::machine(
-            arguments.scene.as_ref(),
-            &arguments.machine,
-        )?),
-    };
-    let parameter = arguments.parameter;
+fn chains(
+    arguments: &SweepArguments,
+    machine: &Machine,
+    parameter: Parameter,
+) -> Result<Vec<Chain<Machine>>, Failure> {
     if !arguments.clearances.is_empty() && parameter == Parameter::Clearance {
         return Err(Failure::usage(
             "--clearances: the clearance itself is swept; give --from and --to only",
         ));
     }
-    let mut machines = Vec::new();
-    for clearance in &arguments.clearances {
-        let mut machine = model.clone();
+    let at = |clearance: &f64| {
+        let mut machine = machine.clone();
         machine.set(Parameter::Clearance, *clearance);
-        machines.push(machine);
-    }
+        machine
+    };
+    let mut machines: Vec<Machine> = arguments.clearances.iter().map(at).collect();
     if machines.is_empty() {
-        machines.push(model);
+        machines.push(machine.clone());
     }
     for machine in &machines {
         check(machine, parameter, [arguments.from, arguments.to])?;
     }
-    let ways = arguments.direction.directions();
-    let of_machine = |machine: &Model| {
-        ways.iter()
-            .map(|way| Chain::new(machine.clone(), *way))
+    let falls = arguments.from > arguments.to;
+    let ways = arguments
+        .direction
+        .unwrap_or(if falls { Ways::Down } else { Ways::Both });
+    let ways = ways.directions();
+    let sweeps = machines.len() * ways.len();
+    if arguments.steps * sweeps > MOST {
+        return Err(Failure::usage(format!(
+            "steps = {} in each of {sweeps} sweeps: must be at most {MOST} together, which take 0.6 GB",
+            arguments.steps
+        )));
+    }
+    let of_machine = |machine: &Machine| {
+        let ways = ways.iter();
+        ways.map(|way| Chain::new(machine.clone(), *way))
             .collect::<Vec<_>>()
     };
     Ok(machines.iter().flat_map(of_machine).collect())
 }
 
-fn check(machine: &Model, parameter: Parameter, ends: [f64; 2]) -> Result<(), Failure> {
-    if machine.value(parameter).is_none() {
-        let name = parameter.name();
-        return Err(Failure::usage(format!(
-            "--parameter {name}: this machine has none"
-        )));
-    }
-    for value in ends {
+fn check(machine: &Machine, parameter: Parameter, ends: [f64; 2]) -> Result<(), Failure> {
+    for (flag, value) in ["--from", "--to"].into_iter().zip(ends) {
         let mut machine = machine.clone();
         machine.set(parameter, value);
         machine
-            .scene()
-            .map_err(|error| Failure::usage(error.to_string()))?;
+            .validate()
+            .map_err(|error| Failure::usage(format!("{flag} {value}: {error}")))?;
     }
     Ok(())
 }
 
 /// Carries the chains on to their ends, and keeps what is done from time to time.
-fn follow(plan: &Plan, chains: &mut [Chain<Model>], keep: &Keep) -> Result<(), Failure> {
+fn follow(plan: &Plan, chains: &mut [Chain<Machine>], keep: &Keep) -> Result<(), Failure> {
     let all = (plan.steps * chains.len()) as u64;
     let progress = Progress::new(all, "steps");
     let done =
-        |chains: &[Chain<Model>]| chains.iter().map(|chain| chain.steps.len()).sum::<usize>();
+        |chains: &[Chain<Machine>]| chains.iter().map(|chain| chain.steps.len()).sum::<usize>();
     progress.at(done(chains) as u64);
     loop {
         let begin = Instant::now();

@@ -1,21 +1,25 @@
 //! What a sweep came to.
 
 use serde::Serialize;
-use softstop_console::column::{Column, Units, text};
+use softstop::Machine;
+use softstop_console::column::{Column, Unit, Units, text};
 use softstop_console::columns;
 use softstop_console::export::Report;
-use softstop_console::model::Model;
-use softstop_dynamics::continuation::{Adjustable, Parameter};
+use softstop_console::report::MachineReport;
 use softstop_dynamics::orbit::ImpactPattern;
-use softstop_dynamics::sweep::{
-    Chain, Coexistence, Direction, Jump, Plan, Settled, Step, hysteresis,
-};
+use softstop_dynamics::sweep::{Chain, Coexistence, Direction, Jump, Plan, Settled, hysteresis};
+
+use super::steps::{clearance, kind};
 
 /// The result.
 #[derive(Debug, Serialize)]
 pub struct SweepReport {
+    /// The machine.
+    pub machine: MachineReport,
     /// What was swept.
     pub parameter: &'static str,
+    /// Its unit, empty for ratios.
+    pub unit: &'static str,
     /// Its least and largest value.
     pub range: [f64; 2],
     /// Number of values.
@@ -28,6 +32,8 @@ pub struct SweepReport {
     pub sweeps: Vec<ChainReport>,
     /// Where up and down differ.
     pub hysteresis: Vec<ZoneReport>,
+    #[serde(skip)]
+    units: Units,
 }
 
 /// One sweep.
@@ -79,70 +85,9 @@ pub struct ZoneReport {
     pub down: String,
 }
 
-/// A row of `sweep.csv`.
-pub(super) struct Row<'a> {
-    clearance: Option<f64>,
-    direction: Direction,
-    step: &'a Step,
-}
-
-/// The columns of `sweep.csv`.
-pub(super) fn columns<'a>() -> [Column<Row<'a>>; 13] {
-    columns! { Row<'a>, row;
-        "clearance" [Length], "of the machine, unless it is swept" => row.clearance;
-        "direction" [None], "up or down" => row.direction.name();
-        "value" [Of("own")], "of the parameter, in its own unit" => row.step.value;
-        "motion" [None], "p/n, chaos or unsettled" => motion(row.step);
-        "order" [None], "impacts in each drive period of n" => order(row.step);
-        "impacts_per_period" [None], "mean per drive period" => row.step.impacts_per_period;
-        "growth_per_period" [None], "ln of that of small differences, unless p/n" => growth(row.step);
-        "least_before_impact_velocity" [Velocity], "of all watched" => row.step.velocities.first().copied();
-        "before_impact_velocity" [Velocity], "the largest of them" => row.step.velocities.last().copied();
-        "max_position" [Length], "largest position" => row.step.max_position;
-        "end_position" [Length], "at the end, at drive angle phi" => row.step.end.position;
-        "end_velocity" [Velocity], "there" => row.step.end.velocity;
-        "before_impact_velocities" [Velocity], "all of them, rising" => velocities(row.step);
-    }
-}
-
-/// The rows of `sweep.csv`: one for each step.
-pub(super) fn rows<'a>(plan: &Plan, chains: &'a [Chain<Model>]) -> impl Iterator<Item = Row<'a>> {
-    chains.iter().flat_map(|chain| {
-        let clearance = clearance(plan, chain);
-        chain.steps.iter().map(move |step| Row {
-            clearance,
-            direction: chain.direction,
-            step,
-        })
-    })
-}
-
-fn motion(step: &Step) -> String {
-    kind(&step.settled).trim_start_matches("z = ").to_owned()
-}
-
-fn order(step: &Step) -> Option<String> {
-    step.order.as_ref().map(ToString::to_string)
-}
-
-fn growth(step: &Step) -> Option<f64> {
-    match step.settled {
-        Settled::Periodic(_) => None,
-        Settled::Chaotic { growth } | Settled::Unsettled { growth } => Some(growth),
-    }
-}
-
-fn velocities(step: &Step) -> String {
-    let written = step
-        .velocities
-        .iter()
-        .map(|velocity| format!("{velocity:.9}"));
-    written.collect::<Vec<_>>().join(" ")
-}
-
 impl SweepReport {
-    pub(super) fn new(plan: &Plan, chains: &[Chain<Model>]) -> Self {
-        let of_machine = |pair: &[Chain<Model>]| match pair {
+    pub(super) fn new(machine: &Machine, plan: &Plan, chains: &[Chain<Machine>]) -> Self {
+        let of_machine = |pair: &[Chain<Machine>]| match pair {
             [up, down] if up.direction != down.direction => {
                 let clearance = clearance(plan, up);
                 let zones = hysteresis(up, down);
@@ -160,7 +105,9 @@ impl SweepReport {
             1
         };
         Self {
-            parameter: plan.parameter.name(),
+            machine: MachineReport::of(machine),
+            parameter: machine.name(plan.parameter),
+            unit: machine.unit(plan.parameter.about().dimension),
             range: plan.range.into(),
             steps: plan.steps,
             periods: plan.periods,
@@ -170,6 +117,7 @@ impl SweepReport {
                 .map(|chain| ChainReport::new(plan, chain))
                 .collect(),
             hysteresis: chains.chunks(together).flat_map(of_machine).collect(),
+            units: Units::of(machine),
         }
     }
 
@@ -181,7 +129,7 @@ impl SweepReport {
 }
 
 impl ChainReport {
-    fn new(plan: &Plan, chain: &Chain<Model>) -> Self {
+    fn new(plan: &Plan, chain: &Chain<Machine>) -> Self {
         let count = |which: fn(&Settled) -> bool| {
             let steps = chain.steps.iter();
             steps.filter(|step| which(&step.settled)).count()
@@ -222,12 +170,6 @@ impl ZoneReport {
     }
 }
 
-/// The clearance of a chain, unless it is swept.
-fn clearance(plan: &Plan, chain: &Chain<Model>) -> Option<f64> {
-    let swept = plan.parameter == Parameter::Clearance;
-    chain.machine.value(Parameter::Clearance).filter(|_| !swept)
-}
-
 /// A motion in a word, with the order of its impacts.
 fn name(settled: &Settled, order: Option<&ImpactPattern>) -> String {
     match (settled, order) {
@@ -235,14 +177,6 @@ fn name(settled: &Settled, order: Option<&ImpactPattern>) -> String {
             format!("z = {regime} ({order})")
         }
         _ => kind(settled),
-    }
-}
-
-fn kind(settled: &Settled) -> String {
-    match settled {
-        Settled::Periodic(regime) => format!("z = {regime}"),
-        Settled::Chaotic { .. } => "chaos".to_owned(),
-        Settled::Unsettled { .. } => "unsettled".to_owned(),
     }
 }
 
@@ -254,21 +188,24 @@ impl Report for SweepReport {
         let ([from, to], digits) = (self.range, self.digits());
         let mut text = format!(
             "{} from {from} to {to}: {} values of {} drive periods, {:.3e} per period\n",
-            self.parameter, self.steps, self.periods, self.rate_per_period,
+            self.units.label(self.parameter, Unit::Of(self.unit)),
+            self.steps,
+            self.periods,
+            self.rate_per_period,
         );
         for sweep in &self.sweeps {
-            text += &sweep.text(digits);
+            text += &sweep.text(digits, &self.units);
         }
         if !self.hysteresis.is_empty() {
             text += "\nHysteresis\n";
-            text += &self::text(&zones(digits), &self.hysteresis, &Units::RATIOS);
+            text += &self::text(&zones(digits), &self.hysteresis, &self.units);
         }
         text
     }
 }
 
 impl ChainReport {
-    fn text(&self, digits: usize) -> String {
+    fn text(&self, digits: usize, units: &Units) -> String {
         let clearance = self.clearance.map(|value| format!("clearance {value}, "));
         let mut text = format!(
             "\n{}{}: {} steps, {} of chaos, {} unsettled\n",
@@ -280,7 +217,7 @@ impl ChainReport {
         );
         if !self.jumps.is_empty() {
             let told = self.jumps.iter().take(MOST);
-            text += &self::text(&jumps(digits), told, &Units::RATIOS);
+            text += &self::text(&jumps(digits), told, units);
         }
         if self.jumps.len() > MOST {
             text += &format!("and {} more\n", self.jumps.len() - MOST);

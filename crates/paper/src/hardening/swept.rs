@@ -1,6 +1,7 @@
 //! Sweeps of many stops along the frequency, up and down.
 
 use anyhow::{Result, anyhow};
+use softstop::Scene;
 use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
 
@@ -8,7 +9,6 @@ use super::stops::{CLEARANCE, Law};
 use crate::hardening::chart::StopRegime;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::model::Model;
 use softstop_console::progress::Progress;
 
 /// The frequencies eta.
@@ -25,12 +25,10 @@ pub(super) struct Swept {
 pub(super) fn sweep(laws: &[Law], steps: usize, periods: u64) -> Result<Vec<Swept>> {
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods);
     let plan = plan?;
-    let chain = |(law, direction): (&Law, Direction)| {
-        let model = Model::Scene(Box::new(law.scene(RANGE.0, CLEARANCE)));
-        Chain::new(model, direction)
-    };
+    let chain =
+        |(law, direction): (&Law, Direction)| Chain::new(law.scene(RANGE.0, CLEARANCE), direction);
     let ways = |law| [(law, Direction::Up), (law, Direction::Down)];
-    let mut chains: Vec<Chain<Model>> = laws.iter().flat_map(ways).map(chain).collect();
+    let mut chains: Vec<Chain<Scene>> = laws.iter().flat_map(ways).map(chain).collect();
     let progress = Progress::new((chains.len() * steps) as u64, "steps of the stops' sweeps");
     let go_on = |done| {
         progress.more(done);
@@ -45,7 +43,7 @@ pub(super) fn sweep(laws: &[Law], steps: usize, periods: u64) -> Result<Vec<Swep
                 return Err(anyhow!("{}: {error}", law.name()));
             }
         }
-        let rising = |chain: &Chain<Model>| chain.rising().into_iter().cloned().collect();
+        let rising = |chain: &Chain<Scene>| chain.rising().into_iter().cloned().collect();
         Ok(Swept {
             law: *law,
             up: rising(&pair[0]),
