@@ -15,6 +15,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use softstop_console::failure::Failure;
+use softstop_console::{output, schema};
 use softstop_explore::{
     basin, continuation, fidelity, motions, orbit, simulate, stops, sweep, zone,
 };
@@ -39,6 +40,7 @@ Examples:
   softstop basin --size 1000                       which start leads to which motion
   softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
   softstop fmu docs/scenes/hertz.toml              the same machine for FMI 2.0 co-simulation
+  softstop schema > machine.schema.json            what machine files may hold, for editors
   softstop stops                                   pictures of all the stops' laws
   softstop fidelity B --tolerance 0.02             the simplest model that will do
 
@@ -64,6 +66,8 @@ pub enum Command {
     Optimize(optimize::OptimizeArguments),
     /// Pack a machine as an FMU for co-simulation
     Fmu(fmu::FmuArguments),
+    /// Print the JSON Schema of machine files, for editors
+    Schema,
     /// Run any scene: a motion as tables, a chart and a summary
     Simulate(simulate::SimulateArguments),
     /// Draw the laws of all stops: contact force over deflection
@@ -91,6 +95,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Basin(arguments) => basin::run(&arguments),
         Command::Optimize(arguments) => optimize::run(&arguments),
         Command::Fmu(arguments) => fmu::run(&arguments),
+        Command::Schema => output::print(&output::json(&schema::machine())?),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Stops(arguments) => stops::run(&arguments),
         Command::Fidelity(arguments) => fidelity::run(&arguments),

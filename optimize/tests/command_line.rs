@@ -365,7 +365,9 @@ fn what_cannot_be_done_is_told_and_leaves_nothing_behind() -> Outcome {
     ];
     refuses(&search, 1, &["clearance = 26"]);
     assert!(!folder.path().join("never").exists());
-    refuses(&["zone", "--clearance", "30"], 1, &["clearance = 30"]);
+    for clearance in ["30", "-2", "nan"] {
+        refuses(&["zone", "--clearance", clearance], 2, &["clearance = "]);
+    }
     refuses(&["orbit", "--frequency", "3"], 1, &["frequency = 3"]);
     Ok(())
 }
@@ -408,6 +410,106 @@ fn an_interrupt_ends_the_search_and_leaves_nothing_behind() -> Outcome {
         .status()?;
     assert_eq!(search.wait()?.code(), Some(130));
     assert!(!target.exists());
+    Ok(())
+}
+
+#[test]
+fn what_a_machine_does_not_have_is_refused_by_every_command() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let output = folder.path().join("out");
+    let output = output.to_str().ok_or("path")?;
+    let scene = format!("{}/../docs/scenes/hertz.toml", env!("CARGO_MANIFEST_DIR"));
+    let commands: [&[&str]; 6] = [
+        &["orbit"],
+        &["zone"],
+        &["motions"],
+        &["simulate", "--output", output],
+        &["fmu", "--output", output],
+        &["optimize", "--output", output],
+    ];
+    for command in commands {
+        let with = |more: &[&'static str]| [command, more].concat();
+        refuses(
+            &with(&["--set", "clearence=3"]),
+            2,
+            &["clearence", "did you mean clearance?"],
+        );
+        refuses(
+            &with(&["--set", "stop.exponent=2"]),
+            2,
+            &["stop.exponent", "no such parameter"],
+        );
+        refuses(
+            &with(&["--set", "clearance=wide"]),
+            2,
+            &["clearance = wide"],
+        );
+        refuses(
+            &with(&["--set", "rho=3", "--set", "clearance=4"]),
+            2,
+            &["twice"],
+        );
+        refuses(&with(&["--set", "clearance"]), 2, &["KEY=VALUE"]);
+        refuses(&with(&["nowhere.toml"]), 2, &["nowhere.toml"]);
+        refuses(
+            &[command, &[scene.as_str(), "--stiffness", "3"]].concat(),
+            2,
+            &["--stiffness", "hertz.toml", "--set stop.stiffness=3"],
+        );
+        refuses(
+            &[command, &[scene.as_str(), "--regime", "loaded"]].concat(),
+            2,
+            &["--regime", "hertz.toml"],
+        );
+    }
+    refuses(&["zone", "--frequency", "1.2"], 2, &["frequency"]);
+    refuses(&["zone", "--set", "eta=1.2"], 2, &["eta"]);
+    assert!(!Path::new(output).exists());
+    Ok(())
+}
+
+#[test]
+fn shorthands_and_keys_say_the_same() -> Outcome {
+    let short = json(&[
+        "orbit",
+        "--regime",
+        "loaded",
+        "--clearance",
+        "9",
+        "--stiffness",
+        "8",
+        "--thickness",
+        "0.3",
+        "--preload-deflection",
+        "10",
+        "--format",
+        "json",
+    ])?;
+    let keys = json(&[
+        "orbit",
+        "loaded",
+        "--set",
+        "clearance=9",
+        "--set",
+        "stop.stiffness=8",
+        "--set",
+        "sigma=0.3",
+        "--set",
+        "stop.preload_deflection=10",
+        "--format",
+        "json",
+    ])?;
+    assert_eq!(short, keys);
+    Ok(())
+}
+
+#[test]
+fn the_schema_is_printed() -> Outcome {
+    let schema = json(&["schema"])?;
+    assert_eq!(
+        schema["$schema"],
+        "https://json-schema.org/draft/2020-12/schema"
+    );
     Ok(())
 }
 

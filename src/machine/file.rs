@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue, Deserializer, Error, ValueDeserializer};
 use super::{Language, Machine, keys};
 use crate::error::{MachineError, SceneError};
 use crate::integrator::Start;
-use crate::scene::{Parameter, Scene};
+use crate::scene::{Parameter, Scene, Stop};
 
 type Value<'a> = Spanned<DeValue<'a>>;
 
@@ -58,6 +58,13 @@ impl Machine {
             Trouble::Toml(error) => syntax(error),
             Trouble::Machine(error) => error,
         })?;
+        let of_stop = |place: &&Place| place.key.starts_with("stop.") && place.key != keys::MODEL;
+        match places.iter().find(of_stop) {
+            Some(place) if machine.scene.stop == Stop::None => {
+                return Err(machine.unknown(&place.key));
+            }
+            _ => {}
+        }
         machine.validate().map_err(|source| MachineError::Value {
             line: line_of(&source, &places),
             source,

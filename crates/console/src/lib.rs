@@ -14,6 +14,7 @@ pub mod progress;
 pub mod range;
 pub mod report;
 pub mod scene_file;
+pub mod schema;
 pub mod table;
 pub mod units;
 

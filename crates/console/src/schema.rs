@@ -1,0 +1,255 @@
+//! The JSON Schema of machine files, made from the list of parameters.
+
+use serde_json::{Map, Value, json};
+use softstop::scene::{Allowed, Parameter, Release, Stop};
+use softstop::{Excitation, Language, Machine, Scene};
+
+/// The schema of machine files (draft 2020-12). Editors find it by a first line
+/// `#:schema ./machine.schema.json`.
+#[must_use]
+pub fn machine() -> Value {
+    let mut si = sections(Language::Si);
+    let required = required(&si);
+    si.extend([
+        ("name".to_owned(), text("Its name, also that of its FMU.")),
+        ("description".to_owned(), text("What it is, in a sentence.")),
+        ("ratios".to_owned(), object(sections(Language::Ratios))),
+    ]);
+    let (start, damping) = (
+        si["initial"].clone(),
+        si["contact"]["properties"]["damping"].clone(),
+    );
+    si.extend([
+        ("start".to_owned(), older(start, "initial")),
+        (
+            "contact_damping".to_owned(),
+            older(damping, "contact.damping"),
+        ),
+    ]);
+    let beside = ["name", "description", "initial", "start", "ratios"];
+    let required: Vec<Value> = required
+        .into_iter()
+        .filter(|key| key != "contact")
+        .map(Value::from)
+        .collect();
+    json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "softstop machine",
+        "description": "An impact oscillator in SI units, or in the paper's ratios (m = k1 = F0 = 1).",
+        "type": "object",
+        "properties": si,
+        "additionalProperties": false,
+        "if": { "required": ["ratios"] },
+        "then": { "propertyNames": { "enum": beside } },
+        "else": {
+            "required": required,
+            "oneOf": [{ "required": ["contact"] }, { "required": ["contact_damping"] }],
+        },
+    })
+}
+
+/// The keys of a machine in a language, by their tables.
+fn sections(language: Language) -> Map<String, Value> {
+    let mut all: Map<String, Value> = Map::new();
+    for parameter in Parameter::ALL {
+        match parameter.name().split_once('.') {
+            _ if language == Language::Ratios && is_one(parameter) => {}
+            None => {
+                all.insert(parameter.name().to_owned(), number(parameter, language));
+            }
+            Some(("stop", _)) => {}
+            Some((section, field)) => {
+                let section = all.entry(section).or_insert_with(|| object(Map::new()));
+                section["properties"][field] = number(parameter, language);
+            }
+        }
+    }
+    for section in all.values_mut() {
+        require_all(section);
+    }
+    let drive = &mut all["excitation"];
+    drive["required"] = json!(["amplitude", "frequency"]);
+    if language == Language::Ratios {
+        drive["required"] = json!(["frequency"]);
+    } else {
+        drive["properties"]["frequency_hz"] = json!({
+            "type": "number",
+            "exclusiveMinimum": 0,
+            "description": "drive frequency in Hz, instead of frequency; text, charts and JSON then speak Hz",
+        });
+        drive["required"] = json!(["amplitude"]);
+        drive["oneOf"] = json!([{ "required": ["frequency"] }, { "required": ["frequency_hz"] }]);
+    }
+    let state = |what| json!({ "type": "number", "description": what });
+    let initial = [
+        ("position".to_owned(), state("position at time 0")),
+        ("velocity".to_owned(), state("velocity at time 0")),
+    ];
+    all.insert("initial".to_owned(), object(Map::from_iter(initial)));
+    all.insert("stop".to_owned(), stop(language));
+    all
+}
+
+/// Keys that every machine states.
+fn required(sections: &Map<String, Value>) -> Vec<String> {
+    let optional = ["piercing", "rigid", "initial"];
+    let keys = sections
+        .keys()
+        .filter(|key| !optional.contains(&key.as_str()));
+    keys.cloned().collect()
+}
+
+const fn is_one(parameter: Parameter) -> bool {
+    matches!(
+        parameter,
+        Parameter::Mass | Parameter::Suspension | Parameter::Amplitude
+    )
+}
+
+fn text(what: &str) -> Value {
+    json!({ "type": "string", "description": what })
+}
+
+fn object(properties: Map<String, Value>) -> Value {
+    json!({ "type": "object", "properties": properties, "additionalProperties": false })
+}
+
+fn older(mut schema: Value, name: &str) -> Value {
+    schema["deprecated"] = true.into();
+    schema["description"] = format!("older spelling of {name}").into();
+    schema
+}
+
+fn require_all(section: &mut Value) {
+    if let Some(properties) = section["properties"].as_object() {
+        let keys: Vec<String> = properties.keys().cloned().collect();
+        section["required"] = keys.into();
+    }
+}
+
+/// A parameter: a number in its range.
+fn number(parameter: Parameter, language: Language) -> Value {
+    let about = parameter.about();
+    let what = match (language, about.dimension.unit()) {
+        (Language::Ratios, _) => format!("{} ({})", about.meaning, about.symbol),
+        (_, "") => about.meaning.to_owned(),
+        (_, unit) => format!("{} in {unit}", about.meaning),
+    };
+    let mut schema = json!({ "type": "number", "description": what });
+    let (limit, value) = match about.allowed {
+        Allowed::Finite => return schema,
+        Allowed::Positive => ("exclusiveMinimum", 0),
+        Allowed::NotNegative | Allowed::Share => ("minimum", 0),
+        Allowed::AtLeastOne => ("minimum", 1),
+    };
+    schema[limit] = value.into();
+    if about.allowed == Allowed::Share {
+        schema["maximum"] = 1.into();
+    }
+    schema
+}
+
+/// A stop of each law.
+fn stops() -> [Stop; 6] {
+    [
+        Stop::None,
+        Stop::KelvinVoigt {
+            stiffness: 1.0,
+            release: Release::Clearance,
+        },
+        Stop::PiecewiseLinear {
+            loading: Vec::new(),
+            unloading: Vec::new(),
+        },
+        Stop::Hertz {
+            stiffness: 1.0,
+            exponent: 1.5,
+            dissipation: 0.0,
+        },
+        Stop::Preloaded {
+            stiffness: 1.0,
+            preload: 0.0,
+        },
+        Stop::Rigid { restitution: 1.0 },
+    ]
+}
+
+fn stop(language: Language) -> Value {
+    let laws = stops().map(|stop| law(stop, language));
+    json!({ "type": "object", "required": ["model"], "oneOf": laws })
+}
+
+/// The keys of one law.
+fn law(stop: Stop, language: Language) -> Value {
+    let model = stop.model();
+    let chained = matches!(stop, Stop::PiecewiseLinear { .. });
+    let released = matches!(stop, Stop::KelvinVoigt { .. });
+    let machine = Machine::of_scene(scene(stop));
+    let own = machine.parameters().filter_map(|parameter| {
+        let field = parameter.name().strip_prefix("stop.")?;
+        Some((field.to_owned(), number(parameter, language)))
+    });
+    let mut properties = Map::from_iter(own);
+    let optional = ["exponent", "dissipation"];
+    let mut required: Vec<String> = properties
+        .keys()
+        .filter(|key| !optional.contains(&key.as_str()))
+        .cloned()
+        .collect();
+    required.push("model".to_owned());
+    properties.insert("model".to_owned(), json!({ "const": model }));
+    if released {
+        let ways = ["clearance", "zeroForce"];
+        properties.insert("release".to_owned(), json!({ "enum": ways }));
+    }
+    if chained {
+        let chain = json!({ "type": "array", "items": slope() });
+        properties.insert("loading".to_owned(), chain.clone());
+        properties.insert("unloading".to_owned(), chain);
+        required.push("loading".to_owned());
+    }
+    let mut law = object(properties);
+    if machine.value(Parameter::Preload).is_some() {
+        required.retain(|key| key != "preload");
+        law["properties"]["preload_deflection"] = json!({
+            "type": "number",
+            "minimum": 0,
+            "description": "preload as a deflection, instead of preload: the force follows the stiffness",
+        });
+        law["oneOf"] = json!([
+            { "required": ["preload"] },
+            { "required": ["preload_deflection"] },
+        ]);
+    }
+    law["required"] = required.into();
+    law
+}
+
+fn slope() -> Value {
+    let at_least_zero = json!({ "type": "number", "minimum": 0 });
+    let mut slope = object(Map::from_iter([
+        ("from".to_owned(), at_least_zero.clone()),
+        ("stiffness".to_owned(), at_least_zero),
+    ]));
+    require_all(&mut slope);
+    slope
+}
+
+/// A scene with this stop.
+fn scene(stop: Stop) -> Scene {
+    Scene {
+        mass: 1.0,
+        stiffness: 1.0,
+        damping: 0.0,
+        excitation: Excitation {
+            amplitude: 1.0,
+            frequency: 1.0,
+            phase: 0.0,
+        },
+        clearance: 0.0,
+        contact_damping: 0.0,
+        stop,
+        piercing: None,
+        rigid: None,
+    }
+}

@@ -1,0 +1,97 @@
+//! A machine in ratios and its twin in SI units have the same motions, each in its own units.
+
+use approx::assert_relative_eq;
+use softstop::{Machine, Parameter, Ratios, Units};
+use softstop_console::report::MachineReport;
+use softstop_dynamics::{orbit, zone};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+const UNITS: Units = Units {
+    mass: 20.0,
+    stiffness: 8e4,
+    force: 96.0,
+};
+
+/// In ratios: the paper's machines and others.
+fn machines() -> Result<Vec<Machine>, Box<dyn std::error::Error>> {
+    let named = [Ratios::unloaded(), Ratios::loaded()].map(|ratios| Machine::of_ratios(&ratios));
+    let mut machines = named.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let others: [&[(&str, &str)]; 3] = [
+        &[("stop.model", "kelvinVoigt"), ("stop.stiffness", "60")],
+        &[("stop.model", "hertz"), ("stop.stiffness", "150")],
+        &[("stop.model", "rigid"), ("stop.restitution", "0.6")],
+    ];
+    for changes in others {
+        let mut machine = machines[0].clone();
+        machine.apply(changes.iter().copied())?;
+        machines.push(machine);
+    }
+    Ok(machines)
+}
+
+/// The same machine in SI units, its frequency in Hz.
+fn twin(machine: &Machine) -> Result<Machine, Box<dyn std::error::Error>> {
+    let mut twin = Machine::of_scene(machine.scene.in_units(UNITS)?);
+    let hertz = twin.scene.excitation.frequency / std::f64::consts::TAU;
+    twin.apply([("excitation.frequency_hz", format!("{hertz:?}").as_str())])?;
+    Ok(twin)
+}
+
+#[test]
+fn orbits_of_twins_are_the_same() -> Outcome {
+    for machine in machines()? {
+        let twin = twin(&machine)?;
+        let (own, other) = (orbit::find(&machine.scene)?, orbit::find(&twin.scene)?);
+        let (length, velocity) = (UNITS.length(), UNITS.length() * UNITS.frequency());
+        let near = |a: f64, b: f64| assert_relative_eq!(a, b, max_relative = 1e-9);
+        near(own.position * length, other.position);
+        near(own.velocity * velocity, other.velocity);
+        near(
+            own.before_impact_velocity() * velocity,
+            other.before_impact_velocity(),
+        );
+        near(own.max_position * length, other.max_position);
+        near(own.trace(), other.trace());
+        let hertz = twin.value(Parameter::Frequency).ok_or("no frequency")?;
+        let eta = machine.value(Parameter::Frequency).ok_or("no frequency")?;
+        near(hertz * std::f64::consts::TAU, eta * UNITS.frequency());
+    }
+    Ok(())
+}
+
+#[test]
+fn zones_of_twins_are_the_same() -> Outcome {
+    for machine in machines()?.into_iter().take(3) {
+        let twin = twin(&machine)?;
+        let (own, other) = (
+            zone::hysteresis(&machine.scene)?,
+            zone::hysteresis(&twin.scene)?,
+        );
+        let near = |a: f64, b: f64| assert_relative_eq!(a, b, max_relative = 1e-9);
+        near(own.frequency_g0 * UNITS.frequency(), other.frequency_g0);
+        near(own.frequency_sn * UNITS.frequency(), other.frequency_sn);
+        let velocity = UNITS.length() * UNITS.frequency();
+        // At a fold the motion moves as the root of a change of the frequency.
+        assert_relative_eq!(
+            own.velocity_sn * velocity,
+            other.velocity_sn,
+            max_relative = 1e-5
+        );
+    }
+    Ok(())
+}
+
+#[test]
+fn reports_speak_the_units_of_the_machine() -> Outcome {
+    let machine = &machines()?[0];
+    let paper = serde_json::to_value(MachineReport::of(machine))?;
+    assert_eq!(paper["regime"], "unloaded");
+    assert!(paper.get("units").is_none());
+    let twin = serde_json::to_value(MachineReport::of(&twin(machine)?))?;
+    assert_eq!(twin["units"]["frequency"], "Hz");
+    assert_eq!(twin["units"]["length"], "m");
+    assert_eq!(twin["parameters"]["mass"], 20.0);
+    assert_eq!(twin["clearance"], 10.0 * UNITS.length());
+    Ok(())
+}
