@@ -282,7 +282,8 @@ fn wrong_files_are_told_with_line_key_value_and_range() {
 #[test]
 fn changes_that_fit_no_machine_are_refused() -> Outcome {
     let mut unloaded = Machine::named("unloaded").ok_or("none")?;
-    let cases: [(&[(&str, &str)], &[&str]); 8] = [
+    type Case<'a> = (&'a [(&'a str, &'a str)], &'a [&'a str]);
+    let cases: [Case<'_>; 8] = [
         (
             &[("clearence", "3")],
             &["clearence", "did you mean clearance?"],

@@ -199,7 +199,7 @@ fn bad_scenes_are_named_with_key_value_and_range() -> Outcome {
         (
             "clearance = 10.0",
             "gap = 10.0",
-            &["unknown field `gap`", "line 5"],
+            &["gap: unknown key", "line 5"],
         ),
         ("clearance = 10.0", "", &["missing field `clearance`"]),
         (
@@ -210,7 +210,7 @@ fn bad_scenes_are_named_with_key_value_and_range() -> Outcome {
         (
             "position = 6.9",
             "place = 6.9",
-            &["unknown field `place`", "position"],
+            &["place: unknown key", "did you mean", "position"],
         ),
         (
             "velocity = 9.5",

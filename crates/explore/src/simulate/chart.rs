@@ -39,10 +39,10 @@ pub struct MotionChart {
 #[must_use]
 pub fn names(machine: &Machine) -> [String; 4] {
     [
-        machine.label("time", "τ", Dimension::Time),
-        machine.label("position", "X", Dimension::Length),
-        machine.label("velocity", "X′", Dimension::Velocity),
-        machine.label("contact force", "F", Dimension::Force),
+        machine.label("time t", "", Dimension::Time),
+        machine.label("position x", "", Dimension::Length),
+        machine.label("velocity v", "", Dimension::Velocity),
+        machine.label("contact force F", "", Dimension::Force),
     ]
 }
 
