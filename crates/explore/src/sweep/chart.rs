@@ -130,12 +130,13 @@ impl<'a> SweepChart<'a> {
             .flat_map(|chain| &chain.steps)
             .flat_map(show);
         let (low, high) = around(values, 0.0);
-        let is_low = 0.0 < low && low < 0.35 * high;
+        let low = if 0.0 < low && low < 0.35 * high {
+            0.0
+        } else {
+            low
+        };
         let room = 0.05 * (high - low);
-        match low {
-            low if is_low || low == 0.0 => (0.0, high + room),
-            low => (low - room, high + room),
-        }
+        (if low == 0.0 { 0.0 } else { low - room }, high + room)
     }
 
     /// The points by the way on which they are seen, machine by machine.
