@@ -1,8 +1,8 @@
 //! Every library of an FMU exports the functions of the standard and nothing else, and needs
 //! nothing but the system.
 //!
-//! The FMU is the file that `SOFTSTOP_FMU` names; without it one is packed from the library that
-//! was built along with this test.
+//! They are in the FMU that was packed from the library built along with this test, and in the one that
+//! `SOFTSTOP_FMU` names: it should be one as it is shipped.
 
 use crate::common::library;
 use std::collections::BTreeSet;
@@ -46,17 +46,20 @@ struct Packed {
     bytes: Vec<u8>,
 }
 
-/// The FMU and whether it was built apart from this test.
-fn fmu() -> (Vec<u8>, bool) {
-    if let Some(path) = env::var_os("SOFTSTOP_FMU") {
-        return (
-            fs::read(path).expect("the FMU that SOFTSTOP_FMU names"),
-            true,
-        );
-    }
+/// The FMUs, and whether each was built apart from this test.
+fn fmus() -> Vec<(Vec<u8>, bool)> {
     let library = Library::read(&library_path()).expect("a readable library");
     let archive = package::archive(&Imprint::library(), &[library]).expect("an archive");
-    (archive, false)
+    let given = env::var_os("SOFTSTOP_FMU")
+        .map(|path| fs::read(path).expect("the FMU that SOFTSTOP_FMU names"));
+    let given = given.map(|archive| (archive, true));
+    [(archive, false)].into_iter().chain(given).collect()
+}
+
+fn all_libraries() -> impl Iterator<Item = Packed> {
+    fmus()
+        .into_iter()
+        .flat_map(|(archive, _)| libraries(&archive))
 }
 
 fn libraries(archive: &[u8]) -> Vec<Packed> {
@@ -109,7 +112,7 @@ fn the_definition_names_the_functions_of_the_standard() {
 
 #[test]
 fn the_functions_of_the_standard_are_exported_and_nothing_else() {
-    for library in libraries(&fmu().0) {
+    for library in all_libraries() {
         for slice in slices(&library.bytes) {
             let file = File::parse(slice).expect("a library");
             let exports: BTreeSet<_> = file
@@ -173,7 +176,7 @@ fn is_of_windows(name: &str) -> bool {
 
 #[test]
 fn nothing_but_the_system_is_needed() {
-    for library in libraries(&fmu().0) {
+    for library in all_libraries() {
         for slice in slices(&library.bytes) {
             let strange: Vec<_> = match library.platform.as_str() {
                 "win64" => imports(slice)
@@ -204,21 +207,22 @@ fn glibc(version: &str) -> Option<(u32, u32)> {
 
 #[test]
 fn a_package_for_many_platforms_runs_with_an_old_c_library() {
-    let libraries = libraries(&fmu().0);
-    let many = libraries.len() > 1;
-    for library in libraries.iter().filter(|l| l.platform.contains("linux")) {
-        let (_, versions) = needs_of_elf(&library.bytes);
-        let newest = versions.iter().filter_map(|version| glibc(version)).max();
-        let newest = newest.expect("a version of the C library");
-        println!("{}: C library {newest:?} or later", library.platform);
-        assert!(!many || newest <= OLDEST_GLIBC, "{newest:?}");
+    for (archive, _) in fmus() {
+        let libraries = libraries(&archive);
+        let many = libraries.len() > 1;
+        for library in libraries.iter().filter(|l| l.platform.contains("linux")) {
+            let (_, versions) = needs_of_elf(&library.bytes);
+            let newest = versions.iter().filter_map(|version| glibc(version)).max();
+            let newest = newest.expect("a version of the C library");
+            println!("{}: C library {newest:?} or later", library.platform);
+            assert!(!many || newest <= OLDEST_GLIBC, "{newest:?}");
+        }
     }
 }
 
 #[test]
 fn start_values_are_those_of_the_description() {
-    let (archive, _) = fmu();
-    for library in libraries(&archive) {
+    for library in all_libraries() {
         // Packing again finds one block in each library and leaves the bytes as they are, since
         // the default FMU holds the default values.
         let again = Library {
@@ -233,21 +237,17 @@ fn start_values_are_those_of_the_description() {
     }
 }
 
-/// A library from `cargo xtask` tells nothing about the machine that it was built on. One that was
-/// built with this test does: it holds what a debugger needs.
+/// A library as it is shipped tells nothing about the machine that it was built on. One of the daily build
+/// does: its messages name source files.
 #[test]
-fn no_folder_of_this_machine_is_in_the_libraries() {
-    let (archive, apart) = fmu();
-    if !apart {
-        println!("skipped: SOFTSTOP_FMU names no FMU");
-        return;
-    }
+fn no_folder_of_this_machine_is_in_the_shipped_libraries() {
     let top = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
     let mut folders = vec![top.expect("a workspace").to_owned()];
     folders.extend(env::home_dir());
     folders.extend(env::var_os("CARGO_HOME").map(Into::into));
     folders.extend(env::var_os("CARGO_TARGET_DIR").map(Into::into));
-    for library in libraries(&archive) {
+    let shipped = fmus().into_iter().filter(|(_, apart)| *apart);
+    for library in shipped.flat_map(|(archive, _)| libraries(&archive)) {
         let text = String::from_utf8_lossy(&library.bytes);
         for folder in &folders {
             let folder = format!("{}/", folder.display());

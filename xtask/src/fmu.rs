@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use softstop_fmu::package::{self, HOST_PLATFORM, Library};
 use softstop_fmu::{Imprint, description, guid_of};
+use softstop_optimize::fmu::library;
 
 use crate::library::{Build, host};
 use crate::run::{cargo_command, stage, top};
@@ -25,8 +26,13 @@ pub fn write_description() -> Result<()> {
     Ok(())
 }
 
-/// Builds the library for this machine in release mode and packs it; returns the FMU's path.
+/// Packs the library that was built along with this program; returns the FMU's path.
 pub fn write_package() -> Result<PathBuf> {
+    write(&[library()?])
+}
+
+/// Builds the library for this machine as it is shipped and packs it; returns the FMU's path.
+pub fn write_shipped() -> Result<PathBuf> {
     let target = TARGETS
         .iter()
         .find(|target| target.platform == HOST_PLATFORM);
@@ -53,8 +59,8 @@ fn built_or_host(target: &Target, tools: &Tools) -> Result<(Library, String)> {
         })
 }
 
-/// Builds the library for every platform that can be had here and packs them all.
-pub fn write_package_for_all() -> Result<()> {
+/// Builds the library for every platform that can be had here as it is shipped and packs them all.
+pub fn write_shipped_for_all() -> Result<()> {
     let tools = Tools::new();
     let mut libraries = Vec::new();
     let mut lines = Vec::new();

@@ -27,7 +27,8 @@ impl Build {
         flags.append(&mut self.flags);
         let messages = output(
             self.command
-                .args(["rustc", "--release", "--package", "softstop-fmu", "--lib"])
+                .args(["rustc", "--profile", "dist", "--package", "softstop-fmu"])
+                .arg("--lib")
                 // Not also as a Rust library: only so is it optimized as a whole and left without
                 // what it does not use.
                 .args(["--crate-type", "cdylib"])

@@ -27,9 +27,13 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Task {
-    /// Build the FMU and write softstop.fmu and modelDescription.xml at the top level
+    /// Write softstop.fmu and modelDescription.xml at the top level
     Fmu {
-        /// With a library for every platform: Linux (x86-64, AArch64), Windows and macOS
+        /// As it is shipped: optimized as a whole, and for any Linux with version 2.17 of the C library or a
+        /// later one; without it the library of the daily build, for this machine's C library
+        #[arg(long)]
+        dist: bool,
+        /// As it is shipped, with a library for every platform: Linux (x86-64, AArch64), Windows and macOS
         #[arg(long)]
         all_targets: bool,
     },
@@ -39,7 +43,7 @@ enum Task {
     Notices,
     /// Run one C program on the libraries for Linux and for Windows (under Wine) and compare
     Wine,
-    /// Build the FMU and run all tests: in Rust, with FMPy and with other importers
+    /// Build the FMU as it is shipped and run all tests: in Rust, with FMPy and with other importers
     Test,
     /// Build the FMU and run the tests with FMPy only
     Fmpy,
@@ -61,10 +65,12 @@ fn main() -> ExitCode {
 
 fn run_task(task: &Task) -> Result<()> {
     match task {
-        Task::Fmu { all_targets } => {
+        Task::Fmu { dist, all_targets } => {
             fmu::write_description()?;
             if *all_targets {
-                fmu::write_package_for_all()
+                fmu::write_shipped_for_all()
+            } else if *dist {
+                fmu::write_shipped().map(drop)
             } else {
                 fmu::write_package().map(drop)
             }
@@ -73,10 +79,13 @@ fn run_task(task: &Task) -> Result<()> {
         Task::Notices => notices::write(),
         Task::Wine => portable::compare_under_wine(),
         Task::Test => {
-            let package = build()?;
+            stage("FMU");
+            let package = fmu::write_shipped()?;
             stage("Rust tests");
             run(cargo_command()
-                .args(["test", "--workspace"])
+                .args(["test", "--release", "--workspace"])
+                // Criterion asks for other features of shared crates: they would be built again.
+                .args(["--exclude", "softstop-benches"])
                 .env("SOFTSTOP_FMU", &package))?;
             test_with_fmpy(&package)?;
             test_with_importers(&package)?;
@@ -88,10 +97,11 @@ fn run_task(task: &Task) -> Result<()> {
         Task::Fmpy => test_with_fmpy(&build()?),
         Task::Importers => test_with_importers(&build()?),
         Task::Bench => {
-            cargo(&["bench", "--workspace", "--benches"])?;
-            let calls =
-                "test --release --package softstop-fmu --test fmu c_speed -- --ignored --nocapture";
-            cargo(&calls.split(' ').collect::<Vec<_>>())
+            let run = |arguments: &str| cargo(&arguments.split(' ').collect::<Vec<_>>());
+            run("bench --profile dist --package softstop-benches")?;
+            run(
+                "test --profile dist --package softstop-fmu --test fmu c_speed -- --ignored --nocapture",
+            )
         }
     }
 }
