@@ -56,23 +56,14 @@ fn room(top: &Path, place: String) -> Room {
 }
 
 impl Room {
-    /// How many rooms lie under it, one on the other.
-    pub fn floor(&self, rooms: &[Self]) -> usize {
-        self.below(rooms)
-            .map(|room| room.floor(rooms) + 1)
-            .max()
-            .unwrap_or(0)
-    }
-
     /// The rooms that it imports.
-    pub fn below<'a>(&'a self, rooms: &'a [Self]) -> impl Iterator<Item = &'a Self> {
-        rooms
-            .iter()
-            .filter(|room| self.imports.contains(&room.name))
+    pub fn below<'a>(&'a self, rooms: &'a [&Self]) -> impl Iterator<Item = &'a Self> {
+        let is_below = |room: &&&Self| self.imports.contains(&room.name);
+        rooms.iter().filter(is_below).copied()
     }
 
     /// Whether it rests on a room, over however many others.
-    pub fn rests_on(&self, name: &str, rooms: &[Self]) -> bool {
+    pub fn rests_on(&self, name: &str, rooms: &[&Self]) -> bool {
         self.below(rooms)
             .any(|room| room.name == name || room.rests_on(name, rooms))
     }
