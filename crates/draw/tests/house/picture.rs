@@ -27,13 +27,19 @@ const PLACES: [(&str, (f64, f64)); 11] = [
     ("softstop-fmi", (0.0, 6.0)),
 ];
 
-/// The picture as an SVG document. Tasks of the workspace are no room.
+/// What stands beside the house: tasks, benchmarks, helpers of tests.
+const OUTSIDE: [&str; 3] = ["xtask", "softstop-benches", "softstop-testing"];
+
+/// The picture as an SVG document.
 pub fn draw(rooms: &[Room]) -> String {
     let extent = |count: f64, room: f64, gap: f64| 2.0 * MARGIN + count * (room + gap) - gap;
     let (wide, high) = (extent(3.0, ROOM.0, GAP.0), extent(7.0, ROOM.1, GAP.1));
     let mut pen = Pen::new(wide, high);
     pen.fill(&[(0.0, 0.0, wide, high)], "#ffffff");
-    let rooms: Vec<&Room> = rooms.iter().filter(|room| room.name != "xtask").collect();
+    let rooms: Vec<&Room> = rooms
+        .iter()
+        .filter(|room| !OUTSIDE.contains(&room.name.as_str()))
+        .collect();
     for room in &rooms {
         for import in room
             .imports
