@@ -2,29 +2,10 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
 use super::particular::Particular;
 use super::place::Node;
 use super::response::Responses;
-use super::{Chatter, Flow, Hertz, LARGEST_LOSS, Polynomial, Segment, Taylor};
-
-/// Everything a motion starts from.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Departure {
-    /// Position in m.
-    pub position: f64,
-    /// Velocity in m/s.
-    pub velocity: f64,
-    /// cos and sin of the drive angle.
-    pub drive: (f64, f64),
-    /// Force per mass in m/s^2, as it changes from the departure on: the external one and the law's own
-    /// constant one.
-    pub push: Polynomial,
-    /// Acceleration in m/s^2 from rest, where the phase was chosen by it: the arc then starts with
-    /// this very number.
-    pub acceleration: Option<f64>,
-}
+use super::{Chatter, Departure, Flow, Hertz, LARGEST_LOSS, Segment, Taylor};
 
 /// The exact motion that follows from a departure.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,27 +3,9 @@
 use nalgebra::Complex;
 
 use super::course::{Course, Form};
+use super::gauss::gauss_nodes;
 use super::particular::Particular;
 use super::place::Node;
-
-/// Nodes and weights of the eight-point Gauss rule on [-1, 1] (Abramowitz and Stegun, table 25.4),
-/// positive half. Over one Taylor reach its error on the products below is under 1e-17.
-const GAUSS: [(f64, f64); 4] = [
-    (0.183_434_642_495_65, 0.362_683_783_378_362),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_5),
-    (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
-];
-
-/// The rule's nodes and weights on [0, `span`].
-pub(super) fn gauss_nodes(span: f64) -> [(f64, f64); 8] {
-    let half = 0.5 * span;
-    std::array::from_fn(|index| {
-        let (x, weight) = GAUSS[index / 2];
-        let place = if index % 2 == 0 { 1.0 - x } else { 1.0 + x };
-        (half * place, half * weight)
-    })
-}
 
 /// Integrals along a course, per unit of mass, in m^2/s^2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -19,8 +19,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Flow;
 use super::creep::Creep;
+use super::gauss::gauss_nodes;
 use super::hertz::Hertz;
-use super::power::gauss_nodes;
 use super::series::{Series, ZERO, derivative, integral_of_product, power, product, value};
 use super::taylor::evaluate;
 

@@ -68,7 +68,10 @@ const MAY_IMPORT: [(&str, &[&str]); 13] = [
         ],
     ),
     ("softstop-testing", &["softstop"]),
-    ("xtask", &["softstop-fmi", "softstop-fmu"]),
+    (
+        "xtask",
+        &["softstop-fmi", "softstop-fmu", "softstop-optimize"],
+    ),
 ];
 
 fn top() -> PathBuf {

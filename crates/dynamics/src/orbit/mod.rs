@@ -1,5 +1,6 @@
 //! Periodic motions: shooting on the exact map, multipliers, stability.
 
+mod by_impacts;
 mod contact;
 mod exponents;
 mod guess;

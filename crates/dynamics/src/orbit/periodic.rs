@@ -3,7 +3,6 @@
 use nalgebra::{Complex, Matrix2, Vector2};
 
 use super::guess::guesses;
-use super::legs::Legs;
 use super::newton::fixed_point;
 use super::{ImpactPattern, OrbitError, Passage, Regime, StroboscopicMap, is_stable, roots};
 use softstop::error::MotionError;
@@ -39,9 +38,6 @@ pub struct Orbit {
     pub(super) determinant: f64,
 }
 
-/// Distance in units of 1 + |state| within which a state that has returned after n periods has also
-/// returned after a divisor of n. Newton's method leaves about 1e-13.
-const SAME: f64 = 1e-9;
 /// Impacts up to which orbits are sought from impact to impact: a mass that bounces more often chatters, and the
 /// work grows with the cube.
 const MOST_IMPACTS: usize = 128;
@@ -99,49 +95,8 @@ impl Orbit {
         }
     }
 
-    /// The periodic orbit, stable or not, that Newton's method from impact to impact reaches from times in s
-    /// and before-impact velocities in m/s of all impacts near its own. It is regular down to grazing,
-    /// where the map is not. No impact may come to rest.
-    ///
-    /// # Errors
-    /// [`OrbitError`] if it does not settle, or on impacts between which there are others.
-    pub fn by_impacts(
-        scene: &Scene,
-        periods: u64,
-        impacts: &[(f64, f64)],
-    ) -> Result<Self, OrbitError> {
-        scene.validate()?;
-        let none = OrbitError::OtherRegime { impacts: 0 };
-        if impacts.is_empty() {
-            return Err(none);
-        }
-        let legs = Legs::new(scene, periods.max(1)).ok_or(none)?;
-        let orbit = legs.settle(impacts)?;
-        let all = orbit.timed_impacts();
-        for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
-            let share = all.len() as u64 * part;
-            if share.is_multiple_of(periods) && orbit.repeats(&all, part) {
-                let first = &all[..(share / periods) as usize];
-                return Self::by_impacts(scene, part, first);
-            }
-        }
-        Ok(orbit)
-    }
-
-    /// True if the impacts are the same after `part` drive periods.
-    fn repeats(&self, impacts: &[(f64, f64)], part: u64) -> bool {
-        let period = self.scene.clock().period();
-        let shift = impacts.len() * part as usize / self.periods as usize;
-        let span = period * part as f64;
-        let speed = self.scene.scales().speed();
-        let pairs = impacts.iter().zip(&impacts[shift..]);
-        let mut pairs = pairs.map(|(a, b)| ((b.0 - a.0 - span) / period, (b.1 - a.1) / speed));
-        let most = SAME * (1.0 + self.velocity.abs() / speed);
-        pairs.all(|(time, velocity)| time.hypot(velocity) <= most)
-    }
-
     /// Times in s and before-impact velocities in m/s of its impacts.
-    fn timed_impacts(&self) -> Vec<(f64, f64)> {
+    pub(super) fn timed_impacts(&self) -> Vec<(f64, f64)> {
         let clock = self.scene.clock();
         let timed = |touch: &Touch| (clock.time(touch.instant), touch.before_impact_velocity);
         self.impacts.iter().map(timed).collect()
