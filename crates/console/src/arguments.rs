@@ -81,6 +81,17 @@ impl MachineArguments {
         Ok(machine)
     }
 
+    /// Refuses a parameter that is given on the command line, and why.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] naming it.
+    pub fn refuse(&self, parameter: Parameter, why: &str) -> Result<(), Failure> {
+        match self.keys().iter().find(|key| parameter.is_called(key)) {
+            Some(key) => Err(Failure::usage(format!("{key}: {why}"))),
+            None => Ok(()),
+        }
+    }
+
     /// The paper's machine that is asked for; none if it is a file's.
     fn named(&self) -> Result<Option<Option<Regime>>, Failure> {
         let Some(path) = &self.machine else {

@@ -43,10 +43,8 @@ pub struct ZoneArguments {
 /// [`Failure::Usage`] for values no machine can have, or none with a zone; [`Failure::Run`] if none is found.
 pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
     let why = "the zone is a range of drive frequencies, whatever the machine's own";
+    arguments.machine.refuse(Parameter::Frequency, why)?;
     let machine = arguments.machine.machine()?;
-    arguments
-        .machine
-        .refuse(&machine, Parameter::Frequency, why)?;
     let zone = softstop_dynamics::zone::hysteresis(&machine.scene);
     let zone = zone.map_err(|error| match error {
         ZoneError::NoGrazing { .. } => Failure::usage(error.to_string()),

@@ -3,11 +3,8 @@
 use softstop::Scene;
 
 use super::legs::Legs;
+use super::periodic::SAME;
 use super::{Orbit, OrbitError};
-
-/// Distance in units of 1 + |state| within which a state that has returned after n periods has also
-/// returned after a divisor of n. Newton's method leaves about 1e-13.
-const SAME: f64 = 1e-9;
 
 impl Orbit {
     /// The periodic orbit, stable or not, that Newton's method from impact to impact reaches from times in s

@@ -10,6 +10,10 @@ use softstop::integrator::Instant;
 use softstop::scene::Scene;
 use softstop::trajectory::Touch;
 
+/// Distance in units of 1 + |state| within which a state that has returned after n periods has also
+/// returned after a divisor of n. Newton's method leaves about 1e-13.
+pub(super) const SAME: f64 = 1e-9;
+
 /// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Orbit {
