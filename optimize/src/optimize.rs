@@ -5,7 +5,7 @@ mod branch;
 mod chart;
 mod configuration;
 mod named;
-mod reference;
+pub mod reference;
 mod task;
 
 use std::path::PathBuf;
@@ -23,7 +23,7 @@ use crate::report::{self, DesignReport, OptimizeReport, ReferenceReport, SearchR
 use best::Best;
 use chart::Chart;
 use named::Named;
-pub use reference::Reference;
+use reference::Reference;
 use task::Job;
 
 const EXAMPLES: &str = "\

@@ -9,7 +9,7 @@ use softstop::{Dimension, Parameter};
 use softstop_console::report::{MachineReport, MotionReport};
 
 use crate::design::{Design, Problem};
-use crate::optimize::Reference;
+use crate::optimize::reference::Reference;
 
 /// The design that was found, in the machine's own units.
 #[derive(Debug, Clone, Serialize)]

@@ -6,7 +6,7 @@ use softstop_dynamics::orbit::Orbit;
 
 use super::OptimizeReport;
 use crate::design::{Design, Problem};
-use crate::optimize::Reference;
+use crate::optimize::reference::Reference;
 
 /// The design beside its references, then what holds it back and where the files are.
 #[must_use]
