@@ -82,7 +82,7 @@ pub struct OptimizeArguments {
     /// Seed of the search: the same one gives the same result [default: 0]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
-    /// Zones to compute at most, at least 100 [default: 1200, with one value to search 300]
+    /// Zones to compute at most, at least 100 [default: 1200]
     #[arg(long, value_name = "N")]
     pub evaluations: Option<u64>,
     /// The machine.

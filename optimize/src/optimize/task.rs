@@ -38,8 +38,7 @@ const ANY: Interval = Interval {
     low: f64::MIN_POSITIVE,
     high: f64::INFINITY,
 };
-/// Zones to compute at most, with one searched parameter and with more.
-const EVALUATIONS: (u64, u64) = (300, 1200);
+const EVALUATIONS: u64 = 1200;
 const OUTPUT: &str = "softstop-design";
 
 /// All that a run needs to know.
@@ -67,13 +66,10 @@ impl Job {
             "in [0, 0.5]",
         )?;
         let (axes, frequency) = axes(&machine, &[spoken(arguments), written(&task)?])?;
-        let searched = axes.iter().filter(|axis| !axis.range.is_held()).count();
-        let usual = if searched > 1 {
-            EVALUATIONS.1
-        } else {
-            EVALUATIONS.0
-        };
-        let evaluations = arguments.evaluations.or(task.evaluations).unwrap_or(usual);
+        let evaluations = arguments
+            .evaluations
+            .or(task.evaluations)
+            .unwrap_or(EVALUATIONS);
         if evaluations < LEAST_EVALUATIONS {
             let message = format!("evaluations = {evaluations}: must be >= {LEAST_EVALUATIONS}");
             return Err(Failure::usage(message));

@@ -122,7 +122,7 @@ fn follow(machine: &Ratios, window: &Window, special: &Special) -> Result<Curve>
         &region,
         |_| interrupt::go_on(),
     );
-    Ok(found.with_context(|| format!("no curve of the {}", special.kind.name()))?)
+    found.with_context(|| format!("no curve of the {}", special.kind.name()))
 }
 
 /// rho = the amplitude of the linear oscillator.
