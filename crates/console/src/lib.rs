@@ -1,5 +1,5 @@
 //! What the programs share: the [`machine`] as the user states it, [`scene_file`]s, [`progress`],
-//! [`interrupt`], [`failure`], and one [`export`] of every report: [`column`]s said once, text [`table`]s, [`units`], [`range`]s, and
+//! [`interrupt`], [`failure`], and one [`export`] of every report: [`mod@column`]s said once, text [`table`]s, [`units`], [`range`]s, and
 //! [`output`] that is there whole or not at all.
 #![forbid(unsafe_code)]
 

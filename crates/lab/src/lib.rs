@@ -1,5 +1,5 @@
 //! The program `softstop-lab`: the exact method beside others ([`methods`], foreign [`solvers`], a
-//! [`reference`] of many digits), what accuracy costs ([`precision`]), where fixed steps fail ([`failures`]),
+//! [`mod@reference`] of many digits), what accuracy costs ([`precision`]), where fixed steps fail ([`failures`]),
 //! how fast the engines are ([`throughput`]), and the paper, drawn anew (`softstop-paper`).
 #![forbid(unsafe_code)]
 

@@ -1,6 +1,6 @@
 //! `softstop-lab paper`: the figures of the paper, and of what it only describes.
 //!
-//! To add a figure, write a module with a `pub(crate) const FIGURE: Figure`, and name it in [`FIGURES`].
+//! To add a figure, write a module with a `pub(crate) const FIGURE: Figure`, and name it in `FIGURES`.
 
 mod basins;
 mod certainty;
