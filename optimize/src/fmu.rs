@@ -23,8 +23,8 @@ static BYTES: &[u8] = include_bytes!(env!("SOFTSTOP_FMU_LIBRARY"));
 pub fn library() -> Result<Library> {
     ensure!(
         !BYTES.is_empty(),
-        "cannot make the FMU: this program was built without its library; build it with `cargo build` \
-         or `cargo install --path optimize` in the folder of its source"
+        "cannot make the FMU: this program was built without its library; in the folder of its source, build it with \
+         `cargo clean -p softstop-fmu` and `cargo build` or `cargo install --path optimize`"
     );
     Ok(Library {
         platform: HOST_PLATFORM.to_owned(),

@@ -1,4 +1,4 @@
-//! The stops' laws of force (Peterka 2003, Figs. 1 and 2).
+//! The stops' laws of force (Peterka 2003, figures 1 and 2).
 
 use serde::{Deserialize, Serialize};
 

@@ -12,48 +12,24 @@ const MARGIN: f64 = 30.0;
 const LETTERS: u32 = 12;
 const WALLS: &str = "#F3F6F9";
 
-/// Column and floor (counted from the roof) of each room.
-const PLACES: [(&str, (f64, f64)); 11] = [
-    ("softstop-lab", (1.0, 0.0)),
-    ("softstop-optimize", (0.0, 1.0)),
-    ("softstop-paper", (2.0, 1.0)),
-    ("softstop-explore", (1.0, 2.0)),
-    ("softstop-console", (1.0, 3.0)),
-    ("softstop-draw", (2.0, 3.0)),
-    ("softstop-dynamics", (1.0, 4.0)),
-    ("softstop-lanes", (1.0, 5.0)),
-    ("softstop-fmu", (0.0, 5.0)),
-    ("softstop", (1.0, 6.0)),
-    ("softstop-fmi", (0.0, 6.0)),
-];
-
-/// What stands beside the house: tasks, benchmarks, helpers of tests.
-const OUTSIDE: [&str; 3] = ["xtask", "softstop-benches", "softstop-testing"];
-
 /// The picture as an SVG document.
 pub fn draw(rooms: &[Room]) -> String {
     let extent = |count: f64, room: f64, gap: f64| 2.0 * MARGIN + count * (room + gap) - gap;
     let (wide, high) = (extent(3.0, ROOM.0, GAP.0), extent(7.0, ROOM.1, GAP.1));
     let mut pen = Pen::new(wide, high);
     pen.fill(&[(0.0, 0.0, wide, high)], "#ffffff");
-    let rooms: Vec<&Room> = rooms
-        .iter()
-        .filter(|room| !OUTSIDE.contains(&room.name.as_str()))
-        .collect();
+    let rooms: Vec<&Room> = rooms.iter().filter(|room| room.corner.is_some()).collect();
     for room in &rooms {
-        for import in room
-            .imports
-            .iter()
-            .filter(|name| is_direct(room, name, &rooms))
-        {
-            let ((x, y), (to_x, to_y)) = (corner(&room.name), corner(import));
+        let below = room.below(&rooms);
+        for import in below.filter(|below| is_direct(room, &below.name, &rooms)) {
+            let ((x, y), (to_x, to_y)) = (corner(room), corner(import));
             let from = (x + 0.5 * ROOM.0, y + ROOM.1);
             let stroke = Stroke::solid(style::ASIDE, 1.4);
             pen.arrow(from, (to_x + 0.5 * ROOM.0, to_y), stroke);
         }
     }
     for room in rooms {
-        let (left, top) = corner(&room.name);
+        let (left, top) = corner(room);
         pen.fill(&[(left, top, ROOM.0, ROOM.1)], WALLS);
         pen.frame((left, top, ROOM.0, ROOM.1));
         let place = match room.place.as_str() {
@@ -70,11 +46,8 @@ pub fn draw(rooms: &[Room]) -> String {
 }
 
 /// Left and top edge of a room.
-fn corner(name: &str) -> (f64, f64) {
-    let (_, (column, floor)) = PLACES
-        .iter()
-        .find(|(room, _)| *room == name)
-        .unwrap_or_else(|| panic!("{name}: give it a place in PLACES"));
+fn corner(room: &Room) -> (f64, f64) {
+    let (column, floor) = room.corner.expect("a room of the house");
     (
         MARGIN + column * (ROOM.0 + GAP.0),
         MARGIN + floor * (ROOM.1 + GAP.1),

@@ -5,6 +5,47 @@ use std::path::{Path, PathBuf};
 
 use toml::Table;
 
+/// A room of the plan: its name, column and floor in the picture (floors count from the roof; none outside the
+/// house), and what it may import besides crates of others and all that those rooms may import.
+type Plan = (&'static str, Option<(f64, f64)>, &'static [&'static str]);
+
+/// The plan of the house, from the ground up.
+const PLAN: [Plan; 13] = [
+    ("softstop", Some((1.0, 6.0)), &[]),
+    ("softstop-fmi", Some((0.0, 6.0)), &[]),
+    ("softstop-lanes", Some((1.0, 5.0)), &["softstop"]),
+    (
+        "softstop-fmu",
+        Some((0.0, 5.0)),
+        &["softstop", "softstop-fmi"],
+    ),
+    ("softstop-dynamics", Some((1.0, 4.0)), &["softstop-lanes"]),
+    ("softstop-console", Some((1.0, 3.0)), &["softstop-dynamics"]),
+    ("softstop-draw", Some((2.0, 3.0)), &[]),
+    (
+        "softstop-explore",
+        Some((1.0, 2.0)),
+        &["softstop-console", "softstop-draw"],
+    ),
+    ("softstop-paper", Some((2.0, 1.0)), &["softstop-explore"]),
+    (
+        "softstop-optimize",
+        Some((0.0, 1.0)),
+        &["softstop-explore", "softstop-fmu"],
+    ),
+    (
+        "softstop-lab",
+        Some((1.0, 0.0)),
+        &["softstop-paper", "softstop-fmu"],
+    ),
+    ("softstop-testing", None, &["softstop"]),
+    (
+        "xtask",
+        None,
+        &["softstop-fmi", "softstop-fmu", "softstop-optimize"],
+    ),
+];
+
 /// A package.
 pub struct Room {
     pub name: String,
@@ -12,11 +53,27 @@ pub struct Room {
     pub place: String,
     pub folder: PathBuf,
     pub job: String,
+    /// Its column and floor in the picture; none outside the house.
+    pub corner: Option<(f64, f64)>,
     /// The rooms that it imports.
     pub imports: Vec<String>,
 }
 
-/// All rooms, in the order of their names.
+/// A room's line of the plan.
+fn plan(name: &str) -> &'static Plan {
+    let line = PLAN.iter().find(|room| room.0 == name);
+    line.unwrap_or_else(|| panic!("{name}: give it a line in PLAN"))
+}
+
+/// Whether a room may import another.
+pub fn may_import(room: &str, import: &str) -> bool {
+    let below = plan(room).2.iter();
+    below
+        .copied()
+        .any(|below| below == import || may_import(below, import))
+}
+
+/// All rooms, from the ground up.
 pub fn all(top: &Path) -> Vec<Room> {
     let mut places = ["", "fmu", "optimize", "xtask"].map(str::to_owned).to_vec();
     let crates = fs::read_dir(top.join("crates")).expect("crates");
@@ -29,7 +86,7 @@ pub fn all(top: &Path) -> Vec<Room> {
         .filter(|place| top.join(place).join("Cargo.toml").is_file())
         .map(|place| room(top, place))
         .collect();
-    rooms.sort_by(|a, b| a.name.cmp(&b.name));
+    rooms.sort_by_key(|room| PLAN.iter().position(|line| line.0 == room.name));
     rooms
 }
 
@@ -43,6 +100,7 @@ fn room(top: &Path, place: String) -> Room {
     };
     let imports = manifest["dependencies"].as_table().expect("a table");
     Room {
+        corner: plan(&word("name")).1,
         name: word("name"),
         job: word("description"),
         imports: imports

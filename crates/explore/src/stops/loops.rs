@@ -1,5 +1,5 @@
 //! The picture of a law: contact force over deflection for a stroke in and out, as in the
-//! paper's Fig. 2.
+//! paper's figure 2.
 
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::legend::LegendPosition;

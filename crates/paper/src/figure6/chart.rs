@@ -1,4 +1,4 @@
-//! Bifurcation diagrams over several clearances, as in Fig. 6 of Peterka 2003: largest positions and
+//! Bifurcation diagrams over several clearances, as in figure 6 of Peterka 2003: largest positions and
 //! before-impact velocities up and down, the boundaries across the clearances, and where the strip is pierced.
 
 use softstop::Ratios;

@@ -1,4 +1,4 @@
-//! Fig. 6: bifurcation diagrams over six clearances, up and down, and the boundaries across them.
+//! Figure 6: bifurcation diagrams over six clearances, up and down, and the boundaries across them.
 
 mod boundaries;
 mod chart;

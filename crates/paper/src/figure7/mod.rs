@@ -1,4 +1,4 @@
-//! Figures 7(a) and 7(b): the z = 1 motion at the points A and B.
+//! Figure 7, (a) and (b): the z = 1 motion at the points A and B.
 
 mod chart;
 mod stroke;

@@ -1,4 +1,4 @@
-//! The bifurcation diagram of one clearance with its zooms and numbered bifurcations, as in Fig. 8 of Peterka
+//! The bifurcation diagram of one clearance with its zooms and numbered bifurcations, as in figure 8 of Peterka
 //! 2003.
 
 use softstop::Ratios;

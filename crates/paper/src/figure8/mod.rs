@@ -1,4 +1,4 @@
-//! Fig. 8: the diagram of rho = 10, its zooms, and the bifurcations of Table 1.
+//! Figure 8: the diagram of rho = 10, its zooms, and the bifurcations of Table 1.
 
 mod band;
 mod chart;

@@ -1,5 +1,5 @@
 //! A page of motions, a row for each: time series, phase trajectory and stroboscopic section (Peterka 2003,
-//! Fig. 9).
+//! Figure 9).
 
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Area, Pen, Stroke};

@@ -1,4 +1,4 @@
-//! The transition of the stop's stiffness k2 from 0 to infinity (Peterka 2003, Fig. 1 and the five points of
+//! The transition of the stop's stiffness k2 from 0 to infinity (Peterka 2003, figure 1 and the five points of
 //! its introduction).
 
 mod chart;

@@ -1,5 +1,5 @@
 //! The chart of a z = 1 motion with its phases: position over time, the phase trajectory and the force
-//! of contact (Peterka 2003, Fig. 7).
+//! of contact (Peterka 2003, figure 7).
 
 mod plane;
 mod series;

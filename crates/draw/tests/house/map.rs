@@ -1,0 +1,108 @@
+//! The map of the house in words: each file with the first sentence that it says of itself, and what it defines.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::rooms::Room;
+
+/// Where the map begins in docs/design.md; it goes to the end of the page.
+pub const HEADING: &str = "\n## Map\n";
+
+/// The map as Markdown: a list for each room, a line for each folder.
+pub fn draw(rooms: &[Room]) -> String {
+    let mut map = format!(
+        "{HEADING}\nEach file with what it says of itself and, in brackets, the types and functions that others may use; \
+         `UPDATE=1 cargo test -p softstop-draw --test house` writes this list.\n"
+    );
+    for room in rooms {
+        let place = room.place.trim_end_matches('/');
+        let source = if place.is_empty() { "src" } else { place };
+        map += &format!("\n**`{source}/`** {}\n\n", room.job);
+        folder(&room.folder.join("src"), "", &mut map);
+    }
+    map
+}
+
+/// The line of a folder, and those of the folders in it.
+fn folder(path: &Path, name: &str, map: &mut String) {
+    let mut entries: Vec<PathBuf> = fs::read_dir(path)
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    entries.sort();
+    let (folders, files): (Vec<_>, Vec<_>) = entries.into_iter().partition(|path| path.is_dir());
+    // A folder speaks by its `mod.rs`, or by the file of its name beside it; a room by its manifest.
+    let speaks = |file: &&PathBuf| {
+        let stem = stem(file);
+        stem != "lib" && stem != "mod" && !file.with_extension("").is_dir()
+    };
+    let words: Vec<String> = files
+        .iter()
+        .filter(speaks)
+        .map(|file| format!("`{}` {}", stem(file), said(file)))
+        .collect();
+    let beside = path.with_extension("rs");
+    let own = match name {
+        "" => String::new(),
+        _ if beside.exists() => format!("**{name}/** {}", said(&beside)),
+        _ => format!("**{name}/** {}", said(&path.join("mod.rs"))),
+    };
+    let parts: Vec<String> = [own]
+        .into_iter()
+        .filter(|own| !own.is_empty())
+        .chain(words)
+        .collect();
+    if !parts.is_empty() {
+        *map += &format!("- {}\n", parts.join(" · "));
+    }
+    for folder_in in folders {
+        let name = format!("{name}/{}", stem(&folder_in));
+        folder(&folder_in, name.trim_start_matches('/'), map);
+    }
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem()
+        .expect("a name")
+        .to_string_lossy()
+        .into_owned()
+}
+
+/// The first sentence of a file, without links and its full stop, and what the file defines for others.
+fn said(file: &Path) -> String {
+    let text = fs::read_to_string(file).expect("a file");
+    let lines = text.lines().map_while(|line| line.strip_prefix("//!"));
+    let paragraph: Vec<&str> = lines
+        .map(str::trim)
+        .take_while(|line| !line.is_empty())
+        .collect();
+    let paragraph = paragraph.join(" ");
+    let sentence = paragraph.split(". ").next().unwrap_or_default();
+    let sentence = sentence
+        .trim_end_matches('.')
+        .replace("[`", "`")
+        .replace("`]", "`");
+    assert!(
+        !sentence.is_empty(),
+        "{}: say in a line `//!` what it holds",
+        file.display()
+    );
+    match defined(&text).join(", ") {
+        names if names.is_empty() => sentence,
+        names => format!("{sentence} ({names})"),
+    }
+}
+
+/// The types and functions that stand at the margin and are not private.
+fn defined(text: &str) -> Vec<&str> {
+    text.lines().filter_map(name).collect()
+}
+
+/// The name that a line defines.
+fn name(line: &str) -> Option<&str> {
+    let words = line.strip_prefix("pub")?.split_once(' ')?.1;
+    let (kind, rest) = words.trim_start_matches("const ").split_once(' ')?;
+    let is_wanted = ["struct", "enum", "trait", "fn"].contains(&kind);
+    let end = rest.find(|letter: char| !letter.is_alphanumeric() && letter != '_');
+    is_wanted.then(|| &rest[..end.unwrap_or(rest.len())])
+}
