@@ -45,7 +45,7 @@ fn number(value: &Value) -> f64 {
 #[test]
 fn the_coexisting_motions_of_four_frequencies_are_found() -> Outcome {
     let cases: [(&str, &[&str]); 4] = [
-        ("0.9526475", &["0", "transient-chaos"]),
+        ("0.9526475", &["0", "transient_chaos"]),
         ("0.95365", &["1-0-0-0-0-0-0-0-0-0", "chaos"]),
         ("0.9875", &["1-1-0", "1-1-0-0", "chaos"]),
         // Of (2/4)A the z = 1/2 that it doubles from: its flip is at 0.9884970.

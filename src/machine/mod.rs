@@ -60,6 +60,12 @@ pub struct Machine {
     pub preload_deflection: Option<f64>,
 }
 
+impl From<Scene> for Machine {
+    fn from(scene: Scene) -> Self {
+        Self::of_scene(scene)
+    }
+}
+
 impl Machine {
     /// A scene in SI units.
     pub fn of_scene(scene: Scene) -> Self {

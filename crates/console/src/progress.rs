@@ -2,6 +2,7 @@
 //! line every ten seconds.
 
 use std::io::{self, IsTerminal, Write};
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -139,6 +140,16 @@ impl Progress {
     pub fn more(&self, count: u64) {
         self.bar.inc(count);
         self.beat();
+    }
+
+    /// A watcher of one of the works that make up the run: counts what it has done, and stops it after Ctrl-C.
+    pub fn watcher(&self) -> impl Fn(u64, u64) -> ControlFlow<()> + Sync + '_ {
+        let told = AtomicU64::new(0);
+        move |done, _| {
+            let before = told.fetch_max(done, Ordering::Relaxed);
+            self.more(done.saturating_sub(before));
+            interrupt::go_on()
+        }
     }
 
     /// What else there is to say.

@@ -14,7 +14,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
     let basins = basins(&scene, &grid, &Options::default())?;
     for class in &basins.classes {
-        println!("{}: {:.1} %", class.kind.name(), 100.0 * class.share);
+        println!("{}: {:.1} %", class.motion, 100.0 * class.share);
     }
     let (share, [low, high]) = basins.share(Regime::ONE);
     assert!(0.0 < low && low < share && share < high && high < 1.0);

@@ -8,17 +8,15 @@ use softstop_dynamics::orbit;
 
 /// Runs the example.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let machine = Ratios::unloaded();
-    let state = orbit::find(&machine.scene()?)?.state();
-    let family = Along::new(machine, [Parameter::Frequency])?;
+    let scene = Ratios::unloaded().scene()?;
+    let state = orbit::find(&scene)?.state();
+    let family = Along::new(scene, [Parameter::Frequency])?;
     let limits = Limits {
         range: (0.9, 1.5),
         points: 500,
     };
     let follower = Follower::new(&family, 1);
-    let branch = follower.branch(machine.frequency, state, &limits, |_| {
-        ControlFlow::Continue(())
-    })?;
+    let branch = follower.branch(1.15, state, &limits, |_| ControlFlow::Continue(()))?;
     for special in &branch.specials {
         println!(
             "{} at eta = {}",

@@ -1,13 +1,14 @@
 //! Periodic motions of impact oscillators and what becomes of them: [`orbit`] (z = p/n, Floquet
 //! multipliers, exponents) → [`continuation`] (branches, folds, flips, grazings) → [`zone`] (where
 //! impacts and rest coexist) → [`attractors`], [`basin`], [`sweep`], [`transitions`] (what is seen from
-//! many starts), and [`models`] (how simple a model of a scene may be).
+//! many starts), told in one vocabulary ([`motion`]), and [`models`] (how simple a model of a scene may be).
 #![forbid(unsafe_code)]
 
 pub mod attractors;
 pub mod basin;
 pub mod continuation;
 pub mod models;
+pub mod motion;
 pub mod orbit;
 pub mod sweep;
 pub mod transitions;

@@ -5,9 +5,7 @@ use nalgebra::Vector2;
 use rayon::ThreadPoolBuilder;
 use softstop::{Clock, Ratios, Scene};
 use softstop_dynamics::attractors::SurveyError;
-use softstop_dynamics::basin::{
-    Axis, Basins, Grid, Kind, Options, basins, basins_watched, establishing,
-};
+use softstop_dynamics::basin::{Axis, Basins, Grid, Options, basins, basins_watched, establishing};
 use softstop_dynamics::orbit::{Orbit, Regime, StroboscopicMap};
 use softstop_dynamics::watch::{stop_if, unwatched};
 use softstop_dynamics::zone;
@@ -43,24 +41,14 @@ fn names(basins: &Basins) -> Vec<String> {
     basins
         .classes
         .iter()
-        .map(|class| class.kind.name())
+        .map(|class| class.motion.to_string())
         .collect()
 }
 
 /// The orbits of all classes.
 fn orbits(basins: &Basins) -> Vec<&Orbit> {
-    basins
-        .classes
-        .iter()
-        .map(|class| orbit(&class.kind))
-        .collect()
-}
-
-fn orbit(kind: &Kind) -> &Orbit {
-    match kind {
-        Kind::Periodic(orbit) => orbit,
-        other => panic!("{other:?}"),
-    }
+    let orbits = basins.classes.iter().map(|class| class.orbit.as_deref());
+    orbits.map(|orbit| orbit.expect("an orbit")).collect()
 }
 
 /// The class on whose orbit the scalar engine ends.
@@ -153,11 +141,8 @@ fn chaos_is_one_set_beside_the_isolated_motions() {
     // Peterka 2003, section 4: at 0.9875 chaos, 2/3 and (2/4)B.
     let found = on(&unloaded(0.9875), &states(24));
     assert_eq!(names(&found), ["z = 2/3", "z = 2/4", "chaos"]);
-    let pattern = |class: usize| match &found.classes[class].kind {
-        Kind::Periodic(orbit) => orbit.pattern().to_string(),
-        _ => String::new(),
-    };
-    assert_eq!(pattern(1), "1-1-0-0");
+    let order = found.classes[1].motion.order().expect("an order");
+    assert_eq!(order.to_string(), "1-1-0-0");
 }
 
 #[test]
@@ -233,6 +218,6 @@ fn cells_that_cannot_be_are_lost() {
     let found = on(&ratios.scene().expect("there is one"), &states(24));
     let beyond = (0..found.grid.cells()).filter(|cell| found.grid.start(*cell).0.position > 12.0);
     let lost = found.classes.last().expect("there is one");
-    assert_eq!(lost.kind.name(), "lost");
+    assert_eq!(lost.motion.to_string(), "lost");
     assert_eq!(lost.cells, beyond.count());
 }

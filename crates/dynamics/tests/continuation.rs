@@ -20,14 +20,11 @@ use softstop_testing::loaded;
 use softstop_testing::reference::{FOLDS, MACHINE, list, number};
 use softstop_testing::tangent::differences;
 
-type Frequencies<M> = Along<M, 1>;
+type Frequencies = Along<1>;
 
-fn frequencies(eta: f64) -> Frequencies<Ratios> {
-    let machine = Ratios {
-        frequency: eta,
-        ..Ratios::unloaded()
-    };
-    Along::new(machine, [Parameter::Frequency]).expect("a family")
+fn frequencies(eta: f64) -> Frequencies {
+    let machine = Ratios::unloaded().at_frequency(eta);
+    Along::new(machine.scene().expect("a scene"), [Parameter::Frequency]).expect("a family")
 }
 
 /// The branch of period-`n` orbits of the unloaded machine near a state.
@@ -170,7 +167,11 @@ fn flips_of_the_subharmonic_motions() {
 /// The loaded machine touches the stop behind the strip at both ends; between them flip and fold.
 #[test]
 fn inner_surfaces_end_a_branch_too() {
-    let family = Along::new(Ratios::loaded(), [Parameter::Frequency]).expect("a family");
+    let family = Along::new(
+        Ratios::loaded().scene().expect("a scene"),
+        [Parameter::Frequency],
+    )
+    .expect("a family");
     let limits = Limits {
         range: (0.5, 2.0),
         points: 500,

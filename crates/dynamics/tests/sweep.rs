@@ -1,37 +1,41 @@
 //! Sweeps against the figures of the paper and of the continuation.
 
+use std::ops::ControlFlow;
+
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use rayon::ThreadPoolBuilder;
-use softstop::Ratios;
 use softstop::integrator::Start;
+use softstop::{Ratios, Stop};
 use softstop_dynamics::continuation::Parameter;
+use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{self, Regime};
-use softstop_dynamics::sweep::{Chain, Direction, Plan, PlanError, Settled, Step, hysteresis};
+use softstop_dynamics::sweep::{Chain, Direction, Plan, PlanError, Step, hysteresis};
+use softstop_dynamics::watch::unwatched;
 use softstop_testing::tolerance::{GROWN, MOTION};
-use softstop_testing::unloaded;
+use softstop_testing::{start_at, unloaded};
 
 /// Frequency at which the impact-less motion grazes, rho = 10.
 const G0: f64 = 1.04444;
 /// Frequency of the fold of z = 1, rho = 10.
 const FOLD: f64 = 1.369_036;
-const ONE: Settled = Settled::Periodic(Regime {
-    impacts: 1,
-    periods: 1,
-});
-const NONE: Settled = Settled::Periodic(Regime {
+const NONE: Regime = Regime {
     impacts: 0,
     periods: 1,
-});
+};
 
-fn both(ratios: Ratios) -> Vec<Chain<Ratios>> {
+fn chain(ratios: Ratios, way: Direction) -> Chain {
+    Chain::new(ratios.scene().expect("there is one"), way)
+}
+
+fn both(ratios: Ratios) -> Vec<Chain> {
     [Direction::Up, Direction::Down]
-        .map(|way| Chain::new(ratios, way))
+        .map(|way| chain(ratios, way))
         .into()
 }
 
 /// Runs a plan to its end.
-fn run(plan: &Plan, mut chains: Vec<Chain<Ratios>>) -> Vec<Chain<Ratios>> {
-    assert!(plan.run(&mut chains, &|_| true));
+fn run(plan: &Plan, mut chains: Vec<Chain>) -> Vec<Chain> {
+    assert!(plan.run(&mut chains, &unwatched));
     assert!(chains.iter().all(|chain| chain.error.is_none()));
     assert!(chains.iter().all(|chain| chain.steps.len() == plan.steps));
     chains
@@ -42,7 +46,7 @@ fn frequencies(range: (f64, f64), steps: usize, periods: u64) -> Plan {
 }
 
 /// Value of the first step with fewer impacts than one per drive period, after at least one with one.
-fn lost(chain: &Chain<Ratios>) -> f64 {
+fn lost(chain: &Chain) -> f64 {
     let strikes = |step: &&Step| step.impacts_per_period == 1.0;
     let first = chain
         .steps
@@ -71,14 +75,14 @@ fn between_grazing_and_fold_the_way_matters() {
         .find(|zone| zone.from > 1.03)
         .expect("there is one");
     assert!(
-        zone.up.is_like(&ONE) && zone.down.is_like(&NONE),
+        zone.up.regime() == Some(Regime::ONE) && zone.down.regime() == Some(NONE),
         "{zone:?}"
     );
     assert!(zone.from >= G0 && zone.from < G0 + 5e-3, "{zone:?}");
     assert!(abs_diff_eq!(zone.to, FOLD, epsilon = 2e-3), "{zone:?}");
     let up = chains[0].jumps();
     let jump = up.last().expect("there is one");
-    assert!(jump.before.is_like(&ONE) && jump.after.is_like(&NONE));
+    assert!(jump.before.regime() == Some(Regime::ONE) && jump.after.regime() == Some(NONE));
     assert!(jump.velocities.0 > 16.0 && jump.velocities.1 == 0.0);
 }
 
@@ -96,7 +100,7 @@ fn a_sweep_loses_the_motion_after_its_end() {
             start: orbit.expect("there is one").state().into(),
             ..plan
         };
-        let chains = run(&plan, vec![Chain::new(Ratios::unloaded(), Direction::Up)]);
+        let chains = run(&plan, vec![chain(Ratios::unloaded(), Direction::Up)]);
         let lost = lost(&chains[0]);
         assert!(
             lost > FOLD && abs_diff_eq!(lost, 1.371, epsilon = 2e-3),
@@ -113,7 +117,7 @@ fn a_slower_sweep_loses_it_nearer_to_the_fold() {
         let start = orbit::find(&scene).expect("there is one").state().into();
         let chains = run(
             &Plan { start, ..plan },
-            vec![Chain::new(Ratios::unloaded(), Direction::Up)],
+            vec![chain(Ratios::unloaded(), Direction::Up)],
         );
         lost(&chains[0])
     };
@@ -133,11 +137,11 @@ fn steps_have_the_motions_of_newtons_method() {
         .expect("there is one")
         .state()
         .into();
-    let chains = run(&plan, vec![Chain::new(Ratios::unloaded(), Direction::Up)]);
+    let chains = run(&plan, vec![chain(Ratios::unloaded(), Direction::Up)]);
     for step in &chains[0].steps {
         let scene = unloaded(step.value);
         let orbit = orbit::find(&scene).expect("there is one");
-        assert!(step.settled.is_like(&ONE));
+        assert_eq!(step.motion.regime(), Some(Regime::ONE));
         assert_abs_diff_eq!(
             step.hardest(),
             orbit.before_impact_velocity(),
@@ -152,9 +156,9 @@ fn chaos_is_told_from_rest_and_order() {
     // Between grazing at 0.95265 and the first windows of order.
     let plan = frequencies((0.96, 0.975), 4, 200);
     let chains = run(&plan, both(Ratios::unloaded()));
-    let chaotic = |step: &Step| match step.settled {
-        Settled::Chaotic { growth } => growth > 0.05 && step.velocities.len() > 10,
-        _ => false,
+    let chaotic = |step: &Step| {
+        let grows = step.growth.is_some_and(|growth| growth > 0.05);
+        step.motion == MotionKind::Chaos && grows && step.velocities.len() > 10
     };
     assert!(chains[0].steps.iter().any(chaotic));
 }
@@ -181,7 +185,7 @@ fn any_parameter_can_be_swept() {
 }
 
 /// Several chains with different numbers of phases.
-fn fleet() -> Vec<Chain<Ratios>> {
+fn fleet() -> Vec<Chain> {
     [2.0, 6.0, 10.0, 14.0, 18.0, 22.0]
         .into_iter()
         .flat_map(|clearance| {
@@ -208,7 +212,7 @@ fn threads_and_interruptions_change_nothing() {
     let mut parts = fleet();
     let mut rounds = 0;
     // Stopped after each step of each group.
-    while !plan.run(&mut parts, &|_| false) {
+    while !plan.run(&mut parts, &|_, _| ControlFlow::Break(())) {
         rounds += 1;
     }
     assert!(rounds >= plan.steps / 2);
@@ -230,7 +234,7 @@ fn plans_and_parameters_that_cannot_be_are_refused() {
     assert!(matches!(plan((1.0, 2.0), 3, 0), Err(PlanError::Periods(0))));
     let plan = plan((-1.0, 1.0), 3, 3).expect("there is one");
     let mut chains = both(Ratios::unloaded());
-    assert!(plan.run(&mut chains, &|_| true));
+    assert!(plan.run(&mut chains, &unwatched));
     // A frequency below zero: one chain cannot begin, the other cannot end.
     assert!(chains[0].steps.is_empty() && chains[0].error.is_some());
     assert_eq!(chains[1].steps.len(), 1);
@@ -244,13 +248,29 @@ fn steps_tell_the_order_of_impacts() {
         let plan = Plan::new(Parameter::Frequency, (0.9886, 0.9888), 3, 2000).expect("a plan");
         let start = Start { position, velocity };
         let plan = Plan { start, ..plan };
-        let mut chain = [Chain::new(Ratios::unloaded(), Direction::Up)];
-        assert!(plan.run(&mut chain, &|_| true));
-        let orders = chain[0].steps.iter().map(|step| step.order.clone());
+        let mut chain = [chain(Ratios::unloaded(), Direction::Up)];
+        assert!(plan.run(&mut chain, &unwatched));
+        let orders = chain[0].steps.iter().map(|step| step.motion.order());
         orders
-            .map(|order| order.map_or_else(String::new, |order| order.to_string()))
+            .map(|order| order.map_or_else(String::new, ToString::to_string))
             .collect::<Vec<String>>()
     };
     assert_eq!(order_from(9.360_532, 3.830_784), ["1-1-0-0"; 3]);
     assert_eq!(order_from(9.214_320, 3.694_000), ["1-0"; 3]);
+}
+
+/// A sweep tells complete chatter from motions with so many impacts, as the search for motions does.
+#[test]
+fn chatter_is_called_chatter() {
+    let mut scene = unloaded(0.3);
+    scene.stop = Stop::Rigid { restitution: 0.6 };
+    scene.clearance = 0.0;
+    let mut plan = frequencies((0.3, 0.301), 2, 60);
+    plan.start = start_at(-0.5, 0.1);
+    let chains = run(&plan, vec![Chain::new(scene, Direction::Up)]);
+    for step in &chains[0].steps {
+        let name = step.motion.to_string();
+        assert_eq!(name, "complete chatter every drive period");
+    }
+    assert_eq!(chains[0].jumps(), []);
 }

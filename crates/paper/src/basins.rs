@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 use anyhow::{Error, Result};
 use softstop::integrator::Start;
 use softstop::{Ratios, Scene};
-use softstop_dynamics::basin::{Axis, Basins, Grid, Kind, Options, basins_watched};
+use softstop_dynamics::basin::{Axis, Basins, Grid, Options, basins_watched};
+use softstop_dynamics::motion::MotionKind;
 use softstop_lanes::{Job, Machine, Watch};
 
 use crate::figure::{self, Drawn, Figure, Studio};
@@ -135,7 +136,7 @@ impl Watch for Log {
 /// States of chaos at drive angle 0, if a basin is its.
 fn wandering(scene: &Scene, basins: &Basins) -> Result<Vec<(f64, f64)>> {
     let mut classes = basins.classes.iter();
-    let chaos = classes.position(|class| matches!(class.kind, Kind::Chaotic(_)));
+    let chaos = classes.position(|class| class.motion == MotionKind::Chaos);
     let cell = chaos.and_then(|chaos| {
         let mut cells = basins.cells.iter();
         cells.position(|class| usize::from(*class) == chaos)
@@ -164,15 +165,12 @@ fn table(all: &[&Basins]) -> Result<Vec<u8>> {
             .iter()
             .enumerate()
             .map(move |(index, class)| {
-                let orbit = match &class.kind {
-                    Kind::Periodic(orbit) => Some(orbit),
-                    _ => None,
-                };
+                let orbit = class.orbit.as_ref();
                 let ball = basins.largest_ball(index);
                 (
                     plane.name,
                     plane.frequency,
-                    class.kind.name(),
+                    class.motion.to_string(),
                     orbit.map(|orbit| orbit.pattern().to_string()),
                     orbit.map(|orbit| orbit.before_impact_velocity()),
                     class.cells,
@@ -192,16 +190,9 @@ fn findings(all: &[&Basins]) -> Vec<(String, f64)> {
     let mut findings = Vec::new();
     for (plane, basins) in PLANES.iter().zip(all) {
         for (index, class) in basins.classes.iter().enumerate() {
-            let name = match &class.kind {
-                Kind::Periodic(orbit) if orbit.periods > 1 => {
-                    format!(
-                        "{}, {} ({})",
-                        plane.name,
-                        class.kind.name(),
-                        orbit.pattern()
-                    )
-                }
-                kind => format!("{}, {}", plane.name, kind.name()),
+            let name = match class.motion.told_order() {
+                Some(order) => format!("{}, {} ({order})", plane.name, class.motion),
+                None => format!("{}, {}", plane.name, class.motion),
             };
             findings.push((format!("{name}: share"), class.share));
             findings.push((format!("{name}: share at least"), class.interval[0]));

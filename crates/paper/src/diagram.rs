@@ -2,15 +2,14 @@
 
 use anyhow::Result;
 use rayon::prelude::*;
-use softstop::Ratios;
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
 use softstop_console::failure::Failure;
-use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
 /// Sweeps that go together: a plan and its chains.
-pub(super) type Job = (Plan, Vec<Chain<Ratios>>);
+pub(super) type Job = (Plan, Vec<Chain>);
 
 /// Carries all chains of all plans to their ends.
 ///
@@ -19,12 +18,9 @@ pub(super) type Job = (Plan, Vec<Chain<Ratios>>);
 pub(super) fn sweep(jobs: &mut [Job], what: &str) -> Result<()> {
     let steps = jobs.iter().map(|(plan, chains)| plan.steps * chains.len());
     let progress = Progress::new(steps.sum::<usize>() as u64, what);
-    let finished = jobs.par_iter_mut().map(|(plan, chains)| {
-        plan.run(chains, &|steps| {
-            progress.more(steps);
-            !interrupt::requested()
-        })
-    });
+    let finished = jobs
+        .par_iter_mut()
+        .map(|(plan, chains)| plan.run(chains, &progress.watcher()));
     if !finished.collect::<Vec<bool>>().into_iter().all(|it| it) {
         return Err(Failure::Interrupted.into());
     }
@@ -39,7 +35,7 @@ pub(super) fn sweep(jobs: &mut [Job], what: &str) -> Result<()> {
 }
 
 /// The plan of one way over a part of a sweep's range, going on from where that is when it comes there.
-pub(super) fn part_of(sweep: &Chain<Ratios>, plan: &Plan) -> Plan {
+pub(super) fn part_of(sweep: &Chain, plan: &Plan) -> Plan {
     let rising = sweep.rising();
     let before = match sweep.direction {
         Direction::Up => rising.iter().rfind(|step| step.value <= plan.range.0),
@@ -51,13 +47,9 @@ pub(super) fn part_of(sweep: &Chain<Ratios>, plan: &Plan) -> Plan {
     }
 }
 
-/// A motion in a word.
-pub(super) fn name(settled: &Settled) -> String {
-    match settled {
-        Settled::Periodic(regime) => regime.to_string(),
-        Settled::Chaotic { .. } => "chaos".to_owned(),
-        Settled::Unsettled { .. } => "unsettled".to_owned(),
-    }
+/// A motion in a field: p/n, or in a word.
+pub(super) fn name(motion: &MotionKind) -> String {
+    motion.to_string().trim_start_matches("z = ").to_owned()
 }
 
 /// Before-impact velocities in a field.

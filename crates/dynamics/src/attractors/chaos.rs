@@ -7,12 +7,17 @@ use softstop::integrator::Start;
 use softstop::scene::Scene;
 
 /// A motion that never repeats, as far as it was watched.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Chaos {
     /// A state of it at drive angle phi.
     pub state: Start,
     /// Its exponents.
     pub exponents: Exponents,
+    /// Mean number of drive periods before it ends, if it does.
+    pub lifetime: Option<f64>,
+    /// Starts of the region that came to it; those that it has let go count where they ended.
+    pub entered: usize,
     /// Mean number of impacts per drive period.
     pub impacts_per_period: f64,
     /// Least and largest before-impact velocity in m/s seen; none without impacts.
@@ -42,6 +47,8 @@ impl Chaos {
         Ok(Self {
             state,
             exponents,
+            lifetime: None,
+            entered: 0,
             impacts_per_period: passage.impacts.len() as f64 / counted as f64,
             velocities: velocities.map(|(least, largest)| [least, largest]),
             watched: 0,

@@ -20,47 +20,12 @@ pub use starts::Region;
 
 use thiserror::Error;
 
+use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit};
 use crate::watch::{Watcher, unwatched};
 use softstop::error::{MotionError, SceneError};
 use softstop::integrator::Start;
 use softstop::scene::Scene;
-
-/// What a motion settles on.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Kind {
-    /// It repeats.
-    Periodic {
-        /// The orbit, polished by Newton's method; stable.
-        orbit: Box<Orbit>,
-        /// How certain it is.
-        certainty: Certainty,
-    },
-    /// It comes to rest for good, wherever dry friction holds it.
-    AtRest {
-        /// Least and largest position in m at which motions were seen to end.
-        positions: [f64; 2],
-    },
-    /// It never repeats, and small differences grow.
-    Chaotic(Chaos),
-    /// It looks chaotic for long, but settles on something else in the end.
-    TransientChaos {
-        /// What it is like before.
-        chaos: Chaos,
-        /// Mean number of drive periods before it ends.
-        lifetime: f64,
-        /// Starts of the region that came to it; those that it has let go count where they ended.
-        entered: usize,
-    },
-    /// It neither repeats nor is its exponent positive beyond doubt: it settles too slowly, or is
-    /// quasi-periodic.
-    Unsettled {
-        /// Its state at drive angle phi when it was left.
-        state: Start,
-        /// Its exponents.
-        exponents: Exponents,
-    },
-}
 
 /// How certain a periodic motion is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,9 +41,22 @@ pub struct Certainty {
 
 /// A motion on which starts settle.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Attractor {
     /// What it is.
-    pub kind: Kind,
+    pub motion: MotionKind,
+    /// A state of it at drive angle phi.
+    pub state: Start,
+    /// The orbit, if it repeats: polished by Newton's method; stable.
+    pub orbit: Option<Box<Orbit>>,
+    /// How certain that is.
+    pub certainty: Option<Certainty>,
+    /// Least and largest position in m at which motions were seen to end, if it rests.
+    pub positions: Option<[f64; 2]>,
+    /// What it is like, if it is chaotic.
+    pub chaos: Option<Chaos>,
+    /// Its exponents, unless it rests.
+    pub exponents: Option<Exponents>,
     /// Starts of the region that were on it in the end.
     pub starts: usize,
     /// Their share of all starts of the region: a rough measure of its basin.
@@ -87,6 +65,7 @@ pub struct Attractor {
 
 /// All motions found.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Survey {
     /// The motions, that with the largest share first.
     pub attractors: Vec<Attractor>,
@@ -132,6 +111,7 @@ impl Default for Options {
 
 /// Why there is no survey.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SurveyError {
     /// The watcher asked to stop.
     #[error("the search for motions was stopped")]
@@ -183,7 +163,7 @@ pub fn attractors_watched(
 ///
 /// # Errors
 /// [`SurveyError::Motion`] if the scene is invalid or the motion cannot be computed.
-pub fn classify(scene: &Scene, start: Start, options: &Options) -> Result<Kind, SurveyError> {
+pub fn classify(scene: &Scene, start: Start, options: &Options) -> Result<Attractor, SurveyError> {
     search::classify(scene, start, options)
 }
 

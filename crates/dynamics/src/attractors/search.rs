@@ -9,7 +9,7 @@ use super::chaos::Chaos;
 use super::fleet::{Fleet, Voyage};
 use super::known::{Book, Standing};
 use super::lifetime::Looks;
-use super::{Arrival, Kind, Options, Region, Survey, SurveyError};
+use super::{Arrival, Attractor, Options, Region, Survey, SurveyError};
 use crate::orbit::Exponents;
 use crate::watch::{Watcher, unwatched};
 use softstop::integrator::Start;
@@ -75,7 +75,7 @@ pub(super) fn classify(
     scene: &Scene,
     start: Start,
     options: &Options,
-) -> Result<Kind, SurveyError> {
+) -> Result<Attractor, SurveyError> {
     let mut search = Search::new(scene, options, &unwatched)?;
     start.validate()?;
     search.launch(vec![start], true)?;
@@ -86,10 +86,7 @@ pub(super) fn classify(
     let region = Region::far(scene);
     let mut found = search.report(region)?.attractors;
     found.sort_by_key(|attractor| std::cmp::Reverse(attractor.starts));
-    let first = found.into_iter().next();
-    first
-        .map(|attractor| attractor.kind)
-        .ok_or(SurveyError::Stopped)
+    found.into_iter().next().ok_or(SurveyError::Stopped)
 }
 
 /// Where motions from several starts are after the transient: see [`super::settle`].

@@ -18,13 +18,14 @@
 //! let grid = Grid::states(Axis::position(-20.0, 10.0, 30), Axis::velocity(-25.0, 25.0, 30), 0.0);
 //! let basins = basins(&scene, &grid, &Options::default())?;
 //! // Point A: without impacts, and z = 1.
-//! let names: Vec<String> = basins.classes.iter().map(|class| class.kind.name()).collect();
+//! let names: Vec<String> = basins.classes.iter().map(|class| class.motion.to_string()).collect();
 //! assert_eq!(names, ["z = 0", "z = 1"]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod ball;
 mod certainty;
+mod classes;
 mod grid;
 mod integrity;
 mod share;
@@ -36,52 +37,24 @@ pub use integrity::{Clearing, clearing};
 pub use share::wilson;
 
 use crate::attractors::SurveyError;
+use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit, Regime};
 use crate::watch::{Watcher, unwatched};
 use softstop::error::MotionError;
 use softstop::scene::Scene;
 
-/// What the motions of a basin settle on.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Kind {
-    /// A stable periodic motion, polished by Newton's method.
-    Periodic(Box<Orbit>),
-    /// Rest for good, wherever dry friction holds the mass.
-    AtRest,
-    /// Nothing that returns, with a positive exponent. The exponents are those of the first such motion.
-    Chaotic(Exponents),
-    /// Nothing that returns, without a positive exponent beyond doubt.
-    Unsettled(Exponents),
-    /// Their motion could not be computed; why the first could not.
-    Lost(MotionError),
-}
-
-impl Kind {
-    /// The regime, if it is periodic.
-    pub fn regime(&self) -> Option<Regime> {
-        match self {
-            Self::Periodic(orbit) => Some(orbit.regime()),
-            _ => None,
-        }
-    }
-
-    /// In a word.
-    pub fn name(&self) -> String {
-        match self {
-            Self::Periodic(orbit) => format!("z = {}", orbit.regime()),
-            Self::AtRest => "at rest".to_owned(),
-            Self::Chaotic(_) => "chaos".to_owned(),
-            Self::Unsettled(_) => "unsettled".to_owned(),
-            Self::Lost(_) => "lost".to_owned(),
-        }
-    }
-}
-
 /// One basin.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Class {
-    /// What its motions settle on.
-    pub kind: Kind,
+    /// What its motions settle on; chaos is nothing that returns, with a positive exponent.
+    pub motion: MotionKind,
+    /// The orbit, if they repeat: stable, polished by Newton's method.
+    pub orbit: Option<Box<Orbit>>,
+    /// The exponents of the first motion of what does not return.
+    pub exponents: Option<Exponents>,
+    /// Why the first of what is lost could not be computed.
+    pub error: Option<MotionError>,
     /// How many cells belong to it.
     pub cells: usize,
     /// Their share of all.
@@ -92,6 +65,7 @@ pub struct Class {
 
 /// All basins on a grid.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Basins {
     /// Where the cells lie.
     pub grid: Grid,
@@ -108,7 +82,7 @@ impl Basins {
         let own = self
             .classes
             .iter()
-            .filter(|class| class.kind.regime() == Some(regime));
+            .filter(|class| class.motion.regime() == Some(regime));
         let cells = own.map(|class| class.cells).sum();
         let all = self.cells.len();
         (cells as f64 / all as f64, wilson(cells, all))
@@ -123,7 +97,7 @@ impl Basins {
     pub fn largest_ball_of(&self, regime: Regime) -> Option<Clearing> {
         let classes = self.classes.iter();
         let own: Vec<bool> = classes
-            .map(|class| class.kind.regime() == Some(regime))
+            .map(|class| class.motion.regime() == Some(regime))
             .collect();
         clearing(&self.grid, |cell| own[usize::from(self.cells[cell])])
     }

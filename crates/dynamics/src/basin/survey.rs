@@ -7,11 +7,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::ball::Ball;
-use super::{Basins, Class, Grid, Kind, Options, wilson};
+use super::{Basins, Grid, Options};
 use crate::attractors::SurveyError;
 use crate::attractors::fleet::{Fleet, Voyage};
 use crate::attractors::known::{Book, Standing};
-use crate::orbit::Exponents;
 use crate::watch::{Watcher, stop_if};
 use softstop::error::MotionError;
 use softstop::integrator::{Clock, Motion, Start};
@@ -25,12 +24,10 @@ const TILE: usize = 4096;
 const STRETCH: u64 = 16;
 /// Scouts on each axis of the grid: these cells are looked at first.
 const SCOUTS: usize = 16;
-/// Drive periods in each of the 32 batches of an exponent.
-const BATCH: u64 = 100;
 
 /// How it stands with a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Fate {
+pub(super) enum Fate {
     /// On its way.
     Afloat,
     /// On this orbit of the book.
@@ -41,18 +38,18 @@ enum Fate {
     Lost,
 }
 
-struct Survey<'a> {
-    scene: &'a Scene,
-    grid: &'a Grid,
+pub(super) struct Survey<'a> {
+    pub scene: &'a Scene,
+    pub grid: &'a Grid,
     options: Options,
     machine: [Machine; 1],
-    book: Book<'a>,
+    pub book: Book<'a>,
     /// Balls of the orbits in the book.
     balls: Vec<(usize, Ball)>,
-    states: Vec<Start>,
-    fates: Vec<Fate>,
+    pub states: Vec<Start>,
+    pub fates: Vec<Fate>,
     /// Why the first lost cell is lost.
-    lost: Option<(usize, MotionError)>,
+    pub lost: Option<(usize, MotionError)>,
     watcher: Watcher<'a>,
     done: AtomicUsize,
 }
@@ -266,78 +263,5 @@ impl Survey<'_> {
             Standing::AtRest => Fate::AtRest,
             Standing::Wandering => Fate::Wandering,
         })
-    }
-
-    fn report(mut self) -> Result<Basins, SurveyError> {
-        let mut kinds = Vec::new();
-        let mut order: Vec<usize> = (0..self.book.orbits.len()).collect();
-        let key = |orbit: &usize| {
-            let orbit = &self.book.orbits[*orbit].orbit;
-            (
-                orbit.periods,
-                orbit.impacts.len(),
-                orbit.before_impact_velocity(),
-            )
-        };
-        order.sort_by(|a, b| {
-            let (a, b) = (key(a), key(b));
-            (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
-        });
-        for orbit in order {
-            let kind = Kind::Periodic(Box::new(self.book.orbits[orbit].orbit.clone()));
-            kinds.push((Fate::Orbit(orbit), kind));
-        }
-        kinds.push((Fate::AtRest, Kind::AtRest));
-        if let Some(kind) = self.wandering()? {
-            kinds.push((Fate::Wandering, kind));
-        }
-        if let Some((_, error)) = self.lost.take() {
-            kinds.push((Fate::Lost, Kind::Lost(error)));
-        }
-        Ok(self.count(kinds))
-    }
-
-    /// What the cells are that have not returned.
-    fn wandering(&self) -> Result<Option<Kind>, SurveyError> {
-        let first = self.fates.iter().position(|fate| *fate == Fate::Wandering);
-        let Some(cell) = first else {
-            return Ok(None);
-        };
-        let (exponents, _) = Exponents::along(self.scene, self.states[cell].into(), BATCH)?;
-        Ok(Some(if exponents.is_positive() {
-            Kind::Chaotic(exponents)
-        } else {
-            Kind::Unsettled(exponents)
-        }))
-    }
-
-    fn count(self, kinds: Vec<(Fate, Kind)>) -> Basins {
-        let mut cells = vec![0; self.fates.len()];
-        let mut classes = Vec::new();
-        for (fate, kind) in kinds {
-            let mut own = 0;
-            for (cell, _) in self
-                .fates
-                .iter()
-                .enumerate()
-                .filter(|(_, other)| **other == fate)
-            {
-                cells[cell] = classes.len() as u16;
-                own += 1;
-            }
-            if own > 0 {
-                classes.push(Class {
-                    kind,
-                    cells: own,
-                    share: own as f64 / self.fates.len() as f64,
-                    interval: wilson(own, self.fates.len()),
-                });
-            }
-        }
-        Basins {
-            grid: *self.grid,
-            classes,
-            cells,
-        }
     }
 }

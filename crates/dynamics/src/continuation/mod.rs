@@ -14,7 +14,7 @@
 //! use softstop_dynamics::continuation::{Along, Follower, Limits, Parameter};
 //! use softstop::Ratios;
 //!
-//! let family = Along::new(Ratios::unloaded(), [Parameter::Frequency])?;
+//! let family = Along::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
 //! let limits = Limits { range: (1.1, 1.5), points: 500 };
 //! let state = Vector2::new(6.9, 9.5);
 //! let branch =
@@ -42,7 +42,7 @@ mod test;
 mod touching;
 mod way;
 
-pub use along::{Adjustable, Along};
+pub use along::Along;
 pub use branch::Branch;
 pub use curve::{Curve, CurveEnd, CurvePoint, Region, curve};
 pub use follower::{Follower, Heading};

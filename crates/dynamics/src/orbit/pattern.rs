@@ -8,7 +8,7 @@ use softstop::integrator::Instant;
 
 /// Impacts in one drive period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename_all = "snake_case")]
 pub enum Count {
     /// So many.
     Finite(u64),
@@ -50,6 +50,13 @@ impl ImpactPattern {
     /// Impacts per drive period.
     pub fn counts(&self) -> &[Count] {
         &self.0
+    }
+
+    /// True if two neighbouring drive periods have one impact each, as in the paper's (2/4)B.
+    pub fn has_pair(&self) -> bool {
+        let next = self.0.iter().cycle().skip(1);
+        let is_one = |count: &Count| *count == Count::Finite(1);
+        self.0.iter().zip(next).any(|(a, b)| is_one(a) && is_one(b))
     }
 }
 

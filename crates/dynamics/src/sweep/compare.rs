@@ -1,7 +1,7 @@
 //! Where a sweep jumps, and where up and down differ.
 
-use super::{Chain, Settled, Step};
-use crate::orbit::ImpactPattern;
+use super::{Chain, Step};
+use crate::motion::MotionKind;
 
 /// Change of the largest before-impact velocity from one step to the next, in units of the larger one, that
 /// is a jump if the steps before and after change it by less than a share of that.
@@ -12,51 +12,44 @@ const APART: f64 = 0.01;
 
 /// A change of the motion from one step to the next that has settled.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Jump {
     /// Value of the last step before.
     pub from: f64,
     /// Value of the first step after.
     pub to: f64,
     /// What the motion was.
-    pub before: Settled,
+    pub before: MotionKind,
     /// What it is now.
-    pub after: Settled,
-    /// Orders of impacts before and after.
-    pub orders: [Option<ImpactPattern>; 2],
+    pub after: MotionKind,
     /// Largest before-impact velocities in m/s before and after.
     pub velocities: (f64, f64),
 }
 
 /// Neighbouring values of the parameter at which the motions up and down differ.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Coexistence {
     /// Least of them.
     pub from: f64,
     /// Largest.
     pub to: f64,
     /// The motion on the way up.
-    pub up: Settled,
+    pub up: MotionKind,
     /// The motion on the way down.
-    pub down: Settled,
-    /// Orders of impacts on the way up and down.
-    pub orders: [Option<ImpactPattern>; 2],
+    pub down: MotionKind,
 }
 
-impl<M> Chain<M> {
+impl Chain {
     /// Its jumps, in its own order. Steps that have not settled are passed over: a jump goes from the last
     /// settled step before them to the first one after.
     pub fn jumps(&self) -> Vec<Jump> {
-        let settled = self
-            .steps
-            .iter()
-            .filter(|step| !step.settled.is_unsettled());
-        let settled: Vec<&Step> = settled.collect();
+        let settled: Vec<&Step> = self.steps.iter().filter(|step| step.is_settled()).collect();
         let jump = |pair: &[&Step]| Jump {
             from: pair[0].value,
             to: pair[1].value,
-            before: pair[0].settled,
-            after: pair[1].settled,
-            orders: [pair[0], pair[1]].map(|step| step.order.clone()),
+            before: pair[0].motion.clone(),
+            after: pair[1].motion.clone(),
             velocities: (pair[0].hardest(), pair[1].hardest()),
         };
         let pairs = settled.windows(2).enumerate();
@@ -69,12 +62,12 @@ impl<M> Chain<M> {
 /// hard than the course before and after leads to.
 fn leaps(steps: &[&Step], index: usize) -> bool {
     let (before, after) = (steps[index], steps[index + 1]);
-    if !is_like(before, after) {
+    if before.motion != after.motion {
         return true;
     }
     let change = |a: &Step, b: &Step| (b.hardest() - a.hardest()).abs();
     let leap = change(before, after);
-    let is_even = |a: &Step, b: &Step| !is_like(a, b) || change(a, b) < LEAP.1 * leap;
+    let is_even = |a: &Step, b: &Step| a.motion != b.motion || change(a, b) < LEAP.1 * leap;
     let earlier = index.checked_sub(1).map(|earlier| steps[earlier]);
     differ(before, after, LEAP.0)
         && earlier.is_none_or(|earlier| is_even(earlier, before))
@@ -83,20 +76,15 @@ fn leaps(steps: &[&Step], index: usize) -> bool {
             .is_none_or(|later| is_even(after, later))
 }
 
-/// True if both are of one kind: of the same regime with the same order of impacts, or chaos.
-fn is_like(a: &Step, b: &Step) -> bool {
-    a.settled.is_like(&b.settled) && a.order == b.order
-}
-
 /// True if the motions are of different kinds, or of one regime but not the same.
 fn differ(a: &Step, b: &Step, share: f64) -> bool {
     let (low, high) = (a.hardest().min(b.hardest()), a.hardest().max(b.hardest()));
-    let periodic = a.settled.regime().is_some();
-    !is_like(a, b) || (periodic && high - low > share * high)
+    let repeats = a.motion.periods().is_some();
+    a.motion != b.motion || (repeats && high - low > share * high)
 }
 
 /// The steps of both at the same values, in rising order.
-fn pairs<'a, M>(up: &'a Chain<M>, down: &'a Chain<M>) -> Vec<(&'a Step, &'a Step)> {
+fn pairs<'a>(up: &'a Chain, down: &'a Chain) -> Vec<(&'a Step, &'a Step)> {
     let others = down.rising();
     let other = |value: f64| others.binary_search_by(|step| step.value.total_cmp(&value));
     let ours = up.rising().into_iter();
@@ -106,24 +94,21 @@ fn pairs<'a, M>(up: &'a Chain<M>, down: &'a Chain<M>) -> Vec<(&'a Step, &'a Step
 
 /// The ranges in which the same machine moves otherwise on the way up than on the way down; where one of them
 /// has not settled, nothing is said.
-pub fn hysteresis<M>(up: &Chain<M>, down: &Chain<M>) -> Vec<Coexistence> {
+pub fn hysteresis(up: &Chain, down: &Chain) -> Vec<Coexistence> {
     let mut zones: Vec<Coexistence> = Vec::new();
     let mut open = false;
     for (a, b) in pairs(up, down) {
-        let settled = !a.settled.is_unsettled() && !b.settled.is_unsettled();
-        let apart = settled && differ(a, b, APART);
-        let last = zones.last_mut().filter(|zone| {
-            let same = zone.up.is_like(&a.settled) && zone.down.is_like(&b.settled);
-            open && apart && same && zone.orders == [a.order.clone(), b.order.clone()]
-        });
+        let apart = a.is_settled() && b.is_settled() && differ(a, b, APART);
+        let last = zones
+            .last_mut()
+            .filter(|zone| open && apart && zone.up == a.motion && zone.down == b.motion);
         match last {
             Some(zone) => zone.to = a.value,
             None if apart => zones.push(Coexistence {
                 from: a.value,
                 to: a.value,
-                up: a.settled,
-                down: b.settled,
-                orders: [a, b].map(|step| step.order.clone()),
+                up: a.motion.clone(),
+                down: b.motion.clone(),
             }),
             None => {}
         }

@@ -10,18 +10,19 @@
 //! interrupted and taken up again.
 //!
 //! ```
-//! use softstop::Ratios;
-//! use softstop_dynamics::continuation::Parameter;
+//! use softstop::{Parameter, Ratios};
 //! use softstop_dynamics::sweep::{Chain, Direction, Plan, hysteresis};
+//! use softstop_dynamics::watch::unwatched;
 //!
+//! let machine = Ratios::unloaded().scene()?;
 //! let plan = Plan::new(Parameter::Frequency, (1.01, 1.4), 40, 200)?;
-//! let mut chains = [Direction::Up, Direction::Down].map(|way| Chain::new(Ratios::unloaded(), way));
-//! plan.run(&mut chains, &|_| true);
+//! let mut chains = [Direction::Up, Direction::Down].map(|way| Chain::new(machine.clone(), way));
+//! plan.run(&mut chains, &unwatched);
 //! let zones = hysteresis(&chains[0], &chains[1]);
 //! // Between g0 = 1.04444 and s_SN = 1.369036 the way matters.
 //! assert_eq!(zones.len(), 1);
 //! assert!((zones[0].from - 1.05).abs() < 1e-9 && (zones[0].to - 1.36).abs() < 1e-9);
-//! # Ok::<(), softstop_dynamics::sweep::PlanError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod compare;
@@ -29,13 +30,13 @@ mod run;
 mod settle;
 
 pub use compare::{Coexistence, Jump, hysteresis};
-pub use settle::{Settled, Step};
+pub use settle::Step;
 
 use thiserror::Error;
 
-use crate::continuation::Parameter;
 use softstop::error::MotionError;
 use softstop::integrator::Start;
+use softstop::{Machine, Parameter};
 
 /// Which way the parameter goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -155,9 +156,9 @@ impl Plan {
 
 /// One machine on its way through the values of the parameter.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Chain<M> {
+pub struct Chain {
     /// The machine; its own value of the parameter plays no part.
-    pub machine: M,
+    pub machine: Machine,
     /// Which way.
     pub direction: Direction,
     /// The steps that are complete, in the order in which they were made.
@@ -166,11 +167,11 @@ pub struct Chain<M> {
     pub error: Option<MotionError>,
 }
 
-impl<M> Chain<M> {
+impl Chain {
     /// A chain that has not begun.
-    pub fn new(machine: M, direction: Direction) -> Self {
+    pub fn new(machine: impl Into<Machine>, direction: Direction) -> Self {
         Self {
-            machine,
+            machine: machine.into(),
             direction,
             steps: Vec::new(),
             error: None,

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::settle::{Log, Step};
 use super::{Chain, Plan};
-use crate::continuation::Adjustable;
+use crate::watch::Watcher;
 use softstop::error::MotionError;
 use softstop::integrator::Start;
 use softstop::scene::Scene;
@@ -26,24 +26,23 @@ struct Leg {
 }
 
 impl Plan {
-    /// Carries all chains on to their ends, from wherever they are, as long as `go_on`, told after every step
-    /// how many more are done, says so. True if all came to their ends.
-    pub fn run<M>(&self, chains: &mut [Chain<M>], go_on: &(dyn Fn(u64) -> bool + Sync)) -> bool
-    where
-        M: Adjustable + Clone + Send,
-    {
+    /// Carries all chains on to their ends, from wherever they are, unless the watcher says stop: it is told of the
+    /// steps that are done of all. True if all came to their ends.
+    pub fn run(&self, chains: &mut [Chain], watcher: Watcher<'_>) -> bool {
+        let all = (self.steps * chains.len()) as u64;
         let groups = chains.len().div_ceil(TOGETHER).max(1);
         let size = chains.len().div_ceil(groups).max(1);
         let stopped = AtomicBool::new(false);
-        let done = AtomicU64::new(0);
+        let done = chains.iter().map(|chain| chain.steps.len() as u64);
+        let done = AtomicU64::new(done.sum());
         chains.par_chunks_mut(size).for_each(|group| {
             while !stopped.load(Ordering::Relaxed) {
                 let steps = self.step(group);
                 if steps == 0 {
                     break;
                 }
-                done.fetch_add(steps, Ordering::Relaxed);
-                if !go_on(steps) {
+                let done = done.fetch_add(steps, Ordering::Relaxed) + steps;
+                if watcher(done, all).is_break() {
                     stopped.store(true, Ordering::Relaxed);
                 }
             }
@@ -51,12 +50,12 @@ impl Plan {
         chains.iter().all(|chain| self.is_complete(chain))
     }
 
-    fn is_complete<M>(&self, chain: &Chain<M>) -> bool {
+    fn is_complete(&self, chain: &Chain) -> bool {
         chain.steps.len() >= self.steps || chain.error.is_some()
     }
 
     /// Makes the next step of those chains of a group that are the farthest behind; how many there are.
-    fn step<M: Adjustable + Clone>(&self, group: &mut [Chain<M>]) -> u64 {
+    fn step(&self, group: &mut [Chain]) -> u64 {
         let afloat = group.iter().filter(|chain| !self.is_complete(chain));
         let Some(step) = afloat.map(|chain| chain.steps.len()).min() else {
             return 0;
@@ -85,15 +84,12 @@ impl Plan {
         count.max(1)
     }
 
-    fn leg<M: Adjustable + Clone>(
-        &self,
-        index: usize,
-        chain: &Chain<M>,
-    ) -> Result<(Leg, Machine), MotionError> {
+    fn leg(&self, index: usize, chain: &Chain) -> Result<(Leg, Machine), MotionError> {
         let value = self.value(chain.steps.len(), chain.direction);
         let mut machine = chain.machine.clone();
         machine.set(self.parameter, value);
-        let scene = machine.scene()?;
+        machine.validate()?;
+        let scene = machine.scene;
         let machine = Machine::new(&scene)?;
         let state = chain.steps.last().map_or(self.start, |step| step.end);
         let leg = Leg {

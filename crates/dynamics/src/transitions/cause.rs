@@ -1,7 +1,7 @@
 //! Why a motion ends: the words of Peterka 2003, Table 2.
 
-use super::Motion;
 use super::window::EndKind;
+use crate::motion::MotionKind;
 
 /// Why a motion ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,7 +47,7 @@ pub(super) struct Course<'a> {
     /// True if the doubled motion begins beyond the flip, and takes over without a jump.
     pub is_soft: bool,
     /// The motions met beyond the end.
-    pub path: &'a [Motion],
+    pub path: &'a [MotionKind],
     /// True if the way back is another.
     pub hysteresis: bool,
 }
@@ -87,7 +87,7 @@ impl Course<'_> {
 
     /// What led into chaos, and the way out of it if there is one.
     fn out_of_chaos(&self, into: Cause) -> Vec<Cause> {
-        if self.path.last() == Some(&Motion::Chaos) {
+        if self.path.last() == Some(&MotionKind::Chaos) {
             vec![into]
         } else {
             vec![into, Cause::OutOfChaos]
@@ -95,6 +95,6 @@ impl Course<'_> {
     }
 
     fn met_chaos(&self) -> bool {
-        self.path.contains(&Motion::Chaos)
+        self.path.contains(&MotionKind::Chaos)
     }
 }

@@ -1,9 +1,10 @@
 //! Where chaos ends: by its lifetime.
 
+use super::TransitionError;
 use super::stage::{Gathering, Stage, most};
-use super::{Motion, TransitionError};
 use crate::attractors::Arrival;
 use crate::continuation::Family;
+use crate::motion::MotionKind;
 use crate::orbit::Orbit;
 use softstop::integrator::Start;
 
@@ -81,7 +82,7 @@ impl<F: Family + Sync> Stage<'_, F> {
 
 impl ChaosEnd {
     /// The orbit on which most settle.
-    pub fn target(&self) -> Option<(&Motion, &Orbit)> {
+    pub fn target(&self) -> Option<(&MotionKind, &Orbit)> {
         self.gathering
             .motion
             .as_ref()

@@ -6,8 +6,9 @@ use super::cause::Course;
 use super::stage::{Gathering, Stage};
 use super::way::Way;
 use super::window::{EndKind, Window, WindowEnd};
-use super::{Motion, Transition, TransitionError};
+use super::{Transition, TransitionError};
 use crate::continuation::{Family, Follower, Limits};
+use crate::motion::MotionKind;
 use crate::watch::stop_if;
 use softstop::integrator::Start;
 
@@ -44,7 +45,7 @@ impl<F: Family + Sync> Stage<'_, F> {
                 && end.kind == EndKind::Flip
                 && self.is_intermittent(value, &gathering.states, &window.motion)?
             {
-                gathering.motion = Some(Motion::Chaos);
+                gathering.motion = Some(MotionKind::Chaos);
             }
             if way.meet(gathering, distance, end.kind) {
                 break;

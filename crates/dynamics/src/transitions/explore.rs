@@ -7,9 +7,10 @@ use super::departure::Departure;
 use super::stage::Stage;
 use super::way::is_doubled;
 use super::window::Window;
-use super::{Motion, Rules, Transition, TransitionError};
-use crate::attractors::{Kind, attractors_watched};
+use super::{Rules, Transition, TransitionError};
+use crate::attractors::attractors_watched;
 use crate::continuation::Family;
+use crate::motion::MotionKind;
 use crate::orbit::Orbit;
 use crate::watch::Watcher;
 use softstop::integrator::Start;
@@ -70,7 +71,7 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
             for departure in departures {
                 if let Some(orbit) = departure.gathering.orbit {
                     met.push((departure.value, orbit));
-                } else if departure.transition.to() == &Motion::Chaos {
+                } else if departure.transition.to() == &MotionKind::Chaos {
                     seeds.push((departure.value, departure.gathering.states));
                 }
                 atlas.transitions.push(departure.transition);
@@ -95,13 +96,10 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
         let scene = self.stage.family.scene([value])?;
         let survey = attractors_watched(&scene, &self.stage.rules.survey, self.stage.watcher)?;
         for attractor in survey.attractors {
-            match attractor.kind {
-                Kind::Periodic { orbit, .. } => met.push((value, *orbit)),
-                Kind::Chaotic(chaos) | Kind::TransientChaos { chaos, .. } => {
-                    seeds.push((value, vec![chaos.state]));
-                }
-                Kind::AtRest { .. } | Kind::Unsettled { .. } => {}
+            if attractor.motion.is_chaotic() {
+                seeds.push((value, vec![attractor.state]));
             }
+            met.extend(attractor.orbit.map(|orbit| (value, *orbit)));
         }
         Ok(())
     }
@@ -110,7 +108,7 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
     fn follow(&self, atlas: &mut Atlas, met: Vec<Met>) -> Result<Vec<Departure>, TransitionError> {
         let mut fresh = Vec::new();
         for (value, orbit) in met {
-            let motion = Motion::of(&orbit);
+            let motion = MotionKind::of(&orbit);
             let known = |window: &Window| window.motion == motion && window.contains(value);
             if atlas.windows.iter().chain(&fresh).any(known) {
                 continue;
@@ -169,7 +167,7 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
                     value: end.value,
                     doubled_until: None,
                     settled_at: None,
-                    from: Motion::Chaos,
+                    from: MotionKind::Chaos,
                     state: None,
                     path: vec![target.clone()],
                     causes: vec![Cause::OutOfChaos],
@@ -187,10 +185,10 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
 impl Atlas {
     /// True if chaos is known to follow on a motion, or on one of which it is doubled, near a value, without
     /// hysteresis.
-    fn has_reverse(&self, motion: &Motion, value: f64) -> bool {
+    fn has_reverse(&self, motion: &MotionKind, value: f64) -> bool {
         self.transitions.iter().any(|known| {
             !known.hysteresis
-                && known.to() == &Motion::Chaos
+                && known.to() == &MotionKind::Chaos
                 && (&known.from == motion || is_doubled(&known.from, motion))
                 && (known.value - value).abs() <= SAME * value.abs()
         })

@@ -2,9 +2,10 @@
 
 use std::collections::VecDeque;
 
+use super::TransitionError;
 use super::stage::Stage;
-use super::{Motion, TransitionError};
 use crate::continuation::Family;
+use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit, StroboscopicMap};
 use softstop::integrator::Start;
 
@@ -24,7 +25,7 @@ impl<F: Family + Sync> Stage<'_, F> {
         &self,
         value: f64,
         states: &[Start],
-        motion: &Motion,
+        motion: &MotionKind,
     ) -> Result<bool, TransitionError> {
         let (Some(periods), Some(start)) = (motion.periods(), states.first()) else {
             return Ok(false);

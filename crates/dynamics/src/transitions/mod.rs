@@ -12,7 +12,7 @@
 //! use softstop_dynamics::transitions::{Explorer, Rules};
 //! use softstop_dynamics::watch::unwatched;
 //!
-//! let family = Along::new(Ratios::unloaded(), [Parameter::Frequency])?;
+//! let family = Along::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
 //! let explorer = Explorer::new(&family, (1.0, 1.5), Rules::default(), &unwatched);
 //! let transitions = explorer.explore(&[1.2])?;
 //! // The grazing of z = 0 at g0 and the fold of z = 1, both with hysteresis.
@@ -35,71 +35,22 @@ pub use cause::Cause;
 pub use explore::Explorer;
 pub use window::{EndKind, Window, WindowEnd};
 
-use std::fmt;
-
 use thiserror::Error;
 
 use crate::attractors::{Options, SurveyError};
-use crate::orbit::{Orbit, OrbitError};
+use crate::motion::MotionKind;
+use crate::orbit::OrbitError;
 use softstop::error::MotionError;
 use softstop::integrator::Start;
 
-/// A motion, by what tells it from others.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Motion {
-    /// It repeats.
-    Periodic {
-        /// Impacts in its period.
-        impacts: u64,
-        /// Drive periods of it.
-        periods: u64,
-        /// The order of its impacts, as 1-1-0-0.
-        pattern: String,
-    },
-    /// It wanders.
-    Chaos,
-}
-
-impl Motion {
-    fn of(orbit: &Orbit) -> Self {
-        let regime = orbit.regime();
-        Self::Periodic {
-            impacts: regime.impacts,
-            periods: regime.periods,
-            pattern: orbit.pattern().to_string(),
-        }
-    }
-
-    /// Drive periods after which it repeats, if it does.
-    pub fn periods(&self) -> Option<u64> {
-        match self {
-            Self::Periodic { periods, .. } => Some(*periods),
-            Self::Chaos => None,
-        }
-    }
-}
-
-impl fmt::Display for Motion {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Periodic {
-                impacts, periods, ..
-            } if *periods == 1 => write!(formatter, "z = {impacts}"),
-            Self::Periodic {
-                impacts, periods, ..
-            } => write!(formatter, "z = {impacts}/{periods}"),
-            Self::Chaos => formatter.write_str("chaos"),
-        }
-    }
-}
-
 /// A transition from one motion to another.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Transition {
     /// The parameter where the first motion ends.
     pub value: f64,
     /// What ends there.
-    pub from: Motion,
+    pub from: MotionKind,
     /// Its state there at drive angle phi, if it repeats.
     pub state: Option<Start>,
     /// The parameter where the last doubled motion after it ends, if there is one.
@@ -107,7 +58,7 @@ pub struct Transition {
     /// The parameter where the last motion on the way first follows, if others come before it.
     pub settled_at: Option<f64>,
     /// What is met after it, in order, doubled motions among them; the last is where it settles.
-    pub path: Vec<Motion>,
+    pub path: Vec<MotionKind>,
     /// Why, in order.
     pub causes: Vec<Cause>,
     /// True if the motion goes on, on rising values.
@@ -120,7 +71,7 @@ pub struct Transition {
 
 impl Transition {
     /// What follows in the end.
-    pub fn to(&self) -> &Motion {
+    pub fn to(&self) -> &MotionKind {
         self.path.last().unwrap_or(&self.from)
     }
 
@@ -182,6 +133,7 @@ impl Default for Rules {
 
 /// Why transitions cannot be told.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum TransitionError {
     /// Motions cannot be found, or the watcher asked to stop.
     #[error(transparent)]

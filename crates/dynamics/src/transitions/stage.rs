@@ -1,8 +1,9 @@
 //! What all parts of the search share: several motions side by side, and what most of them do.
 
-use super::{Motion, Rules, TransitionError};
+use super::{Rules, TransitionError};
 use crate::attractors::{Arrival, Options, settle};
 use crate::continuation::Family;
+use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit};
 use crate::watch::Watcher;
 use softstop::integrator::Start;
@@ -24,7 +25,7 @@ pub(super) struct Stage<'a, F> {
 #[derive(Debug, Clone)]
 pub(super) struct Gathering {
     /// What they do; none if that cannot be said yet.
-    pub motion: Option<Motion>,
+    pub motion: Option<MotionKind>,
     /// The orbit, if they repeat.
     pub orbit: Option<Orbit>,
     /// Those that do so.
@@ -55,7 +56,7 @@ impl<F: Family + Sync> Stage<'_, F> {
         if wandering.len() > settled.len() {
             let states: Vec<Start> = wandering.into_iter().map(|it| it.state).collect();
             let scene = self.family.scene([value])?;
-            let motion = is_chaotic(&scene, states[0])?.then_some(Motion::Chaos);
+            let motion = is_chaotic(&scene, states[0])?.then_some(MotionKind::Chaos);
             return Ok(Gathering {
                 motion,
                 orbit: None,
@@ -86,10 +87,10 @@ impl<F: Family + Sync> Stage<'_, F> {
 
 /// The commonest orbit of motions that have settled.
 pub(super) fn most(settled: Vec<Arrival>) -> Gathering {
-    let mut kinds: Vec<(Motion, Orbit, Vec<Start>)> = Vec::new();
+    let mut kinds: Vec<(MotionKind, Orbit, Vec<Start>)> = Vec::new();
     for arrival in settled {
         let Some(orbit) = arrival.orbit else { continue };
-        let motion = Motion::of(&orbit);
+        let motion = MotionKind::of(&orbit);
         match kinds.iter_mut().find(|kind| kind.0 == motion) {
             Some(kind) => kind.2.push(arrival.state),
             None => kinds.push((motion, orbit, vec![arrival.state])),

@@ -1,24 +1,24 @@
 //! What a motion meets beyond the end of its window.
 
-use super::Motion;
 use super::stage::Gathering;
 use super::window::{EndKind, Window};
+use crate::motion::MotionKind;
 use crate::orbit::Orbit;
 use softstop::integrator::Start;
 
 /// What a motion has met beyond the end of its window.
 pub(super) struct Way {
-    pub from: Motion,
+    pub from: MotionKind,
     pub states: Vec<Start>,
-    pub path: Vec<Motion>,
+    pub path: Vec<MotionKind>,
     /// The last doubled motion and its distance.
     pub doubled: Option<(f64, Orbit)>,
     /// The last distance at which it is known what the motion does.
     pub last: Option<(f64, Gathering)>,
-    /// Motion that is believed if it is met once more.
-    pub tentative: Option<Motion>,
+    /// The motion that is believed if it is met once more.
+    pub tentative: Option<MotionKind>,
     /// The distance at which the last motion was first met, and the motion.
-    pub first: Option<(f64, Motion)>,
+    pub first: Option<(f64, MotionKind)>,
     /// The last distance before that at which something else was, and the states there.
     pub before: Option<(f64, Vec<Start>)>,
     pub last_seen: Option<(f64, Vec<Start>)>,
@@ -57,10 +57,10 @@ impl Way {
         self.last_seen = Some((distance, self.states.clone()));
         let doubles = is_doubled(&self.from, &motion);
         let settles = match (end, &motion) {
-            (EndKind::Flip, Motion::Chaos) => false,
+            (EndKind::Flip, MotionKind::Chaos) => false,
             (EndKind::Flip, _) if doubles => false,
             // A window within chaos is narrow.
-            (EndKind::Flip, _) if self.path.contains(&Motion::Chaos) => {
+            (EndKind::Flip, _) if self.path.contains(&MotionKind::Chaos) => {
                 if self.tentative.as_ref() != Some(&motion) {
                     self.tentative = Some(motion);
                     return false;
@@ -82,23 +82,14 @@ impl Way {
 }
 
 /// True if one motion is another with its period doubled once or several times.
-pub(super) fn is_doubled(simple: &Motion, other: &Motion) -> bool {
-    let (
-        Motion::Periodic {
-            impacts, periods, ..
-        },
-        Motion::Periodic {
-            impacts: more,
-            periods: longer,
-            ..
-        },
-    ) = (simple, other)
-    else {
+pub(super) fn is_doubled(simple: &MotionKind, other: &MotionKind) -> bool {
+    let (Some(periods), Some(longer)) = (simple.periods(), other.periods()) else {
         return false;
     };
     let times = longer / periods;
-    longer.is_multiple_of(*periods)
+    let impacts = |motion: &MotionKind| motion.regime().map(|regime| regime.impacts);
+    longer.is_multiple_of(periods)
         && times > 1
         && times.is_power_of_two()
-        && *more == times * impacts
+        && impacts(other) == impacts(simple).map(|impacts| times * impacts)
 }

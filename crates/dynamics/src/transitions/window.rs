@@ -1,7 +1,8 @@
 //! The values of the parameter for which a periodic motion is stable.
 
-use super::{Motion, Rules, TransitionError};
+use super::{Rules, TransitionError};
 use crate::continuation::{Branch, BranchPoint, End, Family, Follower, Limits, SpecialKind, Test};
+use crate::motion::MotionKind;
 use crate::orbit::Orbit;
 use crate::watch::stop_if;
 
@@ -49,7 +50,7 @@ pub struct WindowEnd {
 #[derive(Debug, Clone)]
 pub struct Window {
     /// The motion.
-    pub motion: Motion,
+    pub motion: MotionKind,
     /// Its lower end and its upper.
     pub ends: [WindowEnd; 2],
 }
@@ -80,7 +81,7 @@ impl Window {
             ends.reverse();
         }
         Ok(Self {
-            motion: Motion::of(orbit),
+            motion: MotionKind::of(orbit),
             ends,
         })
     }

@@ -4,14 +4,14 @@ use super::*;
 use approx::assert_abs_diff_eq;
 use softstop_testing::tolerance::{MOTION, SOLVED, printed};
 
-fn plane(parameters: [Parameter; 2]) -> Along<Ratios, 2> {
-    Along::new(Ratios::unloaded(), parameters).expect("a family")
+fn plane(parameters: [Parameter; 2]) -> Along<2> {
+    Along::new(Ratios::unloaded().scene().expect("a scene"), parameters).expect("a family")
 }
 
 fn followed(
     special: &Special,
     periods: u64,
-    family: &Along<Ratios, 2>,
+    family: &Along<2>,
     second: f64,
     ranges: [(f64, f64); 2],
 ) -> Curve {
@@ -132,7 +132,8 @@ fn flip_curve_meets_the_branch_of_another_stiffness() {
         stiffness: 9.0,
         ..Ratios::unloaded()
     };
-    let along = Along::new(stiffer, [Parameter::Frequency]).expect("a family");
+    let along =
+        Along::new(stiffer.scene().expect("a scene"), [Parameter::Frequency]).expect("a family");
     let limits = Limits {
         range: (0.9, 1.2),
         points: 500,

@@ -5,7 +5,7 @@ use approx::assert_abs_diff_eq;
 use softstop_testing::tolerance::MOTION;
 
 /// A rigid stop of restitution 1/2.
-fn rigid() -> Frequencies<Scene> {
+fn rigid() -> Frequencies {
     let ratios = Ratios {
         frequency: 2.2,
         clearance: 0.2,

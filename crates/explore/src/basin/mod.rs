@@ -8,11 +8,10 @@ mod report;
 
 use std::path::PathBuf;
 
-use anyhow::{Context, anyhow};
+use anyhow::{Context, Error, anyhow};
 use clap::Args;
 use softstop::{Machine, Parameter};
-use softstop_dynamics::attractors::SurveyError;
-use softstop_dynamics::basin::{CertaintyError, Options, basins_watched, establishing};
+use softstop_dynamics::basin::{Options, basins_watched, establishing};
 use softstop_dynamics::zone;
 
 use crate::basin::certainty::CertaintyChart;
@@ -23,7 +22,6 @@ use softstop_console::arguments::{MachineArguments, title};
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
-use softstop_console::interrupt;
 use softstop_console::machine::require;
 use softstop_console::output::Format;
 use softstop_console::progress::Progress;
@@ -152,14 +150,6 @@ fn options(arguments: &BasinArguments) -> Result<Options, Failure> {
     })
 }
 
-/// Why there are no basins.
-fn failure(error: SurveyError) -> Failure {
-    match error {
-        SurveyError::Stopped => Failure::Interrupted,
-        SurveyError::Motion(error) => Failure::Run(anyhow!(error)),
-    }
-}
-
 /// The basins of one machine.
 fn picture(
     arguments: &BasinArguments,
@@ -170,11 +160,7 @@ fn picture(
     let grid = plane::grid(arguments, scene)?;
     let export = Export::open(&arguments.output, &PICTURE)?;
     let progress = Progress::new(grid.cells() as u64, "cells");
-    let watcher = |done, _| {
-        progress.at(done);
-        interrupt::go_on()
-    };
-    let basins = basins_watched(scene, &grid, options, &watcher).map_err(failure)?;
+    let basins = basins_watched(scene, &grid, options, &progress.watcher()).map_err(Error::from)?;
     drop(progress);
     let title = format!("Basins: {}", title(machine));
     let png = BasinPicture::new(machine, &basins, &title)
@@ -201,15 +187,8 @@ fn along(
         .map(|k| k as f64 / (places - 1) as f64)
         .collect();
     let progress = Progress::new((grid.cells() * places) as u64, "cells");
-    let watcher = |done, _| {
-        progress.at(done);
-        interrupt::go_on()
-    };
-    let found =
-        establishing(&zone, &shares, &grid, options, &watcher).map_err(|error| match error {
-            CertaintyError::Survey(error) => failure(error),
-            CertaintyError::Zone(error) => Failure::Run(anyhow!(error)),
-        })?;
+    let found = establishing(&zone, &shares, &grid, options, &progress.watcher());
+    let found = found.map_err(Error::from)?;
     drop(progress);
     let title = format!("Establishing certainty: {}", title(machine));
     let chart = CertaintyChart::new(machine, &found, &title).svg();

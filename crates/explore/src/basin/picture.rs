@@ -1,10 +1,11 @@
 //! Pictures of basins: cells of colour, the motions' own points, the largest ball inside a basin.
 
 use softstop::{Dimension, Machine};
-use softstop_dynamics::basin::{Axis, Basins, Clearing, Kind, Quantity};
+use softstop_dynamics::basin::{Axis, Basins, Class, Clearing, Quantity};
+use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::orbit::{Orbit, Regime};
 
-use super::cells::{RegimeCell, RegimeClass};
+use super::cells::color;
 use softstop_draw::panel::{Axes, Panel};
 use softstop_draw::pen::{Align, Area, Pen};
 
@@ -137,13 +138,7 @@ impl<'a> BasinPicture<'a> {
     fn colors(&self) -> Vec<&'static str> {
         let mut taken: Vec<&'static str> = Vec::new();
         for class in &self.basins.classes {
-            let own = match &class.kind {
-                Kind::Periodic(orbit) => RegimeCell::of(orbit).class().color(),
-                Kind::AtRest => "#B8A98C",
-                Kind::Chaotic(_) => RegimeClass::Chaos.color(),
-                Kind::Unsettled(_) => RegimeClass::Unsettled.color(),
-                Kind::Lost(_) => RegimeClass::Lost.color(),
-            };
+            let own = color(class.motion.class());
             let mut others = OTHERS.into_iter().filter(|color| !taken.contains(color));
             let color = if taken.contains(&own) {
                 others.next().unwrap_or(own)
@@ -165,11 +160,8 @@ impl<'a> BasinPicture<'a> {
     }
 
     fn orbits(&self) -> impl Iterator<Item = &Orbit> {
-        let kinds = self.basins.classes.iter().map(|class| &class.kind);
-        kinds.filter_map(|kind| match kind {
-            Kind::Periodic(orbit) => Some(orbit.as_ref()),
-            _ => None,
-        })
+        let classes = self.basins.classes.iter();
+        classes.filter_map(|class| class.orbit.as_deref())
     }
 
     /// The largest ball inside the basin of z = 1.
@@ -187,7 +179,7 @@ impl<'a> BasinPicture<'a> {
             pen.fill(&[square], color);
             pen.frame(square);
             let place = (left + 2.2 * size, line);
-            pen.heading(place, letters, Align::Left, &label(&class.kind));
+            pen.heading(place, letters, Align::Left, &label(class));
             let [low, high] = class.interval.map(|share| 100.0 * share);
             let share = format!("{:.2} % ({low:.2} to {high:.2})", 100.0 * class.share);
             let place = (left + 2.2 * size, line + 1.3 * size);
@@ -205,20 +197,14 @@ impl<'a> BasinPicture<'a> {
 }
 
 /// What a basin is called.
-fn label(kind: &Kind) -> String {
-    match kind {
-        Kind::Periodic(orbit) if orbit.periods > 1 => {
-            let paired = RegimeCell::of(orbit).class() == RegimeClass::Paired;
-            let letter = if paired { "B" } else { "" };
-            let regime = orbit.regime();
-            let regime = if paired {
-                format!("z = ({regime}){letter}")
-            } else {
-                kind.name()
-            };
-            format!("{regime}: {}", orbit.pattern())
+fn label(class: &Class) -> String {
+    let motion = &class.motion;
+    match (motion.told_order(), motion.regime()) {
+        (Some(order), Some(regime)) if motion.class() == MotionClass::Paired => {
+            format!("z = ({regime})B: {order}")
         }
-        kind => kind.name(),
+        (Some(order), _) => format!("{motion}: {order}"),
+        (None, _) => motion.to_string(),
     }
 }
 

@@ -7,7 +7,7 @@ use softstop_console::column::{Column, Units, text};
 use softstop_console::columns;
 use softstop_console::export::Report;
 use softstop_console::report::MachineReport;
-use softstop_dynamics::basin::{Basins, Establishing, Grid, Kind};
+use softstop_dynamics::basin::{Basins, Establishing, Grid};
 use softstop_dynamics::orbit::Regime;
 
 /// The basins of one machine.
@@ -101,19 +101,12 @@ impl ClassReport {
     fn new(basins: &Basins, index: usize) -> Self {
         let class = &basins.classes[index];
         let ball = basins.largest_ball(index);
-        let orbit = match &class.kind {
-            Kind::Periodic(orbit) => Some(orbit),
-            _ => None,
-        };
-        let exponent = match &class.kind {
-            Kind::Chaotic(exponents) | Kind::Unsettled(exponents) => Some(exponents.per_period[0]),
-            _ => None,
-        };
+        let orbit = class.orbit.as_ref();
         Self {
-            motion: class.kind.name(),
-            order: orbit.map(|orbit| orbit.pattern().to_string()),
+            motion: class.motion.to_string(),
+            order: class.motion.order().map(ToString::to_string),
             before_impact_velocity: orbit.map(|orbit| orbit.before_impact_velocity()),
-            exponent,
+            exponent: class.exponents.map(|exponents| exponents.per_period[0]),
             cells: class.cells,
             share: class.share,
             share_low: class.interval[0],
@@ -149,7 +142,7 @@ impl PlaceReport {
             certainty_high: place.interval[1],
             integrity: basins.largest_ball_of(Regime::ONE).map(|ball| ball.radius),
             motions: classes
-                .map(|class| (class.kind.name(), class.share))
+                .map(|class| (class.motion.to_string(), class.share))
                 .collect(),
         }
     }

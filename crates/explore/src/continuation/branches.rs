@@ -17,7 +17,7 @@ pub(super) const STEP: f64 = 0.02;
 const NARROW: (f64, f64) = (100.0, 0.1);
 
 /// Largest step of a range, so that its chart has no corners.
-fn step(family: &Along<Machine, 1>, (low, high): (f64, f64)) -> f64 {
+fn step(family: &Along<1>, (low, high): (f64, f64)) -> f64 {
     let [scale] = family.parameter_scales();
     let (steps, least) = NARROW;
     ((high - low) / (steps * scale)).clamp(least * STEP, STEP)
@@ -74,12 +74,7 @@ pub(super) fn branches(
 }
 
 /// The branches of twice the period from the flips of one.
-fn doubled(
-    family: &Along<Machine, 1>,
-    branch: &Branch,
-    limits: &Limits,
-    bar: &Progress,
-) -> Vec<Branch> {
+fn doubled(family: &Along<1>, branch: &Branch, limits: &Limits, bar: &Progress) -> Vec<Branch> {
     let follower = Follower::new(family, branch.periods).with_steps(step(family, limits.range));
     let flips = branch
         .specials

@@ -13,10 +13,10 @@ use clap::Args;
 use nalgebra::Vector2;
 use softstop::{Machine, Parameter};
 use softstop_dynamics::continuation::Along;
+use softstop_dynamics::orbit::Regime;
 
 use crate::continuation::chart::{BranchChart, CurveChart};
 use report::ContinuationReport;
-use seed::Wanted;
 use softstop_console::arguments::MachineArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
@@ -59,8 +59,8 @@ pub struct ContinueArguments {
     #[arg(long, value_name = "VALUE")]
     pub to: f64,
     /// Motion to start from: p impacts in n drive periods, stable, found from scratch
-    #[arg(long, value_name = "p/n", default_value = "1/1")]
-    pub orbit: Wanted,
+    #[arg(long, value_name = "p/n", default_value = "1/1", value_parser = seed::regime)]
+    pub orbit: Regime,
     /// Start from the orbit of n drive periods (--orbit p/n) nearest to this state at drive angle
     /// 0, stable or not
     #[arg(long, value_name = "X,V", value_parser = seed::state)]
@@ -214,6 +214,6 @@ impl Followed {
 fn family<const N: usize>(
     machine: &Machine,
     parameters: [Parameter; N],
-) -> Result<Along<Machine, N>, Failure> {
+) -> Result<Along<N>, Failure> {
     Along::new(machine.clone(), parameters).map_err(|error| Failure::usage(error.to_string()))
 }

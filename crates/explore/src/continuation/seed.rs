@@ -1,40 +1,29 @@
 //! The orbit to start from.
 
-use std::str::FromStr;
-
-use anyhow::anyhow;
+use anyhow::{Error, anyhow};
 use nalgebra::Vector2;
 use softstop::Scene;
-use softstop_dynamics::attractors::{Kind, Options, SurveyError, attractors_watched};
-use softstop_dynamics::orbit::Orbit;
+use softstop_dynamics::attractors::{Options, attractors_watched};
+use softstop_dynamics::orbit::{Orbit, Regime};
 
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
-/// The regime z = p/n that is asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Wanted {
-    /// Impacts p.
-    pub impacts: u64,
-    /// Drive periods n.
-    pub periods: u64,
-}
-
-impl FromStr for Wanted {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let (impacts, periods) = text.split_once('/').unwrap_or((text, "1"));
-        let number = |text: &str| text.trim().parse::<u64>().ok();
-        match (number(impacts), number(periods)) {
-            (Some(impacts), Some(periods)) if (1..=LONGEST).contains(&periods) => {
-                Ok(Self { impacts, periods })
-            }
-            _ => Err(format!(
-                "must be p/n: p impacts in n drive periods, n from 1 to {LONGEST}"
-            )),
+/// Reads a regime p/n.
+///
+/// # Errors
+/// What is allowed.
+pub fn regime(text: &str) -> Result<Regime, String> {
+    let (impacts, periods) = text.split_once('/').unwrap_or((text, "1"));
+    let number = |text: &str| text.trim().parse::<u64>().ok();
+    match (number(impacts), number(periods)) {
+        (Some(impacts), Some(periods)) if (1..=LONGEST).contains(&periods) => {
+            Ok(Regime { impacts, periods })
         }
+        _ => Err(format!(
+            "must be p/n: p impacts in n drive periods, n from 1 to {LONGEST}"
+        )),
     }
 }
 
@@ -61,12 +50,8 @@ pub fn state(text: &str) -> Result<Vector2<f64>, String> {
 ///
 /// # Errors
 /// [`Failure::Run`] naming the motions that there are instead, [`Failure::Interrupted`] after Ctrl-C.
-pub fn find(scene: &Scene, wanted: Wanted) -> Result<Orbit, Failure> {
-    if wanted
-        == (Wanted {
-            impacts: 1,
-            periods: 1,
-        })
+pub fn find(scene: &Scene, wanted: Regime) -> Result<Orbit, Failure> {
+    if wanted == Regime::ONE
         && let Ok(orbit) = softstop_dynamics::orbit::find(scene)
     {
         return Ok(orbit);
@@ -82,27 +67,12 @@ pub fn find(scene: &Scene, wanted: Wanted) -> Result<Orbit, Failure> {
         interrupt::go_on()
     });
     drop(bar);
-    let survey = survey.map_err(|error| match error {
-        SurveyError::Stopped => Failure::Interrupted,
-        other => Failure::Run(anyhow!(other)),
-    })?;
+    let survey = survey.map_err(Error::from)?;
     let mut others = Vec::new();
     for attractor in survey.attractors {
-        match attractor.kind {
-            Kind::Periodic { orbit, .. } => {
-                let regime = orbit.regime();
-                if (regime.impacts, regime.periods) == (wanted.impacts, wanted.periods) {
-                    return Ok(*orbit);
-                }
-                others.push(match (orbit.chatters(), regime.impacts) {
-                    (true, _) => format!("complete chatter every {} drive periods", regime.periods),
-                    (false, 0) => "z = 0".to_owned(),
-                    (false, impacts) => format!("z = {impacts}/{}", regime.periods),
-                });
-            }
-            Kind::AtRest { .. } => others.push("rest".to_owned()),
-            Kind::Chaotic(_) | Kind::TransientChaos { .. } => others.push("chaos".to_owned()),
-            Kind::Unsettled { .. } => others.push("a motion that has not settled".to_owned()),
+        match attractor.orbit {
+            Some(orbit) if attractor.motion.regime() == Some(wanted) => return Ok(*orbit),
+            _ => others.push(attractor.motion.to_string()),
         }
     }
     Err(Failure::Run(anyhow!(

@@ -3,9 +3,9 @@
 mod report;
 mod text;
 
-use anyhow::anyhow;
+use anyhow::Error;
 use clap::Args;
-use softstop_dynamics::attractors::{Options, SurveyError, attractors_watched};
+use softstop_dynamics::attractors::{Options, attractors_watched};
 
 pub use report::{ExponentReport, MotionsReport, SettledReport};
 use softstop_console::arguments::MachineArguments;
@@ -79,11 +79,7 @@ pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
         progress.at_of(done, planned);
         interrupt::go_on()
     };
-    let survey =
-        attractors_watched(&machine.scene, &options, &watcher).map_err(|error| match error {
-            SurveyError::Stopped => Failure::Interrupted,
-            SurveyError::Motion(error) => Failure::Run(anyhow!(error)),
-        })?;
+    let survey = attractors_watched(&machine.scene, &options, &watcher).map_err(Error::from)?;
     drop(progress);
     let report = MotionsReport::new(&machine, &options, &survey);
     output::print(&match arguments.format {

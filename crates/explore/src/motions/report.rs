@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use softstop::{Machine, Scene};
-use softstop_dynamics::attractors::{Attractor, Chaos, Kind, Options, Survey};
+use softstop_dynamics::attractors::{Attractor, Certainty, Chaos, Options, Survey};
+use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{Exponents, Orbit};
 
 use softstop_console::arguments::title;
@@ -45,43 +46,34 @@ pub struct SettledReport {
     pub share: f64,
     /// How many that were.
     pub starts: usize,
-    /// What it is.
+    /// What it is, in a word.
+    pub kind: &'static str,
+    /// What it is called.
+    #[serde(skip)]
+    pub name: String,
+    /// If it repeats.
     #[serde(flatten)]
-    pub what: What,
+    pub periodic: Option<PeriodicReport>,
+    /// If it is chaotic.
+    #[serde(flatten)]
+    pub chaos: Option<ChaosReport>,
+    /// Least and largest position at which motions ended, if it rests.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub positions: Option<[f64; 2]>,
+    /// If it has not settled.
+    #[serde(flatten)]
+    pub unsettled: Option<UnsettledReport>,
 }
 
-/// What a motion is.
+/// What did not settle while it was watched.
 #[derive(Debug, Clone, Serialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
-pub enum What {
-    /// It repeats.
-    Periodic(Box<PeriodicReport>),
-    /// It comes to rest for good.
-    Rest {
-        /// Least and largest position in m at which motions ended.
-        positions: [f64; 2],
-    },
-    /// It never repeats.
-    Chaos(ChaosReport),
-    /// It is chaotic for long, but not for ever.
-    TransientChaos {
-        /// Mean number of drive periods that it lasts.
-        lifetime: f64,
-        /// Starts that came to it.
-        entered: usize,
-        /// What it is like before.
-        #[serde(flatten)]
-        chaos: ChaosReport,
-    },
-    /// It did not settle while it was watched.
-    Unsettled {
-        /// Position in m at drive angle phi.
-        position: f64,
-        /// Velocity in m/s there.
-        velocity: f64,
-        /// Its exponents.
-        exponents: ExponentReport,
-    },
+pub struct UnsettledReport {
+    /// Position at drive angle phi.
+    pub position: f64,
+    /// Velocity there.
+    pub velocity: f64,
+    /// Its exponents.
+    pub exponents: ExponentReport,
 }
 
 /// A periodic motion.
@@ -120,6 +112,12 @@ pub struct PeriodicReport {
 /// A chaotic motion.
 #[derive(Debug, Clone, Serialize)]
 pub struct ChaosReport {
+    /// Mean number of drive periods that it lasts, if it ends.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lifetime: Option<f64>,
+    /// Starts that came to it, if it ends.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub entered: Option<usize>,
     /// Position in m at drive angle phi of a state on it.
     pub position: f64,
     /// Velocity in m/s there.
@@ -168,41 +166,28 @@ impl MotionsReport {
 
 impl SettledReport {
     fn new(attractor: &Attractor) -> Self {
-        let what = match &attractor.kind {
-            Kind::Periodic { orbit, certainty } => What::Periodic(Box::new(PeriodicReport {
-                returned: certainty.returned,
-                residual: certainty.residual,
-                ..PeriodicReport::new(orbit)
-            })),
-            Kind::AtRest { positions } => What::Rest {
-                positions: *positions,
-            },
-            Kind::Chaotic(chaos) => What::Chaos(ChaosReport::new(chaos)),
-            Kind::TransientChaos {
-                chaos,
-                lifetime,
-                entered,
-            } => What::TransientChaos {
-                lifetime: *lifetime,
-                entered: *entered,
-                chaos: ChaosReport::new(chaos),
-            },
-            Kind::Unsettled { state, exponents } => What::Unsettled {
-                position: state.position,
-                velocity: state.velocity,
-                exponents: ExponentReport::new(exponents),
-            },
-        };
+        let orbit = attractor.orbit.as_ref().zip(attractor.certainty);
+        let is_unsettled = attractor.motion == MotionKind::Unsettled;
+        let exponents = attractor.exponents.filter(|_| is_unsettled);
         Self {
             share: attractor.share,
             starts: attractor.starts,
-            what,
+            kind: attractor.motion.key(),
+            name: attractor.motion.to_string(),
+            periodic: orbit.map(|(orbit, certainty)| PeriodicReport::new(orbit, &certainty)),
+            chaos: attractor.chaos.as_ref().map(ChaosReport::new),
+            positions: attractor.positions,
+            unsettled: exponents.map(|exponents| UnsettledReport {
+                position: attractor.state.position,
+                velocity: attractor.state.velocity,
+                exponents: ExponentReport::new(&exponents),
+            }),
         }
     }
 }
 
 impl PeriodicReport {
-    fn new(orbit: &Orbit) -> Self {
+    fn new(orbit: &Orbit, certainty: &Certainty) -> Self {
         let regime = orbit.regime();
         let z = if orbit.chatters() {
             "∞".to_owned()
@@ -222,8 +207,8 @@ impl PeriodicReport {
             max_position: orbit.max_position,
             multipliers: orbit.multipliers().map(Multiplier::new),
             exponents: ExponentReport::new(&Exponents::of(orbit)),
-            returned: 0.0,
-            residual: 0.0,
+            returned: certainty.returned,
+            residual: certainty.residual,
         }
     }
 }
@@ -231,6 +216,8 @@ impl PeriodicReport {
 impl ChaosReport {
     fn new(chaos: &Chaos) -> Self {
         Self {
+            lifetime: chaos.lifetime,
+            entered: chaos.lifetime.map(|_| chaos.entered),
             position: chaos.state.position,
             velocity: chaos.state.velocity,
             impacts_per_period: chaos.impacts_per_period,

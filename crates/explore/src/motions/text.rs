@@ -1,8 +1,6 @@
 //! The report for people.
 
-use super::report::{
-    ChaosReport, ExponentReport, MotionsReport, PeriodicReport, SettledReport, What,
-};
+use super::report::{ChaosReport, ExponentReport, MotionsReport, PeriodicReport, SettledReport};
 use softstop::Machine;
 use softstop::scene::Dimension;
 use softstop_console::table::{Row, heading, row, table};
@@ -49,7 +47,7 @@ pub(super) fn text(machine: &Machine, report: &MotionsReport) -> String {
     for motion in &report.motions {
         text += &format!(
             "\n{} ({:.1} % of starts)\n",
-            name(&motion.what),
+            motion.name,
             100.0 * motion.share
         );
         text += &table(&rows(motion, &signs));
@@ -65,53 +63,25 @@ pub(super) fn text(machine: &Machine, report: &MotionsReport) -> String {
     text
 }
 
-fn name(what: &What) -> String {
-    match what {
-        What::Periodic(orbit) if orbit.impacts == 0 => "z = 0, no impacts".to_owned(),
-        What::Periodic(orbit) if orbit.chatter => {
-            format!("complete chatter every {} drive periods", orbit.periods)
-        }
-        What::Periodic(orbit) => format!("z = {}", orbit.z),
-        What::Rest { .. } => "rest".to_owned(),
-        What::Chaos(_) => "chaos".to_owned(),
-        What::TransientChaos { .. } => "chaos that ends".to_owned(),
-        What::Unsettled { .. } => "not settled".to_owned(),
-    }
-}
-
 fn rows(motion: &SettledReport, signs: &Signs) -> Vec<Row> {
-    match &motion.what {
-        What::Periodic(orbit) => periodic(orbit, signs),
-        What::Rest {
-            positions: [low, high],
-        } => {
-            vec![line(
-                "held at x",
-                format!("{low:.6} to {high:.6}{}", signs.length),
-            )]
-        }
-        What::Chaos(chaos) => {
-            let mut rows = self::chaos(chaos, signs);
-            let least = chaos.watched / 3;
-            rows.push(line(
-                "lifetime",
-                format!("> {least} periods (95 %): none left it"),
-            ));
-            rows
-        }
-        What::TransientChaos {
-            lifetime,
-            entered,
-            chaos,
-        } => {
-            let mut rows = self::chaos(chaos, signs);
-            let lifetime =
-                format!("{lifetime:.0} periods on average; {entered} starts came here first");
-            rows.push(line("lifetime", lifetime));
-            rows
-        }
-        What::Unsettled { exponents, .. } => vec![exponent(exponents, signs)],
+    let mut rows = Vec::new();
+    if let Some(orbit) = &motion.periodic {
+        rows.extend(periodic(orbit, signs));
     }
+    if let Some([low, high]) = motion.positions {
+        let held = format!("{low:.6} to {high:.6}{}", signs.length);
+        rows.push(line("held at x", held));
+    }
+    if let Some(chaos) = &motion.chaos {
+        rows.extend(self::chaos(chaos, signs));
+    }
+    rows.extend(
+        motion
+            .unsettled
+            .as_ref()
+            .map(|it| exponent(&it.exponents, signs)),
+    );
+    rows
 }
 
 fn line(label: &str, value: String) -> Row {
@@ -187,6 +157,15 @@ fn chaos(chaos: &ChaosReport, signs: &Signs) -> Vec<Row> {
     if let Some([least, largest]) = chaos.velocities {
         rows.push(line(&signs.impact(), format!("{least:.4} to {largest:.4}")));
     }
+    rows.push(line(
+        "lifetime",
+        match (chaos.lifetime, chaos.entered) {
+            (Some(lifetime), Some(entered)) => {
+                format!("{lifetime:.0} periods on average; {entered} starts came here first")
+            }
+            _ => format!("> {} periods (95 %): none left it", chaos.watched / 3),
+        },
+    ));
     rows
 }
 

@@ -10,7 +10,8 @@ use kuva::render::figure::Figure;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
 use softstop::{Dimension, Language, Machine, Parameter};
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
 use softstop_draw::scale::around;
 use softstop_draw::style;
@@ -20,7 +21,7 @@ use softstop_draw::style;
 pub struct SweepChart<'a> {
     machine: &'a Machine,
     plan: &'a Plan,
-    pub(super) chains: &'a [Chain<Machine>],
+    pub(super) chains: &'a [Chain],
 }
 
 /// Where points are: seen on the way up, on the way down, or both.
@@ -46,7 +47,7 @@ pub(super) type Show = fn(&Step) -> Vec<f64>;
 impl<'a> SweepChart<'a> {
     /// The diagram.
     #[must_use]
-    pub fn new(machine: &'a Machine, plan: &'a Plan, chains: &'a [Chain<Machine>]) -> Self {
+    pub fn new(machine: &'a Machine, plan: &'a Plan, chains: &'a [Chain]) -> Self {
         Self {
             machine,
             plan,
@@ -196,7 +197,7 @@ impl<'a> SweepChart<'a> {
     fn names(&self, layout: Layout, show: Show) -> Layout {
         let several = self.chains.len() > 2 && self.plan.parameter != Parameter::Clearance;
         let (low, high) = self.range(show);
-        let ways = |chain: &&Chain<Machine>| several && chain.direction == self.chains[0].direction;
+        let ways = |chain: &&Chain| several && chain.direction == self.chains[0].direction;
         self.chains
             .iter()
             .filter(ways)
@@ -248,10 +249,10 @@ impl<'a> SweepChart<'a> {
 
 /// The values at which a machine moves chaotically both on the way up and on the way down: all points there belong
 /// to one motion.
-fn chaos_both_ways(machine: &[Chain<Machine>]) -> BTreeSet<u64> {
-    let chaos = |chain: &Chain<Machine>| -> BTreeSet<u64> {
+fn chaos_both_ways(machine: &[Chain]) -> BTreeSet<u64> {
+    let chaos = |chain: &Chain| -> BTreeSet<u64> {
         let steps = chain.steps.iter();
-        let steps = steps.filter(|step| matches!(step.settled, Settled::Chaotic { .. }));
+        let steps = steps.filter(|step| step.motion == MotionKind::Chaos);
         steps.map(|step| step.value.to_bits()).collect()
     };
     match machine {

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use serde::{Deserialize, Serialize};
-use softstop::Machine;
 use softstop_dynamics::sweep::{Chain, Plan, Step};
 
 use softstop_console::failure::Failure;
@@ -32,7 +31,7 @@ struct Content {
 const CHECK: usize = 4;
 
 impl Keep {
-    pub(super) fn new(folder: &Path, plan: &Plan, chains: &[Chain<Machine>]) -> Self {
+    pub(super) fn new(folder: &Path, plan: &Plan, chains: &[Chain]) -> Self {
         let machines = chains.iter().map(|chain| (&chain.machine, chain.direction));
         let machines: Vec<_> = machines.collect();
         Self {
@@ -42,7 +41,7 @@ impl Keep {
     }
 
     /// Puts what is done into the file, whole or not at all.
-    pub(super) fn store(&self, chains: &[Chain<Machine>]) -> Result<(), Failure> {
+    pub(super) fn store(&self, chains: &[Chain]) -> Result<(), Failure> {
         let content = Content {
             of: self.of.clone(),
             chains: chains.iter().map(|chain| chain.steps.clone()).collect(),
@@ -59,7 +58,7 @@ impl Keep {
     }
 
     /// Gives the chains the steps that the file holds.
-    pub(super) fn restore(&self, chains: &mut [Chain<Machine>]) -> Result<(), Failure> {
+    pub(super) fn restore(&self, chains: &mut [Chain]) -> Result<(), Failure> {
         let place = self.path.display();
         let bytes = fs::read(&self.path)
             .map_err(|error| Failure::usage(format!("--resume: {place}: {error}")))?;

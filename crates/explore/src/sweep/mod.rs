@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 use clap::{Args, ValueEnum};
 use softstop::{Machine, Parameter};
 use softstop_dynamics::sweep::{Chain, Direction, Plan};
+use softstop_dynamics::watch::stop_if;
 
 use crate::sweep::chart::SweepChart;
 use keep::Keep;
@@ -187,7 +188,7 @@ fn chains(
     arguments: &SweepArguments,
     machine: &Machine,
     parameter: Parameter,
-) -> Result<Vec<Chain<Machine>>, Failure> {
+) -> Result<Vec<Chain>, Failure> {
     if !arguments.clearances.is_empty() && parameter == Parameter::Clearance {
         return Err(Failure::usage(
             "--clearances: the clearance itself is swept; give --from and --to only",
@@ -237,26 +238,23 @@ fn check(machine: &Machine, parameter: Parameter, ends: [f64; 2]) -> Result<(), 
 }
 
 /// Carries the chains on to their ends, and keeps what is done from time to time.
-fn follow(plan: &Plan, chains: &mut [Chain<Machine>], keep: &Keep) -> Result<(), Failure> {
+fn follow(plan: &Plan, chains: &mut [Chain], keep: &Keep) -> Result<(), Failure> {
     let all = (plan.steps * chains.len()) as u64;
     let progress = Progress::new(all, "steps");
-    let done =
-        |chains: &[Chain<Machine>]| chains.iter().map(|chain| chain.steps.len()).sum::<usize>();
-    progress.at(done(chains) as u64);
     loop {
         let begin = Instant::now();
-        let finished = plan.run(chains, &|steps| {
-            progress.more(steps);
-            !interrupt::requested() && begin.elapsed() < KEEPING
+        let finished = plan.run(chains, &|done, _| {
+            progress.at(done);
+            stop_if(interrupt::requested() || begin.elapsed() >= KEEPING)
         });
         if finished {
             return Ok(());
         }
         keep.store(chains)?;
         if interrupt::requested() {
+            let done: usize = chains.iter().map(|chain| chain.steps.len()).sum();
             return Err(Failure::Suspended(format!(
-                "{} of {all} steps are done; the same line with --resume goes on",
-                done(chains)
+                "{done} of {all} steps are done; the same line with --resume goes on"
             )));
         }
     }

@@ -6,10 +6,10 @@ use softstop_console::column::{Column, Unit, Units, text};
 use softstop_console::columns;
 use softstop_console::export::Report;
 use softstop_console::report::MachineReport;
-use softstop_dynamics::orbit::ImpactPattern;
-use softstop_dynamics::sweep::{Chain, Coexistence, Direction, Jump, Plan, Settled, hysteresis};
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::sweep::{Chain, Coexistence, Direction, Jump, Plan, hysteresis};
 
-use super::steps::{clearance, kind};
+use super::steps::clearance;
 
 /// The result.
 #[derive(Debug, Serialize)]
@@ -86,8 +86,8 @@ pub struct ZoneReport {
 }
 
 impl SweepReport {
-    pub(super) fn new(machine: &Machine, plan: &Plan, chains: &[Chain<Machine>]) -> Self {
-        let of_machine = |pair: &[Chain<Machine>]| match pair {
+    pub(super) fn new(machine: &Machine, plan: &Plan, chains: &[Chain]) -> Self {
+        let of_machine = |pair: &[Chain]| match pair {
             [up, down] if up.direction != down.direction => {
                 let clearance = clearance(plan, up);
                 let zones = hysteresis(up, down);
@@ -129,17 +129,17 @@ impl SweepReport {
 }
 
 impl ChainReport {
-    fn new(plan: &Plan, chain: &Chain<Machine>) -> Self {
-        let count = |which: fn(&Settled) -> bool| {
+    fn new(plan: &Plan, chain: &Chain) -> Self {
+        let count = |motion| {
             let steps = chain.steps.iter();
-            steps.filter(|step| which(&step.settled)).count()
+            steps.filter(|step| step.motion == motion).count()
         };
         Self {
             clearance: clearance(plan, chain),
             direction: chain.direction.name(),
             steps: chain.steps.len(),
-            chaotic: count(|settled| matches!(settled, Settled::Chaotic { .. })),
-            unsettled: count(Settled::is_unsettled),
+            chaotic: count(MotionKind::Chaos),
+            unsettled: count(MotionKind::Unsettled),
             error: chain.error.as_ref().map(ToString::to_string),
             jumps: chain.jumps().iter().map(JumpReport::new).collect(),
         }
@@ -151,8 +151,8 @@ impl JumpReport {
         Self {
             from: jump.from,
             to: jump.to,
-            before: name(&jump.before, jump.orders[0].as_ref()),
-            after: name(&jump.after, jump.orders[1].as_ref()),
+            before: name(&jump.before),
+            after: name(&jump.after),
             before_impact_velocities: jump.velocities.into(),
         }
     }
@@ -164,19 +164,19 @@ impl ZoneReport {
             clearance,
             from: zone.from,
             to: zone.to,
-            up: name(&zone.up, zone.orders[0].as_ref()),
-            down: name(&zone.down, zone.orders[1].as_ref()),
+            up: name(&zone.up),
+            down: name(&zone.down),
         }
     }
 }
 
-/// A motion in a word, with the order of its impacts.
-fn name(settled: &Settled, order: Option<&ImpactPattern>) -> String {
-    match (settled, order) {
-        (Settled::Periodic(regime), Some(order)) if regime.impacts > 1 => {
-            format!("z = {regime} ({order})")
+/// A motion with the order of its impacts, where there are several of them.
+fn name(motion: &MotionKind) -> String {
+    match motion.told_order() {
+        Some(order) if motion.regime().is_none_or(|it| it.impacts > 1) => {
+            format!("{motion} ({order})")
         }
-        _ => kind(settled),
+        _ => motion.to_string(),
     }
 }
 

@@ -1,9 +1,9 @@
 //! The table of a sweep: a row for each step.
 
-use softstop::{Machine, Parameter};
+use softstop::Parameter;
 use softstop_console::column::Column;
 use softstop_console::columns;
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
+use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
 /// A row of `sweep.csv`.
 pub(super) struct Row<'a> {
@@ -18,10 +18,10 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 13] {
         "clearance" [Length], "of the machine, unless it is swept" => row.clearance;
         "direction" [None], "up or down" => row.direction.name();
         "value" [Of("own")], "of the parameter, in its own unit" => row.step.value;
-        "motion" [None], "p/n, chaos or unsettled" => motion(row.step);
-        "order" [None], "impacts in each drive period of n" => order(row.step);
+        "motion" [None], "p/n, or in words what it is" => motion(row.step);
+        "order" [None], "impacts in each drive period of n" => row.step.motion.told_order().map(ToString::to_string);
         "impacts_per_period" [None], "mean per drive period" => row.step.impacts_per_period;
-        "growth_per_period" [None], "ln of that of small differences, unless p/n" => growth(row.step);
+        "growth_per_period" [None], "ln of that of small differences, unless p/n" => row.step.growth;
         "least_before_impact_velocity" [Velocity], "of all watched" => row.step.velocities.first().copied();
         "before_impact_velocity" [Velocity], "the largest of them" => row.step.velocities.last().copied();
         "max_position" [Length], "largest position" => row.step.max_position;
@@ -32,7 +32,7 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 13] {
 }
 
 /// The rows of `sweep.csv`: one for each step.
-pub(super) fn rows<'a>(plan: &Plan, chains: &'a [Chain<Machine>]) -> impl Iterator<Item = Row<'a>> {
+pub(super) fn rows<'a>(plan: &Plan, chains: &'a [Chain]) -> impl Iterator<Item = Row<'a>> {
     chains.iter().flat_map(|chain| {
         let clearance = clearance(plan, chain);
         chain.steps.iter().map(move |step| Row {
@@ -44,18 +44,8 @@ pub(super) fn rows<'a>(plan: &Plan, chains: &'a [Chain<Machine>]) -> impl Iterat
 }
 
 fn motion(step: &Step) -> String {
-    kind(&step.settled).trim_start_matches("z = ").to_owned()
-}
-
-fn order(step: &Step) -> Option<String> {
-    step.order.as_ref().map(ToString::to_string)
-}
-
-fn growth(step: &Step) -> Option<f64> {
-    match step.settled {
-        Settled::Periodic(_) => None,
-        Settled::Chaotic { growth } | Settled::Unsettled { growth } => Some(growth),
-    }
+    let motion = step.motion.to_string();
+    motion.trim_start_matches("z = ").to_owned()
 }
 
 fn velocities(step: &Step) -> String {
@@ -67,16 +57,7 @@ fn velocities(step: &Step) -> String {
 }
 
 /// The clearance of a chain, unless it is swept.
-pub(super) fn clearance(plan: &Plan, chain: &Chain<Machine>) -> Option<f64> {
+pub(super) fn clearance(plan: &Plan, chain: &Chain) -> Option<f64> {
     let swept = plan.parameter == Parameter::Clearance;
     chain.machine.value(Parameter::Clearance).filter(|_| !swept)
-}
-
-/// A motion in a word.
-pub(super) fn kind(settled: &Settled) -> String {
-    match settled {
-        Settled::Periodic(regime) => format!("z = {regime}"),
-        Settled::Chaotic { .. } => "chaos".to_owned(),
-        Settled::Unsettled { .. } => "unsettled".to_owned(),
-    }
 }

@@ -116,7 +116,7 @@ impl Place {
     fn new(found: &Establishing) -> Self {
         let classes = found.basins.classes.iter();
         let ball = found.basins.largest_ball_of(Regime::ONE);
-        let motions = classes.map(|class| format!("{}: {:.6}", class.kind.name(), class.share));
+        let motions = classes.map(|class| format!("{}: {:.6}", class.motion, class.share));
         Self {
             place: found.place,
             frequency: found.frequency,

@@ -4,10 +4,10 @@ mod chart;
 
 use anyhow::{Error, Result, anyhow};
 use rayon::prelude::*;
-use softstop::{MotionError, Ratios};
-use softstop_dynamics::continuation::{Adjustable, Parameter};
+use softstop::{MotionError, Ratios, Scene};
+use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::orbit::{Exponents, Orbit, find};
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
+use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 use softstop_dynamics::zone::hysteresis;
 
 use crate::diagram::{self, Job};
@@ -35,7 +35,8 @@ fn draw(studio: &Studio) -> Result<Drawn> {
         Ok(Plan::new(Parameter::Frequency, *range, steps, periods)?)
     });
     let plans = plans.collect::<Result<Vec<Plan>>>()?;
-    let chain = |way| Chain::new(Ratios::unloaded(), way);
+    let scene = Ratios::unloaded().scene()?;
+    let chain = |way| Chain::new(scene.clone(), way);
     let ways = [Direction::Up, Direction::Down].map(chain).to_vec();
     let mut whole = [(plans[0], ways)];
     diagram::sweep(&mut whole, "steps of the sweeps")?;
@@ -95,18 +96,18 @@ fn explanation(plans: &[Plan], batch: u64) -> String {
 }
 
 /// The steps of a sweep with their exponents, in rising order.
-fn points(chain: &Chain<Ratios>, batch: u64, progress: &Progress) -> Result<Vec<StabilityPoint>> {
+fn points(chain: &Chain, batch: u64, progress: &Progress) -> Result<Vec<StabilityPoint>> {
     chain
         .rising()
         .into_par_iter()
         .map(|step| {
             progress.step()?;
-            let exponent = exponent(chain.machine, step, batch);
+            let exponent = exponent(&chain.machine.scene, step, batch);
             Ok(StabilityPoint {
                 eta: step.value,
                 velocities: step.velocities.clone(),
-                regime: step.settled.regime().map(|it| (it.impacts, it.periods)),
-                is_settled: !step.settled.is_unsettled(),
+                regime: step.motion.regime().map(|it| (it.impacts, it.periods)),
+                is_settled: step.is_settled(),
                 exponent: exponent?,
             })
         })
@@ -114,11 +115,11 @@ fn points(chain: &Chain<Ratios>, batch: u64, progress: &Progress) -> Result<Vec<
 }
 
 /// The largest exponent per unit of tau, and the half-width of its 95 % interval.
-fn exponent(mut machine: Ratios, step: &Step, batch: u64) -> Result<(f64, f64), MotionError> {
-    machine.set(Parameter::Frequency, step.value);
-    let scene = machine.scene()?;
-    if let Settled::Periodic(regime) = step.settled
-        && let Ok(orbit) = Orbit::periodic(&scene, step.end.into(), regime.periods)
+fn exponent(scene: &Scene, step: &Step, batch: u64) -> Result<(f64, f64), MotionError> {
+    let mut scene = scene.clone();
+    scene.excitation.frequency = step.value;
+    if let Some(periods) = step.motion.periods()
+        && let Ok(orbit) = Orbit::periodic(&scene, step.end.into(), periods)
         && orbit.is_stable()
     {
         return Ok((Exponents::of(&orbit).per_second()[0], 0.0));

@@ -173,7 +173,11 @@ fn piece(
         points: CURVE_POINTS,
         step,
     };
-    let Ok(family) = Along::new(machine, [Parameter::Frequency, Parameter::Clearance]) else {
+    let parameters = [Parameter::Frequency, Parameter::Clearance];
+    let family = machine
+        .scene()
+        .and_then(|scene| Along::new(scene, parameters));
+    let Ok(family) = family else {
         return Vec::new();
     };
     let start = (SpecialKind::Critical(test), point);

@@ -1,7 +1,6 @@
 //! Bifurcation diagrams over several clearances, as in figure 6 of Peterka 2003: largest positions and
 //! before-impact velocities up and down, the boundaries across the clearances, and where the strip is pierced.
 
-use softstop::Ratios;
 use softstop_dynamics::sweep::{Chain, Direction, Jump, Step};
 
 use super::piercing::{self, Ranges};
@@ -39,7 +38,7 @@ pub struct ClearanceRow {
     /// rho.
     pub clearance: f64,
     /// The sweeps up and down.
-    pub ways: [Chain<Ratios>; 2],
+    pub ways: [Chain; 2],
 }
 
 /// Boundaries across the clearances; points are eta, X_m and X'- of z = 1 there.
@@ -162,7 +161,7 @@ impl ClearanceChart<'_> {
         for (row, color) in self.rows.iter().zip(COLOURS) {
             let steps = row.ways.iter().flat_map(|chain| &chain.steps);
             // What has not settled is on its way from one motion to another.
-            let settled = steps.filter(|step| !step.settled.is_unsettled());
+            let settled = steps.filter(|step| step.is_settled());
             let points = settled.flat_map(|step| {
                 let value = step.value;
                 show(step).into_iter().map(move |height| (value, height))
@@ -257,7 +256,7 @@ impl ClearanceChart<'_> {
 }
 
 fn is_one(step: &Step) -> bool {
-    let regime = step.settled.regime();
+    let regime = step.motion.regime();
     regime.is_some_and(|regime| (regime.impacts, regime.periods) == (1, 1))
 }
 

@@ -38,11 +38,12 @@ const RANGE: (f64, f64) = (0.8, 1.8);
 fn draw(detail: Detail, machine: Ratios, name: &'static str) -> Result<Drawn> {
     let (steps, periods) = detail.pick((1000, 200), (120, 100));
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods)?;
-    let chains = CLEARANCES.iter().flat_map(|clearance| {
-        let machine = machine.at_clearance(*clearance);
-        [Direction::Up, Direction::Down].map(|way| Chain::new(machine, way))
-    });
-    let mut job: [Job; 1] = [(plan, chains.collect())];
+    let mut chains = Vec::new();
+    for clearance in CLEARANCES {
+        let scene = machine.at_clearance(clearance).scene()?;
+        chains.extend([Direction::Up, Direction::Down].map(|way| Chain::new(scene.clone(), way)));
+    }
+    let mut job: [Job; 1] = [(plan, chains)];
     diagram::sweep(&mut job, "steps of the sweeps")?;
     let [(_, chains)] = job;
 
@@ -101,8 +102,8 @@ fn title(machine: &Ratios) -> String {
 /// Ranges of eta, up and down, in which the largest position lies behind the strip.
 fn piercing(machine: &Ratios, rows: &[ClearanceRow]) -> Option<Vec<[Ranges; 2]>> {
     let strip = machine.piercing?;
-    let ranges = |chain: &Chain<Ratios>| {
-        let through = chain.machine.clearance + strip.thickness;
+    let ranges = |chain: &Chain| {
+        let through = chain.machine.scene.clearance + strip.thickness;
         let rising = chain.rising();
         let runs = rising.chunk_by(|a, b| (a.max_position > through) == (b.max_position > through));
         let pierced = runs.filter(|run| run[0].max_position > through && run.len() > 1);
@@ -120,10 +121,10 @@ fn table(rows: &[ClearanceRow]) -> Result<Vec<u8>> {
     let lines = chains.flat_map(|chain| {
         chain.steps.iter().map(|step| {
             (
-                chain.machine.clearance,
+                chain.machine.scene.clearance,
                 chain.direction.name(),
                 format!("{:.9}", step.value),
-                diagram::name(&step.settled),
+                diagram::name(&step.motion),
                 format!("{:.6}", step.max_position),
                 diagram::velocities(step),
             )
@@ -136,7 +137,7 @@ fn table(rows: &[ClearanceRow]) -> Result<Vec<u8>> {
 fn hardest(row: &ClearanceRow) -> Option<&Step> {
     let steps = row.ways.iter().flat_map(|chain| &chain.steps);
     let ones = steps.filter(|step| {
-        let regime = step.settled.regime();
+        let regime = step.motion.regime();
         regime.is_some_and(|it| (it.impacts, it.periods) == (1, 1))
     });
     ones.max_by(|a, b| a.hardest().total_cmp(&b.hardest()))

@@ -1,7 +1,6 @@
 //! The bifurcation diagram of one clearance with its zooms and numbered bifurcations, as in figure 8 of Peterka
 //! 2003.
 
-use softstop::Ratios;
 use softstop_dynamics::sweep::{Chain, Step};
 
 use super::band::{Bifurcation, band, both_ways, spread};
@@ -40,9 +39,9 @@ pub struct Diagram {
     /// Range of eta.
     pub range: (f64, f64),
     /// The sweep up and the sweep down, over the same values.
-    pub ways: [Chain<Ratios>; 2],
+    pub ways: [Chain; 2],
     /// Faster sweeps down that show chaos which does not last.
-    pub fleeting: Vec<Chain<Ratios>>,
+    pub fleeting: Vec<Chain>,
     /// What motions are called: eta, X'- and the name.
     pub names: Vec<(f64, f64, String)>,
 }
@@ -182,7 +181,7 @@ impl NumberedChart<'_> {
         let fleeting = fleeting.filter(|step| step.hardest() > 0.0);
         panel.dots(pen, fleeting.flat_map(dots), 0.8 * DOT, DOWN);
         let isolated = self.isolated.iter();
-        let isolated = isolated.filter(|step| !step.settled.is_unsettled());
+        let isolated = isolated.filter(|step| step.is_settled());
         let (up, down) = (diagram.ways[0].rising(), diagram.ways[1].rising());
         let alike: Vec<bool> = up.iter().zip(&down).map(|(a, b)| same(a, b)).collect();
         let of = |steps: &[&Step], wanted: bool| -> Vec<(f64, f64)> {
@@ -256,16 +255,16 @@ fn dots(step: &Step) -> Vec<(f64, f64)> {
 
 /// True if a step shows a motion on its way from one periodic motion to another.
 fn is_passing(steps: &[&Step], index: usize) -> bool {
-    let is_settled = |step: &&&Step| !step.settled.is_unsettled();
+    let is_settled = |step: &&&Step| step.is_settled();
     let before = steps[..index].iter().rfind(is_settled);
     let after = steps[index + 1..].iter().find(is_settled);
-    let repeats = |step: Option<&&Step>| step.is_none_or(|step| step.settled.regime().is_some());
-    steps[index].settled.is_unsettled() && repeats(before) && repeats(after)
+    let repeats = |step: Option<&&Step>| step.is_none_or(|step| step.motion.regime().is_some());
+    !steps[index].is_settled() && repeats(before) && repeats(after)
 }
 
 /// True if both are the same motion, or both wander.
 fn same(a: &Step, b: &Step) -> bool {
-    match (a.settled.regime(), b.settled.regime()) {
+    match (a.motion.regime(), b.motion.regime()) {
         (Some(one), Some(other)) => {
             let (low, high) = (a.hardest().min(b.hardest()), a.hardest().max(b.hardest()));
             one == other && high - low <= APART * high

@@ -2,10 +2,11 @@
 
 use anyhow::Result;
 use softstop::{Ratios, Start};
-use softstop_dynamics::attractors::{Kind, Options, attractors_watched};
+use softstop_dynamics::attractors::{Options, attractors_watched};
 use softstop_dynamics::continuation::Parameter;
+use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::Orbit;
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
+use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
 use crate::diagram::{self, Job};
 use crate::figure::Detail;
@@ -43,7 +44,7 @@ pub(super) fn find(known: &[&Diagram], detail: Detail) -> Result<Vec<Step>> {
         for (_, chains) in jobs {
             let steps = chains.into_iter().flat_map(|chain| chain.steps);
             let apart = steps.take_while(|step| {
-                let wanders = matches!(step.settled, Settled::Chaotic { .. });
+                let wanders = step.motion == MotionKind::Chaos;
                 !wanders && known.iter().all(|diagram| !is_on(diagram, step))
             });
             let apart: Vec<Step> = apart.collect();
@@ -76,7 +77,7 @@ fn seeds(known: &[&Diagram], detail: Detail) -> Result<Vec<Seed>> {
         let survey = attractors_watched(&scene, &options, &|_, _| interrupt::go_on());
         let survey = survey?;
         for attractor in survey.attractors {
-            let Kind::Periodic { orbit, .. } = attractor.kind else {
+            let Some(orbit) = attractor.orbit else {
                 continue;
             };
             let motion = Like::of(&orbit);
@@ -104,7 +105,7 @@ fn job(eta: f64, orbit: &Orbit, way: Direction, detail: Detail) -> Result<Job> {
     let (steps, periods) = detail.pick((1000, 200), (60, 100));
     let plan = Plan::new(Parameter::Frequency, range, steps, periods)?;
     let start = Start::from(orbit.state());
-    let chain = Chain::new(Ratios::unloaded(), way);
+    let chain = Chain::new(Ratios::unloaded().scene()?, way);
     Ok((Plan { start, ..plan }, vec![chain]))
 }
 
@@ -126,7 +127,7 @@ impl Like {
     }
 
     fn is(&self, step: &Step) -> bool {
-        let regime = step.settled.regime();
+        let regime = step.motion.regime();
         regime.is_some_and(|it| (it.impacts, it.periods) == (self.impacts, self.periods))
             && (step.hardest() - self.hardest).abs() <= APART * self.hardest.max(step.hardest())
     }
@@ -147,7 +148,7 @@ fn near(steps: &[Step], eta: f64) -> Option<&Step> {
 /// True if a step is on one of the sweeps of a diagram.
 fn is_on(diagram: &Diagram, step: &Step) -> bool {
     at(diagram, step.value).any(
-        |other| match (step.settled.regime(), other.settled.regime()) {
+        |other| match (step.motion.regime(), other.motion.regime()) {
             (Some(own), Some(others)) => {
                 let (a, b) = (step.hardest(), other.hardest());
                 own == others && (a - b).abs() <= APART * a.max(b)

@@ -5,7 +5,7 @@ mod chart;
 mod isolated;
 mod names;
 
-use anyhow::{Error, Result};
+use anyhow::{Error, Result, anyhow};
 use softstop::Ratios;
 use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
@@ -63,10 +63,13 @@ const SIDE_BY_SIDE: usize = 8;
 
 fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
-    let mut whole = [(plan(&WHOLE, detail)?, WAYS.map(chain).to_vec())];
+    let mut whole = [(
+        plan(&WHOLE, detail)?,
+        WAYS.map(chain).into_iter().collect::<Result<_>>()?,
+    )];
     diagram::sweep(&mut whole, "steps of the sweeps")?;
     let [(_, chains)] = whole;
-    let mut overview = diagram(&WHOLE, chains);
+    let mut overview = diagram(&WHOLE, chains)?;
     let (mut zooms, fleeting) = zooms(&overview, detail)?;
     let known: Vec<&Diagram> = zooms.iter().chain([&overview]).collect();
     let isolated = isolated::find(&known, detail)?;
@@ -104,18 +107,18 @@ fn plan(part: &Part, detail: Detail) -> Result<Plan> {
 
 const WAYS: [Direction; 2] = [Direction::Up, Direction::Down];
 
-fn chain(way: Direction) -> Chain<Ratios> {
-    Chain::new(Ratios::unloaded(), way)
+fn chain(way: Direction) -> Result<Chain> {
+    Ok(Chain::new(Ratios::unloaded().scene()?, way))
 }
 
 /// The zooms, each way going on from where the sweep over all frequencies is at their ends, and the chaos
 /// that does not last.
-fn zooms(overview: &Diagram, detail: Detail) -> Result<(Vec<Diagram>, Vec<Chain<Ratios>>)> {
+fn zooms(overview: &Diagram, detail: Detail) -> Result<(Vec<Diagram>, Vec<Chain>)> {
     let mut jobs = Vec::new();
     for zoom in &ZOOMS {
         let plan = plan(zoom, detail)?;
         for (way, sweep) in WAYS.into_iter().zip(&overview.ways) {
-            jobs.push((diagram::part_of(sweep, &plan), vec![chain(way)]));
+            jobs.push((diagram::part_of(sweep, &plan), vec![chain(way)?]));
         }
     }
     jobs.push(fleeting(detail)?);
@@ -125,34 +128,29 @@ fn zooms(overview: &Diagram, detail: Detail) -> Result<(Vec<Diagram>, Vec<Chain<
     let zooms = ZOOMS
         .iter()
         .map(|zoom| diagram(zoom, chains.by_ref().take(2).collect()));
-    Ok((zooms.collect(), fleeting))
+    Ok((zooms.collect::<Result<_>>()?, fleeting))
 }
 
 /// Sweeps down from chaos. Their machines differ by rounding only, so that the motions part.
 fn fleeting(detail: Detail) -> Result<Job> {
-    let machine = |index: usize| {
+    let chain = |index: usize| -> Result<Chain> {
         let mut machine = Ratios::unloaded();
         machine.clearance *= 1.0 + 1e-14 * index as f64;
-        machine
+        Ok(Chain::new(machine.scene()?, Direction::Down))
     };
-    let chains = (0..SIDE_BY_SIDE).map(|index| Chain::new(machine(index), Direction::Down));
-    Ok((plan(&FLEETING, detail)?, chains.collect()))
+    let chains = (0..SIDE_BY_SIDE).map(chain).collect::<Result<_>>()?;
+    Ok((plan(&FLEETING, detail)?, chains))
 }
 
-fn diagram(part: &Part, chains: Vec<Chain<Ratios>>) -> Diagram {
-    let mut chains = chains.into_iter();
-    let mut next = |way| {
-        chains
-            .next()
-            .unwrap_or_else(|| Chain::new(Ratios::unloaded(), way))
-    };
-    Diagram {
+fn diagram(part: &Part, chains: Vec<Chain>) -> Result<Diagram> {
+    let ways = chains.try_into();
+    Ok(Diagram {
         name: part.name,
         range: part.range,
-        ways: [next(Direction::Up), next(Direction::Down)],
+        ways: ways.map_err(|_| anyhow!("{}: not swept up and down", part.name))?,
         fleeting: Vec::new(),
         names: Vec::new(),
-    }
+    })
 }
 
 fn numbered(number: usize, found: &Match<'_>) -> Bifurcation {
@@ -189,7 +187,7 @@ fn table(overview: &Diagram, zooms: &[Diagram], isolated: &[Step]) -> Result<Vec
             part.to_owned(),
             way.to_owned(),
             format!("{:.12}", step.value),
-            diagram::name(&step.settled),
+            diagram::name(&step.motion),
             format!("{:.6}", step.max_position),
             diagram::velocities(step),
         )

@@ -35,12 +35,12 @@ pub(super) fn of(diagram: &Diagram, isolated: &[Step]) -> Vec<(f64, f64, String)
 
 /// Neighbouring steps of one regime.
 fn runs<'a>(steps: &'a [&'a Step]) -> impl Iterator<Item = &'a [&'a Step]> {
-    steps.chunk_by(|a, b| a.settled.regime() == b.settled.regime())
+    steps.chunk_by(|a, b| a.motion.regime() == b.motion.regime())
 }
 
 /// A periodic motion's name; the two of z = 2/4 differ by the order of their impacts.
 fn name(step: &Step) -> Option<String> {
-    let regime = step.settled.regime()?;
+    let regime = step.motion.regime()?;
     if (regime.impacts, regime.periods) != (2, 4) {
         return Some(format!("z = {regime}"));
     }

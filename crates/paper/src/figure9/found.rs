@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 use softstop::{MotionError, Start};
-use softstop_dynamics::attractors::{Attractor, Chaos, Kind, Survey};
-use softstop_dynamics::orbit::{Exponents, Orbit, StroboscopicMap};
+use softstop_dynamics::attractors::{Attractor, Chaos, Survey};
+use softstop_dynamics::orbit::{Orbit, StroboscopicMap};
 
 use super::asked::{Asked, Wanted};
 use super::path::Path;
@@ -35,26 +35,19 @@ impl Found {
         survey: &Survey,
         most: u64,
     ) -> Result<Option<Self>, MotionError> {
-        let fits = |attractor: &&Attractor| match (&attractor.kind, asked.motion) {
-            (Kind::Periodic { orbit, .. }, Wanted::Impacts(order)) => {
-                orbit.pattern().to_string() == order
-            }
-            (Kind::Chaotic(_) | Kind::TransientChaos { .. }, Wanted::Chaos) => true,
+        let fits = |attractor: &&Attractor| match (asked.motion, attractor.motion.order()) {
+            (Wanted::Impacts(wanted), Some(order)) => order.to_string() == wanted,
+            (Wanted::Chaos, None) => attractor.motion.is_chaotic(),
             _ => false,
         };
         let Some(attractor) = survey.attractors.iter().find(fits).cloned() else {
             return Ok(None);
         };
         let map = StroboscopicMap::new(&asked.scene()?, 1)?;
-        let (start, section) = match &attractor.kind {
-            Kind::Periodic { orbit, .. } => {
-                let start = Start::from(orbit.state());
-                (start, Section::periodic(&map, start, orbit.periods)?)
-            }
-            Kind::Chaotic(chaos) | Kind::TransientChaos { chaos, .. } => {
-                Section::lasting(&map, chaos.state, most)?
-            }
-            Kind::AtRest { .. } | Kind::Unsettled { .. } => return Ok(None),
+        let start = attractor.state;
+        let (start, section) = match attractor.motion.periods() {
+            Some(periods) => (start, Section::periodic(&map, start, periods)?),
+            None => Section::lasting(&map, start, most)?,
         };
         Ok(Some(Self {
             asked,
@@ -66,24 +59,15 @@ impl Found {
     }
 
     fn orbit(&self) -> Option<&Orbit> {
-        match &self.attractor.kind {
-            Kind::Periodic { orbit, .. } => Some(orbit),
-            _ => None,
-        }
+        self.attractor.orbit.as_deref()
     }
 
     fn chaos(&self) -> Option<&Chaos> {
-        match &self.attractor.kind {
-            Kind::Chaotic(chaos) | Kind::TransientChaos { chaos, .. } => Some(chaos),
-            _ => None,
-        }
+        self.attractor.chaos.as_ref()
     }
 
     fn lifetime(&self) -> Option<f64> {
-        match &self.attractor.kind {
-            Kind::TransientChaos { lifetime, .. } => Some(*lifetime),
-            _ => None,
-        }
+        self.chaos()?.lifetime
     }
 
     pub(super) fn is_chaotic(&self) -> bool {
@@ -105,14 +89,9 @@ impl Found {
         Path::of(&self.asked.scene()?, self.start, periods, fineness)
     }
 
-    fn exponents(&self) -> Option<Exponents> {
-        let chaos = self.chaos().map(|chaos| chaos.exponents);
-        chaos.or_else(|| self.orbit().map(Exponents::of))
-    }
-
     fn exponent(&self) -> f64 {
-        self.exponents()
-            .map_or(f64::NAN, |exponents| exponents.per_period[0])
+        let exponents = self.attractor.exponents;
+        exponents.map_or(f64::NAN, |exponents| exponents.per_period[0])
     }
 
     fn modulus(&self) -> Option<f64> {
@@ -123,13 +102,9 @@ impl Found {
     pub(super) fn title(&self) -> String {
         let eta = format!("η = {}", self.asked.frequency);
         let Some(orbit) = self.orbit() else {
-            let name = if self.lifetime().is_some() {
-                "transient chaos"
-            } else {
-                "chaos"
-            };
             return format!(
-                "{eta} · {name}, z = {:.3}, λ = {:+.3}/T",
+                "{eta} · {}, z = {:.3}, λ = {:+.3}/T",
+                self.attractor.motion,
                 self.impacts_per_period,
                 self.exponent()
             );

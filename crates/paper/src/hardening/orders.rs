@@ -3,7 +3,7 @@
 use anyhow::Result;
 use rayon::prelude::*;
 use serde::Serialize;
-use softstop_dynamics::attractors::{Kind, Options, attractors_watched};
+use softstop_dynamics::attractors::{Options, attractors_watched};
 
 use super::stops::{Law, grazing};
 use softstop_console::interrupt;
@@ -64,21 +64,19 @@ fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmoni
     let scene = Law::KelvinVoigt(stiffness).scene(frequency, NARROW);
     let survey = attractors_watched(&scene, &options, &|_, _| interrupt::go_on());
     let survey = survey?;
-    let subharmonic = |kind: &Kind| match kind {
-        Kind::Periodic { orbit, .. } if orbit.periods > 1 && !orbit.impacts.is_empty() => {
-            Some(Subharmonic {
-                stiffness,
-                frequency,
-                impacts: orbit.impacts.len() as u64,
-                periods: orbit.periods,
-                beside_rest: frequency < lower || frequency > upper,
-            })
-        }
-        _ => None,
-    };
-    let attractors = survey.attractors.iter();
-    Ok(attractors
-        .filter_map(|found| subharmonic(&found.kind))
+    let orbits = survey
+        .attractors
+        .iter()
+        .filter_map(|found| found.orbit.as_ref());
+    let sub = orbits.filter(|orbit| orbit.periods > 1 && !orbit.impacts.is_empty());
+    Ok(sub
+        .map(|orbit| Subharmonic {
+            stiffness,
+            frequency,
+            impacts: orbit.impacts.len() as u64,
+            periods: orbit.periods,
+            beside_rest: frequency < lower || frequency > upper,
+        })
         .collect())
 }
 

@@ -1,14 +1,14 @@
 //! Sweeps of many stops along the frequency, up and down.
 
 use anyhow::{Result, anyhow};
-use softstop::Scene;
 use softstop_dynamics::continuation::Parameter;
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::orbit::Regime;
+use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
 use super::stops::{CLEARANCE, Law};
 use crate::hardening::chart::StopRegime;
 use softstop_console::failure::Failure;
-use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
 /// The frequencies eta.
@@ -28,13 +28,9 @@ pub(super) fn sweep(laws: &[Law], steps: usize, periods: u64) -> Result<Vec<Swep
     let chain =
         |(law, direction): (&Law, Direction)| Chain::new(law.scene(RANGE.0, CLEARANCE), direction);
     let ways = |law| [(law, Direction::Up), (law, Direction::Down)];
-    let mut chains: Vec<Chain<Scene>> = laws.iter().flat_map(ways).map(chain).collect();
+    let mut chains: Vec<Chain> = laws.iter().flat_map(ways).map(chain).collect();
     let progress = Progress::new((chains.len() * steps) as u64, "steps of the stops' sweeps");
-    let go_on = |done| {
-        progress.more(done);
-        !interrupt::requested()
-    };
-    if !plan.run(&mut chains, &go_on) {
+    if !plan.run(&mut chains, &progress.watcher()) {
         return Err(Failure::Interrupted.into());
     }
     let swept = laws.iter().zip(chains.chunks_exact(2)).map(|(law, pair)| {
@@ -43,7 +39,7 @@ pub(super) fn sweep(laws: &[Law], steps: usize, periods: u64) -> Result<Vec<Swep
                 return Err(anyhow!("{}: {error}", law.name()));
             }
         }
-        let rising = |chain: &Chain<Scene>| chain.rising().into_iter().cloned().collect();
+        let rising = |chain: &Chain| chain.rising().into_iter().cloned().collect();
         Ok(Swept {
             law: *law,
             up: rising(&pair[0]),
@@ -58,15 +54,16 @@ pub(super) fn regime(step: &Step) -> StopRegime {
     if step.velocities.is_empty() {
         return StopRegime::None;
     }
-    match step.settled {
-        Settled::Periodic(regime) => match (regime.impacts, regime.periods) {
-            (1, 1) => StopRegime::One,
-            (1, 2) => StopRegime::Half,
-            (impacts, periods) if impacts == periods => StopRegime::Split,
-            _ => StopRegime::Other,
-        },
-        Settled::Chaotic { .. } => StopRegime::Chaos,
-        Settled::Unsettled { .. } => StopRegime::Unsettled,
+    match step.motion.regime() {
+        Some(Regime::ONE) => StopRegime::One,
+        Some(Regime {
+            impacts: 1,
+            periods: 2,
+        }) => StopRegime::Half,
+        Some(regime) if regime.impacts == regime.periods => StopRegime::Split,
+        None if step.motion == MotionKind::Chaos => StopRegime::Chaos,
+        None if step.motion == MotionKind::Unsettled => StopRegime::Unsettled,
+        _ => StopRegime::Other,
     }
 }
 

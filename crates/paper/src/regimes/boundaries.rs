@@ -39,7 +39,7 @@ impl Boundaries {
         let scene = machine.scene()?;
         let orbit =
             softstop_dynamics::orbit::find(&scene).context("no z = 1 motion to start from")?;
-        let family = Along::new(*machine, [Parameter::Frequency])?;
+        let family = Along::new(scene.clone(), [Parameter::Frequency])?;
         let limits = Limits {
             range: window.eta,
             points: MOST,
@@ -107,7 +107,7 @@ fn points(curve: &Curve) -> Vec<(f64, f64)> {
 
 fn follow(machine: &Ratios, window: &Window, special: &Special) -> Result<Curve> {
     let parameters = [Parameter::Frequency, Parameter::Clearance];
-    let family = Along::new(*machine, parameters)?;
+    let family = Along::new(machine.scene()?, parameters)?;
     let region = Region {
         ranges: [window.eta, (window.rho.0.max(LEAST), window.rho.1)],
         points: MOST,

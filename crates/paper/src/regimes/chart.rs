@@ -1,8 +1,10 @@
 //! The regimes z = p/n over drive frequency and clearance, as a page of maps.
 
+use softstop_dynamics::motion::MotionClass;
+
 use softstop_draw::panel::{Axes, Panel};
 use softstop_draw::pen::{Align, Pen};
-use softstop_explore::basin::cells::{RegimeClass, RegimeMap};
+use softstop_explore::basin::cells::{RegimeMap, color};
 
 /// A boundary over frequency and clearance.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,16 +87,16 @@ impl RegimePage {
     }
 
     /// The classes that there are.
-    fn classes(&self) -> Vec<RegimeClass> {
-        let is_there = |class: &RegimeClass| {
+    fn classes(&self) -> Vec<MotionClass> {
+        let is_there = |class: &MotionClass| {
             let mut panels = self.panels.iter();
             panels.any(|panel| panel.map.share(*class) > 0.0)
         };
-        RegimeClass::ALL.into_iter().filter(is_there).collect()
+        MotionClass::ALL.iter().copied().filter(is_there).collect()
     }
 
     /// Colours, names and shares of each map.
-    fn table(&self, pen: &mut Pen, top: f64, classes: &[RegimeClass]) {
+    fn table(&self, pen: &mut Pen, top: f64, classes: &[MotionClass]) {
         pen.heading((LEFT, top), LETTERS.1, Align::Left, "share of the map in %");
         let column = |index: usize| LEFT + COLUMNS.0 + COLUMNS.1 * (index as f64 + 0.6);
         for index in 0..self.panels.len() {
@@ -104,7 +106,7 @@ impl RegimePage {
         for (row, class) in classes.iter().enumerate() {
             let line = top + LINE * (row as f64 + 1.2);
             let square = (LEFT, line - 15.0, 30.0, 18.0);
-            pen.fill(&[square], class.color());
+            pen.fill(&[square], color(*class));
             pen.frame(square);
             let place = (LEFT + 42.0, line);
             pen.text(place, LETTERS.2, Align::Left, class.name());
@@ -127,7 +129,7 @@ impl RegimePanel {
         let heading = format!("{} {}", letter(index), self.name);
         pen.heading((left, top - 12.0), LETTERS.1, Align::Left, &heading);
         let cells = self.map.cells.iter();
-        let colors: Vec<&str> = cells.map(|cell| cell.class().color()).collect();
+        let colors: Vec<&str> = cells.map(|cell| color(cell.class())).collect();
         panel.cells(pen, self.map.columns, &colors);
         for curve in &self.curves {
             panel.rimmed(pen, &curve.points, dashes(curve.name));
@@ -144,7 +146,7 @@ impl RegimePanel {
 
     /// Names of wide regimes and of curves.
     fn names(&self, pen: &mut Pen, panel: &Panel) {
-        for class in [RegimeClass::Zero, RegimeClass::One, RegimeClass::TwoThirds] {
+        for class in [MotionClass::Zero, MotionClass::One, MotionClass::TwoThirds] {
             if let Some(place) = self.map.widest(class) {
                 pen.label(panel.place(place), LETTERS.2, class.name());
             }

@@ -1,7 +1,8 @@
 //! The map in numbers.
 
 use super::boundaries::Boundaries;
-use softstop_explore::basin::cells::{RegimeCell, RegimeClass, RegimeMap};
+use softstop_dynamics::motion::{MotionClass, MotionKind};
+use softstop_explore::basin::cells::RegimeMap;
 
 /// Shares of the maps, and what the boundaries say.
 pub(super) fn of(maps: &[RegimeMap; 6], boundaries: &[Boundaries; 2]) -> Vec<(String, f64)> {
@@ -16,7 +17,7 @@ pub(super) fn of(maps: &[RegimeMap; 6], boundaries: &[Boundaries; 2]) -> Vec<(St
         ("loaded, falling", loaded_down),
     ];
     for (name, map) in named {
-        for class in RegimeClass::ALL {
+        for &class in MotionClass::ALL {
             let share = map.share(class);
             if share > 0.0 {
                 findings.push((format!("{name}: share of {}", class.name()), share));
@@ -41,9 +42,9 @@ pub(super) fn of(maps: &[RegimeMap; 6], boundaries: &[Boundaries; 2]) -> Vec<(St
 
 /// Share of the cells in which one way leads to z = 0 and the other to z = 1.
 fn hysteresis(up: &RegimeMap, down: &RegimeMap) -> f64 {
-    let is = |cell: &RegimeCell, class| cell.class() == class;
-    let differ = |(a, b): &(&RegimeCell, &RegimeCell)| {
-        let (zero, one) = (RegimeClass::Zero, RegimeClass::One);
+    let is = |cell: &MotionKind, class| cell.class() == class;
+    let differ = |(a, b): &(&MotionKind, &MotionKind)| {
+        let (zero, one) = (MotionClass::Zero, MotionClass::One);
         (is(a, zero) && is(b, one)) || (is(a, one) && is(b, zero))
     };
     let count = up.cells.iter().zip(&down.cells).filter(differ).count();

@@ -6,12 +6,13 @@ use anyhow::Result;
 use rayon::prelude::*;
 use softstop::{Ratios, Scene, Start};
 use softstop_dynamics::attractors::{Arrival, Options, SurveyError, settle};
+use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{Orbit, StroboscopicMap};
 
 use super::Window;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
-use softstop_explore::basin::cells::{RegimeCell, RegimeMap};
+use softstop_explore::basin::cells::RegimeMap;
 
 /// Half of the ranges of position and velocity in which starts lie, in units of the clearance.
 const REGION: (f64, f64) = (1.5, 2.0);
@@ -31,7 +32,7 @@ pub(super) fn hardest(
     count: usize,
     progress: &Progress,
 ) -> Result<RegimeMap> {
-    let cell = |index: usize| -> Result<RegimeCell> {
+    let cell = |index: usize| -> Result<MotionKind> {
         let machine = Ratios {
             frequency: window.eta_at(index % columns, columns),
             clearance: window.rho_at(index / columns, rows),
@@ -53,7 +54,7 @@ pub(super) fn hardest(
     })
 }
 
-fn of_one(machine: &Ratios, count: usize) -> Result<RegimeCell> {
+fn of_one(machine: &Ratios, count: usize) -> Result<MotionKind> {
     let scene = machine.scene()?;
     let options = Options {
         transient: OPTIONS.0,
@@ -64,8 +65,8 @@ fn of_one(machine: &Ratios, count: usize) -> Result<RegimeCell> {
     let arrivals = settle(&scene, &starts, &options, &|_, _| interrupt::go_on());
     let arrivals = match arrivals {
         Ok(arrivals) => arrivals,
-        Err(SurveyError::Stopped) => return Err(SurveyError::Stopped.into()),
-        Err(SurveyError::Motion(_)) => return Ok(RegimeCell::Lost),
+        Err(SurveyError::Motion(_)) => return Ok(MotionKind::Lost),
+        Err(error) => return Err(error.into()),
     };
     let orbits = arrivals.iter().filter_map(|arrival| arrival.orbit.as_ref());
     let hardest = orbits.max_by(|a, b| {
@@ -73,10 +74,10 @@ fn of_one(machine: &Ratios, count: usize) -> Result<RegimeCell> {
         velocity(a).total_cmp(&velocity(b))
     });
     Ok(match hardest {
-        Some(orbit) if orbit.regime().impacts > 0 => RegimeCell::of(orbit),
+        Some(orbit) if orbit.regime().impacts > 0 => MotionKind::of(orbit),
         // Chaos strikes harder than no impact at all.
         rest => wandering(&scene, &arrivals)
-            .unwrap_or(rest.map_or(RegimeCell::Unsettled, RegimeCell::of)),
+            .unwrap_or(rest.map_or(MotionKind::Unsettled, MotionKind::of)),
     })
 }
 
@@ -94,12 +95,12 @@ fn starts(machine: &Ratios, count: usize) -> Vec<Start> {
 }
 
 /// Chaos, if small differences grow along a motion that has not settled.
-fn wandering(scene: &Scene, arrivals: &[Arrival]) -> Option<RegimeCell> {
+fn wandering(scene: &Scene, arrivals: &[Arrival]) -> Option<MotionKind> {
     let mut restless = arrivals.iter().filter(|arrival| arrival.orbit.is_none());
     let map = StroboscopicMap::new(scene, WATCHED).ok()?;
     let grows = |arrival: &Arrival| {
         let passage = map.apply(arrival.state.into());
         passage.is_ok_and(|passage| passage.monodromy.norm() > MUCH)
     };
-    restless.any(grows).then_some(RegimeCell::Chaos)
+    restless.any(grows).then_some(MotionKind::Chaos)
 }

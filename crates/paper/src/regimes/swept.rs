@@ -2,14 +2,14 @@
 
 use anyhow::Result;
 use rayon::prelude::*;
-use softstop::Ratios;
-use softstop_dynamics::continuation::{Adjustable, Parameter};
-use softstop_dynamics::orbit::{Orbit, Regime};
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
+use softstop::{Parameter, Ratios, Scene};
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::orbit::Orbit;
+use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
 use super::{PERIODS, Window};
 use softstop_console::progress::Progress;
-use softstop_explore::basin::cells::{RegimeCell, RegimeMap};
+use softstop_explore::basin::cells::RegimeMap;
 
 /// Chains that go together, and are forgotten together but for their regimes.
 const TOGETHER: usize = 8;
@@ -40,7 +40,7 @@ impl Sweep {
         };
         let plan = Plan::new(Parameter::Frequency, range, columns + AHEAD, PERIODS)?;
         let rows: Vec<usize> = (0..rows).collect();
-        let found: Vec<Vec<RegimeCell>> = rows
+        let found: Vec<Vec<MotionKind>> = rows
             .par_chunks(TOGETHER)
             .map(|rows| self.cells(&plan, rows, progress))
             .collect::<Result<_, _>>()?;
@@ -53,55 +53,45 @@ impl Sweep {
     }
 
     /// The cells of a few rows.
-    fn cells(&self, plan: &Plan, rows: &[usize], progress: &Progress) -> Result<Vec<RegimeCell>> {
+    fn cells(&self, plan: &Plan, rows: &[usize], progress: &Progress) -> Result<Vec<MotionKind>> {
         let chain = |row: &usize| {
             let clearance = self.window.rho_at(*row, self.size.1);
-            let machine = self.machine.at_clearance(clearance);
-            Chain::new(machine, self.way)
+            let scene = self.machine.at_clearance(clearance).scene()?;
+            Ok(Chain::new(scene, self.way))
         };
-        let mut chains: Vec<Chain<Ratios>> = rows.iter().map(chain).collect();
-        plan.run(&mut chains, &|steps| progress.steps(steps).is_ok());
+        let mut chains: Vec<Chain> = rows.iter().map(chain).collect::<Result<_>>()?;
+        plan.run(&mut chains, &progress.watcher());
         progress.steps(0)?;
         Ok(chains.iter().flat_map(|chain| row(plan, chain)).collect())
     }
 }
 
 /// The cells of a chain; what it has not come to is lost.
-fn row(plan: &Plan, chain: &Chain<Ratios>) -> Vec<RegimeCell> {
-    let mut cells: Vec<RegimeCell> = chain
+fn row(plan: &Plan, chain: &Chain) -> Vec<MotionKind> {
+    let mut cells: Vec<MotionKind> = chain
         .steps
         .iter()
         .skip(AHEAD)
-        .map(|step| cell(&chain.machine, step))
+        .map(|step| cell(&chain.machine.scene, step))
         .collect();
-    cells.resize(plan.steps - AHEAD, RegimeCell::Lost);
+    cells.resize(plan.steps - AHEAD, MotionKind::Lost);
     if chain.direction == Direction::Down {
         cells.reverse();
     }
     cells
 }
 
-fn cell(machine: &Ratios, step: &Step) -> RegimeCell {
-    match step.settled {
-        Settled::Periodic(regime) => {
-            polished(machine, step, regime).unwrap_or(RegimeCell::Periodic {
-                regime,
-                is_paired: false,
-            })
+/// The motion with the order of its impacts as Newton's method has it, where that tells its colour.
+fn cell(scene: &Scene, step: &Step) -> MotionKind {
+    let seen = || step.motion.clone();
+    match step.motion.regime() {
+        Some(regime) if regime.periods >= 4 && 2 * regime.impacts == regime.periods => {
+            let mut scene = scene.clone();
+            scene.excitation.frequency = step.value;
+            let orbit = Orbit::periodic(&scene, step.end.into(), regime.periods).ok();
+            let orbit = orbit.filter(|orbit| orbit.regime() == regime);
+            orbit.map_or_else(seen, |orbit| MotionKind::of(&orbit))
         }
-        Settled::Chaotic { .. } => RegimeCell::Chaos,
-        Settled::Unsettled { .. } => RegimeCell::Unsettled,
+        _ => seen(),
     }
-}
-
-/// The regime with the order of its impacts, where that makes a difference.
-fn polished(machine: &Ratios, step: &Step, regime: Regime) -> Option<RegimeCell> {
-    if regime.periods < 4 || 2 * regime.impacts != regime.periods {
-        return None;
-    }
-    let mut machine = *machine;
-    machine.set(Parameter::Frequency, step.value);
-    let scene = machine.scene().ok()?;
-    let orbit = Orbit::periodic(&scene, step.end.into(), regime.periods).ok()?;
-    (orbit.regime() == regime).then(|| RegimeCell::of(&orbit))
 }

@@ -1,6 +1,7 @@
 //! Which transition is which row of the paper.
 
-use softstop_dynamics::transitions::{Motion, Transition};
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::transitions::Transition;
 
 use super::paper::{Name, PaperRow};
 
@@ -39,17 +40,13 @@ pub fn find<'a>(row: &PaperRow, transitions: &'a [Transition]) -> Option<Match<'
 }
 
 /// True if a motion is what the paper names so.
-fn is(name: Name, motion: &Motion) -> bool {
+fn is(name: Name, motion: &MotionKind) -> bool {
     match (name, motion) {
-        (Name::Chaos, Motion::Chaos) => true,
-        (
-            Name::Periodic(p, n, order),
-            Motion::Periodic {
-                impacts,
-                periods,
-                pattern,
-            },
-        ) => (p, n) == (*impacts, *periods) && order.is_none_or(|order| order == pattern),
+        (Name::Chaos, MotionKind::Chaos) => true,
+        (Name::Periodic(p, n, letter), MotionKind::Periodic { regime, order }) => {
+            (p, n) == (regime.impacts, regime.periods)
+                && letter.is_none_or(|letter| letter == order.to_string())
+        }
         _ => false,
     }
 }

@@ -143,7 +143,7 @@ pub fn values(intervals: &[(f64, f64, usize)]) -> Vec<f64> {
 /// # Errors
 /// [`Failure::Run`] if they cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
 pub fn transitions(rules: &Rules, range: (f64, f64), values: &[f64]) -> Result<Vec<Transition>> {
-    let family = Along::new(Ratios::unloaded(), [Parameter::Frequency])?;
+    let family = Along::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
     let bar = Progress::open("looks at motions");
     let watcher = |_, _| {
         bar.one();

@@ -1,7 +1,9 @@
 //! The table as data.
 
 use serde::Serialize;
-use softstop_dynamics::transitions::{Cause, Motion, Rules, Transition};
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::orbit::Regime;
+use softstop_dynamics::transitions::{Cause, Rules, Transition};
 
 use super::matching::{Match, find};
 use super::paper::PaperRow;
@@ -93,13 +95,15 @@ impl RowReport {
 }
 
 /// A motion by its regime, and by the paper's letter where there are two of one regime.
-fn name(motion: &Motion) -> String {
+fn name(motion: &MotionKind) -> String {
     match motion {
-        Motion::Periodic {
-            impacts: 2,
-            periods: 4,
-            pattern,
-        } => match pattern.as_str() {
+        MotionKind::Periodic {
+            regime: Regime {
+                impacts: 2,
+                periods: 4,
+            },
+            order,
+        } => match order.to_string().as_str() {
             "1-1-0-0" => "z = (2/4)B".to_owned(),
             "1-0-1-0" => "z = (2/4)A".to_owned(),
             other => format!("z = 2/4 ({other})"),

@@ -2,8 +2,10 @@
 
 use softstop::Ratios;
 use softstop_dynamics::continuation::Parameter;
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Settled, Step};
-use softstop_dynamics::transitions::{Motion, Transition};
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
+use softstop_dynamics::transitions::Transition;
+use softstop_dynamics::watch::unwatched;
 
 /// A sweep over the end of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,10 +52,11 @@ impl Swept {
 
 /// The steps of a sweep over the end of a motion.
 fn sweep(transition: &Transition, step: f64, tolerance: f64) -> Option<Vec<Step>> {
-    let mut chain = Chain::new(Ratios::unloaded(), direction(transition));
+    let scene = Ratios::unloaded().scene().ok()?;
+    let mut chain = Chain::new(scene, direction(transition));
     let plan = plan(transition, step, tolerance)?;
     let chains = std::slice::from_mut(&mut chain);
-    plan.run(chains, &|_| true).then_some(chain.steps)
+    plan.run(chains, &unwatched).then_some(chain.steps)
 }
 
 fn direction(transition: &Transition) -> Direction {
@@ -84,15 +87,9 @@ fn plan(transition: &Transition, step: f64, tolerance: f64) -> Option<Plan> {
     })
 }
 
-fn is(motion: &Motion, step: &Step) -> bool {
-    match (motion, &step.settled) {
-        (
-            Motion::Periodic {
-                impacts, periods, ..
-            },
-            Settled::Periodic(regime),
-        ) => (*impacts, *periods) == (regime.impacts, regime.periods),
-        (Motion::Chaos, Settled::Chaotic { .. }) => true,
-        _ => false,
+fn is(motion: &MotionKind, step: &Step) -> bool {
+    match motion {
+        MotionKind::Chaos => step.motion == MotionKind::Chaos,
+        _ => motion.regime().is_some() && motion.regime() == step.motion.regime(),
     }
 }

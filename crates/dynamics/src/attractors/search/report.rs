@@ -2,9 +2,12 @@
 
 use super::super::chaos::Chaos;
 use super::super::known::{Known, Standing};
-use super::super::{Attractor, Kind, Region, Survey, SurveyError};
+use super::super::{Attractor, Region, Survey, SurveyError};
 use super::{Group, Member, Search};
+use crate::motion::MotionKind;
+use crate::orbit::Exponents;
 use softstop::error::MotionError;
+use softstop::integrator::Start;
 
 impl Search<'_> {
     pub(super) fn report(mut self, region: Region) -> Result<Survey, SurveyError> {
@@ -35,11 +38,17 @@ impl Search<'_> {
                 Standing::AtRest | Standing::Wandering => false,
             };
             let starts = self.members.iter().filter(here).count();
-            let kind = Kind::Periodic {
-                orbit: Box::new(known.orbit.clone()),
-                certainty: known.certainty,
-            };
-            Attractor::new(kind, starts, counted)
+            let orbit = known.orbit.clone();
+            Attractor {
+                certainty: Some(known.certainty),
+                exponents: Some(Exponents::of(&orbit)),
+                orbit: Some(Box::new(orbit)),
+                ..Attractor::new(
+                    MotionKind::of(&known.orbit),
+                    known.orbit.state().into(),
+                    (starts, counted),
+                )
+            }
         };
         known.map(attractor).collect()
     }
@@ -50,15 +59,25 @@ impl Search<'_> {
             let wanders = |member: &&Member| member.group == Some(*number) && member.wanders();
             let left: Vec<&Member> = self.members.iter().filter(wanders).collect();
             let starts = left.iter().filter(|member| member.counts).count();
-            let kind = match (group.chaos.clone(), left.first()) {
-                (Some(chaos), _) => group.chaotic(chaos),
-                (None, Some(member)) => Kind::Unsettled {
-                    state: member.voyage.state,
-                    exponents: group.exponents?,
-                },
-                (None, None) => return None,
-            };
-            Some(Attractor::new(kind, starts, counted))
+            let shares = (starts, counted);
+            if let Some(chaos) = group.chaos() {
+                let ends = chaos.lifetime.is_some();
+                let motion = if ends {
+                    MotionKind::TransientChaos
+                } else {
+                    MotionKind::Chaos
+                };
+                return Some(Attractor {
+                    exponents: Some(chaos.exponents),
+                    chaos: Some(chaos),
+                    ..Attractor::new(motion, chaos.state, shares)
+                });
+            }
+            let state = left.first()?.voyage.state;
+            Some(Attractor {
+                exponents: Some(group.exponents?),
+                ..Attractor::new(MotionKind::Unsettled, state, shares)
+            })
         };
         self.groups.iter().filter_map(attractor).collect()
     }
@@ -70,31 +89,36 @@ impl Search<'_> {
         let positions = || members.iter().map(|member| member.voyage.state.position);
         let positions = [positions().reduce(f64::min)?, positions().reduce(f64::max)?];
         let starts = members.iter().filter(|member| member.counts).count();
-        Some(Attractor::new(Kind::AtRest { positions }, starts, counted))
+        Some(Attractor {
+            positions: Some(positions),
+            ..Attractor::new(MotionKind::Rest, members[0].voyage.state, (starts, counted))
+        })
     }
 }
 
 impl Group {
-    fn chaotic(&self, chaos: Chaos) -> Kind {
-        let chaos = Chaos {
+    /// Its chaos with what was seen of it, if it is any.
+    fn chaos(&self) -> Option<Chaos> {
+        Some(Chaos {
             watched: self.looks.watched(),
-            ..chaos
-        };
-        match self.looks.lifetime() {
-            None => Kind::Chaotic(chaos),
-            Some(lifetime) => Kind::TransientChaos {
-                chaos,
-                lifetime,
-                entered: self.entered,
-            },
-        }
+            lifetime: self.looks.lifetime(),
+            entered: self.entered,
+            ..self.chaos?
+        })
     }
 }
 
 impl Attractor {
-    fn new(kind: Kind, starts: usize, counted: usize) -> Self {
+    /// A motion with a state of it, the starts on it and all.
+    fn new(motion: MotionKind, state: Start, (starts, counted): (usize, usize)) -> Self {
         Self {
-            kind,
+            motion,
+            state,
+            orbit: None,
+            certainty: None,
+            positions: None,
+            chaos: None,
+            exponents: None,
             starts,
             share: starts as f64 / counted.max(1) as f64,
         }

@@ -1,0 +1,253 @@
+//! What motions settle on: one vocabulary of names, colours and JSON for all that tell of motions.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::orbit::{Count, ImpactPattern, Orbit, Regime};
+
+/// What a motion settles on.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MotionKind {
+    /// It repeats: z = p/n.
+    Periodic {
+        /// The regime.
+        regime: Regime,
+        /// Its impacts in each of the n drive periods.
+        order: ImpactPattern,
+    },
+    /// It repeats with infinitely many impacts, ever weaker ones that end in rest.
+    Chatter {
+        /// Drive periods after which it repeats.
+        periods: u64,
+        /// Its impacts in each of them.
+        order: ImpactPattern,
+    },
+    /// It comes to rest for good, wherever dry friction holds the mass.
+    Rest,
+    /// It never repeats, and small differences grow.
+    Chaos,
+    /// It looks chaotic for long, but settles on something else in the end.
+    TransientChaos,
+    /// It neither repeats nor is it chaotic beyond doubt: it settles too slowly, goes somewhere else just now, or
+    /// is quasi-periodic.
+    Unsettled,
+    /// It cannot be computed.
+    Lost,
+}
+
+impl MotionKind {
+    /// That of an orbit.
+    pub fn of(orbit: &Orbit) -> Self {
+        Self::repeating(orbit.regime(), orbit.pattern())
+    }
+
+    /// One that repeats; of complete chatter the regime counts the impacts before the summed ones.
+    pub fn repeating(regime: Regime, order: ImpactPattern) -> Self {
+        let periods = regime.periods;
+        match order.counts().contains(&Count::Infinite) {
+            true => Self::Chatter { periods, order },
+            false => Self::Periodic { regime, order },
+        }
+    }
+
+    /// The regime z = p/n, unless its impacts are without number or it does not repeat.
+    pub fn regime(&self) -> Option<Regime> {
+        match self {
+            Self::Periodic { regime, .. } => Some(*regime),
+            _ => None,
+        }
+    }
+
+    /// Drive periods after which it repeats, if it does.
+    pub fn periods(&self) -> Option<u64> {
+        match self {
+            Self::Periodic { regime, .. } => Some(regime.periods),
+            Self::Chatter { periods, .. } => Some(*periods),
+            _ => None,
+        }
+    }
+
+    /// Its impacts in each drive period, if it repeats.
+    pub fn order(&self) -> Option<&ImpactPattern> {
+        match self {
+            Self::Periodic { order, .. } | Self::Chatter { order, .. } => Some(order),
+            _ => None,
+        }
+    }
+
+    /// The order of its impacts where the regime does not tell it.
+    pub fn told_order(&self) -> Option<&ImpactPattern> {
+        self.order().filter(|order| order.counts().len() > 1)
+    }
+
+    /// True if it is chaotic, for ever or for long.
+    pub fn is_chaotic(&self) -> bool {
+        matches!(self, Self::Chaos | Self::TransientChaos)
+    }
+
+    /// Its kind as JSON has it.
+    pub const fn key(&self) -> &'static str {
+        match self {
+            Self::Periodic { .. } => "periodic",
+            Self::Chatter { .. } => "chatter",
+            Self::Rest => "rest",
+            Self::Chaos => "chaos",
+            Self::TransientChaos => "transient_chaos",
+            Self::Unsettled => "unsettled",
+            Self::Lost => "lost",
+        }
+    }
+
+    /// What tells its colour.
+    pub fn class(&self) -> MotionClass {
+        let (regime, order) = match self {
+            Self::Periodic { regime, order } => (regime, order),
+            Self::Chatter { .. } => return MotionClass::Many,
+            Self::Rest => return MotionClass::Rest,
+            Self::Chaos | Self::TransientChaos => return MotionClass::Chaos,
+            Self::Unsettled => return MotionClass::Unsettled,
+            Self::Lost => return MotionClass::Lost,
+        };
+        let (p, n) = (regime.impacts, regime.periods);
+        match () {
+            () if p == 0 => MotionClass::Zero,
+            () if p == 1 && n == 1 => MotionClass::One,
+            () if p == n => MotionClass::Doubled,
+            () if p > n => MotionClass::Many,
+            () if 3 * p == 2 * n => MotionClass::TwoThirds,
+            () if 2 * p > n => MotionClass::Between,
+            () if 2 * p == n && order.has_pair() => MotionClass::Paired,
+            () if 2 * p == n => MotionClass::Half,
+            () => MotionClass::Few,
+        }
+    }
+}
+
+impl fmt::Display for MotionKind {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Periodic { regime, .. } => write!(formatter, "z = {regime}"),
+            Self::Chatter { periods: 1, .. } => {
+                formatter.write_str("complete chatter every drive period")
+            }
+            Self::Chatter { periods, .. } => {
+                write!(formatter, "complete chatter every {periods} drive periods")
+            }
+            Self::TransientChaos => formatter.write_str("transient chaos"),
+            other => formatter.write_str(other.key()),
+        }
+    }
+}
+
+macro_rules! classes {
+    ($($(#[$what:meta])* $class:ident $name:literal;)*) => {
+        /// Motions of one colour.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub enum MotionClass {
+            $($(#[$what])* $class),*
+        }
+
+        impl MotionClass {
+            /// All, in the order of legends.
+            pub const ALL: &[Self] = &[$(Self::$class),*];
+
+            /// In a word or two.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$class => $name),*
+                }
+            }
+        }
+    };
+}
+
+classes! {
+    /// No impacts.
+    Zero "z = 0";
+    /// One impact in each drive period.
+    One "z = 1";
+    /// The same number of impacts as drive periods, but two or more.
+    Doubled "z = n/n, n > 1";
+    /// Other regimes between 1/2 and 1.
+    Between "1/2 < z < 1 but 2/3";
+    /// z = 2/3 = 4/6 = ...
+    TwoThirds "z = 2/3";
+    /// z = 1/2, (2/4)A and others whose impacts are apart.
+    Half "z = 1/2, (2/4)A";
+    /// (2/4)B and others whose impacts are in pairs.
+    Paired "z = (2/4)B";
+    /// 0 < z < 1/2.
+    Few "0 < z < 1/2";
+    /// z > 1, complete chatter among them.
+    Many "z > 1";
+    /// Held by dry friction.
+    Rest "rest";
+    /// No regime.
+    Chaos "chaos";
+    /// Not settled.
+    Unsettled "not settled";
+    /// Not computed.
+    Lost "lost";
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use softstop::integrator::Instant;
+
+    fn motion(periods: u64, impacts: &[f64], rests: &[f64]) -> MotionKind {
+        let instant = |cycles: &f64| Instant {
+            cycles: *cycles,
+            offset: 0.4,
+        };
+        let [impacts, rests] =
+            [impacts, rests].map(|all| all.iter().map(instant).collect::<Vec<_>>());
+        let regime = Regime {
+            impacts: impacts.len() as u64,
+            periods,
+        };
+        MotionKind::repeating(regime, ImpactPattern::new(&impacts, &rests, periods, 1.0))
+    }
+
+    #[test]
+    fn a_motion_has_one_name_one_colour_and_one_json() {
+        for (motion, name, class) in [
+            (motion(1, &[], &[]), "z = 0", MotionClass::Zero),
+            (motion(1, &[0.0], &[]), "z = 1", MotionClass::One),
+            (motion(4, &[0.0, 2.0], &[]), "z = 2/4", MotionClass::Half),
+            (motion(4, &[0.0, 1.0], &[]), "z = 2/4", MotionClass::Paired),
+            (
+                motion(2, &[0.0, 1.0], &[1.0]),
+                "complete chatter every 2 drive periods",
+                MotionClass::Many,
+            ),
+            (
+                MotionKind::TransientChaos,
+                "transient chaos",
+                MotionClass::Chaos,
+            ),
+        ] {
+            assert_eq!(
+                (motion.to_string(), motion.class()),
+                (name.to_owned(), class)
+            );
+            let json = serde_json::to_value(&motion).expect("JSON");
+            let kind = json.as_str().map(str::to_owned);
+            let kind = kind.or_else(|| Some(json.as_object()?.keys().next()?.clone()));
+            assert_eq!(kind.as_deref(), Some(motion.key()));
+            assert_eq!(
+                serde_json::from_value::<MotionKind>(json).ok(),
+                Some(motion)
+            );
+        }
+    }
+
+    #[test]
+    fn chatter_is_one_motion_however_many_impacts_are_counted() {
+        let more = motion(2, &[0.0, 1.0, 1.0], &[1.0]);
+        assert_eq!(more, motion(2, &[0.0, 1.0], &[1.0]));
+        assert_eq!((more.regime(), more.periods()), (None, Some(2)));
+    }
+}
