@@ -11,8 +11,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use softstop::scene::Release;
-use softstop::{Clock, Ratios, Scene, Start, Stop};
+use softstop::{Clock, Ratios, Release, Scene, Start, Stop};
 use softstop_lanes::{Instructions, Job, Machine, run_with};
 
 const FREQUENCIES: u64 = 100;

@@ -4,10 +4,17 @@
 //! m x'' + b1 x' + k1 x + F(x, x') = F0 cos(w t + phi) + f(t)        (Peterka 2003, eq. 8)
 //! ```
 //!
-//! The data flows through the modules in this order: [`scene`] (plain data) → [`phases`] (the few
-//! smooth laws that a scene can reach) → [`flow`] (closed form per phase) → [`events`] (first
-//! crossing, guaranteed) → [`integrator`] (the loop) → [`trajectory`], with its derivatives in [`tangent`].
-//! Periodic motions and all that follows from them are in the crate `softstop-dynamics`.
+//! - A machine: [`Scene`] is plain data in SI units, [`Ratios`] the paper's dimensionless figures, [`Machine`] a scene
+//!   as a file or a command line states it, in its own units. [`Parameter`] names every number of them.
+//! - A motion: [`Scene::trajectory`] keeps it whole ([`Trajectory`]); a [`Simulation`] runs on, takes inputs and
+//!   new parameters, and can be kept as a [`Snapshot`]. Both are exact: a closed form in each phase, and a proof
+//!   that no crossing is missed.
+//! - Whoever watches a motion, and stops it, is an [`Observer`]: [`Tangent`] gathers its Jacobian, [`Effort`] limits
+//!   what it may cost. [`Simulation::sensitivity`] and [`Simulation::rates`] say how the outputs change.
+//!
+//! Enumerations that will grow are `non_exhaustive`; the laws of [`Stop`] are not, so that a match says what a new
+//! law asks for. Periodic motions and all that follows from them are in the crate `softstop-dynamics`. What this
+//! crate's siblings share beyond this page is in `softstop::internals`, hidden and without any promise.
 //!
 //! ```
 //! use softstop::{Ratios, Start};
@@ -21,25 +28,32 @@
 //! ```
 #![forbid(unsafe_code)]
 
-pub mod error;
-pub mod events;
-pub mod flow;
-pub mod integrator;
-pub mod machine;
-pub mod phases;
-pub mod root;
-pub mod samples;
-pub mod scene;
-pub mod tangent;
-pub mod trajectory;
+mod error;
+mod events;
+mod flow;
+mod integrator;
+#[doc(hidden)]
+pub mod internals;
+mod machine;
+mod phases;
+mod root;
+mod scene;
+mod tangent;
+mod trajectory;
 
 pub use error::{MachineError, MotionError, SceneError};
-pub use integrator::{Clock, Energy, Impact, Instant, Motion, Sample, Simulation, Snapshot, Start};
+pub use flow::HIGHEST_ORDER;
+pub use integrator::{
+    Arc, Begin, Clock, Crossing, CrossingKind, Effort, Energy, Impact, Instant, Observer, Rate,
+    Rates, Sample, Simulation, Snapshot, Start, Work,
+};
 pub use machine::{Language, Machine};
 pub use phases::PhaseKind;
 pub use scene::{
-    Dimension, Excitation, Parameter, Piercing, PiercingRatios, Ratios, Scene, Stop, Units,
+    About, Allowed, Dimension, Excitation, Parameter, Piercing, PiercingRatios, Ratios, Release,
+    RigidStop, Scene, Slope, Stop, Units,
 };
-pub use trajectory::Trajectory;
+pub use tangent::{Perturbation, Sensitivity, Tangent};
+pub use trajectory::{KeptArc, Touch, Trajectory};
 
 pub use nalgebra;

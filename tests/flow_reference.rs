@@ -1,7 +1,7 @@
 //! The exact flow against 40-digit values (tests/reference/flow.py): every kind of root, zero and
 //! tiny stiffness, exact and near resonance, short and long times.
 
-use softstop::flow::{Course, Departure, Flow, Polynomial};
+use softstop::internals::{Course, Departure, Flow, Polynomial};
 use softstop_testing::reference::{FLOW, number};
 
 /// Rounding errors, in units of the 2^-53 sensitivity of the case to its own inputs, that an

@@ -6,8 +6,10 @@ mod refused;
 
 use approx::{abs_diff_eq, assert_relative_eq, relative_eq};
 use proptest::prelude::*;
-use softstop::flow::{HIGHEST_ORDER, Polynomial};
-use softstop::{Excitation, MotionError, PhaseKind, Ratios, Scene, Simulation, Start, Stop};
+use softstop::internals::Polynomial;
+use softstop::{
+    Excitation, HIGHEST_ORDER, MotionError, PhaseKind, Ratios, Scene, Simulation, Start, Stop,
+};
 use softstop_testing::tolerance::MOTION;
 use softstop_testing::{cases, loaded, machines, start_at, start_below};
 

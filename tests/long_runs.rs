@@ -2,7 +2,8 @@
 //! nor the motion loses accuracy.
 
 use approx::assert_abs_diff_eq;
-use softstop::{Clock, Motion, Ratios, Scene, Simulation, Start, Stop, samples};
+use softstop::internals::{Motion, samples};
+use softstop::{Begin, Clock, Ratios, Scene, Simulation, Start, Stop};
 use softstop_testing::start_at;
 use softstop_testing::tolerance::MOTION;
 
@@ -106,7 +107,7 @@ fn a_motion_stays_on_its_orbit_for_a_hundred_million_periods() {
 fn late_communication_points_are_taken_as_they_are() {
     let scene = Ratios::unloaded().scene().expect("valid");
     let begin = 1e8 * scene.period();
-    let mut machine = Simulation::new_at(&scene, start(), begin).expect("valid");
+    let mut machine = Simulation::new(&scene, Begin::from(start()).at_time(begin)).expect("valid");
     let clock = Clock::new(scene.excitation.frequency, 0.0);
     let mut motion =
         Motion::new(scene.phases(), clock, clock.instant(begin), start()).expect("valid");

@@ -4,8 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use approx::assert_relative_eq;
-use softstop::scene::{Allowed, Dimension};
-use softstop::{Language, Machine, MachineError, Parameter, Ratios, Scene, Stop};
+use softstop::{
+    Allowed, Dimension, Language, Machine, MachineError, Parameter, Ratios, Scene, Stop,
+};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 

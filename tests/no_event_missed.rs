@@ -2,8 +2,7 @@
 //! over-represented, against dense sampling of an independent step-by-step evaluation.
 
 use proptest::prelude::*;
-use softstop::phases::PhaseKind;
-use softstop::{Clock, PiercingRatios, Ratios, Scene, Start, Trajectory};
+use softstop::{Clock, PhaseKind, PiercingRatios, Ratios, Scene, Start, Trajectory};
 use softstop_testing::{Meets, cases, start_at};
 
 /// Classical Runge-Kutta in steps so small that its error is far below the margin that is looked

@@ -2,8 +2,7 @@
 
 use approx::abs_diff_eq;
 use proptest::prelude::*;
-use softstop::tangent::{Perturbation, Sensitivity};
-use softstop::{Clock, Simulation, Start};
+use softstop::{Clock, Perturbation, Sensitivity, Simulation, Start};
 use softstop_testing::{Meets, cases, machines, start_at, start_below};
 
 /// Position, velocity, acceleration, contact force, energies, and time and velocity of the last impact.

@@ -1,7 +1,7 @@
 //! A machine that is kept, written to bytes, read back and restored goes on bit for bit.
 
 use proptest::prelude::*;
-use softstop::{MotionError, Scene, Simulation, Snapshot};
+use softstop::{Begin, Effort, MotionError, Scene, Simulation, Snapshot};
 use softstop_testing::{cases, loaded, machines, start_at, start_below};
 
 fn through_bytes(machine: &Simulation) -> Simulation {
@@ -33,7 +33,7 @@ proptest! {
         steps in 1..40u32,
     ) {
         let start = start_below(&scene, depth, velocity);
-        let Ok(mut machine) = Simulation::new_at(&scene, start, 0.3) else {
+        let Ok(mut machine) = Simulation::new(&scene, Begin::from(start).at_time(0.3)) else {
             return Ok(());
         };
         let step = 0.37 * scene.period();
@@ -74,8 +74,7 @@ proptest! {
             && let Ok(mut restored) = Simulation::restored(&read)
         {
             restored.sample();
-            let effort = softstop::integrator::Effort::windows(10_000);
-            let _ = restored.advance_within(restored.time() + 1e-6, effort);
+            let _ = restored.watch(restored.time() + 1e-6, &mut Effort::windows(10_000));
         }
     }
 }

@@ -1,8 +1,9 @@
 //! The strip: half pierced it is met again, pierced it counts once per stroke.
 
 use approx::assert_abs_diff_eq;
-use softstop::integrator::{Crossing, CrossingKind};
-use softstop::{PhaseKind, PiercingRatios, Ratios, Scene, Simulation, Trajectory};
+use softstop::{
+    Begin, Crossing, CrossingKind, PhaseKind, PiercingRatios, Ratios, Scene, Simulation, Trajectory,
+};
 use softstop_testing::tolerance::MOTION;
 use softstop_testing::{loaded, start_at};
 
@@ -80,8 +81,8 @@ fn a_strip_is_pierced_once_per_stroke() {
 fn a_strong_stroke_pierces() {
     let scene = loaded();
     let start = start_at(
-        softstop::samples::LOADED.position,
-        softstop::samples::LOADED.velocity,
+        softstop::internals::samples::LOADED.position,
+        softstop::internals::samples::LOADED.velocity,
     );
     let mut machine = Simulation::new(&scene, start).expect("valid");
     machine.advance(50.0 * scene.period()).expect("bounded");
@@ -95,7 +96,7 @@ fn a_start_without_material_meets_no_strip() {
     let scene = loaded();
     let start = start_at(scene.clearance + 0.2, 0.5);
     for (fed, phase) in [(true, PhaseKind::Pierce), (false, PhaseKind::Gap)] {
-        let mut machine = Simulation::new_fed(&scene, start, 0.0, fed).expect("valid");
+        let mut machine = Simulation::new(&scene, Begin::from(start).fed(fed)).expect("valid");
         assert_eq!(machine.sample().phase, phase);
         machine.advance(20.0 * scene.period()).expect("bounded");
         assert_eq!(machine.pierce_count() > 0, fed);

@@ -11,7 +11,7 @@ mod unit;
 mod units;
 
 pub use machine::Machine;
-use softstop::tangent::Sensitivity;
+use softstop::Sensitivity;
 use softstop_fmi::Unit;
 pub use softstop_fmi::{description, guid_of, package};
 pub use start::{NotServed, StartValues, slot};

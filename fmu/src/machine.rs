@@ -3,8 +3,7 @@
 use std::cell::OnceCell;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use softstop::integrator::Rates;
-use softstop::{Energy, PhaseKind, Sample, Simulation, Snapshot};
+use softstop::{Energy, PhaseKind, Rates, Sample, Simulation, Snapshot};
 
 /// A running machine: sampled once at each time, however many outputs are read.
 #[derive(Debug, Clone)]

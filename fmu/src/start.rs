@@ -3,7 +3,7 @@
 mod scene;
 pub mod slot;
 
-use softstop::samples;
+use softstop::internals::samples;
 use softstop_fmi::Imprint;
 use softstop_fmi::variable::Slot;
 

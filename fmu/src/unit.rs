@@ -1,11 +1,10 @@
 //! The machine as a unit.
 
 use std::error::Error;
+use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
-use softstop::integrator::Effort;
-use softstop::tangent::{Perturbation, Sensitivity};
-use softstop::{MotionError, SceneError, Simulation};
+use softstop::{Begin, Effort, MotionError, Perturbation, SceneError, Sensitivity, Simulation};
 use softstop_fmi::{
     About, Advance, Block, Derivatives, Events, HIGHEST_ORDER, Known, Outcome, Unit,
 };
@@ -20,7 +19,7 @@ use crate::units::{ENUMERATIONS, QUANTITIES};
 /// is carried out in part, so that no importer waits for ever.
 const EFFORT: Effort = Effort::windows(1 << 27);
 
-const _: () = assert!(HIGHEST_ORDER == softstop::flow::HIGHEST_ORDER);
+const _: () = assert!(HIGHEST_ORDER == softstop::HIGHEST_ORDER);
 
 /// The one place that the packager patches.
 #[used]
@@ -93,7 +92,8 @@ impl Unit for Machine {
     fn begin(values: &[f64], time: f64) -> Outcome<Self> {
         let values = StartValues::of(values);
         let fed = values.number(slot::MATERIAL) != 0;
-        Simulation::new_fed(&values.scene(), values.start(), time, fed)
+        let begin = Begin::from(values.start()).at_time(time).fed(fed);
+        Simulation::new(&values.scene(), begin)
             .map(Self::new)
             .map_err(in_names)
     }
@@ -113,7 +113,7 @@ impl Unit for Machine {
     fn advance(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>> {
         let simulation = self.change();
         let before = (simulation.impact_count(), simulation.pierce_count());
-        let outcome = simulation.advance_within(until, EFFORT);
+        let outcome = simulation.watch(until, &mut { EFFORT });
         let impacts = simulation.impact_count() - before.0;
         if let Some(last) = simulation.last_impact().filter(|_| impacts > 0) {
             let pierced = simulation.pierce_count() - before.1;
@@ -125,8 +125,8 @@ impl Unit for Machine {
             });
         }
         match outcome {
-            Ok(true) => Ok(Advance::Arrived),
-            Ok(false) => Ok(Advance::Short {
+            Ok(ControlFlow::Continue(())) => Ok(Advance::Arrived),
+            Ok(ControlFlow::Break(())) => Ok(Advance::Short {
                 reason: format!("{impacts} impacts so far"),
                 before: simulation.before_advance().map(Self::new),
             }),

@@ -1,7 +1,6 @@
 //! Start values and scenes are the same thing, written in two ways.
 
-use softstop::scene::{Release, RigidStop, Slope};
-use softstop::{Ratios, Scene, SceneError, Start, Stop};
+use softstop::{Ratios, Release, RigidStop, Scene, SceneError, Slope, Start, Stop};
 use softstop_fmu::{NotServed, StartValues};
 
 const START: Start = Start {
@@ -88,7 +87,7 @@ fn every_stop_there_and_back() {
 
 #[test]
 fn default_is_the_loaded_machine() {
-    let sample = softstop::samples::LOADED;
+    let sample = softstop::internals::samples::LOADED;
     let start = Start {
         position: sample.position,
         velocity: sample.velocity,

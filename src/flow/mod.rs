@@ -32,7 +32,7 @@ pub(crate) use change::Change;
 pub(crate) use chatter::{Chatter, Pressing};
 pub use course::Course;
 pub use hertz::Hertz;
-pub use modes::{Fundamental, Modes};
+pub use modes::Modes;
 pub use place::{Departure, Node};
 pub use polynomial::{HIGHEST_ORDER, Polynomial};
 pub(crate) use segment::{Finer, Segment};

@@ -1,9 +1,10 @@
 //! The loop: from crossing to crossing, up to a time.
 
 use std::cmp::Ordering;
+use std::ops::ControlFlow;
 
 use super::clock::Instant;
-use super::effort::{self, Effort};
+use super::effort;
 use super::motion::{Motion, Start};
 use super::observer::{Crossing, CrossingKind, Observer};
 use crate::error::MotionError;
@@ -16,7 +17,8 @@ use crate::phases::{Mode, Phase};
 const MOST_AT_ONCE: u32 = 1_000_000;
 
 impl Motion {
-    /// Advances to `until`, telling `observer` of every finished arc and every crossing.
+    /// Advances to `until`, or to where `observer` stops it, telling it of every finished arc and every
+    /// crossing.
     ///
     /// # Errors
     /// [`MotionError::TimeBackwards`] if `until` lies in the past, [`MotionError::Unbounded`] if the
@@ -27,21 +29,19 @@ impl Motion {
         until: Instant,
         observer: &mut impl Observer,
     ) -> Result<(), MotionError> {
-        self.advance_within(until, observer, Effort::ENDLESS)
-            .map(drop)
+        self.watch(until, observer).map(drop)
     }
 
-    /// The same as far as `effort` suffices; true if that is all the way. Otherwise the present time is
-    /// that of a crossing, or lies on a long arc.
+    /// The same, and whether `observer` stopped it. The present time is then that of a crossing, or lies on a
+    /// long arc.
     ///
     /// # Errors
     /// As [`Motion::advance`].
-    pub fn advance_within(
+    pub fn watch(
         &mut self,
         until: Instant,
         observer: &mut impl Observer,
-        mut effort: Effort,
-    ) -> Result<bool, MotionError> {
+    ) -> Result<ControlFlow<()>, MotionError> {
         let finite = until.cycles.is_finite() && until.offset.is_finite();
         if !finite || until.partial_cmp(&self.now).is_none_or(Ordering::is_lt) {
             let (until, present) = (self.clock.time(until), self.clock.time(self.now));
@@ -57,26 +57,31 @@ impl Motion {
                     return Err(self.stalled());
                 }
             }
-            match self.outlook {
+            let windows = match self.outlook {
                 Outlook::Crossing(found) => {
                     self.cross(found, observer);
-                    effort.spend(effort::CROSSING);
+                    effort::CROSSING
                 }
                 Outlook::Ends(elapsed) => {
                     self.go_on(elapsed, observer);
-                    effort.spend(effort::TAYLOR_STEP);
+                    effort::TAYLOR_STEP
                 }
                 Outlook::ClearUntil(node) => {
                     self.now = self.clock.after(self.start, node.elapsed);
-                    effort.spend(effort::CHUNK.into());
+                    effort::CHUNK.into()
                 }
-                Outlook::Never | Outlook::Unbounded(_) => {}
-            }
-            if effort.is_spent() {
-                return Ok(false);
+                Outlook::Never | Outlook::Unbounded(_) => 0,
+            };
+            if observer.progress(windows).is_break() {
+                return Ok(ControlFlow::Break(()));
             }
         }
-        Ok(true)
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// Tells `observer` of the arc that is under way, up to the present time.
+    pub fn tell_arc(&self, observer: &mut impl Observer) {
+        observer.arc(&self.arc(), self.clock.elapsed(self.start, self.now));
     }
 
     /// Moves on along the present arc if it reaches to `until`; false if something happens before, or

@@ -15,9 +15,7 @@ pub struct Evaluations {
 impl Evaluations {
     /// Counts the arc that the motion is in, too.
     pub fn finish(&mut self, motion: &Motion) {
-        let arc = motion.arc();
-        let elapsed = motion.clock().elapsed(arc.start, motion.now());
-        self.arc(&arc, elapsed);
+        motion.tell_arc(self);
     }
 }
 

@@ -29,7 +29,7 @@ pub use motion::{Motion, Start};
 pub use observer::{Arc, Crossing, CrossingKind, Observer};
 pub use outputs::{Energy, Impact, Sample};
 pub use rates::{Rate, Rates};
-pub use simulation::Simulation;
+pub use simulation::{Begin, Simulation};
 pub use snapshot::Snapshot;
 pub use walk::Walk;
 pub use work::{Work, work};

@@ -1,5 +1,7 @@
 //! Who watches a motion: arcs as they end, crossings as they happen.
 
+use std::ops::ControlFlow;
+
 use super::clock::Instant;
 use crate::flow::Course;
 use crate::phases::{Phase, PhaseKind};
@@ -10,8 +12,10 @@ pub struct Arc<'a> {
     /// When it began.
     pub start: Instant,
     /// Its exact motion.
+    #[doc(hidden)]
     pub course: &'a Course,
     /// Its phase; none while the mass is held.
+    #[doc(hidden)]
     pub phase: Option<&'a Phase>,
     /// What the mass does on it.
     pub kind: PhaseKind,
@@ -97,7 +101,8 @@ impl Crossing {
     }
 }
 
-/// Watches a motion. To add one, implement the two methods; both do nothing unless overridden.
+/// Watches a motion, and may stop it. To add one, implement what is of interest: each method does nothing unless
+/// overridden. Two observers make a third, `(&mut first, &mut second)`.
 pub trait Observer {
     /// An arc has ended `elapsed` seconds after its start.
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
@@ -108,7 +113,31 @@ pub trait Observer {
     fn crossing(&mut self, crossing: &Crossing) {
         let _ = crossing;
     }
+
+    /// Whether to go on. Asked after each crossing and each step, and now and then on a long arc, with what
+    /// has been done since, in scan windows (see [`Effort`](super::Effort)).
+    fn progress(&mut self, windows: u64) -> ControlFlow<()> {
+        let _ = windows;
+        ControlFlow::Continue(())
+    }
 }
 
 /// Watches nothing.
 impl Observer for () {}
+
+impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.0.arc(arc, elapsed);
+        self.1.arc(arc, elapsed);
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.0.crossing(crossing);
+        self.1.crossing(crossing);
+    }
+
+    fn progress(&mut self, windows: u64) -> ControlFlow<()> {
+        self.0.progress(windows)?;
+        self.1.progress(windows)
+    }
+}

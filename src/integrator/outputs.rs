@@ -102,7 +102,7 @@ impl Simulation {
     pub fn last_impact(&self) -> Option<Impact> {
         let (instant, velocity) = self.tallies.counts.last_impact?;
         Some(Impact {
-            time: self.epoch + self.motion.clock().time(instant),
+            time: self.time_of(instant),
             velocity,
         })
     }

@@ -1,12 +1,13 @@
 //! A machine that runs on: the motion with its tallies, its inputs and its tunable parameters.
 
+use std::ops::ControlFlow;
+
 use super::clock::{Clock, Instant};
-use super::effort::Effort;
 use super::force::polynomial;
 use super::mark::{Mark, Origin};
-use super::mechanical_energy;
 use super::motion::{Motion, Start};
 use super::tallies::{Counts, Tallies};
+use super::{Observer, mechanical_energy};
 use crate::error::MotionError;
 use crate::flow::Polynomial;
 use crate::scene::Scene;
@@ -25,33 +26,53 @@ pub struct Simulation {
     pub(super) mark: Mark,
 }
 
+/// How a machine begins. A [`Start`] is enough: time 0 s and a fed strip go with it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Begin {
+    /// The state.
+    pub start: Start,
+    /// Absolute time in s; the drive is F0 cos(w t + phi) in absolute time.
+    pub time: f64,
+    /// Whether a strip is fed: also in the stroke in which the machine begins, if that is beyond the clearance.
+    pub fed: bool,
+}
+
+impl From<Start> for Begin {
+    fn from(start: Start) -> Self {
+        Self {
+            start,
+            time: 0.0,
+            fed: true,
+        }
+    }
+}
+
+impl Begin {
+    /// The same at another absolute time in s.
+    #[must_use]
+    pub const fn at_time(self, time: f64) -> Self {
+        Self { time, ..self }
+    }
+
+    /// The same with a strip or without.
+    #[must_use]
+    pub const fn fed(self, fed: bool) -> Self {
+        Self { fed, ..self }
+    }
+}
+
 /// Drive periods up to which the drive angle is resolved.
 const LAST_CYCLE: f64 = 9.0e15;
 
 impl Simulation {
-    /// The machine at time 0 s.
-    ///
-    /// # Errors
-    /// [`MotionError`] if the scene is invalid or the start not finite.
-    pub fn new(scene: &Scene, start: Start) -> Result<Self, MotionError> {
-        Self::new_at(scene, start, 0.0)
-    }
-
-    /// The machine at absolute time `time` in s; the drive is F0 cos(w t + phi) in absolute time.
+    /// The machine from a [`Start`] at time 0 s, or as a [`Begin`] says.
     ///
     /// # Errors
     /// [`MotionError`] if the scene is invalid, the start or the time not finite, or the start beyond
     /// a rigid stop.
-    pub fn new_at(scene: &Scene, start: Start, time: f64) -> Result<Self, MotionError> {
-        Self::new_fed(scene, start, time, true)
-    }
-
-    /// The same, with or without a strip: also in the stroke in which it starts, if it starts beyond
-    /// the clearance.
-    ///
-    /// # Errors
-    /// As [`Simulation::new_at`].
-    pub fn new_fed(scene: &Scene, start: Start, time: f64, fed: bool) -> Result<Self, MotionError> {
+    pub fn new(scene: &Scene, begin: impl Into<Begin>) -> Result<Self, MotionError> {
+        let Begin { start, time, fed } = begin.into();
         scene.validate()?;
         start.validate()?;
         if !time.is_finite() {
@@ -97,47 +118,58 @@ impl Simulation {
     /// [`MotionError`] if `until` is not finite or in the past, or the motion grows beyond all
     /// bounds; the machine then stays where it was.
     pub fn advance(&mut self, until: f64) -> Result<(), MotionError> {
-        self.advance_within(until, Effort::ENDLESS).map(drop)
+        self.watch(until, &mut ()).map(drop)
     }
 
-    /// The same as far as `effort` suffices; true if that is all the way. The present time then tells
-    /// how far it is.
+    /// The same, watched by an observer, which may stop it: then the present time tells how far it is. An
+    /// [`Effort`](super::Effort) limits what it may cost. [`Simulation::time_of`] gives the times of crossings.
     ///
     /// # Errors
     /// As [`Simulation::advance`].
-    pub fn advance_within(&mut self, until: f64, effort: Effort) -> Result<bool, MotionError> {
+    pub fn watch(
+        &mut self,
+        until: f64,
+        observer: &mut impl Observer,
+    ) -> Result<ControlFlow<()>, MotionError> {
         let instant = self.instant_of(until)?;
         let before = self.motion.now();
         // Equal times may be written as instants that differ in the last digit.
         if instant <= before || self.motion.glide(instant)? {
             self.mark = Mark::OnArc(before);
             self.now = until;
-            return Ok(true);
+            return Ok(ControlFlow::Continue(()));
         }
         let origin = Origin {
             motion: self.motion.clone(),
             counts: self.tallies.counts,
             now: self.now,
         };
-        match self
-            .motion
-            .advance_within(instant, &mut self.tallies, effort)
-        {
-            Ok(arrived) => {
+        let mut observers = (&mut self.tallies, observer);
+        match self.motion.watch(instant, &mut observers) {
+            Ok(flow) => {
                 self.mark = Mark::Before(Box::new(origin));
-                self.now = if arrived {
+                self.now = if flow.is_continue() {
                     until
                 } else {
-                    let reached = self.epoch + self.motion.clock().time(self.motion.now());
-                    reached.clamp(self.now, until)
+                    self.time_of(self.motion.now()).clamp(self.now, until)
                 };
-                Ok(arrived)
+                Ok(flow)
             }
             Err(error) => {
                 (self.motion, self.tallies.counts) = (origin.motion, origin.counts);
                 Err(error)
             }
         }
+    }
+
+    /// The absolute time in s of an instant since the frequency and phase of the drive were last set.
+    pub fn time_of(&self, instant: Instant) -> f64 {
+        self.epoch + self.motion.clock().time(instant)
+    }
+
+    /// Tells `observer` of the arc that is under way, up to the present time.
+    pub fn tell_arc(&self, observer: &mut impl Observer) {
+        self.motion.tell_arc(observer);
     }
 
     /// Whether a time can be advanced to at all.

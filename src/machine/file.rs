@@ -73,6 +73,16 @@ impl Machine {
     }
 }
 
+impl Scene {
+    /// Reads the scene of a machine file; [`Machine::from_toml`] reads its name, start and units, too.
+    ///
+    /// # Errors
+    /// [`MachineError`] with the line, the key, its value and what is allowed.
+    pub fn from_toml(text: &str) -> Result<Self, MachineError> {
+        Machine::from_toml(text).map(|machine| machine.scene)
+    }
+}
+
 /// The keys of a table and of those in it.
 fn walk(table: &DeTable<'_>, path: &str, text: &str, places: &mut Vec<Place>) {
     for (name, value) in table {

@@ -1,28 +1,4 @@
-//! A machine as its user states it: a [`Scene`], where it starts, its name, and the units that it speaks.
-//!
-//! The same names stand in TOML files ([`Machine::from_toml`]), on command lines ([`Machine::apply`]), in
-//! messages and in the FMU: those of [`Parameter`]. A machine speaks SI units or the paper's dimensionless
-//! ratios; its [`Machine::scene`] is the same to the engine either way.
-//!
-//! ```
-//! use softstop::Machine;
-//!
-//! let press = Machine::from_toml(
-//!     r#"
-//!     name = "press"
-//!     mass = 20.0             # kg
-//!     stiffness = 8e4         # N/m
-//!     damping = 50.0          # N s/m
-//!     clearance = 0.012       # m
-//!     contact.damping = 230.0 # N s/m
-//!     excitation = { amplitude = 96.0, frequency_hz = 11.6 }
-//!     stop = { model = "kelvinVoigt", stiffness = 5.6e5 }
-//!     "#,
-//! )?;
-//! assert_eq!(press.scene.clearance, 0.012);
-//! assert_eq!(press.value(softstop::Parameter::Frequency), Some(11.6));
-//! # Ok::<(), softstop::MachineError>(())
-//! ```
+//! Machines as their users state them: in files, on command lines, in their own units.
 
 mod change;
 mod file;
@@ -43,7 +19,30 @@ pub enum Language {
     Ratios,
 }
 
-/// A machine as its user states it.
+/// A machine as its user states it: a scene, where it starts, its name, and the units that it speaks.
+///
+/// The same names stand in TOML files ([`Machine::from_toml`]), on command lines ([`Machine::apply`]), in
+/// messages and in the FMU: those of [`Parameter`]. The scene is the same to the engine whatever the units.
+///
+/// ```
+/// use softstop::Machine;
+///
+/// let press = Machine::from_toml(
+///     r#"
+///     name = "press"
+///     mass = 20.0             # kg
+///     stiffness = 8e4         # N/m
+///     damping = 50.0          # N s/m
+///     clearance = 0.012       # m
+///     contact.damping = 230.0 # N s/m
+///     excitation = { amplitude = 96.0, frequency_hz = 11.6 }
+///     stop = { model = "kelvinVoigt", stiffness = 5.6e5 }
+///     "#,
+/// )?;
+/// assert_eq!(press.scene.clearance, 0.012);
+/// assert_eq!(press.value(softstop::Parameter::Frequency), Some(11.6));
+/// # Ok::<(), softstop::MachineError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Machine {
     /// Its name, if it has one.

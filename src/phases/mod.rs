@@ -211,6 +211,7 @@ struct Layer {
 
 impl Scene {
     /// Lowers the scene to its phases. The scene must have passed [`Scene::validate`].
+    #[doc(hidden)]
     pub fn phases(&self) -> Phases {
         lower::lower(self)
     }

@@ -1,14 +1,4 @@
 //! What stands on the table: plain, validated data.
-//!
-//! A [`Scene`] holds the parameters of
-//!
-//! ```text
-//! m x'' + b1 x' + k1 x + F(x, x') = F0 cos(w t + phi) + f(t)
-//! ```
-//!
-//! (Peterka 2003, eq. 8) in SI units. [`Ratios`] holds the same in the paper's dimensionless
-//! quantities; the two agree through [`Ratios::scene`] and [`Ratios::dimensional`]. Any scene with m = k1
-//! = F0 = 1 is dimensionless, and [`Scene::in_units`] makes it dimensional.
 
 mod parameter;
 mod ratios;
@@ -26,7 +16,15 @@ pub use units::Units;
 
 use serde::{Deserialize, Serialize};
 
-/// Parameters of one machine, SI units.
+/// Parameters of one machine, SI units:
+///
+/// ```text
+/// m x'' + b1 x' + k1 x + F(x, x') = F0 cos(w t + phi) + f(t)        (Peterka 2003, eq. 8)
+/// ```
+///
+/// [`Ratios`] holds the same in the paper's dimensionless quantities; the two agree through [`Ratios::scene`] and
+/// [`Ratios::dimensional`]. Any scene with m = k1 = F0 = 1 is dimensionless, and [`Scene::in_units`] makes it
+/// dimensional.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {

@@ -20,6 +20,7 @@ const SOFT: f64 = 0.01;
 impl Scene {
     /// Those of the machine, the units of [`Ratios`](super::Ratios): the static deflection F0/k1 and
     /// Omega = sqrt(k1/m). A suspension far softer than m w^2 is replaced by that.
+    #[doc(hidden)]
     pub fn scales(&self) -> Scales {
         let w = self.excitation.frequency;
         let stiffness = self.stiffness.max(SOFT * self.mass * w * w);
@@ -31,6 +32,7 @@ impl Scene {
 
     /// Those of its motions under this drive: the clearance or the amplitude F0/(m w^2) of a free mass,
     /// whichever is larger, and w.
+    #[doc(hidden)]
     pub fn motion_scales(&self) -> Scales {
         let w = self.excitation.frequency;
         let free = self.excitation.amplitude / self.mass / (w * w);

@@ -16,6 +16,7 @@ pub struct KeptArc {
     /// How long it lasts, in s.
     pub duration: f64,
     /// Its exact motion.
+    #[doc(hidden)]
     pub course: Course,
     /// What the mass does on it.
     pub kind: PhaseKind,
@@ -95,17 +96,14 @@ impl Scene {
         let energy_before = mechanical_energy(self, &motion);
         let mut recorder = Recorder::new(self.mass, motion.phases().free);
         motion.advance(end, &mut recorder)?;
-        let arc = motion.arc();
-        let elapsed = motion.clock().elapsed(arc.start, end);
-        recorder.arc(&arc, elapsed);
-        let state = motion.state();
+        motion.tell_arc(&mut recorder);
         Ok(Trajectory {
             clock: *motion.clock(),
             arcs: recorder.arcs,
             crossings: recorder.crossings,
             work: recorder.work,
             stored: mechanical_energy(self, &motion) - energy_before,
-            end: state,
+            end: motion.state(),
         })
     }
 
@@ -113,6 +111,7 @@ impl Scene {
     ///
     /// # Errors
     /// [`MotionError`] if the scene is invalid or the start not finite.
+    #[doc(hidden)]
     pub fn motion(&self, start: Start) -> Result<Motion, MotionError> {
         self.validate()?;
         start.validate()?;

@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use softstop::scene::{Release, RigidStop, Slope, Stop};
-use softstop::{Excitation, Piercing, Scene, Start};
+use softstop::{Excitation, Piercing, Release, RigidStop, Scene, Slope, Start, Stop};
 
 use super::graze;
 use super::law::wall;

@@ -1,6 +1,6 @@
 //! Leg by leg: nothing missed, nothing invented, the end as stated, the next mode by the rules.
 
-use softstop::integrator::{Crossing, CrossingKind};
+use softstop::{Crossing, CrossingKind};
 
 use super::law::Machine;
 use super::motion::{Departure, Motion};

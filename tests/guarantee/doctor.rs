@@ -1,6 +1,6 @@
 //! Records that lie: the checker must see it.
 
-use softstop::integrator::CrossingKind;
+use softstop::CrossingKind;
 
 use super::cases::case;
 use super::check::{Stop, check};

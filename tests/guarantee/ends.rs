@@ -1,6 +1,6 @@
 //! How a leg ends: is it what the crossing states, and truly so.
 
-use softstop::integrator::{Crossing, CrossingKind};
+use softstop::{Crossing, CrossingKind};
 
 use super::check::{Check, Stop, wrong};
 use super::motion::Departure;

@@ -1,6 +1,6 @@
 //! Grazing on purpose: a surface is put a hair's breadth from a highest point that the oracle finds.
 
-use softstop::scene::Stop;
+use softstop::Stop;
 
 use super::cases::{Case, Dice};
 use super::law::Machine;

@@ -1,8 +1,8 @@
 //! The oracle's own reading of a scene: layers of positions, each with the force that its stop or
 //! strip gives on the way forward and back.
 
-use softstop::scene::{Release, Slope, Stop, force_of};
-use softstop::{PhaseKind, Piercing, Scene};
+use softstop::internals::force_of;
+use softstop::{PhaseKind, Piercing, Release, Scene, Slope, Stop};
 
 /// F = `preload` + `stiffness` (x - `origin`), beside a damper that replaces that of the free mass.
 #[derive(Debug, Clone, Copy)]

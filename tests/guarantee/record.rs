@@ -1,9 +1,8 @@
 //! What the library says: a motion as legs between crossings.
 
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::ops::ControlFlow;
 
-use softstop::integrator::{Arc, Crossing, Observer};
-use softstop::{PhaseKind, Scene, Start};
+use softstop::{Arc, Crossing, Observer, PhaseKind, Scene, Start};
 
 /// The motion from one crossing to the next.
 #[derive(Debug, Clone)]
@@ -35,15 +34,10 @@ struct Recorder<'a> {
 /// Arcs in a sixteenth of a period that are no motion any more. Bounces that damping alone makes
 /// shrink are some millions at most.
 const RUNAWAY: u32 = 30_000_000;
-/// Left through the observer, which can but watch.
-struct Runaway;
 
 impl Observer for Recorder<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         self.arcs += 1;
-        if self.arcs > RUNAWAY {
-            resume_unwind(Box::new(Runaway));
-        }
         let departure = &arc.course.departure;
         let (position, velocity) = (departure.position, departure.velocity);
         if let Some(leg) = &mut self.open {
@@ -73,6 +67,13 @@ impl Observer for Recorder<'_> {
             }
         }
     }
+
+    fn progress(&mut self, _: u64) -> ControlFlow<()> {
+        if self.arcs > RUNAWAY {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
 }
 
 /// The legs of the motion over some periods, or up to `most` crossings.
@@ -93,17 +94,15 @@ pub fn record(scene: &Scene, start: Start, periods: f64, most: usize) -> Result<
     for slice in 1..=slices {
         let until = clock.instant(scene.period() * f64::from(slice) / 16.0);
         recorder.arcs = 0;
-        let run = || motion.advance(until, &mut recorder);
-        match catch_unwind(AssertUnwindSafe(run)) {
-            Ok(advanced) => advanced.map_err(|error| error.to_string())?,
-            Err(_) => return Err(format!("runs away: {:?}", recorder.last())),
+        let flow = motion.watch(until, &mut recorder);
+        if flow.map_err(|error| error.to_string())?.is_break() {
+            return Err(format!("runs away: {:?}", recorder.last()));
         }
         if recorder.legs.len() >= most {
             return Ok(recorder.legs);
         }
     }
-    let elapsed = clock.elapsed(motion.arc().start, motion.now());
-    recorder.arc(&motion.arc(), elapsed);
+    motion.tell_arc(&mut recorder);
     recorder.legs.extend(recorder.open.take());
     Ok(recorder.legs)
 }

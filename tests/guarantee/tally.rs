@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use softstop::integrator::CrossingKind;
+use softstop::CrossingKind;
 
 /// Counts, margins and failures.
 #[derive(Debug, Clone)]

@@ -1,8 +1,7 @@
 //! The JSON Schema of machine files, made from the list of parameters.
 
 use serde_json::{Map, Value, json};
-use softstop::scene::{Allowed, Parameter, Release, Stop};
-use softstop::{Excitation, Language, Machine, Scene};
+use softstop::{Allowed, Excitation, Language, Machine, Parameter, Release, Scene, Stop};
 
 /// The schema of machine files (draft 2020-12). Editors find it by a first line
 /// `#:schema ./machine.schema.json`.

@@ -195,7 +195,7 @@ classes! {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use softstop::integrator::Instant;
+    use softstop::Instant;
 
     fn motion(periods: u64, impacts: &[f64], rests: &[f64]) -> MotionKind {
         let instant = |cycles: &f64| Instant {

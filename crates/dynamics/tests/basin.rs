@@ -211,7 +211,7 @@ fn it_stops_when_told() {
 #[test]
 fn cells_that_cannot_be_are_lost() {
     let mut ratios = Ratios::unloaded();
-    ratios.rigid = Some(softstop::scene::RigidStop {
+    ratios.rigid = Some(softstop::RigidStop {
         travel: 2.0,
         restitution: 0.6,
     });

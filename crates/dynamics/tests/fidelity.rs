@@ -4,8 +4,7 @@ mod contacts;
 mod ladder;
 mod observed;
 
-use softstop::scene::{Release, Slope};
-use softstop::{Excitation, Ratios, Scene, Start, Stop};
+use softstop::{Excitation, Ratios, Release, Scene, Slope, Start, Stop};
 use softstop_dynamics::models::{
     Answers, Contact, FidelityError, Ladder, Likeness, Observation, Quantity, Rung, bounds,
     cheapest, from_model, from_truth, matching,

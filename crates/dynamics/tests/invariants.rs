@@ -4,7 +4,7 @@
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use softstop::{Clock, PhaseKind, PiercingRatios, Ratios, Simulation, Start, Units};
+use softstop::{Begin, Clock, PhaseKind, PiercingRatios, Ratios, Simulation, Start, Units};
 use softstop_dynamics::orbit::StroboscopicMap;
 use softstop_testing::tangent::differences;
 use softstop_testing::tolerance::{GROWN, MOTION, ROUNDING, SOLVED};
@@ -269,7 +269,7 @@ fn a_step_of_force_frees_a_stuck_mass() {
         assert_eq!(held.sample().phase, PhaseKind::Stuck);
         held.set_force(&[force, 0.0]).expect("finite");
         let freed = held.sample();
-        let mut fresh = Simulation::new_at(&scene, rest, 1.0).expect("valid");
+        let mut fresh = Simulation::new(&scene, Begin::from(rest).at_time(1.0)).expect("valid");
         fresh.set_force(&[force, 0.0]).expect("finite");
         assert_ne!(freed.phase, PhaseKind::Stuck);
         for step in 1..=100 {

@@ -7,8 +7,7 @@ mod rigid;
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::{Matrix2, Vector2};
-use softstop::scene::{Release, RigidStop, Slope};
-use softstop::{Clock, Ratios, Scene, Start, Stop};
+use softstop::{Clock, Ratios, Release, RigidStop, Scene, Slope, Start, Stop};
 use softstop_dynamics::orbit::{self, Orbit};
 use softstop_testing::start_at;
 use softstop_testing::tolerance::ROUNDING;

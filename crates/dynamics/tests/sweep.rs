@@ -4,8 +4,7 @@ use std::ops::ControlFlow;
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use rayon::ThreadPoolBuilder;
-use softstop::integrator::Start;
-use softstop::{Ratios, Stop};
+use softstop::{Ratios, Start, Stop};
 use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{self, Regime};

@@ -2,8 +2,7 @@
 
 use std::fs;
 
-use softstop::scene::{Release, Slope};
-use softstop::{PhaseKind, Scene, Stop};
+use softstop::{PhaseKind, Release, Scene, Slope, Stop};
 use softstop_console::scene_file;
 use softstop_explore::simulate::name;
 use softstop_explore::stops::stroke::Stroke;

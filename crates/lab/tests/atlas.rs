@@ -7,8 +7,7 @@ mod stability;
 
 use std::f64::consts::TAU;
 
-use softstop::scene::{Release, Stop};
-use softstop::{Excitation, Scene, Start};
+use softstop::{Excitation, Release, Scene, Start, Stop};
 use softstop_lab::methods::{
     Events, Exact, FixedStep, Integrator, Judge, MethodError, Scheme, Solution, Task, Verdict,
 };

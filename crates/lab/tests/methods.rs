@@ -6,9 +6,7 @@
 
 use approx::abs_diff_eq;
 use proptest::prelude::*;
-use softstop::integrator::{Crossing, CrossingKind, Observer};
-use softstop::scene::Release;
-use softstop::{Ratios, Scene, Start, Stop};
+use softstop::{Crossing, CrossingKind, Observer, Ratios, Release, Scene, Start, Stop};
 use softstop_lab::methods::{
     Events, Exact, FixedStep, Integrator, MethodError, Moreau, Scheme, Solution, Task,
 };

@@ -5,8 +5,7 @@ mod contacts;
 mod stability;
 
 use approx::abs_diff_eq;
-use softstop::scene::Release;
-use softstop::{Excitation, Ratios, Scene, Start, Stop};
+use softstop::{Excitation, Ratios, Release, Scene, Start, Stop};
 use softstop_lab::methods::{
     Events, Exact, FixedStep, Integrator, MethodError, Moreau, Scheme, Solution, Task,
 };

@@ -9,7 +9,7 @@ use super::machine::Machine;
 use super::safe::{self, Place, Resumed};
 use super::state::State;
 use super::watch::Listener;
-use softstop::integrator::Start;
+use softstop::Start;
 
 /// Registers that go side by side.
 pub(super) const ABREAST: usize = 2;

@@ -1,7 +1,6 @@
 //! What the lanes are given and what they give back.
 
-use softstop::error::MotionError;
-use softstop::integrator::Start;
+use softstop::{MotionError, Start};
 
 /// One motion to follow, from drive period 0 on.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,8 +5,7 @@ use std::f64::consts::TAU;
 use pulp::Simd;
 
 use super::lanes::{Lanes, Mask};
-use softstop::flow::Modes;
-use softstop::phases::{Beyond, Exit, Phase, Phases};
+use softstop::internals::{Beyond, Exit, Modes, Phase, Phases};
 
 macro_rules! law {
     ($($(#[$doc:meta])* $field:ident,)*) => {

@@ -3,7 +3,7 @@
 //! The lanes go in lock-step through the same work, from crossing to crossing: they scan windows of time, counted
 //! from the last crossing, until each has met one that may hold the next; then all expand their motion about the
 //! instant before it, decide, and find the crossing. What a lane concludes it concludes by the certificates of the
-//! safe engine, [`Motion`](softstop::Motion); what lies within rounding of two answers, or is not a plain crossing (rest, sticking, chatter),
+//! safe engine, [`Motion`](softstop::internals::Motion); what lies within rounding of two answers, or is not a plain crossing (rest, sticking, chatter),
 //! is handed to the safe engine up to the end of the drive period. Machines with power laws go there altogether.
 //!
 //! A lane keeps the time since the beginning of its drive period, and takes cos and sin of the drive angle from

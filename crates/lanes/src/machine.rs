@@ -4,10 +4,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::law::Constants;
-use softstop::error::SceneError;
-use softstop::integrator::Clock;
-use softstop::phases::{Beyond, Phases};
-use softstop::scene::Scene;
+use softstop::internals::{Beyond, Phases};
+use softstop::{Clock, Scene, SceneError};
 
 /// A machine, lowered once for any number of motions.
 #[derive(Debug, Clone)]

@@ -8,7 +8,7 @@ use super::engine;
 use super::job::{Instructions, Job, Outcome};
 use super::machine::Machine;
 use super::watch::{Listener, Watch};
-use softstop::integrator::Start;
+use softstop::Start;
 
 /// Jobs of a part. Lanes that go together round together, so the parts may not depend on how many threads
 /// there are; and they are long enough for all lanes to be busy nearly to the end.

@@ -3,9 +3,8 @@
 use super::job::Outcome;
 use super::machine::Machine;
 use super::watch::Listener;
-use softstop::error::MotionError;
-use softstop::integrator::{Clock, Crossing, Instant, Motion, Observer, Start};
-use softstop::phases::Mode;
+use softstop::internals::{Mode, Motion};
+use softstop::{Clock, Crossing, Instant, MotionError, Observer, Start};
 
 /// A motion somewhere on its way.
 #[derive(Debug, Clone, Copy)]

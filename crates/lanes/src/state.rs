@@ -5,7 +5,7 @@ use pulp::Simd;
 use super::lanes::{Lanes, Mask};
 use super::machine::Machine;
 use super::taylor::cos_sin;
-use softstop::integrator::Start;
+use softstop::Start;
 
 /// The state of all lanes.
 #[derive(Debug, Clone, Copy)]

@@ -1,6 +1,6 @@
 //! Who hears of impacts and of the ends of drive periods.
 
-use softstop::integrator::Start;
+use softstop::Start;
 
 /// Watches the motions of a batch. To add one, implement what it needs and say so in the constants.
 pub trait Watch {

@@ -6,8 +6,7 @@ use approx::assert_abs_diff_eq;
 use softstop_testing::tolerance::{GROWN, SOLVED};
 use std::collections::HashMap;
 
-use softstop::scene::{Release, RigidStop, Slope};
-use softstop::{Clock, Ratios, Scene, Start, Stop};
+use softstop::{Clock, Ratios, Release, RigidStop, Scene, Slope, Start, Stop};
 use softstop_lanes::{Instructions, Job, Machine, Watch, run, run_with};
 use softstop_testing::Meets;
 

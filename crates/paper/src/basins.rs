@@ -4,8 +4,7 @@
 use std::f64::consts::TAU;
 
 use anyhow::{Error, Result};
-use softstop::integrator::Start;
-use softstop::{Ratios, Scene};
+use softstop::{Ratios, Scene, Start};
 use softstop_dynamics::basin::{Axis, Basins, Grid, Options, basins_watched};
 use softstop_dynamics::motion::MotionKind;
 use softstop_lanes::{Job, Machine, Watch};

@@ -1,8 +1,7 @@
 //! Random machines with every kind of stop.
 
 use proptest::prelude::*;
-use softstop::scene::{Release, RigidStop, Slope};
-use softstop::{Excitation, Piercing, Scene, Start, Stop};
+use softstop::{Excitation, Piercing, Release, RigidStop, Scene, Slope, Start, Stop};
 
 fn release() -> impl Strategy<Value = Release> {
     prop_oneof![Just(Release::Clearance), Just(Release::ZeroForce)]

@@ -1,7 +1,6 @@
 //! What a motion meets on its way: by this, tests leave out motions that no difference can follow.
 
-use softstop::integrator::{Crossing, CrossingKind, Observer};
-use softstop::{Instant, Scene, Start};
+use softstop::{Crossing, CrossingKind, Instant, Observer, Scene, Start};
 
 /// What a motion has met.
 #[derive(Clone, Debug)]

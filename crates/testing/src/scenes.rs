@@ -1,8 +1,9 @@
 //! Scenes of the paper, and those of tests/reference/stops.py and force.py.
 
 use serde_json::Value;
-use softstop::scene::{Release, RigidStop, Slope};
-use softstop::{Clock, Excitation, Instant, Piercing, Ratios, Scene, Start, Stop};
+use softstop::{
+    Clock, Excitation, Instant, Piercing, Ratios, Release, RigidStop, Scene, Slope, Start, Stop,
+};
 
 use crate::reference::{list, number};
 

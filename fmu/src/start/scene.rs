@@ -1,7 +1,6 @@
 //! Start values and scenes: the one from the other, both ways.
 
-use softstop::scene::{Release, RigidStop, Slope};
-use softstop::{Excitation, Piercing, Scene, SceneError, Start, Stop};
+use softstop::{Excitation, Piercing, Release, RigidStop, Scene, SceneError, Slope, Start, Stop};
 use softstop_fmi::variable::Slot;
 use thiserror::Error;
 

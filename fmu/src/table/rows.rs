@@ -1,6 +1,6 @@
 //! What the rows of the table are made of.
 
-use softstop::tangent::Sensitivity;
+use softstop::Sensitivity;
 use softstop_fmi::Quantity;
 use softstop_fmi::variable::{Access, Dependencies, Kind, RealKind, Slot, Variable};
 

@@ -9,8 +9,7 @@ pub mod along;
 pub mod search;
 pub mod space;
 
-use softstop::scene::Scene;
-use softstop::{Dimension, Machine, Parameter};
+use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_dynamics::orbit::Orbit;
 use softstop_dynamics::zone::{self, Zone, ZoneError};
 

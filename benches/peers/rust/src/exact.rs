@@ -1,7 +1,6 @@
 //! softstop itself, its scalar engine. The tolerance is of no use to it.
 
-use softstop::integrator::{Crossing, Observer};
-use softstop::{Clock, Ratios, Start};
+use softstop::{Clock, Crossing, Observer, Ratios, Start};
 
 use crate::request::{End, Request};
 

@@ -3,8 +3,7 @@
 use super::SurveyError;
 use super::fleet::Fleet;
 use crate::orbit::{Exponents, StroboscopicMap};
-use softstop::integrator::Start;
-use softstop::scene::Scene;
+use softstop::{Scene, Start};
 
 /// A motion that never repeats, as far as it was watched.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,9 +7,7 @@ use rayon::prelude::*;
 
 use super::SurveyError;
 use crate::watch::Watcher;
-use softstop::error::MotionError;
-use softstop::integrator::Start;
-use softstop::scene::Scene;
+use softstop::{MotionError, Scene, Start};
 use softstop_lanes::{Job, Machine, Watch};
 
 /// Motions that one thread follows at a time: several times as many as there are lanes.

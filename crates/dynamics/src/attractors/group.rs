@@ -6,7 +6,7 @@
 //! periodic for long (intermittency), each log is a few slow strands, and neighbours are those next on the strand:
 //! there the strands of one motion share the cells of a grid. Either is enough.
 
-use softstop::integrator::Start;
+use softstop::Start;
 
 /// Share of the states of two logs whose nearest neighbours lie in the other log, from which on the logs belong
 /// to one motion. It is 0.5 on average for one motion; with logs of 129 states its standard deviation is 0.05,

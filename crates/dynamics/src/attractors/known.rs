@@ -5,8 +5,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::{Certainty, SurveyError};
 use crate::orbit::recurrence::{distance, returns, size};
 use crate::orbit::{Orbit, StroboscopicMap};
-use softstop::integrator::Start;
-use softstop::scene::Scene;
+use softstop::{Scene, Start};
 
 /// Distance from an orbit at which a motion has arrived, in units of the orbit's size.
 const ARRIVED: f64 = 1e-6;

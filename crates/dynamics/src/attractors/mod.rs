@@ -23,9 +23,7 @@ use thiserror::Error;
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit};
 use crate::watch::{Watcher, unwatched};
-use softstop::error::{MotionError, SceneError};
-use softstop::integrator::Start;
-use softstop::scene::Scene;
+use softstop::{MotionError, Scene, SceneError, Start};
 
 /// How certain a periodic motion is.
 #[derive(Debug, Clone, Copy, PartialEq)]

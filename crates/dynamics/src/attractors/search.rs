@@ -12,8 +12,7 @@ use super::lifetime::Looks;
 use super::{Arrival, Attractor, Options, Region, Survey, SurveyError};
 use crate::orbit::Exponents;
 use crate::watch::{Watcher, unwatched};
-use softstop::integrator::Start;
-use softstop::scene::Scene;
+use softstop::{Scene, Start};
 
 /// Starts of the pilot.
 const PILOT: usize = 64;

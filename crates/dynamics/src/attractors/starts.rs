@@ -1,7 +1,7 @@
 //! Where starts lie.
 
-use softstop::integrator::Start;
-use softstop::scene::{Scales, Scene};
+use softstop::internals::Scales;
+use softstop::{Scene, Start};
 
 /// A rectangle of states at drive angle phi.
 #[derive(Debug, Clone, Copy, PartialEq)]

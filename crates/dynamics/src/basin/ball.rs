@@ -5,8 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Matrix2, Vector2};
 
 use crate::orbit::{Orbit, StroboscopicMap, multipliers};
-use softstop::error::MotionError;
-use softstop::integrator::Start;
+use softstop::{MotionError, Start};
 
 /// Where a motion has arrived: |L (s - c)| <= r.
 #[derive(Debug, Clone, Copy)]

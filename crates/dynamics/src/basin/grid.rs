@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use softstop::integrator::Start;
+use softstop::Start;
 
 /// What changes along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -40,8 +40,7 @@ use crate::attractors::SurveyError;
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit, Regime};
 use crate::watch::{Watcher, unwatched};
-use softstop::error::MotionError;
-use softstop::scene::Scene;
+use softstop::{MotionError, Scene};
 
 /// One basin.
 #[derive(Debug, Clone, PartialEq)]

@@ -12,9 +12,8 @@ use crate::attractors::SurveyError;
 use crate::attractors::fleet::{Fleet, Voyage};
 use crate::attractors::known::{Book, Standing};
 use crate::watch::{Watcher, stop_if};
-use softstop::error::MotionError;
-use softstop::integrator::{Clock, Motion, Start};
-use softstop::scene::Scene;
+use softstop::internals::Motion;
+use softstop::{Clock, MotionError, Scene, Start};
 use softstop_lanes::{Job, Machine};
 
 /// Cells that go together: enough for all lanes to be busy. The tiles may not depend on how many threads

@@ -1,9 +1,7 @@
 //! A machine along its parameters.
 
 use super::Family;
-use softstop::error::{MotionError, SceneError};
-use softstop::machine::Machine;
-use softstop::scene::{Parameter, Scene};
+use softstop::{Machine, MotionError, Parameter, Scene, SceneError};
 
 /// A machine along some of its parameters.
 #[derive(Debug, Clone)]

@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::orbit::OrbitError;
-use softstop::root::narrow;
+use softstop::internals::narrow;
 
 /// A system in scaled unknowns. To add one, implement the two methods.
 pub(crate) trait Equations {

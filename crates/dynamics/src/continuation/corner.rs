@@ -17,9 +17,7 @@ use super::follower::Follower;
 use super::round::{Face, Round, begin, carry_on};
 use super::shooting::Shooting;
 use crate::orbit::OrbitError;
-use softstop::error::MotionError;
-use softstop::integrator::Clock;
-use softstop::scene::Scene;
+use softstop::{Clock, MotionError, Scene};
 
 /// Distance of the surface, in units of the step that fails before it, within which it is the reason.
 const REACH: f64 = 10.0;

@@ -11,8 +11,7 @@ use super::round::{Round, Touch, nearest_turn};
 use super::shooting::Shooting;
 use super::touching::{Contact, Touching};
 use crate::orbit::OrbitError;
-use softstop::error::MotionError;
-use softstop::scene::Stop;
+use softstop::{MotionError, Stop};
 
 /// An orbit's slowest crossing and its nearest turning point.
 #[derive(Debug, Clone)]

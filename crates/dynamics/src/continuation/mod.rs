@@ -51,10 +51,9 @@ pub use round::Face;
 pub use test::Test;
 pub use way::{End, Limits};
 
-pub use softstop::scene::Parameter;
+pub use softstop::Parameter;
 
-use softstop::error::MotionError;
-use softstop::scene::Scene;
+use softstop::{MotionError, Scene};
 
 /// Scenes along one or more parameters. To add one, implement the three methods.
 pub trait Family<const PARAMETERS: usize = 1> {

@@ -2,14 +2,11 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use softstop::error::MotionError;
-use softstop::events::{Guard, Outlook, first_crossing};
-use softstop::flow::Course;
-use softstop::integrator::{
-    Arc, Clock, Crossing, CrossingKind, Effort, Instant, Motion, Observer, Start,
+use softstop::internals::{Course, Guard, Motion, Outlook, first_crossing};
+use softstop::{
+    Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Scene, Start, Stop,
+    Tangent,
 };
-use softstop::scene::{Scene, Stop};
-use softstop::tangent::Tangent;
 
 /// How often an orbit crosses what; it changes only where the orbit grazes something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -110,7 +107,7 @@ impl Round {
             let Start { position, velocity } = motion.state();
             ends.push(Vector2::new(position, velocity));
         }
-        finish(&motion, &mut watch);
+        motion.tell_arc(&mut watch);
         watch.sequence.impacts = watch.impacts.len();
         Ok(Self {
             ends,
@@ -148,20 +145,17 @@ pub(crate) fn carry_on(
     until: Instant,
     observer: &mut impl Observer,
 ) -> Result<(), MotionError> {
-    if motion.advance_within(until, observer, Effort::windows(MOST_WORK))? {
+    let mut effort = Effort::windows(MOST_WORK);
+    if motion
+        .watch(until, &mut (observer, &mut effort))?
+        .is_continue()
+    {
         return Ok(());
     }
     Err(MotionError::Stalled {
         time: motion.clock().time(motion.now()),
         position: motion.state().position,
     })
-}
-
-/// Tells an observer of the arc that is under way at the end.
-pub(crate) fn finish(motion: &Motion, observer: &mut impl Observer) {
-    let arc = motion.arc();
-    let elapsed = motion.clock().elapsed(arc.start, motion.now());
-    observer.arc(&arc, elapsed);
 }
 
 struct Watch<'a> {
@@ -250,7 +244,7 @@ pub(crate) fn nearest_turn(
     for period in 1..=periods {
         carry_on(&mut motion, Clock::at_cycle(period), &mut turns)?;
     }
-    finish(&motion, &mut turns);
+    motion.tell_arc(&mut turns);
     Ok(turns.nearest)
 }
 

@@ -7,8 +7,7 @@ use super::arclength::{Equations, Evaluation, differences};
 use super::round::Round;
 use super::test::Test;
 use crate::orbit::OrbitError;
-use softstop::error::MotionError;
-use softstop::scene::Scene;
+use softstop::{MotionError, Scene};
 
 /// Orbits of a family over a number of drive periods, in scaled unknowns: position, velocity,
 /// parameters.

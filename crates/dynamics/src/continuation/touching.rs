@@ -5,16 +5,16 @@
 //! whole periods back to it, the last arc taken on as if the stop were not there. (Arclength and Newton near
 //! grazing: arXiv 2506.18379, arXiv 2510.16218.)
 
+use std::ops::ControlFlow;
+
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Evaluation, Node, differences};
-use super::round::{Face, begin, carry_on, finish};
+use super::round::{Face, begin, carry_on};
 use super::shooting::round_off;
 use crate::orbit::OrbitError;
-use softstop::integrator::{Arc, Clock, Crossing, Effort, Instant, Observer};
-use softstop::scene::Scene;
-use softstop::tangent::Tangent;
+use softstop::{Arc, Clock, Crossing, Instant, Observer, Scene, Tangent};
 
 /// Grazing orbits of a family, in unknowns: drive angle of the touch, scaled parameters.
 #[derive(Debug)]
@@ -35,9 +35,6 @@ pub(crate) struct Contact {
     /// Before-impact velocities in m/s, that of the touch left out.
     pub impacts: Vec<f64>,
 }
-
-/// Work between two looks whether an orbit has made its crossings, in scan windows: a few crossings.
-const FEW: Effort = Effort::windows(64);
 
 /// The orbit does not cross as often as it should, or there is no such surface.
 const LOST: OrbitError = OrbitError::Diverged {
@@ -105,8 +102,8 @@ impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
         };
         // What comes after the last crossing of the orbit is not looked at: without the touch the mass may
         // bounce without end.
-        while watch.found.is_none() && !motion.advance_within(until, &mut watch, FEW)? {}
-        finish(&motion, &mut watch);
+        motion.advance(until, &mut watch)?;
+        motion.tell_arc(&mut watch);
         let end = watch.found.ok_or(LOST)?;
         let monodromy = watch.tangent.matrix;
         let drift = end - touch;
@@ -166,5 +163,12 @@ impl Observer for LastArc {
             self.impacts.extend(crossing.impact_velocity());
             self.left = self.left.saturating_sub(1);
         }
+    }
+
+    fn progress(&mut self, _: u64) -> ControlFlow<()> {
+        if self.found.is_some() {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
     }
 }

@@ -7,7 +7,7 @@ use super::Observation;
 use crate::continuation::{Heading, Test};
 use crate::orbit::{Orbit, OrbitError};
 use crate::zone::{grazing_frequencies, loss_of_stability};
-use softstop::scene::Scene;
+use softstop::Scene;
 
 /// Frequencies in rad/s that bound regimes of a machine.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

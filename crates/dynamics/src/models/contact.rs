@@ -3,9 +3,9 @@
 use nalgebra::Vector2;
 
 use crate::orbit::StroboscopicMap;
-use softstop::error::{MotionError, SceneError};
-use softstop::integrator::{Clock, Crossing, CrossingKind, Instant, Observer, Start};
-use softstop::scene::Scene;
+use softstop::{
+    Clock, Crossing, CrossingKind, Instant, MotionError, Observer, Scene, SceneError, Start,
+};
 
 /// What a contact is like that begins with a given velocity, with nothing but the contact's own forces
 /// (neither suspension nor drive): the limit in which a rigid stop's restitution is defined.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::matching::{self, root};
 use super::{Contact, FidelityError};
-use softstop::scene::{Release, Scene, Stop};
+use softstop::{Release, Scene, Stop};
 
 /// A rung: a law of contact, simple ones first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]

@@ -34,7 +34,7 @@
 
 use std::f64::consts::PI;
 
-use softstop::scene::Release;
+use softstop::Release;
 
 /// acos(z)/sqrt(1 - z^2), continued by acosh(z)/sqrt(z^2 - 1) beyond 1, where both are 1.
 fn angle_over_sine(zeta: f64) -> f64 {

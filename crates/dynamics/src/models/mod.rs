@@ -23,7 +23,7 @@ pub use quantity::{Answers, Quantity, cheapest};
 
 use thiserror::Error;
 
-use softstop::error::{MotionError, SceneError};
+use softstop::{MotionError, SceneError};
 
 /// Why a rung has no model, or a model no answer.
 #[derive(Debug, Clone, PartialEq, Error)]

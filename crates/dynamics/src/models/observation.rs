@@ -6,11 +6,10 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
-use softstop::error::MotionError;
-use softstop::integrator::{Arc, Clock, Crossing, CrossingKind, Observer, Start};
-use softstop::integrator::{Work, work};
-use softstop::phases::{Law, PhaseKind};
-use softstop::scene::Scene;
+use softstop::internals::{Law, work};
+use softstop::{
+    Arc, Clock, Crossing, CrossingKind, MotionError, Observer, PhaseKind, Scene, Start, Work,
+};
 
 /// What the settled motion of a machine gives.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -1,7 +1,7 @@
 //! The velocity at which models are matched.
 
 use super::{FidelityError, Ladder, Model, Observation, Rung};
-use softstop::integrator::Start;
+use softstop::Start;
 
 /// The before-impact velocity in m/s of the scene's own motion.
 ///

@@ -4,11 +4,10 @@ use std::sync::Arc as Shared;
 
 use nalgebra::{Matrix2, Vector2};
 
-use softstop::error::MotionError;
-use softstop::flow::Course;
-use softstop::integrator::{Arc, Clock, Crossing, CrossingKind, Instant, Motion, Observer, Start};
-use softstop::phases::{Beyond, Mode, Phases, Surface};
-use softstop::tangent::{Tangent, saltation};
+use softstop::internals::{Beyond, Course, Mode, Motion, Phases, Surface, saltation};
+use softstop::{
+    Arc, Clock, Crossing, CrossingKind, Instant, MotionError, Observer, Start, Tangent,
+};
 
 /// Parts of a drive period in which the end of a contact is looked for.
 const PARTS: f64 = 16.0;

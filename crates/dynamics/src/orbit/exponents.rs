@@ -3,8 +3,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::{Orbit, StroboscopicMap};
-use softstop::error::MotionError;
-use softstop::scene::Scene;
+use softstop::{MotionError, Scene};
 
 /// Batches whose means tell how uncertain the exponents are.
 const BATCHES: u32 = 32;

@@ -2,11 +2,8 @@
 
 use nalgebra::Vector2;
 
-use softstop::error::MotionError;
-use softstop::events::{Guard, Outlook, first_crossing};
-use softstop::integrator::{Arc, Clock, Crossing, Observer};
-use softstop::phases::PhaseKind;
-use softstop::scene::Scene;
+use softstop::internals::{Guard, Outlook, first_crossing};
+use softstop::{Arc, Clock, Crossing, MotionError, Observer, PhaseKind, Scene};
 
 /// Distance from the face, in units of the largest position, within which a mass nearly hits it.
 const NEAR: f64 = 0.01;

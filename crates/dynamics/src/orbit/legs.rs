@@ -16,11 +16,8 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::contact::{Face, Passing};
 use super::{Orbit, OrbitError, StroboscopicMap};
-use softstop::events::{Outlook, first_crossing};
-use softstop::integrator::{Clock, Instant, Motion, Observer};
-use softstop::scene::Scene;
-use softstop::tangent::Tangent;
-use softstop::trajectory::Touch;
+use softstop::internals::{Motion, Outlook, first_crossing};
+use softstop::{Clock, Instant, Observer, Scene, Tangent, Touch};
 
 /// Newton steps before giving up.
 const STEPS: usize = 60;

@@ -4,13 +4,10 @@ use std::sync::Arc as Shared;
 
 use nalgebra::{Matrix2, Vector2};
 
-use softstop::error::MotionError;
-use softstop::events::{Guard, Outlook, first_crossing};
-use softstop::flow::Course;
-use softstop::integrator::{Arc, Clock, Crossing, CrossingKind, Instant, Motion, Observer, Start};
-use softstop::phases::Phases;
-use softstop::scene::{Scales, Scene};
-use softstop::tangent::Tangent;
+use softstop::internals::{Course, Guard, Motion, Outlook, Phases, Scales, first_crossing};
+use softstop::{
+    Arc, Clock, Crossing, CrossingKind, Instant, MotionError, Observer, Scene, Start, Tangent,
+};
 
 /// The map of one scene over a number of drive periods, from time 0.
 #[derive(Debug, Clone)]

@@ -24,7 +24,7 @@ pub use search::find;
 use nalgebra::{Complex, Matrix2};
 use thiserror::Error;
 
-use softstop::error::{MotionError, SceneError};
+use softstop::{MotionError, SceneError};
 
 /// Why there is no orbit.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::{OrbitError, Passage, StroboscopicMap};
-use softstop::error::MotionError;
+use softstop::MotionError;
 
 /// Newton steps before giving up.
 const NEWTON_STEPS: usize = 30;

@@ -5,10 +5,7 @@ use nalgebra::{Complex, Matrix2, Vector2};
 use super::guess::guesses;
 use super::newton::fixed_point;
 use super::{ImpactPattern, OrbitError, Passage, Regime, StroboscopicMap, is_stable, roots};
-use softstop::error::MotionError;
-use softstop::integrator::Instant;
-use softstop::scene::Scene;
-use softstop::trajectory::Touch;
+use softstop::{Instant, MotionError, Scene, Touch};
 
 /// Distance in units of 1 + |state| within which a state that has returned after n periods has also
 /// returned after a divisor of n. Newton's method leaves about 1e-13.

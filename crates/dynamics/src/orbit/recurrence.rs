@@ -1,6 +1,6 @@
 //! Whether a row of stroboscopic states repeats.
 
-use softstop::integrator::Start;
+use softstop::Start;
 
 /// Distance within which a state has returned, in units of the motion's size.
 const RETURN: f64 = 1e-4;
@@ -93,7 +93,7 @@ fn gaps(frequency: f64, states: &[Start], apart: usize) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::{returns_within, settles_on};
-    use softstop::integrator::Start;
+    use softstop::Start;
 
     /// A spiral onto the origin, a third of a turn and a little more at each step.
     fn spiral(decay: f64) -> Vec<Start> {

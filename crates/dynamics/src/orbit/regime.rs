@@ -5,9 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::recurrence::returns;
-use softstop::error::MotionError;
-use softstop::integrator::{Clock, Crossing, Observer, Start};
-use softstop::scene::Scene;
+use softstop::{Clock, Crossing, MotionError, Observer, Scene, Start};
 
 /// The regime z = p/n: p impacts in n drive periods, after which the state returns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use nalgebra::Vector2;
 
 use super::{Orbit, OrbitError};
-use softstop::integrator::Start;
-use softstop::scene::{Scales, Scene};
+use softstop::internals::Scales;
+use softstop::{Scene, Start};
 use softstop_lanes::{Job, Machine, Watch};
 
 /// Speeds of the starts, in units of w times the length of the motion.

@@ -34,9 +34,7 @@ pub use settle::Step;
 
 use thiserror::Error;
 
-use softstop::error::MotionError;
-use softstop::integrator::Start;
-use softstop::{Machine, Parameter};
+use softstop::{Machine, MotionError, Parameter, Start};
 
 /// Which way the parameter goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -7,9 +7,7 @@ use rayon::prelude::*;
 use super::settle::{Log, Step};
 use super::{Chain, Plan};
 use crate::watch::Watcher;
-use softstop::error::MotionError;
-use softstop::integrator::Start;
-use softstop::scene::Scene;
+use softstop::{MotionError, Scene, Start};
 use softstop_lanes::{Job, Machine};
 
 /// Most chains that go together. Lanes that go together round together, so the groups may not depend on

@@ -5,9 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::motion::MotionKind;
 use crate::orbit::recurrence::settles_on;
 use crate::orbit::{ImpactPattern, Regime, StroboscopicMap};
-use softstop::error::MotionError;
-use softstop::integrator::{Instant, Start};
-use softstop::scene::Scene;
+use softstop::{Instant, MotionError, Scene, Start};
 use softstop_lanes::Watch;
 
 /// ln of a hundredfold growth.

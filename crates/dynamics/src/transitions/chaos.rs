@@ -6,7 +6,7 @@ use crate::attractors::Arrival;
 use crate::continuation::Family;
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
-use softstop::integrator::Start;
+use softstop::Start;
 
 /// Largest step of the parameter on the way, as a share of it.
 const STRIDE: f64 = 2e-4;

@@ -10,7 +10,7 @@ use super::{Transition, TransitionError};
 use crate::continuation::{Family, Follower, Limits};
 use crate::motion::MotionKind;
 use crate::watch::stop_if;
-use softstop::integrator::Start;
+use softstop::Start;
 
 /// Share of a window within which the way back is tried.
 const INSIDE: f64 = 0.25;

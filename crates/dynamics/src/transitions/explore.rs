@@ -13,7 +13,7 @@ use crate::continuation::Family;
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
 use crate::watch::Watcher;
-use softstop::integrator::Start;
+use softstop::Start;
 
 /// Finds transitions of a family's motions.
 pub struct Explorer<'a, F> {

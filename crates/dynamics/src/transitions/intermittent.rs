@@ -7,7 +7,7 @@ use super::stage::Stage;
 use crate::continuation::Family;
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit, StroboscopicMap};
-use softstop::integrator::Start;
+use softstop::Start;
 
 /// Drive periods for which a motion is followed.
 const ENDURANCE: u64 = 400_000;

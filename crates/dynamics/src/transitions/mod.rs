@@ -40,8 +40,7 @@ use thiserror::Error;
 use crate::attractors::{Options, SurveyError};
 use crate::motion::MotionKind;
 use crate::orbit::OrbitError;
-use softstop::error::MotionError;
-use softstop::integrator::Start;
+use softstop::{MotionError, Start};
 
 /// A transition from one motion to another.
 #[derive(Debug, Clone)]

@@ -6,8 +6,7 @@ use crate::continuation::Family;
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit};
 use crate::watch::Watcher;
-use softstop::integrator::Start;
-use softstop::scene::Scene;
+use softstop::{Scene, Start};
 
 /// Relative differences between motions started side by side.
 const SPREAD: f64 = 1e-9;

@@ -4,7 +4,7 @@ use super::stage::Gathering;
 use super::window::{EndKind, Window};
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
-use softstop::integrator::Start;
+use softstop::Start;
 
 /// What a motion has met beyond the end of its window.
 pub(super) struct Way {

@@ -1,7 +1,7 @@
 //! The motion without impacts and where it grazes the stop.
 
 use super::ZoneError;
-use softstop::scene::Scene;
+use softstop::Scene;
 
 /// Amplitude F0 / |k1 - m w^2 + i b1 w| in m of the impact-less motion at a frequency in rad/s.
 pub fn free_amplitude(scene: &Scene, frequency: f64) -> f64 {

@@ -4,7 +4,7 @@ use super::{Frequencies, ZoneError, at, grazing_frequencies};
 use crate::continuation::{BranchPoint, Follower, Heading};
 use crate::orbit::{Orbit, OrbitError, find};
 use crate::watch::stop_if;
-use softstop::scene::Scene;
+use softstop::Scene;
 
 /// The hysteresis zone of one machine, with its branch of z = 1 motions.
 #[derive(Debug, Clone)]

@@ -14,8 +14,8 @@ use thiserror::Error;
 
 use crate::continuation::Family;
 use crate::orbit::OrbitError;
-use softstop::error::{MotionError, SceneError};
-use softstop::scene::{Scales, Scene};
+use softstop::internals::Scales;
+use softstop::{MotionError, Scene, SceneError};
 
 /// Why a machine has no hysteresis zone.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use anyhow::Context;
 use serde::Serialize;
-use softstop::integrator::Evaluations;
+use softstop::internals::Evaluations;
 use softstop::{Clock, MotionError, Scene, Start};
 
 use softstop_console::failure::Failure;

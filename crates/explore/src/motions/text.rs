@@ -1,8 +1,7 @@
 //! The report for people.
 
 use super::report::{ChaosReport, ExponentReport, MotionsReport, PeriodicReport, SettledReport};
-use softstop::Machine;
-use softstop::scene::Dimension;
+use softstop::{Dimension, Machine};
 use softstop_console::table::{Row, heading, row, table};
 
 /// The signs of a machine's units, with a space before them; empty if it speaks ratios.

@@ -8,8 +8,7 @@ use kuva::render::annotations::{ReferenceLine, ShadedRegion};
 use kuva::render::figure::Figure;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
-use softstop::scene::Dimension;
-use softstop::{Machine, PhaseKind};
+use softstop::{Dimension, Machine, PhaseKind};
 
 use softstop_draw::style;
 

@@ -1,10 +1,7 @@
 //! Who watches the motion: tallies, the table of crossings, what is drawn.
 
-use softstop::PhaseKind;
-use softstop::Scene;
-use softstop::integrator::work;
-use softstop::integrator::{Arc, Clock, Crossing, CrossingKind, Motion, Observer};
-use softstop::phases::{Law, Phase};
+use softstop::internals::{Law, Motion, Phase, work};
+use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, PhaseKind, Scene};
 
 use super::name;
 use super::tally::{Rest, Tally};

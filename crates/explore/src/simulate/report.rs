@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use softstop::scene::Dimension;
-use softstop::{Machine, PhaseKind, Start};
+use softstop::{Dimension, Machine, PhaseKind, Start};
 
 use super::run::{DRAWN, Outcome};
 use super::tally::{Impact, Rest};

@@ -1,9 +1,7 @@
 //! The run itself: from sample to sample, exactly.
 
-use softstop::integrator::mechanical_energy;
-use softstop::integrator::{Instant, Motion};
-use softstop::phases::Law;
-use softstop::{Scene, Start};
+use softstop::internals::{Law, Motion, mechanical_energy};
+use softstop::{Instant, Scene, Start};
 
 use super::name;
 use super::record::{Recorder, force};

@@ -1,9 +1,7 @@
 //! What a motion adds up to: impacts, rests, phases, energies.
 
 use serde::Serialize;
-use softstop::PhaseKind;
-use softstop::integrator::Work;
-use softstop::integrator::{Crossing, CrossingKind};
+use softstop::{Crossing, CrossingKind, PhaseKind, Work};
 
 /// Impacts kept one by one; all of them stand in crossings.csv.
 const RECENT: usize = 10;

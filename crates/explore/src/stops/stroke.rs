@@ -2,9 +2,10 @@
 //! suspension acting on it besides. What is recorded is the force of the phases that the library
 //! lowers to.
 
-use softstop::integrator::{Arc, Clock, Crossing, CrossingKind, Observer};
-use softstop::phases::Law;
-use softstop::{MotionError, PhaseKind, Scene, Start};
+use softstop::internals::Law;
+use softstop::{
+    Arc, Clock, Crossing, CrossingKind, MotionError, Observer, PhaseKind, Scene, Start,
+};
 
 /// Points on an arc of a linear law.
 const POINTS: u32 = 120;
@@ -71,9 +72,7 @@ impl Stroke {
                 break;
             }
         }
-        let arc = motion.arc();
-        let elapsed = motion.clock().elapsed(arc.start, motion.now());
-        recorder.arc(&arc, elapsed);
+        motion.tell_arc(&mut recorder);
         Ok(recorder.stroke)
     }
 

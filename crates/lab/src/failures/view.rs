@@ -2,8 +2,7 @@
 
 use crate::methods::Task;
 use crate::scenes::{self, BuiltIn, built_in};
-use softstop::scene::Slope;
-use softstop::{MotionError, PhaseKind, Scene, Start, Stop};
+use softstop::{MotionError, PhaseKind, Scene, Slope, Start, Stop};
 
 use softstop_console::failure::Failure;
 use softstop_console::scene_file::SceneFile;

@@ -1,7 +1,7 @@
 //! The exact method, as one among others.
 
 use super::{Integrator, MethodError, Solution, Task, Work};
-use softstop::integrator::{Arc, Clock, Crossing, Impact, Instant, Observer};
+use softstop::{Arc, Clock, Crossing, Impact, Instant, Observer};
 
 /// Closed forms from crossing to crossing, Taylor steps where a law is not linear.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -4,7 +4,7 @@ use super::machine::{Machine, State, Steps};
 use super::rise::{Fineness, Probe, rise};
 use super::step::Step;
 use super::{MethodError, Task};
-use softstop::integrator::Impact;
+use softstop::Impact;
 
 /// The places that end or count a motion onwards.
 #[derive(Debug, Clone, Copy)]

@@ -6,8 +6,8 @@ use super::machine::{Laws, Machine, State, Steps};
 use super::rise::{Fineness, Probe, rise};
 use super::step::Step;
 use super::{MethodError, Task};
-use softstop::events::Guard;
-use softstop::integrator::{Start, Walk};
+use softstop::Start;
+use softstop::internals::{Guard, Walk};
 
 /// How often a step is halved in the search for the side that a guard begins from.
 const HALVINGS: u32 = 60;

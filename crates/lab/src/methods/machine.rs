@@ -1,9 +1,8 @@
 //! A task as the stepping methods see it: forces at a time and a state, and what asking for them costs.
 
 use super::{MethodError, Solution, Task, Work};
-use softstop::error::{MotionError, SceneError};
-use softstop::integrator::Impact;
-use softstop::phases::Phases;
+use softstop::internals::Phases;
+use softstop::{Impact, MotionError, SceneError};
 
 /// Which law of force a step goes by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -25,10 +25,10 @@ pub use verdict::{Judge, Verdict};
 
 use thiserror::Error;
 
-use softstop::error::MotionError;
-pub use softstop::integrator::Evaluations as Work;
-use softstop::integrator::{Impact, Start, Walk};
-use softstop::scene::Scene;
+use softstop::MotionError;
+pub use softstop::internals::Evaluations as Work;
+use softstop::internals::Walk;
+use softstop::{Impact, Scene, Start};
 
 /// A motion to be computed, from time 0 on.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,7 @@ use super::balance::Balance;
 use super::ignored::{Places, Span};
 use super::machine::{Laws, Machine, State, Steps, in_range, prepare};
 use super::{Integrator, MethodError, Solution, Task};
-use softstop::integrator::Impact;
+use softstop::Impact;
 
 /// Steps on the level of velocities: impacts are not located but taken up by the step in which they lie.
 ///

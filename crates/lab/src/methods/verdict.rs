@@ -1,9 +1,8 @@
 //! What became of a motion under a method: one of a few classes, told by a reference.
 
 use super::{MethodError, Solution, Task};
-use softstop::integrator::mechanical_energy;
-use softstop::integrator::{Impact, Start};
-use softstop::scene::Scene;
+use softstop::internals::mechanical_energy;
+use softstop::{Impact, Scene, Start};
 
 /// Beyond so many times the greatest speed that energy allows, a motion has blown up.
 const BLOWN_UP: f64 = 1e3;
@@ -195,7 +194,7 @@ fn ratio(part: f64, whole: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::methods::{Exact, Integrator, Work};
-    use softstop::scene::Ratios;
+    use softstop::Ratios;
 
     fn task() -> Task {
         Task {

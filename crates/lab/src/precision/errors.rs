@@ -2,8 +2,7 @@
 
 use crate::methods::{Solution, Task};
 use serde::Serialize;
-use softstop::integrator::Instant;
-use softstop::{Impact, MotionError};
+use softstop::{Impact, Instant, MotionError};
 
 /// The size of a motion, by which its errors are divided.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

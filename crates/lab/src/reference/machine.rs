@@ -1,9 +1,7 @@
 //! A scene as layers of positions with their laws, built from the user's data alone: sums of parameters are
 //! not rounded, and nothing of the core's lowering is used.
 
-use softstop::Scene;
-use softstop::Stop;
-use softstop::scene::{Release, Slope};
+use softstop::{Release, Scene, Slope, Stop};
 
 use super::ReferenceError;
 use super::number::{Digits, Real};

@@ -2,9 +2,8 @@
 
 use std::cell::Cell;
 
-use softstop::events::Guard;
-use softstop::phases::Phase;
-use softstop::scene::Scene;
+use softstop::Scene;
+use softstop::internals::{Guard, Phase};
 
 /// Two numbers that a solver follows: position in m and velocity in m/s or, of a mass that is held, the
 /// drive per mass in m/s^2 and its rate.

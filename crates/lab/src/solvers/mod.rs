@@ -29,7 +29,7 @@ mod leg;
 mod span;
 
 use crate::methods::{Integrator, MethodError, Solution, Task, Work};
-use softstop::integrator::Walk;
+use softstop::internals::Walk;
 use softstop::{MotionError, SceneError, Start};
 
 use leg::{Leg, drive};

@@ -7,11 +7,8 @@
 //! it than that, and wherever the errors have grown so far that the tangent says nothing of them.
 
 use nalgebra::Matrix2;
-use softstop::events::{Guard, Outlook, first_crossing};
-use softstop::flow::Course;
-use softstop::integrator::{Arc, Crossing, CrossingKind, Observer};
-use softstop::tangent::Tangent;
-use softstop::{Clock, MotionError, Scene, Start};
+use softstop::internals::{Course, Guard, Outlook, first_crossing};
+use softstop::{Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene, Start, Tangent};
 
 /// Errors of position (m) and velocity (m/s) made on one arc. An arc has some ten windows and the motions are
 /// up to 20 m and 30 m/s large: rounding makes at most some 10 * 4e-15, the 4th differences of both

@@ -3,8 +3,7 @@
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use serde::Serialize;
-use softstop::scene::{Release, RigidStop, Slope};
-use softstop::{Ratios, Scene, SceneError, Start, Stop};
+use softstop::{Ratios, Release, RigidStop, Scene, SceneError, Slope, Start, Stop};
 
 /// What kind of machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

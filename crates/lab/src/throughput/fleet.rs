@@ -2,8 +2,7 @@
 
 use rayon::prelude::*;
 use serde::Serialize;
-use softstop::integrator::{Crossing, Observer};
-use softstop::{Clock, MotionError, Ratios, Scene, SceneError, Start};
+use softstop::{Clock, Crossing, MotionError, Observer, Ratios, Scene, SceneError, Start};
 use softstop_lanes::{Instructions, Job, Machine, Outcome, run_parallel, run_with};
 
 /// The motions.

@@ -1,9 +1,7 @@
 //! One period of a motion, arc by arc, with the force of contact.
 
-use softstop::integrator::work;
-use softstop::integrator::{Arc, Clock, Observer};
-use softstop::phases::Law;
-use softstop::{MotionError, PhaseKind};
+use softstop::internals::{Law, work};
+use softstop::{Arc, Clock, MotionError, Observer, PhaseKind};
 use softstop_dynamics::orbit::Orbit;
 
 use crate::figure7::chart::StrokePoint;

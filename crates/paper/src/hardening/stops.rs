@@ -2,8 +2,7 @@
 
 use std::f64::consts::PI;
 
-use softstop::scene::{Release, Slope};
-use softstop::{Excitation, Scene, Stop};
+use softstop::{Excitation, Release, Scene, Slope, Stop};
 use softstop_dynamics::zone::grazing_frequencies;
 
 /// The clearance rho of the diagrams.

@@ -6,8 +6,7 @@ use super::super::{Attractor, Region, Survey, SurveyError};
 use super::{Group, Member, Search};
 use crate::motion::MotionKind;
 use crate::orbit::Exponents;
-use softstop::error::MotionError;
-use softstop::integrator::Start;
+use softstop::{MotionError, Start};
 
 impl Search<'_> {
     pub(super) fn report(mut self, region: Region) -> Result<Survey, SurveyError> {

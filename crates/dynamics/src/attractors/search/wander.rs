@@ -10,7 +10,7 @@ use super::super::known::Standing;
 use super::super::lifetime::Looks;
 use super::{GROWTH, Group, Search};
 use crate::orbit::Exponents;
-use softstop::integrator::Start;
+use softstop::Start;
 
 /// Drive periods in each of the 32 batches of an exponent: at first, and at most.
 const BATCH: (u64, u64) = (100, 1600);

@@ -1,0 +1,11 @@
+//! What the sibling crates need of the engine's inside: phases, courses, guards. No promise is made of it.
+
+pub mod samples;
+
+pub use crate::events::{Guard, Outlook, first_crossing};
+pub use crate::flow::{Course, Departure, Flow, Modes, Polynomial};
+pub use crate::integrator::{Evaluations, Motion, Walk, mechanical_energy, work};
+pub use crate::phases::{Beyond, Exit, Law, Mode, Phase, Phases, Surface};
+pub use crate::root::narrow;
+pub use crate::scene::{Scales, force_of};
+pub use crate::tangent::saltation;
