@@ -38,7 +38,29 @@ pub struct Axes<'a> {
     pub ticks: (usize, usize),
 }
 
+impl<'a> Axes<'a> {
+    /// Axes with numbers of this size, the names across and upwards, and about so many numbers along each.
+    pub const fn new(
+        letters: u32,
+        across: Option<&'a str>,
+        upwards: &'a str,
+        ticks: (usize, usize),
+    ) -> Self {
+        Self {
+            letters,
+            across,
+            upwards,
+            ticks,
+        }
+    }
+}
+
 impl Panel {
+    /// A panel at this place, with the ranges of both axes.
+    pub const fn new(area: Area, x: (f64, f64), y: (f64, f64)) -> Self {
+        Self { area, x, y }
+    }
+
     /// Where a value of the axis across is.
     pub fn across(&self, x: f64) -> f64 {
         self.area.0 + self.area.2 * (x - self.x.0) / (self.x.1 - self.x.0)

@@ -3,6 +3,9 @@
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Pen, Stroke};
 use softstop_draw::style;
+use softstop_dynamics::sweep::Step;
+
+use crate::diagram::{dots, same};
 
 /// Pixels for each unit of length.
 const SCALE: f32 = 2.0;
@@ -15,17 +18,11 @@ const DOT: f64 = 0.7;
 /// Colours: both ways, up only, down only.
 const COLOURS: [&str; 3] = ["#444444", style::DESIGN, style::OPTIMUM];
 
-/// What a step of a sweep shows.
+/// A step of a sweep along eta.
 #[derive(Debug, Clone)]
 pub struct StabilityPoint {
-    /// eta.
-    pub eta: f64,
-    /// X'-, ascending; none without impacts.
-    pub velocities: Vec<f64>,
-    /// z, if it repeats.
-    pub regime: Option<(u64, u64)>,
-    /// False while it is on its way from one motion to another.
-    pub is_settled: bool,
+    /// The step.
+    pub step: Step,
     /// The largest exponent per unit of tau, and the half-width of its 95 % interval.
     pub exponent: (f64, f64),
 }
@@ -69,19 +66,9 @@ impl StabilityChart<'_> {
             let area = |row: usize| (left, tops[row], right - left, HEIGHTS[row]);
             let whole = left == COLUMNS[0].0;
             let points = part.ways.iter().flatten();
-            let top = points
-                .filter_map(|point| point.velocities.last())
-                .fold(1.0, |a, b| b.max(a));
-            let diagram = Panel {
-                area: area(0),
-                x: part.range,
-                y: (-0.04 * top, 1.08 * top),
-            };
-            let exponents = Panel {
-                area: area(1),
-                x: part.range,
-                y: part.exponents,
-            };
+            let top = points.map(|point| point.step.hardest()).fold(1.0, f64::max);
+            let diagram = Panel::new(area(0), part.range, (-0.04 * top, 1.08 * top));
+            let exponents = Panel::new(area(1), part.range, part.exponents);
             let ticks = (if whole { 10 } else { 5 }, 5);
             let upper = axes(None, "before-impact velocity X′₋", ticks);
             let lower = axes(Some("drive frequency η = ω/Ω"), "λ per unit of τ", ticks);
@@ -112,18 +99,12 @@ impl StabilityChart<'_> {
 
     fn curves(&self, pen: &mut Pen, part: &StabilityPart, diagram: &Panel, exponents: &Panel) {
         for way in [1, 2, 0] {
-            let own = |point: &&(usize, &StabilityPoint)| point.0 == way && point.1.is_settled;
-            let points = classed(part);
-            let own_points = points.iter().filter(own);
-            let velocities = own_points.flat_map(|(_, point)| {
-                let rest = point.velocities.is_empty().then_some(0.0);
-                let all = point.velocities.iter().copied().chain(rest);
-                all.map(|velocity| (point.eta, velocity))
-                    .collect::<Vec<_>>()
-            });
+            let mut points = classed(part);
+            points.retain(|(class, point)| *class == way && point.step.is_settled());
+            let points = points.iter().map(|(_, point)| point);
+            let velocities = points.clone().flat_map(|point| dots(&point.step));
             diagram.dots(pen, velocities, DOT, COLOURS[way]);
-            let values = points.iter().filter(own);
-            let values = values.map(|(_, point)| (point.eta, point.exponent.0));
+            let values = points.map(|point| (point.step.value, point.exponent.0));
             exponents.dots(pen, values, 1.4 * DOT, COLOURS[way]);
         }
     }
@@ -152,9 +133,9 @@ fn classed(part: &StabilityPart) -> Vec<(usize, &StabilityPoint)> {
     let [up, down] = &part.ways;
     let mut points = Vec::new();
     for (a, b) in up.iter().zip(down) {
-        if same(a, b) {
+        if same(&a.step, &b.step) {
             points.push((0, a));
-            if a.regime.is_none() {
+            if a.step.motion.regime().is_none() {
                 points.push((0, b));
             }
         } else {
@@ -164,19 +145,8 @@ fn classed(part: &StabilityPart) -> Vec<(usize, &StabilityPoint)> {
     points
 }
 
-fn same(a: &StabilityPoint, b: &StabilityPoint) -> bool {
-    let hardest = |point: &StabilityPoint| point.velocities.last().copied().unwrap_or(0.0);
-    let (one, other) = (hardest(a), hardest(b));
-    a.regime == b.regime && (a.regime.is_none() || (one - other).abs() <= 0.01 * one.max(other))
-}
-
 fn axes<'a>(across: Option<&'a str>, upwards: &'a str, ticks: (usize, usize)) -> Axes<'a> {
-    Axes {
-        letters: LETTERS,
-        across,
-        upwards,
-        ticks,
-    }
+    Axes::new(LETTERS, across, upwards, ticks)
 }
 
 fn legend(pen: &mut Pen, y: f64) {

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use softstop::{MotionError, Ratios, Scene};
 use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::orbit::{Exponents, Orbit, find};
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
+use softstop_dynamics::sweep::{Chain, Plan, Step};
 use softstop_dynamics::zone::hysteresis;
 
 use crate::diagram::{self, Job};
@@ -36,15 +36,10 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     });
     let plans = plans.collect::<Result<Vec<Plan>>>()?;
     let scene = Ratios::unloaded().scene()?;
-    let chain = |way| Chain::new(scene.clone(), way);
-    let ways = [Direction::Up, Direction::Down].map(chain).to_vec();
-    let mut whole = [(plans[0], ways)];
+    let mut whole = [(plans[0], diagram::ways(&scene).to_vec())];
     diagram::sweep(&mut whole, "steps of the sweeps")?;
     let [(_, whole)] = whole;
-    let zoom = whole.iter().map(|sweep| {
-        let plan = diagram::part_of(sweep, &plans[1]);
-        (plan, vec![chain(sweep.direction)])
-    });
+    let zoom = whole.iter().map(|sweep| diagram::part_of(sweep, &plans[1]));
     let mut zoom: Vec<Job> = zoom.collect();
     diagram::sweep(&mut zoom, "steps of the zoom")?;
     let sweeps = [whole, zoom.into_iter().flat_map(|job| job.1).collect()];
@@ -102,13 +97,9 @@ fn points(chain: &Chain, batch: u64, progress: &Progress) -> Result<Vec<Stabilit
         .into_par_iter()
         .map(|step| {
             progress.step()?;
-            let exponent = exponent(&chain.machine.scene, step, batch);
             Ok(StabilityPoint {
-                eta: step.value,
-                velocities: step.velocities.clone(),
-                regime: step.motion.regime().map(|it| (it.impacts, it.periods)),
-                is_settled: step.is_settled(),
-                exponent: exponent?,
+                exponent: exponent(&chain.machine.scene, step, batch)?,
+                step: step.clone(),
             })
         })
         .collect()
@@ -169,6 +160,7 @@ impl Summary {
         let hardest = branch.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
         let stable = branch.iter().min_by(|a, b| a[2].total_cmp(&b[2]));
         let none = || anyhow!("z = 1 was not met");
+        let triple = |at: &StabilityPoint| [at.step.value, at.step.hardest(), at.exponent.0];
         let chaotic = ways.flatten().map(triple).filter(|it| it[2] > 0.0);
         Ok(Self {
             point: [
@@ -213,34 +205,18 @@ impl Summary {
     }
 }
 
-fn triple(point: &StabilityPoint) -> [f64; 3] {
-    let velocity = point.velocities.last().copied().unwrap_or(0.0);
-    [point.eta, velocity, point.exponent.0]
-}
-
 fn table(parts: &[StabilityPart]) -> Result<Vec<u8>> {
     let columns =
         "direction,eta,impacts,periods,lambda,lambda_half_width,largest_before_impact_velocity";
-    let rows = parts.iter().flat_map(|part| {
-        part.ways
-            .iter()
-            .zip(["up", "down"])
-            .flat_map(|(points, way)| {
-                points.iter().map(move |point| {
-                    let (impacts, periods) = point.regime.unzip();
-                    let (lambda, width) = point.exponent;
-                    let velocity = point.velocities.last().copied().unwrap_or(0.0);
-                    (
-                        way,
-                        format!("{:.9}", point.eta),
-                        impacts,
-                        periods,
-                        lambda,
-                        width,
-                        velocity,
-                    )
-                })
-            })
+    let ways = parts
+        .iter()
+        .flat_map(|part| part.ways.iter().zip(["up", "down"]));
+    let points = ways.flat_map(|(points, way)| points.iter().map(move |point| (way, point)));
+    let rows = points.map(|(way, StabilityPoint { step, exponent })| {
+        let regime = step.motion.regime();
+        let regime = regime.map(|it| (it.impacts, it.periods)).unzip();
+        let eta = format!("{:.9}", step.value);
+        (way, eta, regime, *exponent, step.hardest())
     });
     figure::table(columns, rows)
 }

@@ -4,6 +4,7 @@
 use softstop_dynamics::sweep::{Chain, Direction, Jump, Step};
 
 use super::piercing::{self, Ranges};
+use crate::diagram::is_one;
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Pen, Stroke};
 use softstop_draw::style;
@@ -86,20 +87,22 @@ impl ClearanceChart<'_> {
         let low = top + HEIGHT + 26.0 + strip;
         let mut pen = Pen::new(WIDTH, low + HEIGHT + 66.0);
         heading(&mut pen, (SIDES.0, 30.0), &self.title, &self.explanation);
-        let panel = |top, highest| Panel {
-            area: (SIDES.0, top, SIDES.1 - SIDES.0, HEIGHT),
-            x: self.range,
-            y: (0.0, highest),
+        let panel = |top, highest| {
+            Panel::new(
+                (SIDES.0, top, SIDES.1 - SIDES.0, HEIGHT),
+                self.range,
+                (0.0, highest),
+            )
         };
         self.positions(&mut pen, &panel(top, TOP.0));
         if let Some(rows) = rows {
             let top = top + HEIGHT + 26.0;
             let height = piercing::height(rows.len());
-            let panel = Panel {
-                area: (SIDES.0, top, SIDES.1 - SIDES.0, height),
-                x: self.range,
-                y: (0.0, 1.0),
-            };
+            let panel = Panel::new(
+                (SIDES.0, top, SIDES.1 - SIDES.0, height),
+                self.range,
+                (0.0, 1.0),
+            );
             let lines = rows.iter().zip(self.rows).zip(COLOURS);
             let lines = lines.map(|((ways, row), color)| (row.clearance, ways, color));
             piercing::draw(&mut pen, &panel, lines);
@@ -109,12 +112,7 @@ impl ClearanceChart<'_> {
     }
 
     fn positions(&self, pen: &mut Pen, panel: &Panel) {
-        let axes = Axes {
-            letters: LETTERS,
-            across: None,
-            upwards: "largest position Xₘ",
-            ticks: (10, 6),
-        };
+        let axes = Axes::new(LETTERS, None, "largest position Xₘ", (10, 6));
         panel.ground(pen, &axes);
         self.diagrams(pen, panel, |step| match step.hardest() {
             0.0 => Vec::new(),
@@ -135,12 +133,12 @@ impl ClearanceChart<'_> {
     }
 
     fn velocities(&self, pen: &mut Pen, panel: &Panel) {
-        let axes = Axes {
-            letters: LETTERS,
-            across: Some("drive frequency η = ω/Ω"),
-            upwards: "before-impact velocity X′₋",
-            ticks: (10, 5),
-        };
+        let axes = Axes::new(
+            LETTERS,
+            Some("drive frequency η = ω/Ω"),
+            "before-impact velocity X′₋",
+            (10, 5),
+        );
         panel.ground(pen, &axes);
         self.diagrams(pen, panel, |step| step.velocities.clone());
         panel.curve(pen, &pairs(&self.boundaries.grazing, 2), RESPONSE);
@@ -253,11 +251,6 @@ impl ClearanceChart<'_> {
             }
         }
     }
-}
-
-fn is_one(step: &Step) -> bool {
-    let regime = step.motion.regime();
-    regime.is_some_and(|regime| (regime.impacts, regime.periods) == (1, 1))
 }
 
 fn pairs(points: &[[f64; 3]], which: usize) -> Vec<(f64, f64)> {

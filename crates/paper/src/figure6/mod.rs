@@ -8,7 +8,7 @@ use anyhow::{Error, Result};
 use softstop::Ratios;
 use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::orbit;
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
+use softstop_dynamics::sweep::{Chain, Plan, Step};
 
 use crate::diagram::{self, Job};
 use crate::figure::{self, Detail, Drawn, Figure};
@@ -41,7 +41,7 @@ fn draw(detail: Detail, machine: Ratios, name: &'static str) -> Result<Drawn> {
     let mut chains = Vec::new();
     for clearance in CLEARANCES {
         let scene = machine.at_clearance(clearance).scene()?;
-        chains.extend([Direction::Up, Direction::Down].map(|way| Chain::new(scene.clone(), way)));
+        chains.extend(diagram::ways(&scene));
     }
     let mut job: [Job; 1] = [(plan, chains)];
     diagram::sweep(&mut job, "steps of the sweeps")?;
@@ -136,10 +136,7 @@ fn table(rows: &[ClearanceRow]) -> Result<Vec<u8>> {
 /// The step of z = 1 with the highest velocity.
 fn hardest(row: &ClearanceRow) -> Option<&Step> {
     let steps = row.ways.iter().flat_map(|chain| &chain.steps);
-    let ones = steps.filter(|step| {
-        let regime = step.motion.regime();
-        regime.is_some_and(|it| (it.impacts, it.periods) == (1, 1))
-    });
+    let ones = steps.filter(|step| diagram::is_one(step));
     ones.max_by(|a, b| a.hardest().total_cmp(&b.hardest()))
 }
 

@@ -4,6 +4,7 @@
 use softstop_dynamics::sweep::{Chain, Step};
 
 use super::band::{Bifurcation, band, both_ways, spread};
+use crate::diagram::{dots, same};
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Pen, Stroke, width};
 use softstop_draw::style;
@@ -23,8 +24,6 @@ const COLUMNS: [(f64, f64); 2] = [(76.0, 612.0), (676.0, 1212.0)];
 const HEIGHTS: (f64, f64) = (300.0, 330.0);
 /// Room below a panel.
 const BELOW: f64 = 62.0;
-/// Difference of velocities, as a share, of motions that are not the same.
-const APART: f64 = 0.01;
 /// Colours of motions met both ways, up only, down only, and on no sweep from rest.
 const BOTH: &str = "#444444";
 const UP: &str = style::DESIGN;
@@ -168,11 +167,7 @@ impl NumberedChart<'_> {
         let all = steps.chain(isolated.filter(|step| within(diagram.range, step.value)));
         let top = all.map(Step::hardest).fold(0.0, f64::max);
         let top = if top > 0.0 { top } else { 1.0 };
-        Panel {
-            area,
-            x: diagram.range,
-            y: (-0.16 * top, 1.12 * top),
-        }
+        Panel::new(area, diagram.range, (-0.16 * top, 1.12 * top))
     }
 
     /// The dots.
@@ -232,25 +227,11 @@ impl NumberedChart<'_> {
 }
 
 fn axes(across: Option<&str>, ticks: (usize, usize)) -> Axes<'_> {
-    Axes {
-        letters: LETTERS,
-        across,
-        upwards: "X′₋",
-        ticks,
-    }
+    Axes::new(LETTERS, across, "X′₋", ticks)
 }
 
 fn within((low, high): (f64, f64), value: f64) -> bool {
     (low..=high).contains(&value)
-}
-
-/// The velocities of a step; 0 for a motion without impacts.
-fn dots(step: &Step) -> Vec<(f64, f64)> {
-    if step.velocities.is_empty() {
-        return vec![(step.value, 0.0)];
-    }
-    let velocities = step.velocities.iter();
-    velocities.map(|velocity| (step.value, *velocity)).collect()
 }
 
 /// True if a step shows a motion on its way from one periodic motion to another.
@@ -260,18 +241,6 @@ fn is_passing(steps: &[&Step], index: usize) -> bool {
     let after = steps[index + 1..].iter().find(is_settled);
     let repeats = |step: Option<&&Step>| step.is_none_or(|step| step.motion.regime().is_some());
     !steps[index].is_settled() && repeats(before) && repeats(after)
-}
-
-/// True if both are the same motion, or both wander.
-fn same(a: &Step, b: &Step) -> bool {
-    match (a.motion.regime(), b.motion.regime()) {
-        (Some(one), Some(other)) => {
-            let (low, high) = (a.hardest().min(b.hardest()), a.hardest().max(b.hardest()));
-            one == other && high - low <= APART * high
-        }
-        (None, None) => true,
-        _ => false,
-    }
 }
 
 /// The names of motions beside them.

@@ -19,21 +19,15 @@ use softstop_console::progress::Progress;
 const REACH: f64 = 0.02;
 /// Fewest steps on which a motion is followed to be one of its own.
 const SHORTEST: usize = 10;
-/// Difference of velocities, as a share, of motions that are not the same.
-const APART: f64 = 0.01;
 
 /// An orbit and the frequency at which it was found.
 type Seed = (f64, Orbit);
 
 /// Steps of all isolated motions.
-///
-/// # Errors
-/// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
 pub(super) fn find(known: &[&Diagram], detail: Detail) -> Result<Vec<Step>> {
     let mut found: Vec<Step> = Vec::new();
     for (eta, orbit) in seeds(known, detail)? {
-        let motion = Like::of(&orbit);
-        if near(&found, eta).is_some_and(|step| motion.is(step)) {
+        if near(&found, eta).is_some_and(|step| shows(step, &orbit)) {
             continue;
         }
         let mut jobs = [
@@ -80,12 +74,8 @@ fn seeds(known: &[&Diagram], detail: Detail) -> Result<Vec<Seed>> {
             let Some(orbit) = attractor.orbit else {
                 continue;
             };
-            let motion = Like::of(&orbit);
-            let is_known = known
-                .iter()
-                .flat_map(|diagram| at(diagram, eta))
-                .any(|step| motion.is(step));
-            if !is_known {
+            let mut steps = known.iter().flat_map(|diagram| at(diagram, eta));
+            if !steps.any(|step| shows(step, &orbit)) {
                 seeds.push((eta, *orbit));
             }
         }
@@ -109,28 +99,11 @@ fn job(eta: f64, orbit: &Orbit, way: Direction, detail: Detail) -> Result<Job> {
     Ok((Plan { start, ..plan }, vec![chain]))
 }
 
-/// What tells a periodic motion.
-struct Like {
-    impacts: u64,
-    periods: u64,
-    hardest: f64,
-}
-
-impl Like {
-    fn of(orbit: &Orbit) -> Self {
-        let regime = orbit.regime();
-        Self {
-            impacts: regime.impacts,
-            periods: regime.periods,
-            hardest: orbit.before_impact_velocity(),
-        }
-    }
-
-    fn is(&self, step: &Step) -> bool {
-        let regime = step.motion.regime();
-        regime.is_some_and(|it| (it.impacts, it.periods) == (self.impacts, self.periods))
-            && (step.hardest() - self.hardest).abs() <= APART * self.hardest.max(step.hardest())
-    }
+/// True if a step shows an orbit.
+fn shows(step: &Step, orbit: &Orbit) -> bool {
+    let (own, hardest) = (step.hardest(), orbit.before_impact_velocity());
+    step.motion.regime() == Some(orbit.regime())
+        && (own - hardest).abs() <= diagram::APART * hardest.max(own)
 }
 
 /// The steps of both sweeps nearest to a frequency, if the diagram shows it.
@@ -147,14 +120,5 @@ fn near(steps: &[Step], eta: f64) -> Option<&Step> {
 
 /// True if a step is on one of the sweeps of a diagram.
 fn is_on(diagram: &Diagram, step: &Step) -> bool {
-    at(diagram, step.value).any(
-        |other| match (step.motion.regime(), other.motion.regime()) {
-            (Some(own), Some(others)) => {
-                let (a, b) = (step.hardest(), other.hardest());
-                own == others && (a - b).abs() <= APART * a.max(b)
-            }
-            (None, None) => true,
-            _ => false,
-        },
-    )
+    at(diagram, step.value).any(|other| diagram::same(step, other))
 }

@@ -65,7 +65,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
     let mut whole = [(
         plan(&WHOLE, detail)?,
-        WAYS.map(chain).into_iter().collect::<Result<_>>()?,
+        diagram::ways(&Ratios::unloaded().scene()?).to_vec(),
     )];
     diagram::sweep(&mut whole, "steps of the sweeps")?;
     let [(_, chains)] = whole;
@@ -105,21 +105,14 @@ fn plan(part: &Part, detail: Detail) -> Result<Plan> {
     Ok(Plan::new(Parameter::Frequency, part.range, steps, periods)?)
 }
 
-const WAYS: [Direction; 2] = [Direction::Up, Direction::Down];
-
-fn chain(way: Direction) -> Result<Chain> {
-    Ok(Chain::new(Ratios::unloaded().scene()?, way))
-}
-
 /// The zooms, each way going on from where the sweep over all frequencies is at their ends, and the chaos
 /// that does not last.
 fn zooms(overview: &Diagram, detail: Detail) -> Result<(Vec<Diagram>, Vec<Chain>)> {
     let mut jobs = Vec::new();
     for zoom in &ZOOMS {
         let plan = plan(zoom, detail)?;
-        for (way, sweep) in WAYS.into_iter().zip(&overview.ways) {
-            jobs.push((diagram::part_of(sweep, &plan), vec![chain(way)?]));
-        }
+        let ways = overview.ways.iter();
+        jobs.extend(ways.map(|sweep| diagram::part_of(sweep, &plan)));
     }
     jobs.push(fleeting(detail)?);
     diagram::sweep(&mut jobs, "steps of the zooms")?;

@@ -107,12 +107,12 @@ impl Place {
 
     /// The name of an axis across, in the last row only.
     fn axes<'a>(&self, across: &'a str, upwards: &'a str, ticks: (usize, usize)) -> Axes<'a> {
-        Axes {
-            letters: LETTERS,
-            across: Some(if self.is_last { across } else { "" }),
+        Axes::new(
+            LETTERS,
+            Some(if self.is_last { across } else { "" }),
             upwards,
             ticks,
-        }
+        )
     }
 }
 
@@ -137,11 +137,11 @@ impl MotionRow {
 
     fn time(&self, pen: &mut Pen, place: &Place) {
         let (low, high) = ends(self.series.iter().map(|point| point.1));
-        let panel = Panel {
-            area: place.area(0),
-            x: (0.0, place.shown),
-            y: (1.1 * low, 1.42 * high.max(self.clearance)),
-        };
+        let panel = Panel::new(
+            place.area(0),
+            (0.0, place.shown),
+            (1.1 * low, 1.42 * high.max(self.clearance)),
+        );
         for period in (0..place.shown as u32).step_by(2) {
             let left = panel.across(f64::from(period));
             let width = panel.across(f64::from(period) + 1.0) - left;
@@ -182,11 +182,11 @@ impl MotionRow {
     }
 
     fn plane(&self, pen: &mut Pen, place: &Place) {
-        let panel = Panel {
-            area: place.area(1),
-            x: wide(ends(self.trajectory.iter().map(|point| point.0)), 0.1),
-            y: wide(ends(self.trajectory.iter().map(|point| point.1)), 0.1),
-        };
+        let panel = Panel::new(
+            place.area(1),
+            wide(ends(self.trajectory.iter().map(|point| point.0)), 0.1),
+            wide(ends(self.trajectory.iter().map(|point| point.1)), 0.1),
+        );
         let face = [(self.clearance, panel.y.0), (self.clearance, panel.y.1)];
         panel.curve(pen, &face, FACE);
         let width = if self.is_chaotic { 0.45 } else { 1.3 };
@@ -200,11 +200,11 @@ impl MotionRow {
         let depth = (high - self.clearance).max(SHALLOW * self.clearance);
         let x = (self.clearance - NEAR * depth, self.clearance + 1.6 * depth);
         let shown = self.near.iter().filter(|point| point.0 > x.0);
-        let panel = Panel {
-            area: place.area(2),
+        let panel = Panel::new(
+            place.area(2),
             x,
-            y: wide(ends(shown.map(|point| point.1)), 0.1),
-        };
+            wide(ends(shown.map(|point| point.1)), 0.1),
+        );
         let face = [(self.clearance, panel.y.0), (self.clearance, panel.y.1)];
         panel.curve(pen, &face, FACE);
         let width = if self.is_chaotic { 0.45 } else { 1.1 };
@@ -214,11 +214,11 @@ impl MotionRow {
 
     fn poincare(&self, pen: &mut Pen, place: &Place) {
         let all = || self.section.iter().chain(self.others.iter().flatten());
-        let panel = Panel {
-            area: place.area(3),
-            x: wide(ends(all().map(|point| point.0)), 0.08),
-            y: wide(ends(all().map(|point| point.1)), 0.08),
-        };
+        let panel = Panel::new(
+            place.area(3),
+            wide(ends(all().map(|point| point.0)), 0.08),
+            wide(ends(all().map(|point| point.1)), 0.08),
+        );
         let radius = |count: usize| if count > MANY { DOTS.1 } else { DOTS.0 };
         for other in &self.others {
             let points = other.iter().copied();

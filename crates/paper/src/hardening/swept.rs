@@ -1,15 +1,14 @@
 //! Sweeps of many stops along the frequency, up and down.
 
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::Regime;
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
+use softstop_dynamics::sweep::{Chain, Plan, Step};
 
 use super::stops::{CLEARANCE, Law};
+use crate::diagram;
 use crate::hardening::chart::StopRegime;
-use softstop_console::failure::Failure;
-use softstop_console::progress::Progress;
 
 /// The frequencies eta.
 pub(super) const RANGE: (f64, f64) = (0.6, 1.6);
@@ -23,30 +22,19 @@ pub(super) struct Swept {
 
 /// Sweeps of stops: so many frequencies, and drive periods at each.
 pub(super) fn sweep(laws: &[Law], steps: usize, periods: u64) -> Result<Vec<Swept>> {
-    let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods);
-    let plan = plan?;
-    let chain =
-        |(law, direction): (&Law, Direction)| Chain::new(law.scene(RANGE.0, CLEARANCE), direction);
-    let ways = |law| [(law, Direction::Up), (law, Direction::Down)];
-    let mut chains: Vec<Chain> = laws.iter().flat_map(ways).map(chain).collect();
-    let progress = Progress::new((chains.len() * steps) as u64, "steps of the stops' sweeps");
-    if !plan.run(&mut chains, &progress.watcher()) {
-        return Err(Failure::Interrupted.into());
-    }
-    let swept = laws.iter().zip(chains.chunks_exact(2)).map(|(law, pair)| {
-        for chain in pair {
-            if let Some(error) = &chain.error {
-                return Err(anyhow!("{}: {error}", law.name()));
-            }
-        }
-        let rising = |chain: &Chain| chain.rising().into_iter().cloned().collect();
-        Ok(Swept {
-            law: *law,
-            up: rising(&pair[0]),
-            down: rising(&pair[1]),
-        })
+    let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods)?;
+    let ways = |law: &Law| diagram::ways(&law.scene(RANGE.0, CLEARANCE));
+    let mut job = [(plan, laws.iter().flat_map(ways).collect())];
+    diagram::sweep(&mut job, "steps of the stops' sweeps")?;
+    let [(_, chains)] = job;
+    let rising = |chain: &Chain| chain.rising().into_iter().cloned().collect();
+    let swept = laws.iter().zip(chains.chunks_exact(2));
+    let swept = swept.map(|(law, pair)| Swept {
+        law: *law,
+        up: rising(&pair[0]),
+        down: rising(&pair[1]),
     });
-    swept.collect()
+    Ok(swept.collect())
 }
 
 /// The kind of motion of a step.

@@ -47,12 +47,7 @@ const COLUMNS: (f64, f64) = (270.0, 150.0);
 /// Letters: title, headings, text.
 const LETTERS: (u32, u32, u32) = (24, 19, 18);
 /// The axes of all maps.
-const AXES: Axes<'static> = Axes {
-    letters: LETTERS.2,
-    across: Some("frequency η"),
-    upwards: "clearance ρ",
-    ticks: (6, 6),
-};
+const AXES: Axes<'static> = Axes::new(LETTERS.2, Some("frequency η"), "clearance ρ", (6, 6));
 /// Pixels for each unit of length.
 const SCALE: f32 = 2.0;
 /// Where on a map's height the names of curves stand, as a share of it.
@@ -121,11 +116,7 @@ impl RegimePage {
 
 impl RegimePanel {
     fn draw(&self, pen: &mut Pen, index: usize, (left, top): (f64, f64)) {
-        let panel = Panel {
-            area: (left, top, MAP.0, MAP.1),
-            x: self.map.eta,
-            y: self.map.rho,
-        };
+        let panel = Panel::new((left, top, MAP.0, MAP.1), self.map.eta, self.map.rho);
         let heading = format!("{} {}", letter(index), self.name);
         pen.heading((left, top - 12.0), LETTERS.1, Align::Left, &heading);
         let cells = self.map.cells.iter();

@@ -20,11 +20,11 @@ impl StrokeChart {
     pub(super) fn trajectory(&self, pen: &mut Pen, area: Area) {
         let (low, _) = self.range(|point| (point.time, point.position));
         let (slow, fast) = self.range(state);
-        let panel = Panel {
+        let panel = Panel::new(
             area,
-            x: (1.12 * low, 1.3 * self.max_position),
-            y: (1.18 * slow, 1.18 * fast),
-        };
+            (1.12 * low, 1.3 * self.max_position),
+            (1.18 * slow, 1.18 * fast),
+        );
         self.plane(pen, &panel, "position X", "velocity X′", state);
         self.strike(pen, &panel);
     }
@@ -37,14 +37,14 @@ impl StrokeChart {
             _ => (point.position, point.velocity),
         });
         let room = 0.22 * (high - low);
-        let panel = Panel {
+        let panel = Panel::new(
             area,
-            x: (
+            (
                 self.clearance - 0.6 * depth,
                 self.max_position + 0.25 * depth,
             ),
-            y: (low - room, high + room),
-        };
+            (low - room, high + room),
+        );
         self.tint(pen, &panel);
         let name = "position X beyond the clearance";
         self.plane(pen, &panel, name, "velocity X′", state);
@@ -63,14 +63,14 @@ impl StrokeChart {
         let depth = self.depth();
         let (low, high) = self.range(show);
         let room = 0.12 * (high - low);
-        let panel = Panel {
+        let panel = Panel::new(
             area,
-            x: (
+            (
                 self.clearance - 0.3 * depth,
                 self.max_position + 0.2 * depth,
             ),
-            y: (low - room, high + room),
-        };
+            (low - room, high + room),
+        );
         self.tint(pen, &panel);
         self.plane(pen, &panel, "position X", "contact force F/F₀", show);
     }
@@ -89,12 +89,7 @@ impl StrokeChart {
         }
         panel.curve(pen, &[(panel.x.0, 0.0), (panel.x.1, 0.0)], ZERO);
         panel.curve(pen, &self.curve(show), CURVE);
-        let axes = Axes {
-            letters: LETTERS,
-            across: Some(across),
-            upwards,
-            ticks: (4, 6),
-        };
+        let axes = Axes::new(LETTERS, Some(across), upwards, (4, 6));
         panel.axes(pen, &axes);
     }
 

@@ -13,11 +13,11 @@ impl StrokeChart {
     /// Some periods.
     pub(super) fn series(&self, pen: &mut Pen, area: Area) {
         let (low, _) = self.range(|point| (point.time, point.position));
-        let panel = Panel {
+        let panel = Panel::new(
             area,
-            x: (0.0, SHOWN * self.period),
-            y: (1.12 * low, 1.32 * self.max_position),
-        };
+            (0.0, SHOWN * self.period),
+            (1.12 * low, 1.32 * self.max_position),
+        );
         let shifts = (0..=SHOWN as u32).map(|cycle| f64::from(cycle) * self.period);
         for shift in shifts.clone() {
             self.shade(pen, &panel, shift);
@@ -32,12 +32,7 @@ impl StrokeChart {
         }
         self.height(pen, &panel);
         self.span(pen, &panel);
-        let axes = Axes {
-            letters: LETTERS,
-            across: Some("time τ"),
-            upwards: "position X",
-            ticks: (7, 6),
-        };
+        let axes = Axes::new(LETTERS, Some("time τ"), "position X", (7, 6));
         panel.axes(pen, &axes);
     }
 
@@ -45,14 +40,14 @@ impl StrokeChart {
     pub(super) fn impact(&self, pen: &mut Pen, area: Area) {
         let (begin, end) = self.touching();
         let (room, depth) = (0.45 * (end - begin), self.depth());
-        let panel = Panel {
+        let panel = Panel::new(
             area,
-            x: (begin - room, end + room),
-            y: (
+            (begin - room, end + room),
+            (
                 self.clearance - 0.9 * depth,
                 self.max_position + 0.35 * depth,
             ),
-        };
+        );
         self.shade(pen, &panel, 0.0);
         for (face, name) in self.faces() {
             panel.curve(pen, &[(panel.x.0, face), (panel.x.1, face)], FACE);
@@ -63,12 +58,12 @@ impl StrokeChart {
         panel.curve(pen, &self.curve(show), CURVE);
         let beside = [(-11.0, -7.0), (-11.0, -7.0), (-12.0, 18.0)];
         self.letters(pen, &panel, show, beside);
-        let axes = Axes {
-            letters: LETTERS,
-            across: Some("time τ"),
-            upwards: "position X around the impact",
-            ticks: (4, 6),
-        };
+        let axes = Axes::new(
+            LETTERS,
+            Some("time τ"),
+            "position X around the impact",
+            (4, 6),
+        );
         panel.axes(pen, &axes);
     }
 

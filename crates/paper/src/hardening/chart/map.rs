@@ -10,11 +10,7 @@ const FOLD: Stroke = Stroke::solid(style::INK, 2.0);
 impl HardeningChart {
     /// On the way up; a dot where the way down ends in another motion.
     pub(super) fn map(&self, pen: &mut Pen, area: Area) {
-        let panel = Panel {
-            area,
-            x: self.frequencies,
-            y: self.decades,
-        };
+        let panel = Panel::new(area, self.frequencies, self.decades);
         for regime in StopRegime::ALL {
             let cells = self.cells(&panel, |(up, _)| up == regime);
             if !cells.is_empty() {
@@ -30,12 +26,7 @@ impl HardeningChart {
         }
         self.line(pen, &panel, FOLD, |fold| Some(fold.strong?.0));
         self.line(pen, &panel, FOLD, |fold| fold.flip);
-        let axes = Axes {
-            letters: LETTERS,
-            across: Some("η"),
-            upwards: "log₁₀ k₂/k₁",
-            ticks: (12, 5),
-        };
+        let axes = Axes::new(LETTERS, Some("η"), "log₁₀ k₂/k₁", (12, 5));
         panel.axes(pen, &axes);
         self.names(pen, &panel);
         self.legend(pen, (area.0, area.1 - 14.0));

@@ -154,22 +154,22 @@ impl HardeningChart {
         let ((left, first), (across, below), (width, height)) = DIAGRAM;
         let (column, row) = at;
         let corner = (left + across * column as f64, first + below * row as f64);
-        let panel = Panel {
-            area: (corner.0, corner.1, width, height),
-            x: self.frequencies,
-            y: (0.0, top),
-        };
+        let panel = Panel::new(
+            (corner.0, corner.1, width, height),
+            self.frequencies,
+            (0.0, top),
+        );
         let last = row + 1 == self.diagrams.len().div_ceil(ACROSS);
-        let axes = Axes {
-            letters: LETTERS,
-            across: Some(if last { "η" } else { "" }),
-            upwards: if column == 0 {
+        let axes = Axes::new(
+            LETTERS,
+            Some(if last { "η" } else { "" }),
+            if column == 0 {
                 "before-impact velocity X′₋"
             } else {
                 ""
             },
-            ticks: (6, 5),
-        };
+            (6, 5),
+        );
         panel.ground(pen, &axes);
         for eta in [self.grazing.0, self.grazing.1] {
             panel.curve(pen, &[(eta, 0.0), (eta, top)], GRAZING);

@@ -16,17 +16,8 @@ impl StopOrders {
     pub(super) fn draw(&self, pen: &mut Pen, area: Area) {
         let orders = self.found.iter().flat_map(|(_, motions)| motions);
         let highest = orders.map(|motion| motion.1).fold(2.0, f64::max);
-        let panel = Panel {
-            area,
-            x: self.frequencies,
-            y: (1.4, highest + 0.6),
-        };
-        let axes = Axes {
-            letters: LETTERS,
-            across: Some("η"),
-            upwards: "n of z = 1/n",
-            ticks: (9, highest as usize),
-        };
+        let panel = Panel::new(area, self.frequencies, (1.4, highest + 0.6));
+        let axes = Axes::new(LETTERS, Some("η"), "n of z = 1/n", (9, highest as usize));
         panel.ground(pen, &axes);
         let grazing = [(self.grazing, panel.y.0), (self.grazing, panel.y.1)];
         panel.curve(pen, &grazing, GRAZING);

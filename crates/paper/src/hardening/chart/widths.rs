@@ -25,17 +25,8 @@ impl HardeningChart {
         let weak: Vec<(f64, f64)> = both.iter().map(|point| (point.0, point.1)).collect();
         let strong: Vec<(f64, f64)> = both.iter().map(|point| (point.0, point.2)).collect();
         let lowest = weak.iter().map(|point| point.1).fold(0.0, f64::min);
-        let panel = Panel {
-            area,
-            x: (0.0, self.decades.1),
-            y: (lowest - ROOM, ROOM),
-        };
-        let axes = Axes {
-            letters: LETTERS,
-            across: Some("log₁₀ k₂/k₁"),
-            upwards: "log₁₀ width in η",
-            ticks: (4, 5),
-        };
+        let panel = Panel::new(area, (0.0, self.decades.1), (lowest - ROOM, ROOM));
+        let axes = Axes::new(LETTERS, Some("log₁₀ k₂/k₁"), "log₁₀ width in η", (4, 5));
         panel.ground(pen, &axes);
         for (points, color, shift, name) in [
             (
