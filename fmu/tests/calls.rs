@@ -1,12 +1,11 @@
 //! The lifecycle and its misuse, through the C functions.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
-use std::ffi::{c_char, c_int, c_void};
+use std::ffi::{c_int, c_void};
 use std::ptr;
 
-use crate::common::{ERROR, OK, Unit, reference};
+use crate::common::{OK, Unit, reference};
 use softstop_fmu::ffi::*;
-use softstop_fmu::library_guid;
 
 #[test]
 fn a_life_without_faults() {
@@ -19,116 +18,6 @@ fn a_life_without_faults() {
         assert_eq!(fmi2Reset(unit.component), OK);
     }
     assert!(unit.take_log().is_empty());
-}
-
-#[test]
-fn refused_instances() {
-    let guid = library_guid();
-    let guid = guid.as_deref();
-    for (name, kind, given, word) in [
-        (None, 1, guid, "instanceName"),
-        (Some(""), 1, guid, "instanceName"),
-        (Some("unit"), 0, guid, "fmuType = 0"),
-        (Some("unit"), 1, None, "fmuGUID"),
-        (Some("unit"), 1, Some("{other}"), "{other}"),
-    ] {
-        let lines = Unit::with(name, kind, given).err().expect("no instance");
-        assert_eq!(lines.len(), 1);
-        assert!(lines[0].contains(word), "{lines:?}");
-    }
-}
-
-#[test]
-fn no_callbacks_at_all() {
-    let guid = std::ffi::CString::new(library_guid().expect("a GUID")).expect("no NUL");
-    let silent = CallbackFunctions {
-        logger: None,
-        allocate_memory: None,
-        free_memory: None,
-        step_finished: None,
-        environment: ptr::null_mut(),
-    };
-    for functions in [ptr::null(), &raw const silent] {
-        unsafe {
-            let unit = fmi2Instantiate(
-                c"unit".as_ptr(),
-                1,
-                guid.as_ptr(),
-                ptr::null(),
-                functions,
-                0,
-                1,
-            );
-            assert!(!unit.is_null());
-            assert_eq!(fmi2DoStep(unit, 0.0, 1.0, 1), ERROR);
-            fmi2FreeInstance(unit);
-        }
-    }
-}
-
-#[test]
-fn null_component() {
-    unsafe {
-        fmi2FreeInstance(ptr::null_mut());
-        assert_eq!(fmi2DoStep(ptr::null_mut(), 0.0, 1.0, 1), ERROR);
-        assert_eq!(fmi2Reset(ptr::null_mut()), ERROR);
-    }
-}
-
-#[test]
-fn null_arrays_and_strings() {
-    let unit = Unit::new();
-    let mass = reference("mass");
-    let mut value = 0.0;
-    let text: *const c_char = ptr::null();
-    unsafe {
-        unit.refused(
-            fmi2GetReal(unit.component, ptr::null(), 1, &raw mut value),
-            &["vr is NULL"],
-        );
-        unit.refused(
-            fmi2GetReal(unit.component, &raw const mass, 1, ptr::null_mut()),
-            &["value is NULL"],
-        );
-        unit.refused(
-            fmi2SetReal(
-                unit.component,
-                &raw const mass,
-                usize::MAX,
-                &raw const value,
-            ),
-            &["vr", "elements"],
-        );
-        unit.refused(
-            fmi2SetString(unit.component, &raw const mass, 1, &raw const text),
-            &["value is NULL"],
-        );
-        unit.refused(
-            fmi2SetDebugLogging(unit.component, 1, 2, ptr::null()),
-            &["categories"],
-        );
-        unit.refused(
-            fmi2GetRealStatus(unit.component, 2, ptr::null_mut()),
-            &["value is NULL"],
-        );
-        unit.refused(
-            fmi2GetFMUstate(unit.component, ptr::null_mut()),
-            &["FMUstate is NULL"],
-        );
-        unit.refused(
-            fmi2SetFMUstate(unit.component, ptr::null_mut()),
-            &["FMUstate is NULL"],
-        );
-        assert_eq!(fmi2FreeFMUstate(unit.component, ptr::null_mut()), OK);
-        assert_eq!(
-            fmi2GetReal(unit.component, ptr::null(), 0, ptr::null_mut()),
-            OK
-        );
-        assert_eq!(
-            fmi2GetString(unit.component, ptr::null(), 0, ptr::null_mut()),
-            OK
-        );
-    }
 }
 
 #[test]
@@ -254,65 +143,6 @@ fn status_of_the_last_step() {
             &["kind 77"],
         );
     }
-}
-
-#[test]
-fn input_derivatives() {
-    let unit = Unit::new();
-    unit.begin();
-    let set = |name: &str, order: c_int, value: f64| {
-        let reference = reference(name);
-        let (order, value) = (&raw const order, &raw const value);
-        unsafe {
-            fmi2SetRealInputDerivatives(unit.component, &raw const reference, 1, order, value)
-        }
-    };
-    assert_eq!(set("force", 1, 0.25), OK);
-    assert_eq!(set("force", 2, 0.0), OK);
-    assert_eq!(set("force", 8, 0.0), OK);
-    unit.refused(set("force", 8, 1.0), &["force", "order 8", "1 to 7"]);
-    unit.refused(set("force", 0, 1.0), &["force", "order 0"]);
-    unit.refused(set("force", -1, 0.0), &["force", "order -1"]);
-    unit.refused(set("force", 1, f64::NAN), &["force = NaN", "order 1"]);
-    unit.refused(set("force", 7, f64::INFINITY), &["force = inf", "order 7"]);
-    unit.refused(set("clearance", 1, 1.0), &["clearance"]);
-    assert_eq!(unit.step(0.0, 2.0), OK);
-    assert_eq!(unit.get("force"), 0.5);
-}
-
-#[test]
-fn input_derivatives_of_every_order_go_on_until_the_value_is_set() {
-    let unit = Unit::new();
-    unit.begin();
-    let set = |orders: &[c_int], values: &[f64]| {
-        let references = vec![reference("force"); orders.len()];
-        unsafe {
-            fmi2SetRealInputDerivatives(
-                unit.component,
-                references.as_ptr(),
-                orders.len(),
-                orders.as_ptr(),
-                values.as_ptr(),
-            )
-        }
-    };
-    assert_eq!(unit.set("force", 0.5), OK);
-    // In one call and in another one: t/4 - t^2/2 + 7! 2^-7 t^7/7!, with one order overwritten.
-    assert_eq!(set(&[7, 2, 1], &[5040.0 / 128.0, -1.0, 9.0]), OK);
-    assert_eq!(set(&[1], &[0.25]), OK);
-    assert_eq!(unit.get("force"), 0.5);
-    assert_eq!(unit.step(0.0, 2.0), OK);
-    assert_eq!(unit.get("force"), 0.5 + 0.5 - 2.0 + 1.0);
-    // Another order set later leaves the rest as it stands by now.
-    assert_eq!(set(&[3], &[0.0]), OK);
-    assert_eq!(unit.get("force"), 0.0);
-    assert_eq!(set(&[8], &[0.0]), OK);
-    // All or none.
-    unit.refused(set(&[1, 8], &[1.0, 1.0]), &["order 8"]);
-    assert_eq!(unit.get("force"), 0.0);
-    assert_eq!(unit.set("force", 0.0), OK);
-    assert_eq!(unit.step(2.0, 1.0), OK);
-    assert_eq!(unit.get("force"), 0.0);
 }
 
 #[test]

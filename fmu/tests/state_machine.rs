@@ -9,7 +9,9 @@ mod draw;
 mod model;
 mod perform;
 mod probe;
+mod slot;
 mod snapshots;
+mod variables;
 mod world;
 
 use std::ffi::c_void;

@@ -2,18 +2,16 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
-use std::time::{Duration, Instant};
 
 use serde_json::Value;
+use softstop_testing::Program;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-fn softstop(arguments: &[&str]) -> std::io::Result<Output> {
-    Command::new(env!("CARGO_BIN_EXE_softstop"))
-        .args(arguments)
-        .output()
-}
+const SOFTSTOP: Program = Program {
+    file: env!("CARGO_BIN_EXE_softstop"),
+    first: &[],
+};
 
 fn scene(name: &str) -> String {
     format!("{}/../docs/scenes/{name}", env!("CARGO_MANIFEST_DIR"))
@@ -22,30 +20,14 @@ fn scene(name: &str) -> String {
 /// Runs a scene into `folder` and returns its summary.
 fn simulate(file: &str, folder: &Path, more: &[&str]) -> Result<Value, Box<dyn std::error::Error>> {
     let output = folder.to_str().ok_or("path")?;
-    let basic = ["simulate", file, "--format", "json", "--output", output];
-    let output = softstop(&[&basic[..], more].concat())?;
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{file}: {message}");
-    Ok(serde_json::from_slice(&output.stdout)?)
+    let basic = ["simulate", file, "--output", output];
+    Ok(SOFTSTOP.json(&[&basic[..], more].concat()))
 }
 
 fn number(value: &Value) -> f64 {
     value
         .as_f64()
         .unwrap_or_else(|| panic!("{value} is not a number"))
-}
-
-fn refuses(arguments: &[&str], words: &[&str]) {
-    let output = softstop(arguments).expect("the program starts");
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
-    assert!(output.stdout.is_empty(), "{arguments:?} wrote to stdout");
-    for word in words {
-        assert!(
-            message.contains(word),
-            "{arguments:?}: {word:?} is not in {message:?}"
-        );
-    }
 }
 
 #[test]
@@ -163,7 +145,7 @@ fn text_names_what_matters() -> Outcome {
     let folder = tempfile::tempdir()?;
     let output = folder.path().to_str().ok_or("path")?;
     let file = scene("stiff.toml");
-    let output = softstop(&["simulate", &file, "--periods", "20", "--output", output])?;
+    let output = SOFTSTOP.run(&["simulate", &file, "--periods", "20", "--output", output]);
     let text = String::from_utf8(output.stdout)?;
     for word in [
         "impacts",
@@ -221,7 +203,7 @@ fn bad_scenes_are_named_with_key_value_and_range() -> Outcome {
     for (old, new, words) in cases {
         assert!(good.contains(old), "{old}");
         fs::write(&file, good.replace(old, new))?;
-        refuses(&["simulate", path], &[words, &["machine.toml"]].concat());
+        SOFTSTOP.refuses(&["simulate", path], &[words, &["machine.toml"]].concat());
     }
     assert_eq!(
         fs::read_dir(folder.path())?.count(),
@@ -249,32 +231,19 @@ fn bad_arguments_are_named_with_their_range() {
         (&["--velocity", "fast"], &["--velocity", "fast"]),
     ];
     for (arguments, words) in cases {
-        refuses(&[&["simulate", &file], arguments].concat(), words);
+        SOFTSTOP.refuses(&[&["simulate", &file], arguments].concat(), words);
     }
-    refuses(&["simulate", "no-such-file.toml"], &["no-such-file.toml"]);
+    SOFTSTOP.refuses(&["simulate", "no-such-file.toml"], &["no-such-file.toml"]);
 }
 
 #[cfg(unix)]
 #[test]
 fn an_interrupt_leaves_nothing_behind() -> Outcome {
     let folder = tempfile::tempdir()?;
-    let target = folder.path().join("motion");
-    let mut run = Command::new(env!("CARGO_BIN_EXE_softstop"))
-        .args(["simulate", &scene("rigid.toml"), "--periods", "1000000"])
-        .args(["--samples-per-period", "20", "--output"])
-        .arg(&target)
-        .stderr(std::process::Stdio::null())
-        .spawn()?;
-    let deadline = Instant::now() + Duration::from_secs(20);
-    while !target.is_dir() && Instant::now() < deadline {
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    std::thread::sleep(Duration::from_millis(200));
-    Command::new("kill")
-        .args(["-INT", &run.id().to_string()])
-        .status()?;
-    assert_eq!(run.wait()?.code(), Some(130));
-    assert!(!target.exists());
+    let file = scene("rigid.toml");
+    let basic = ["simulate", &file, "--periods", "1000000"];
+    let arguments = [&basic[..], &["--samples-per-period", "20"]].concat();
+    SOFTSTOP.leaves_nothing_when_interrupted(&arguments, &folder.path().join("motion"));
     Ok(())
 }
 
@@ -282,7 +251,7 @@ fn an_interrupt_leaves_nothing_behind() -> Outcome {
 fn stops_writes_the_whole_zoo() -> Outcome {
     let folder = tempfile::tempdir()?;
     let target = folder.path().join("zoo");
-    let output = softstop(&["stops", "--output", target.to_str().ok_or("path")?])?;
+    let output = SOFTSTOP.run(&["stops", "--output", target.to_str().ok_or("path")?]);
     assert!(output.status.success());
     let told = String::from_utf8(output.stdout)?;
     let written: Vec<&str> = told
@@ -300,7 +269,7 @@ fn stops_writes_the_whole_zoo() -> Outcome {
 #[test]
 fn help_teaches_by_example() -> Outcome {
     for command in ["simulate", "stops"] {
-        let output = softstop(&[command, "--help"])?;
+        let output = SOFTSTOP.run(&[command, "--help"]);
         let text = String::from_utf8(output.stdout)?;
         assert!(
             text.contains(&format!("Examples:\n  softstop {command}")),

@@ -61,9 +61,19 @@ impl Program {
     /// If it does otherwise.
     #[track_caller]
     pub fn refuses(&self, arguments: &[&str], words: &[&str]) {
+        self.ends_with(arguments, 2, words);
+    }
+
+    /// Runs the program where it has to fail, with this exit code, a message that has all of `words`, and nothing
+    /// on the standard output.
+    ///
+    /// # Panics
+    /// If it does otherwise.
+    #[track_caller]
+    pub fn ends_with(&self, arguments: &[&str], code: i32, words: &[&str]) {
         let output = self.run(arguments);
         let message = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
         assert!(output.stdout.is_empty(), "{arguments:?} wrote to stdout");
         for word in words {
             assert!(

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use softstop_fmi::Row;
-use softstop_fmi::variable::{Access, Kind};
-use softstop_fmu::{Machine, StartValues, table};
+use softstop_fmi::variable::Access;
+use softstop_fmu::{StartValues, table};
 
 use super::calls::{Call, Null, StatusOf, Type, reference};
+use super::variables::{find, in_range, is_initial};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Expected {
@@ -42,31 +42,6 @@ fn if_all(conditions: &[bool]) -> Expected {
         Expected::Ok
     } else {
         Expected::Refused
-    }
-}
-
-fn is(kind: &Kind, wanted: Type) -> bool {
-    match kind {
-        Kind::Real(_) => wanted == Type::Real,
-        Kind::Count { .. } | Kind::Enumeration(_) => wanted == Type::Integer,
-        Kind::Boolean => wanted == Type::Boolean,
-    }
-}
-
-fn find(reference: u32, wanted: Type) -> Option<&'static Row<Machine>> {
-    table()
-        .by_reference(reference)
-        .filter(|variable| is(&variable.kind, wanted))
-}
-
-fn in_range(kind: &Kind, value: f64) -> bool {
-    match kind {
-        Kind::Real(_) => kind.contains(value),
-        Kind::Count { min, max } => {
-            value >= f64::from(*min) && max.is_none_or(|max| value <= f64::from(max))
-        }
-        Kind::Enumeration(items) => items.items.iter().any(|i| f64::from(i.value) == value),
-        Kind::Boolean => true,
     }
 }
 
@@ -300,8 +275,4 @@ impl Model {
             }
         }
     }
-}
-
-fn is_initial(vr: u32) -> bool {
-    vr == reference("initial.position") || vr == reference("initial.velocity")
 }

@@ -8,23 +8,14 @@ use std::ffi::{CString, c_int, c_void};
 use std::ptr;
 
 use softstop_fmu::ffi::*;
-use softstop_fmu::{library_guid, table};
+use softstop_fmu::library_guid;
 
-use super::calls::{Birth, Call, Null, Point, STATES, Type, UNITS, reference};
+use super::calls::{Birth, Call, Point, STATES, UNITS};
 use super::model::{Expected, Life, Model};
-use super::perform::{name_of, perform};
+use super::perform::perform;
 use super::probe::{Probe, silent};
+use super::slot::Slot;
 use crate::common::{ERROR, Log, OK, callbacks};
-
-pub struct Slot {
-    pub component: *mut c_void,
-    pub shadow: *mut c_void,
-    log: *mut Log,
-    has_log: bool,
-    pub model: Model,
-    /// Something was set since the last step that the motion takes over when it is next looked at.
-    pub unsettled: bool,
-}
 
 pub struct Kept {
     pub state: *mut c_void,
@@ -236,77 +227,6 @@ impl World {
         slot.model.previous = time;
         slot.model.time = time.max(point + size);
         assert_eq!(self.probe.time_of(slot.component), slot.model.time);
-    }
-}
-
-impl Slot {
-    /// One line for a refused call, none of an error otherwise.
-    fn check_log(&self, call: &Call, status: c_int) {
-        // SAFETY: the log lives as long as its instance, and no call is under way.
-        let lines = unsafe { std::mem::take(&mut (*self.log).lines) };
-        let name = name_of(call);
-        if !self.has_log {
-            assert!(lines.is_empty());
-        } else if status == ERROR {
-            let told = lines.len() == 1 && lines[0].starts_with(&format!("3 errors {name}: "));
-            assert!(told, "{call:?}: {lines:?}");
-        } else {
-            let told: &[&str] = match name {
-                "fmi2DoStep" => &["0 warnings currentCommunicationPoint", "0 events "],
-                "fmi2SetupExperiment" => &["0 warnings tolerance"],
-                _ => &[],
-            };
-            let apt = |line: &String| told.iter().any(|words| line.starts_with(words));
-            assert!(
-                lines.iter().all(apt) && lines.len() <= told.len(),
-                "{call:?}: {lines:?}"
-            );
-        }
-    }
-
-    /// A look at the outputs makes the motion take over what was set: the shadow looks as well. How far
-    /// a refused look came is nobody's business, so both look again.
-    fn note_look(&mut self, call: &Call, done: bool) {
-        let looks = match call {
-            Call::Get(_, references, _) => references.iter().any(|vr| {
-                table()
-                    .by_reference(*vr)
-                    .is_some_and(|variable| variable.is_output())
-            }),
-            Call::Directional(..) | Call::GetOutputDerivatives(..) => true,
-            _ => false,
-        };
-        if looks && self.unsettled && self.model.life == Life::Running {
-            let position = vec![reference("position")];
-            let look = Call::Get(Type::Real, position, Null::Nothing);
-            assert!(done || perform(self.component, &look).0 == OK);
-            assert_eq!(perform(self.shadow, &look).0, OK);
-            self.unsettled = false;
-        }
-    }
-
-    /// Takes note of a call that was carried out.
-    fn note(&mut self, call: &Call, values: &[f64]) {
-        self.model.take(call);
-        let changes = matches!(
-            call,
-            Call::SetupExperiment(..)
-                | Call::EnterInitializationMode
-                | Call::ExitInitializationMode
-                | Call::Terminate
-                | Call::Reset
-                | Call::Set(..)
-                | Call::SetInputDerivatives(..)
-        );
-        if changes {
-            assert_eq!(perform(self.shadow, call).0, OK, "the shadow's {call:?}");
-        }
-        match call {
-            Call::Reset => self.unsettled = false,
-            Call::Set(..) | Call::SetInputDerivatives(..) => self.unsettled = true,
-            Call::Get(_, references, _) => self.model.check_values(references, values),
-            _ => {}
-        }
     }
 }
 

@@ -1,0 +1,177 @@
+//! `softstop optimize`: what it prints and writes, and that it leaves nothing behind.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::{Outcome, SOFTSTOP, json, near, number};
+
+/// A search that is quick: one quantity, few evaluations.
+const QUICK: [&str; 7] = [
+    "optimize",
+    "--fix",
+    "stiffness=7",
+    "--evaluations",
+    "100",
+    "--bounds",
+    "clearance=2:22",
+];
+
+#[test]
+fn optimize_prints_json_only_and_writes_the_files_it_names() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let target = folder.path().join("new/design");
+    let path = target.to_str().ok_or("path")?;
+    let report = json(&[&QUICK[..], &["--format", "json", "--output", path]].concat())?;
+    let design = &report["design"];
+    for key in [
+        "clearance",
+        "frequency",
+        "before_impact_velocity",
+        "preload",
+        "position",
+        "velocity",
+    ] {
+        assert!(number(design, key).is_finite(), "{key}");
+    }
+    near(number(design, "stiffness"), 7.0, 0.0);
+    near(number(design, "margin"), 0.25, 0.0);
+    let (g0, sn) = (
+        number(design, "frequency_g0"),
+        number(design, "frequency_sn"),
+    );
+    let place = (number(design, "frequency") - g0) / (sn - g0);
+    near(place, number(design, "s"), 1e-12);
+    assert!((0.25 - 1e-12..=0.75 + 1e-12).contains(&place));
+    near(
+        number(&report["reference"]["A"], "before_impact_velocity"),
+        6.494627,
+        5e-7,
+    );
+    assert!(number(&report["reference"]["A"], "gain") > 1.0);
+
+    let mut names: Vec<String> = fs::read_dir(&target)?
+        .map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()))
+        .collect::<std::io::Result<_>>()?;
+    names.sort();
+    assert_eq!(names, ["design.fmu", "design.json", "design.svg"]);
+    let written: Value = serde_json::from_slice(&fs::read(target.join("design.json"))?)?;
+    assert_eq!(written, report);
+    assert!(
+        fs::read_to_string(target.join("design.svg"))?
+            .trim_end()
+            .ends_with("</svg>")
+    );
+    assert!(fs::read(target.join("design.fmu"))?.starts_with(b"PK"));
+    for (_, file) in report["files"].as_object().ok_or("files")? {
+        assert!(Path::new(file.as_str().ok_or("file")?).is_file(), "{file}");
+    }
+    Ok(())
+}
+
+#[test]
+fn the_design_is_the_orbit_that_the_program_finds_there() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().to_str().ok_or("path")?;
+    let report = json(&[&QUICK[..], &["--format", "json", "--output", path]].concat())?;
+    let text = |key: &str| report["design"][key].to_string();
+    let orbit = json(&[
+        "orbit",
+        "--frequency",
+        &text("frequency"),
+        "--clearance",
+        &text("clearance"),
+        "--format",
+        "json",
+    ])?;
+    for key in [
+        "position",
+        "velocity",
+        "before_impact_velocity",
+        "max_position",
+    ] {
+        near(number(&orbit, key), number(&report["design"], key), 1e-8);
+    }
+    Ok(())
+}
+
+#[test]
+fn task_file_and_command_line_say_the_same() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().to_str().ok_or("path")?;
+    let file = folder.path().join("task.toml");
+    fs::write(
+        &file,
+        "regime = \"unloaded\"\nmargin = 0.4\nevaluations = 100\nformat = \"json\"\n\
+         [fix]\nstiffness = 7\n[bounds]\nclearance = [2, 22]\n[scene]\ncontact-damping = 0.09\n",
+    )?;
+    let task = file.to_str().ok_or("path")?;
+    let from_file = json(&[
+        "optimize", "--config", task, "--margin", "0.25", "--output", path,
+    ])?;
+    let from_line = json(&[&QUICK[..], &["--format", "json", "--output", path]].concat())?;
+    assert_eq!(from_file, from_line);
+    Ok(())
+}
+
+#[test]
+fn what_cannot_be_done_is_told_and_leaves_nothing_behind() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let file = folder.path().join("file");
+    fs::write(&file, "in the way")?;
+    let below = file.join("design");
+    SOFTSTOP.ends_with(
+        &["optimize", "--output", below.to_str().ok_or("path")?],
+        1,
+        &["file/design", "output folder"],
+    );
+
+    // Wider than the resonance peak of 25: no g0, no zone, no z = 1 motion, no folder.
+    let never = folder.path().join("never/made");
+    let path = never.to_str().ok_or("path")?;
+    let search = [
+        "optimize",
+        "--bounds",
+        "clearance=26:40",
+        "--evaluations",
+        "100",
+        "--output",
+        path,
+    ];
+    SOFTSTOP.ends_with(&search, 1, &["clearance = 26"]);
+    assert!(!folder.path().join("never").exists());
+    for clearance in ["30", "-2", "nan"] {
+        SOFTSTOP.ends_with(&["zone", "--clearance", clearance], 2, &["clearance = "]);
+    }
+    SOFTSTOP.ends_with(&["orbit", "--frequency", "3"], 1, &["frequency = 3"]);
+    Ok(())
+}
+
+#[test]
+fn a_folder_in_the_way_is_found_before_the_search() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    fs::create_dir(folder.path().join("design.json"))?;
+    let path = folder.path().to_str().ok_or("path")?;
+    SOFTSTOP.ends_with(
+        &[&QUICK[..], &["--output", path]].concat(),
+        1,
+        &["design.json"],
+    );
+    assert_eq!(
+        fs::read_dir(folder.path())?.count(),
+        1,
+        "only what was there before"
+    );
+    Ok(())
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_the_search_and_leaves_nothing_behind() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let target = folder.path().join("design");
+    let search = ["optimize", "--evaluations", "100000000"];
+    SOFTSTOP.leaves_nothing_when_interrupted(&search, &target);
+    Ok(())
+}

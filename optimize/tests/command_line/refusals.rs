@@ -1,0 +1,153 @@
+//! What the commands refuse, and in which words.
+
+use std::fs;
+use std::path::Path;
+
+use super::{Outcome, SOFTSTOP};
+
+#[test]
+fn bad_values_are_named_with_their_range() {
+    let cases: [(&[&str], &[&str]); 14] = [
+        (&["orbit", "--stiffness", "-1"], &["stiffness = -1", ">= 0"]),
+        (&["orbit", "--frequency", "0"], &["frequency = 0", "> 0"]),
+        (
+            &["orbit", "--clearance", "NaN"],
+            &["clearance = NaN", "finite"],
+        ),
+        (&["orbit", "--damping=-inf"], &["damping = -inf", ">= 0"]),
+        (&["orbit", "--frequency", "fast"], &["--frequency", "fast"]),
+        (
+            &["zone", "--preload", "1", "--preload-deflection", "1"],
+            &["--preload"],
+        ),
+        (
+            &["zone", "--thickness", "0.4"],
+            &["thickness = 0.4", "loaded"],
+        ),
+        (
+            &["zone", "--regime", "resting"],
+            &["resting", "unloaded", "loaded"],
+        ),
+        (
+            &["optimize", "--margin", "0.6"],
+            &["margin = 0.6", "[0, 0.5]"],
+        ),
+        (
+            &["optimize", "--margin", "-0.1"],
+            &["margin = -0.1", "[0, 0.5]"],
+        ),
+        (
+            &["optimize", "--bounds", "clearance=5:2"],
+            &["clearance = 5:2", "low"],
+        ),
+        (
+            &["optimize", "--fix", "weight=5"],
+            &["weight: unknown key", "clearance", "stop.stiffness"],
+        ),
+        (
+            &[
+                "optimize",
+                "--fix",
+                "stiffness=7",
+                "--bounds",
+                "stiffness=1:9",
+            ],
+            &["stiffness", "one"],
+        ),
+        (
+            &["optimize", "--evaluations", "5"],
+            &["evaluations = 5", "100"],
+        ),
+    ];
+    for (arguments, words) in cases {
+        SOFTSTOP.ends_with(arguments, 2, words);
+    }
+}
+
+#[test]
+fn bad_files_are_named_with_the_key() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let file = folder.path().join("task.toml");
+    let path = file.to_str().ok_or("path")?;
+    let cases: [(&str, &[&str]); 6] = [
+        ("mass = -1\n", &["unknown field `mass`", "task.toml"]),
+        (
+            "margin = 0.1\n[fix]\nweight = 2\n",
+            &["weight: unknown key", "stop.stiffness"],
+        ),
+        ("[scene]\nmass = 1\n", &["unknown field `mass`"]),
+        ("[scene]\nstiffness = -2\n", &["stiffness = -2", ">= 0"]),
+        ("[bounds]\nfrequency = [0, 2]\n", &["frequency = 0", "> 0"]),
+        (
+            "regime = \"loaded\"\n[scene]\nregime = \"loaded\"\n",
+            &["regime"],
+        ),
+    ];
+    for (text, words) in cases {
+        fs::write(&file, text)?;
+        SOFTSTOP.ends_with(&["optimize", "--config", path], 2, words);
+    }
+    SOFTSTOP.ends_with(
+        &["optimize", "--config", "no-such-file.toml"],
+        2,
+        &["no-such-file.toml"],
+    );
+    fs::write(&file, "weight = 2\n")?;
+    SOFTSTOP.ends_with(&["orbit", "--scene", path], 2, &["unknown field `weight`"]);
+    Ok(())
+}
+
+#[test]
+fn what_a_machine_does_not_have_is_refused_by_every_command() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let output = folder.path().join("out");
+    let output = output.to_str().ok_or("path")?;
+    let scene = format!("{}/../docs/scenes/hertz.toml", env!("CARGO_MANIFEST_DIR"));
+    let commands: [&[&str]; 6] = [
+        &["orbit"],
+        &["zone"],
+        &["motions"],
+        &["simulate", "--output", output],
+        &["fmu", "--output", output],
+        &["optimize", "--output", output],
+    ];
+    for command in commands {
+        let with = |more: &[&'static str]| [command, more].concat();
+        SOFTSTOP.ends_with(
+            &with(&["--set", "clearence=3"]),
+            2,
+            &["clearence", "did you mean clearance?"],
+        );
+        SOFTSTOP.ends_with(
+            &with(&["--set", "stop.exponent=2"]),
+            2,
+            &["stop.exponent", "no such parameter"],
+        );
+        SOFTSTOP.ends_with(
+            &with(&["--set", "clearance=wide"]),
+            2,
+            &["clearance = wide"],
+        );
+        SOFTSTOP.ends_with(
+            &with(&["--set", "rho=3", "--set", "clearance=4"]),
+            2,
+            &["twice"],
+        );
+        SOFTSTOP.ends_with(&with(&["--set", "clearance"]), 2, &["KEY=VALUE"]);
+        SOFTSTOP.ends_with(&with(&["nowhere.toml"]), 2, &["nowhere.toml"]);
+        SOFTSTOP.ends_with(
+            &[command, &[scene.as_str(), "--stiffness", "3"]].concat(),
+            2,
+            &["--stiffness", "hertz.toml", "--set stop.stiffness=3"],
+        );
+        SOFTSTOP.ends_with(
+            &[command, &[scene.as_str(), "--regime", "loaded"]].concat(),
+            2,
+            &["--regime", "hertz.toml"],
+        );
+    }
+    SOFTSTOP.ends_with(&["zone", "--frequency", "1.2"], 2, &["frequency"]);
+    SOFTSTOP.ends_with(&["zone", "--set", "eta=1.2"], 2, &["eta"]);
+    assert!(!Path::new(output).exists());
+    Ok(())
+}
