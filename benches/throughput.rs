@@ -31,7 +31,7 @@ fn machines(base: Ratios) -> Vec<Scene> {
 
 fn run(scenes: &[Scene], position: f64, velocity: f64) {
     for scene in scenes {
-        let mut motion = scene.motion(Start { position, velocity }).expect("valid");
+        let mut motion = scene.motion(Start::new(position, velocity)).expect("valid");
         motion
             .advance(Clock::at_cycle(PERIODS), &mut ())
             .expect("bounded");
@@ -69,7 +69,7 @@ fn lanes(scenes: &[Scene], set: Instructions) {
     let (position, velocity) = (0.0, 14.0);
     let job = |machine| Job {
         machine,
-        start: Start { position, velocity },
+        start: Start::new(position, velocity),
         periods: PERIODS,
     };
     let jobs: Vec<Job> = (0..machines.len()).map(job).collect();

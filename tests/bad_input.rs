@@ -4,7 +4,7 @@ use approx::assert_abs_diff_eq;
 use proptest::prelude::*;
 use softstop::{Excitation, MotionError, Piercing, Ratios, Scene, Simulation, Start, Stop};
 use softstop_testing::tolerance::MOTION;
-use softstop_testing::{cases, loaded, start_at};
+use softstop_testing::{cases, loaded};
 
 fn machine() -> Scene {
     loaded()
@@ -46,7 +46,7 @@ fn errors_name_parameter_and_value() {
 
 #[test]
 fn time_does_not_run_backwards() {
-    let mut machine = Simulation::new(&machine(), start_at(0.0, 0.0)).expect("valid");
+    let mut machine = Simulation::new(&machine(), Start::new(0.0, 0.0)).expect("valid");
     machine.advance(3.0).expect("bounded");
     for until in [2.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let error = machine.advance(until).expect_err("refused");
@@ -55,7 +55,7 @@ fn time_does_not_run_backwards() {
     }
     machine.advance(3.0).expect("no step is no error");
     assert!(machine.set_force(&[f64::NAN, 0.0]).is_err());
-    assert!(Simulation::new(machine.scene(), start_at(f64::NAN, 0.0)).is_err());
+    assert!(Simulation::new(machine.scene(), Start::new(f64::NAN, 0.0)).is_err());
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn an_unbounded_motion_is_an_error() {
         stop: Stop::None,
         piercing: None,
     };
-    let mut machine = Simulation::new(&scene, start_at(1e308, 1e308)).expect("finite");
+    let mut machine = Simulation::new(&scene, Start::new(1e308, 1e308)).expect("finite");
     let error = machine.advance(1e3).expect_err("beyond all numbers");
     assert!(matches!(error, MotionError::Unbounded { .. }), "{error}");
 }
@@ -109,7 +109,7 @@ proptest! {
             stop: Stop::Preloaded { stiffness: k, preload: p },
             piercing: Some(Piercing { stiffness: k2, friction: k3, thickness, travel: 0.1 }),
         };
-        if let Ok(mut motion) = scene.motion(Start { position, velocity }) {
+        if let Ok(mut motion) = scene.motion(Start::new(position, velocity)) {
             // Some ten turns of the fastest mode, however fast that is.
             let turn = motion
                 .phases()
@@ -149,7 +149,7 @@ fn exact_balance_does_not_hang() {
                 scene.stiffness = suspension;
                 scene.excitation.amplitude = amplitude;
                 scene.stop = Stop::Preloaded { stiffness, preload };
-                let start = start_at(clearance, 0.0);
+                let start = Start::new(clearance, 0.0);
                 let mut machine = Simulation::new(&scene, start).expect("valid");
                 machine
                     .set_force(&[suspension * clearance, 0.0])
@@ -167,7 +167,7 @@ fn exact_balance_does_not_hang() {
 #[test]
 fn the_strip_stays_until_the_stroke_is_over() {
     let scene = machine();
-    let start = start_at(9.0, 9.0);
+    let start = Start::new(9.0, 9.0);
     let mut with = Simulation::new(&scene, start).expect("valid");
     let mut without = with.clone();
     let mut time = 0.0;

@@ -11,7 +11,7 @@ use softstop::{
     Excitation, HIGHEST_ORDER, MotionError, PhaseKind, Ratios, Scene, Simulation, Start, Stop,
 };
 use softstop_testing::tolerance::MOTION;
-use softstop_testing::{cases, loaded, machines, start_at, start_below};
+use softstop_testing::{cases, loaded, machines, start_below};
 
 const SEVENTH: [f64; 8] = [0.2, -0.1, 0.15, -0.02, -0.03, 0.02, -0.006, 0.0008];
 
@@ -41,13 +41,13 @@ fn bare(stop: Stop) -> Scene {
     }
 }
 
-const AT_REST: Start = start_at(0.0, 0.0);
+const AT_REST: Start = Start::new(0.0, 0.0);
 
 #[test]
 fn a_polynomial_that_is_a_ramp_is_the_ramp() {
     for ratios in [Ratios::unloaded(), Ratios::loaded()] {
         let scene = ratios.scene().expect("valid");
-        let start = start_at(3.0, 11.0);
+        let start = Start::new(3.0, 11.0);
         let ramp = [0.3, 0.02];
         let mut closed = pushed(&scene, start, &ramp);
         let mut stepped = pushed(&scene, start, &[0.3, 0.02, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-290]);
@@ -93,7 +93,7 @@ fn the_division_of_a_run_does_not_matter() {
             clearance: 1.0,
             ..loaded()
         };
-        let start = start_at(-1.0, 2.0);
+        let start = Start::new(-1.0, 2.0);
         let mut whole = pushed(&scene, start, &SEVENTH);
         let mut divided = whole.clone();
         whole.advance(12.0).expect("bounded");
@@ -116,7 +116,7 @@ fn the_division_of_a_run_does_not_matter() {
 #[test]
 fn setting_what_holds_anyway_changes_nothing() {
     let scene = loaded();
-    let start = start_at(3.0, 11.0);
+    let start = Start::new(3.0, 11.0);
     let force = Polynomial::new(SEVENTH);
     let mut once = pushed(&scene, start, &SEVENTH);
     let mut again = once.clone();

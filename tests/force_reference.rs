@@ -101,10 +101,7 @@ fn motions_under_polynomial_forces_agree_with_forty_digits() {
     assert!(cases.len() >= 30);
     for case in cases {
         let scene = scene(&case["scene"]);
-        let start = Start {
-            position: number(case, "position"),
-            velocity: number(case, "velocity"),
-        };
+        let start = Start::new(number(case, "position"), number(case, "velocity"));
         let force: Vec<f64> = list(&case["scene"], "force")
             .iter()
             .map(|derivative| derivative.as_f64().expect("a derivative"))

@@ -4,13 +4,12 @@
 use approx::assert_abs_diff_eq;
 use softstop::internals::{Motion, samples};
 use softstop::{Begin, Clock, Ratios, Scene, Simulation, Start, Stop};
-use softstop_testing::start_at;
 use softstop_testing::tolerance::MOTION;
 
 const PERIODS: u64 = 100_000_000;
 
 fn start() -> Start {
-    start_at(samples::UNLOADED.position, samples::UNLOADED.velocity)
+    Start::new(samples::UNLOADED.position, samples::UNLOADED.velocity)
 }
 
 /// The impact-less motion after 10^8 periods is the particular solution at drive angle phi, to the
@@ -26,7 +25,7 @@ fn the_impactless_motion_keeps_its_phase() {
         .scene()
         .expect("valid");
         scene.excitation.phase = phase;
-        let mut motion = scene.motion(start_at(0.0, 0.0)).expect("valid");
+        let mut motion = scene.motion(Start::new(0.0, 0.0)).expect("valid");
         motion
             .advance(Clock::at_cycle(PERIODS), &mut ())
             .expect("bounded");

@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use softstop::{Clock, PhaseKind, PiercingRatios, Ratios, Scene, Start, Trajectory};
-use softstop_testing::{Meets, cases, start_at};
+use softstop_testing::{Meets, cases};
 
 /// Classical Runge-Kutta in steps so small that its error is far below the margin that is looked
 /// at: an integrator that shares nothing with the exact one.
@@ -106,7 +106,7 @@ proptest! {
         position in -5.0..5.0f64,
         velocity in -5.0..5.0f64,
     ) {
-        let start = Start { position, velocity };
+        let start = Start::new(position, velocity);
         let offset = 10f64.powf(-exponent) * if above { 1.0 } else { -1.0 };
         let Some(scene) = grazing_scene(frequency, offset, start, 3) else {
             return Err(TestCaseError::reject("no scene"));
@@ -149,7 +149,7 @@ fn grazing_is_told_from_a_near_miss() {
             .scene()
             .expect("ok");
             let lag = (0.04 * frequency).atan2(1.0 - frequency * frequency);
-            let start = start_at(amplitude * lag.cos(), amplitude * frequency * lag.sin());
+            let start = Start::new(amplitude * lag.cos(), amplitude * frequency * lag.sin());
             let end = Clock::new(frequency, 0.0).instant(0.99 * scene.period());
             let trajectory = scene.trajectory_until(start, end).expect("bounded");
             let touches = trajectory.impacts().count();
@@ -243,7 +243,7 @@ proptest! {
         velocity in -10.0..10.0f64,
     ) {
         let scene = ratios.scene().expect("valid");
-        let start = Start { position: position.min(scene.clearance + 2.0), velocity };
+        let start = Start::new(position.min(scene.clearance + 2.0), velocity);
         // Bounces on a preloaded stop can be too many to keep.
         let meets = Meets::until(&scene, start, Clock::at_cycle(3));
         prop_assume!(meets.crossings.len() < 2000);

@@ -3,7 +3,7 @@
 use approx::abs_diff_eq;
 use proptest::prelude::*;
 use softstop::{Clock, Perturbation, Sensitivity, Simulation, Start};
-use softstop_testing::{Meets, cases, machines, start_at, start_below};
+use softstop_testing::{Meets, cases, machines, start_below};
 
 /// Position, velocity, acceleration, contact force, energies, and time and velocity of the last impact.
 fn outputs(machine: &Simulation) -> [f64; 9] {
@@ -71,7 +71,7 @@ proptest! {
         let until = Clock::new(drive.frequency, drive.phase).after(Clock::at_cycle(0), end);
         prop_assume!(Simulation::new(&scene, start).is_ok());
         let run = |width: f64| {
-            let start = start_at(start.position + width * towards.0, start.velocity + width * towards.1);
+            let start = Start::new(start.position + width * towards.0, start.velocity + width * towards.1);
             let mut machine = Simulation::new(&scene, start).expect("valid");
             machine.set_force(&[force + width * towards.2, rate]).expect("finite");
             machine.advance(end).expect("bounded");

@@ -1,8 +1,8 @@
 //! A machine that is kept, written to bytes, read back and restored goes on bit for bit.
 
 use proptest::prelude::*;
-use softstop::{Begin, Effort, MotionError, Scene, Simulation, Snapshot};
-use softstop_testing::{cases, loaded, machines, start_at, start_below};
+use softstop::{Begin, Effort, MotionError, Scene, Simulation, Snapshot, Start};
+use softstop_testing::{cases, loaded, machines, start_below};
 
 fn through_bytes(machine: &Simulation) -> Simulation {
     let bytes = rmp_serde::to_vec_named(&machine.snapshot()).expect("plain data");
@@ -86,7 +86,7 @@ fn a_snapshot_of_another_kind_is_refused() {
         piercing: None,
         ..loaded()
     };
-    let start = start_at(3.0, 9.0);
+    let start = Start::new(3.0, 9.0);
     let mut machine = Simulation::new(&loaded(), start).expect("valid");
     while machine.sample().phase == softstop::PhaseKind::Free {
         machine.advance(machine.time() + 0.01).expect("bounded");

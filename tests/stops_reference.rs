@@ -36,10 +36,7 @@ fn motions_agree_with_forty_digits() {
     for case in cases {
         let name = &case["name"];
         let scene = scene(&case["scene"]);
-        let start = Start {
-            position: number(case, "position"),
-            velocity: number(case, "velocity"),
-        };
+        let start = Start::new(number(case, "position"), number(case, "velocity"));
         let last = list(case, "samples").last().expect("samples");
         let end = instant(&scene, number(last, "periods"));
         let trajectory = match scene.trajectory_until(start, end) {
@@ -145,10 +142,7 @@ fn hard_scenes_are_exact() {
         let case = cases.iter().find(|case| case["name"] == name);
         let case = case.expect("the scene");
         let scene = scene(&case["scene"]);
-        let start = Start {
-            position: number(case, "position"),
-            velocity: number(case, "velocity"),
-        };
+        let start = Start::new(number(case, "position"), number(case, "velocity"));
         let samples = list(case, "samples");
         let last = samples.last().expect("samples");
         let end = instant(&scene, number(last, "periods"));

@@ -2,10 +2,11 @@
 
 use approx::assert_abs_diff_eq;
 use softstop::{
-    Begin, Crossing, CrossingKind, PhaseKind, PiercingRatios, Ratios, Scene, Simulation, Trajectory,
+    Begin, Crossing, CrossingKind, PhaseKind, PiercingRatios, Ratios, Scene, Simulation, Start,
+    Trajectory,
 };
+use softstop_testing::loaded;
 use softstop_testing::tolerance::MOTION;
-use softstop_testing::{loaded, start_at};
 
 fn machine(frequency: f64, clearance: f64, strip: PiercingRatios) -> Scene {
     let ratios = Ratios {
@@ -29,7 +30,7 @@ fn passes(trajectory: &Trajectory, position: f64) -> Vec<&Crossing> {
 #[test]
 fn a_half_pierced_strip_is_met_again() {
     let scene = machine(0.3, 0.8, PiercingRatios::PAPER);
-    let start = start_at(0.0, 0.5);
+    let start = Start::new(0.0, 0.5);
     let trajectory = scene.trajectory(start, 6).expect("bounded");
     let strokes = passes(&trajectory, scene.clearance);
     assert!(strokes.len() >= 2, "only {} strokes", strokes.len());
@@ -64,7 +65,7 @@ fn a_strip_is_pierced_once_per_stroke() {
         travel: 5.0,
     };
     let scene = machine(0.7, -3.0, soft);
-    let start = start_at(-3.2, 0.0);
+    let start = Start::new(-3.2, 0.0);
     let trajectory = scene.trajectory(start, 12).expect("bounded");
     let met = passes(&trajectory, scene.clearance).len();
     let far_side = passes(&trajectory, scene.clearance + 2.5);
@@ -80,7 +81,7 @@ fn a_strip_is_pierced_once_per_stroke() {
 #[test]
 fn a_strong_stroke_pierces() {
     let scene = loaded();
-    let start = start_at(
+    let start = Start::new(
         softstop::internals::samples::LOADED.position,
         softstop::internals::samples::LOADED.velocity,
     );
@@ -94,7 +95,7 @@ fn a_strong_stroke_pierces() {
 #[test]
 fn a_start_without_material_meets_no_strip() {
     let scene = loaded();
-    let start = start_at(scene.clearance + 0.2, 0.5);
+    let start = Start::new(scene.clearance + 0.2, 0.5);
     for (fed, phase) in [(true, PhaseKind::Pierce), (false, PhaseKind::Gap)] {
         let mut machine = Simulation::new(&scene, Begin::from(start).fed(fed)).expect("valid");
         assert_eq!(machine.sample().phase, phase);

@@ -25,13 +25,7 @@ fn other_design() -> (Scene, Start) {
     scene.clearance = 7.25;
     scene.excitation.frequency = 1.31;
     scene.piercing = None;
-    (
-        scene,
-        Start {
-            position: 4.5,
-            velocity: -2.25,
-        },
-    )
+    (scene, Start::new(4.5, -2.25))
 }
 
 fn entry(archive: &[u8], name: &str) -> Vec<u8> {

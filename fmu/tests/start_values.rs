@@ -3,10 +3,7 @@
 use softstop::{Ratios, Release, RigidStop, Scene, SceneError, Slope, Start, Stop};
 use softstop_fmu::{NotServed, StartValues};
 
-const START: Start = Start {
-    position: 4.5,
-    velocity: -2.25,
-};
+const START: Start = Start::new(4.5, -2.25);
 
 fn scene(stop: Stop, rigid: Option<RigidStop>) -> Scene {
     let scene = Ratios::loaded().scene().expect("a valid sample");
@@ -88,10 +85,7 @@ fn every_stop_there_and_back() {
 #[test]
 fn default_is_the_loaded_machine() {
     let sample = softstop::internals::samples::LOADED;
-    let start = Start {
-        position: sample.position,
-        velocity: sample.velocity,
-    };
+    let start = Start::new(sample.position, sample.velocity);
     let behind = RigidStop {
         travel: 5.0,
         restitution: 0.6,

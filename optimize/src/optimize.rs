@@ -136,10 +136,7 @@ fn named(design: &Design) -> Machine {
 
 /// The stroboscopic state of the design's motion.
 const fn start(design: &Design) -> Start {
-    Start {
-        position: design.orbit.position,
-        velocity: design.orbit.velocity,
-    }
+    Start::new(design.orbit.position, design.orbit.velocity)
 }
 
 /// What came of a search.

@@ -152,34 +152,33 @@ impl Scan<'_> {
         let span = right.node.elapsed - left.node.elapsed;
         let node = left.node;
         let taylor = self.course.expand(&node);
-        let mut horizon = f64::INFINITY;
-        let mut first = None;
-        for (index, guard) in self.guards.iter().enumerate() {
+        let rise = |guard: &Guard| {
             if self.cannot_rise(guard, left, right, bounds) {
-                continue;
+                return None;
             }
             let candidate = Candidate {
                 coefficients: &guard.polynomial(&taylor),
                 bound: left.bound(&self.course.flow, guard, span, bounds),
                 rounding: left.rounding(guard),
             };
-            let ends = (left.guard(guard), right.guard(guard));
-            if let Some(rise) = candidate
-                .first_rise(span, ends)
-                .filter(|rise| *rise < horizon)
-            {
-                horizon = rise;
-                first = Some(index);
-            }
-        }
-        first.map(|guard| {
-            let (position, velocity) = taylor.state(horizon);
+            candidate.first_rise(span, (left.guard(guard), right.guard(guard)))
+        };
+        earliest(self.guards, rise).map(|(guard, after)| {
+            let (position, velocity) = taylor.state(after);
             Found {
-                elapsed: node.elapsed + horizon,
+                elapsed: node.elapsed + after,
                 guard,
                 position,
                 velocity,
             }
         })
     }
+}
+
+/// Which of the guards rises first, and when; of two at once the first.
+fn earliest(guards: &[Guard], rise: impl Fn(&Guard) -> Option<f64>) -> Option<(usize, f64)> {
+    let rises = guards.iter().map(rise).enumerate();
+    rises
+        .filter_map(|(index, rise)| Some((index, rise?)))
+        .min_by(|a, b| a.1.total_cmp(&b.1))
 }

@@ -1,7 +1,7 @@
 //! The first crossing on one Taylor step.
 
 use super::isolate::Candidate;
-use super::{Found, Guard, Outlook};
+use super::{Found, Guard, Outlook, earliest};
 use crate::flow::{DEGREE, Node, Segment, evaluate};
 
 /// The first crossing from `node` to the end of the step. Bounds on the fourth derivative follow from
@@ -17,9 +17,7 @@ pub(super) fn first_crossing(segment: &Segment, guards: &[Guard], node: Node) ->
     {
         return Outlook::Unbounded(node);
     }
-    let mut horizon = f64::INFINITY;
-    let mut first = None;
-    for (index, guard) in guards.iter().enumerate() {
+    let rise = |guard: &Guard| {
         let coefficients =
             segment.combination(guard.position, guard.velocity, guard.push, guard.level);
         let candidate = Candidate {
@@ -27,20 +25,14 @@ pub(super) fn first_crossing(segment: &Segment, guards: &[Guard], node: Node) ->
             bound: fourth_derivative(&coefficients, to),
             rounding: rounding(&coefficients, to),
         };
-        if let Some(rise) = candidate
-            .first_rise_between(from, to)
-            .filter(|rise| *rise < horizon)
-        {
-            horizon = rise;
-            first = Some(index);
-        }
-    }
-    match first {
+        candidate.first_rise_between(from, to)
+    };
+    match earliest(guards, rise) {
         None => Outlook::Ends(segment.end),
-        Some(guard) => {
-            let (position, velocity) = segment.state_at(horizon);
+        Some((guard, sigma)) => {
+            let (position, velocity) = segment.state_at(sigma);
             Outlook::Crossing(Found {
-                elapsed: segment.time_at(horizon),
+                elapsed: segment.time_at(sigma),
                 guard,
                 position,
                 velocity,

@@ -1,6 +1,6 @@
 //! How a course changes with its start and with the push: variational equations, exact.
 
-use nalgebra::Matrix2;
+use nalgebra::{Matrix2, Vector2};
 
 use super::course::{Course, Form};
 use super::response::Responses;
@@ -31,12 +31,12 @@ impl Course {
             }
             Form::Particular { .. } | Form::Responses => {
                 let modes = &self.flow.modes;
-                let (x, v) = modes.at(elapsed).apply(by.position, by.velocity);
-                if by.push == 0.0 {
-                    return (x, v);
+                let mut state = modes.at(elapsed) * Vector2::new(by.position, by.velocity);
+                if by.push != 0.0 {
+                    let answers = Responses::at(modes, self.flow.frequency, elapsed);
+                    state += by.push * answers.constant;
                 }
-                let (y, u) = Responses::at(modes, self.flow.frequency, elapsed).constant;
-                (x + by.push * y, v + by.push * u)
+                (state.x, state.y)
             }
         }
     }

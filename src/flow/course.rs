@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use nalgebra::Vector2;
+
 use super::particular::Particular;
 use super::place::Node;
 use super::response::Responses;
@@ -23,7 +25,7 @@ pub(super) enum Form {
     /// Particular solution plus the free deviation from it at departure.
     Particular {
         particular: Particular,
-        deviation: (f64, f64),
+        deviation: Vector2<f64>,
     },
     /// Answers from rest, by doubling.
     Responses,
@@ -43,7 +45,7 @@ impl Course {
             Some(steady) if is_well_conditioned(&flow, &departure) => {
                 let particular = Particular::new(&flow, &departure, steady);
                 let (x, v) = particular.at(0.0, departure.drive);
-                let deviation = (departure.position - x, departure.velocity - v);
+                let deviation = Vector2::new(departure.position - x, departure.velocity - v);
                 Form::Particular {
                     particular,
                     deviation,
@@ -161,8 +163,8 @@ impl Course {
                 deviation,
             } => {
                 let (x, v) = particular.at(elapsed, drive);
-                let (y, rate) = self.flow.modes.at(elapsed).apply(deviation.0, deviation.1);
-                (x + y, v + rate)
+                let free = self.flow.modes.at(elapsed) * deviation;
+                (x + free.x, v + free.y)
             }
             _ => match self.flow.late {
                 Some((steady, settled)) if elapsed >= settled => {
@@ -174,31 +176,15 @@ impl Course {
     }
 
     fn by_responses(&self, elapsed: f64) -> (f64, f64) {
-        let from = &self.departure;
-        let (x, v) = self
-            .flow
-            .modes
-            .at(elapsed)
-            .apply(from.position, from.velocity);
-        let answers = Responses::at(&self.flow.modes, self.flow.frequency, elapsed);
-        let (a, (cos, sin)) = (self.flow.amplitude, from.drive);
-        let sum = |c: f64, r: f64, p: f64, q: f64| {
-            from.push.value() * c + from.push.rate() * r + a * (cos * p - sin * q)
-        };
-        (
-            x + sum(
-                answers.constant.0,
-                answers.ramp.0,
-                answers.cosine.0,
-                answers.sine.0,
-            ),
-            v + sum(
-                answers.constant.1,
-                answers.ramp.1,
-                answers.cosine.1,
-                answers.sine.1,
-            ),
-        )
+        let (from, flow) = (&self.departure, &self.flow);
+        let free = flow.modes.at(elapsed) * Vector2::new(from.position, from.velocity);
+        let answers = Responses::at(&flow.modes, flow.frequency, elapsed);
+        let (cos, sin) = from.drive;
+        let state = free
+            + (from.push.value() * answers.constant
+                + from.push.rate() * answers.ramp
+                + flow.amplitude * (cos * answers.cosine - sin * answers.sine));
+        (state.x, state.y)
     }
 
     /// Value and rate of a linear push per mass, seen from a node.
@@ -232,9 +218,10 @@ impl Course {
         match self.form {
             Form::Particular {
                 particular: of,
-                deviation: (x, v),
+                deviation: free,
             } => {
-                let size = of.offset.abs() + of.cosine.abs() + of.sine.abs() + x.abs() + v.abs();
+                let steady = of.offset.abs() + of.cosine.abs() + of.sine.abs();
+                let size = steady + free.x.abs() + free.y.abs();
                 of.slope == 0.0 && self.flow.modes.stiffness > 0.0 && size < MODEST
             }
             Form::Held | Form::Chatter(_) => true,

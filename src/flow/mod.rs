@@ -64,7 +64,7 @@ pub struct Flow {
     pub(crate) window_bounds: (f64, f64),
     /// Time in s over which a Taylor polynomial is exact to round-off.
     pub(crate) reach: f64,
-    window_modes: [[f64; 2]; 2],
+    window_modes: Matrix2<f64>,
     window_turn: (f64, f64),
 }
 
@@ -87,7 +87,7 @@ impl Flow {
             long_window: 1.0 / frequency,
             window_bounds: modes.bounds(window),
             reach,
-            window_modes: modes.at(window).rows(),
+            window_modes: modes.at(window),
             window_turn: (cos, sin),
         }
     }
@@ -100,8 +100,7 @@ impl Flow {
 
     /// State transition d(x, v)(elapsed) / d(x, v)(0).
     pub fn transition(&self, elapsed: f64) -> Matrix2<f64> {
-        let [[c, s], [dc, ds]] = self.modes.at(elapsed).rows();
-        Matrix2::new(c, s, dc, ds)
+        self.modes.at(elapsed)
     }
 
     /// Damping over mass in 1/s.

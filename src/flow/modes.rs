@@ -1,6 +1,9 @@
 //! The free motion x'' + 2 a x' + b x = 0 without cancellation anywhere in (a, b, t).
 
-/// Fundamental solutions of x'' + 2 a x' + b x = 0 for a >= 0 and any real b.
+use nalgebra::Matrix2;
+
+/// Fundamental solutions of x'' + 2 a x' + b x = 0 for a >= 0 and any real b: C(0) = 1, C'(0) = 0;
+/// S(0) = 0, S'(0) = 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Modes {
     /// a in 1/s.
@@ -16,38 +19,6 @@ enum Kind {
     Oscillating { omega: f64 },
     /// b <= a^2: real roots `slow` >= `fast`, `spread` = slow - fast (0 at the double root).
     Aperiodic { slow: f64, fast: f64, spread: f64 },
-}
-
-/// Values of the fundamental solutions at one time: C(0) = 1, C'(0) = 0; S(0) = 0, S'(0) = 1.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fundamental {
-    /// C(t).
-    pub cosine: f64,
-    /// S(t) in s.
-    pub sine: f64,
-    /// S'(t).
-    pub sine_rate: f64,
-    /// b, since C' = -b S.
-    stiffness: f64,
-}
-
-impl Fundamental {
-    /// Position and velocity that grow out of (x, v).
-    #[inline]
-    pub fn apply(&self, x: f64, v: f64) -> (f64, f64) {
-        (
-            self.cosine * x + self.sine * v,
-            self.sine_rate * v - self.stiffness * self.sine * x,
-        )
-    }
-
-    /// The rows [[C, S], [C', S']].
-    pub fn rows(&self) -> [[f64; 2]; 2] {
-        [
-            [self.cosine, self.sine],
-            [-self.stiffness * self.sine, self.sine_rate],
-        ]
-    }
 }
 
 impl Modes {
@@ -76,13 +47,13 @@ impl Modes {
         }
     }
 
-    /// C, S and S' after `t` >= 0 seconds.
+    /// The transition [[C, S], [C', S']] of position and velocity after `t` >= 0 seconds; C' = -b S.
     ///
     /// Aperiodic: with E1 = exp(slow t), E2 = exp(fast t),
     /// S = E1 (1 - exp(-spread t)) / spread, C = E2 - fast S, S' = E2 + slow S; every difference
     /// of nearly equal terms is inside `exp_m1`.
     #[inline]
-    pub fn at(&self, t: f64) -> Fundamental {
+    pub fn at(&self, t: f64) -> Matrix2<f64> {
         let (cosine, sine, sine_rate) = match self.kind {
             Kind::Oscillating { omega } => {
                 let fade = (-self.decay * t).exp();
@@ -106,12 +77,7 @@ impl Modes {
                 (second - fast * sine, sine, second + slow * sine)
             }
         };
-        Fundamental {
-            cosine,
-            sine,
-            sine_rate,
-            stiffness: self.stiffness,
-        }
+        Matrix2::new(cosine, sine, -self.stiffness * sine, sine_rate)
     }
 
     /// Fastest rate of the free motion in 1/s: no mode grows, decays or turns faster.

@@ -17,7 +17,7 @@ impl Course {
     /// The departure as a node.
     pub fn start(&self) -> Node {
         let deviation = match self.form {
-            Form::Particular { deviation, .. } => deviation,
+            Form::Particular { deviation, .. } => (deviation.x, deviation.y),
             _ => (0.0, 0.0),
         };
         Node {
@@ -74,9 +74,11 @@ impl Course {
                 };
             }
         };
-        let [[c, s], [dc, ds]] = self.flow.window_modes;
-        let (y, rate) = node.deviation;
-        let deviation = (c * y + s * rate, dc * y + ds * rate);
+        let (free, (y, rate)) = (&self.flow.window_modes, node.deviation);
+        let deviation = (
+            free.m11 * y + free.m12 * rate,
+            free.m21 * y + free.m22 * rate,
+        );
         let drive = turned(node.drive, self.flow.window_turn);
         let (x, v) = particular.at(elapsed, drive);
         Node {

@@ -22,15 +22,13 @@ impl Course {
     pub(crate) fn power(&self, elapsed: f64, law: f64) -> Power {
         match &self.form {
             Form::Held | Form::Chatter(_) => Power::default(),
-            Form::Segment(segment) => {
-                let (supplied, lost) = segment.work(elapsed, law);
-                Power { supplied, lost }
-            }
+            Form::Segment(segment) => segment.work(elapsed, law),
             &Form::Particular {
                 particular,
                 deviation,
             } if elapsed > self.flow.reach => {
-                self.power_in_closed_form(&particular, deviation, elapsed, law)
+                let start = (deviation.x, deviation.y);
+                self.power_in_closed_form(&particular, start, elapsed, law)
             }
             _ => self.power_by_quadrature(elapsed, law),
         }

@@ -2,18 +2,20 @@
 //! series and doubling. They have no preferred root, so they hold where the usual particular
 //! solutions blow up: zero stiffness, zero frequency, exact resonance, repeated roots.
 
+use nalgebra::Vector2;
+
 use super::modes::Modes;
 
 /// Position and velocity at one time.
-type Pair = (f64, f64);
+type State = Vector2<f64>;
 
 /// Zero-state responses to 1, t, cos(w t) and sin(w t) at one time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Responses {
-    pub constant: Pair,
-    pub ramp: Pair,
-    pub cosine: Pair,
-    pub sine: Pair,
+    pub constant: State,
+    pub ramp: State,
+    pub cosine: State,
+    pub sine: State,
 }
 
 /// Terms of the Taylor series: (1/2)^n / n! falls below 1e-20 at n = 15.
@@ -64,31 +66,17 @@ impl Responses {
     fn doubled(&self, modes: &Modes, w: f64, h: f64) -> Self {
         let free = modes.at(h);
         let (sin, cos) = (w * h).sin_cos();
-        let again = |first: Pair, second: Pair| {
-            let (x, v) = free.apply(first.0, first.1);
-            (x + second.0, v + second.1)
-        };
-        let blend = |p: f64, q: f64| {
-            (
-                p * self.cosine.0 + q * self.sine.0,
-                p * self.cosine.1 + q * self.sine.1,
-            )
-        };
-        let shifted_ramp = (
-            self.ramp.0 + h * self.constant.0,
-            self.ramp.1 + h * self.constant.1,
-        );
         Self {
-            constant: again(self.constant, self.constant),
-            ramp: again(self.ramp, shifted_ramp),
-            cosine: again(self.cosine, blend(cos, -sin)),
-            sine: again(self.sine, blend(sin, cos)),
+            constant: free * self.constant + self.constant,
+            ramp: free * self.ramp + (self.ramp + h * self.constant),
+            cosine: free * self.cosine + (cos * self.cosine - sin * self.sine),
+            sine: free * self.sine + (sin * self.cosine + cos * self.sine),
         }
     }
 }
 
 /// Sums the solution of x'' + 2 a x' + b x = sum f_n t^n from rest.
-fn series(modes: &Modes, t: f64, force: impl Fn(usize) -> f64) -> Pair {
+fn series(modes: &Modes, t: f64, force: impl Fn(usize) -> f64) -> State {
     let mut c = [0.0; TERMS + 2];
     for n in 0..TERMS {
         let k = n as f64;
@@ -100,5 +88,5 @@ fn series(modes: &Modes, t: f64, force: impl Fn(usize) -> f64) -> Pair {
         x = (x + c[n]) * t;
         v = v * t + n as f64 * c[n];
     }
-    (x, v)
+    State::new(x, v)
 }

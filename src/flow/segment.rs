@@ -21,6 +21,7 @@ use super::Flow;
 use super::creep::Creep;
 use super::gauss::gauss_nodes;
 use super::hertz::Hertz;
+use super::power::Power;
 use super::series::{Series, ZERO, derivative, integral_of_product, power, product, value};
 use super::taylor::evaluate;
 
@@ -191,9 +192,8 @@ impl Segment {
         sum
     }
 
-    /// Work of the push, without the `law`'s own constant force, and work lost, per unit of mass, up to
-    /// `elapsed`.
-    pub fn work(&self, elapsed: f64, law: f64) -> (f64, f64) {
+    /// Work up to `elapsed`; `law` is the part of the constant push that is the phase's own force.
+    pub fn work(&self, elapsed: f64, law: f64) -> Power {
         if self.is_in_time() && self.power == ZERO {
             return self.work_in_time(elapsed, law);
         }
@@ -209,16 +209,17 @@ impl Segment {
             supplied += travel * (value(&self.push, sigma) - law);
             lost += travel * damping * velocity;
         }
-        (supplied, lost)
+        Power { supplied, lost }
     }
 
     /// The same of a linear law: the integrals of the very polynomials, whatever their degree.
-    fn work_in_time(&self, elapsed: f64, law: f64) -> (f64, f64) {
+    fn work_in_time(&self, elapsed: f64, law: f64) -> Power {
         let mut force = self.push;
         force[0] -= law;
         let supplied = integral_of_product(&force, &self.velocity, elapsed);
         let square = integral_of_product(&self.velocity, &self.velocity, elapsed);
-        (supplied, 2.0 * self.flow.modes.decay * square)
+        let lost = 2.0 * self.flow.modes.decay * square;
+        Power { supplied, lost }
     }
 
     /// 2 a + kappa lambda d^n.

@@ -10,7 +10,7 @@ use super::observer::{Crossing, CrossingKind, Observer};
 use crate::error::MotionError;
 use crate::events::{Found, Guard, Outlook, first_crossing};
 use crate::flow::{Chatter, Finer, Node};
-use crate::phases::{Mode, Phase};
+use crate::phases::{Hold, Mode, Phase};
 
 /// Crossings and steps at one and the same instant that a motion may make: more than any row of bounces that
 /// is shorter than the resolution of time.
@@ -158,20 +158,18 @@ impl Motion {
                 node,
                 horizon,
             ),
-            Mode::Held { forward, backward } => {
-                let (guards, count) = self.release_guards(forward, backward);
+            Mode::Held(hold) => {
+                let (guards, count) = self.release_guards(hold);
                 first_crossing(&self.course, &guards[..count], node, horizon)
             }
-            Mode::Chattering { .. } => first_crossing(&self.course, &[], node, horizon),
+            Mode::Chattering(_) => first_crossing(&self.course, &[], node, horizon),
         }
     }
 
-    fn release_guards(&self, forward: Option<usize>, backward: usize) -> ([Guard; 2], usize) {
+    fn release_guards(&self, hold: Hold) -> ([Guard; 2], usize) {
         let since = &self.course.departure;
         let push = since.push.value() + self.phases.held.amplitude * since.drive.0;
-        let (guards, _, count) = self
-            .phases
-            .releases(forward, backward, since.position, push);
+        let (guards, _, count) = self.phases.releases(hold, since.position, push);
         (guards, count)
     }
 
@@ -179,8 +177,8 @@ impl Motion {
     pub(super) fn guard_count(&self) -> usize {
         match self.mode {
             Mode::Moving(phase) => self.phases.phases[phase].guards.len(),
-            Mode::Held { forward, backward } => self.release_guards(forward, backward).1,
-            Mode::Chattering { .. } => 0,
+            Mode::Held(hold) => self.release_guards(hold).1,
+            Mode::Chattering(_) => 0,
         }
     }
 
@@ -192,8 +190,8 @@ impl Motion {
         let drive = self.clock.drive(at);
         (self.start, self.now) = (at, at);
         match (self.mode, self.course.chatter().copied()) {
-            (Mode::Chattering { backward }, Some(chatter)) => {
-                self.come_to_rest(backward, &chatter, drive, observer);
+            (Mode::Chattering(hold), Some(chatter)) => {
+                self.come_to_rest(hold, &chatter, drive, observer);
             }
             _ => self.next_step(elapsed, drive),
         }
@@ -207,7 +205,7 @@ impl Motion {
             (Some(phase), Some(finer)) if phase.hertz.is_none() => within(phase, position, finer),
             _ => (position, finer),
         };
-        let state = Start { position, velocity };
+        let state = Start::new(position, velocity);
         let departure = self.departure(state, drive, self.mode, None);
         self.begin(departure, self.mode, finer, None);
     }
@@ -215,18 +213,15 @@ impl Motion {
     /// The end of the summed bounces on a rigid stop.
     fn come_to_rest(
         &mut self,
-        backward: usize,
+        hold: Hold,
         chatter: &Chatter,
         drive: (f64, f64),
         observer: &mut impl Observer,
     ) {
         let position = self.course.departure.position;
         let push = self.push(drive);
-        let mode = self.phases.leave_hold(None, backward, position, push);
-        let state = Start {
-            position,
-            velocity: 0.0,
-        };
+        let mode = self.phases.leave(hold, position, push);
+        let state = Start::new(position, 0.0);
         self.depart(state, drive, mode);
         observer.crossing(&Crossing {
             instant: self.start,

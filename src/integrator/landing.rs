@@ -4,7 +4,7 @@ use super::motion::{Motion, Start};
 use super::observer::CrossingKind;
 use crate::events::{Found, Guard};
 use crate::flow::{Chatter, Polynomial, Pressing};
-use crate::phases::{Beyond, Exit, Mode, Phase, Phases, Surface, Threshold};
+use crate::phases::{Beyond, Exit, Hold, Mode, Phase, Phases, Surface, Threshold};
 
 /// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
 /// to no end in finite time, as those on a preloaded face.
@@ -22,7 +22,7 @@ pub(crate) struct Landing {
 impl Landing {
     fn new(position: f64, velocity: f64, mode: Mode, kind: CrossingKind) -> Self {
         Self {
-            state: Start { position, velocity },
+            state: Start::new(position, velocity),
             mode,
             kind,
             chatter: None,
@@ -48,28 +48,25 @@ impl Phases {
 impl Motion {
     /// The surface that a guard watches, if bounces on it may go on for ever.
     pub(super) fn surface_of(&self, guard: usize) -> Option<usize> {
-        match self.mode {
-            Mode::Moving(phase) => self.phases.endless_surface(phase, guard),
-            Mode::Held { .. } | Mode::Chattering { .. } => None,
-        }
+        self.phases.endless_surface(self.mode.phase()?, guard)
     }
 
     /// State and mode right after a crossing.
     pub(super) fn land(&self, found: &Found, push: f64) -> Landing {
         let position = found.position;
-        let (forward, backward) = match self.mode {
+        match self.mode {
             Mode::Moving(phase) => {
                 // A mass that leaves rest and is back at once has not moved.
                 let moved =
                     self.course.departure.velocity != 0.0 || !self.is_instant(found.elapsed);
-                return self.ground().leave(phase, found, push, moved);
+                self.ground().leave(phase, found, push, moved)
             }
-            Mode::Held { forward, backward } => (forward, backward),
-            Mode::Chattering { backward } => (None, backward),
-        };
-        let (_, phases, _) = self.phases.releases(forward, backward, position, push);
-        let mode = Mode::Moving(phases[found.guard]);
-        Landing::new(position, 0.0, mode, CrossingKind::Release)
+            Mode::Held(hold) | Mode::Chattering(hold) => {
+                let (_, phases, _) = self.phases.releases(hold, position, push);
+                let mode = Mode::Moving(phases[found.guard]);
+                Landing::new(position, 0.0, mode, CrossingKind::Release)
+            }
+        }
     }
 
     fn ground(&self) -> Ground<'_> {
@@ -85,11 +82,10 @@ impl Motion {
 
     /// Remembers whether the strip of this stroke is pierced.
     pub(super) fn note_strip(&mut self, kind: CrossingKind) {
-        match kind {
-            CrossingKind::Surface { pierces: true, .. }
-            | CrossingKind::Rebound { pierces: true, .. } => self.pierced = true,
-            CrossingKind::Surface { impact: true, .. } => self.pierced = false,
-            _ => {}
+        if kind.pierces() {
+            self.pierced = true;
+        } else if matches!(kind, CrossingKind::Surface { impact: true, .. }) {
+            self.pierced = false;
         }
     }
 
@@ -97,7 +93,7 @@ impl Motion {
     /// mode was chosen.
     pub(super) fn acceleration_at_rest(&self, position: f64, drive: (f64, f64), mode: Mode) -> f64 {
         match (self.mode, mode) {
-            (Mode::Moving(_) | Mode::Chattering { .. }, Mode::Moving(phase)) => self.phases.phases
+            (Mode::Moving(_) | Mode::Chattering(_), Mode::Moving(phase)) => self.phases.phases
                 [phase]
                 .acceleration_from_rest(position, self.push(drive), self.phases.mass),
             // A held mass is let go in balance.
@@ -112,12 +108,9 @@ impl Motion {
 
     /// Acceleration in m/s^2 in a mode.
     pub fn acceleration(&self, mode: Mode, position: f64, velocity: f64, push: f64) -> f64 {
-        match mode {
-            Mode::Held { .. } | Mode::Chattering { .. } => 0.0,
-            Mode::Moving(phase) => {
-                self.phases.phases[phase].acceleration(position, velocity, push, self.phases.mass)
-            }
-        }
+        mode.phase().map_or(0.0, |phase| {
+            self.phases.phases[phase].acceleration(position, velocity, push, self.phases.mass)
+        })
     }
 }
 
@@ -143,7 +136,8 @@ impl Ground<'_> {
         let position = self.phases.phases[phase].confine(found.position);
         match self.phases.phases[phase].exits[found.guard] {
             Exit::Reversal { forward, backward } => {
-                let mode = self.phases.turn(forward, backward, position, push);
+                let hold = Hold::between(forward, backward);
+                let mode = self.phases.turn(hold, position, push);
                 Landing::new(position, 0.0, mode, CrossingKind::Reversal)
             }
             Exit::Switch(to) => {
@@ -169,7 +163,7 @@ impl Ground<'_> {
         let mode = self
             .phases
             .at_surface(at, velocity, push, self.fed, self.threshold);
-        let held = matches!(mode, Mode::Held { .. });
+        let held = matches!(mode, Mode::Held(_));
         let kind = CrossingKind::Surface {
             forward,
             impact: forward && at.is_clearance,
@@ -186,8 +180,9 @@ impl Ground<'_> {
             pierces: self.pierces(at),
         };
         let (position, speed) = (at.position, restitution * velocity);
-        let held = self.phases.leave_hold(None, at.below, position, push);
-        let rests = matches!(held, Mode::Held { .. });
+        let hold = at.hold(Beyond::Wall { restitution });
+        let held = self.phases.leave(hold, position, push);
+        let rests = matches!(held, Mode::Held(_));
         let faint = || {
             let endless = restitution > ENDLESS && self.phases.is_faint(at, speed, push, self.fed);
             speed < self.threshold.slowest || endless
@@ -197,7 +192,7 @@ impl Ground<'_> {
         }
         let chatter = self.chatter(at, speed, push, restitution);
         let mode = match chatter {
-            Some(_) => Mode::Chattering { backward: at.below },
+            Some(_) => Mode::Chattering(hold),
             None => self.phases.moving(at.below, position, -speed),
         };
         Landing {

@@ -12,7 +12,7 @@ use super::observer::Arc;
 use crate::error::MotionError;
 use crate::events::Outlook;
 use crate::flow::{Chatter, Course, Departure, Finer, Polynomial};
-use crate::phases::{Mode, Phase, PhaseKind, Phases, Store};
+use crate::phases::{Hold, Mode, Phase, PhaseKind, Phases, Store};
 
 /// A state to start from.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -25,10 +25,7 @@ pub struct Start {
 
 impl From<Vector2<f64>> for Start {
     fn from(state: Vector2<f64>) -> Self {
-        Self {
-            position: state.x,
-            velocity: state.y,
-        }
+        Self::new(state.x, state.y)
     }
 }
 
@@ -39,6 +36,14 @@ impl From<Start> for Vector2<f64> {
 }
 
 impl Start {
+    /// At rest at position 0.
+    pub const REST: Self = Self::new(0.0, 0.0);
+
+    /// The state at this position in m with this velocity in m/s.
+    pub const fn new(position: f64, velocity: f64) -> Self {
+        Self { position, velocity }
+    }
+
     /// Refuses a state that is not finite.
     ///
     /// # Errors
@@ -160,19 +165,18 @@ impl Motion {
 
     /// The phase whose law holds now; none while the mass is held.
     pub fn phase(&self) -> Option<&Phase> {
-        match self.mode {
-            Mode::Moving(phase) => Some(&self.phases.phases[phase]),
-            Mode::Held { .. } | Mode::Chattering { .. } => None,
-        }
+        self.mode.phase().map(|phase| &self.phases.phases[phase])
     }
 
     /// What the stop stores now.
     pub fn store(&self) -> &Store {
         let (Mode::Moving(phase)
-        | Mode::Held {
+        | Mode::Held(Hold {
             backward: phase, ..
-        }
-        | Mode::Chattering { backward: phase }) = self.mode;
+        })
+        | Mode::Chattering(Hold {
+            backward: phase, ..
+        })) = self.mode;
         &self.phases.phases[phase].store
     }
 
@@ -194,7 +198,7 @@ impl Motion {
         let position = self
             .phase()
             .map_or(position, |phase| phase.confine(position));
-        Start { position, velocity }
+        Start::new(position, velocity)
     }
 
     /// The arc that is under way.
@@ -212,11 +216,10 @@ impl Motion {
     pub(super) fn is_latched(&self) -> bool {
         match self.mode {
             Mode::Moving(0) => self.fed,
-            Mode::Moving(phase) | Mode::Chattering { backward: phase } => {
+            Mode::Moving(phase) => self.phases.belongs_to_strip(phase),
+            Mode::Held(hold) | Mode::Chattering(hold) => {
+                let phase = hold.forward.unwrap_or(hold.backward);
                 self.phases.belongs_to_strip(phase)
-            }
-            Mode::Held { forward, backward } => {
-                self.phases.belongs_to_strip(forward.unwrap_or(backward))
             }
         }
     }
@@ -241,10 +244,8 @@ impl Motion {
         mode: Mode,
         acceleration: Option<f64>,
     ) -> Departure {
-        let law = match mode {
-            Mode::Moving(phase) => self.phases.phases[phase].law.force,
-            Mode::Held { .. } | Mode::Chattering { .. } => 0.0,
-        };
+        let phase = mode.phase().map(|phase| &self.phases.phases[phase]);
+        let law = phase.map_or(0.0, |phase| phase.law.force);
         Departure {
             position: state.position,
             velocity: state.velocity,
@@ -277,10 +278,8 @@ impl Motion {
                     (None, None) => Course::new(phase.flow, departure),
                 }
             }
-            (Mode::Chattering { .. }, Some(chatter)) => {
-                Course::chattering(held, departure, chatter)
-            }
-            (Mode::Held { .. } | Mode::Chattering { .. }, _) => Course::held(held, departure),
+            (Mode::Chattering(_), Some(chatter)) => Course::chattering(held, departure, chatter),
+            (Mode::Held(_) | Mode::Chattering(_), _) => Course::held(held, departure),
         };
         self.mode = mode;
         self.outlook = Outlook::ClearUntil(self.course.start());

@@ -51,6 +51,24 @@ pub enum CrossingKind {
     Release,
 }
 
+impl CrossingKind {
+    /// True if it is an impact.
+    pub const fn is_impact(self) -> bool {
+        matches!(
+            self,
+            Self::Surface { impact: true, .. } | Self::Rebound { impact: true, .. }
+        )
+    }
+
+    /// True if a strip has been pierced through.
+    pub const fn pierces(self) -> bool {
+        matches!(
+            self,
+            Self::Surface { pierces: true, .. } | Self::Rebound { pierces: true, .. }
+        )
+    }
+}
+
 /// A crossing: an exact instant with the states on both sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
@@ -83,21 +101,12 @@ impl Crossing {
 
     /// True if a strip has been pierced through.
     pub fn pierces(&self) -> bool {
-        match self.kind {
-            CrossingKind::Surface { pierces, .. } | CrossingKind::Rebound { pierces, .. } => {
-                pierces
-            }
-            _ => false,
-        }
+        self.kind.pierces()
     }
 
     /// The before-impact velocity in m/s, if this is an impact.
     pub fn impact_velocity(&self) -> Option<f64> {
-        match self.kind {
-            CrossingKind::Surface { impact: true, .. }
-            | CrossingKind::Rebound { impact: true, .. } => Some(self.velocity),
-            _ => None,
-        }
+        self.kind.is_impact().then_some(self.velocity)
     }
 }
 

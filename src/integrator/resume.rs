@@ -5,7 +5,7 @@ use super::force::Force;
 use super::motion::Motion;
 use crate::error::MotionError;
 use crate::flow::Polynomial;
-use crate::phases::{Mode, Phases};
+use crate::phases::{Hold, Mode, Phases};
 
 impl Motion {
     /// This motion, taken up at its present state through other phases.
@@ -38,16 +38,13 @@ impl Motion {
         self.force = Force::new(force, self.now);
         match self.mode {
             // A step of the force lets the mass go with the acceleration that it brings.
-            Mode::Held { forward, backward } => {
+            Mode::Held(hold) => {
                 let push = self.push(drive);
-                self.mode = self
-                    .phases
-                    .leave_hold(forward, backward, state.position, push);
+                self.mode = self.phases.leave(hold, state.position, push);
             }
-            Mode::Chattering { backward } => {
-                let phases = &self.phases;
+            Mode::Chattering(Hold { backward, .. }) => {
                 self.mode = Mode::Moving(if state.velocity > 0.0 {
-                    phases.forward_of(backward)
+                    self.phases.forward_of(backward)
                 } else {
                     backward
                 });
@@ -67,14 +64,13 @@ impl Motion {
     /// True if the mass bounces on a rigid stop towards its rest, and another force would not keep it
     /// from that: what is left of the bounces is too short for it to tell.
     fn keeps_bouncing(&self, force: &Polynomial) -> bool {
-        let Mode::Chattering { backward } = self.mode else {
+        let Mode::Chattering(hold) = self.mode else {
             return false;
         };
         let (phases, position) = (&self.phases, self.course.departure.position);
         let drive = self.clock.drive(self.now);
         let push = phases.held.amplitude * drive.0 + force.value() / phases.mass;
-        let mode = phases.leave_hold(None, backward, position, push);
-        matches!(mode, Mode::Held { .. })
+        matches!(phases.leave(hold, position, push), Mode::Held(_))
     }
 
     /// The same motion at a time on its present arc, with an arc of its own from there on.

@@ -17,7 +17,7 @@ use super::tallies::{Counts, Tallies};
 use crate::error::MotionError;
 use crate::events::Outlook;
 use crate::flow::{Chatter, Departure, Finer, Polynomial, Segment};
-use crate::phases::{Mode, Phases};
+use crate::phases::{Hold, Mode, Phases};
 use crate::scene::Scene;
 
 /// A running machine at one time. Written to bytes and read back, in this process or another, it goes
@@ -87,7 +87,7 @@ impl Moving {
             position, velocity, ..
         } = self.departure;
         let clock = Clock::new(scene.excitation.frequency, self.angle);
-        let start = Start { position, velocity };
+        let start = Start::new(position, velocity);
         let force = Polynomial::default();
         let fresh = Motion::with(phases.clone(), clock, self.start, start, force, self.fed)?;
         let mut motion = Motion {
@@ -107,11 +107,9 @@ impl Moving {
     }
 
     fn validate(&self, phases: &Phases) -> Result<(), MotionError> {
-        let known = match self.mode {
-            Mode::Moving(phase) | Mode::Chattering { backward: phase } => phase,
-            Mode::Held { forward, backward } => backward.max(forward.unwrap_or(backward)),
-        };
-        if known >= phases.phases.len() {
+        let held = self.mode.hold().into_iter().flat_map(Hold::phases);
+        let mut named = self.mode.phase().into_iter().chain(held);
+        if named.any(|phase| phase >= phases.phases.len()) {
             return Err(broken("a phase that does not exist"));
         }
         let Departure {

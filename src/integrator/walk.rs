@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::hum::Hum;
 use super::landing::Ground;
-use super::{CrossingKind, Impact, Start};
+use super::{Impact, Start};
 use crate::error::MotionError;
 use crate::events::{Found, Guard};
 use crate::flow::Polynomial;
@@ -79,10 +79,7 @@ impl<'a> Walk<'a> {
 
     /// Which of the scene's phases it is.
     pub fn index(&self) -> Option<usize> {
-        match self.mode {
-            Mode::Moving(phase) => Some(phase),
-            Mode::Held { .. } | Mode::Chattering { .. } => None,
-        }
+        self.mode.phase()
     }
 
     /// The guards that end it. While the mass is held they ask for the push alone.
@@ -119,8 +116,10 @@ impl<'a> Walk<'a> {
                 };
                 self.leave(phase, &found, push)
             }
-            Mode::Held { forward, backward } => self.release(forward, backward, guard, push),
-            Mode::Chattering { backward } => self.release(None, backward, guard, push),
+            Mode::Held(hold) | Mode::Chattering(hold) => {
+                let (_, phases, _) = self.phases.releases(hold, self.state.position, push);
+                (self.state, Mode::Moving(phases[guard]))
+            }
         };
         self.state = state;
         self.enter(mode, push);
@@ -142,53 +141,27 @@ impl<'a> Walk<'a> {
             period: self.scene.period(),
         };
         let landing = ground.leave(phase, found, push, moved);
-        self.note(landing.kind, found.velocity);
+        if landing.kind.is_impact() {
+            let (time, velocity) = (self.time, found.velocity);
+            self.impacts.push(Impact { time, velocity });
+        }
         match landing.mode {
-            Mode::Chattering { backward } => {
+            Mode::Chattering(hold) => {
                 let position = landing.state.position;
-                let rest = Start {
-                    position,
-                    velocity: 0.0,
-                };
-                let mode = self.phases.leave_hold(None, backward, position, push);
-                (rest, mode)
+                let mode = self.phases.leave(hold, position, push);
+                (Start::new(position, 0.0), mode)
             }
             mode => (landing.state, mode),
-        }
-    }
-
-    fn release(
-        &self,
-        forward: Option<usize>,
-        backward: usize,
-        guard: usize,
-        push: f64,
-    ) -> (Start, Mode) {
-        let position = self.state.position;
-        let (_, phases, _) = self.phases.releases(forward, backward, position, push);
-        (self.state, Mode::Moving(phases[guard]))
-    }
-
-    fn note(&mut self, kind: CrossingKind, velocity: f64) {
-        if let CrossingKind::Surface { impact: true, .. }
-        | CrossingKind::Rebound { impact: true, .. } = kind
-        {
-            let time = self.time;
-            self.impacts.push(Impact { time, velocity });
         }
     }
 
     fn enter(&mut self, mode: Mode, push: f64) {
         self.mode = mode;
         self.releases.clear();
-        let (forward, backward) = match mode {
-            Mode::Moving(_) => return,
-            Mode::Held { forward, backward } => (forward, backward),
-            Mode::Chattering { backward } => (None, backward),
-        };
-        let position = self.state.position;
-        let (guards, _, count) = self.phases.releases(forward, backward, position, push);
-        self.releases.extend_from_slice(&guards[..count]);
+        if let Some(hold) = mode.hold() {
+            let (guards, _, count) = self.phases.releases(hold, self.state.position, push);
+            self.releases.extend_from_slice(&guards[..count]);
+        }
     }
 
     /// Push of the drive per mass in m/s^2 at the last crossing.
@@ -216,10 +189,7 @@ mod tests {
     use super::*;
     use crate::scene::{Ratios, Stop};
 
-    const START: Start = Start {
-        position: 9.0,
-        velocity: 2.0,
-    };
+    const START: Start = Start::new(9.0, 2.0);
 
     fn scene() -> Scene {
         let mut scene = Ratios::unloaded().scene().expect("a machine");
@@ -232,15 +202,9 @@ mod tests {
         let scene = scene();
         let mut walk = Walk::new(&scene, START).expect("a start");
         assert_eq!(walk.guards(), [Guard::rising_to(10.0)]);
-        let before = Start {
-            position: 10.0 + 1e-12,
-            velocity: 2.5,
-        };
+        let before = Start::new(10.0 + 1e-12, 2.5);
         walk.cross(0, 0.4, before).expect("a rebound");
-        let after = Start {
-            position: 10.0,
-            velocity: -1.5,
-        };
+        let after = Start::new(10.0, -1.5);
         assert_eq!((walk.time(), walk.state()), (0.4, after));
         let impact = Impact {
             time: 0.4,
@@ -254,10 +218,7 @@ mod tests {
     fn crossings_without_end_in_one_instant_are_an_error() {
         let scene = scene();
         let mut walk = Walk::new(&scene, START).expect("a start");
-        let before = Start {
-            position: 10.0,
-            velocity: 2.5,
-        };
+        let before = Start::new(10.0, 2.5);
         let error = (0..2000).find_map(|_| walk.cross(0, 0.4, before).err());
         assert!(
             matches!(error, Some(MotionError::Stalled { time: 0.4, .. })),

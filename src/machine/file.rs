@@ -225,7 +225,7 @@ fn read(mut file: Spanned<DeTable<'_>>, language: Language) -> Result<Machine, T
     let mut machine = Machine {
         name,
         description,
-        start: Start { position, velocity },
+        start: Start::new(position, velocity),
         speaks: if hertz.is_some() {
             Language::Hertz
         } else {

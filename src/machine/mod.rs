@@ -72,10 +72,7 @@ impl Machine {
             name: None,
             description: None,
             scene,
-            start: Start {
-                position: 0.0,
-                velocity: 0.0,
-            },
+            start: Start::REST,
             speaks: Language::Si,
             preload_deflection: None,
         }
@@ -100,10 +97,7 @@ impl Machine {
     /// [`SceneError`] if a ratio is out of range.
     pub fn of_ratios(ratios: &Ratios) -> Result<Self, SceneError> {
         Ok(Self {
-            start: Start {
-                position: 0.0,
-                velocity: 14.0,
-            },
+            start: Start::new(0.0, 14.0),
             speaks: Language::Ratios,
             ..Self::of_scene(ratios.scene()?)
         })

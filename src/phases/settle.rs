@@ -33,18 +33,66 @@ impl Threshold {
 pub enum Mode {
     /// It moves in this phase.
     Moving(usize),
-    /// It is held; it would leave in one of these phases.
-    Held {
-        /// Phase of the way forward; none before a rigid stop.
-        forward: Option<usize>,
-        /// Phase of the way back.
-        backward: usize,
-    },
-    /// It bounces on a rigid stop until it rests; from there it would leave in this phase.
-    Chattering {
-        /// Phase of the way back.
-        backward: usize,
-    },
+    /// It is held.
+    Held(Hold),
+    /// It bounces on a rigid stop until it rests there.
+    Chattering(Hold),
+}
+
+/// The phases in which a mass at rest would leave.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Hold {
+    /// Phase of the way forward; none before a rigid stop.
+    pub forward: Option<usize>,
+    /// Phase of the way back.
+    pub backward: usize,
+}
+
+impl Hold {
+    /// Between two laws that give way.
+    pub(crate) const fn between(forward: usize, backward: usize) -> Self {
+        Self {
+            forward: Some(forward),
+            backward,
+        }
+    }
+
+    /// Both.
+    pub(crate) fn phases(self) -> impl Iterator<Item = usize> {
+        self.forward.into_iter().chain([self.backward])
+    }
+}
+
+impl Mode {
+    /// The phase in which it moves.
+    pub fn phase(self) -> Option<usize> {
+        match self {
+            Self::Moving(phase) => Some(phase),
+            Self::Held(_) | Self::Chattering(_) => None,
+        }
+    }
+
+    /// The phases in which it would leave, where it does not move in one.
+    pub(crate) fn hold(self) -> Option<Hold> {
+        match self {
+            Self::Moving(_) => None,
+            Self::Held(hold) | Self::Chattering(hold) => Some(hold),
+        }
+    }
+}
+
+impl Surface {
+    /// A mass at rest on it, with this above it.
+    pub(crate) fn hold(&self, above: Beyond) -> Hold {
+        let forward = match above {
+            Beyond::Phase(phase) => Some(phase),
+            Beyond::Wall { .. } => None,
+        };
+        Hold {
+            forward,
+            backward: self.below,
+        }
+    }
 }
 
 impl Phases {
@@ -56,7 +104,7 @@ impl Phases {
             && position >= wall.position
             && velocity == 0.0
         {
-            return self.leave_rest(wall.above, wall.below, position, push);
+            return self.leave(wall.hold(wall.above), position, push);
         }
         let Some(layer) = stack
             .layers
@@ -79,8 +127,8 @@ impl Phases {
         } else if velocity < 0.0 {
             self.moving(layer.backward, position, velocity)
         } else {
-            let above = Beyond::Phase(layer.forward);
-            self.leave_rest(above, layer.backward, position, push)
+            let hold = Hold::between(layer.forward, layer.backward);
+            self.leave(hold, position, push)
         }
     }
 
@@ -134,8 +182,8 @@ impl Phases {
         Threshold { height, slowest }: Threshold,
     ) -> Mode {
         let above = self.beyond(at, fed);
-        let held = self.leave_rest(above, at.below, at.position, push);
-        let rests = matches!(held, Mode::Held { .. });
+        let held = self.leave(at.hold(above), at.position, push);
+        let rests = matches!(held, Mode::Held(_));
         let faint = || {
             velocity.abs() < slowest
                 || self.bounce(at, above, velocity, push) < height * at.position.abs()
@@ -153,42 +201,19 @@ impl Phases {
     }
 
     /// The mode of a mass at rest between two laws.
-    pub(crate) fn leave_rest(
-        &self,
-        above: Beyond,
-        backward: usize,
-        position: f64,
-        push: f64,
-    ) -> Mode {
+    pub(crate) fn leave(&self, hold: Hold, position: f64, push: f64) -> Mode {
         let acceleration =
             |phase: usize| self.phases[phase].acceleration_from_rest(position, push, self.mass);
-        let forward = match above {
-            Beyond::Phase(phase) => Some(phase),
-            Beyond::Wall { .. } => None,
-        };
-        match forward {
+        match hold.forward {
             Some(phase) if acceleration(phase) > 0.0 => Mode::Moving(phase),
-            _ if acceleration(backward) < 0.0 => Mode::Moving(backward),
-            _ => Mode::Held { forward, backward },
+            _ if acceleration(hold.backward) < 0.0 => Mode::Moving(hold.backward),
+            _ => Mode::Held(hold),
         }
-    }
-
-    /// The mode of a mass that was held.
-    pub(crate) fn leave_hold(
-        &self,
-        forward: Option<usize>,
-        backward: usize,
-        position: f64,
-        push: f64,
-    ) -> Mode {
-        // Of a wall nothing is asked but that it does not give way.
-        let above = forward.map_or(Beyond::Wall { restitution: 0.0 }, Beyond::Phase);
-        self.leave_rest(above, backward, position, push)
     }
 
     /// The mode of a mass that has come to rest under dry friction. Within rounding of a balance it is
     /// held: a creep that ends there would else turn back and forth for ever.
-    pub(crate) fn turn(&self, forward: usize, backward: usize, position: f64, push: f64) -> Mode {
+    pub(crate) fn turn(&self, hold: Hold, position: f64, push: f64) -> Mode {
         let balanced = |phase: usize| {
             let law = &self.phases[phase];
             let pull = law.flow.modes.stiffness * position;
@@ -196,21 +221,17 @@ impl Phases {
             let acceleration = law.acceleration_from_rest(position, push, self.mass);
             acceleration.abs() <= 4.0 * f64::EPSILON * size
         };
-        if balanced(forward) || balanced(backward) {
-            return Mode::Held {
-                forward: Some(forward),
-                backward,
-            };
+        if hold.phases().any(balanced) {
+            return Mode::Held(hold);
         }
-        self.leave_rest(Beyond::Phase(forward), backward, position, push)
+        self.leave(hold, position, push)
     }
 
     /// The guards that let a mass go that is held since the push was `push`, each with the phase that it
     /// leads to.
     pub(crate) fn releases(
         &self,
-        forward: Option<usize>,
-        backward: usize,
+        Hold { forward, backward }: Hold,
         position: f64,
         push: f64,
     ) -> ([Guard; 2], [usize; 2], usize) {
@@ -248,19 +269,16 @@ impl Phases {
                 .acceleration_from_rest(at.position, push, self.mass)
                 .abs()
         };
-        let ahead = match above {
-            Beyond::Phase(phase) => acceleration(phase),
-            Beyond::Wall { .. } => f64::INFINITY,
-        };
-        velocity * velocity / (2.0 * ahead.min(acceleration(at.below)))
+        let sides = at.hold(above).phases().map(acceleration);
+        velocity * velocity / (2.0 * sides.fold(f64::INFINITY, f64::min))
     }
 
     /// What a mode is in the machine.
     pub fn kind(&self, mode: Mode) -> PhaseKind {
         match mode {
             Mode::Moving(phase) => self.phases[phase].kind,
-            Mode::Chattering { .. } => PhaseKind::Chatter,
-            Mode::Held { forward, backward } => {
+            Mode::Chattering(_) => PhaseKind::Chatter,
+            Mode::Held(Hold { forward, backward }) => {
                 let kind = |phase: usize| self.phases[phase].kind;
                 if forward.map(kind) == Some(kind(backward)) {
                     PhaseKind::Stuck

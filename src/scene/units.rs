@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Allowed, Excitation, Piercing, RigidStop, Scene, Slope, Stop};
+use super::{Allowed, Dimension, Parameter, Scene, Stop};
 use crate::error::SceneError;
 
 /// The three units that make dimensionless scenes dimensional.
@@ -34,8 +34,21 @@ impl Units {
         (self.stiffness / self.mass).sqrt()
     }
 
-    fn damping(&self) -> f64 {
-        (self.mass * self.stiffness).sqrt()
+    /// A dimensionless quantity with its unit.
+    fn of(&self, dimension: Dimension, value: f64) -> f64 {
+        match dimension {
+            Dimension::Mass => value * self.mass,
+            Dimension::Stiffness => value * self.stiffness,
+            Dimension::Damping => value * (self.mass * self.stiffness).sqrt(),
+            Dimension::Force => value * self.force,
+            Dimension::Frequency => value * self.frequency(),
+            Dimension::Length => value * self.length(),
+            Dimension::Velocity => value * (self.length() * self.frequency()),
+            Dimension::Time => value / self.frequency(),
+            Dimension::Energy => value * (self.force * self.length()),
+            Dimension::Slowness => value / (self.length() * self.frequency()),
+            Dimension::Angle | Dimension::Number => value,
+        }
     }
 }
 
@@ -48,71 +61,40 @@ impl Scene {
         Allowed::Positive.check("mass", units.mass)?;
         Allowed::Positive.check("stiffness", units.stiffness)?;
         Allowed::Positive.check("excitation.amplitude", units.force)?;
-        let length = units.length();
-        let scene = Self {
-            mass: self.mass * units.mass,
-            stiffness: self.stiffness * units.stiffness,
-            damping: self.damping * units.damping(),
-            excitation: Excitation {
-                amplitude: self.excitation.amplitude * units.force,
-                frequency: self.excitation.frequency * units.frequency(),
-                phase: self.excitation.phase,
-            },
-            clearance: self.clearance * length,
-            contact_damping: self.contact_damping * units.damping(),
-            stop: self.stop.in_units(units),
-            piercing: self.piercing.map(|strip| Piercing {
-                stiffness: strip.stiffness * units.stiffness,
-                friction: strip.friction * units.stiffness,
-                thickness: strip.thickness * length,
-                travel: strip.travel * length,
-            }),
-            rigid: self.rigid.map(|rigid| RigidStop {
-                travel: rigid.travel * length,
-                ..rigid
-            }),
-        };
+        let mut scene = self.clone();
+        for parameter in Parameter::ALL {
+            if let Some(value) = parameter.get(self) {
+                let value = units.of(parameter.about().dimension, value);
+                parameter.set(&mut scene, value);
+            }
+        }
+        scene.stop.take_units(&self.stop, units);
         scene.validate()?;
         Ok(scene)
     }
 }
 
 impl Stop {
-    fn in_units(&self, units: Units) -> Self {
-        let length = units.length();
-        let scaled = |slopes: &[Slope]| {
-            let scale = |slope: &Slope| Slope {
-                from: slope.from * length,
-                stiffness: slope.stiffness * units.stiffness,
-            };
-            slopes.iter().map(scale).collect()
-        };
-        match self {
-            Self::None => Self::None,
-            Self::KelvinVoigt { stiffness, release } => Self::KelvinVoigt {
-                stiffness: stiffness * units.stiffness,
-                release: *release,
-            },
-            Self::PiecewiseLinear { loading, unloading } => Self::PiecewiseLinear {
-                loading: scaled(loading),
-                unloading: scaled(unloading),
-            },
-            Self::Hertz {
-                stiffness,
-                exponent,
-                dissipation,
-            } => Self::Hertz {
-                stiffness: stiffness * units.force / length.powf(*exponent),
-                exponent: *exponent,
-                dissipation: dissipation / (length * units.frequency()),
-            },
-            Self::Preloaded { stiffness, preload } => Self::Preloaded {
-                stiffness: stiffness * units.stiffness,
-                preload: preload * units.force,
-            },
-            Self::Rigid { restitution } => Self::Rigid {
-                restitution: *restitution,
-            },
+    /// Takes the units of what is no parameter, or has a dimension of its own.
+    fn take_units(&mut self, bare: &Self, units: Units) {
+        match (self, bare) {
+            (
+                Self::Hertz {
+                    stiffness,
+                    exponent,
+                    ..
+                },
+                Self::Hertz {
+                    stiffness: bare, ..
+                },
+            ) => *stiffness = bare * units.force / units.length().powf(*exponent),
+            (Self::PiecewiseLinear { loading, unloading }, _) => {
+                for slope in loading.iter_mut().chain(unloading) {
+                    slope.from *= units.length();
+                    slope.stiffness *= units.stiffness;
+                }
+            }
+            _ => {}
         }
     }
 }

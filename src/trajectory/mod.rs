@@ -69,7 +69,7 @@ impl Trajectory {
             return None;
         }
         let (position, velocity) = arc.course.at(elapsed, self.clock.drive(instant));
-        Some(Start { position, velocity })
+        Some(Start::new(position, velocity))
     }
 
     /// supplied - dissipated - stored, in J: zero but for rounding.

@@ -2,6 +2,7 @@
 
 use super::*;
 use approx::{abs_diff_eq, assert_abs_diff_eq, assert_relative_eq};
+use softstop::Start;
 use softstop_testing::tolerance::ROUNDING;
 
 fn factorial(n: usize) -> f64 {
@@ -61,7 +62,7 @@ fn a_sine_fitted_by_cubics_is_of_the_fourth_order() {
     let whole = Ratios::unloaded().scene().expect("valid");
     let mut half = whole.clone();
     half.excitation.amplitude = 0.5;
-    let start = start_at(0.0, 14.0);
+    let start = Start::new(0.0, 14.0);
     let (w, end) = (whole.excitation.frequency, 2.0 * whole.period());
     let mut exact = Simulation::new(&whole, start).expect("valid");
     exact.advance(end).expect("bounded");

@@ -251,8 +251,5 @@ fn any_start(dice: &mut Dice, scene: &Scene, fast: bool) -> Start {
     } else {
         dice.range(-reach, 2.0 * reach)
     };
-    Start {
-        position: position.min(most),
-        velocity,
-    }
+    Start::new(position.min(most), velocity)
 }

@@ -5,10 +5,7 @@ use softstop::{Ratios, Start};
 /// Runs the example.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = Ratios::unloaded().scene()?;
-    let start = Start {
-        position: 0.0,
-        velocity: 14.0,
-    };
+    let start = Start::new(0.0, 14.0);
     let motion = scene.trajectory(start, 1000)?;
     let last = motion
         .impacts()

@@ -2,9 +2,9 @@
 //! what other stops settle on.
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use softstop::{Scene, Stop};
+use softstop::{Scene, Start, Stop};
 use softstop_dynamics::attractors::{Attractor, Chaos, Options, Survey, attractors, classify};
-use softstop_testing::{loaded, start_at, unloaded};
+use softstop_testing::{loaded, unloaded};
 
 const OPTIONS: Options = Options {
     starts: 96,
@@ -133,7 +133,7 @@ fn what_holds_a_mass_is_one_motion_and_chatter_is_counted_without_number() {
     scene.clearance = 0.0;
     assert_eq!(names(&survey(&scene)), ["1"]);
     scene.excitation.frequency = 0.3;
-    let found = classify(&scene, start_at(-0.5, 0.1), &OPTIONS).expect("a motion");
+    let found = classify(&scene, Start::new(-0.5, 0.1), &OPTIONS).expect("a motion");
     assert!(found.orbit.as_ref().expect("an orbit").chatters());
     assert_eq!(name(&found), "∞");
 }
@@ -143,12 +143,12 @@ fn single_motions_are_told_apart() {
     let classes = [
         (
             0.953_65,
-            start_at(8.675_183_838_401_669, 3.996_471_798_674_918_8),
+            Start::new(8.675_183_838_401_669, 3.996_471_798_674_918_8),
             "chaos",
         ),
-        (0.953_65, start_at(8.042, 3.759), "1-0-0-0-0-0-0-0-0-0"),
-        (1.15, start_at(0.0, 14.0), "1"),
-        (1.15, start_at(0.0, 0.0), "0"),
+        (0.953_65, Start::new(8.042, 3.759), "1-0-0-0-0-0-0-0-0-0"),
+        (1.15, Start::new(0.0, 14.0), "1"),
+        (1.15, Start::new(0.0, 0.0), "0"),
     ];
     for (frequency, start, expected) in classes {
         let found = classify(&unloaded(frequency), start, &OPTIONS).expect("a motion");

@@ -3,14 +3,14 @@
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::Vector2;
 use rayon::ThreadPoolBuilder;
-use softstop::{Clock, Ratios, Scene};
+use softstop::{Clock, Ratios, Scene, Start};
 use softstop_dynamics::attractors::SurveyError;
 use softstop_dynamics::basin::{Axis, Basins, Grid, Options, basins, basins_watched, establishing};
 use softstop_dynamics::orbit::{Orbit, Regime, StroboscopicMap};
 use softstop_dynamics::watch::{stop_if, unwatched};
 use softstop_dynamics::zone;
 use softstop_testing::tolerance::DIFFERENCED;
-use softstop_testing::{start_at, unloaded};
+use softstop_testing::unloaded;
 
 const NONE: Regime = Regime {
     impacts: 0,
@@ -91,7 +91,7 @@ fn planes_with_a_drive_angle_are_where_the_scalar_engine_ends() {
             Axis::angle(-turn, turn, 16),
         ),
     ] {
-        let state = start_at(3.0, -2.0);
+        let state = Start::new(3.0, -2.0);
         let grid = Grid {
             state,
             ..Grid::states(across, up, 0.3)

@@ -10,11 +10,10 @@ use softstop_dynamics::models::{
     cheapest, from_model, from_truth, matching,
 };
 use softstop_dynamics::orbit::Regime;
-use softstop_testing::start_at;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const FLUNG: Start = start_at(0.0, 14.0);
+const FLUNG: Start = Start::new(0.0, 14.0);
 
 /// A machine of 2 kg, so that no formula gets by without the mass.
 fn machine(stop: Stop, contact_damping: f64) -> Scene {

@@ -8,7 +8,7 @@ use softstop::{Begin, Clock, PhaseKind, PiercingRatios, Ratios, Simulation, Star
 use softstop_dynamics::orbit::StroboscopicMap;
 use softstop_testing::tangent::differences;
 use softstop_testing::tolerance::{GROWN, MOTION, ROUNDING, SOLVED};
-use softstop_testing::{Meets, cases, loaded, start_at};
+use softstop_testing::{Meets, cases, loaded};
 
 /// Machines around the paper's, loaded or not, away from the degenerate.
 fn machines() -> impl Strategy<Value = Ratios> {
@@ -36,7 +36,7 @@ fn machines() -> impl Strategy<Value = Ratios> {
 }
 
 fn starts() -> impl Strategy<Value = Start> {
-    (-15.0..5.0f64, -10.0..15.0f64).prop_map(|(position, velocity)| Start { position, velocity })
+    (-15.0..5.0f64, -10.0..15.0f64).prop_map(|(position, velocity)| Start::new(position, velocity))
 }
 
 #[test]
@@ -50,7 +50,7 @@ fn two_hundred_periods_do_not_depend_on_the_division() {
             (12.0, -3.0),
             (-20.0, 0.0),
         ] {
-            let start = start_at(start.0, start.1);
+            let start = Start::new(start.0, start.1);
             let end = 200.0 * scene.period();
             let mut whole = Simulation::new(&scene, start).expect("valid");
             whole.advance(end).expect("bounded");
@@ -71,7 +71,7 @@ fn two_hundred_periods_do_not_depend_on_the_division() {
 fn energy_balances_over_a_thousand_periods() {
     for ratios in [Ratios::unloaded(), Ratios::loaded()] {
         let scene = ratios.scene().expect("valid");
-        let start = start_at(0.0, 14.0);
+        let start = Start::new(0.0, 14.0);
         let trajectory = scene.trajectory(start, 1000).expect("bounded");
         let relative = trajectory.energy_defect() / trajectory.work.supplied;
         assert_abs_diff_eq!(relative, 0.0, epsilon = 10.0 * MOTION);
@@ -82,7 +82,7 @@ fn energy_balances_over_a_thousand_periods() {
 #[test]
 fn energy_balances_in_a_running_machine_that_is_pushed_and_tuned() {
     let mut scene = loaded();
-    let mut machine = Simulation::new(&scene, start_at(0.0, 14.0)).expect("valid");
+    let mut machine = Simulation::new(&scene, Start::new(0.0, 14.0)).expect("valid");
     let before = machine.energy().mechanical;
     for step in 1..=400 {
         machine.advance(0.37 * f64::from(step)).expect("bounded");
@@ -155,8 +155,8 @@ proptest! {
         let other = ratios.dimensional(units).expect("valid");
         let length = force / stiffness;
         let rate = (stiffness / mass).sqrt();
-        let plain = one.trajectory(start_at(0.5, 1.0 ), 2).expect("bounded");
-        let start = start_at(0.5 * length, length * rate );
+        let plain = one.trajectory(Start::new(0.5, 1.0 ), 2).expect("bounded");
+        let start = Start::new(0.5 * length, length * rate );
         let scaled = other.trajectory(start, 2).expect("bounded");
         prop_assert_eq!(plain.crossings.len(), scaled.crossings.len());
         assert_abs_diff_eq!(plain.end.position, scaled.end.position / length, epsilon = 10.0 * GROWN);
@@ -176,7 +176,7 @@ fn endless_bounces_end_in_rest() {
     .expect("valid");
     scene.excitation.amplitude = 0.2;
     scene.contact_damping = 4.0;
-    let mut machine = Simulation::new(&scene, start_at(0.0, 0.0)).expect("valid");
+    let mut machine = Simulation::new(&scene, Start::new(0.0, 0.0)).expect("valid");
     machine.set_force(&[20.0, 0.0]).expect("finite");
     machine.advance(60.0).expect("bounded");
     let sample = machine.sample();
@@ -199,7 +199,7 @@ fn heavy_damping_creeps() {
         .expect("valid");
         scene.excitation.amplitude = 0.0;
         scene.contact_damping = damping;
-        let mut machine = Simulation::new(&scene, start_at(0.0, 3.0)).expect("valid");
+        let mut machine = Simulation::new(&scene, Start::new(0.0, 3.0)).expect("valid");
         machine.set_force(&[90.0, 0.0]).expect("finite");
         machine.advance(10.0).expect("bounded");
         let touched = machine.last_impact().expect("an impact");
@@ -235,7 +235,7 @@ fn a_silent_drive_has_no_influence() {
         .expect("ok");
         (scene.damping, scene.contact_damping) = (0.0, 0.0);
         scene.excitation.amplitude = 0.0;
-        let start = start_at(-1e-9, 5e-3);
+        let start = Start::new(-1e-9, 5e-3);
         let mut machine = Simulation::new(&scene, start).expect("valid");
         machine.set_force(&[20.0, 0.0]).expect("finite");
         machine.advance(1.0).expect("bounded");
@@ -261,7 +261,7 @@ fn a_step_of_force_frees_a_stuck_mass() {
     let mut scene = loaded();
     scene.clearance = 0.0;
     scene.excitation.amplitude = 0.0;
-    let rest = start_at(0.2, 0.0);
+    let rest = Start::new(0.2, 0.0);
     for force in [15.0, -3.0] {
         let mut held = Simulation::new(&scene, rest).expect("valid");
         held.set_force(&[0.2 * 20.0, 0.0]).expect("finite");

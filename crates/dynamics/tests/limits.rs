@@ -9,7 +9,6 @@ use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::{Matrix2, Vector2};
 use softstop::{Clock, Ratios, Release, RigidStop, Scene, Slope, Start, Stop};
 use softstop_dynamics::orbit::{self, Orbit};
-use softstop_testing::start_at;
 use softstop_testing::tolerance::ROUNDING;
 
 const DAMPING: f64 = 0.02;
@@ -48,7 +47,7 @@ fn assert_order(errors: &[f64], factor: f64, power: f64) {
     assert!(errors.last().is_some_and(|last| *last < 1e-2));
 }
 
-const START: Start = start_at(0.0, 3.0);
+const START: Start = Start::new(0.0, 3.0);
 
 /// A spring that vanishes leaves the linear oscillator, with an error in proportion to its stiffness.
 #[test]

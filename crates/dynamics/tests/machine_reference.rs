@@ -21,10 +21,7 @@ fn motions_agree_with_thirty_digits() {
         let name = &expected["name"];
         let mut scene: Scene = ratios(&expected["parameters"]).scene().expect("valid");
         scene.excitation.phase = number(expected, "drive_angle");
-        let start = Start {
-            position: number(expected, "position"),
-            velocity: number(expected, "velocity"),
-        };
+        let start = Start::new(number(expected, "position"), number(expected, "velocity"));
         let periods = list(expected, "periods");
         let trajectory = scene
             .trajectory(start, periods.len() as u64)

@@ -4,11 +4,11 @@
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use softstop::{Clock, PhaseKind, Scene, Simulation, Units};
+use softstop::{Clock, PhaseKind, Scene, Simulation, Start, Units};
 use softstop_dynamics::orbit::StroboscopicMap;
 use softstop_testing::tangent::differences;
 use softstop_testing::tolerance::{GROWN, MOTION, SOLVED};
-use softstop_testing::{Meets, cases, machines, start_at, start_below};
+use softstop_testing::{Meets, cases, machines, start_below};
 
 proptest! {
     #![proptest_config(cases(600))]
@@ -129,7 +129,7 @@ proptest! {
         let speed = units.length() * units.frequency();
         let scaled = other
             .trajectory(
-                start_at(start.position * units.length(), start.velocity * speed),
+                Start::new(start.position * units.length(), start.velocity * speed),
                 1,
             )
             .expect("bounded");
@@ -151,7 +151,7 @@ fn a_chatter_can_be_watched() {
         .scene()
         .expect("valid")
     };
-    let start = start_at(-1.0, 0.0);
+    let start = Start::new(-1.0, 0.0);
     let trajectory = scene.trajectory(start, 2).expect("bounded");
     let chatter = trajectory
         .arcs
@@ -184,7 +184,7 @@ fn elastic_bounces_end_in_rest() {
         damping: 2.0,
         ..softstop::Ratios::unloaded().scene().expect("valid")
     };
-    let start = start_at(0.0, 0.0);
+    let start = Start::new(0.0, 0.0);
     let mut machine = Simulation::new(&scene, start).expect("valid");
     machine.set_force(&[20.0, 0.0]).expect("finite");
     let before = machine.energy().mechanical;
@@ -211,7 +211,7 @@ fn rest_has_no_memory_of_earlier_strokes() {
     .expect("valid");
     scene.damping = 1.0;
     scene.excitation.phase = std::f64::consts::PI;
-    let start = start_at(-1.0, 0.0);
+    let start = Start::new(-1.0, 0.0);
     let mut motion = scene.motion(start).expect("valid");
     motion
         .advance(Clock::at_cycle(400), &mut ())

@@ -11,7 +11,7 @@ use softstop_dynamics::orbit::{self, Regime};
 use softstop_dynamics::sweep::{Chain, Direction, Plan, PlanError, Step, hysteresis};
 use softstop_dynamics::watch::unwatched;
 use softstop_testing::tolerance::{GROWN, MOTION};
-use softstop_testing::{start_at, unloaded};
+use softstop_testing::unloaded;
 
 /// Frequency at which the impact-less motion grazes, rho = 10.
 const G0: f64 = 1.04444;
@@ -245,7 +245,7 @@ fn plans_and_parameters_that_cannot_be_are_refused() {
 fn steps_tell_the_order_of_impacts() {
     let order_from = |position: f64, velocity: f64| {
         let plan = Plan::new(Parameter::Frequency, (0.9886, 0.9888), 3, 2000).expect("a plan");
-        let start = Start { position, velocity };
+        let start = Start::new(position, velocity);
         let plan = Plan { start, ..plan };
         let mut chain = [chain(Ratios::unloaded(), Direction::Up)];
         assert!(plan.run(&mut chain, &unwatched));
@@ -265,7 +265,7 @@ fn chatter_is_called_chatter() {
     scene.stop = Stop::Rigid { restitution: 0.6 };
     scene.clearance = 0.0;
     let mut plan = frequencies((0.3, 0.301), 2, 60);
-    plan.start = start_at(-0.5, 0.1);
+    plan.start = Start::new(-0.5, 0.1);
     let chains = run(&plan, vec![Chain::new(scene, Direction::Up)]);
     for step in &chains[0].steps {
         let name = step.motion.to_string();

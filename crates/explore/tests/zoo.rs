@@ -262,10 +262,7 @@ fn a_stop_without_stiffness_is_none() -> Outcome {
 fn interference_is_a_start_in_contact() -> Outcome {
     let mut scene = scene("kelvin-voigt.toml")?;
     scene.clearance = -0.5;
-    let start = softstop::Start {
-        position: 0.0,
-        velocity: 0.0,
-    };
+    let start = softstop::Start::REST;
     assert_eq!(scene.motion(start)?.kind(), PhaseKind::Stop);
     Ok(())
 }

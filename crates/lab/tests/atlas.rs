@@ -38,7 +38,7 @@ fn task(scene: Scene, position: f64, velocity: f64, duration: f64) -> Task {
     Task {
         periods: duration / scene.period(),
         scene,
-        start: Start { position, velocity },
+        start: Start::new(position, velocity),
         most_steps: 10_000_000,
     }
 }

@@ -24,10 +24,7 @@ const LEVELS: i32 = 4;
 fn task(scene: &Scene, velocity: f64) -> Task {
     Task {
         scene: scene.clone(),
-        start: Start {
-            position: 0.0,
-            velocity,
-        },
+        start: Start::new(0.0, velocity),
         periods: PERIODS,
         most_steps: 1_000_000,
     }

@@ -9,7 +9,6 @@ use softstop::{Excitation, Ratios, Release, Scene, Start, Stop};
 use softstop_lab::methods::{
     Events, Exact, FixedStep, Integrator, MethodError, Moreau, Scheme, Solution, Task,
 };
-use softstop_testing::start_at;
 
 /// x'' + 2 zeta x' + x = 0.
 fn free(zeta: f64) -> Scene {
@@ -34,7 +33,7 @@ fn steps(scene: &Scene, scheme: Scheme, step: f64, count: u32) -> Result<Solutio
     };
     method.integrate(&Task {
         scene: scene.clone(),
-        start: start_at(1.0, 0.0),
+        start: Start::new(1.0, 0.0),
         periods: f64::from(count) * step / scene.period(),
         most_steps: u64::from(count) + 1,
     })
@@ -43,7 +42,7 @@ fn steps(scene: &Scene, scheme: Scheme, step: f64, count: u32) -> Result<Solutio
 fn refusal(method: &dyn Integrator, change: impl Fn(&mut Task)) -> String {
     let mut task = Task {
         scene: Ratios::unloaded().scene().expect("valid"),
-        start: start_at(0.0, 14.0),
+        start: Start::new(0.0, 14.0),
         periods: 1.0,
         most_steps: 10_000,
     };
@@ -134,7 +133,7 @@ fn the_last_step_ends_with_the_task() {
         let found = method
             .integrate(&Task {
                 scene: scene.clone(),
-                start: start_at(1.0, 0.0),
+                start: Start::new(1.0, 0.0),
                 periods: 0.37,
                 most_steps: 1000,
             })

@@ -10,13 +10,13 @@ use dashu_float::round::mode::HalfEven;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use serde_json::Value;
-use softstop::{Excitation, Impact, Piercing, Release, RigidStop, Scene, Slope, Stop};
+use softstop::{Excitation, Impact, Piercing, Release, RigidStop, Scene, Slope, Start, Stop};
 use softstop_lab::methods::{Exact, Integrator, Task};
 use softstop_lab::reference::number::{Digits, Real, float, size};
 use softstop_lab::reference::walk::Walk;
 use softstop_lab::reference::{ReferenceError, solve};
 use softstop_testing::reference::{STOPS, list, number};
-use softstop_testing::{start_at, unloaded};
+use softstop_testing::unloaded;
 
 /// Half a unit in the 30th digit of numbers up to 1000, to which stops.json is written, ten times over.
 const ALLOWED: f64 = 1e-26;
@@ -32,7 +32,7 @@ fn real(value: &Value, key: &str) -> Real {
 }
 
 fn task(scene: Scene, start: (f64, f64), periods: f64) -> Task {
-    let start = start_at(start.0, start.1);
+    let start = Start::new(start.0, start.1);
     Task {
         scene,
         start,

@@ -2,11 +2,10 @@
 
 use std::path::PathBuf;
 
-use softstop::{PhaseKind, Ratios, Stop};
+use softstop::{PhaseKind, Ratios, Start, Stop};
 use softstop_console::scene_file;
 use softstop_lab::methods::{Exact, Integrator, MethodError, Solution, Task};
 use softstop_lab::solvers::{Adaptive, AdaptiveScheme, adaptive};
-use softstop_testing::start_at;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -14,7 +13,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 fn point_a() -> Result<Task, Box<dyn std::error::Error>> {
     Ok(Task {
         scene: Ratios::unloaded().scene()?,
-        start: start_at(0.0, 14.0),
+        start: Start::new(0.0, 14.0),
         periods: 20.0,
         most_steps: 1_000_000,
     })
@@ -132,7 +131,7 @@ fn sticking() -> Result<Task, Box<dyn std::error::Error>> {
     };
     Ok(Task {
         scene: ratios.scene()?,
-        start: start_at(-0.5, 0.0),
+        start: Start::new(-0.5, 0.0),
         ..point_a()?
     })
 }

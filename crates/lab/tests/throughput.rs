@@ -1,13 +1,13 @@
 //! `softstop-lab throughput` as users and scripts meet it. Times are not looked at.
 
-use softstop::{Ratios, Scene};
+use softstop::{Ratios, Scene, Start};
 use softstop_lab::throughput::check::check;
 use softstop_lab::throughput::doubt::judge;
 use softstop_lab::throughput::draw::{Draw, Kind};
 use softstop_lab::throughput::fleet::Range;
 use softstop_lab::throughput::measure::narrower;
 use softstop_lanes::Instructions;
-use softstop_testing::{Program, start_at};
+use softstop_testing::Program;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -138,7 +138,7 @@ fn swing(clearance: f64) -> Result<Scene, Box<dyn std::error::Error>> {
 
 #[test]
 fn only_what_rounding_can_change_is_left_out() -> Outcome {
-    let from = start_at(-5.0, 0.0);
+    let from = Start::new(-5.0, 0.0);
     for (clearance, impacts, doubtful) in [
         (5.0 + 1e-12, 0, true),
         (5.0 - 1e-12, 1, true),
@@ -156,7 +156,7 @@ fn only_what_rounding_can_change_is_left_out() -> Outcome {
         ..Ratios::unloaded()
     }
     .scene()?;
-    let from = start_at(0.0, 14.0);
+    let from = Start::new(0.0, 14.0);
     assert!(!judge(&chaotic, from, 5)?.doubtful);
     assert!(judge(&chaotic, from, 400)?.doubtful);
     Ok(())

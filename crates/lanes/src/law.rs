@@ -196,7 +196,7 @@ impl Constants {
         if TAU / w > FINEST * window || (soft && phase.law.force != 0.0) {
             return None;
         }
-        let [[xx, xv], [vx, vv]] = flow.modes.at(window).rows();
+        let [[xx, vx], [xv, vv]] = flow.modes.at(window).data.0;
         let (sin, cos) = (w * window).sin_cos();
         let force = phase.law.force / phases.mass;
         Some(Self {

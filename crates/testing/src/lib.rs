@@ -15,7 +15,7 @@ pub use machines::{machines, start_below};
 pub use meets::Meets;
 pub use program::Program;
 pub use random::cases;
-pub use scenes::{loaded, start_at, unloaded};
+pub use scenes::{loaded, unloaded};
 
 /// A file of `docs`.
 pub fn docs(name: &str) -> PathBuf {

@@ -103,8 +103,5 @@ pub fn machines() -> impl Strategy<Value = Scene> {
 
 /// A start below the clearance of a machine.
 pub fn start_below(scene: &Scene, depth: f64, velocity: f64) -> Start {
-    Start {
-        position: scene.clearance - depth,
-        velocity,
-    }
+    Start::new(scene.clearance - depth, velocity)
 }

@@ -2,15 +2,10 @@
 
 use serde_json::Value;
 use softstop::{
-    Clock, Excitation, Instant, Piercing, Ratios, Release, RigidStop, Scene, Slope, Start, Stop,
+    Clock, Excitation, Instant, Piercing, Ratios, Release, RigidStop, Scene, Slope, Stop,
 };
 
 use crate::reference::{list, number};
-
-/// A start from a position in m with a velocity in m/s.
-pub const fn start_at(position: f64, velocity: f64) -> Start {
-    Start { position, velocity }
-}
 
 /// The paper's unloaded machine at a frequency.
 ///

@@ -244,9 +244,9 @@ impl StartValues {
 
     /// The state at the start time.
     pub fn start(&self) -> Start {
-        Start {
-            position: self.get(slot::INITIAL_POSITION),
-            velocity: self.get(slot::INITIAL_VELOCITY),
-        }
+        Start::new(
+            self.get(slot::INITIAL_POSITION),
+            self.get(slot::INITIAL_VELOCITY),
+        )
     }
 }

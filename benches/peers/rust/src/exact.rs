@@ -21,7 +21,7 @@ pub fn solve(request: &Request, frequency: f64) -> Result<End, String> {
     let scene = ratios.scene().map_err(|error| error.to_string())?;
     let [position, velocity] = request.scene.start;
     let mut motion = scene
-        .motion(Start { position, velocity })
+        .motion(Start::new(position, velocity))
         .map_err(|error| error.to_string())?;
     let mut impacts = Impacts(0);
     motion

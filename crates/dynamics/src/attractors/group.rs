@@ -113,10 +113,7 @@ mod tests {
     fn circle(radius: f64, from: f64) -> Vec<Start> {
         let state = |k: u32| {
             let angle = from + 2.4 * f64::from(k);
-            Start {
-                position: radius * angle.cos(),
-                velocity: radius * angle.sin(),
-            }
+            Start::new(radius * angle.cos(), radius * angle.sin())
         };
         (0..256).map(state).collect()
     }
@@ -133,9 +130,11 @@ mod tests {
     /// A motion all over a square.
     fn square_filled(seed: u32) -> Vec<Start> {
         let share = |step: f64, k: u32| (step * f64::from(k + seed)).fract();
-        let state = |k: u32| Start {
-            position: share(0.754_877_666_246_692_7, k * k),
-            velocity: share(0.569_840_290_998_053_3, k * k * k),
+        let state = |k: u32| {
+            Start::new(
+                share(0.754_877_666_246_692_7, k * k),
+                share(0.569_840_290_998_053_3, k * k * k),
+            )
         };
         (0..129).map(state).collect()
     }

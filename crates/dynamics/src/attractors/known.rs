@@ -117,10 +117,7 @@ impl<'a> Book<'a> {
         let map = StroboscopicMap::new(self.scene, 1)?;
         let passage = map.apply((*state).into())?;
         let held = Matrix2::new(1.0, 0.0, 0.0, 0.0);
-        let gap = Start {
-            position: state.position - passage.end.x,
-            velocity: state.velocity,
-        };
+        let gap = Start::new(state.position - passage.end.x, state.velocity);
         let creep = distance(self.frequency(), &gap, &Start::from(Vector2::zeros()));
         let size = size(self.frequency(), [state]);
         Ok((passage.monodromy - held).norm() <= CREEP && creep <= ARRIVED * size)

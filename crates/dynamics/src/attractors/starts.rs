@@ -79,9 +79,11 @@ impl Region {
             let share = (shifts[which] + STEPS[which] * (index + 1) as f64).fract();
             range[0] + share * (range[1] - range[0])
         };
-        let start = |index| Start {
-            position: within(self.position, 0, index),
-            velocity: within(self.velocity, 1, index),
+        let start = |index| {
+            Start::new(
+                within(self.position, 0, index),
+                within(self.velocity, 1, index),
+            )
         };
         (0..count).map(start).collect()
     }

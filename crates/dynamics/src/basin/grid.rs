@@ -83,10 +83,7 @@ pub struct Grid {
 impl Grid {
     /// A plane of states at a drive angle in rad.
     pub const fn states(across: Axis, up: Axis, angle: f64) -> Self {
-        let state = Start {
-            position: 0.0,
-            velocity: 0.0,
-        };
+        let state = Start::REST;
         Self {
             across,
             up,

@@ -127,10 +127,7 @@ impl Round {
 /// The motion of a scene from a state at time 0.
 pub(crate) fn begin(scene: &Scene, state: Vector2<f64>) -> Result<Motion, MotionError> {
     scene.validate()?;
-    let start = Start {
-        position: state.x,
-        velocity: state.y,
-    };
+    let start = Start::new(state.x, state.y);
     start.validate()?;
     Motion::new(scene.phases(), scene.clock(), Clock::at_cycle(0), start)
 }

@@ -39,10 +39,7 @@ impl Contact {
             }));
         }
         let bare = bare(scene);
-        let start = Start {
-            position: bare.clearance,
-            velocity,
-        };
+        let start = Start::new(bare.clearance, velocity);
         let mut exit = Exit {
             clearance: bare.clearance,
             found: None,

@@ -66,10 +66,7 @@ impl Observation {
         };
         match orbit {
             Ok(orbit) => {
-                let start = Start {
-                    position: orbit.position,
-                    velocity: orbit.velocity,
-                };
+                let start = Start::new(orbit.position, orbit.velocity);
                 let regime = Regime {
                     impacts: 1,
                     periods: 1,

@@ -73,10 +73,7 @@ impl Face {
 
     /// A motion from the face.
     pub(super) fn motion(&self, at: Instant, velocity: f64) -> Result<Motion, MotionError> {
-        let start = Start {
-            position: self.position(),
-            velocity,
-        };
+        let start = Start::new(self.position(), velocity);
         Motion::new(self.phases.clone(), self.clock, at, start)
     }
 

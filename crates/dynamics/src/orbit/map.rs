@@ -115,10 +115,7 @@ impl StroboscopicMap {
         periods: u64,
         observer: &mut impl Observer,
     ) -> Result<Vector2<f64>, MotionError> {
-        let start = Start {
-            position: state.x,
-            velocity: state.y,
-        };
+        let start = Start::new(state.x, state.y);
         start.validate()?;
         let mut motion = Motion::new(self.phases.clone(), self.clock, Clock::at_cycle(0), start)?;
         let end = Clock::at_cycle(periods);

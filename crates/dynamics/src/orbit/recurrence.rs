@@ -21,10 +21,7 @@ pub(crate) fn distance(frequency: f64, a: &Start, b: &Start) -> f64 {
 
 /// The size of a motion in m/s: its largest state.
 pub(crate) fn size<'a>(frequency: f64, states: impl IntoIterator<Item = &'a Start>) -> f64 {
-    let zero = Start {
-        position: 0.0,
-        velocity: 0.0,
-    };
+    let zero = Start::REST;
     let sizes = states
         .into_iter()
         .map(|state| distance(frequency, state, &zero));
@@ -100,10 +97,7 @@ mod tests {
         let state = |k: i32| {
             let (sin, cos) = (f64::from(k) * 2.1).sin_cos();
             let size = 1e-4 * decay.powi(k);
-            Start {
-                position: 1.0 + size * cos,
-                velocity: size * sin,
-            }
+            Start::new(1.0 + size * cos, size * sin)
         };
         (0..=24).map(state).collect()
     }
@@ -124,10 +118,7 @@ mod tests {
     fn a_true_period_is_kept() {
         let angle = |k: usize| (k % 3) as f64 * std::f64::consts::TAU / 3.0;
         let states: Vec<Start> = (0..=24)
-            .map(|k| Start {
-                position: angle(k).cos(),
-                velocity: angle(k).sin(),
-            })
+            .map(|k| Start::new(angle(k).cos(), angle(k).sin()))
             .collect();
         assert_eq!(settles_on(1.0, &states, 1e-4), Some(3));
     }

@@ -90,10 +90,10 @@ fn starts(scene: &Scene) -> impl Iterator<Item = Start> + use<> {
     SPEEDS.into_iter().flat_map(move |speed| {
         (0..DIRECTIONS).map(move |k| {
             let angle = TAU * k as f64 / DIRECTIONS as f64;
-            Start {
-                position: speed * length * angle.cos(),
-                velocity: speed * length * (rate * angle.sin()),
-            }
+            Start::new(
+                speed * length * angle.cos(),
+                speed * length * (rate * angle.sin()),
+            )
         })
     })
 }

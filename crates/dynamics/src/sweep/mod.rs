@@ -122,10 +122,7 @@ impl Plan {
             steps,
             periods,
             tolerance: RETURN,
-            start: Start {
-                position: 0.0,
-                velocity: 0.0,
-            },
+            start: Start::REST,
         })
     }
 

@@ -69,10 +69,10 @@ impl<F: Family + Sync> Stage<'_, F> {
     pub fn fill(&self, states: &[Start]) -> Vec<Start> {
         let beside = |(index, state): (usize, &Start)| {
             let round = (index / states.len()) as f64;
-            Start {
-                position: state.position * (1.0 + SPREAD * round),
-                velocity: state.velocity * (1.0 + SPREAD * round),
-            }
+            Start::new(
+                state.position * (1.0 + SPREAD * round),
+                state.velocity * (1.0 + SPREAD * round),
+            )
         };
         states
             .iter()

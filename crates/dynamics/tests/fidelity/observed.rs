@@ -2,6 +2,7 @@
 
 use super::*;
 use approx::assert_relative_eq;
+use softstop::Start;
 use softstop_testing::tolerance::{DIFFERENCED, MOTION, SOLVED, printed};
 
 #[test]
@@ -97,7 +98,7 @@ fn regime_at(frequency: f64, start: Start) -> Result<Option<Regime>, Box<dyn std
 #[test]
 fn regimes_are_those_of_the_paper() -> Outcome {
     let z = |impacts, periods| Some(Regime { impacts, periods });
-    let rest = start_at(0.0, 0.0);
+    let rest = Start::new(0.0, 0.0);
     assert_eq!(regime_at(1.15, FLUNG)?, z(1, 1));
     assert_eq!(regime_at(1.15, rest)?, z(0, 1));
     assert_eq!(regime_at(0.9875, FLUNG)?, None, "chaos");

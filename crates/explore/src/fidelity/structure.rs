@@ -250,7 +250,7 @@ fn regime(scene: &Scene, frequency: f64, origin: Origin) -> Result<Option<Regime
     };
     // With interference the mass would stand beyond a rigid stop.
     let position = scene.clearance.min(0.0);
-    let start = Start { position, velocity };
+    let start = Start::new(position, velocity);
     let (regime, _) = Regime::after(&scene, start, TRANSIENT)
         .with_context(|| format!("cannot run the sweep at {frequency} rad/s"))?;
     Ok(regime)

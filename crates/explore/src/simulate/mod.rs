@@ -90,10 +90,10 @@ pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
     check(arguments)?;
     let machine = arguments.machine.machine()?;
     let Machine { scene, start, .. } = &machine;
-    let start = Start {
-        position: arguments.position.unwrap_or(start.position),
-        velocity: arguments.velocity.unwrap_or(start.velocity),
-    };
+    let start = Start::new(
+        arguments.position.unwrap_or(start.position),
+        arguments.velocity.unwrap_or(start.velocity),
+    );
     let motion = scene.motion(start)?;
     let folder = Folder::open(&arguments.output, &[MOTION, CROSSINGS, CHART])?;
     let crossings = folder.create(CROSSINGS)?;

@@ -107,10 +107,7 @@ fn approach(scene: &Scene, speed: f64, lead: f64) -> Start {
     let position = scene.clearance - lead;
     let climb = scene.clearance * scene.clearance - position * position;
     let square = speed * speed + scene.stiffness * climb / scene.mass;
-    Start {
-        position,
-        velocity: square.max(0.0).sqrt(),
-    }
+    Start::new(position, square.max(0.0).sqrt())
 }
 
 struct Recorder {

@@ -111,10 +111,7 @@ impl View {
         } else {
             0.0
         };
-        Start {
-            position: position + depth,
-            velocity,
-        }
+        Start::new(position + depth, velocity)
     }
 }
 

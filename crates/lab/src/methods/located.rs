@@ -161,7 +161,7 @@ impl<'a, 'b> Located<'a, 'b> {
         let time = self.at.time + risen.elapsed;
         let crossed = self
             .walk
-            .cross(risen.guard, time, Start { position, velocity });
+            .cross(risen.guard, time, Start::new(position, velocity));
         crossed.map_err(|error| MethodError::from(error).after(self.machine.work.steps))?;
         let Start { position, velocity } = self.walk.state();
         self.at.time = time;

@@ -127,11 +127,11 @@ impl<'a> Judge<'a> {
     fn excess(&self, solution: &Solution) -> f64 {
         let scene = &self.task.scene;
         let (position, velocity) = solution.end;
-        let end = (self.task.duration(), Start { position, velocity });
+        let end = (self.task.duration(), Start::new(position, velocity));
         let struck = solution.impacts.iter().map(|impact| {
             let position = scene.clearance;
             let velocity = impact.velocity;
-            (impact.time, Start { position, velocity })
+            (impact.time, Start::new(position, velocity))
         });
         let rise = scene.excitation.amplitude / scene.mass;
         struck
@@ -199,10 +199,7 @@ mod tests {
     fn task() -> Task {
         Task {
             scene: Ratios::unloaded().scene().expect("the paper's machine"),
-            start: Start {
-                position: 0.0,
-                velocity: 14.0,
-            },
+            start: Start::new(0.0, 14.0),
             periods: 3.0,
             most_steps: 1_000_000,
         }

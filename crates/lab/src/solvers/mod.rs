@@ -174,7 +174,7 @@ impl Journey<'_> {
             let moving = self.walk.phase().is_some();
             let [position, velocity] = reached.state;
             end = if moving {
-                Start { position, velocity }
+                Start::new(position, velocity)
             } else {
                 end
             };

@@ -57,10 +57,10 @@ impl Draw {
             });
         }
         let wall = scene.wall().map_or(f64::INFINITY, |(wall, _)| wall);
-        let start = Start {
-            position: self.between(-12.0, wall.min(12.0)),
-            velocity: self.between(-15.0, 15.0),
-        };
+        let start = Start::new(
+            self.between(-12.0, wall.min(12.0)),
+            self.between(-15.0, 15.0),
+        );
         Ok((kind, scene, start))
     }
 

@@ -74,7 +74,7 @@ impl Range {
 
     fn start(&self) -> Start {
         let (position, velocity) = self.start;
-        Start { position, velocity }
+        Start::new(position, velocity)
     }
 
     /// Drive periods of all motions together.

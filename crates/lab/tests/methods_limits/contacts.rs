@@ -2,16 +2,14 @@
 
 use super::*;
 use approx::assert_abs_diff_eq;
+use softstop::Start;
 use softstop_testing::tolerance::SOLVED;
 
 /// The paper's machine from rest with a velocity at which it just reaches the stop within the first period.
 fn grazing() -> Task {
     let task = |velocity| Task {
         scene: Ratios::unloaded().scene().expect("valid"),
-        start: Start {
-            position: 0.0,
-            velocity,
-        },
+        start: Start::new(0.0, velocity),
         periods: 0.5,
         most_steps: 1_000_000,
     };
@@ -73,7 +71,7 @@ fn chatter_is_counted_by_location_only() {
     };
     let task = Task {
         scene,
-        start: start_at(-0.6, 1.0),
+        start: Start::new(-0.6, 1.0),
         periods: 3.0,
         most_steps: 1_000_000,
     };
@@ -106,7 +104,7 @@ fn bounces_without_end_are_stuck() {
             clearance: -2.0,
             ..base
         },
-        start: start_at(-2.000_001, 0.0),
+        start: Start::new(-2.000_001, 0.0),
         periods: 20.0,
         most_steps: 20_000,
     };

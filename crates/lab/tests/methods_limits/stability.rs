@@ -2,6 +2,7 @@
 
 use super::*;
 use approx::{abs_diff_eq, assert_abs_diff_eq};
+use softstop::Start;
 use softstop_testing::tolerance::SOLVED;
 
 fn energy(found: &Solution) -> f64 {
@@ -70,7 +71,7 @@ fn a_stiff_stop_sets_the_limit() {
             let task = Task {
                 periods: 10_000.0 * step / scene.period(),
                 scene: scene.clone(),
-                start: start_at(1.001e-6, 0.0),
+                start: Start::new(1.001e-6, 0.0),
                 most_steps: 100_000,
             };
             method.integrate(&task).expect("bounded")

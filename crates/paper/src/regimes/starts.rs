@@ -87,10 +87,7 @@ fn starts(machine: &Ratios, count: usize) -> Vec<Start> {
         let share = (STEPS[which] * (index + 1) as f64).fract();
         machine.clearance * half * (2.0 * share - 1.0)
     };
-    let start = |index| Start {
-        position: within(REGION.0, 0, index),
-        velocity: within(REGION.1, 1, index),
-    };
+    let start = |index| Start::new(within(REGION.0, 0, index), within(REGION.1, 1, index));
     (0..count).map(start).collect()
 }
 

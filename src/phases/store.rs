@@ -1,0 +1,57 @@
+//! The energy that a stop keeps and gives back.
+
+use crate::flow::Hertz;
+
+/// What a stop stores: by its linear spring and by its power law. Where contact has ceased to press,
+/// the stop is still deflected; what it then loses on its way back is dissipated.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Store {
+    /// The linear spring.
+    pub spring: Spring,
+    /// The power law.
+    pub hertz: Option<Hertz>,
+}
+
+impl Store {
+    /// Energy in J stored at a position.
+    pub fn energy_at(&self, position: f64) -> f64 {
+        let hertz = self.hertz.map_or(0.0, |hertz| hertz.energy(position));
+        self.spring.energy_at(position) + hertz
+    }
+
+    /// Its derivative: the elastic force in N.
+    pub fn force_at(&self, position: f64) -> f64 {
+        let hertz = self.hertz.map_or(0.0, |hertz| hertz.force(position, 0.0));
+        let spring = &self.spring;
+        spring.force + spring.stiffness * (position - spring.origin) + hertz
+    }
+
+    /// The elastic stiffness in N/m.
+    pub fn stiffness_at(&self, position: f64) -> f64 {
+        let hertz = self
+            .hertz
+            .map_or(0.0, |hertz| hertz.slopes(position, 0.0).0);
+        self.spring.stiffness + hertz
+    }
+}
+
+/// A linear spring: E = `energy` + `force` u + `stiffness` u^2 / 2 with u = x - `origin`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Spring {
+    /// Position in m where it begins.
+    pub origin: f64,
+    /// Energy in J stored there.
+    pub energy: f64,
+    /// Force in N there.
+    pub force: f64,
+    /// Stiffness in N/m.
+    pub stiffness: f64,
+}
+
+impl Spring {
+    /// Energy in J stored at a position.
+    pub fn energy_at(&self, position: f64) -> f64 {
+        let depth = position - self.origin;
+        self.energy + depth * (self.force + 0.5 * self.stiffness * depth)
+    }
+}
