@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// A scene that does not describe a machine.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SceneError {
     /// A parameter lies outside its range.
     #[error("{name} = {value}: must be {allowed}")]
@@ -61,6 +62,7 @@ pub enum SceneError {
 
 /// A machine that its user states wrongly.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum MachineError {
     /// The text is no TOML, or a value is of another type.
     #[error("{0}")]
@@ -136,6 +138,7 @@ fn did_you_mean(key: Option<&str>) -> String {
 
 /// A motion that cannot be carried on.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum MotionError {
     /// The target time is not finite or lies before the present one.
     #[error("until = {until} s: must be finite and not before the present time {present} s")]

@@ -12,9 +12,10 @@
 //! - Whoever watches a motion, and stops it, is an [`Observer`]: [`Tangent`] gathers its Jacobian, [`Effort`] limits
 //!   what it may cost. [`Simulation::sensitivity`] and [`Simulation::rates`] say how the outputs change.
 //!
-//! Enumerations that will grow are `non_exhaustive`; the laws of [`Stop`] are not, so that a match says what a new
-//! law asks for. Periodic motions and all that follows from them are in the crate `softstop-dynamics`. What this
-//! crate's siblings share beyond this page is in `softstop::internals`, hidden and without any promise.
+//! Enumerations and records that will grow are `non_exhaustive`; [`Stop`], [`PhaseKind`], [`CrossingKind`] and
+//! [`Language`] are not, so that a match says what a new law asks for. Periodic motions and all that follows from
+//! them are in the crate `softstop-dynamics`. What this crate's siblings share beyond this page is in
+//! `softstop::internals`, hidden and without any promise.
 //!
 //! ```
 //! use softstop::{Ratios, Start};

@@ -8,6 +8,7 @@ use crate::phases::{Phase, PhaseKind};
 
 /// A stretch of motion in one phase.
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub struct Arc<'a> {
     /// When it began.
     pub start: Instant,
@@ -112,6 +113,34 @@ impl Crossing {
 
 /// Watches a motion, and may stop it. To add one, implement what is of interest: each method does nothing unless
 /// overridden. Two observers make a third, `(&mut first, &mut second)`.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use softstop::{Crossing, Observer, Ratios, Simulation, Start};
+///
+/// /// Stops at the first impact.
+/// #[derive(Default)]
+/// struct First {
+///     velocity: Option<f64>,
+/// }
+///
+/// impl Observer for First {
+///     fn crossing(&mut self, crossing: &Crossing) {
+///         self.velocity = self.velocity.or(crossing.impact_velocity());
+///     }
+///
+///     fn progress(&mut self, _: u64) -> ControlFlow<()> {
+///         self.velocity.map_or(ControlFlow::Continue(()), |_| ControlFlow::Break(()))
+///     }
+/// }
+///
+/// let mut machine = Simulation::new(&Ratios::unloaded().scene()?, Start::new(0.0, 14.0))?;
+/// let mut first = First::default();
+/// assert!(machine.watch(1000.0, &mut first)?.is_break());
+/// assert_eq!(machine.last_impact().map(|impact| impact.time), Some(machine.time()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Observer {
     /// An arc has ended `elapsed` seconds after its start.
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {

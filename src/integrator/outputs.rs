@@ -7,6 +7,7 @@ use crate::phases::PhaseKind;
 
 /// Outputs at the present time.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Sample {
     /// Position in m.
     pub position: f64,
@@ -34,6 +35,7 @@ pub struct Impact {
 
 /// Energies in J since the start; supplied = dissipated + change of mechanical.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Energy {
     /// Kinetic, suspension and loaded stop.
     pub mechanical: f64,

@@ -10,6 +10,7 @@ pub type Rate = (f64, f64);
 /// Rates of the outputs that [`Sample`] and [`Energy`](super::Energy) hold, beyond those that are
 /// outputs themselves. Right at a crossing they are those after it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Rates {
     /// Fourth derivative of the position, in m/s^4.
     pub snap: f64,

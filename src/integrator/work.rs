@@ -7,6 +7,7 @@ use crate::phases::Law;
 
 /// Energies in J that crossed the machine's boundary.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Work {
     /// Work of the drive and the external force.
     pub supplied: f64,

@@ -7,6 +7,7 @@ use crate::error::SceneError;
 ///
 /// To add one: a variant, its row in the table below it, and its place in the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Parameter {
     /// m.
     Mass,
@@ -50,6 +51,7 @@ pub enum Parameter {
 
 /// What is to be known of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct About {
     /// Which one.
     pub parameter: Parameter,
@@ -71,6 +73,7 @@ pub struct About {
 
 /// What a quantity measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Dimension {
     /// kg.
     Mass,

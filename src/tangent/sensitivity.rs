@@ -20,6 +20,7 @@ pub struct Perturbation {
 
 /// What it brings: the derivatives of the present outputs along the direction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Sensitivity {
     /// Of the position, in m.
     pub position: f64,

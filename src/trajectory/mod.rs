@@ -10,6 +10,7 @@ use crate::scene::Scene;
 
 /// One arc of a trajectory.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct KeptArc {
     /// When it began.
     pub start: Instant,
@@ -33,6 +34,7 @@ pub struct Touch {
 
 /// An exact motion over a span of time.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Trajectory {
     /// The clock of its instants.
     pub clock: Clock,
