@@ -6,15 +6,7 @@ use super::course::{Course, Form};
 use super::gauss::gauss_nodes;
 use super::particular::Particular;
 use super::place::Node;
-
-/// Integrals along a course, per unit of mass, in m^2/s^2.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Power {
-    /// Work of the push, without the law's own constant force.
-    pub supplied: f64,
-    /// Work lost in the phase's damper, the integral of 2 a v^2.
-    pub lost: f64,
-}
+use super::segment::Power;
 
 impl Course {
     /// Work from departure to `elapsed`; `law` is the part of the constant push that is the

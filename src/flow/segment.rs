@@ -21,7 +21,6 @@ use super::Flow;
 use super::creep::Creep;
 use super::gauss::gauss_nodes;
 use super::hertz::Hertz;
-use super::power::Power;
 use super::series::{Series, ZERO, derivative, integral_of_product, power, product, value};
 use super::taylor::evaluate;
 
@@ -64,6 +63,15 @@ pub(crate) struct Finer {
     pub deflection: f64,
     /// Rest in m.
     pub low: f64,
+}
+
+/// Integrals along a course, per unit of mass, in m^2/s^2.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Power {
+    /// Work of the push, without the law's own constant force.
+    pub supplied: f64,
+    /// Work lost in the phase's damper, the integral of 2 a v^2.
+    pub lost: f64,
 }
 
 impl Segment {
