@@ -53,6 +53,12 @@ pub fn narrow<E>(
         } else {
             middle - side * radius.max(0.0)
         };
+        // A root at one end is closed in from the other side, too.
+        let at = if at <= a || at >= b {
+            at.max(a + half).min(b - half)
+        } else {
+            at
+        };
         if at <= a || at >= b {
             break;
         }

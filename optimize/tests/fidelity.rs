@@ -219,7 +219,7 @@ fn what_cannot_be_is_refused() {
     refuses(
         &["A", "--quantity", "speed"],
         2,
-        &["quantity", "before-impact-velocity"],
+        &["quantity", "before_impact_velocity"],
     );
     refuses(
         &["A", "--structure", "--points", "1"],
@@ -231,6 +231,6 @@ fn what_cannot_be_is_refused() {
     refuses(
         &[&scene("none.toml")],
         1,
-        &["before-impact-velocity", "the scene itself has none"],
+        &["before_impact_velocity", "the scene itself has none"],
     );
 }

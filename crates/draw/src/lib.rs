@@ -1,4 +1,4 @@
-//! How the pictures look: [`pen`] (plain shapes), [`stroke`] (lines), [`panel`] (axes and what is between
+//! How the pictures look: [`pen`] (plain shapes), [`shapes`] (made of others), [`stroke`] (lines), [`panel`] (axes and what is between
 //! them), [`scale`] (ranges and round values), [`style`] (colours and letters), [`table`] (a table as a
 //! picture).
 #![forbid(unsafe_code)]
@@ -6,7 +6,7 @@
 pub mod panel;
 pub mod pen;
 pub mod scale;
-mod shapes;
+pub mod shapes;
 pub mod stroke;
 pub mod style;
 pub mod table;

@@ -180,6 +180,16 @@ impl Panel {
         }
     }
 
+    /// The ground between two curves that lie inside: places across, lower and upper values.
+    pub fn band(&self, pen: &mut Pen, places: &[(f64, [f64; 2])], color: &str, opacity: f64) {
+        let edge = |end: usize| {
+            let edge = places.iter();
+            edge.map(move |(x, ends)| self.place((*x, ends[end])))
+        };
+        let corners: Vec<Point> = edge(0).chain(edge(1).rev()).collect();
+        pen.area(&corners, color, Some(opacity));
+    }
+
     /// The same, seen on any ground; with lengths of dashes and gaps it is dashed.
     pub fn rimmed(&self, pen: &mut Pen, points: &[Point], dashes: Option<(f64, f64)>) {
         for piece in self.inside(points) {

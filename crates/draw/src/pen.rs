@@ -146,8 +146,8 @@ impl Pen {
         }
     }
 
-    /// A filled polygon.
-    pub(crate) fn area(&mut self, corners: &[Point], color: &str) {
+    /// A filled polygon; of a share of its opacity, if it is not to hide what is behind it.
+    pub(crate) fn area(&mut self, corners: &[Point], color: &str, opacity: Option<f64>) {
         let mut course: String = corners
             .iter()
             .enumerate()
@@ -159,7 +159,7 @@ impl Pen {
             fill: Some(color.into()),
             stroke: kuva::render::color::Color::None,
             stroke_width: 0.0,
-            opacity: None,
+            opacity,
             stroke_dasharray: None,
         })));
     }

@@ -1,5 +1,7 @@
 //! Shapes made of others: arrows, rings, rimmed lines, labels, badges.
 
+use std::f64::consts::TAU;
+
 use crate::pen::{Align, Pen};
 use crate::stroke::{Point, Stroke};
 use crate::style;
@@ -10,6 +12,30 @@ const LINE: (f64, f64) = (1.6, 3.6);
 const HEAD: (f64, f64) = (6.0, 2.6);
 /// Sides of the polygon that stands for an ellipse.
 const SIDES: u32 = 180;
+
+/// A filled shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// Round.
+    Circle,
+    /// On its side.
+    Square,
+    /// On its base.
+    Triangle,
+    /// On a corner.
+    Diamond,
+}
+
+/// What an entry of a legend explains.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Sign {
+    /// A colour.
+    Patch(&'static str),
+    /// A line.
+    Line(Stroke),
+    /// A mark and its colour.
+    Mark(Mark, &'static str),
+}
 
 impl Pen {
     /// A line that is seen on any ground, by its light rim; with lengths of dashes and gaps it is dashed.
@@ -44,7 +70,7 @@ impl Pen {
             (neck.0 - wide * y, neck.1 + wide * x),
             (neck.0 + wide * y, neck.1 - wide * x),
         ];
-        self.area(&[to, sides[0], sides[1]], stroke.color);
+        self.area(&[to, sides[0], sides[1]], stroke.color, None);
     }
 
     /// Text on a white ground, its middle at this place.
@@ -62,11 +88,49 @@ impl Pen {
     /// An ellipse that is seen on any ground; the half-axes are those along x and y.
     pub fn ring(&mut self, (cx, cy): Point, (across, up): (f64, f64)) {
         let point = |k: u32| {
-            let (sin, cos) = (f64::from(k) / f64::from(SIDES) * std::f64::consts::TAU).sin_cos();
+            let (sin, cos) = (f64::from(k) / f64::from(SIDES) * TAU).sin_cos();
             (cx + across * cos, cy + up * sin)
         };
         let points: Vec<Point> = (0..=SIDES).map(point).collect();
         self.rimmed(&points, None);
+    }
+
+    /// A filled shape of this half-size about a place.
+    pub fn mark(&mut self, (x, y): Point, mark: Mark, half: f64, color: &str) {
+        let (sides, turn) = match mark {
+            Mark::Circle => (SIDES, 0.0),
+            Mark::Square => (4, 0.125),
+            Mark::Triangle => (3, 0.25),
+            Mark::Diamond => (4, 0.0),
+        };
+        let corner = |k: u32| {
+            let (sin, cos) = ((f64::from(k) / f64::from(sides) + turn) * TAU).sin_cos();
+            (x + half * cos, y - half * sin)
+        };
+        let corners: Vec<Point> = (0..sides).map(corner).collect();
+        self.area(&corners, color, None);
+    }
+
+    /// Signs and what they mean, downwards from a place.
+    pub fn legend(&mut self, (left, top): Point, size: u32, entries: &[(Sign, String)]) {
+        let letters = f64::from(size);
+        for (row, (sign, text)) in entries.iter().enumerate() {
+            let line = top + 1.6 * letters * row as f64;
+            let middle = line - 0.36 * letters;
+            match *sign {
+                Sign::Patch(color) => {
+                    let (side, wide) = (0.9 * letters, 1.4 * letters);
+                    self.fill(&[(left, middle - 0.5 * side, wide, side)], color);
+                }
+                Sign::Line(stroke) => {
+                    self.line(&[(left, middle), (left + 2.2 * letters, middle)], stroke);
+                }
+                Sign::Mark(mark, color) => {
+                    self.mark((left + 1.1 * letters, middle), mark, 0.45 * letters, color);
+                }
+            }
+            self.text((left + 2.8 * letters, line), size, Align::Left, text);
+        }
     }
 
     /// A number in a white circle.

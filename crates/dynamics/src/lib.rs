@@ -10,6 +10,7 @@ pub mod continuation;
 pub mod models;
 pub mod motion;
 pub mod orbit;
+pub mod peak;
 pub mod sweep;
 pub mod transitions;
 pub mod watch;

@@ -6,8 +6,8 @@ mod observed;
 
 use softstop::{Excitation, Ratios, Release, Scene, Slope, Start, Stop};
 use softstop_dynamics::models::{
-    Answers, Contact, FidelityError, Ladder, Likeness, Observation, Quantity, Rung, bounds,
-    cheapest, from_model, from_truth, matching,
+    Answers, Contact, FidelityError, Ladder, Likeness, Observation, Quantity, Rung, cheapest,
+    from_model, from_truth, matching,
 };
 use softstop_dynamics::orbit::Regime;
 

@@ -1,5 +1,9 @@
 //! How long chaos lasts that ends.
 
+use std::convert::Infallible;
+
+use softstop::internals::narrow;
+
 /// Looks at motions on one chaos after some drive periods each.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Looks(Vec<Look>);
@@ -12,8 +16,8 @@ struct Look {
     gone: u64,
 }
 
-/// Halvings of the range in which the logarithm of the rate is sought.
-const HALVINGS: usize = 100;
+/// Width to which the logarithm of the rate is known.
+const WIDTH: f64 = 1e-14;
 /// Range of the logarithm of the rate per drive period.
 const RATES: (f64, f64) = (-40.0, 5.0);
 
@@ -64,16 +68,11 @@ impl Looks {
             };
             self.0.iter().map(share).sum::<f64>() - stayed
         };
-        let (mut low, mut high) = RATES;
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if excess(middle.exp()) > 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        Some((-low).exp())
+        let at = |rate: f64| (rate, excess(rate.exp()));
+        let found = narrow(at(RATES.0), at(RATES.1), WIDTH, |rate| {
+            Ok::<f64, Infallible>(excess(rate.exp()))
+        });
+        Some((-found.ok()?.middle()).exp())
     }
 }
 

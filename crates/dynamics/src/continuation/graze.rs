@@ -6,8 +6,10 @@ use nalgebra::DVector;
 
 use super::Family;
 use super::arclength::{Node, correct};
+use super::face::Touch;
+use super::near::nearest_turn;
 use super::point::{BranchPoint, Graze, Special, SpecialKind};
-use super::round::{Round, Touch, nearest_turn};
+use super::round::Round;
 use super::shooting::Shooting;
 use super::touching::{Contact, Touching};
 use crate::orbit::OrbitError;

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::round::Face;
+use super::face::Face;
 use super::test::Test;
 use crate::orbit::is_stable;
 

@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use softstop::internals::{Course, Guard, Motion, Outlook, first_crossing};
+use super::face::{Face, Touch};
+use softstop::internals::Motion;
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Scene, Start, Stop,
     Tangent,
@@ -19,59 +20,6 @@ pub(crate) struct Sequence {
     pub reversals: usize,
     /// Rows of bounces that end in rest.
     pub rests: usize,
-}
-
-/// A surface at which a scene's law of force changes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Face {
-    /// The clearance: an impact.
-    Clearance,
-    /// The end of phase I, where the strip is pierced.
-    Pierced,
-    /// The stop behind the strip.
-    Stop,
-    /// The rigid stop behind that.
-    Wall,
-}
-
-impl Face {
-    /// All.
-    pub const ALL: [Self; 4] = [Self::Clearance, Self::Pierced, Self::Stop, Self::Wall];
-
-    /// Its position in m, if the scene has it.
-    pub fn position(self, scene: &Scene) -> Option<f64> {
-        match self {
-            Self::Clearance => Some(scene.clearance),
-            Self::Pierced => scene
-                .piercing
-                .map(|strip| scene.clearance + strip.thickness),
-            Self::Stop => scene.piercing.map(|_| scene.stop_position()),
-            Self::Wall => scene.wall().map(|(position, _)| position),
-        }
-    }
-
-    /// The face at a position, to rounding.
-    fn at(scene: &Scene, position: f64) -> Option<Self> {
-        let near = 1e-9 * (scene.scales().length + position.abs());
-        let stands = |face: &Self| {
-            face.position(scene)
-                .is_some_and(|level| (level - position).abs() < near)
-        };
-        Self::ALL.into_iter().find(stands)
-    }
-}
-
-/// Where an orbit comes near to grazing.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Touch {
-    /// Time in s.
-    pub time: f64,
-    /// Velocity in m/s of a crossing, or distance in m of a turning point from the surface ahead.
-    pub amount: f64,
-    /// The surface.
-    pub face: Face,
-    /// Dry friction turns its sign there.
-    pub reverses: bool,
 }
 
 /// What happens from time 0 over a number of drive periods.
@@ -221,97 +169,4 @@ pub(crate) fn grazes_gently(scene: &Scene) -> bool {
         Stop::Rigid { .. } => false,
     };
     continuous && scene.piercing.is_none() && scene.rigid.is_none()
-}
-
-/// The turning point that comes nearest to the surface ahead of it, if any turns before one.
-pub(crate) fn nearest_turn(
-    scene: &Scene,
-    periods: u64,
-    state: Vector2<f64>,
-) -> Result<Option<Touch>, MotionError> {
-    let mut motion = begin(scene, state)?;
-    let mut turns = Turns {
-        clock: *motion.clock(),
-        faces: Face::ALL
-            .into_iter()
-            .filter_map(|face| Some((face, face.position(scene)?)))
-            .collect(),
-        nearest: None,
-    };
-    for period in 1..=periods {
-        carry_on(&mut motion, Clock::at_cycle(period), &mut turns)?;
-    }
-    motion.tell_arc(&mut turns);
-    Ok(turns.nearest)
-}
-
-struct Turns {
-    clock: Clock,
-    faces: Vec<(Face, f64)>,
-    nearest: Option<Touch>,
-}
-
-impl Observer for Turns {
-    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let start = self.clock.time(arc.start);
-        for (back, at, position) in turning_points(arc.course, elapsed) {
-            self.turn(back, start + at, position, false);
-        }
-    }
-
-    fn crossing(&mut self, crossing: &Crossing) {
-        if crossing.kind == CrossingKind::Reversal {
-            let back = crossing.acceleration_before < 0.0;
-            let time = self.clock.time(crossing.instant);
-            self.turn(back, time, crossing.position, true);
-        }
-    }
-}
-
-impl Turns {
-    fn turn(&mut self, back: bool, time: f64, position: f64, reverses: bool) {
-        for &(face, level) in &self.faces {
-            let amount = if back {
-                level - position
-            } else {
-                position - level
-            };
-            let nearer = self
-                .nearest
-                .is_none_or(|known| amount < known.amount || (reverses && amount == known.amount));
-            if amount > 0.0 && nearer {
-                self.nearest = Some(Touch {
-                    time,
-                    amount,
-                    face,
-                    reverses,
-                });
-            }
-        }
-    }
-}
-
-/// Turning points of a course within `duration` seconds: whether it turns back, elapsed time, position.
-fn turning_points(course: &Course, duration: f64) -> Vec<(bool, f64, f64)> {
-    let mut found = Vec::new();
-    if course.is_held() || course.is_chattering() {
-        return found;
-    }
-    let mut node = course.start();
-    let mut back = course.departure.velocity > 0.0;
-    loop {
-        let guard = if back {
-            Guard::turning_back()
-        } else {
-            Guard::turning_forward()
-        };
-        match first_crossing(course, &[guard], node, duration) {
-            Outlook::Crossing(turn) if turn.elapsed > node.elapsed && turn.elapsed <= duration => {
-                found.push((back, turn.elapsed, turn.position));
-                node = course.node(turn.elapsed);
-                back = !back;
-            }
-            _ => return found,
-        }
-    }
 }

@@ -11,7 +11,8 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Evaluation, Node, differences};
-use super::round::{Face, begin, carry_on};
+use super::face::Face;
+use super::round::{begin, carry_on};
 use super::shooting::round_off;
 use crate::orbit::OrbitError;
 use softstop::{Arc, Clock, Crossing, Instant, Observer, Scene, Tangent};

@@ -32,9 +32,11 @@
 //! - A. S. Carvalho, J. M. Martins, Exact restitution and generalizations for the Hunt-Crossley contact
 //!   model, Mech. Mach. Theory 139 (2019) 174-194.
 
+use std::convert::Infallible;
 use std::f64::consts::PI;
 
 use softstop::Release;
+use softstop::internals::narrow;
 
 /// acos(z)/sqrt(1 - z^2), continued by acosh(z)/sqrt(z^2 - 1) beyond 1, where both are 1.
 fn angle_over_sine(zeta: f64) -> f64 {
@@ -122,9 +124,9 @@ pub fn hunt_crossley_energy(a: f64) -> f64 {
     -log_remainder(a)
 }
 
-/// The root of a continuous function between two places at which it does not have the same sign: by
-/// bisection to the last digit, which no function can lead astray.
-pub(super) fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> Option<f64> {
+/// The root of a continuous function between two places at which it does not have the same sign, to rounding of the
+/// larger one.
+pub(super) fn root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
     let (at_low, at_high) = (f(low), f(high));
     if at_low == 0.0 {
         return Some(low);
@@ -135,15 +137,10 @@ pub(super) fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> Optio
     if at_low.is_nan() || (at_low > 0.0) == (at_high > 0.0) {
         return None;
     }
-    loop {
-        let middle = f64::midpoint(low, high);
-        if middle <= low || middle >= high {
-            return Some(middle);
-        }
-        if (f(middle) > 0.0) == (at_low > 0.0) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    let width = 4.0 * f64::EPSILON * low.abs().max(high.abs());
+    // What is no number counts as below zero, at the end as well.
+    let value = |x| Ok::<f64, Infallible>(Some(f(x)).filter(|it| !it.is_nan()).unwrap_or(-1.0));
+    let ends = ((low, at_low), (high, value(high).ok()?));
+    let found = narrow(ends.0, ends.1, width, value).ok()?;
+    Some(found.middle())
 }

@@ -3,10 +3,10 @@
 //!
 //! A [`Ladder`] holds the models of one scene, each derived from it by the formulas of [`matching`] so that
 //! it agrees with the scene's own contact ([`Contact`]) at one velocity, the *operating velocity*. What a
-//! model gives is an [`Observation`] of its motion, or one of the bounds of its z = 1 motion ([`Bounds`]);
+//! model gives is an [`Observation`] of its motion, or one of the bounds of its z = 1 motion
+//! ([`Bounds`](crate::zone::Bounds));
 //! a [`Quantity`] tells how far it is from that of the scene itself.
 
-mod bounds;
 mod contact;
 mod ladder;
 pub mod matching;
@@ -14,7 +14,6 @@ mod observation;
 mod operating;
 mod quantity;
 
-pub use bounds::{Bounds, bounds};
 pub use contact::Contact;
 pub use ladder::{Ladder, Likeness, Model, Rung};
 pub use observation::Observation;
@@ -27,6 +26,7 @@ use softstop::{MotionError, SceneError};
 
 /// Why a rung has no model, or a model no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum FidelityError {
     /// No contact of this law behaves like the scene's own.
     #[error("no {rung} contact matches: {reason}")]

@@ -6,6 +6,7 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
+use crate::peak;
 use softstop::internals::{Law, work};
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, MotionError, Observer, PhaseKind, Scene, Start, Work,
@@ -137,6 +138,8 @@ struct Watch {
 
 /// Points of an arc among which the largest force is looked for first.
 const POINTS: u32 = 64;
+/// Share of the distance between their neighbours to which the time of the largest is known then.
+const SHARP: f64 = 4e-9;
 
 impl Watch {
     /// The largest contact force in N on an arc: the largest of its samples, made sharper by a golden
@@ -152,20 +155,9 @@ impl Watch {
         let highest = (0..=POINTS)
             .map(|point| (force(time(f64::from(point))), f64::from(point)))
             .max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let (mut low, mut high) = (time(highest.1 - 1.0), time(highest.1 + 1.0));
-        let mut best = highest.0;
-        for _ in 0..40 {
-            let section = 0.381_966_011_250_105 * (high - low);
-            let (left, right) = (low + section, high - section);
-            let (at_left, at_right) = (force(left), force(right));
-            best = best.max(at_left).max(at_right);
-            if at_left > at_right {
-                high = right;
-            } else {
-                low = left;
-            }
-        }
-        Some(best)
+        let (low, high) = (time(highest.1 - 1.0), time(highest.1 + 1.0));
+        let (_, peak) = peak::highest(low, high, SHARP * (high - low), force);
+        Some(peak.max(highest.0))
     }
 }
 

@@ -4,35 +4,64 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Bounds, Observation};
-use crate::orbit::Regime;
+use super::Observation;
+use crate::orbit::{OrbitError, Regime};
+use crate::zone::Bounds;
+use softstop::Scene;
 
-/// A quantity that a model should give.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Quantity {
+macro_rules! quantities {
+    ($($(#[$what:meta])* $quantity:ident $name:literal $unit:literal;)*) => {
+        /// A quantity that a model should give.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+        #[serde(rename_all = "snake_case")]
+        pub enum Quantity {
+            $($(#[$what])* $quantity),*
+        }
+
+        impl Quantity {
+            /// All quantities.
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$quantity),*];
+
+            /// Its name, as on the command line and in JSON.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$quantity => $name),*
+                }
+            }
+
+            /// Its unit.
+            pub const fn unit(self) -> &'static str {
+                match self {
+                    $(Self::$quantity => $unit),*
+                }
+            }
+        }
+    };
+}
+
+quantities! {
     /// Mean velocity in m/s at which the clearance is passed.
-    BeforeImpactVelocity,
+    BeforeImpactVelocity "before_impact_velocity" "m/s";
     /// Drive angle in rad at impact; its error is a share of the drive period.
-    ImpactPhase,
+    ImpactPhase "impact_phase" "rad";
     /// Largest position in m.
-    MaxPosition,
+    MaxPosition "max_position" "m";
     /// Largest contact force in N.
-    PeakForce,
+    PeakForce "peak_force" "N";
     /// Time in s in contact per impact.
-    ContactTime,
+    ContactTime "contact_time" "s";
     /// Energy in J lost per impact.
-    EnergyPerImpact,
+    EnergyPerImpact "energy_per_impact" "J";
     /// Mean power in W that the drive supplies.
-    MeanPower,
+    MeanPower "mean_power" "W";
     /// Impacts per drive period; its error is 0 for the same z = p/n and infinite for another.
-    Regime,
+    Regime "regime" "impacts per period";
     /// Frequency g0 in rad/s at which the motion without impacts grazes.
-    GrazingFrequency,
+    GrazingFrequency "grazing_frequency" "rad/s";
     /// Frequency s_PD in rad/s at which the z = 1 motion doubles its period.
-    FlipFrequency,
+    FlipFrequency "flip_frequency" "rad/s";
     /// Frequency s_SN in rad/s at which the z = 1 motion ends.
-    FoldFrequency,
+    FoldFrequency "fold_frequency" "rad/s";
 }
 
 /// All that is known of a model's motion.
@@ -44,54 +73,21 @@ pub struct Answers {
     pub bounds: Option<Bounds>,
 }
 
+impl Answers {
+    /// What is known of a scene whose settled motion has been observed; its bounds if they are `wanted`, those of
+    /// z = 1 only if the motion is one.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if a bound cannot be followed.
+    pub fn of(scene: &Scene, observed: Observation, wanted: bool) -> Result<Self, OrbitError> {
+        let is_one = observed.regime == Some(Regime::ONE);
+        let near = is_one.then_some(observed.start);
+        let bounds = wanted.then(|| Bounds::of(scene, near)).transpose()?;
+        Ok(Self { observed, bounds })
+    }
+}
+
 impl Quantity {
-    /// All quantities.
-    pub const ALL: [Self; 11] = [
-        Self::BeforeImpactVelocity,
-        Self::ImpactPhase,
-        Self::MaxPosition,
-        Self::PeakForce,
-        Self::ContactTime,
-        Self::EnergyPerImpact,
-        Self::MeanPower,
-        Self::Regime,
-        Self::GrazingFrequency,
-        Self::FlipFrequency,
-        Self::FoldFrequency,
-    ];
-
-    /// Its name, as on the command line and in JSON.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::BeforeImpactVelocity => "before-impact-velocity",
-            Self::ImpactPhase => "impact-phase",
-            Self::MaxPosition => "max-position",
-            Self::PeakForce => "peak-force",
-            Self::ContactTime => "contact-time",
-            Self::EnergyPerImpact => "energy-per-impact",
-            Self::MeanPower => "mean-power",
-            Self::Regime => "regime",
-            Self::GrazingFrequency => "grazing-frequency",
-            Self::FlipFrequency => "flip-frequency",
-            Self::FoldFrequency => "fold-frequency",
-        }
-    }
-
-    /// Its unit.
-    pub const fn unit(self) -> &'static str {
-        match self {
-            Self::BeforeImpactVelocity => "m/s",
-            Self::ImpactPhase => "rad",
-            Self::MaxPosition => "m",
-            Self::PeakForce => "N",
-            Self::ContactTime => "s",
-            Self::EnergyPerImpact => "J",
-            Self::MeanPower => "W",
-            Self::Regime => "impacts per period",
-            Self::GrazingFrequency | Self::FlipFrequency | Self::FoldFrequency => "rad/s",
-        }
-    }
-
     /// Whether it is one of the [`Bounds`].
     pub const fn is_bound(self) -> bool {
         matches!(

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use softstop::internals::{Guard, Outlook, first_crossing};
+use super::turn::turns;
 use softstop::{Arc, Clock, Crossing, MotionError, Observer, PhaseKind, Scene};
 
 /// Distance from the face, in units of the largest position, within which a mass nearly hits it.
@@ -66,25 +66,14 @@ impl Observer for Seen {
         if arc.kind != PhaseKind::Free {
             return;
         }
-        let mut node = arc.course.start();
-        let mut guard = Guard::turning_back();
-        while let Outlook::Crossing(found) = first_crossing(arc.course, &[guard], node, elapsed) {
-            if found.elapsed > elapsed {
-                break;
-            }
-            node = arc.course.node(found.elapsed);
-            if guard == Guard::turning_back() {
-                let at = self.clock.after(arc.start, found.elapsed);
-                let push = arc.course.flow.amplitude * self.clock.drive(at).0;
-                let acceleration = arc.course.flow.acceleration(found.position, 0.0, push);
-                let depth = self.face - found.position;
-                if self.miss.is_none_or(|(least, _)| depth < least) {
-                    let speed = (2.0 * acceleration.abs() * depth.max(0.0)).sqrt();
-                    self.miss = Some((depth, (self.clock.time(at), speed)));
-                }
-                guard = Guard::turning_forward();
-            } else {
-                guard = Guard::turning_back();
+        for turn in turns(arc.course, elapsed, true).filter(|turn| turn.back) {
+            let at = self.clock.after(arc.start, turn.elapsed);
+            let push = arc.course.flow.amplitude * self.clock.drive(at).0;
+            let acceleration = arc.course.flow.acceleration(turn.position, 0.0, push);
+            let depth = self.face - turn.position;
+            if self.miss.is_none_or(|(least, _)| depth < least) {
+                let speed = (2.0 * acceleration.abs() * depth.max(0.0)).sqrt();
+                self.miss = Some((depth, (self.clock.time(at), speed)));
             }
         }
     }

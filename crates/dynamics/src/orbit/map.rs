@@ -4,7 +4,8 @@ use std::sync::Arc as Shared;
 
 use nalgebra::{Matrix2, Vector2};
 
-use softstop::internals::{Course, Guard, Motion, Outlook, Phases, Scales, first_crossing};
+use super::turn::turns;
+use softstop::internals::{Motion, Phases, Scales};
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, Instant, MotionError, Observer, Scene, Start, Tangent,
 };
@@ -157,35 +158,11 @@ struct Highest(f64);
 
 impl Observer for Highest {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.0 = self.0.max(highest_on(arc.course, elapsed));
+        let turns = turns(arc.course, elapsed, true).map(|turn| turn.position);
+        self.0 = turns.fold(self.0, f64::max);
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
         self.0 = self.0.max(crossing.position);
-    }
-}
-
-/// The largest position on a course within `duration` seconds, its ends left out.
-fn highest_on(course: &Course, duration: f64) -> f64 {
-    let mut highest = f64::NEG_INFINITY;
-    if course.is_held() {
-        return highest;
-    }
-    let mut node = course.start();
-    let mut guard = Guard::turning_back();
-    loop {
-        match first_crossing(course, &[guard], node, duration) {
-            Outlook::Crossing(found) if found.elapsed <= duration => {
-                highest = highest.max(found.position);
-                node = course.node(found.elapsed);
-            }
-            _ => return highest,
-        }
-        let turned_back = guard == Guard::turning_back();
-        guard = if turned_back {
-            Guard::turning_forward()
-        } else {
-            Guard::turning_back()
-        };
     }
 }

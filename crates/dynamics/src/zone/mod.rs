@@ -2,10 +2,12 @@
 //! (g0, in closed form), the hysteresis zone from there to the fold s_SN, the flip s_PD (Peterka 2003,
 //! section 3). In the scene's own units, with any stop.
 
+mod bounds;
 mod grazing;
 mod hysteresis;
 mod loss;
 
+pub use bounds::Bounds;
 pub use grazing::{free_amplitude, grazing_frequencies, largest_free_amplitude};
 pub use hysteresis::{Zone, hysteresis};
 pub use loss::loss_of_stability;
@@ -19,6 +21,7 @@ use softstop::{MotionError, Scene, SceneError};
 
 /// Why a machine has no hysteresis zone.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum ZoneError {
     /// The impact-less motion never reaches the stop.
     #[error(

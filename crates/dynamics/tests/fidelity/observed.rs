@@ -54,7 +54,9 @@ fn the_largest_force_is_that_of_the_samples_and_no_less() -> Outcome {
 fn bounds_are_those_of_the_paper() -> Outcome {
     let truth = Ratios::unloaded().scene()?;
     let observed = Observation::settled(&truth, None, FLUNG)?;
-    let found = bounds(&truth, &observed)?;
+    let found = Answers::of(&truth, observed, true)?
+        .bounds
+        .ok_or("bounds")?;
     assert_relative_eq!(
         found.grazing.ok_or("g0")?,
         1.044_440_04,
@@ -75,7 +77,9 @@ fn bounds_are_those_of_the_paper() -> Outcome {
     );
     let still = machine(Stop::None, 0.08);
     let observed = Observation::settled(&still, None, FLUNG)?;
-    let found = bounds(&still, &observed)?;
+    let found = Answers::of(&still, observed, true)?
+        .bounds
+        .ok_or("bounds")?;
     assert_relative_eq!(
         found.grazing.ok_or("g0")?,
         1.044_440_04,

@@ -1,70 +1,11 @@
 //! How certainly z = 1 establishes itself along the hysteresis zone.
 
-use kuva::backend::svg::SvgBackend;
-use kuva::plot::band::BandPlot;
-use kuva::plot::legend::LegendPosition;
-use kuva::plot::{LinePlot, LineStyle};
-use kuva::render::figure::Figure;
-use kuva::render::layout::{Layout, TickFormat};
-use kuva::render::plots::Plot;
-use kuva::render::render::{collect_legend_entries, render_multiple};
 use softstop::{Dimension, Machine, Parameter};
-use softstop_dynamics::basin::Establishing;
-
+use softstop_draw::panel::{Axes, Panel, heading};
+use softstop_draw::pen::{Align, Pen, Stroke};
+use softstop_draw::shapes::Sign;
 use softstop_draw::style;
-
-/// Certainty of z = 1 along the hysteresis zone of one machine.
-#[derive(Debug, Clone, Copy)]
-pub struct CertaintyChart<'a> {
-    machine: &'a Machine,
-    places: &'a [Establishing],
-    title: &'a str,
-}
-
-impl<'a> CertaintyChart<'a> {
-    /// The chart of these places.
-    #[must_use]
-    pub fn new(machine: &'a Machine, places: &'a [Establishing], title: &'a str) -> Self {
-        Self {
-            machine,
-            places,
-            title,
-        }
-    }
-
-    /// The chart as an SVG document.
-    #[must_use]
-    pub fn svg(&self) -> String {
-        let ends = [self.places.first(), self.places.last()];
-        let own = |frequency| self.machine.to_own(Dimension::Frequency, frequency);
-        let [low, high] = ends.map(|place| place.map_or(0.0, |place| own(place.frequency)));
-        let room = 0.03 * (high - low).max(1e-3 * high);
-        let points = self.places.iter().map(|place| CertaintyPoint {
-            place: own(place.frequency),
-            value: place.certainty,
-            interval: Some(place.interval),
-        });
-        let curve = CertaintyCurve {
-            label: String::new(),
-            color: 0,
-            is_dashed: false,
-            points: points.collect(),
-        };
-        let layout = style::plain((low - room, high + room), (0.0, 1.02))
-            .with_width(900.0)
-            .with_height(560.0)
-            .with_title(self.title)
-            .with_subtitle("share of initial states that lead to z = 1, with 95 % interval")
-            .with_x_label(format!(
-                "{}, from g₀ to s_SN",
-                self.machine.label_of(Parameter::Frequency)
-            ))
-            .with_y_label("establishing certainty of z = 1");
-        SvgBackend::new()
-            .with_pretty(true)
-            .render_scene(&render_multiple(curve.plots(), layout))
-    }
-}
+use softstop_dynamics::basin::Establishing;
 
 /// A value at a place of the zone.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,75 +57,72 @@ pub struct CertaintyPage {
 const COLORS: [&str; 8] = [
     "#E69F00", "#56B4E9", "#0072B2", "#009E73", "#D55E00", "#CC79A7", "#000000", "#8C8C8C",
 ];
-/// Size of a panel.
-const CELL: (f64, f64) = (640.0, 470.0);
+/// Size of a panel; from one to the next across and down; left and top of the first.
+const AREA: (f64, f64) = (540.0, 350.0);
+const NEXT: (f64, f64) = (660.0, 480.0);
+const FIRST: (f64, f64) = (84.0, 108.0);
+/// Width of the legend at the right of a page.
+const LEGEND: f64 = 320.0;
+/// Letters.
+const LETTERS: u32 = 14;
+/// The paper's claim.
+const CLAIM: Stroke = Stroke::dashed(style::ASIDE, 1.4, (2.0, 3.0));
+/// Values upwards: a share, with room for the line at one.
+const SHARES: (f64, f64) = (0.0, 1.02);
 
 impl CertaintyCurve {
-    fn plots(&self) -> Vec<Plot> {
-        let color = COLORS[self.color % COLORS.len()];
-        let places = self.points.iter().map(|point| (point.place, point.value));
-        let line = LinePlot::new()
-            .with_data(places.collect::<Vec<_>>())
-            .with_color(color)
-            .with_stroke_width(2.2)
-            .with_line_style(if self.is_dashed {
-                LineStyle::Dashed
-            } else {
-                LineStyle::Solid
-            });
-        let line = if self.label.is_empty() {
-            line
-        } else {
-            line.with_legend(self.label.clone())
-        };
-        let sure: Vec<(f64, [f64; 2])> = self
-            .points
-            .iter()
-            .filter_map(|point| Some((point.place, point.interval?)))
-            .collect();
-        if sure.is_empty() {
-            return vec![Plot::Line(line)];
+    fn stroke(&self) -> Stroke {
+        let line = Stroke::solid(COLORS[self.color % COLORS.len()], 2.2);
+        let dashes = self.is_dashed.then_some((8.0, 5.0));
+        Stroke { dashes, ..line }
+    }
+
+    fn draw(&self, pen: &mut Pen, panel: &Panel) {
+        let points = self.points.iter();
+        let sure = points.filter_map(|point| Some((point.place, point.interval?)));
+        let sure: Vec<(f64, [f64; 2])> = sure.collect();
+        if !sure.is_empty() {
+            panel.band(pen, &sure, self.stroke().color, 0.25);
         }
-        let edge = |end: usize| sure.iter().map(move |(_, interval)| interval[end]);
-        let band = BandPlot::new(sure.iter().map(|(place, _)| *place), edge(0), edge(1))
-            .with_color(color)
-            .with_opacity(0.25);
-        vec![Plot::Band(band), Plot::Line(line)]
+        let places = self.points.iter().map(|point| (point.place, point.value));
+        panel.curve(pen, &places.collect::<Vec<_>>(), self.stroke());
     }
 }
 
 impl CertaintyPanel {
-    fn plots(&self) -> Vec<Plot> {
-        let mut plots: Vec<Plot> = self.curves.iter().flat_map(CertaintyCurve::plots).collect();
-        if self.has_claim {
-            plots.push(Plot::Line(
-                LinePlot::new()
-                    .with_data([(0.0, 1.0), (1.0, 0.0)])
-                    .with_color(style::ASIDE)
-                    .with_stroke_width(1.4)
-                    .with_line_style(LineStyle::Dotted)
-                    .with_legend("the paper: one at g₀, zero at s_SN"),
-            ));
+    fn draw(&self, pen: &mut Pen, panel: &Panel, across: &str) {
+        let axes = Axes {
+            letters: LETTERS,
+            across: Some(across),
+            upwards: self.up,
+            ticks: (5, 5),
+        };
+        panel.ground(pen, &axes);
+        for curve in &self.curves {
+            curve.draw(pen, panel);
         }
-        plots
+        if self.has_claim {
+            panel.curve(pen, &[(0.0, 1.0), (1.0, 0.0)], CLAIM);
+        }
+        panel.axes(pen, &axes);
+        let (left, top, ..) = panel.area;
+        pen.heading((left, top - 12.0), LETTERS + 2, Align::Left, &self.title);
+        if self.has_legend {
+            let place = (panel.right() - 190.0, top + 26.0);
+            pen.legend(place, LETTERS, &self.entries(false));
+        }
     }
 
-    fn layout(&self, plots: &[Plot]) -> Layout {
-        let layout = style::plain((-0.02, 1.02), (0.0, 1.02))
-            .with_title(self.title.clone())
-            .with_x_label("place in the hysteresis zone: 0 at g₀, 1 at s_SN")
-            .with_y_label(self.up)
-            .with_x_tick_step(0.2)
-            .with_y_tick_step(0.2)
-            .with_x_tick_format(TickFormat::Fixed(1))
-            .with_y_tick_format(TickFormat::Fixed(1));
-        if self.has_legend {
-            layout
-                .with_legend_entries(collect_legend_entries(plots))
-                .with_legend_position(LegendPosition::InsideTopRight)
-        } else {
-            layout
+    fn entries(&self, has_claim: bool) -> Vec<(Sign, String)> {
+        let named = self.curves.iter().filter(|curve| !curve.label.is_empty());
+        let mut entries: Vec<(Sign, String)> = named
+            .map(|curve| (Sign::Line(curve.stroke()), curve.label.clone()))
+            .collect();
+        if has_claim {
+            let claim = "the paper: one at g₀, zero at s_SN".to_owned();
+            entries.push((Sign::Line(CLAIM), claim));
         }
+        entries
     }
 }
 
@@ -192,19 +130,69 @@ impl CertaintyPage {
     /// The page as an SVG document.
     #[must_use]
     pub fn svg(&self) -> String {
-        let plots: Vec<Vec<Plot>> = self.panels.iter().map(CertaintyPanel::plots).collect();
-        let shared = plots.first().map(|plots| collect_legend_entries(plots));
-        let shared = shared.unwrap_or_default();
-        let panels = self.panels.iter().zip(&plots);
-        let layouts = panels.map(|(panel, plots)| panel.layout(plots)).collect();
-        let figure = Figure::new(self.panels.len().div_ceil(2), 2)
-            .with_plots(plots)
-            .with_layouts(layouts)
-            .with_title("How certainly z = 1 establishes itself in its hysteresis zone")
-            .with_keep_panel_legends()
-            .with_shared_legend_right_top()
-            .with_shared_legend_entries(shared)
-            .with_cell_size(CELL.0, CELL.1);
-        SvgBackend::new().render_scene(&figure.render())
+        let rows = self.panels.len().div_ceil(2) as f64;
+        let right = FIRST.0 + NEXT.0 + AREA.0 + 24.0;
+        let mut pen = page(right + LEGEND, FIRST.1 + rows * NEXT.1 - 60.0);
+        let title = "How certainly z = 1 establishes itself in its hysteresis zone";
+        heading(&mut pen, (FIRST.0, 36.0), title, "bands: 95 % intervals");
+        for (index, shown) in self.panels.iter().enumerate() {
+            let (column, row) = ((index % 2) as f64, (index / 2) as f64);
+            let corner = (FIRST.0 + column * NEXT.0, FIRST.1 + row * NEXT.1);
+            let panel = Panel {
+                area: (corner.0, corner.1, AREA.0, AREA.1),
+                x: (-0.02, 1.02),
+                y: SHARES,
+            };
+            let across = "place in the hysteresis zone: 0 at g₀, 1 at s_SN";
+            shown.draw(&mut pen, &panel, across);
+        }
+        if let Some(first) = self.panels.first() {
+            let place = (right, FIRST.1 + 14.0);
+            pen.legend(place, LETTERS, &first.entries(first.has_claim));
+        }
+        pen.svg()
     }
+}
+
+/// The certainty of z = 1 along the hysteresis zone of one machine, as an SVG document.
+#[must_use]
+pub fn chart(machine: &Machine, places: &[Establishing], title: &str) -> String {
+    let own = |place: &Establishing| machine.to_own(Dimension::Frequency, place.frequency);
+    let [low, high] = [places.first(), places.last()].map(|end| end.map_or(0.0, own));
+    let room = 0.03 * (high - low).max(1e-3 * high);
+    let points = places.iter().map(|place| CertaintyPoint {
+        place: own(place),
+        value: place.certainty,
+        interval: Some(place.interval),
+    });
+    let shown = CertaintyPanel {
+        title: String::new(),
+        up: "establishing certainty of z = 1",
+        curves: vec![CertaintyCurve {
+            label: String::new(),
+            color: 0,
+            is_dashed: false,
+            points: points.collect(),
+        }],
+        has_claim: false,
+        has_legend: false,
+    };
+    let panel = Panel {
+        area: (FIRST.0, 84.0, 780.0, 400.0),
+        x: (low - room, high + room),
+        y: SHARES,
+    };
+    let mut pen = page(900.0, 560.0);
+    let what = "share of initial states that lead to z = 1, with 95 % interval";
+    heading(&mut pen, (FIRST.0, 36.0), title, what);
+    let frequency = machine.label_of(Parameter::Frequency);
+    shown.draw(&mut pen, &panel, &format!("{frequency}, from g₀ to s_SN"));
+    pen.svg()
+}
+
+/// A white page.
+fn page(width: f64, height: f64) -> Pen {
+    let mut pen = Pen::new(width, height);
+    pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
+    pen
 }

@@ -14,7 +14,6 @@ use softstop::{Machine, Parameter};
 use softstop_dynamics::basin::{Options, basins_watched, establishing};
 use softstop_dynamics::zone;
 
-use crate::basin::certainty::CertaintyChart;
 use crate::basin::picture::BasinPicture;
 use plane::Plane;
 use report::{BasinReport, CertaintyReport};
@@ -191,7 +190,7 @@ fn along(
     let found = found.map_err(Error::from)?;
     drop(progress);
     let title = format!("Establishing certainty: {}", title(machine));
-    let chart = CertaintyChart::new(machine, &found, &title).svg();
+    let chart = certainty::chart(machine, &found, &title);
     export.file("chart", chart.as_bytes())?;
     let report = CertaintyReport::new(machine, &grid, &found);
     export.table("table", &report::places(), &report.places)?;

@@ -1,72 +1,32 @@
 //! Branches of periodic motions and curves of their bifurcations.
 
-use kuva::backend::svg::SvgBackend;
-use kuva::plot::legend::LegendPosition;
-use kuva::plot::scatter::MarkerShape;
-use kuva::plot::{LinePlot, LineStyle, ScatterPlot};
-use kuva::render::plots::Plot;
-use kuva::render::render::{collect_legend_entries, render_multiple};
 use softstop::{Dimension, Machine, Parameter};
-use softstop_dynamics::continuation::{Branch, BranchPoint, Curve, Special, SpecialKind, Test};
-
+use softstop_draw::panel::{Axes, Panel, heading};
+use softstop_draw::pen::{Pen, Stroke};
 use softstop_draw::scale::around;
+use softstop_draw::shapes::{Mark, Sign};
 use softstop_draw::style;
+use softstop_dynamics::continuation::{Branch, BranchPoint, Curve, SpecialKind, Test};
 
-/// The impact velocities of branches over the parameter.
-#[derive(Debug, Clone)]
-pub struct BranchChart<'a> {
-    machine: &'a Machine,
-    parameter: Parameter,
-    branches: &'a [Branch],
-}
-
-/// Curves of special points in the plane of two parameters.
-#[derive(Debug, Clone)]
-pub struct CurveChart<'a> {
-    machine: &'a Machine,
-    parameters: [Parameter; 2],
-    curves: &'a [Curve],
-}
-
-/// Symbol, name, colour, marker and line of a kind of special points.
-type Sign = (
-    &'static str,
-    &'static str,
-    &'static str,
-    MarkerShape,
-    LineStyle,
-);
-
-fn sign(kind: &SpecialKind) -> Sign {
+/// Name, mark and line of a kind of special points.
+fn sign(kind: &SpecialKind) -> (&'static str, Mark, Stroke) {
+    let (solid, dashed) = (Stroke::solid, Stroke::dashed);
     match kind {
-        SpecialKind::Critical(Test::Fold) => (
-            "SN",
-            "fold (SN)",
-            style::OPTIMUM,
-            MarkerShape::Circle,
-            LineStyle::Solid,
-        ),
-        SpecialKind::Critical(Test::Flip) => (
-            "PD",
-            "flip (PD)",
-            style::DESIGN,
-            MarkerShape::Square,
-            LineStyle::Dashed,
-        ),
-        SpecialKind::Critical(Test::NeimarkSacker) => (
-            "NS",
-            "Neimark-Sacker (NS)",
-            style::REFERENCE,
-            MarkerShape::Triangle,
-            LineStyle::DashDot,
-        ),
-        SpecialKind::Grazing(_) => (
-            "G",
-            "grazing (G)",
-            style::POINT,
-            MarkerShape::Diamond,
-            LineStyle::Dotted,
-        ),
+        SpecialKind::Critical(Test::Fold) => {
+            ("fold (SN)", Mark::Circle, solid(style::OPTIMUM, 2.2))
+        }
+        SpecialKind::Critical(Test::Flip) => {
+            let line = dashed(style::DESIGN, 2.2, (9.0, 5.0));
+            ("flip (PD)", Mark::Square, line)
+        }
+        SpecialKind::Critical(Test::NeimarkSacker) => {
+            let line = dashed(style::REFERENCE, 2.2, (9.0, 3.0));
+            ("Neimark-Sacker (NS)", Mark::Triangle, line)
+        }
+        SpecialKind::Grazing(_) => {
+            let line = dashed(style::POINT, 2.2, (2.0, 4.0));
+            ("grazing (G)", Mark::Diamond, line)
+        }
     }
 }
 
@@ -74,149 +34,141 @@ fn sign(kind: &SpecialKind) -> Sign {
 const ROOM: f64 = 0.06;
 /// Colours of branches by the number of doublings.
 const COLOURS: [&str; 4] = [style::DESIGN, style::REFERENCE, "#009E73", "#CC79A7"];
+/// The page, and the panel on it.
+const PAGE: (f64, f64) = (1040.0, 620.0);
+const AREA: (f64, f64, f64, f64) = (92.0, 84.0, 720.0, 460.0);
+/// Letters.
+const LETTERS: u32 = 14;
+/// Half the size of marks.
+const MARK: f64 = 6.0;
 
-impl<'a> BranchChart<'a> {
-    /// The chart of branches along a parameter.
-    #[must_use]
-    pub fn new(machine: &'a Machine, parameter: Parameter, branches: &'a [Branch]) -> Self {
-        Self {
-            machine,
-            parameter,
-            branches,
+/// The before-impact velocities of branches over the parameter, as an SVG document.
+#[must_use]
+pub fn branches(machine: &Machine, parameter: Parameter, branches: &[Branch]) -> String {
+    let points = || {
+        let points = branches.iter().flat_map(|branch| &branch.points);
+        points.map(|point| (point.parameter, point.before_impact_velocity()))
+    };
+    let (_, top) = around(points().map(|point| point.1), ROOM);
+    let top = if top > 0.0 { top } else { 1.0 };
+    let page = Page {
+        title: "Periodic motions: stable solid, unstable dashed",
+        x: around(points().map(|point| point.0), ROOM),
+        y: (-0.03 * top, top),
+        across: machine.label_of(parameter),
+        upwards: machine.label("before-impact velocity", "X′₋", Dimension::Velocity),
+    };
+    page.svg(|pen, panel| {
+        let mut entries = Vec::new();
+        for branch in branches {
+            let order = (branch.periods / branches[0].periods).ilog2() as usize;
+            lines(
+                pen,
+                panel,
+                (branch, COLOURS[order % COLOURS.len()]),
+                &mut entries,
+            );
         }
-    }
+        for special in branches.iter().flat_map(|branch| &branch.specials) {
+            let (name, mark, line) = sign(&special.kind);
+            let point = &special.point;
+            let place = panel.place((point.parameter, point.before_impact_velocity()));
+            pen.mark(place, mark, MARK, line.color);
+            enter(&mut entries, Sign::Mark(mark, line.color), name);
+        }
+        entries
+    })
+}
 
-    /// The picture as an SVG document.
-    #[must_use]
-    pub fn svg(&self) -> String {
-        let mut plots = Vec::new();
-        let mut named: Vec<(u64, bool)> = Vec::new();
-        for branch in self.branches {
-            let order = (branch.periods / self.branches[0].periods).ilog2() as usize;
-            plots.extend(lines(branch, COLOURS[order % COLOURS.len()], &mut named));
+/// Curves of special points in the plane of two parameters, as an SVG document.
+#[must_use]
+pub fn curves(machine: &Machine, parameters: [Parameter; 2], curves: &[Curve]) -> String {
+    let values = |index: usize| {
+        let points = curves.iter().flat_map(|curve| &curve.points);
+        around(points.map(|point| point.parameters[index]), ROOM)
+    };
+    let page = Page {
+        title: "Bifurcations of periodic motions",
+        x: values(0),
+        y: values(1),
+        across: machine.label_of(parameters[0]),
+        upwards: machine.label_of(parameters[1]),
+    };
+    page.svg(|pen, panel| {
+        let mut entries = Vec::new();
+        for curve in curves {
+            let (name, _, line) = sign(&curve.kind);
+            let points = curve.points.iter().map(|point| point.parameters.into());
+            panel.curve(pen, &points.collect::<Vec<_>>(), line);
+            enter(&mut entries, Sign::Line(line), name);
         }
-        plots.extend(marks(self.branches));
-        let points = || {
-            let points = self.branches.iter().flat_map(|branch| &branch.points);
-            points.map(|point| (point.parameter, point.before_impact_velocity()))
+        entries
+    })
+}
+
+/// One panel under a title, with a legend at its right.
+struct Page {
+    title: &'static str,
+    x: (f64, f64),
+    y: (f64, f64),
+    across: String,
+    upwards: String,
+}
+
+impl Page {
+    /// The page with what is drawn on its panel, which gives the legend.
+    fn svg(&self, draw: impl FnOnce(&mut Pen, &Panel) -> Vec<(Sign, String)>) -> String {
+        let mut pen = Pen::new(PAGE.0, PAGE.1);
+        pen.fill(&[(0.0, 0.0, PAGE.0, PAGE.1)], "#ffffff");
+        heading(&mut pen, (AREA.0, 42.0), self.title, "");
+        let panel = Panel {
+            area: AREA,
+            x: self.x,
+            y: self.y,
         };
-        let x = around(points().map(|point| point.0), ROOM);
-        let (_, top) = around(points().map(|point| point.1), ROOM);
-        let top = if top > 0.0 { top } else { 1.0 };
-        render(
-            plots,
-            (x, (-0.03 * top, top)),
-            &self.machine.label_of(self.parameter),
-            &self
-                .machine
-                .label("before-impact velocity", "X′₋", Dimension::Velocity),
-            "Periodic motions: stable solid, unstable dashed",
-        )
-    }
-}
-
-impl<'a> CurveChart<'a> {
-    /// The chart of curves in two parameters.
-    #[must_use]
-    pub fn new(machine: &'a Machine, parameters: [Parameter; 2], curves: &'a [Curve]) -> Self {
-        Self {
-            machine,
-            parameters,
-            curves,
-        }
-    }
-
-    /// The picture as an SVG document.
-    #[must_use]
-    pub fn svg(&self) -> String {
-        let mut named = Vec::new();
-        let mut plots = Vec::new();
-        for curve in self.curves {
-            let (symbol, name, colour, _, line) = sign(&curve.kind);
-            let data: Vec<_> = curve
-                .points
-                .iter()
-                .map(|point| point.parameters.into())
-                .collect();
-            let data: Vec<(f64, f64)> = data;
-            let plot = LinePlot::new()
-                .with_data(data)
-                .with_color(colour)
-                .with_stroke_width(2.2)
-                .with_line_style(line);
-            plots.push(Plot::Line(if named.contains(&symbol) {
-                plot
-            } else {
-                named.push(symbol);
-                plot.with_legend(name)
-            }));
-        }
-        let values = |index: usize| {
-            let points = self.curves.iter().flat_map(|curve| &curve.points);
-            around(points.map(|point| point.parameters[index]), ROOM)
+        let axes = Axes {
+            letters: LETTERS,
+            across: Some(&self.across),
+            upwards: &self.upwards,
+            ticks: (7, 7),
         };
-        render(
-            plots,
-            (values(0), values(1)),
-            &self.machine.label_of(self.parameters[0]),
-            &self.machine.label_of(self.parameters[1]),
-            "Bifurcations of periodic motions",
-        )
+        panel.ground(&mut pen, &axes);
+        let entries = draw(&mut pen, &panel);
+        panel.axes(&mut pen, &axes);
+        pen.legend((panel.right() + 18.0, AREA.1 + 14.0), LETTERS, &entries);
+        pen.svg()
     }
 }
 
-fn render(
-    plots: Vec<Plot>,
-    (x, y): ((f64, f64), (f64, f64)),
-    x_label: &str,
-    y_label: &str,
-    title: &str,
-) -> String {
-    let layout = style::plain(x, y)
-        .with_width(1040.0)
-        .with_height(620.0)
-        .with_title(title)
-        .with_x_label(x_label)
-        .with_y_label(y_label)
-        .with_legend_entries(collect_legend_entries(&plots))
-        .with_legend_position(LegendPosition::OutsideRightTop);
-    SvgBackend::new()
-        .with_pretty(true)
-        .render_scene(&render_multiple(plots, layout))
+/// Enters a sign into a legend, unless its name is there.
+fn enter(entries: &mut Vec<(Sign, String)>, sign: Sign, name: &str) {
+    if entries.iter().all(|(_, known)| known != name) {
+        entries.push((sign, name.to_owned()));
+    }
 }
 
-/// Pieces of one stability and one number of impacts, a line for each impact, the hardest first; the name
-/// of each kind but once.
-fn lines(branch: &Branch, colour: &str, named: &mut Vec<(u64, bool)>) -> Vec<Plot> {
-    let mut plots = Vec::new();
+/// Pieces of one stability and one number of impacts, a line for each impact, the hardest first.
+fn lines(
+    pen: &mut Pen,
+    panel: &Panel,
+    (branch, colour): (&Branch, &'static str),
+    entries: &mut Vec<(Sign, String)>,
+) {
     for piece in pieces(branch) {
-        let stable = is_stable(&piece);
+        let (stroke, word) = if is_stable(&piece) {
+            (Stroke::solid(colour, 2.4), "stable")
+        } else {
+            (Stroke::dashed(colour, 1.4, (6.0, 4.0)), "unstable")
+        };
         let ranks = piece.iter().map(|point| point.impacts.len()).max();
         for rank in 0..ranks.unwrap_or(0).max(1) {
-            let data: Vec<_> = piece
-                .iter()
-                .map(|point| (point.parameter, ranked(point, rank)))
-                .collect();
-            let plot = LinePlot::new()
-                .with_data(data)
-                .with_color(colour)
-                .with_stroke_width(if stable { 2.4 } else { 1.4 })
-                .with_line_style(if stable {
-                    LineStyle::Solid
-                } else {
-                    LineStyle::Dashed
-                });
-            let kind = (branch.periods, stable);
-            plots.push(Plot::Line(if named.contains(&kind) {
-                plot
-            } else {
-                named.push(kind);
-                let word = if stable { "stable" } else { "unstable" };
-                plot.with_legend(format!("period {}, {word}", branch.periods))
-            }));
+            let points = piece.iter();
+            let points = points.map(|point| (point.parameter, ranked(point, rank)));
+            panel.curve(pen, &points.collect::<Vec<_>>(), stroke);
         }
+        let name = format!("period {}, {word}", branch.periods);
+        enter(entries, Sign::Line(stroke), &name);
     }
-    plots
 }
 
 /// The velocity of an orbit's impact of this rank; 0 where it has none.
@@ -253,38 +205,4 @@ fn is_stable(piece: &[&BranchPoint]) -> bool {
         [one, other] => one.is_stable() && other.is_stable(),
         _ => piece[piece.len() / 2].is_stable(),
     }
-}
-
-/// The special points, a mark for each kind.
-fn marks(branches: &[Branch]) -> Vec<Plot> {
-    let specials: Vec<&Special> = branches
-        .iter()
-        .flat_map(|branch| &branch.specials)
-        .collect();
-    let mut plots = Vec::new();
-    for symbol in ["SN", "PD", "NS", "G"] {
-        let of_kind = specials
-            .iter()
-            .filter(|special| special.kind.symbol() == symbol);
-        let data: Vec<_> = of_kind
-            .clone()
-            .map(|special| {
-                let point = &special.point;
-                (point.parameter, point.before_impact_velocity())
-            })
-            .collect();
-        let Some(first) = of_kind.clone().next() else {
-            continue;
-        };
-        let (_, name, colour, shape, _) = sign(&first.kind);
-        plots.push(Plot::Scatter(
-            ScatterPlot::new()
-                .with_data(data)
-                .with_color(colour)
-                .with_marker(shape)
-                .with_size(6.0)
-                .with_legend(name),
-        ));
-    }
-    plots
 }

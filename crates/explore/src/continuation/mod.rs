@@ -15,7 +15,6 @@ use softstop::{Machine, Parameter};
 use softstop_dynamics::continuation::Along;
 use softstop_dynamics::orbit::Regime;
 
-use crate::continuation::chart::{BranchChart, CurveChart};
 use report::ContinuationReport;
 use softstop_console::arguments::MachineArguments;
 use softstop_console::column;
@@ -150,7 +149,7 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
         &tables::branch_columns(),
         tables::branch_rows(&branches),
     )?;
-    let chart = BranchChart::new(&machine, first.parameter, &branches).svg();
+    let chart = chart::branches(&machine, first.parameter, &branches);
     export.file("branch_chart", chart.as_bytes())?;
     let curves = match &second {
         Some(second) => {
@@ -162,7 +161,7 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
                 tables::curve_rows(&curves),
             )?;
             let parameters = both.map(|one| one.parameter);
-            let chart = CurveChart::new(&machine, parameters, &curves).svg();
+            let chart = chart::curves(&machine, parameters, &curves);
             export.file("curve_chart", chart.as_bytes())?;
             Some((second.parameter, curves))
         }

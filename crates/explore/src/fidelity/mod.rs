@@ -31,9 +31,9 @@ use study::{Study, Task};
 
 const EXAMPLES: &str = "\
 Examples:
-  softstop fidelity B --quantity before-impact-velocity --tolerance 1e-3
+  softstop fidelity B --quantity before_impact_velocity --tolerance 1e-3
       the paper's piercing machine: which model gives the velocity to a thousandth?
-  softstop fidelity A --quantity impact-phase --tolerance 1e-3
+  softstop fidelity A --quantity impact_phase --tolerance 1e-3
       the unloaded machine; the answer depends on what is asked
   softstop fidelity docs/scenes/stiff.toml --tolerance 0.02 --format json
       any machine; a stiff stop may well be taken as rigid

@@ -1,16 +1,17 @@
 //! Values of the command line.
 
 use clap::ValueEnum;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{StringValueParser, TypedValueParser};
 use softstop_dynamics::models::{Likeness, Quantity};
 
-/// Reads a quantity by its name.
+/// Reads a quantity by its name; hyphens stand for underscores.
 pub(super) fn quantity() -> impl TypedValueParser<Value = Quantity> {
     let names = Quantity::ALL.map(Quantity::name);
-    PossibleValuesParser::new(names).try_map(|name| {
+    StringValueParser::new().try_map(move |given| {
+        let name = given.replace('-', "_");
         let mut all = Quantity::ALL.into_iter();
-        all.find(|quantity| quantity.name() == name)
-            .ok_or("not a quantity")
+        let found = all.find(|quantity| quantity.name() == name);
+        found.ok_or_else(|| format!("must be one of {}", names.join(", ")))
     })
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use softstop::{Dimension, Language, Machine, Stop};
 use softstop_dynamics::models::{Likeness, Quantity, Rung};
+use softstop_dynamics::zone::Bounds;
 
 use super::cost::Cost;
 use super::structure::{Agreement, Origin, Structure, Track};
@@ -158,7 +159,7 @@ impl FidelityReport {
         };
         FidelityPicture {
             title: format!("How simple a model of {} may be", self.title),
-            quantity: self.quantity.name().replace('-', " "),
+            quantity: self.quantity.name().replace('_', " "),
             tolerance: self.tolerance,
             candidates: self.models.iter().map(candidate).collect(),
         }
@@ -249,7 +250,7 @@ fn unmatched(missing: &Missing) -> UnmatchedReport {
 }
 
 fn track(machine: &Machine, structure: &Structure, track: &Track) -> TrackReport {
-    let bound = |one: fn(&softstop_dynamics::models::Bounds) -> Option<f64>| {
+    let bound = |one: fn(&Bounds) -> Option<f64>| {
         own(
             machine,
             Quantity::FoldFrequency,

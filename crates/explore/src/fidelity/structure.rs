@@ -3,8 +3,9 @@
 use anyhow::Context;
 use serde::Serialize;
 use softstop::{Dimension, Machine, Scene, Start};
-use softstop_dynamics::models::{Bounds, Likeness, Rung};
+use softstop_dynamics::models::{Likeness, Rung};
 use softstop_dynamics::orbit::Regime;
+use softstop_dynamics::zone::Bounds;
 
 use super::study::{Entry, Study};
 use super::{FidelityArguments, word};

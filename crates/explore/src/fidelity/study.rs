@@ -3,7 +3,7 @@
 use anyhow::anyhow;
 use softstop::{Scene, Start};
 use softstop_dynamics::models::{
-    Answers, FidelityError, Ladder, Likeness, Model, Observation, Quantity, Rung, bounds, cheapest,
+    Answers, FidelityError, Ladder, Likeness, Model, Observation, Quantity, Rung, cheapest,
     from_model, from_truth,
 };
 
@@ -66,7 +66,7 @@ impl Study {
     /// [`Failure::Run`] if the scene has no such quantity, [`Failure::Interrupted`] after Ctrl-C.
     pub(super) fn new(truth: &Scene, task: &Task) -> Result<Self, Failure> {
         let observed = Observation::settled(truth, None, task.start).map_err(run)?;
-        let answers = answers(truth, observed, task.bounded)?;
+        let answers = Answers::of(truth, observed, task.bounded).map_err(run)?;
         if task.quantity.value(&answers).is_none() {
             return Err(absent(task.quantity));
         }
@@ -81,7 +81,7 @@ impl Study {
             };
             match model(&ladder, rung, &observed, task) {
                 Ok((model, seen)) => {
-                    let answers = self::answers(&model.scene, seen, task.bounded)?;
+                    let answers = Answers::of(&model.scene, seen, task.bounded).map_err(run)?;
                     found.push((rung, likeness, model, answers));
                 }
                 Err(error) => missing.push(Missing {
@@ -178,14 +178,6 @@ fn model(
     let model = ladder.model(rung, velocity)?;
     let seen = Observation::settled(&model.scene, Some(observed.start), task.start)?;
     Ok((model, seen))
-}
-
-fn answers(scene: &Scene, observed: Observation, bounded: bool) -> Result<Answers, Failure> {
-    let bounds = match bounded {
-        true => Some(bounds(scene, &observed).map_err(run)?),
-        false => None,
-    };
-    Ok(Answers { observed, bounds })
 }
 
 fn run(error: impl std::error::Error + Send + Sync + 'static) -> Failure {

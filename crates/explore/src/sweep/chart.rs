@@ -2,18 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use kuva::backend::svg::SvgBackend;
-use kuva::plot::ScatterPlot;
-use kuva::plot::legend::{LegendEntry, LegendPosition, LegendShape};
-use kuva::render::annotations::TextAnnotation;
-use kuva::render::figure::Figure;
-use kuva::render::layout::Layout;
-use kuva::render::plots::Plot;
 use softstop::{Dimension, Language, Machine, Parameter};
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
+use softstop_draw::panel::{Axes, Panel, heading};
+use softstop_draw::pen::{Align, Pen, Stroke};
 use softstop_draw::scale::around;
+use softstop_draw::shapes::Sign;
 use softstop_draw::style;
 
 /// The diagram of all chains of a plan.
@@ -21,28 +17,34 @@ use softstop_draw::style;
 pub struct SweepChart<'a> {
     machine: &'a Machine,
     plan: &'a Plan,
-    pub(super) chains: &'a [Chain],
+    chains: &'a [Chain],
 }
 
 /// Where points are: seen on the way up, on the way down, or both.
-pub(super) const WAYS: [(&str, &str); 3] = [
+const WAYS: [(&str, &str); 3] = [
     ("both ways", "#555555"),
     ("up only →", style::DESIGN),
     ("down only ←", style::OPTIMUM),
 ];
 
-/// Size of a panel in pixels, and of the dots.
-const PANEL: (f64, f64) = (1180.0, 470.0);
+/// Left and top of the first panel, size of a panel, from one to the next, and the dots.
+const FIRST: (f64, f64) = (96.0, 76.0);
+const PANEL: (f64, f64) = (1080.0, 360.0);
+const NEXT: f64 = 440.0;
 const DOT: (f64, f64) = (0.9, 2.0);
 /// Share of the panel between two values that a dot fills.
 const FILLS: f64 = 0.45;
 /// Points in one square of this many pixels are one.
 const GRAIN: f64 = 0.8;
+/// Height of a jump, in units of the axis, that has an arrow.
+const SEEN: f64 = 0.15;
+/// Letters.
+const LETTERS: u32 = 14;
 
 /// The points of one panel and what they are.
 type Points = BTreeMap<(i64, i64), u8>;
 /// What a panel shows of a step.
-pub(super) type Show = fn(&Step) -> Vec<f64>;
+type Show = fn(&Step) -> Vec<f64>;
 
 impl<'a> SweepChart<'a> {
     /// The diagram.
@@ -58,35 +60,23 @@ impl<'a> SweepChart<'a> {
     /// The picture as an SVG document.
     #[must_use]
     pub fn svg(&self) -> String {
+        let (width, height) = (FIRST.0 + PANEL.0 + 24.0, FIRST.1 + 2.0 * NEXT + 20.0);
+        let mut pen = Pen::new(width, height);
+        pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
+        heading(&mut pen, (FIRST.0, 36.0), &self.title(), "");
+        let position = self
+            .machine
+            .label("largest position", "X_m", Dimension::Length);
         let positions: Show = |step| vec![step.max_position];
-        let velocities: Show = |step| step.velocities.clone();
-        let (mut upper, mut lower) = (self.plots(positions), self.plots(velocities));
-        lower.extend(self.arrows());
-        // A panel without points still needs a plot.
-        for plots in [&mut upper, &mut lower] {
-            if plots.is_empty() {
-                plots.push(Plot::Scatter(ScatterPlot::new()));
-            }
-        }
-        let figure = Figure::new(2, 1)
-            .with_plots(vec![upper, lower])
-            .with_layouts(vec![
-                self.layout(
-                    positions,
-                    ("largest position", "X_m", Dimension::Length),
-                    false,
-                ),
-                self.layout(
-                    velocities,
-                    ("before-impact velocity", "X′₋", Dimension::Velocity),
-                    true,
-                ),
-            ])
-            .with_title(self.title())
-            .with_cell_size(PANEL.0, PANEL.1)
-            .with_shared_legend_bottom()
-            .with_shared_legend_entries(self.legend());
-        SvgBackend::new().render_scene(&figure.render())
+        let panel = self.panel(&mut pen, 0, &position, positions);
+        self.names(&mut pen, &panel);
+        let velocity = self
+            .machine
+            .label("before-impact velocity", "X′₋", Dimension::Velocity);
+        let panel = self.panel(&mut pen, 1, &velocity, |step| step.velocities.clone());
+        self.arrows(&mut pen, &panel);
+        pen.legend((FIRST.0, height - 44.0), LETTERS, &self.legend());
+        pen.svg()
     }
 
     fn title(&self) -> String {
@@ -98,33 +88,37 @@ impl<'a> SweepChart<'a> {
         )
     }
 
-    fn layout(&self, show: Show, name: (&str, &str, Dimension), bottom: bool) -> Layout {
+    /// One of the panels, with its dots.
+    fn panel(&self, pen: &mut Pen, row: usize, upwards: &str, show: Show) -> Panel {
         let (low, high) = self.plan.range;
         let room = 0.02 * (high - low);
-        let (x, y) = ((low - room, high + room), self.range(show));
-        let plain = style::plain(x, y);
-        let is_empty = self
-            .chains
-            .iter()
-            .all(|chain| chain.steps.iter().all(|step| show(step).is_empty()));
-        let layout = if is_empty {
-            style::message(plain, x, y, "no impacts")
-        } else {
-            plain
+        let panel = Panel {
+            area: (FIRST.0, FIRST.1 + NEXT * row as f64, PANEL.0, PANEL.1),
+            x: (low - room, high + room),
+            y: self.range(show),
         };
-        let layout = layout
-            .with_y_label(self.machine.label(name.0, name.1, name.2))
-            .with_x_label(self.machine.label_of(self.plan.parameter))
-            .with_legend_position(LegendPosition::OutsideRightTop);
-        if bottom {
-            self.arrow_heads(layout)
-        } else {
-            self.names(layout, show)
+        let across = self.machine.label_of(self.plan.parameter);
+        let axes = Axes {
+            letters: LETTERS,
+            across: Some(&across),
+            upwards,
+            ticks: (8, 6),
+        };
+        panel.ground(pen, &axes);
+        let radius = (FILLS * PANEL.0 / self.plan.steps as f64).clamp(DOT.0, DOT.1);
+        let points = self.points(&panel, show);
+        if points.iter().all(Vec::is_empty) {
+            panel.message(pen, LETTERS, "no impacts");
         }
+        for (points, (_, color)) in points.into_iter().zip(WAYS) {
+            panel.dots(pen, points.into_iter(), radius, color);
+        }
+        panel.axes(pen, &axes);
+        panel
     }
 
     /// Least and largest value with some room.
-    pub(super) fn range(&self, show: Show) -> (f64, f64) {
+    fn range(&self, show: Show) -> (f64, f64) {
         let values = self
             .chains
             .iter()
@@ -141,12 +135,10 @@ impl<'a> SweepChart<'a> {
     }
 
     /// The points by the way on which they are seen, machine by machine.
-    fn plots(&self, show: Show) -> Vec<Plot> {
-        let (low, high) = self.range(show);
-        let (left, right) = self.plan.range;
+    fn points(&self, panel: &Panel, show: Show) -> [Vec<(f64, f64)>; 3] {
         let grain = (
-            GRAIN * (right - left) / PANEL.0,
-            GRAIN * (high - low) / PANEL.1,
+            GRAIN * (panel.x.1 - panel.x.0) / PANEL.0,
+            GRAIN * (panel.y.1 - panel.y.0) / PANEL.1,
         );
         let mut points: [Vec<(f64, f64)>; 3] = Default::default();
         let machines = self
@@ -178,71 +170,55 @@ impl<'a> SweepChart<'a> {
                 points[usize::from(ways % 3)].push(point);
             }
         }
-        let plots = points
-            .into_iter()
-            .zip(WAYS)
-            .filter(|(points, _)| !points.is_empty());
-        let plot = |(points, (_, color)): (Vec<(f64, f64)>, (&str, &str))| {
-            Plot::Scatter(
-                ScatterPlot::new()
-                    .with_data(points)
-                    .with_color(color)
-                    .with_size((FILLS * PANEL.0 / self.plan.steps as f64).clamp(DOT.0, DOT.1)),
-            )
-        };
-        plots.map(plot).collect()
+        points
     }
 
     /// The clearance of each machine above its largest position, if there are several.
-    fn names(&self, layout: Layout, show: Show) -> Layout {
+    fn names(&self, pen: &mut Pen, panel: &Panel) {
         let several = self.chains.len() > 2 && self.plan.parameter != Parameter::Clearance;
-        let (low, high) = self.range(show);
-        let ways = |chain: &&Chain| several && chain.direction == self.chains[0].direction;
-        self.chains
-            .iter()
-            .filter(ways)
-            .fold(layout, |layout, chain| {
-                let clearance = chain.machine.value(Parameter::Clearance);
-                let highest = chain
-                    .steps
-                    .iter()
-                    .max_by(|a, b| a.max_position.total_cmp(&b.max_position));
-                let (Some(clearance), Some(step)) = (clearance, highest) else {
-                    return layout;
-                };
-                let place = step.max_position + 0.02 * (high - low);
-                let name = TextAnnotation::new(self.clearance(clearance), step.value, place);
-                layout.with_annotation(name.with_font_size(12))
-            })
-    }
-
-    fn clearance(&self, value: f64) -> String {
-        match self.machine.speaks {
-            Language::Ratios => format!("ρ = {value}"),
-            _ => format!("clearance {value} m"),
+        let first = self.chains.iter();
+        let first = first.filter(|chain| several && chain.direction == self.chains[0].direction);
+        for chain in first {
+            let steps = chain.steps.iter();
+            let highest = steps.max_by(|a, b| a.max_position.total_cmp(&b.max_position));
+            let clearance = chain.machine.value(Parameter::Clearance);
+            let (Some(clearance), Some(step)) = (clearance, highest) else {
+                continue;
+            };
+            let (x, y) = panel.place((step.value, step.max_position));
+            let name = match self.machine.speaks {
+                Language::Ratios => format!("ρ = {clearance}"),
+                _ => format!("clearance {clearance} m"),
+            };
+            pen.text((x, y - 6.0), LETTERS - 2, Align::Middle, &name);
         }
     }
 
-    fn legend(&self) -> Vec<LegendEntry> {
-        let entry = |(label, color): (&str, &str)| LegendEntry {
-            label: label.to_owned(),
-            color: color.to_owned(),
-            shape: LegendShape::Rect,
-            dasharray: None,
-        };
-        let up = self
-            .chains
-            .iter()
-            .any(|chain| chain.direction == Direction::Up);
-        let down = self
-            .chains
-            .iter()
-            .any(|chain| chain.direction == Direction::Down);
-        let wanted = [up && down, up, down];
-        let entries = WAYS.into_iter().zip(wanted);
-        entries
-            .filter(|(_, wanted)| *wanted)
-            .map(|(way, _)| entry(way))
+    /// Arrows where the motion jumps so far that it is seen.
+    fn arrows(&self, pen: &mut Pen, panel: &Panel) {
+        for chain in self.chains {
+            let color = match chain.direction {
+                Direction::Up => WAYS[1].1,
+                Direction::Down => WAYS[2].1,
+            };
+            for jump in chain.jumps() {
+                let (before, after) = jump.velocities;
+                if (before - after).abs() > SEEN * panel.y.1 {
+                    let ends = [(jump.from, before), (jump.to, after)];
+                    let [from, to] = ends.map(|point| panel.place(point));
+                    pen.arrow(from, to, Stroke::solid(color, 1.0));
+                }
+            }
+        }
+    }
+
+    fn legend(&self) -> Vec<(Sign, String)> {
+        let goes = |way| self.chains.iter().any(|chain| chain.direction == way);
+        let (up, down) = (goes(Direction::Up), goes(Direction::Down));
+        let wanted = WAYS.into_iter().zip([up && down, up, down]);
+        let wanted = wanted.filter(|(_, wanted)| *wanted);
+        wanted
+            .map(|((name, color), _)| (Sign::Patch(color), name.to_owned()))
             .collect()
     }
 }

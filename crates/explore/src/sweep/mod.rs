@@ -1,6 +1,5 @@
 //! `softstop sweep`: a parameter up and down, and where the motion jumps.
 
-mod arrows;
 pub mod chart;
 mod keep;
 mod report;

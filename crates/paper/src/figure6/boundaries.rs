@@ -7,6 +7,7 @@ use softstop_dynamics::continuation::{
     Along, BranchPoint, Curve, Family, Heading, Parameter, Region, SpecialKind, Test, curve,
 };
 use softstop_dynamics::orbit::{Orbit, StroboscopicMap, find};
+use softstop_dynamics::peak::highest;
 use softstop_dynamics::zone::{
     ZoneError, free_amplitude, grazing_frequencies, hysteresis, loss_of_stability,
 };
@@ -225,23 +226,9 @@ pub(super) fn optimum(machine: &Ratios, ends: &[Ends]) -> Option<(f64, f64)> {
             .and_then(|scene| hysteresis(&scene).ok());
         zone.map_or(f64::NEG_INFINITY, |zone| zone.velocity_sn)
     };
-    let golden = 0.5 * (5f64.sqrt() - 1.0);
-    let mut low = ends.get(best.wrapping_sub(1))?.clearance;
-    let mut high = ends.get(best + 1)?.clearance;
-    let mut inner = [high - golden * (high - low), low + golden * (high - low)];
-    let mut values = inner.map(velocity);
-    while high - low > WIDTH {
-        if values[0] > values[1] {
-            high = inner[1];
-            inner = [high - golden * (high - low), inner[0]];
-            values = [velocity(inner[0]), values[0]];
-        } else {
-            low = inner[0];
-            inner = [inner[1], low + golden * (high - low)];
-            values = [values[1], velocity(inner[1])];
-        }
-    }
-    Some((inner[0], values[0]))
+    let low = ends.get(best.wrapping_sub(1))?.clearance;
+    let high = ends.get(best + 1)?.clearance;
+    Some(highest(low, high, WIDTH, velocity))
 }
 
 /// The curves as a table.

@@ -1,0 +1,56 @@
+//! The surfaces that an orbit may graze.
+
+use softstop::Scene;
+
+/// A surface at which a scene's law of force changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Face {
+    /// The clearance: an impact.
+    Clearance,
+    /// The end of phase I, where the strip is pierced.
+    Pierced,
+    /// The stop behind the strip.
+    Stop,
+    /// The rigid stop behind that.
+    Wall,
+}
+
+impl Face {
+    /// All.
+    pub const ALL: [Self; 4] = [Self::Clearance, Self::Pierced, Self::Stop, Self::Wall];
+
+    /// Its position in m, if the scene has it.
+    pub fn position(self, scene: &Scene) -> Option<f64> {
+        match self {
+            Self::Clearance => Some(scene.clearance),
+            Self::Pierced => scene
+                .piercing
+                .map(|strip| scene.clearance + strip.thickness),
+            Self::Stop => scene.piercing.map(|_| scene.stop_position()),
+            Self::Wall => scene.wall().map(|(position, _)| position),
+        }
+    }
+
+    /// The face at a position, to rounding.
+    pub(crate) fn at(scene: &Scene, position: f64) -> Option<Self> {
+        let near = 1e-9 * (scene.scales().length + position.abs());
+        let stands = |face: &Self| {
+            face.position(scene)
+                .is_some_and(|level| (level - position).abs() < near)
+        };
+        Self::ALL.into_iter().find(stands)
+    }
+}
+
+/// Where an orbit comes near to grazing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Touch {
+    /// Time in s.
+    pub time: f64,
+    /// Velocity in m/s of a crossing, or distance in m of a turning point from the surface ahead.
+    pub amount: f64,
+    /// The surface.
+    pub face: Face,
+    /// Dry friction turns its sign there.
+    pub reverses: bool,
+}

@@ -1,0 +1,44 @@
+//! Where a course turns.
+
+use softstop::internals::{Course, Guard, Outlook, first_crossing};
+
+/// A turning point of a course.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Turn {
+    /// True if it turns back, away from the stop.
+    pub back: bool,
+    /// Time in s since the course began.
+    pub elapsed: f64,
+    /// Position in m.
+    pub position: f64,
+}
+
+/// The turning points of a course within `duration` seconds, back and forward by turns: first the first `back` or
+/// forward.
+pub(crate) fn turns(course: &Course, duration: f64, back: bool) -> impl Iterator<Item = Turn> {
+    let moves = !course.is_held() && !course.is_chattering();
+    let (mut node, mut back) = (course.start(), back);
+    std::iter::from_fn(move || {
+        if !moves {
+            return None;
+        }
+        let guard = if back {
+            Guard::turning_back()
+        } else {
+            Guard::turning_forward()
+        };
+        match first_crossing(course, &[guard], node, duration) {
+            Outlook::Crossing(found) if found.elapsed <= duration => {
+                let turn = Turn {
+                    back,
+                    elapsed: found.elapsed,
+                    position: found.position,
+                };
+                node = course.node(found.elapsed);
+                back = !back;
+                Some(turn)
+            }
+            _ => None,
+        }
+    })
+}
