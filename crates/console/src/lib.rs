@@ -9,6 +9,7 @@ pub mod export;
 pub mod failure;
 pub mod interrupt;
 pub mod machine;
+pub mod median;
 pub mod output;
 pub mod progress;
 pub mod range;

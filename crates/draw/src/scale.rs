@@ -44,9 +44,28 @@ pub(crate) fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)>
     (first..=last).map(written).collect()
 }
 
+/// A power of ten in print: 10 with a raised exponent.
+pub fn power_of_ten(exponent: i32) -> String {
+    let digits = exponent.to_string();
+    let raised = digits.chars().map(|digit| match digit {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        digit => char::from_u32(u32::from('⁰') + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
+    });
+    format!("10{}", raised.collect::<String>())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{around, ticks};
+    use super::{around, power_of_ten, ticks};
+
+    #[test]
+    fn exponents_are_raised() {
+        assert_eq!(power_of_ten(-12), "10⁻¹²");
+        assert_eq!(power_of_ten(340), "10³⁴⁰");
+    }
 
     #[test]
     fn ticks_are_round_and_inside() {

@@ -105,8 +105,10 @@ impl Integrator for Heun {
 fn the_error_of_a_method_falls_with_its_order() -> Outcome {
     let task = task("none.toml", 2.0)?;
     let knobs = [1e-2, 5e-3, 2.5e-3];
-    let heun = Family::new("Heun", LOOK, knobs, |knob| Heun {
-        steps: (2.0 / knob) as u64,
+    let heun = Family::new("Heun", LOOK, knobs, |knob| {
+        Box::new(Heun {
+            steps: (2.0 / knob) as u64,
+        })
     });
     let errors: Vec<f64> = rows(&task, &heun)?.iter().map(end_error).collect();
     for pair in errors.windows(2) {
@@ -154,7 +156,7 @@ impl Integrator for Wrong {
 fn each_error_is_measured_for_itself() -> Outcome {
     let task = task("preloaded.toml", 3.0)?;
     let errors = |wrong: fn(&mut Solution)| {
-        let family = Family::new("wrong", LOOK, [1.0], move |_| Wrong(wrong));
+        let family = Family::new("wrong", LOOK, [1.0], move |_| Box::new(Wrong(wrong)));
         rows(&task, &family).map(|rows| rows[0].clone())
     };
     let late = errors(|solution| solution.impacts[1].time += 1e-3)?;
@@ -193,7 +195,12 @@ fn failures_are_told_and_finer_settings_still_run() -> Outcome {
         }
     }
     let task = task("preloaded.toml", 1.0)?;
-    let rows = rows(&task, &Family::new("fails", LOOK, [1.0, 0.2, 0.01], Fails))?;
+    let rows = rows(
+        &task,
+        &Family::new("fails", LOOK, [1.0, 0.2, 0.01], |knob| {
+            Box::new(Fails(knob))
+        }),
+    )?;
     let reason = rows[0].reason.as_deref();
     assert_eq!(reason, Some("blown up near t = 3 s"));
     assert_eq!([rows[0].status, rows[1].status], ["failed"; 2]);

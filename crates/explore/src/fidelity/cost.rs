@@ -8,6 +8,7 @@ use softstop::internals::Evaluations;
 use softstop::{Clock, MotionError, Scene, Start};
 
 use softstop_console::failure::Failure;
+use softstop_console::median::median;
 use softstop_console::progress::Progress;
 
 /// What a drive period of a model's settled motion takes.
@@ -58,26 +59,4 @@ fn run(scene: &Scene, start: Start, periods: u64) -> Result<Evaluations, MotionE
     motion.advance(Clock::at_cycle(periods), &mut taken)?;
     taken.finish(&motion);
     Ok(taken)
-}
-
-/// The middle one, or the mean of the two in the middle.
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let half = values.len() / 2;
-    if values.len() % 2 == 1 {
-        values[half]
-    } else {
-        f64::midpoint(values[half - 1], values[half])
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::median;
-
-    #[test]
-    fn the_median_is_in_the_middle() {
-        assert_eq!(median(vec![5.0, 1.0, 3.0]), 3.0);
-        assert_eq!(median(vec![4.0, 1.0, 2.0, 9.0]), 3.0);
-    }
 }

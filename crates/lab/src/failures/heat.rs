@@ -4,6 +4,7 @@ use crate::methods::Verdict;
 
 use crate::failures::Axes;
 use softstop_draw::pen::{Align, Area, Pen};
+use softstop_draw::scale::power_of_ten;
 
 /// Size of the letters at the axes.
 const SMALL: u32 = 11;
@@ -99,7 +100,7 @@ impl Grid<'_> {
             pen.tick((x, y), (x, y + TICK));
             if exponent % 2 == 0 {
                 let place = (x, y + TICK + 12.0);
-                pen.text(place, SMALL, Align::Middle, &power(exponent));
+                pen.text(place, SMALL, Align::Middle, &power_of_ten(exponent));
             }
         }
     }
@@ -111,7 +112,7 @@ impl Grid<'_> {
             let y = self.y(10_f64.powi(exponent));
             pen.tick((x - TICK, y), (x, y));
             let place = (x - TICK - 3.0, y + 4.0);
-            pen.text(place, SMALL, Align::Right, &power(exponent));
+            pen.text(place, SMALL, Align::Right, &power_of_ten(exponent));
         }
     }
 }
@@ -132,22 +133,6 @@ fn powers(row: &[f64]) -> std::ops::RangeInclusive<i32> {
     let low = row.first().map_or(0.0, |value| value.log10() - 1e-9);
     let high = row.last().map_or(0.0, |value| value.log10() + 1e-9);
     low.ceil() as i32..=high.floor() as i32
-}
-
-/// A power of ten in print.
-pub(super) fn power(exponent: i32) -> String {
-    let raised = |digit: char| match digit {
-        '-' => '⁻',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '0'..='9' => {
-            char::from_u32(u32::from('⁰') + u32::from(digit) - u32::from('0')).unwrap_or(digit)
-        }
-        other => other,
-    };
-    let exponent: String = exponent.to_string().chars().map(raised).collect();
-    format!("10{exponent}")
 }
 
 /// The cells in few rectangles: runs of each column, joined with the same runs of the column before.

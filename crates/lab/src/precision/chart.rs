@@ -11,6 +11,7 @@ use kuva::render::plots::Plot;
 use crate::precision::family::Look;
 use crate::precision::measure::Row;
 use crate::precision::report::SceneReport;
+use softstop_draw::scale::power_of_ten;
 use softstop_draw::style;
 
 /// Colour and marker of a scheme: no two have both in common. The first is the exact method's.
@@ -46,32 +47,37 @@ struct Panel {
     cost: Quantity,
 }
 
+const fn panel(across: &'static str, error: Quantity, up: &'static str, cost: Quantity) -> Panel {
+    Panel {
+        across,
+        error,
+        up,
+        cost,
+    }
+}
+
 const TIME: &str = "time (s)";
+const END: &str = "error of the state at the end";
 const PANELS: [Panel; 4] = [
-    Panel {
-        across: "error of the state at the end",
-        error: |row| row.end_error,
-        up: TIME,
-        cost: |row| row.seconds,
-    },
-    Panel {
-        across: "error of impact times (drive periods)",
-        error: |row| row.impact_time_error,
-        up: TIME,
-        cost: |row| row.seconds,
-    },
-    Panel {
-        across: "error of before-impact velocities",
-        error: |row| row.impact_velocity_error,
-        up: TIME,
-        cost: |row| row.seconds,
-    },
-    Panel {
-        across: "error of the state at the end",
-        error: |row| row.end_error,
-        up: "evaluations of the force",
-        cost: |row| row.evaluations.map(|count| count as f64),
-    },
+    panel(END, |row| row.end_error, TIME, |row| row.seconds),
+    panel(
+        "error of impact times (drive periods)",
+        |row| row.impact_time_error,
+        TIME,
+        |row| row.seconds,
+    ),
+    panel(
+        "error of before-impact velocities",
+        |row| row.impact_velocity_error,
+        TIME,
+        |row| row.seconds,
+    ),
+    panel(
+        END,
+        |row| row.end_error,
+        "evaluations of the force",
+        |row| row.evaluations.map(|count| count as f64),
+    ),
 ];
 
 /// The work-precision diagram of a scene.
@@ -138,8 +144,8 @@ impl<'a> PrecisionChart<'a> {
             .with_y_label(panel.up)
             .with_x_tick_step(2.0)
             .with_y_tick_step(1.0)
-            .with_x_tick_format(power_of_ten())
-            .with_y_tick_format(power_of_ten())
+            .with_x_tick_format(raised())
+            .with_y_tick_format(raised())
     }
 
     fn legend(&self) -> Vec<LegendEntry> {
@@ -236,22 +242,8 @@ fn decades(powers: impl Iterator<Item = f64> + Clone, empty: (f64, f64)) -> (f64
 }
 
 /// 10 with the tick as a raised exponent.
-fn power_of_ten() -> TickFormat {
+fn raised() -> TickFormat {
     TickFormat::Custom(std::sync::Arc::new(|power: f64| {
-        let digits = format!("{power:.0}");
-        let raised = digits.chars().map(|digit| match digit {
-            '-' => '⁻',
-            '0' => '⁰',
-            '1' => '¹',
-            '2' => '²',
-            '3' => '³',
-            '4' => '⁴',
-            '5' => '⁵',
-            '6' => '⁶',
-            '7' => '⁷',
-            '8' => '⁸',
-            _ => '⁹',
-        });
-        format!("10{}", raised.collect::<String>())
+        power_of_ten(power.round_ties_even() as i32)
     }))
 }

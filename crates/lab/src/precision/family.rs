@@ -1,6 +1,7 @@
 //! The methods to be measured, each with its one knob turned from coarse to fine.
 
-use crate::methods::{Events, Exact, FixedStep, Integrator, Moreau, Scheme};
+use crate::failures::Family as Stepped;
+use crate::methods::{Events, Exact, Integrator, Scheme};
 use softstop::Scene;
 
 use crate::solvers::{Adaptive, AdaptiveScheme};
@@ -41,50 +42,31 @@ const COARSEST: i32 = 4;
 pub fn all(scene: &Scene, quick: bool) -> Vec<Family> {
     let every = if quick { 2 } else { 1 };
     let mut families = vec![Family::exact()];
-    families.extend(fixed_steps(scene.period(), every));
-    families.extend(scene.wall().map(|_| moreau(scene.period(), every)));
+    families.extend(fixed_steps(scene, every));
     families.extend(adaptive(every));
     families
 }
 
-/// The steps of a period in periods, from coarse to fine.
-fn steps(every: usize) -> impl Iterator<Item = f64> + Clone {
-    (COARSEST..=FINEST).step_by(every).map(|k| 0.5_f64.powi(k))
-}
-
-fn fixed_steps(period: f64, every: usize) -> Vec<Family> {
-    let mut families = Vec::new();
-    for (index, scheme) in Scheme::ALL.into_iter().enumerate() {
-        for events in [Events::Located, Events::Ignored] {
-            let blind = events == Events::Ignored;
-            let name = format!("{}, {}", scheme.name(), events.name());
-            let method = |knob: f64| FixedStep {
-                scheme,
-                step: knob * period,
-                events,
-            };
-            let scheme = 1 + index;
-            families.push(Family::new(
-                &name,
-                Look { scheme, blind },
-                steps(every),
-                method,
-            ));
-        }
-    }
-    families
-}
-
-/// Moreau's method, for a rigid stop.
-fn moreau(period: f64, every: usize) -> Family {
-    let look = Look {
-        scheme: 1 + Scheme::ALL.len(),
-        blind: false,
+/// Methods with a fixed step: every scheme, and Moreau's for a rigid stop.
+fn fixed_steps(scene: &Scene, every: usize) -> Vec<Family> {
+    let period = scene.period();
+    let schemes = Scheme::ALL.into_iter().enumerate();
+    let both = schemes.flat_map(|(index, scheme)| {
+        let with = |events| (index, Stepped::FixedStep(scheme, events));
+        [Events::Located, Events::Ignored].map(with)
+    });
+    let moreau = scene.wall().map(|_| (Scheme::ALL.len(), Stepped::Moreau));
+    let family = |(index, stepped): (usize, Stepped)| {
+        let (name, blind) = match stepped {
+            Stepped::FixedStep(_, events) => (stepped.name(), events == Events::Ignored),
+            Stepped::Moreau => (stepped.title().to_owned(), false),
+        };
+        let scheme = 1 + index;
+        let look = Look { scheme, blind };
+        let steps = (COARSEST..=FINEST).step_by(every).map(|k| 0.5_f64.powi(k));
+        Family::new(&name, look, steps, |knob| stepped.method(knob * period))
     };
-    Family::new("Moreau", look, steps(every), |knob| Moreau {
-        step: knob * period,
-        theta: 0.5,
-    })
+    both.chain(moreau).map(family).collect()
 }
 
 /// Tolerances of the adaptive solvers, from coarse to fine; absolute ones are the same in m and m/s.
@@ -95,10 +77,12 @@ fn adaptive(every: usize) -> Vec<Family> {
             blind: false,
         };
         let tolerances = (3..=13).step_by(every).map(|k| 10.0_f64.powi(-k));
-        Family::new(scheme.name(), look, tolerances, |tolerance| Adaptive {
-            scheme,
-            relative: tolerance,
-            absolute: tolerance,
+        Family::new(scheme.name(), look, tolerances, |tolerance| {
+            Box::new(Adaptive {
+                scheme,
+                relative: tolerance,
+                absolute: tolerance,
+            })
         })
     };
     let schemes = AdaptiveScheme::ALL.into_iter().enumerate();
@@ -107,15 +91,15 @@ fn adaptive(every: usize) -> Vec<Family> {
 
 impl Family {
     /// A method with a knob.
-    pub fn new<M: Integrator + 'static>(
+    pub fn new(
         name: &str,
         look: Look,
         knobs: impl IntoIterator<Item = f64>,
-        method: impl Fn(f64) -> M,
+        method: impl Fn(f64) -> Box<dyn Integrator>,
     ) -> Self {
         let setting = |knob| Setting {
             knob: Some(knob),
-            method: Box::new(method(knob)),
+            method: method(knob),
         };
         Self {
             name: name.to_owned(),

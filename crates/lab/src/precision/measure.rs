@@ -11,6 +11,7 @@ use super::family::{Family, Setting};
 use super::truth::Truth;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
+use softstop_console::median::median;
 
 /// How much is run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -178,10 +179,9 @@ impl Bench<'_> {
             times.push(begin.elapsed().as_secs_f64());
             std::hint::black_box(&again);
         }
-        times.sort_by(f64::total_cmp);
         Row {
-            seconds: Some(median(&times)),
             runs: Some(times.len()),
+            seconds: Some(median(times)),
             steps: Some(solution.work.steps),
             evaluations: Some(solution.work.evaluations),
             end_error: Some(errors.end),
@@ -226,21 +226,9 @@ impl Pace {
     }
 }
 
-/// The middle one of sorted values, or of the two in the middle.
-pub fn median(sorted: &[f64]) -> f64 {
-    let (low, high) = ((sorted.len() - 1) / 2, sorted.len() / 2);
-    f64::midpoint(sorted[low], sorted[high])
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Duration, Pace, Work, median};
-
-    #[test]
-    fn the_median_is_in_the_middle() {
-        assert_eq!(median(&[1.0, 2.0, 3.0]), 2.0);
-        assert_eq!(median(&[1.0, 2.0, 4.0, 100.0]), 3.0);
-    }
+    use super::{Duration, Pace, Work};
 
     #[test]
     fn the_next_run_is_foreseen_from_the_last_two() {

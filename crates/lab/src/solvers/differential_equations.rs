@@ -1,10 +1,7 @@
 //! The solvers of the crate `differential-equations`, with guards sought by steps of the same scheme.
 //!
-//! Its own events and its dense output are not used. In version 0.7.0 the Brent search for an event loses its bracket
-//! (the far end is set to the last place tried in every pass), and the interpolants of both schemes are not those of
-//! their authors (that of dopri5 lacks its last term, its coefficients standing in another row than the one
-//! that is read; that of dop853 has the factors s and 1 - s of its last four terms swapped): together they report
-//! crossings at which the event function is as far as 0.05 from zero.
+//! Its own events and dense output are not used: in version 0.7.0 the search for an event loses its bracket, and the
+//! interpolants are not those of the schemes' authors.
 
 use crate::methods::{Fineness, Probe, rise};
 use differential_equations::control::ControlFlag;
@@ -65,12 +62,7 @@ fn follow<const O: usize, const S: usize, const I: usize>(
         ..
     } = watch;
     let (time, state) = reached;
-    let failed = |error: Error<f64, State>| Halt {
-        time,
-        steps,
-        reason: format!("{error:?}"),
-        blown_up: false,
-    };
+    let failed = |error: Error<f64, State>| Halt::new(time, steps, format!("{error:?}"));
     outcome.map_err(failed)?;
     bounded(time, steps, state)?;
     if !risen {

@@ -123,12 +123,10 @@ where
 fn within(leg: &Leg<'_>, time: f64, steps: u64, state: State) -> Result<(), Halt> {
     bounded(time, steps, state)?;
     match leg.highest(state) {
-        Some((_, value)) if value > 0.0 => Err(Halt {
-            time,
-            steps,
-            reason: "a step ended beyond its phase, and diffsol reported no root".to_owned(),
-            blown_up: false,
-        }),
+        Some((_, value)) if value > 0.0 => {
+            let reason = "a step ended beyond its phase, and diffsol reported no root";
+            Err(Halt::new(time, steps, reason))
+        }
         _ => Ok(()),
     }
 }
@@ -138,10 +136,5 @@ fn pair(values: &[f64]) -> State {
 }
 
 fn halt(time: f64, steps: u64, error: &DiffsolError) -> Halt {
-    Halt {
-        time,
-        steps,
-        reason: error.to_string(),
-        blown_up: false,
-    }
+    Halt::new(time, steps, error.to_string())
 }

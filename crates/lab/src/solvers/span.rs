@@ -42,14 +42,19 @@ pub(super) struct Halt {
 }
 
 impl Halt {
-    /// The steps are used up.
-    pub fn out_of_steps(time: f64, steps: u64) -> Self {
+    /// A halt at a time after so many steps, its numbers within bounds.
+    pub fn new(time: f64, steps: u64, reason: impl Into<String>) -> Self {
         Self {
             time,
             steps,
-            reason: "the steps allowed are used up".to_owned(),
+            reason: reason.into(),
             blown_up: false,
         }
+    }
+
+    /// The steps are used up.
+    pub fn out_of_steps(time: f64, steps: u64) -> Self {
+        Self::new(time, steps, "the steps allowed are used up")
     }
 }
 
@@ -62,9 +67,7 @@ pub(super) fn bounded(time: f64, steps: u64, state: State) -> Result<(), Halt> {
         return Ok(());
     }
     Err(Halt {
-        time,
-        steps,
-        reason: "the numbers left all bounds".to_owned(),
         blown_up: true,
+        ..Halt::new(time, steps, "the numbers left all bounds")
     })
 }

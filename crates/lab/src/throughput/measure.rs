@@ -8,8 +8,8 @@ use softstop::MotionError;
 use softstop_lanes::Instructions;
 
 use super::fleet::{Count, Fleet};
-use crate::precision::measure::median;
 use softstop_console::failure::Failure;
+use softstop_console::median::median;
 use softstop_console::progress::Progress;
 
 /// One way through the motions, with its times.
@@ -47,7 +47,7 @@ pub const ROUNDS: usize = 16;
 impl Timing {
     /// The middle one of the times, in s.
     pub fn median(&self) -> f64 {
-        median(&self.seconds)
+        median(self.seconds.clone())
     }
 }
 
