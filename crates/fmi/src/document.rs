@@ -55,9 +55,6 @@ const CAPABILITIES: [(&str, &str); 9] = [
 ];
 
 /// The page.
-///
-/// # Errors
-/// If writing to memory fails.
 pub(crate) fn html<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
     let about = U::about();
     let page = about.page.replace("<!--version-->", about.version);

@@ -35,38 +35,23 @@ pub trait Unit: Clone + Send + Serialize + DeserializeOwned + 'static {
     fn block() -> &'static Block;
 
     /// The unit at `time` in s with these values of parameters and discrete inputs, slot by slot.
-    ///
-    /// # Errors
-    /// If the values do not go together.
     fn begin(values: &[f64], time: f64) -> Outcome<Self>;
 
     /// Where it is, in s.
     fn time(&self) -> f64;
 
     /// Takes over values that were set on the way.
-    ///
-    /// # Errors
-    /// If it cannot go on with them; it is then as before.
     fn tune(&mut self, values: &[f64]) -> Outcome<()>;
 
     /// Goes on to `until` in s, which is not in the past, and tells of events on the way.
-    ///
-    /// # Errors
-    /// If there is no way; it is then as before.
     fn advance(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>>;
 
     /// Takes the derivatives that a continuous input has from now on.
-    ///
-    /// # Errors
-    /// If it cannot go on with them; it is then as before.
     fn drive(&mut self, _signal: usize, _derivatives: &Derivatives) -> Outcome<()> {
         Ok(())
     }
 
     /// Whether `until` in s, which is not in the past, can be advanced to at all.
-    ///
-    /// # Errors
-    /// If it is too far.
     fn check_reach(&self, _until: f64) -> Outcome<()> {
         Ok(())
     }
@@ -86,9 +71,6 @@ pub trait Unit: Clone + Send + Serialize + DeserializeOwned + 'static {
 
     /// The derivatives of the outputs now by what was known at the beginning of the stretch, along the
     /// direction of these knowns.
-    ///
-    /// # Errors
-    /// If they do not exist, as at a grazing impact.
     fn tangent(&self, direction: &[(Known, f64)]) -> Outcome<Self::Tangent>;
 }
 

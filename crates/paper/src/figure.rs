@@ -92,9 +92,6 @@ impl Detail {
 }
 
 /// A table of these columns, their names separated by commas.
-///
-/// # Errors
-/// What a row cannot be written for.
 pub(crate) fn table<R: Serialize>(
     columns: &str,
     rows: impl IntoIterator<Item = R>,

@@ -19,9 +19,6 @@ pub struct Reference {
 
 /// The references of a machine: both points of the paper for one that speaks its ratios, otherwise the
 /// machine itself, if it has a stable z = 1 motion as it is.
-///
-/// # Errors
-/// [`Failure::Run`] if a point of the paper is not found.
 pub(super) fn references(machine: &Machine) -> Result<Vec<Reference>, Failure> {
     if machine.ratios().is_none() {
         let found = orbit::find(&machine.scene).ok();

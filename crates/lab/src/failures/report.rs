@@ -25,9 +25,6 @@ struct Row<'a> {
 }
 
 /// A row for each run.
-///
-/// # Errors
-/// [`Failure::Run`] if the table cannot be written.
 pub(super) fn table(atlases: &[Atlas]) -> Result<Vec<u8>, Failure> {
     let maps = atlases.iter();
     let maps = maps.flat_map(|atlas| atlas.maps.iter().map(move |map| (atlas, map)));

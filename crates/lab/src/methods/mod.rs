@@ -145,8 +145,5 @@ pub trait Integrator: Sync {
     fn name(&self) -> String;
 
     /// The motion of a task.
-    ///
-    /// # Errors
-    /// [`MethodError`] if the method is not made for the task, or fails.
     fn integrate(&self, task: &Task) -> Result<Solution, MethodError>;
 }

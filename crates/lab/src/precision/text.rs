@@ -1,9 +1,11 @@
 //! The measurement as tables for people.
 
 use super::lead::{Lead, Quantity, TARGETS};
-use super::measure;
+use super::measure::Row;
 use super::report::{PrecisionReport, SceneReport};
-use softstop_console::table::{Row, heading, row, table};
+use softstop_console::column::{self, Column, Units};
+use softstop_console::columns;
+use softstop_console::table::heading;
 
 /// All charts of a run.
 pub fn text(report: &PrecisionReport) -> String {
@@ -28,7 +30,10 @@ fn scene(chart: &SceneReport) -> String {
         chart.reference.method, chart.reference.digits
     );
     text += "\nMost accurate setting of each method; errors relative to the motion\n";
-    text += &table(&methods(&chart.rows));
+    let best = names(&chart.rows)
+        .into_iter()
+        .map(|name| best(name, &chart.rows));
+    text += &column::text(&columns(), best, &Units::SI);
     text += "\nTime of the next best over that of the exact method\n";
     text += &leads(&chart.lead.at);
     text += &failures(&chart.rows);
@@ -40,54 +45,40 @@ fn scene(chart: &SceneReport) -> String {
 }
 
 /// The names of the methods, in order.
-pub(super) fn names(rows: &[measure::Row]) -> Vec<&str> {
+pub(super) fn names(rows: &[Row]) -> Vec<&str> {
     let mut names: Vec<&str> = rows.iter().map(|row| row.method.as_str()).collect();
     names.dedup();
     names
 }
 
-fn methods(rows: &[measure::Row]) -> Vec<Row> {
-    let head = [
-        "knob",
-        "time (s)",
-        "evaluations",
-        "end",
-        "impact time",
-        "velocity",
-        "impacts",
-    ];
-    let head = row("  method", head.map(String::from));
-    let line = |name: &&str| {
-        let own = rows
-            .iter()
-            .filter(|row| row.method == **name && row.end_error.is_some());
-        let best = own.min_by(|a, b| {
-            let error = |row: &measure::Row| row.end_error.unwrap_or(f64::INFINITY);
-            error(a).total_cmp(&error(b))
-        });
-        let cells = best.map_or_else(|| vec!["no answer".to_owned()], cells);
-        row(&format!("  {name}"), cells)
-    };
-    std::iter::once(head)
-        .chain(names(rows).iter().map(line))
-        .collect()
+/// A method and its most accurate setting.
+type Best<'a> = (&'a str, Option<&'a Row>);
+
+fn columns<'a>() -> [Column<Best<'a>>; 8] {
+    columns! { Best<'a>, it;
+        "method" [None] Plain, "" => it.0;
+        "knob" [None] Power(1), "" => it.1.and_then(|row| row.knob);
+        "seconds" [None] Power(1), "" => it.1.and_then(|row| row.seconds);
+        "evaluations" [None] Plain, "" => it.1.and_then(|row| row.evaluations);
+        "end" [None] Power(1), "" => it.1.and_then(|row| row.end_error);
+        "impact_time" [None] Power(1), "" => it.1.and_then(|row| row.impact_time_error);
+        "velocity" [None] Power(1), "" => it.1.and_then(|row| row.impact_velocity_error);
+        "impacts" [None] Plain, "" => it.1.map_or_else(|| "no answer".to_owned(), impacts);
+    }
 }
 
-fn cells(row: &measure::Row) -> Vec<String> {
-    let count = |count: u64| format!("{count}");
-    let mut cells: Vec<String> = vec![figure(row.knob), figure(row.seconds)];
-    cells.push(row.evaluations.map_or_else(dash, count));
-    let errors = [
-        row.end_error,
-        row.impact_time_error,
-        row.impact_velocity_error,
-    ];
-    cells.extend(errors.map(figure));
-    cells.push(match row.impact_difference {
+fn impacts(row: &Row) -> String {
+    match row.impact_difference {
         Some(0) => "all".to_owned(),
         difference => difference.map_or_else(dash, |difference| format!("{difference:+}")),
-    });
-    cells
+    }
+}
+
+fn best<'a>(name: &'a str, rows: &'a [Row]) -> Best<'a> {
+    let own = rows.iter().filter(|row| row.method == name);
+    let answered = own.filter_map(|row| Some((row.end_error?, row)));
+    let best = answered.min_by(|a, b| a.0.total_cmp(&b.0));
+    (name, best.map(|(_, row)| row))
 }
 
 fn leads(leads: &[Lead]) -> String {
@@ -118,7 +109,7 @@ fn next(lead: &Lead) -> String {
 }
 
 /// Failures, counted by reason, and methods cut short.
-fn failures(rows: &[measure::Row]) -> String {
+fn failures(rows: &[Row]) -> String {
     let mut lines: Vec<(String, usize)> = Vec::new();
     for row in rows {
         if let Some(reason) = &row.reason {

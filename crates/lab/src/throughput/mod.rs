@@ -9,16 +9,16 @@ pub mod draw;
 pub mod fleet;
 pub mod measure;
 pub mod report;
-mod text;
 
 use anyhow::{Context, anyhow};
 use clap::Args;
 
 use fleet::RANGE;
 use report::ThroughputReport;
+use softstop_console::export;
 use softstop_console::failure::Failure;
 use softstop_console::machine::require;
-use softstop_console::output::{self, Format};
+use softstop_console::output::Format;
 use softstop_console::progress::Progress;
 
 const EXAMPLES: &str = "\
@@ -75,10 +75,7 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     if check > 0 {
         report.check = Some(check::check(check, arguments.seed)?);
     }
-    output::print(&match arguments.format {
-        Format::Json => output::json(&report)?,
-        Format::Text => text::text(&report),
-    })?;
+    export::print(&report, arguments.format)?;
     match report.check.map_or(0, |check| check.tally.different) {
         0 => Ok(()),
         different => Err(Failure::Run(anyhow!(

@@ -1,4 +1,4 @@
-//! What is said of a measurement: plain data whose field names are the keys of the JSON.
+//! What is said of a throughput measurement, for programs and for people.
 
 use serde::Serialize;
 use softstop_lanes::Instructions;
@@ -7,6 +7,10 @@ use super::check::Check;
 use super::fleet::Range;
 use super::measure::{ROUNDS, Timing, Timings};
 use crate::precision::machine::Machine;
+use softstop_console::column::{Column, Units, text};
+use softstop_console::columns;
+use softstop_console::export::Report;
+use softstop_console::table::heading;
 
 /// The whole report.
 #[derive(Debug, Clone, Serialize)]
@@ -128,4 +132,88 @@ impl LaneEngine {
             times_safe: all.safe.median() / timing.median(),
         }
     }
+}
+
+/// A line of the table for people.
+struct Line<'a> {
+    name: String,
+    engine: &'a Engine,
+    lanes: Option<&'a LaneEngine>,
+}
+
+/// Its columns.
+fn table<'a>() -> [Column<Line<'a>>; 6] {
+    columns! { Line<'a>, it;
+        "engine" [None] Plain, "and instruction set" => it.name.as_str();
+        "median" [None] Fixed(2), "of all rounds" => it.engine.periods_per_second_per_core / 1e6;
+        "slowest" [None] Fixed(2), "round" => it.engine.spread.0 / 1e6;
+        "fastest" [None] Fixed(2), "round" => it.engine.spread.1 / 1e6;
+        "lanes" [None] Plain, "motions in lock-step" => it.lanes.map(|of| of.lanes);
+        "handed_over" [None] Plain, "periods left to the safe engine" => it.lanes.map(|of| of.handed_over);
+    }
+}
+
+impl Report for ThroughputReport {
+    fn text(&self) -> String {
+        let (scene, cores) = (&self.scene, &self.both_cores);
+        let (low, high) = scene.frequencies;
+        let safe = Line {
+            name: "safe".to_owned(),
+            engine: &self.safe,
+            lanes: None,
+        };
+        let narrower = [&self.avx2, &self.portable].into_iter().flatten();
+        let batches = [&self.batch].into_iter().chain(narrower);
+        let lanes = [("scalar", &self.scalar)]
+            .into_iter()
+            .chain(batches.map(|lanes| ("batch", lanes)));
+        let lines = lanes.map(|(name, lanes)| Line {
+            name: format!("{name}, {}", lanes.instructions),
+            engine: &lanes.engine,
+            lanes: Some(lanes),
+        });
+        let mut said = heading("Throughput on one core, in millions of forcing periods per second");
+        said += &format!(
+            "The {} machine at {} frequencies over {low} to {high}, {} periods each from ({}, {});\n\
+             medians of {} runs (--repeats)\n\n",
+            scene.machine, scene.motions, scene.periods, scene.start.0, scene.start.1, self.repeats
+        );
+        said += &text(&table(), [safe].into_iter().chain(lines), &Units::SI);
+        said += &format!(
+            "\nAll lanes are {:.1} times as fast as one, {:.1} times as fast as the safe engine; {} thread(s) {:.2} \
+             times as fast as one: {:.2} million\n",
+            self.batch.times_scalar,
+            self.batch.times_safe,
+            cores.threads,
+            cores.factor,
+            cores.periods_per_second / 1e6
+        );
+        said += &self.check.as_ref().map_or_else(String::new, told);
+        said + &format!("Machine: {}\n", self.machine.line())
+    }
+}
+
+fn told(check: &Check) -> String {
+    let tally = &check.tally;
+    let mut text = format!(
+        "\nBoth engines on {} random motions of {} periods with {} impacts, in {:.1} s:\n\
+         {} count different impacts; of {} more that are chaotic or graze within rounding, {} do\n\
+         {} periods in {} motions were handed over\n",
+        tally.trajectories,
+        check.periods,
+        tally.impacts,
+        check.seconds,
+        tally.different,
+        tally.chaotic,
+        tally.different_in_chaos,
+        tally.handed_over_periods,
+        tally.handed_over,
+    );
+    for difference in &tally.first {
+        text += &format!(
+            "  {} impacts in lanes, {} by the safe engine: {:?} from {:?}\n",
+            difference.batch, difference.scalar, difference.scene, difference.start
+        );
+    }
+    text
 }

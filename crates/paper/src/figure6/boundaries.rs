@@ -44,9 +44,6 @@ pub(super) struct Ends {
 }
 
 /// The ends of z = 1 at each clearance.
-///
-/// # Errors
-/// [`Failure::Run`] if z = 1 is not there, [`Failure::Interrupted`] after Ctrl-C.
 pub(super) fn ends(machine: &Ratios, clearances: &[f64], progress: &Progress) -> Result<Vec<Ends>> {
     clearances
         .par_iter()
@@ -108,9 +105,6 @@ fn describe(
 }
 
 /// The curves across the clearances, from the points at some of them; `step` as in [`Region`].
-///
-/// # Errors
-/// [`Failure::Interrupted`] after Ctrl-C.
 pub(super) fn across(
     machine: &Ratios,
     ends: &[Ends],
@@ -232,9 +226,6 @@ pub(super) fn optimum(machine: &Ratios, ends: &[Ends]) -> Option<(f64, f64)> {
 }
 
 /// The curves as a table.
-///
-/// # Errors
-/// [`Failure::Run`] if it cannot be written.
 pub(super) fn table(boundaries: &Boundaries) -> Result<Vec<u8>> {
     let columns = "boundary,eta,max_position,before_impact_velocity";
     let named = |name: &'static str, points: &[[f64; 3]]| {
