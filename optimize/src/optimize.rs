@@ -13,8 +13,9 @@ use std::path::PathBuf;
 use clap::Args;
 use softstop::{Dimension, Machine, Parameter, Start};
 use softstop_console::arguments::MachineArguments;
+use softstop_console::export::Export;
 use softstop_console::failure::Failure;
-use softstop_console::output::{self, Folder, Format};
+use softstop_console::output::Format;
 
 use crate::design::search::{self, SearchError};
 use crate::design::{Design, Problem};
@@ -97,23 +98,22 @@ pub struct OptimizeArguments {
 /// the folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let job = Job::new(arguments)?;
-    let folder = Folder::open(&job.output, &[JSON, CHART, FMU])?;
+    let files = [
+        ("json", "design.json"),
+        ("svg", "design.svg"),
+        ("fmu", "design.fmu"),
+    ];
+    let export = Export::open(&job.output, &files)?;
     let library = library()?;
     let outcome = solve(&job)?;
     let design = &outcome.design;
     let references = reference::references(&job.problem.machine)?;
-    let report = compose(&job, &outcome, &references, &folder);
-    let json = output::json(&report)?;
     let beside = reference::nearest(&job.problem.machine, &references);
     let chart = Chart::new(design, job.problem.margin, beside);
-    folder.stage(JSON, json.as_bytes())?;
-    folder.stage(CHART, chart.svg().as_bytes())?;
-    folder.stage(FMU, &archive(&library, &named(design), start(design))?)?;
-    folder.commit(&[JSON, CHART, FMU])?;
-    output::print(&match job.format {
-        Format::Json => json,
-        Format::Text => report::text::optimize(&report, &job.problem, design, &references),
-    })
+    export.file("svg", chart.svg().as_bytes())?;
+    let start = Start::from(design.orbit.state());
+    export.file("fmu", &archive(&library, &named(design), start)?)?;
+    export.finish(&compose(&job, &outcome, &references), job.format)
 }
 
 /// The design's machine under the name of a design.
@@ -132,11 +132,6 @@ fn named(design: &Design) -> Machine {
         )),
         ..machine.clone()
     }
-}
-
-/// The stroboscopic state of the design's motion.
-const fn start(design: &Design) -> Start {
-    Start::new(design.orbit.position, design.orbit.velocity)
 }
 
 /// What came of a search.
@@ -161,25 +156,17 @@ fn solve(job: &Job) -> Result<Outcome, Failure> {
     })
 }
 
-const JSON: &str = "design.json";
-const CHART: &str = "design.svg";
-const FMU: &str = "design.fmu";
-
-fn compose(
-    job: &Job,
-    outcome: &Outcome,
-    references: &[Reference],
-    folder: &Folder,
-) -> OptimizeReport {
+fn compose(job: &Job, outcome: &Outcome, references: &[Reference]) -> OptimizeReport {
     let Problem {
         axes, frequency, ..
     } = &job.problem;
     let axes = axes.iter().map(|axis| (axis.parameter, axis.range));
     let bounds = axes.chain([(Parameter::Frequency, *frequency)]);
-    let files = [("json", JSON), ("svg", CHART), ("fmu", FMU)];
     let velocity = outcome.design.before_impact_velocity();
+    let design = DesignReport::new(&job.problem, &outcome.design);
     OptimizeReport {
-        design: DesignReport::new(&job.problem, &outcome.design),
+        text: report::text::optimize(&design, &job.problem, &outcome.design, references),
+        design,
         reference: references
             .iter()
             .map(|reference| (reference.name, ReferenceReport::new(reference, velocity)))
@@ -192,8 +179,5 @@ fn compose(
             evaluations: job.settings.evaluations,
             evaluations_used: outcome.evaluations,
         },
-        files: files
-            .map(|(kind, name)| (kind, folder.place(name).display().to_string()))
-            .into(),
     }
 }

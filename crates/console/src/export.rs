@@ -77,9 +77,6 @@ struct Filed<'a, R> {
     files: BTreeMap<String, String>,
 }
 
-/// The kind of the file that holds the JSON.
-const REPORT: &str = "report";
-
 /// The files of a command, by kind and name, until they are whole.
 #[derive(Debug)]
 pub struct Export {
@@ -129,7 +126,7 @@ impl Export {
         table.close()
     }
 
-    /// Writes the JSON into the file of kind `report`, if there is one, puts all files in place and prints.
+    /// Writes the JSON into the file whose name says so, if there is one, puts all files in place and prints.
     ///
     /// # Errors
     /// [`Failure::Interrupted`] before the first file, [`Failure::Run`] naming what cannot be written.
@@ -143,8 +140,8 @@ impl Export {
             text += &format!("Written: {path} ({kind})\n");
         }
         let json = output::json(&Filed { report, files })?;
-        if self.files.iter().any(|(kind, _)| kind == REPORT) {
-            self.file(REPORT, json.as_bytes())?;
+        if let Some((kind, _)) = self.files.iter().find(|file| file.1.ends_with(".json")) {
+            self.file(kind, json.as_bytes())?;
         }
         let names: Vec<&str> = self.files.iter().map(|(_, name)| name.as_str()).collect();
         self.folder.commit(&names)?;

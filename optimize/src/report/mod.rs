@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use softstop::{Dimension, Parameter};
+use softstop_console::export::Report;
 use softstop_console::report::{MachineReport, MotionReport};
 
 use crate::design::{Design, Problem};
@@ -145,6 +146,13 @@ pub struct OptimizeReport {
     pub reference: BTreeMap<&'static str, ReferenceReport>,
     /// How it was searched.
     pub search: SearchReport,
-    /// Paths of the files written, by kind.
-    pub files: BTreeMap<&'static str, String>,
+    /// The same for people.
+    #[serde(skip)]
+    pub text: String,
+}
+
+impl Report for OptimizeReport {
+    fn text(&self) -> String {
+        self.text.clone()
+    }
 }

@@ -4,14 +4,14 @@ use softstop::{Dimension, Machine, Parameter};
 use softstop_console::table::{Row, heading, number, row, table};
 use softstop_dynamics::orbit::Orbit;
 
-use super::OptimizeReport;
+use super::DesignReport;
 use crate::design::{Design, Problem};
 use crate::optimize::reference::Reference;
 
-/// The design beside its references, then what holds it back and where the files are.
+/// The design beside its references, then what holds it back.
 #[must_use]
 pub fn optimize(
-    report: &OptimizeReport,
+    found: &DesignReport,
     problem: &Problem,
     design: &Design,
     references: &[Reference],
@@ -21,7 +21,6 @@ pub fn optimize(
     let title = format!(
         "Hardest impact of the {name} machine, margin M = {margin} from both ends of the zone"
     );
-    let found = &report.design;
     let mut text = heading(&title) + &table(&comparison(problem, design, references));
     text += &format!(
         "\nZone of the design: g0 = {} to s_SN = {}; the design stands at s = {} of it.\n",
@@ -31,9 +30,6 @@ pub fn optimize(
     );
     if !found.at_limits.is_empty() {
         text += &format!("Held back by: {}.\n", found.at_limits.join(", "));
-    }
-    for (kind, path) in &report.files {
-        text += &format!("Written: {path} ({kind})\n");
     }
     text
 }
