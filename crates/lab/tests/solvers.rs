@@ -5,9 +5,18 @@ use std::path::PathBuf;
 use softstop::{PhaseKind, Ratios, Start, Stop};
 use softstop_console::scene_file;
 use softstop_lab::methods::{Exact, Integrator, MethodError, Solution, Task};
-use softstop_lab::solvers::{Adaptive, AdaptiveScheme, adaptive};
+use softstop_lab::solvers::{Adaptive, AdaptiveScheme};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// All schemes with the same tolerances.
+fn adaptive(relative: f64, absolute: f64) -> [Adaptive; 5] {
+    AdaptiveScheme::ALL.map(|scheme| Adaptive {
+        scheme,
+        relative,
+        absolute,
+    })
+}
 
 /// Point A of Peterka 2003 on its way to the motion with one impact per period.
 fn point_a() -> Result<Task, Box<dyn std::error::Error>> {

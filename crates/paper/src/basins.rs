@@ -100,8 +100,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
         };
         let machine = plane.machine()?;
         let scene = &machine.scene;
-        let basins = basins_watched(scene, &plane.grid(cells), &Options::default(), &watcher);
-        let basins = basins?;
+        let basins = basins_watched(scene, &plane.grid(cells), &Options::default(), &watcher)?;
         let wandering = wandering(scene, &basins)?;
         found.push((machine, basins, wandering));
     }

@@ -83,15 +83,6 @@ pub struct Adaptive {
     pub absolute: f64,
 }
 
-/// All schemes with the same tolerances.
-pub fn adaptive(relative: f64, absolute: f64) -> [Adaptive; 5] {
-    AdaptiveScheme::ALL.map(|scheme| Adaptive {
-        scheme,
-        relative,
-        absolute,
-    })
-}
-
 impl Adaptive {
     fn tolerance(&self) -> Result<Tolerance, MethodError> {
         let checked = |name, value: f64| {

@@ -104,8 +104,7 @@ impl Curve {
             progress.beat();
             interrupt::go_on()
         };
-        let found = establishing(&self.zone, &[place], &grid, &Options::default(), &watcher);
-        let found = found?;
+        let found = establishing(&self.zone, &[place], &grid, &Options::default(), &watcher)?;
         progress.steps((cells * cells) as u64)?;
         let place = found.first().map(Place::new);
         place.context("no place")

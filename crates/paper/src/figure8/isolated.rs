@@ -68,8 +68,7 @@ fn seeds(known: &[&Diagram], detail: Detail) -> Result<Vec<Seed>> {
     for eta in some {
         let machine = Ratios::unloaded().at_frequency(eta);
         let scene = machine.scene()?;
-        let survey = attractors_watched(&scene, &options, &|_, _| interrupt::go_on());
-        let survey = survey?;
+        let survey = attractors_watched(&scene, &options, &|_, _| interrupt::go_on())?;
         for attractor in survey.attractors {
             let Some(orbit) = attractor.orbit else {
                 continue;

@@ -122,8 +122,7 @@ fn found(detail: Detail) -> Result<Vec<Found>> {
             surveys.push((asked.frequency, survey(&asked, detail, &progress)?));
         }
         if let Some((_, survey)) = surveys.last() {
-            let motion = Found::among(asked, survey, detail.pick(4000, 600));
-            let motion = motion?;
+            let motion = Found::among(asked, survey, detail.pick(4000, 600))?;
             found.push(motion.ok_or_else(|| anyhow!("motion ({}) not found", asked.letter))?);
         }
         progress.step()?;

@@ -62,8 +62,7 @@ fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmoni
         ..Options::default()
     };
     let scene = Law::KelvinVoigt(stiffness).scene(frequency, NARROW);
-    let survey = attractors_watched(&scene, &options, &|_, _| interrupt::go_on());
-    let survey = survey?;
+    let survey = attractors_watched(&scene, &options, &|_, _| interrupt::go_on())?;
     let orbits = survey
         .attractors
         .iter()
