@@ -16,7 +16,9 @@ use softstop_fmi::Unit;
 pub use softstop_fmi::{description, guid_of, package};
 pub use start::{NotServed, StartValues, slot};
 
-/// The C functions of the standard.
+/// The C functions of the standard, behind the feature `c-functions`: without it a program can link this unit
+/// beside another one.
+#[cfg(feature = "c-functions")]
 pub mod ffi {
     softstop_fmi::export!(crate::Machine);
 }
