@@ -51,8 +51,8 @@ pub use integrator::{
 pub use machine::{Language, Machine};
 pub use phases::PhaseKind;
 pub use scene::{
-    About, Allowed, Dimension, Excitation, Parameter, Piercing, PiercingRatios, Ratios, Release,
-    RigidStop, Scene, Slope, Stop, Units,
+    About, Allowed, Dimension, Excitation, Parameter, Piercing, Ratios, Release, RigidStop, Scene,
+    Slope, Stop, Units,
 };
 pub use tangent::{Perturbation, Sensitivity, Tangent};
 pub use trajectory::{KeptArc, Touch, Trajectory};

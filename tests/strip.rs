@@ -2,13 +2,13 @@
 
 use approx::assert_abs_diff_eq;
 use softstop::{
-    Begin, Crossing, CrossingKind, PhaseKind, PiercingRatios, Ratios, Scene, Simulation, Start,
+    Begin, Crossing, CrossingKind, PhaseKind, Piercing, Ratios, Scene, Simulation, Start,
     Trajectory,
 };
 use softstop_testing::loaded;
 use softstop_testing::tolerance::MOTION;
 
-fn machine(frequency: f64, clearance: f64, strip: PiercingRatios) -> Scene {
+fn machine(frequency: f64, clearance: f64, strip: Piercing) -> Scene {
     let ratios = Ratios {
         frequency,
         clearance,
@@ -29,7 +29,7 @@ fn passes(trajectory: &Trajectory, position: f64) -> Vec<&Crossing> {
 /// A weak stroke turns back in phase I; the next one meets the same force from the clearance on.
 #[test]
 fn a_half_pierced_strip_is_met_again() {
-    let scene = machine(0.3, 0.8, PiercingRatios::PAPER);
+    let scene = machine(0.3, 0.8, Piercing::PAPER);
     let start = Start::new(0.0, 0.5);
     let trajectory = scene.trajectory(start, 6).expect("bounded");
     let strokes = passes(&trajectory, scene.clearance);
@@ -58,7 +58,7 @@ fn a_half_pierced_strip_is_met_again() {
 /// A mass that stays beyond the clearance passes the far side of its strip again and again: one strip.
 #[test]
 fn a_strip_is_pierced_once_per_stroke() {
-    let soft = PiercingRatios {
+    let soft = Piercing {
         stiffness: 0.01,
         friction: 0.01,
         thickness: 2.5,

@@ -6,7 +6,7 @@ mod keys;
 
 use crate::error::SceneError;
 use crate::integrator::Start;
-use crate::scene::{Allowed, Dimension, Parameter, PiercingRatios, Ratios, Scene};
+use crate::scene::{Allowed, Dimension, Parameter, Ratios, Scene};
 
 /// The units that a machine speaks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -167,14 +167,6 @@ impl Machine {
             return None;
         }
         let value = |parameter| self.value(parameter);
-        let strip = || {
-            Some(PiercingRatios {
-                stiffness: value(Parameter::PiercingStiffness)?,
-                friction: value(Parameter::PiercingFriction)?,
-                thickness: value(Parameter::Thickness)?,
-                travel: value(Parameter::Travel)?,
-            })
-        };
         Some(Ratios {
             frequency: value(Parameter::Frequency)?,
             clearance: value(Parameter::Clearance)?,
@@ -182,7 +174,7 @@ impl Machine {
             contact_damping: value(Parameter::ContactDamping)?,
             stiffness: value(Parameter::StopStiffness)?,
             preload: Parameter::Preload.get(&self.scene)?,
-            piercing: strip(),
+            piercing: self.scene.piercing,
             rigid: self.scene.rigid,
         })
     }

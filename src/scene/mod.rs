@@ -8,7 +8,7 @@ mod units;
 mod validate;
 
 pub use parameter::{About, Allowed, Dimension, Parameter};
-pub use ratios::{PiercingRatios, Ratios};
+pub use ratios::Ratios;
 pub use scales::Scales;
 pub(crate) use stop::stiffness_from;
 pub use stop::{Release, RigidStop, Slope, Stop, force_of};
@@ -79,6 +79,14 @@ pub struct Piercing {
 }
 
 impl Piercing {
+    /// The paper's strip, in its ratios: k2/k1 = 21, k3/k1 = 23, sigma = 0.4, sigma + nu = 0.9.
+    pub const PAPER: Self = Self {
+        stiffness: 21.0,
+        friction: 23.0,
+        thickness: 0.4,
+        travel: 0.5,
+    };
+
     /// Dry friction force in N of phase II while the mass moves on (eq. 2).
     pub fn cut_force_forward(&self) -> f64 {
         0.1 * self.thickness * (self.stiffness + self.friction)

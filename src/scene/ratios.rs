@@ -22,36 +22,12 @@ pub struct Ratios {
     pub stiffness: f64,
     /// Preload in units of F0. The paper's "10" is a deflection: 10 k4/k1 = 70.
     pub preload: f64,
-    /// The strip, or none for the unloaded regime.
+    /// The strip, or none for the unloaded regime: k2/k1, k3/k1, sigma = s k1 / F0, nu = v k1 / F0.
     #[serde(default)]
-    pub piercing: Option<PiercingRatios>,
-    /// The rigid stop behind (phase IV), its travel epsilon in units of the static deflection.
+    pub piercing: Option<Piercing>,
+    /// The rigid stop behind (phase IV), its travel epsilon = e k1 / F0.
     #[serde(default)]
     pub rigid: Option<RigidStop>,
-}
-
-/// The strip in the paper's ratios.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PiercingRatios {
-    /// k2/k1.
-    pub stiffness: f64,
-    /// k3/k1.
-    pub friction: f64,
-    /// sigma = s k1 / F0.
-    pub thickness: f64,
-    /// nu = v k1 / F0.
-    pub travel: f64,
-}
-
-impl PiercingRatios {
-    /// The paper's strip: k2/k1 = 21, k3/k1 = 23, sigma = 0.4, sigma + nu = 0.9.
-    pub const PAPER: Self = Self {
-        stiffness: 21.0,
-        friction: 23.0,
-        thickness: 0.4,
-        travel: 0.5,
-    };
 }
 
 impl Ratios {
@@ -72,7 +48,7 @@ impl Ratios {
     /// The paper's loaded regime at point B (eta = 1.15, rho = 10).
     pub const fn loaded() -> Self {
         let mut ratios = Self::unloaded();
-        ratios.piercing = Some(PiercingRatios::PAPER);
+        ratios.piercing = Some(Piercing::PAPER);
         ratios
     }
 
@@ -108,12 +84,7 @@ impl Ratios {
                 stiffness: self.stiffness,
                 preload: self.preload,
             },
-            piercing: self.piercing.map(|strip| Piercing {
-                stiffness: strip.stiffness,
-                friction: strip.friction,
-                thickness: strip.thickness,
-                travel: strip.travel,
-            }),
+            piercing: self.piercing,
             rigid: self.rigid,
         };
         scene.validate()?;

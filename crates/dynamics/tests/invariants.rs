@@ -4,7 +4,7 @@
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use softstop::{Begin, Clock, PhaseKind, PiercingRatios, Ratios, Simulation, Start, Units};
+use softstop::{Begin, Clock, PhaseKind, Piercing, Ratios, Simulation, Start, Units};
 use softstop_dynamics::orbit::StroboscopicMap;
 use softstop_testing::tangent::differences;
 use softstop_testing::tolerance::{GROWN, MOTION, ROUNDING, SOLVED};
@@ -30,7 +30,7 @@ fn machines() -> impl Strategy<Value = Ratios> {
                 stiffness,
                 preload,
                 rigid: None,
-                piercing: loaded.then_some(PiercingRatios::PAPER),
+                piercing: loaded.then_some(Piercing::PAPER),
             },
         )
 }

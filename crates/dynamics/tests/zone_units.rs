@@ -1,7 +1,7 @@
 //! A machine in SI has the zone of the same machine in ratios, whatever its stop.
 
 use proptest::prelude::*;
-use softstop::{PiercingRatios, Ratios, Scene, Stop, Units};
+use softstop::{Piercing, Ratios, Scene, Stop, Units};
 use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::zone::{hysteresis, loss_of_stability};
 use softstop_testing::random;
@@ -11,7 +11,7 @@ fn machine(clearance: f64, damping: f64, which: usize) -> Scene {
     let ratios = Ratios {
         clearance,
         damping,
-        piercing: (which == 5).then_some(PiercingRatios::PAPER),
+        piercing: (which == 5).then_some(Piercing::PAPER),
         ..Ratios::unloaded()
     };
     let mut scene = ratios.scene().expect("valid");

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use serde_json::Value;
-use softstop::{PiercingRatios, Ratios};
+use softstop::{Piercing, Ratios};
 
 /// Clearance, and velocity and frequency at the fold of z = 1, unloaded, k4/k1 = 7 (from an independent exact
 /// integrator).
@@ -69,7 +69,7 @@ pub fn ratios(parameters: &Value) -> Ratios {
         stiffness: number(parameters, "stiffness"),
         preload: number(parameters, "preload"),
         rigid: None,
-        piercing: (parameters["regime"] == "loaded").then(|| PiercingRatios {
+        piercing: (parameters["regime"] == "loaded").then(|| Piercing {
             stiffness: number(parameters, "k2"),
             friction: number(parameters, "k3"),
             thickness: number(parameters, "sigma"),

@@ -11,7 +11,7 @@ use nalgebra::Vector2;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use rayon::prelude::*;
-use softstop::{PiercingRatios, Ratios};
+use softstop::{Piercing, Ratios};
 use softstop_dynamics::basin::wilson;
 use softstop_dynamics::orbit::{StroboscopicMap, find};
 use softstop_dynamics::zone::{self, Zone};
@@ -150,7 +150,7 @@ fn survey(
 
 impl Press {
     fn new(clearance: f64, frequency: f64, is_supplied: bool) -> Result<Self> {
-        let ratios = |piercing: Option<PiercingRatios>| Ratios {
+        let ratios = |piercing: Option<Piercing>| Ratios {
             clearance,
             frequency,
             piercing,
@@ -158,7 +158,7 @@ impl Press {
         };
         let scenes = [
             ratios(None).scene()?,
-            ratios(Some(PiercingRatios::PAPER)).scene()?,
+            ratios(Some(Piercing::PAPER)).scene()?,
         ];
         let map = |scene| StroboscopicMap::new(scene, 1);
         Ok(Self {
