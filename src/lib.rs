@@ -43,7 +43,7 @@ mod tangent;
 mod trajectory;
 
 pub use error::{MachineError, MotionError, SceneError};
-pub use flow::HIGHEST_ORDER;
+pub use flow::{Drive, HIGHEST_ORDER};
 pub use integrator::{
     Arc, Begin, Clock, Crossing, CrossingKind, Effort, Energy, Impact, Instant, Observer, Rate,
     Rates, Sample, Simulation, Snapshot, Start, Work,

@@ -2,7 +2,7 @@
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use proptest::prelude::*;
-use softstop::{Clock, Instant};
+use softstop::{Clock, Drive, Instant};
 use softstop_testing::cases;
 
 /// cos and sin of w t at 60 digits (mpmath), w and t taken as the exact doubles.
@@ -38,7 +38,7 @@ fn drive_angle_is_exact_after_a_hundred_million_periods() {
     for (frequency, time, expected_cos, expected_sin) in ANGLES {
         let clock = Clock::new(frequency, 0.0);
         let instant = clock.instant(time);
-        let (cos, sin) = clock.drive(instant);
+        let Drive { cos, sin } = clock.drive(instant);
         assert_abs_diff_eq!(cos, expected_cos, epsilon = 4e-15);
         assert_abs_diff_eq!(sin, expected_sin, epsilon = 4e-15);
         assert_relative_eq!(clock.time(instant), time, max_relative = f64::EPSILON);

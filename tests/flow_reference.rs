@@ -1,6 +1,7 @@
 //! The exact flow against 40-digit values (tests/reference/flow.py): every kind of root, zero and
 //! tiny stiffness, exact and near resonance, short and long times.
 
+use softstop::Drive;
 use softstop::internals::{Course, Departure, Flow, Polynomial};
 use softstop_testing::reference::{FLOW, number};
 
@@ -23,17 +24,16 @@ fn flow_agrees_with_forty_digits() {
             get("amplitude"),
             w,
         );
-        let (sin, cos) = get("drive_angle").sin_cos();
         let departure = Departure {
             position: get("position"),
             velocity: get("velocity"),
-            drive: (cos, sin),
+            drive: Drive::at(get("drive_angle")),
             push: Polynomial::linear(get("constant"), get("ramp")),
             acceleration: None,
         };
         let elapsed = get("elapsed");
-        let (sin, cos) = (get("drive_angle") + w * elapsed).sin_cos();
-        let (x, v) = Course::new(flow, departure).at(elapsed, (cos, sin));
+        let drive = Drive::at(get("drive_angle") + w * elapsed);
+        let (x, v) = Course::new(flow, departure).at(elapsed, drive);
         let checks = [
             (x, "expected_position", "position_sensitivity"),
             (v, "expected_velocity", "velocity_sensitivity"),

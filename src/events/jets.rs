@@ -26,7 +26,7 @@ impl Jets {
         let flow = &course.flow;
         let (constant, ramp) = course.push_at(node.elapsed);
         let (w, a) = (flow.frequency, flow.amplitude);
-        let (cos, sin) = (a * node.drive.0, a * w * node.drive.1);
+        let (cos, sin) = (a * node.drive.cos, a * w * node.drive.sin);
         let square = w * w;
         let push = [
             constant + cos,

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::course::{Course, Form};
+use super::place::Drive;
 use super::response::Responses;
 use super::segment::Segment;
 use super::series::{Series, ZERO, convolve, derivative, integral_of_product, product, value};
@@ -59,9 +60,9 @@ impl Course {
         if let Form::Segment(segment) = &self.form {
             return value(&segment.push, segment.parameter_at(elapsed));
         }
-        let ((cos, sin), angle) = (self.departure.drive, self.flow.frequency * elapsed);
-        let turned = cos * angle.cos() - sin * angle.sin();
-        self.push_at(elapsed).0 + self.flow.amplitude * turned
+        let turn = Drive::at(self.flow.frequency * elapsed);
+        let drive = self.departure.drive.turned(turn);
+        self.push_at(elapsed).0 + self.flow.amplitude * drive.cos
     }
 
     /// The work of a linear course is a quadratic form of its departure: a central difference of any

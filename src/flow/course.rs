@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 use super::particular::Particular;
 use super::place::Node;
 use super::response::Responses;
-use super::{Chatter, Departure, Flow, Hertz, LARGEST_LOSS, Segment, Taylor};
+use super::{Chatter, Departure, Drive, Flow, Hertz, LARGEST_LOSS, Segment, Taylor};
 
 /// The exact motion that follows from a departure.
 #[derive(Debug, Clone, PartialEq)]
@@ -140,8 +140,8 @@ impl Course {
     }
 
     /// Position in m and velocity in m/s, `elapsed` >= 0 seconds after departure, when the drive
-    /// stands at `drive` = (cos, sin).
-    pub fn at(&self, elapsed: f64, drive: (f64, f64)) -> (f64, f64) {
+    /// stands at `drive`.
+    pub fn at(&self, elapsed: f64, drive: Drive) -> (f64, f64) {
         match &self.form {
             Form::Held => return (self.departure.position, 0.0),
             Form::Segment(_) if elapsed <= 0.0 => {
@@ -179,7 +179,7 @@ impl Course {
         let (from, flow) = (&self.departure, &self.flow);
         let free = flow.modes.at(elapsed) * Vector2::new(from.position, from.velocity);
         let answers = Responses::at(&flow.modes, flow.frequency, elapsed);
-        let (cos, sin) = from.drive;
+        let Drive { cos, sin } = from.drive;
         let state = free
             + (from.push.value() * answers.constant
                 + from.push.rate() * answers.ramp

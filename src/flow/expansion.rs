@@ -116,7 +116,7 @@ impl Segment {
         let (s, v, t) = (&mut segment.root, &mut segment.velocity, &mut segment.time);
         (s[0], v[0]) = (root, from.velocity);
         let (mut cos, mut sin, mut acceleration) = (ZERO, ZERO, ZERO);
-        (cos[0], sin[0]) = from.drive;
+        (cos[0], sin[0]) = (from.drive.cos, from.drive.sin);
         let mut power = Power::new(2.0 * hertz.exponent, root);
         let mut rungs = Rungs::new(&from.push);
         for k in 0..=DEGREE {

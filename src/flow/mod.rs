@@ -33,7 +33,7 @@ pub(crate) use chatter::{Chatter, Pressing};
 pub use course::Course;
 pub use hertz::Hertz;
 pub use modes::Modes;
-pub use place::{Departure, Node};
+pub use place::{Departure, Drive, Node};
 pub use polynomial::{HIGHEST_ORDER, Polynomial};
 pub(crate) use segment::{Finer, Segment};
 pub(crate) use taylor::{DEGREE, Taylor, evaluate};
@@ -65,7 +65,7 @@ pub struct Flow {
     /// Time in s over which a Taylor polynomial is exact to round-off.
     pub(crate) reach: f64,
     window_modes: Matrix2<f64>,
-    window_turn: (f64, f64),
+    window_turn: Drive,
 }
 
 impl Flow {
@@ -76,7 +76,6 @@ impl Flow {
         let amplitude = amplitude / mass;
         let window = 1.0 / frequency.max(modes.slow_rate());
         let reach = 1.0 / frequency.max(modes.fastest_rate());
-        let (sin, cos) = (frequency * window).sin_cos();
         Self {
             modes,
             amplitude,
@@ -88,7 +87,7 @@ impl Flow {
             window_bounds: modes.bounds(window),
             reach,
             window_modes: modes.at(window),
-            window_turn: (cos, sin),
+            window_turn: Drive::at(frequency * window),
         }
     }
 

@@ -1,7 +1,7 @@
 //! From node to node: a course is scanned window by window.
 
 use super::course::{Course, Form};
-use super::place::Node;
+use super::place::{Drive, Node};
 
 /// Windows counted from one origin.
 const MOST_WINDOWS: u32 = 1 << 31;
@@ -33,8 +33,8 @@ impl Course {
 
     /// The node at `elapsed`, evaluated afresh.
     pub fn node(&self, elapsed: f64) -> Node {
-        let (sin, cos) = (self.flow.frequency * elapsed).sin_cos();
-        let drive = turned(self.departure.drive, (cos, sin));
+        let turn = Drive::at(self.flow.frequency * elapsed);
+        let drive = self.departure.drive.turned(turn);
         let (position, velocity) = self.at(elapsed, drive);
         let deviation = match self.form {
             Form::Particular { particular, .. } => {
@@ -79,7 +79,7 @@ impl Course {
             free.m11 * y + free.m12 * rate,
             free.m21 * y + free.m22 * rate,
         );
-        let drive = turned(node.drive, self.flow.window_turn);
+        let drive = node.drive.turned(self.flow.window_turn);
         let (x, v) = particular.at(elapsed, drive);
         Node {
             elapsed,
@@ -107,10 +107,4 @@ impl Course {
             _ => false,
         }
     }
-}
-
-/// (cos, sin) of the sum of two angles.
-#[inline]
-pub(crate) fn turned((cos, sin): (f64, f64), (c, s): (f64, f64)) -> (f64, f64) {
-    (cos * c - sin * s, sin * c + cos * s)
 }

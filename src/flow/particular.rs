@@ -1,6 +1,6 @@
 //! The particular solution of a linear law.
 
-use super::{Departure, Flow};
+use super::{Departure, Drive, Flow};
 
 /// The particular solution offset + slope t + cosine cos(angle) + sine sin(angle).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +29,7 @@ impl Particular {
 
     /// Position and velocity.
     #[inline]
-    pub fn at(&self, elapsed: f64, (cos, sin): (f64, f64)) -> (f64, f64) {
+    pub fn at(&self, elapsed: f64, Drive { cos, sin }: Drive) -> (f64, f64) {
         (
             self.offset + self.slope * elapsed + self.cosine * cos + self.sine * sin,
             self.slope + self.frequency * (self.sine * cos - self.cosine * sin),

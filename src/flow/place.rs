@@ -4,6 +4,33 @@ use serde::{Deserialize, Serialize};
 
 use super::Polynomial;
 
+/// Where the drive stands: cosine and sine of its angle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Drive {
+    /// The cosine, in phase with the force.
+    pub cos: f64,
+    /// The sine.
+    pub sin: f64,
+}
+
+impl Drive {
+    /// At an angle in rad.
+    #[inline]
+    pub fn at(angle: f64) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        Self { cos, sin }
+    }
+
+    /// Turned on by another angle.
+    #[inline]
+    pub(super) fn turned(self, by: Self) -> Self {
+        Self {
+            cos: self.cos * by.cos - self.sin * by.sin,
+            sin: self.sin * by.cos + self.cos * by.sin,
+        }
+    }
+}
+
 /// Everything a motion starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Departure {
@@ -11,8 +38,8 @@ pub struct Departure {
     pub position: f64,
     /// Velocity in m/s.
     pub velocity: f64,
-    /// cos and sin of the drive angle.
-    pub drive: (f64, f64),
+    /// Where the drive stands.
+    pub drive: Drive,
     /// Force per mass in m/s^2, as it changes from the departure on: the external one and the law's own
     /// constant one.
     pub push: Polynomial,
@@ -30,8 +57,8 @@ pub struct Node {
     pub position: f64,
     /// Velocity in m/s.
     pub velocity: f64,
-    /// cos and sin of the drive angle.
-    pub drive: (f64, f64),
+    /// Where the drive stands.
+    pub drive: Drive,
     pub(super) deviation: (f64, f64),
     /// Scan windows are counted from here, so that their times do not drift.
     pub(super) origin: f64,

@@ -5,7 +5,7 @@ use nalgebra::Complex;
 use super::course::{Course, Form};
 use super::gauss::gauss_nodes;
 use super::particular::Particular;
-use super::place::Node;
+use super::place::{Drive, Node};
 use super::segment::Power;
 
 impl Course {
@@ -63,7 +63,7 @@ impl Course {
         nodes.map(|(s, _)| {
             let node = self.node(start + s);
             let (constant, ramp) = self.push_at(0.0);
-            let push = constant + ramp * node.elapsed + self.flow.amplitude * node.drive.0;
+            let push = constant + ramp * node.elapsed + self.flow.amplitude * node.drive.cos;
             (push, node.velocity)
         })
     }
@@ -106,15 +106,15 @@ impl Course {
     /// (b - w^2 - 2 i a w) I = -[e y'] - (2 a - i w) [e y] for I, the integral of y e^(i angle).
     fn deviation_against_drive(
         &self,
-        (start, from): ((f64, f64), (f64, f64)),
-        (end, to): ((f64, f64), (f64, f64)),
+        (start, from): ((f64, f64), Drive),
+        (end, to): ((f64, f64), Drive),
     ) -> Complex<f64> {
         let (a, b, w) = (
             self.flow.modes.decay,
             self.flow.modes.stiffness,
             self.flow.frequency,
         );
-        let (from, to) = (Complex::new(from.0, from.1), Complex::new(to.0, to.1));
+        let [from, to] = [from, to].map(|drive| Complex::new(drive.cos, drive.sin));
         let position = to * end.0 - from * start.0;
         let rate = to * end.1 - from * start.1;
         let denominator = Complex::new(b - w * w, -2.0 * a * w);
@@ -132,7 +132,7 @@ impl Course {
         if ramp == 0.0 {
             return moved;
         }
-        let waves = (to.drive.1 - from.drive.1) / self.flow.frequency;
+        let waves = (to.drive.sin - from.drive.sin) / self.flow.frequency;
         let push = elapsed * (constant + 0.5 * ramp * elapsed) + self.flow.amplitude * waves;
         let change = to.velocity - from.velocity
             + 2.0 * self.flow.modes.decay * (to.position - from.position);
@@ -152,7 +152,7 @@ struct Waves {
 
 impl Waves {
     fn between(w: f64, from: &Node, to: &Node) -> Self {
-        let ((c0, s0), (c1, s1)) = (from.drive, to.drive);
+        let (Drive { cos: c0, sin: s0 }, Drive { cos: c1, sin: s1 }) = (from.drive, to.drive);
         let half = 0.5 * to.elapsed;
         let ripple = (s1 * c1 - s0 * c0) / (2.0 * w);
         Self {

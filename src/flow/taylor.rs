@@ -1,6 +1,6 @@
 //! Local Taylor polynomials of the exact motion: they locate crossings without cancellation.
 
-use super::{Departure, Flow};
+use super::{Departure, Drive, Flow};
 
 /// Degree of the polynomials (odd): over one [`reach`](Flow::reach) the remainder is below 1/20!.
 pub(crate) const DEGREE: usize = 19;
@@ -26,7 +26,7 @@ const RECIPROCALS: [f64; DEGREE + 2] = {
 
 impl Taylor {
     /// Expands the motion from (x, v) with drive (cos, sin) and push `constant` + `ramp` t.
-    pub fn about(flow: &Flow, state: (f64, f64), drive: (f64, f64), push: (f64, f64)) -> Self {
+    pub fn about(flow: &Flow, state: (f64, f64), drive: Drive, push: (f64, f64)) -> Self {
         Self::under(flow, state, linear_push_series(flow, drive, push))
     }
 
@@ -92,7 +92,7 @@ pub(super) fn push_series(flow: &Flow, from: &Departure) -> [f64; DEGREE + 1] {
 /// Coefficients of the push `constant` + `ramp` t + A cos(angle + w t) with drive (cos, sin).
 fn linear_push_series(
     flow: &Flow,
-    (cos, sin): (f64, f64),
+    Drive { cos, sin }: Drive,
     (constant, ramp): (f64, f64),
 ) -> [f64; DEGREE + 1] {
     let mut push = [0.0; DEGREE + 1];

@@ -9,7 +9,7 @@ use super::motion::{Motion, Start};
 use super::observer::{Crossing, CrossingKind, Observer};
 use crate::error::MotionError;
 use crate::events::{Found, Guard, Outlook, first_crossing};
-use crate::flow::{Chatter, Finer, Node};
+use crate::flow::{Chatter, Drive, Finer, Node};
 use crate::phases::{Hold, Mode, Phase};
 
 /// Crossings and steps at one and the same instant that a motion may make: more than any row of bounces that
@@ -168,7 +168,7 @@ impl Motion {
 
     fn release_guards(&self, hold: Hold) -> ([Guard; 2], usize) {
         let since = &self.course.departure;
-        let push = since.push.value() + self.phases.held.amplitude * since.drive.0;
+        let push = since.push.value() + self.phases.held.amplitude * since.drive.cos;
         let (guards, _, count) = self.phases.releases(hold, since.position, push);
         (guards, count)
     }
@@ -198,7 +198,7 @@ impl Motion {
     }
 
     /// The next Taylor step, from the very place at which the last one ended.
-    fn next_step(&mut self, elapsed: f64, drive: (f64, f64)) {
+    fn next_step(&mut self, elapsed: f64, drive: Drive) {
         let (position, velocity) = self.course.at(elapsed, drive);
         let finer = self.course.segment().map(|last| last.finer(elapsed));
         let (position, finer) = match (self.phase(), finer) {
@@ -215,7 +215,7 @@ impl Motion {
         &mut self,
         hold: Hold,
         chatter: &Chatter,
-        drive: (f64, f64),
+        drive: Drive,
         observer: &mut impl Observer,
     ) {
         let position = self.course.departure.position;

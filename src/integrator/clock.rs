@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
+use crate::flow::Drive;
 use crate::scene::Scene;
 
 /// 2 pi - TAU: the part of 2 pi that the double lacks.
@@ -136,10 +137,9 @@ impl Clock {
         }
     }
 
-    /// (cos, sin) of the drive angle.
+    /// Where the drive stands.
     #[inline]
-    pub fn drive(&self, at: Instant) -> (f64, f64) {
-        let (sin, cos) = (self.frequency * at.offset + self.phase).sin_cos();
-        (cos, sin)
+    pub fn drive(&self, at: Instant) -> Drive {
+        Drive::at(self.frequency * at.offset + self.phase)
     }
 }

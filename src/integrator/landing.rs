@@ -3,7 +3,7 @@
 use super::motion::{Motion, Start};
 use super::observer::CrossingKind;
 use crate::events::{Found, Guard};
-use crate::flow::{Chatter, Polynomial, Pressing};
+use crate::flow::{Chatter, Drive, Polynomial, Pressing};
 use crate::phases::{Beyond, Exit, Hold, Mode, Phase, Phases, Surface, Threshold};
 
 /// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
@@ -91,7 +91,7 @@ impl Motion {
 
     /// Acceleration in m/s^2 with which a mass at rest starts in a mode: the very number by which the
     /// mode was chosen.
-    pub(super) fn acceleration_at_rest(&self, position: f64, drive: (f64, f64), mode: Mode) -> f64 {
+    pub(super) fn acceleration_at_rest(&self, position: f64, drive: Drive, mode: Mode) -> f64 {
         match (self.mode, mode) {
             (Mode::Moving(_) | Mode::Chattering(_), Mode::Moving(phase)) => self.phases.phases
                 [phase]
@@ -102,8 +102,8 @@ impl Motion {
     }
 
     /// Push of drive and external force per mass, in m/s^2, at the start of the present arc.
-    pub(super) fn push(&self, drive: (f64, f64)) -> f64 {
-        self.phases.held.amplitude * drive.0 + self.force.on_arc().value() / self.phases.mass
+    pub(super) fn push(&self, drive: Drive) -> f64 {
+        self.phases.held.amplitude * drive.cos + self.force.on_arc().value() / self.phases.mass
     }
 
     /// Acceleration in m/s^2 in a mode.

@@ -11,7 +11,7 @@ use super::hum::Hum;
 use super::observer::Arc;
 use crate::error::MotionError;
 use crate::events::Outlook;
-use crate::flow::{Chatter, Course, Departure, Finer, Polynomial};
+use crate::flow::{Chatter, Course, Departure, Drive, Finer, Polynomial};
 use crate::phases::{Hold, Mode, Phase, PhaseKind, Phases, Store};
 
 /// A state to start from.
@@ -118,7 +118,7 @@ impl Motion {
             acceleration: None,
         };
         let course = Course::held(phases.held, departure);
-        let push = phases.held.amplitude * drive.0 + force.value() / phases.mass;
+        let push = phases.held.amplitude * drive.cos + force.value() / phases.mass;
         let mode = phases.locate(start.position, start.velocity, push, fed);
         let outlook = Outlook::Never;
         let mut motion = Self {
@@ -230,7 +230,7 @@ impl Motion {
     }
 
     /// Begins an arc at the present start instant.
-    pub(super) fn depart(&mut self, state: Start, drive: (f64, f64), mode: Mode) {
+    pub(super) fn depart(&mut self, state: Start, drive: Drive, mode: Mode) {
         let acceleration =
             (state.velocity == 0.0).then(|| self.acceleration_at_rest(state.position, drive, mode));
         let departure = self.departure(state, drive, mode, acceleration);
@@ -240,7 +240,7 @@ impl Motion {
     pub(super) fn departure(
         &self,
         state: Start,
-        drive: (f64, f64),
+        drive: Drive,
         mode: Mode,
         acceleration: Option<f64>,
     ) -> Departure {

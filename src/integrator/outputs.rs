@@ -3,6 +3,7 @@
 use super::mechanical_energy;
 use super::motion::Start;
 use super::simulation::Simulation;
+use crate::flow::Drive;
 use crate::phases::PhaseKind;
 
 /// Outputs at the present time.
@@ -78,11 +79,9 @@ impl Simulation {
     /// Drive and external force now, in N, with their first and second derivative.
     pub(super) fn push(&self) -> (f64, f64, f64) {
         let force = self.motion.force();
-        let (cos, sin) = self.motion.clock().drive(self.motion.now());
-        let (amplitude, w) = {
-            let drive = self.scene.excitation;
-            (drive.amplitude, drive.frequency)
-        };
+        let Drive { cos, sin } = self.motion.clock().drive(self.motion.now());
+        let excitation = self.scene.excitation;
+        let (amplitude, w) = (excitation.amplitude, excitation.frequency);
         (
             amplitude * cos + force.value(),
             force.rate() - amplitude * w * sin,

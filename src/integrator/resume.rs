@@ -69,7 +69,7 @@ impl Motion {
         };
         let (phases, position) = (&self.phases, self.course.departure.position);
         let drive = self.clock.drive(self.now);
-        let push = phases.held.amplitude * drive.0 + force.value() / phases.mass;
+        let push = phases.held.amplitude * drive.cos + force.value() / phases.mass;
         matches!(phases.leave(hold, position, push), Mode::Held(_))
     }
 

@@ -181,11 +181,11 @@ impl Observer for Watch {
         self.sums.lost += crossing.lost_energy(self.mass);
         self.sums.rebounds += u64::from(matches!(crossing.kind, CrossingKind::Rebound { .. }));
         if let Some(velocity) = crossing.impact_velocity() {
-            let (cosine, sine) = self.clock.drive(crossing.instant);
+            let drive = self.clock.drive(crossing.instant);
             self.sums.impacts += 1;
             self.sums.velocity += velocity;
-            self.sums.cosine += cosine;
-            self.sums.sine += sine;
+            self.sums.cosine += drive.cos;
+            self.sums.sine += drive.sin;
         }
     }
 }

@@ -66,7 +66,7 @@ impl Face {
     }
 
     fn acceleration(&self, phase: usize, at: Instant, velocity: f64) -> f64 {
-        let push = self.phases.held.amplitude * self.clock.drive(at).0;
+        let push = self.phases.held.amplitude * self.clock.drive(at).cos;
         let mass = self.phases.mass;
         self.phases.phases[phase].acceleration(self.position(), velocity, push, mass)
     }

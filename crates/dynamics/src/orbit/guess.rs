@@ -68,7 +68,7 @@ impl Observer for Seen {
         }
         for turn in turns(arc.course, elapsed, true).filter(|turn| turn.back) {
             let at = self.clock.after(arc.start, turn.elapsed);
-            let push = arc.course.flow.amplitude * self.clock.drive(at).0;
+            let push = arc.course.flow.amplitude * self.clock.drive(at).cos;
             let acceleration = arc.course.flow.acceleration(turn.position, 0.0, push);
             let depth = self.face - turn.position;
             if self.miss.is_none_or(|(least, _)| depth < least) {

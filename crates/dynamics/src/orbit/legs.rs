@@ -142,7 +142,7 @@ impl<'a> Legs<'a> {
             let drive = clock.drive(to);
             let (position, velocity) = passing.course.at(flight, drive);
             let course = &passing.course;
-            let push = course.flow.amplitude * drive.0;
+            let push = course.flow.amplitude * drive.cos;
             let acceleration = course.flow.acceleration(position, velocity, push);
             let through = course.flow.transition(flight) * passing.tangent.matrix;
             let (rows, column, ahead) = (2 * leg, 2 * leg, 2 * next);

@@ -1,7 +1,7 @@
 //! Who watches the motion: tallies, the table of crossings, what is drawn.
 
 use softstop::internals::{Law, Motion, Phase, work};
-use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, PhaseKind, Scene};
+use softstop::{Arc, Clock, Crossing, CrossingKind, Drive, Observer, PhaseKind, Scene};
 
 use super::name;
 use super::tally::{Rest, Tally};
@@ -158,11 +158,11 @@ pub(super) fn force(
     free: &Law,
     phase: Option<&Phase>,
     (position, velocity): (f64, f64),
-    (cos, _): (f64, f64),
+    drive: Drive,
 ) -> f64 {
     match phase {
         Some(phase) => phase.contact_force(free, position, velocity),
-        None => scene.excitation.amplitude * cos - scene.stiffness * position,
+        None => scene.excitation.amplitude * drive.cos - scene.stiffness * position,
     }
 }
 
