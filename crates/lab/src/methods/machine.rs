@@ -102,7 +102,7 @@ pub(super) fn prepare(task: &Task, step: f64) -> Result<Prepared, MethodError> {
 }
 
 /// Refuses a setting that is not as `allowed`.
-pub(super) fn in_range(
+pub(crate) fn in_range(
     name: &'static str,
     value: f64,
     holds: bool,

@@ -18,6 +18,7 @@ mod verdict;
 
 pub use exact::Exact;
 pub use fixed::{Events, FixedStep};
+pub(crate) use machine::in_range;
 pub use moreau::Moreau;
 pub use rise::{Fineness, Probe, rise};
 pub use scheme::Scheme;

@@ -52,30 +52,20 @@ pub struct Lead {
     /// The exact method's time, in s.
     pub exact_seconds: f64,
     /// The next best method, if any gets there.
-    pub next: Option<Next>,
+    pub next: Option<Rival>,
     /// The most accurate other method, for when none gets there.
-    pub closest: Option<Closest>,
+    pub closest: Option<Rival>,
 }
 
-/// The next best method.
+/// Another method beside the exact one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Next {
+pub struct Rival {
     /// Its name.
     pub method: String,
-    /// Its time at this accuracy, in s.
-    pub seconds: f64,
-    /// Its time over the exact method's.
-    pub ratio: f64,
-}
-
-/// A method that does not get there.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Closest {
-    /// Its name.
-    pub method: String,
-    /// Its error.
-    pub error: f64,
-    /// Its time, in s.
+    /// Its error, if it does not get there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<f64>,
+    /// Its time, in s: at this accuracy, or for this error.
     pub seconds: f64,
     /// Its time over the exact method's.
     pub ratio: f64,
@@ -110,22 +100,19 @@ fn lead(
     let next = times.min_by(|a, b| a.1.total_cmp(&b.1));
     let points = others().flat_map(|(name, points)| points.iter().map(move |point| (name, *point)));
     let closest = points.min_by(|a, b| a.1.partial_cmp(&b.1).unwrap_or(std::cmp::Ordering::Equal));
+    let rival = |method: &String, error: Option<f64>, time: f64| Rival {
+        method: method.clone(),
+        error,
+        seconds: time,
+        ratio: time / seconds,
+    };
     Some(Lead {
         quantity,
         target,
         accuracy,
         exact_seconds: seconds,
-        next: next.map(|(method, time)| Next {
-            method: method.clone(),
-            seconds: time,
-            ratio: time / seconds,
-        }),
-        closest: closest.map(|(method, (error, time))| Closest {
-            method: method.clone(),
-            error,
-            seconds: time,
-            ratio: time / seconds,
-        }),
+        next: next.map(|(method, time)| rival(method, None, time)),
+        closest: closest.map(|(method, (error, time))| rival(method, Some(error), time)),
     })
 }
 
@@ -219,6 +206,6 @@ mod tests {
             .find(|lead| lead.target == 1e-9)
             .expect("a value");
         assert_eq!(finest.next, None);
-        assert_eq!(finest.closest.as_ref().expect("a value").error, 1e-5);
+        assert_eq!(finest.closest.as_ref().expect("a value").error, Some(1e-5));
     }
 }

@@ -102,7 +102,9 @@ fn next(lead: &Lead) -> String {
         (Some(next), _) => next.method.clone(),
         (None, Some(closest)) => format!(
             "none gets there; {} has {:.0e} in {:.1} times the time",
-            closest.method, closest.error, closest.ratio
+            closest.method,
+            closest.error.unwrap_or(f64::NAN),
+            closest.ratio
         ),
         (None, None) => "none has an answer".to_owned(),
     }

@@ -13,22 +13,20 @@ use differential_equations::ode::ODE;
 use differential_equations::solout::Solout;
 use differential_equations::solution::Solution as Points;
 
-use super::Tolerance;
 use super::leg::{Leg, State};
 use super::span::{Halt, Reached, Span, bounded};
+use super::{Adaptive, AdaptiveScheme};
 
 /// A scheme of the crate with O coefficients of its interpolant, S stages and I with those of the interpolant.
 type Scheme<const O: usize, const S: usize, const I: usize> =
     ExplicitRungeKutta<Ordinary, DormandPrince, f64, State, O, S, I>;
 
-/// Follows a leg by Dormand and Prince's scheme of order 5.
-pub(super) fn dopri5(leg: &Leg<'_>, span: &Span, allowed: Tolerance) -> Result<Reached, Halt> {
-    follow(ExplicitRungeKutta::dopri5, leg, span, allowed)
-}
-
-/// Follows a leg by the scheme of order 8.
-pub(super) fn dop853(leg: &Leg<'_>, span: &Span, allowed: Tolerance) -> Result<Reached, Halt> {
-    follow(ExplicitRungeKutta::dop853, leg, span, allowed)
+/// Follows a leg by Dormand and Prince's scheme of order 5, or that of order 8.
+pub(super) fn run(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Result<Reached, Halt> {
+    match settings.scheme {
+        AdaptiveScheme::Dopri5 => follow(ExplicitRungeKutta::dopri5, leg, span, settings),
+        _ => follow(ExplicitRungeKutta::dop853, leg, span, settings),
+    }
 }
 
 impl ODE<f64, State> for Leg<'_> {
@@ -42,14 +40,21 @@ fn follow<const O: usize, const S: usize, const I: usize>(
     scheme: fn() -> Scheme<O, S, I>,
     leg: &Leg<'_>,
     span: &Span,
-    allowed: Tolerance,
+    settings: &Adaptive,
 ) -> Result<Reached, Halt> {
     let most = usize::try_from(span.most_steps).unwrap_or(usize::MAX);
     let method = || {
-        let method = scheme().rtol(allowed.relative).atol(allowed.absolute);
+        let method = scheme().rtol(settings.relative).atol(settings.absolute);
         method.max_steps(most)
     };
-    let mut watch = Watch::new(leg, span);
+    let start = (span.from, span.state);
+    let mut watch = Watch {
+        leg,
+        before: start,
+        reached: start,
+        steps: 0,
+        risen: false,
+    };
     let outcome = IVP::ode(leg, span.from, span.until, span.state)
         .method(method())
         .solout(&mut watch)
@@ -97,19 +102,6 @@ struct Watch<'a> {
     steps: u64,
     /// A guard was above zero at its end.
     risen: bool,
-}
-
-impl<'a> Watch<'a> {
-    fn new(leg: &'a Leg<'a>, span: &Span) -> Self {
-        let start = (span.from, span.state);
-        Self {
-            leg,
-            before: start,
-            reached: start,
-            steps: 0,
-            risen: false,
-        }
-    }
 }
 
 impl Solout<f64, State> for &mut Watch<'_> {

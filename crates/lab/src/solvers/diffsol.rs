@@ -6,39 +6,31 @@ use diffsol::{
     OdeEquationsImplicit, OdeSolverMethod, OdeSolverProblem, OdeSolverStopReason,
 };
 
-use super::Tolerance;
 use super::leg::{Leg, State};
 use super::span::{Halt, Reached, Span, bounded};
+use super::{Adaptive, AdaptiveScheme};
 
 type Matrix = NalgebraMat<f64>;
 type Direct = NalgebraLU<f64>;
 
-/// Follows a leg by Tsitouras' explicit scheme.
-pub(super) fn tsit45(leg: &Leg<'_>, span: &Span, allowed: Tolerance) -> Result<Reached, Halt> {
+/// Follows a leg by one of the crate's schemes.
+pub(super) fn run(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Result<Reached, Halt> {
     let refused = |error| halt(span.from, 0, &error);
-    let problem = problem(leg, span, allowed).map_err(refused)?;
-    follow(problem.tsit45().map_err(refused)?, leg, span)
-}
-
-/// Follows a leg by the diagonally implicit scheme.
-pub(super) fn esdirk34(leg: &Leg<'_>, span: &Span, allowed: Tolerance) -> Result<Reached, Halt> {
-    let refused = |error| halt(span.from, 0, &error);
-    let problem = problem(leg, span, allowed).map_err(refused)?;
-    follow(problem.esdirk34::<Direct>().map_err(refused)?, leg, span)
-}
-
-/// Follows a leg by backward differences.
-pub(super) fn bdf(leg: &Leg<'_>, span: &Span, allowed: Tolerance) -> Result<Reached, Halt> {
-    let refused = |error| halt(span.from, 0, &error);
-    let problem = problem(leg, span, allowed).map_err(refused)?;
-    follow(problem.bdf::<Direct>().map_err(refused)?, leg, span)
+    let problem = problem(leg, span, settings).map_err(refused)?;
+    match settings.scheme {
+        AdaptiveScheme::Tsit45 => follow(problem.tsit45().map_err(refused)?, leg, span),
+        AdaptiveScheme::Esdirk34 => {
+            follow(problem.esdirk34::<Direct>().map_err(refused)?, leg, span)
+        }
+        _ => follow(problem.bdf::<Direct>().map_err(refused)?, leg, span),
+    }
 }
 
 /// The leg as diffsol takes it.
 fn problem<'a>(
     leg: &'a Leg<'_>,
     span: &'a Span,
-    allowed: Tolerance,
+    settings: &Adaptive,
 ) -> Result<
     OdeSolverProblem<
         impl OdeEquationsImplicit<M = Matrix, V = NalgebraVec<f64>, T = f64, C = NalgebraContext> + 'a,
@@ -47,8 +39,8 @@ fn problem<'a>(
 > {
     OdeBuilder::<Matrix>::new()
         .t0(span.from)
-        .rtol(allowed.relative)
-        .atol([allowed.absolute])
+        .rtol(settings.relative)
+        .atol([settings.absolute])
         .rhs_implicit(
             |y, _, t, rate| rate.copy_from_slice(&leg.rate(t, pair(y))),
             |y, _, _, along, product| {

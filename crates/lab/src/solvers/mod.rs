@@ -28,9 +28,9 @@ mod diffsol;
 mod leg;
 mod span;
 
-use crate::methods::{Integrator, MethodError, Solution, Task, Work};
+use crate::methods::{Integrator, MethodError, Solution, Task, Work, in_range};
+use softstop::Start;
 use softstop::internals::Walk;
-use softstop::{MotionError, SceneError, Start};
 
 use leg::{Leg, drive};
 use span::{Halt, Reached, Span};
@@ -83,27 +83,6 @@ pub struct Adaptive {
     pub absolute: f64,
 }
 
-impl Adaptive {
-    fn tolerance(&self) -> Result<Tolerance, MethodError> {
-        let checked = |name, value: f64| {
-            if value > 0.0 && value.is_finite() {
-                return Ok(value);
-            }
-            let allowed = "finite and > 0";
-            let error = SceneError::OutOfRange {
-                name,
-                value,
-                allowed,
-            };
-            Err(MotionError::Scene(error))
-        };
-        Ok(Tolerance {
-            relative: checked("relative tolerance", self.relative)?,
-            absolute: checked("absolute tolerance", self.absolute)?,
-        })
-    }
-}
-
 impl Integrator for Adaptive {
     fn name(&self) -> String {
         let (scheme, relative, absolute) = (self.scheme.name(), self.relative, self.absolute);
@@ -111,30 +90,24 @@ impl Integrator for Adaptive {
     }
 
     fn integrate(&self, task: &Task) -> Result<Solution, MethodError> {
-        let tolerance = self.tolerance()?;
+        for (name, value) in [
+            ("relative tolerance", self.relative),
+            ("absolute tolerance", self.absolute),
+        ] {
+            let holds = value > 0.0 && value.is_finite();
+            in_range(name, value, holds, "finite and > 0")?;
+        }
         let follow = match self.scheme {
-            AdaptiveScheme::Tsit45 => diffsol::tsit45,
-            AdaptiveScheme::Esdirk34 => diffsol::esdirk34,
-            AdaptiveScheme::Bdf => diffsol::bdf,
-            AdaptiveScheme::Dopri5 => differential_equations::dopri5,
-            AdaptiveScheme::Dop853 => differential_equations::dop853,
+            AdaptiveScheme::Tsit45 | AdaptiveScheme::Esdirk34 | AdaptiveScheme::Bdf => diffsol::run,
+            AdaptiveScheme::Dopri5 | AdaptiveScheme::Dop853 => differential_equations::run,
         };
         let journey = Journey {
             task,
             walk: task.walk()?,
             work: Work::default(),
         };
-        journey.run(|leg, span| follow(leg, span, tolerance))
+        journey.run(|leg, span| follow(leg, span, self))
     }
-}
-
-/// Error allowed in a step.
-#[derive(Debug, Clone, Copy)]
-struct Tolerance {
-    /// Relative to the state.
-    relative: f64,
-    /// Beside that, in the state's units.
-    absolute: f64,
 }
 
 /// A task on its way, leg by leg.
