@@ -1,6 +1,6 @@
 //! How often a motion asked for the law of force.
 
-use super::{Arc, Motion, Observer};
+use super::{Arc, Observer};
 use crate::flow::DEGREE;
 
 /// Counts what a motion takes: the same on every machine.
@@ -10,13 +10,6 @@ pub struct Evaluations {
     pub steps: u64,
     /// States of a closed form count as one each, a Taylor polynomial as its degree.
     pub evaluations: u64,
-}
-
-impl Evaluations {
-    /// Counts the arc that the motion is in, too.
-    pub fn finish(&mut self, motion: &Motion) {
-        motion.tell_arc(self);
-    }
 }
 
 impl Observer for Evaluations {

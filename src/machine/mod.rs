@@ -190,19 +190,20 @@ impl Machine {
 
     /// A quantity in SI units in its own ones.
     pub fn to_own(&self, dimension: Dimension, value: f64) -> f64 {
-        match (self.speaks, dimension) {
-            (Language::Ratios, Dimension::Damping) => value / 2.0,
-            (Language::Hertz, Dimension::Frequency) => value / std::f64::consts::TAU,
-            _ => value,
-        }
+        value / self.in_si(dimension)
     }
 
     /// A quantity in its own units in SI ones.
     pub fn to_si(&self, dimension: Dimension, value: f64) -> f64 {
+        value * self.in_si(dimension)
+    }
+
+    /// Its own unit of a quantity, in SI units.
+    const fn in_si(&self, dimension: Dimension) -> f64 {
         match (self.speaks, dimension) {
-            (Language::Ratios, Dimension::Damping) => value * 2.0,
-            (Language::Hertz, Dimension::Frequency) => value * std::f64::consts::TAU,
-            _ => value,
+            (Language::Ratios, Dimension::Damping) => 2.0,
+            (Language::Hertz, Dimension::Frequency) => std::f64::consts::TAU,
+            _ => 1.0,
         }
     }
 

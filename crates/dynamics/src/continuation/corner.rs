@@ -15,7 +15,7 @@ use super::arclength::{Equations, Node, Stride, Walker, correct, tangent};
 use super::caution::SHORT;
 use super::face::Face;
 use super::follower::Follower;
-use super::round::{Round, begin, carry_on};
+use super::round::{Round, carry_on};
 use super::shooting::Shooting;
 use crate::orbit::OrbitError;
 use softstop::{Clock, MotionError, Scene};
@@ -127,7 +127,7 @@ impl<F: Family> Follower<'_, F> {
 
 /// The state so many drive periods after time 0.
 fn after(scene: &Scene, state: Vector2<f64>, periods: f64) -> Result<Vector2<f64>, MotionError> {
-    let mut motion = begin(scene, state)?;
+    let mut motion = scene.motion(state.into())?;
     for period in 1..=periods as u64 {
         carry_on(&mut motion, Clock::at_cycle(period), &mut ())?;
     }

@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 
 use super::face::{Face, Touch};
-use super::round::{begin, carry_on};
+use super::round::carry_on;
 use crate::orbit::turn::turns;
 use softstop::{Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene};
 
@@ -13,7 +13,7 @@ pub(crate) fn nearest_turn(
     periods: u64,
     state: Vector2<f64>,
 ) -> Result<Option<Touch>, MotionError> {
-    let mut motion = begin(scene, state)?;
+    let mut motion = scene.motion(state.into())?;
     let mut turns = Turns {
         clock: *motion.clock(),
         faces: Face::ALL

@@ -40,7 +40,7 @@ pub(crate) struct Round {
 impl Round {
     /// The round from a state.
     pub fn of(scene: &Scene, periods: u64, state: Vector2<f64>) -> Result<Self, MotionError> {
-        let mut motion = begin(scene, state)?;
+        let mut motion = scene.motion(state.into())?;
         let mut watch = Watch {
             scene,
             clock: *motion.clock(),
@@ -70,14 +70,6 @@ impl Round {
     pub fn end(&self) -> Vector2<f64> {
         self.ends[self.ends.len() - 1]
     }
-}
-
-/// The motion of a scene from a state at time 0.
-pub(crate) fn begin(scene: &Scene, state: Vector2<f64>) -> Result<Motion, MotionError> {
-    scene.validate()?;
-    let start = Start::new(state.x, state.y);
-    start.validate()?;
-    Motion::new(scene.phases(), scene.clock(), Clock::at_cycle(0), start)
 }
 
 /// Work that an orbit may cost per drive period, in scan windows: 260,000 crossings. A mass that bounces more

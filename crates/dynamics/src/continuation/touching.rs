@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use super::Family;
 use super::arclength::{Equations, Evaluation, Node, differences};
 use super::face::Face;
-use super::round::{begin, carry_on};
+use super::round::carry_on;
 use super::shooting::round_off;
 use crate::orbit::OrbitError;
 use softstop::{Arc, Clock, Crossing, Instant, Observer, Scene, Tangent};
@@ -72,7 +72,7 @@ impl<F: Family<N>, const N: usize> Touching<'_, F, N> {
         let (scene, touch) = self.scene(&node.at)?;
         let turn = std::f64::consts::TAU;
         let touched = ((node.at[0] - phase) / turn).rem_euclid(self.periods as f64);
-        let mut motion = begin(&scene, touch)?;
+        let mut motion = scene.motion(touch.into())?;
         let clock = *motion.clock();
         let duration = (self.periods as f64 - touched) * clock.period();
         for period in 1..=duration.div_euclid(clock.period()) as u64 {
@@ -91,7 +91,7 @@ impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Contact>, OrbitError> {
         let (scene, touch) = self.scene(at)?;
-        let mut motion = begin(&scene, touch)?;
+        let mut motion = scene.motion(touch.into())?;
         let until = Clock::at_cycle(self.periods);
         let mut watch = LastArc {
             clock: *motion.clock(),

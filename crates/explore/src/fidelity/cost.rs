@@ -57,6 +57,6 @@ fn run(scene: &Scene, start: Start, periods: u64) -> Result<Evaluations, MotionE
     let mut motion = scene.motion(start)?;
     let mut taken = Evaluations::default();
     motion.advance(Clock::at_cycle(periods), &mut taken)?;
-    taken.finish(&motion);
+    motion.tell_arc(&mut taken);
     Ok(taken)
 }

@@ -23,7 +23,7 @@ impl Integrator for Exact {
         motion
             .advance(end, &mut watcher)
             .map_err(|error| MethodError::from(error).after(watcher.taken.steps))?;
-        watcher.taken.finish(&motion);
+        motion.tell_arc(&mut watcher.taken);
         let state = motion.state();
         Ok(Solution {
             end: (state.position, state.velocity),
