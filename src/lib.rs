@@ -52,7 +52,7 @@ pub use machine::{Language, Machine};
 pub use phases::PhaseKind;
 pub use scene::{
     About, Allowed, Dimension, Excitation, Parameter, Piercing, Ratios, Release, RigidStop, Scene,
-    Slope, Stop, Units,
+    Slope, Stop, Units, Wall,
 };
 pub use tangent::{Perturbation, Sensitivity, Tangent};
 pub use trajectory::{KeptArc, Touch, Trajectory};

@@ -79,13 +79,14 @@ impl Builder<'_> {
     /// Adds the layers of one stack, from the clearance on, and the wall that ends it.
     fn stack(&mut self, plans: &[Plan]) -> Stack {
         let wall = self.scene.wall();
-        let within = |plan: &&Plan| wall.is_none_or(|(position, _)| plan.from < position);
+        let within = |plan: &&Plan| wall.is_none_or(|wall| plan.from < wall.position);
         let mut layers: Vec<Layer> = Vec::with_capacity(plans.len());
         for plan in plans.iter().filter(within) {
             let layer = self.add_layer(plan, layers.last().copied());
             layers.push(layer);
         }
-        let wall = wall.map(|(position, restitution)| {
+        let wall = wall.map(|wall| {
+            let (position, restitution) = (wall.position, wall.restitution);
             let beyond = Beyond::Wall { restitution };
             let below = layers.last().copied();
             let is_far_side = plans

@@ -98,6 +98,15 @@ impl Piercing {
     }
 }
 
+/// Where the mass can go no further.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wall {
+    /// Where it stands, in m.
+    pub position: f64,
+    /// Newton's coefficient of restitution there.
+    pub restitution: f64,
+}
+
 impl Scene {
     /// Where the stop stands, in m: the clearance, or behind the strip.
     pub fn stop_position(&self) -> f64 {
@@ -105,14 +114,17 @@ impl Scene {
         self.clearance + behind
     }
 
-    /// Where the mass can go no further, in m, and the restitution there, if there is a rigid stop.
-    /// Another one behind it is out of reach.
-    pub fn wall(&self) -> Option<(f64, f64)> {
-        match (&self.stop, self.rigid) {
-            (Stop::Rigid { restitution }, _) => Some((self.stop_position(), *restitution)),
-            (_, Some(rigid)) => Some((self.stop_position() + rigid.travel, rigid.restitution)),
-            _ => None,
-        }
+    /// The rigid stop that the mass meets, if there is one: another one behind it is out of reach.
+    pub fn wall(&self) -> Option<Wall> {
+        let (travel, restitution) = match (&self.stop, self.rigid) {
+            (Stop::Rigid { restitution }, _) => (0.0, *restitution),
+            (_, Some(rigid)) => (rigid.travel, rigid.restitution),
+            _ => return None,
+        };
+        Some(Wall {
+            position: self.stop_position() + travel,
+            restitution,
+        })
     }
 
     /// Period of the drive, 2 pi / w, in s.

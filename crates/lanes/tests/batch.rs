@@ -65,7 +65,7 @@ fn scene(index: usize) -> Scene {
 }
 
 fn start(index: usize, scene: &Scene) -> Start {
-    let wall = scene.wall().map_or(f64::INFINITY, |(wall, _)| wall);
+    let wall = scene.wall().map_or(f64::INFINITY, |wall| wall.position);
     Start {
         position: between(-12.0, 12.0, spread(index, 4)).min(wall),
         velocity: between(-15.0, 15.0, spread(index, 5)),

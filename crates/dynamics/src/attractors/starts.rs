@@ -1,7 +1,7 @@
 //! Where starts lie.
 
 use softstop::internals::Scales;
-use softstop::{Scene, Start};
+use softstop::{Scene, Start, Wall};
 
 /// A rectangle of states at drive angle phi.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,7 +62,7 @@ impl Region {
 
     /// The part before a rigid stop.
     fn before(mut self, scene: &Scene) -> Self {
-        if let Some((wall, _)) = scene.wall() {
+        if let Some(Wall { position: wall, .. }) = scene.wall() {
             let width = self.position[1] - self.position[0];
             self.position[1] = self.position[1].min(wall);
             if self.position[0] >= wall {

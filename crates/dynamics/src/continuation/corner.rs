@@ -60,7 +60,7 @@ impl<F: Family> Follower<'_, F> {
         }
         let scene = self.shooting.scene(&walker.node.at).ok()?;
         let (face, gap) = self.face_ahead(walker, &scene)?;
-        let wall = scene.wall().map(|wall| wall.0);
+        let wall = scene.wall().map(|wall| wall.position);
         let rebounds = face.position(&scene) == wall;
         let mut found = TURNS
             .into_iter()

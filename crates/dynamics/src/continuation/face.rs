@@ -27,7 +27,7 @@ impl Face {
                 .piercing
                 .map(|strip| scene.clearance + strip.thickness),
             Self::Stop => scene.piercing.map(|_| scene.stop_position()),
-            Self::Wall => scene.wall().map(|(position, _)| position),
+            Self::Wall => scene.wall().map(|wall| wall.position),
         }
     }
 

@@ -46,7 +46,7 @@ pub(super) fn grid(arguments: &BasinArguments, scene: &Scene) -> Result<Grid, Fa
     let free = drive.amplitude / (scene.mass * drive.frequency * drive.frequency);
     let length = scene.clearance.abs().max(free);
     let length = FAR * if length > 0.0 { length } else { 1.0 };
-    let wall = scene.wall().map_or(f64::INFINITY, |(wall, _)| wall);
+    let wall = scene.wall().map_or(f64::INFINITY, |wall| wall.position);
     let axis = |quantity| {
         let speed = length * drive.frequency;
         let range = match quantity {

@@ -4,7 +4,7 @@ use super::machine::{Machine, State, Steps};
 use super::rise::{Fineness, Probe, rise};
 use super::step::Step;
 use super::{MethodError, Task};
-use softstop::Impact;
+use softstop::{Impact, Wall};
 
 /// The places that end or count a motion onwards.
 #[derive(Debug, Clone, Copy)]
@@ -12,7 +12,7 @@ pub(super) struct Places {
     /// The clearance, if something stands there.
     pub clearance: Option<f64>,
     /// The rigid stop and its restitution.
-    pub wall: Option<(f64, f64)>,
+    pub wall: Option<Wall>,
 }
 
 impl Places {
@@ -27,7 +27,7 @@ impl Places {
     /// True if nothing stands before the rigid stop.
     pub fn wall_is_clearance(&self) -> bool {
         self.wall
-            .is_some_and(|(wall, _)| self.clearance == Some(wall))
+            .is_some_and(|wall| self.clearance == Some(wall.position))
     }
 }
 
@@ -74,11 +74,15 @@ impl Span {
         places: Places,
         step: &Step,
     ) -> Result<State, MethodError> {
-        let hit = places.wall.filter(|(wall, _)| self.to.position > *wall);
+        let hit = places.wall.filter(|wall| self.to.position > wall.position);
         if !places.wall_is_clearance() {
             self.note_passing(machine, places);
         }
-        let Some((wall, restitution)) = hit else {
+        let Some(Wall {
+            position: wall,
+            restitution,
+        }) = hit
+        else {
             return Ok(self.to);
         };
         if places.wall_is_clearance() {

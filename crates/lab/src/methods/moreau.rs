@@ -4,7 +4,7 @@ use super::balance::Balance;
 use super::ignored::{Places, Span};
 use super::machine::{Laws, Machine, State, Steps, in_range, prepare};
 use super::{Integrator, MethodError, Solution, Task};
-use softstop::Impact;
+use softstop::{Impact, Wall};
 
 /// Steps on the level of velocities: impacts are not located but taken up by the step in which they lie.
 ///
@@ -58,7 +58,7 @@ impl Integrator for Moreau {
 struct Stepping {
     theta: f64,
     places: Places,
-    wall: (f64, f64),
+    wall: Wall,
 }
 
 impl Stepping {
@@ -118,7 +118,10 @@ impl Stepping {
         };
         let acceleration = balance.solve(machine, guess)?;
         let free = velocity + gained + theta * h * acceleration;
-        let (wall, restitution) = self.wall;
+        let Wall {
+            position: wall,
+            restitution,
+        } = self.wall;
         let touches = position + 0.5 * h * velocity >= wall;
         let pushed = touches && free > -restitution * velocity;
         let reached = if pushed {
@@ -139,7 +142,7 @@ impl Stepping {
         if !self.places.wall_is_clearance() {
             span.note_passing(machine, self.places);
         } else if is_hit && from.velocity > 0.0 {
-            let ahead = (self.wall.0 - from.position) / from.velocity;
+            let ahead = (self.wall.position - from.position) / from.velocity;
             machine.impacts.push(Impact {
                 time: span.time + ahead.clamp(0.0, span.length),
                 velocity: from.velocity,

@@ -173,7 +173,7 @@ fn norm(scene: &Scene, (position, velocity): (f64, f64)) -> f64 {
 /// Speed in m/s of a mass that has all energy of this state: its own, the suspension's and the stop's. Infinite
 /// if the numbers are not finite.
 fn worth(scene: &Scene, state: Start) -> f64 {
-    let wall = scene.wall().map_or(f64::INFINITY, |(position, _)| position);
+    let wall = scene.wall().map_or(f64::INFINITY, |wall| wall.position);
     let position = if state.position > wall {
         wall
     } else {

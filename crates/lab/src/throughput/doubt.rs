@@ -32,7 +32,7 @@ pub struct Verdict {
 /// # Errors
 /// [`MotionError`] if it cannot be computed.
 pub fn judge(scene: &Scene, start: Start, periods: u64) -> Result<Verdict, MotionError> {
-    let wall = scene.wall().map_or(f64::INFINITY, |(wall, _)| wall);
+    let wall = scene.wall().map_or(f64::INFINITY, |wall| wall.position);
     let mut doubt = Doubt {
         levels: [scene.clearance, wall],
         covariance: Matrix2::identity() * (ROUNDING * ROUNDING),

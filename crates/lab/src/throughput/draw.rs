@@ -56,7 +56,7 @@ impl Draw {
                 restitution,
             });
         }
-        let wall = scene.wall().map_or(f64::INFINITY, |(wall, _)| wall);
+        let wall = scene.wall().map_or(f64::INFINITY, |wall| wall.position);
         let start = Start::new(
             self.between(-12.0, wall.min(12.0)),
             self.between(-15.0, 15.0),
