@@ -6,23 +6,18 @@ use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
+use softstop_testing::Program;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-fn sweep(folder: &Path, arguments: &[&str]) -> std::io::Result<Output> {
-    Command::new(env!("CARGO_BIN_EXE_softstop"))
-        .args(["sweep", "--output"])
-        .arg(folder)
-        .args(arguments)
-        .output()
-}
+const SWEEP: Program = Program {
+    file: env!("CARGO_BIN_EXE_softstop"),
+    first: &["sweep"],
+};
 
-fn json(folder: &Path, arguments: &[&str]) -> Result<Value, Box<dyn std::error::Error>> {
-    let arguments = [arguments, &["--format", "json"]].concat();
-    let output = sweep(folder, &arguments)?;
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{message}");
-    Ok(serde_json::from_slice(&output.stdout)?)
+fn sweep(folder: &Path, arguments: &[&str]) -> Output {
+    let folder = folder.to_str().expect("UTF-8");
+    SWEEP.run(&[&["--output", folder], arguments].concat())
 }
 
 fn number(value: &Value) -> f64 {
@@ -34,7 +29,7 @@ fn the_hysteresis_zone_of_clearance_10() -> Outcome {
     let folder = tempfile::tempdir()?;
     let range = ["--from", "1.02", "--to", "1.4"];
     let few = ["--steps", "39", "--periods", "300"];
-    let report = json(folder.path(), &[range, few].concat())?;
+    let report = SWEEP.json_into(folder.path(), &[range, few].concat());
     assert_eq!(report["parameter"], "excitation.frequency");
     assert!((number(&report["rate_per_period"]) - 0.01 / 300.0).abs() < 1e-12);
     // Up: z = 1 up to the fold at 1.369036, which the step of 1.37 passes too slowly to settle. Down: z = 0
@@ -70,46 +65,32 @@ fn a_rigid_scene_is_swept_in_si_units() -> Outcome {
         "--periods",
         "50",
     ];
-    let report = json(folder.path(), &[&[scene], &range[..]].concat())?;
+    let report = SWEEP.json_into(folder.path(), &[&[scene], &range[..]].concat());
     assert_eq!(report["sweeps"].as_array().map(Vec::len), Some(2));
     assert_eq!(report["sweeps"][0]["steps"], 21);
     Ok(())
 }
 
-/// Runs the program where it has to fail, and checks exit code and message.
-#[track_caller]
-fn refuses(arguments: &[&str], words: &[&str]) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let target = folder.path().join("sweep");
-    let output = sweep(&target, arguments).expect("the program starts");
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
-    assert!(output.stdout.is_empty() && !target.exists());
-    for word in words {
-        assert!(message.contains(word), "{arguments:?}: {message:?}");
-    }
-}
-
 #[test]
 fn bad_values_are_named() {
     let with = |rest: &[&'static str]| [&["--from", "0.8", "--to", "1.8"], rest].concat();
-    refuses(&["--from", "1", "--to", "1"], &["range", "rising"]);
-    refuses(&with(&["--steps", "1"]), &["steps", "2 to 1000000"]);
-    refuses(&with(&["--periods", "0"]), &["periods"]);
-    refuses(&with(&["--tolerance", "1"]), &["tolerance", "> 0 and < 1"]);
-    refuses(
+    SWEEP.refuses_and_writes_nothing(&["--from", "1", "--to", "1"], &["range", "rising"]);
+    SWEEP.refuses_and_writes_nothing(&with(&["--steps", "1"]), &["steps", "2 to 1000000"]);
+    SWEEP.refuses_and_writes_nothing(&with(&["--periods", "0"]), &["periods"]);
+    SWEEP.refuses_and_writes_nothing(&with(&["--tolerance", "1"]), &["tolerance", "> 0 and < 1"]);
+    SWEEP.refuses_and_writes_nothing(
         &with(&["--parameter", "restitution"]),
         &["--parameter restitution", "has no"],
     );
-    refuses(&with(&["--parameter", "colour"]), &["colour"]);
-    refuses(&with(&["--clearances", "2,x"]), &["--clearances"]);
-    refuses(&["--from", "-1", "--to", "1"], &["frequency"]);
-    refuses(&with(&["--resume"]), &["--resume"]);
-    refuses(
+    SWEEP.refuses_and_writes_nothing(&with(&["--parameter", "colour"]), &["colour"]);
+    SWEEP.refuses_and_writes_nothing(&with(&["--clearances", "2,x"]), &["--clearances"]);
+    SWEEP.refuses_and_writes_nothing(&["--from", "-1", "--to", "1"], &["frequency"]);
+    SWEEP.refuses_and_writes_nothing(&with(&["--resume"]), &["--resume"]);
+    SWEEP.refuses_and_writes_nothing(
         &with(&["--steps", "600000"]),
         &["600000 in each of 2 sweeps", "0.6 GB"],
     );
-    refuses(
+    SWEEP.refuses_and_writes_nothing(
         &with(&["--frequency", "1.2"]),
         &["frequency", "is not used"],
     );
@@ -130,7 +111,7 @@ fn a_machine_is_swept_downwards_along_its_mass() -> Outcome {
         "--periods",
         "20",
     ];
-    let report = json(folder.path(), &[&machine[..], &range[..]].concat())?;
+    let report = SWEEP.json_into(folder.path(), &[&machine[..], &range[..]].concat());
     assert_eq!(
         (&report["parameter"], &report["unit"]),
         (&"mass".into(), &"kg".into())
@@ -180,21 +161,21 @@ fn an_interrupted_sweep_goes_on_to_the_same_result() -> Outcome {
 
     // Other arguments are another sweep.
     let other = [&line[..7], &["1999", "--resume"]].concat();
-    assert_eq!(sweep(&part, &other)?.status.code(), Some(2));
+    assert_eq!(sweep(&part, &other).status.code(), Some(2));
     // A damaged file is no sweep at all.
     let bytes = fs::read(&kept)?;
     let mut damaged = bytes.clone();
     damaged[bytes.len() / 2] ^= 1;
     fs::write(&kept, damaged)?;
-    let refused = sweep(&part, &[&line[..], &["--resume"]].concat())?;
+    let refused = sweep(&part, &[&line[..], &["--resume"]].concat());
     assert_eq!(refused.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&refused.stderr).contains("is damaged"));
     fs::write(&kept, bytes)?;
-    let resumed = sweep(&part, &[&line[..], &["--resume"]].concat())?;
+    let resumed = sweep(&part, &[&line[..], &["--resume"]].concat());
     let message = String::from_utf8_lossy(&resumed.stderr);
     assert!(resumed.status.success(), "{message}");
     assert!(!kept.exists());
-    assert!(sweep(&whole, &line)?.status.success());
+    assert!(sweep(&whole, &line).status.success());
     for file in ["sweep.csv", "sweep.svg"] {
         assert_eq!(fs::read(part.join(file))?, fs::read(whole.join(file))?);
     }

@@ -60,15 +60,22 @@ impl Pen {
 
     /// Letters of this size.
     pub fn text(&mut self, place: Point, size: u32, align: Align, text: &str) {
-        self.write(place, size, align, false, text);
+        self.write(place, size, align, (false, style::INK), text);
     }
 
     /// Bold letters of this size.
     pub fn heading(&mut self, place: Point, size: u32, align: Align, text: &str) {
-        self.write(place, size, align, true, text);
+        self.write(place, size, align, (true, style::INK), text);
     }
 
-    fn write(&mut self, (x, y): Point, size: u32, align: Align, bold: bool, text: &str) {
+    fn write(
+        &mut self,
+        (x, y): Point,
+        size: u32,
+        align: Align,
+        (bold, color): (bool, &str),
+        text: &str,
+    ) {
         let (anchor, rotate) = align.anchor();
         self.scene.add(Primitive::Text {
             x,
@@ -78,8 +85,20 @@ impl Pen {
             anchor,
             rotate,
             bold,
-            color: Some(style::INK.into()),
+            color: Some(color.into()),
         });
+    }
+
+    /// A filled outline, its course as in SVG.
+    fn outline(&mut self, course: String, color: &str, opacity: Option<f64>) {
+        self.scene.add(Primitive::Path(Box::new(PathData {
+            d: course,
+            fill: Some(color.into()),
+            stroke: kuva::render::color::Color::None,
+            stroke_width: 0.0,
+            opacity,
+            stroke_dasharray: None,
+        })));
     }
 
     /// Rectangles of one colour that leave no seams between them.
@@ -92,14 +111,7 @@ impl Pen {
             title: None,
             extra_attrs: Some("shape-rendering=\"crispEdges\"".to_owned()),
         });
-        self.scene.add(Primitive::Path(Box::new(PathData {
-            d: corners.collect(),
-            fill: Some(color.into()),
-            stroke: kuva::render::color::Color::None,
-            stroke_width: 0.0,
-            opacity: None,
-            stroke_dasharray: None,
-        })));
+        self.outline(corners.collect(), color, None);
         self.scene.add(Primitive::GroupEnd);
     }
 
@@ -154,14 +166,7 @@ impl Pen {
             .map(|(index, (x, y))| format!("{}{x:.2} {y:.2}", if index == 0 { 'M' } else { 'L' }))
             .collect();
         course.push('Z');
-        self.scene.add(Primitive::Path(Box::new(PathData {
-            d: course,
-            fill: Some(color.into()),
-            stroke: kuva::render::color::Color::None,
-            stroke_width: 0.0,
-            opacity,
-            stroke_dasharray: None,
-        })));
+        self.outline(course, color, opacity);
     }
 
     /// A filled rectangle: left, top, width, height.
@@ -201,17 +206,7 @@ impl Pen {
                 0.82,
             );
         }
-        let (anchor, rotate) = align.anchor();
-        self.scene.add(Primitive::Text {
-            x,
-            y,
-            content: text.to_owned(),
-            size,
-            anchor,
-            rotate,
-            bold: false,
-            color: Some(color.into()),
-        });
+        self.write((x, y), size, align, (false, color), text);
     }
 
     /// Rectangles of many colours.

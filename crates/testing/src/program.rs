@@ -54,6 +54,28 @@ impl Program {
         serde_json::from_str(&text).expect("JSON")
     }
 
+    /// Runs the program where it has to succeed, writing into a folder: the JSON that it wrote to stdout.
+    ///
+    /// # Panics
+    /// If it fails, or writes other than JSON.
+    #[track_caller]
+    pub fn json_into(&self, folder: &Path, arguments: &[&str]) -> Value {
+        let folder = folder.to_str().expect("UTF-8");
+        self.json(&[&["--output", folder], arguments].concat())
+    }
+
+    /// As [`Program::refuses`], where the folder that it was to write into is not made.
+    ///
+    /// # Panics
+    /// If it does otherwise.
+    #[track_caller]
+    pub fn refuses_and_writes_nothing(&self, arguments: &[&str], words: &[&str]) {
+        let folder = std::env::temp_dir().join(format!("softstop-refused-{}", std::process::id()));
+        let path = folder.to_str().expect("UTF-8");
+        self.refuses(&[&["--output", path], arguments].concat(), words);
+        assert!(!folder.exists(), "{arguments:?} made its folder");
+    }
+
     /// Runs the program where it has to refuse its arguments, with exit code 2, a message that has all of `words`,
     /// and nothing on the standard output.
     ///
