@@ -1,10 +1,10 @@
 //! `softstop optimize`: the hardest impact inside the hysteresis zone.
 
-mod best;
 mod branch;
 mod chart;
 mod configuration;
 mod named;
+mod progress;
 pub mod reference;
 mod task;
 
@@ -21,9 +21,9 @@ use crate::design::search::{self, SearchError};
 use crate::design::{Design, Problem};
 use crate::fmu::{archive, library};
 use crate::report::{self, DesignReport, OptimizeReport, ReferenceReport, SearchReport};
-use best::Best;
 use chart::Chart;
 use named::Named;
+use progress::Best;
 use reference::Reference;
 use task::Job;
 

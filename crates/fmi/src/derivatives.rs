@@ -3,9 +3,9 @@
 use crate::fault::Fault;
 use crate::instance::Instance;
 use crate::lifecycle::Lifecycle;
+use crate::reading::{Type, find};
 use crate::signal::HIGHEST_ORDER;
 use crate::unit::Unit;
-use crate::values::{Type, find};
 use crate::variable::Access;
 
 /// The orders that can be set of an input.

@@ -18,14 +18,14 @@ mod lifecycle;
 mod log;
 pub mod package;
 mod quantity;
+mod reading;
 mod sensitivity;
-mod settings;
+mod setting;
 mod signal;
 mod step;
 mod table;
 mod unit;
 pub mod v2;
-mod values;
 pub mod variable;
 
 pub use block::Block;

@@ -8,8 +8,8 @@
 use crate::fault::Fault;
 use crate::instance::Instance;
 use crate::lifecycle::Lifecycle;
+use crate::reading::{Type, find};
 use crate::unit::{Known, Row, Unit};
-use crate::values::{Type, find};
 use crate::variable::{Access, Slot};
 
 /// Widths that a difference is tried with.

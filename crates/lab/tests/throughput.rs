@@ -3,9 +3,9 @@
 use softstop::{Ratios, Scene, Start};
 use softstop_lab::throughput::check::check;
 use softstop_lab::throughput::doubt::judge;
-use softstop_lab::throughput::draw::{Draw, Kind};
 use softstop_lab::throughput::fleet::Range;
 use softstop_lab::throughput::measure::narrower;
+use softstop_lab::throughput::random_machines::{Draw, Kind};
 use softstop_lanes::Instructions;
 use softstop_testing::Program;
 

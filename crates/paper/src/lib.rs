@@ -15,7 +15,6 @@ mod hardening;
 mod regimes;
 mod report;
 mod supply;
-mod table;
 pub mod table1;
 
 use std::path::PathBuf;
@@ -81,7 +80,7 @@ static FIGURES: [(&str, &Figure); 13] = [
     ("7b", &figure7::POINT_B),
     ("8", &figure8::FIGURE),
     ("9", &figure9::FIGURE),
-    ("table1", &table::FIGURE),
+    ("table1", &table1::figure::FIGURE),
     ("regimes", &regimes::FIGURE),
     ("exponents", &exponents::FIGURE),
     ("basins", &basins::FIGURE),

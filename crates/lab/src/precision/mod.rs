@@ -5,10 +5,10 @@
 
 pub mod case;
 mod chart;
+pub mod computer;
 pub mod errors;
 pub mod family;
 pub mod lead;
-pub mod machine;
 pub mod measure;
 pub mod report;
 mod text;
@@ -21,9 +21,9 @@ use clap::Args;
 use crate::filter::Filter;
 use crate::precision::chart::PrecisionChart;
 use case::Case;
+use computer::Machine;
 use errors::Scale;
 use family::Family;
-use machine::Machine;
 use measure::{Bench, Effort, Row};
 use report::{PrecisionReport, SceneReport};
 use softstop_console::failure::Failure;

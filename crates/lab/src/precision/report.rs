@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::case::Case;
+use super::computer::Machine;
 use super::errors::Scale;
 use super::lead::{self, Lead};
-use super::machine::Machine;
 use super::measure::Row;
 use super::truth::Truth;
 

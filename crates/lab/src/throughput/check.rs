@@ -10,7 +10,7 @@ use softstop::{Scene, Start};
 use softstop_lanes::{Instructions, Job, Machine, Outcome, run_with};
 
 use super::doubt::{self, Verdict};
-use super::draw::{Draw, Kind};
+use super::random_machines::{Draw, Kind};
 use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
 

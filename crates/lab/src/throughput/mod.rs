@@ -1,13 +1,13 @@
 //! `softstop-lab throughput`: how fast the engines are, and whether the fast one counts the same impacts.
 //!
-//! [`fleet`] says what is run, [`measure`] takes the times; [`draw`] makes random machines, [`doubt`] says which
+//! [`fleet`] says what is run, [`measure`] takes the times; [`random_machines`] makes random machines, [`doubt`] says which
 //! of their motions can be compared, [`check`] compares; [`report`] says what came of it.
 
 pub mod check;
 pub mod doubt;
-pub mod draw;
 pub mod fleet;
 pub mod measure;
+pub mod random_machines;
 pub mod report;
 
 use anyhow::{Context, anyhow};

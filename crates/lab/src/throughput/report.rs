@@ -6,7 +6,7 @@ use softstop_lanes::Instructions;
 use super::check::Check;
 use super::fleet::Range;
 use super::measure::{ROUNDS, Timing, Timings};
-use crate::precision::machine::Machine;
+use crate::precision::computer::Machine;
 use softstop_console::column::{Column, Units, text};
 use softstop_console::columns;
 use softstop_console::export::Report;

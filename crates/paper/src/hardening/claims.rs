@@ -1,8 +1,8 @@
 //! The five points of the paper's introduction in numbers.
 
 use super::SUBHARMONIC;
-use super::orders::{self, Subharmonic};
 use super::stops::{CLEARANCE, Law, grazing};
+use super::subharmonics::{self, Subharmonic};
 use super::swept::Swept;
 use crate::hardening::chart::StopFolds;
 
@@ -88,7 +88,7 @@ pub(super) fn of_orders(found: &[Subharmonic]) -> Vec<(String, f64)> {
             .filter(|motion| motion.stiffness == stiffness)
             .copied()
             .collect();
-        let (beside, inside) = orders::longest(&own);
+        let (beside, inside) = subharmonics::longest(&own);
         [
             (
                 format!("(5) k2/k1 = {stiffness}: highest n of z = 1/n beside z = 0"),

@@ -4,8 +4,8 @@
 mod chart;
 mod claims;
 mod folds;
-mod orders;
 mod stops;
+mod subharmonics;
 mod swept;
 
 use anyhow::Result;
@@ -13,11 +13,11 @@ use softstop_dynamics::sweep::Step;
 
 use crate::figure::{self, Drawn, Figure, Studio};
 use crate::hardening::chart::{HardeningChart, StopFolds, StopOrders};
-use orders::Subharmonic;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::output;
 use stops::{CLEARANCE, Law, RESTITUTION, grazing};
+use subharmonics::Subharmonic;
 use swept::{RANGE, Swept, regime, sweep};
 
 /// From a soft to a rigid stop.
@@ -57,7 +57,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     let map = sweep(&laws, detail.pick(240, 60), detail.pick(120, 60))?;
     let folds = folds::folds(&stiffnesses(detail.pick(21, 6)))?;
     let (frequencies, starts) = detail.pick((72, 64), (18, 32));
-    let subharmonics = orders::subharmonics(&SUBHARMONIC, frequencies, starts)?;
+    let subharmonics = subharmonics::subharmonics(&SUBHARMONIC, frequencies, starts)?;
     let mut findings = folds::onsets(&folds)?;
     // A branch that was cut short would go unnoticed.
     if interrupt::requested() {
@@ -129,9 +129,12 @@ fn orders(found: &[Subharmonic]) -> StopOrders {
         (format!("k₂/k₁ = {stiffness}"), points.collect())
     };
     StopOrders {
-        title: format!("Motions z = 1/n found at clearance ρ = {}", orders::NARROW),
-        frequencies: orders::RANGE,
-        grazing: grazing(orders::NARROW).1,
+        title: format!(
+            "Motions z = 1/n found at clearance ρ = {}",
+            subharmonics::NARROW
+        ),
+        frequencies: subharmonics::RANGE,
+        grazing: grazing(subharmonics::NARROW).1,
         found: SUBHARMONIC.into_iter().map(of).collect(),
     }
 }

@@ -1,5 +1,6 @@
 //! `softstop-lab table1`: the paper's Table 1, found anew.
 
+pub(crate) mod figure;
 pub(crate) mod matching;
 pub mod paper;
 mod picture;

@@ -1,7 +1,7 @@
 //! The chart of stops from soft to rigid: diagrams, a map of the motions, and folds.
 
 mod map;
-mod orders;
+mod subharmonics;
 mod widths;
 
 use softstop_draw::panel::{Axes, Panel, heading};

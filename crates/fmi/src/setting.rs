@@ -3,9 +3,9 @@
 use crate::fault::Fault;
 use crate::instance::Instance;
 use crate::lifecycle::Lifecycle;
+use crate::reading::{Type, find};
 use crate::signal::{Derivatives, Signal};
 use crate::unit::{Row, Unit};
-use crate::values::{Type, find};
 use crate::variable::Access;
 
 impl<U: Unit> Instance<U> {

@@ -1,4 +1,4 @@
-//! The paper's Table 1.
+//! Table 1 among the figures: its picture and its rows.
 
 use crate::figure::{Drawn, Figure, Studio};
 use crate::table1::report::{RowReport, TableReport};
