@@ -1,7 +1,4 @@
-//! The table itself, group by group.
-//!
-//! The names are a tree, and the rows stand depth first, as structured naming demands: all of a
-//! branch and all elements of an array come in one piece.
+//! The table of variables, group by group.
 
 mod outputs;
 mod parameters;

@@ -1,5 +1,6 @@
-//! The documentation page inside the package: a page written by hand, with tables of variables and
-//! capabilities that follow from the model description.
+//! The documentation page inside the package.
+//!
+//! A page written by hand, with tables of variables and capabilities that follow from the model description.
 
 use std::io;
 

@@ -1,5 +1,4 @@
-//! Basins of attraction: of point A, over states and over the drive angle, near the fold, and where chaos,
-//! z = 2/3 and z = (2/4)B go on side by side.
+//! Basins of attraction of four machines: point A (two planes), near the fold, and three motions at once.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! What was drawn, as data and for people.
+//! What `softstop-lab paper` has drawn: figures, files and findings, as JSON and for people.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! The outputs.
+//! The output variables.
 
 use softstop_fmi::variable::{Access, Kind};
 

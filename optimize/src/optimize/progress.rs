@@ -1,4 +1,4 @@
-//! The progress of a search: how many zones it has seen, and the best velocity so far.
+//! The progress of a search: how many zones it has seen, the best velocity so far, and when it ends.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};

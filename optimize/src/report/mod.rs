@@ -1,4 +1,4 @@
-//! What the subcommands report: plain data whose field names are the keys of the JSON.
+//! The report of `optimize`: design, references and search, whose field names are the keys of the JSON.
 
 pub mod text;
 

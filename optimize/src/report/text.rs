@@ -1,4 +1,4 @@
-//! The report as a table for people.
+//! The report of `optimize` for people.
 
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::table::{Row, heading, number, row, table};

@@ -1,4 +1,4 @@
-//! One map of an atlas: verdicts over stiffness and step, with the limits that theory sets.
+//! One map of an atlas: verdicts over stiffness and step, axes, and the limits that theory sets.
 
 use crate::methods::Verdict;
 

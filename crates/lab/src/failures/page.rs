@@ -1,5 +1,4 @@
-//! A page of the atlas: a map for each method, in a row for each way with events, and below them the exact
-//! method, which has no step, with the legend.
+//! A page of the atlas: a map for each method, the strip of the exact one, the legend.
 
 use crate::methods::Verdict;
 

@@ -1,4 +1,4 @@
-//! What an atlas says: a table of all runs, maps for programs, shares for people.
+//! The report of `chart failures`: a table of all runs, maps for programs, shares for people.
 
 use crate::methods::Verdict;
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! What the atlas looks at: machines whose stop's stiffness is swept.
+//! The machines of the atlas, whose stop's stiffness is swept.
 
 use crate::methods::Task;
 use crate::scenes::{self, BuiltIn, built_in};

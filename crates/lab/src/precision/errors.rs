@@ -1,4 +1,4 @@
-//! What a solution is off by.
+//! Errors of a solution: end, impact times and velocities, relative to the size of the motion.
 
 use crate::methods::{Solution, Task};
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! What is said of a measurement: plain data whose field names are the keys of the JSON.
+//! The report of `chart precision`, whose field names are the keys of the JSON.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! The measurement as tables for people.
+//! The report of `chart precision` for people: best settings, leads, failures.
 
 use super::lead::{Lead, Quantity, TARGETS};
 use super::measure::Row;

@@ -1,5 +1,6 @@
-//! A scene as layers of positions with their laws, built from the user's data alone: sums of parameters are
-//! not rounded, and nothing of the core's lowering is used.
+//! A scene as layers of positions with their laws, in many digits.
+//!
+//! Built from the user's data alone: sums of parameters are not rounded, and nothing of the core's lowering is used.
 
 use softstop::{Release, Scene, Slope, Stop};
 

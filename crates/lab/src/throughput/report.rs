@@ -1,4 +1,4 @@
-//! What is said of a throughput measurement, for programs and for people.
+//! The report of `throughput`, for programs and for people.
 
 use serde::Serialize;
 use softstop_lanes::Instructions;

@@ -1,4 +1,4 @@
-//! The paper's claim, tested.
+//! Findings on the certainty of z = 1: the paper's claim, tested.
 
 use super::curve::{Curve, Place};
 

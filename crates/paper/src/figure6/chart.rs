@@ -1,5 +1,5 @@
-//! Bifurcation diagrams over several clearances, as in figure 6 of Peterka 2003: largest positions and
-//! before-impact velocities up and down, the boundaries across the clearances, and where the strip is pierced.
+//! The picture of figure 6: diagrams over several clearances, their boundaries, and where the strip is pierced.
+//! Largest positions above, before-impact velocities below, up and down (Peterka 2003).
 
 use softstop_dynamics::sweep::{Chain, Direction, Jump, Step};
 

@@ -1,5 +1,4 @@
-//! The bifurcation diagram of one clearance with its zooms and numbered bifurcations, as in figure 8 of Peterka
-//! 2003.
+//! The picture of figure 8: one diagram with its zooms and numbered bifurcations (Peterka 2003).
 
 use softstop_dynamics::sweep::{Chain, Step};
 

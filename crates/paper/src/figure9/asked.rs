@@ -1,4 +1,4 @@
-//! Which motions the figure shows.
+//! The list of the motions (A) to (L): frequency, and which of the motions there.
 
 use softstop::{Ratios, Scene, SceneError};
 

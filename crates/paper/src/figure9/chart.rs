@@ -1,5 +1,4 @@
-//! A page of motions, a row for each: time series, phase trajectory and stroboscopic section (Peterka 2003,
-//! Figure 9).
+//! The pictures of figure 9: for each motion its time series, phase trajectory and section (Peterka 2003).
 
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Area, Pen, Stroke};

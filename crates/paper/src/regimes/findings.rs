@@ -1,4 +1,4 @@
-//! The map in numbers.
+//! Findings on the regimes: shares of the maps, hardest impact on s_SN.
 
 use super::boundaries::Boundaries;
 use softstop_dynamics::motion::{MotionClass, MotionKind};

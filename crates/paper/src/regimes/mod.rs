@@ -1,5 +1,5 @@
-//! The map of the regimes z = p/n over drive frequency and clearance, that the paper speaks of at the beginning
-//! of its section 3, with its boundaries g0, s_PD and s_SN.
+//! The map of the regimes z = p/n over drive frequency and clearance, with its boundaries g0, s_PD and s_SN.
+//! The paper speaks of it at the beginning of its section 3.
 
 mod boundaries;
 mod chart;

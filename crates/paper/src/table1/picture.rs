@@ -1,4 +1,4 @@
-//! The table as a picture.
+//! Table 1 as a picture.
 
 use super::paper::{INTERVALS, PaperRow, ROWS};
 use super::report::{RowReport, TableReport};

@@ -1,4 +1,4 @@
-//! The table as data.
+//! Table 1 as data: rows beside those of the paper, with remarks.
 
 use serde::Serialize;
 use softstop_dynamics::motion::MotionKind;

@@ -1,4 +1,4 @@
-//! The table for people.
+//! Table 1 for people.
 
 use super::report::{RowReport, TableReport};
 use softstop_console::table::heading;

@@ -1,5 +1,5 @@
-//! The chart of a z = 1 motion with its phases: position over time, the phase trajectory and the force
-//! of contact (Peterka 2003, figure 7).
+//! The picture of figure 7: a z = 1 motion with its phases shaded (Peterka 2003).
+//! Position over time, the phase trajectory, the force of contact.
 
 mod plane;
 mod series;

@@ -1,4 +1,4 @@
-//! Velocity and force over position.
+//! The panels of velocity and force over position.
 
 use softstop::PhaseKind;
 

@@ -1,4 +1,4 @@
-//! Position over time, with the phases shaded.
+//! The panels of position over time, with the phases shaded.
 
 use super::{CURVE, FACE, GUIDE, LETTERS, StrokeChart, StrokePoint};
 use softstop_draw::panel::{Axes, Panel};

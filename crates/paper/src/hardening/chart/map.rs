@@ -1,4 +1,4 @@
-//! The motions over frequency and stiffness.
+//! The panel of the motions over frequency and stiffness.
 
 use super::{GRAZING, HardeningChart, LETTERS, StopFolds, StopRegime};
 use softstop_draw::panel::{Axes, Panel};

@@ -1,4 +1,4 @@
-//! At which frequencies there are motions z = 1/n.
+//! The panel of the frequencies at which there are motions z = 1/n.
 
 use super::{GRAZING, LETTERS, StopOrders};
 use softstop_draw::panel::{Axes, Panel};

@@ -1,4 +1,4 @@
-//! How wide the regions of weak impacts and of hysteresis are.
+//! The panel of how wide the regions of weak impacts and of hysteresis are.
 
 use super::{HardeningChart, LETTERS};
 use softstop_draw::panel::{Axes, Panel};
