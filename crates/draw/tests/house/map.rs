@@ -11,7 +11,7 @@ pub const HEADING: &str = "\n## Map\n";
 /// The map as Markdown: a list for each room, a line for each folder.
 pub fn draw(rooms: &[Room]) -> String {
     let mut map = format!(
-        "{HEADING}\nEach file with what it says of itself and, in brackets, the types and functions that others may use; \
+        "{HEADING}\nEach file with what it says of itself and, in brackets, its types and the functions that others may use; \
          `UPDATE=1 cargo test -p softstop-draw --test house` writes this list.\n"
     );
     for room in rooms {
@@ -41,17 +41,7 @@ fn folder(path: &Path, name: &str, map: &mut String) {
         .filter(speaks)
         .map(|file| format!("`{}` {}", stem(file), said(file)))
         .collect();
-    let beside = path.with_extension("rs");
-    let own = match name {
-        "" => String::new(),
-        _ if beside.exists() => format!("**{name}/** {}", said(&beside)),
-        _ => format!("**{name}/** {}", said(&path.join("mod.rs"))),
-    };
-    let parts: Vec<String> = [own]
-        .into_iter()
-        .filter(|own| !own.is_empty())
-        .chain(words)
-        .collect();
+    let parts: Vec<String> = head(path, name).into_iter().chain(words).collect();
     if !parts.is_empty() {
         *map += &format!("- {}\n", parts.join(" · "));
     }
@@ -61,6 +51,22 @@ fn folder(path: &Path, name: &str, map: &mut String) {
     }
 }
 
+/// What a folder says of itself; of the root of a room only what it defines, if anything.
+fn head(path: &Path, name: &str) -> Option<String> {
+    if name.is_empty() {
+        let text = fs::read_to_string(path.join("lib.rs")).unwrap_or_default();
+        let names = defined(&text).join(", ");
+        return (!names.is_empty()).then(|| format!("`lib` ({names})"));
+    }
+    let beside = path.with_extension("rs");
+    let file = if beside.exists() {
+        beside
+    } else {
+        path.join("mod.rs")
+    };
+    Some(format!("**{name}/** {}", said(&file)))
+}
+
 fn stem(path: &Path) -> String {
     path.file_stem()
         .expect("a name")
@@ -68,7 +74,7 @@ fn stem(path: &Path) -> String {
         .into_owned()
 }
 
-/// The first sentence of a file, without links and its full stop, and what the file defines for others.
+/// The first sentence of a file, without links and its full stop, and what the file defines.
 fn said(file: &Path) -> String {
     let text = fs::read_to_string(file).expect("a file");
     let lines = text.lines().map_while(|line| line.strip_prefix("//!"));
@@ -93,16 +99,20 @@ fn said(file: &Path) -> String {
     }
 }
 
-/// The types and functions that stand at the margin and are not private.
+/// The types that stand at the margin, and the functions there that are not private.
 fn defined(text: &str) -> Vec<&str> {
     text.lines().filter_map(name).collect()
 }
 
 /// The name that a line defines.
 fn name(line: &str) -> Option<&str> {
-    let words = line.strip_prefix("pub")?.split_once(' ')?.1;
-    let (kind, rest) = words.trim_start_matches("const ").split_once(' ')?;
-    let is_wanted = ["struct", "enum", "trait", "fn"].contains(&kind);
+    let public = line
+        .strip_prefix("pub")
+        .and_then(|rest| Some(rest.split_once(' ')?.1));
+    let words = public.unwrap_or(line).trim_start_matches("const ");
+    let (kind, rest) = words.split_once(' ')?;
+    let is_type = ["struct", "enum", "trait"].contains(&kind);
+    let is_wanted = is_type || (kind == "fn" && public.is_some());
     let end = rest.find(|letter: char| !letter.is_alphanumeric() && letter != '_');
     is_wanted.then(|| &rest[..end.unwrap_or(rest.len())])
 }
