@@ -126,6 +126,21 @@ impl Export {
         table.close()
     }
 
+    /// Writes a table and its chart as the files of two kinds.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming the file.
+    pub fn sheet<T>(
+        &self,
+        [table, chart]: [&str; 2],
+        columns: &[Column<T>],
+        rows: impl IntoIterator<Item = impl Borrow<T>>,
+        svg: &str,
+    ) -> Result<(), Failure> {
+        self.table(table, columns, rows)?;
+        self.file(chart, svg.as_bytes())
+    }
+
     /// Writes the JSON into the file whose name says so, if there is one, puts all files in place and prints.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::process::ExitCode;
 
-use softstop::MotionError;
+use softstop::{MotionError, SceneError};
 
 use crate::interrupt;
 
@@ -73,5 +73,11 @@ impl From<MotionError> for Failure {
             | MotionError::BeyondStop { .. } => Self::usage(error.to_string()),
             error => Self::Run(error.into()),
         }
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        Self::usage(error.to_string())
     }
 }

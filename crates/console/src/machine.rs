@@ -4,8 +4,6 @@ use clap::{Args, ValueEnum};
 use serde::{Deserialize, Serialize};
 use softstop::Ratios;
 
-use crate::failure::Failure;
-
 /// The paper's two regimes (its Figs. 6 and 7, a and b).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -131,21 +129,5 @@ impl SceneSettings {
             ("thickness", self.thickness),
             ("travel", self.travel),
         ]
-    }
-}
-
-/// Refuses a value that is not finite.
-pub fn finite(name: &str, value: f64) -> Result<(), Failure> {
-    require(value.is_finite(), name, value, "finite")
-}
-
-/// Refuses a value unless the condition holds, saying what is allowed.
-pub fn require(holds: bool, name: &str, value: f64, allowed: &str) -> Result<(), Failure> {
-    if holds {
-        Ok(())
-    } else {
-        Err(Failure::usage(format!(
-            "{name} = {value}: must be {allowed}"
-        )))
     }
 }

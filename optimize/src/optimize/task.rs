@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::failure::Failure;
-use softstop_console::machine::{SceneSettings, require};
+use softstop_console::machine::SceneSettings;
 use softstop_console::output::Format;
+use softstop_console::range::require;
 use softstop_console::scene_file;
 
 use super::OptimizeArguments;

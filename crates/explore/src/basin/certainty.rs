@@ -95,7 +95,7 @@ impl CertaintyPanel {
             letters: LETTERS,
             across: Some(across),
             upwards: self.up,
-            ticks: (5, 5),
+            ticks: (6, 6),
         };
         panel.ground(pen, &axes);
         for curve in &self.curves {

@@ -21,10 +21,9 @@ use softstop_console::arguments::{MachineArguments, title};
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
-use softstop_console::machine::require;
 use softstop_console::output::Format;
 use softstop_console::progress::Progress;
-use softstop_console::range;
+use softstop_console::range::{self, within};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -127,22 +126,13 @@ pub fn run(arguments: &BasinArguments) -> Result<(), Failure> {
 }
 
 /// Most cells on a side: each takes 125 bytes.
-const LARGEST: u64 = 4000;
+const LARGEST: usize = 4000;
 
 fn options(arguments: &BasinArguments) -> Result<Options, Failure> {
-    let within = |name, value: u64, least: u64, most: u64| {
-        let fits = (least..=most).contains(&value);
-        require(fits, name, value as f64, &format!("{least} to {most}"))
-    };
-    within("size", arguments.size as u64, 2, LARGEST)?;
-    within("transient", arguments.transient, 1, 1_000_000)?;
-    within("longest", arguments.longest as u64, 1, 10_000)?;
-    within(
-        "along-zone",
-        arguments.along_zone.unwrap_or(2) as u64,
-        2,
-        1000,
-    )?;
+    within("size", arguments.size, 2..=LARGEST)?;
+    within("transient", arguments.transient, 1..=1_000_000)?;
+    within("longest", arguments.longest, 1..=10_000)?;
+    within("along-zone", arguments.along_zone.unwrap_or(2), 2..=1000)?;
     Ok(Options {
         transient: arguments.transient,
         longest: arguments.longest,
@@ -161,12 +151,12 @@ fn picture(
     let progress = Progress::new(grid.cells() as u64, "cells");
     let basins = basins_watched(scene, &grid, options, &progress.watcher()).map_err(Error::from)?;
     drop(progress);
-    let title = format!("Basins: {}", title(machine));
-    let png = BasinPicture::new(machine, &basins, &title)
+    let shown = format!("Basins: {}", title(machine));
+    let png = BasinPicture::new(machine, &basins, &shown)
         .png()
         .map_err(|error| anyhow!("cannot draw basin.png: {error}"))?;
     export.file("picture", &png)?;
-    let report = BasinReport::new(machine, &basins);
+    let report = BasinReport::new(machine, &basins, plane::beyond(machine, &grid));
     export.table("table", &report::columns(), &report.basins)?;
     export.finish(&report, arguments.format)
 }
@@ -191,8 +181,12 @@ fn along(
     drop(progress);
     let title = format!("Establishing certainty: {}", title(machine));
     let chart = certainty::chart(machine, &found, &title);
-    export.file("chart", chart.as_bytes())?;
     let report = CertaintyReport::new(machine, &grid, &found);
-    export.table("table", &report::places(), &report.places)?;
+    export.sheet(
+        ["table", "chart"],
+        &report::places(),
+        &report.places,
+        &chart,
+    )?;
     export.finish(&report, arguments.format)
 }

@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 use std::str::FromStr;
 
-use softstop::Scene;
+use softstop::{Allowed, Dimension, Machine, Scene};
 use softstop_dynamics::basin::{Axis, Grid, Quantity};
+use softstop_dynamics::orbit;
 
 use super::BasinArguments;
 use softstop_console::failure::Failure;
-use softstop_console::machine::finite;
 
 /// Half of the range of positions, in units of the motion's length.
 const FAR: f64 = 2.0;
@@ -41,7 +41,7 @@ impl FromStr for Plane {
 
 /// The grid for a scene.
 pub(super) fn grid(arguments: &BasinArguments, scene: &Scene) -> Result<Grid, Failure> {
-    finite("at", arguments.at)?;
+    Allowed::Finite.check("at", arguments.at)?;
     let drive = scene.excitation;
     let free = drive.amplitude / (scene.mass * drive.frequency * drive.frequency);
     let length = scene.clearance.abs().max(free);
@@ -71,4 +71,34 @@ pub(super) fn grid(arguments: &BasinArguments, scene: &Scene) -> Result<Grid, Fa
         grid.angle = arguments.at;
     }
     Ok(grid)
+}
+
+/// A word of warning if the machine's own z = 1 motion does not pass the plane at its drive angle: then the shares say
+/// nothing about starts near it.
+pub(super) fn beyond(machine: &Machine, grid: &Grid) -> Option<String> {
+    let is_own = grid.angle == machine.scene.excitation.phase;
+    let shows = [grid.across.quantity, grid.up.quantity];
+    if !is_own || shows.contains(&Quantity::Angle) {
+        return None;
+    }
+    let orbit = orbit::find(&machine.scene).ok()?;
+    let outside = |axis: &Axis| {
+        let value = match axis.quantity {
+            Quantity::Position => orbit.position,
+            Quantity::Velocity => orbit.velocity,
+            Quantity::Angle => return false,
+        };
+        !(axis.range[0]..=axis.range[1]).contains(&value)
+    };
+    let state = |value, dimension| match machine.unit(dimension) {
+        "" => format!("{value:.6}"),
+        unit => format!("{value:.6} {unit}"),
+    };
+    (outside(&grid.across) || outside(&grid.up)).then(|| {
+        format!(
+            "the machine's own z = 1 motion lies outside the plane, at x = {}, v = {}; --x and --v widen it",
+            state(orbit.position, Dimension::Length),
+            state(orbit.velocity, Dimension::Velocity)
+        )
+    })
 }

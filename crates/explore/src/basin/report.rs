@@ -19,6 +19,9 @@ pub struct BasinReport {
     pub grid: Grid,
     /// The basins.
     pub basins: Vec<ClassReport>,
+    /// What to beware of.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub warning: Option<String>,
     #[serde(skip)]
     title: String,
     #[serde(skip)]
@@ -85,12 +88,13 @@ pub struct PlaceReport {
 }
 
 impl BasinReport {
-    pub(super) fn new(machine: &Machine, basins: &Basins) -> Self {
+    pub(super) fn new(machine: &Machine, basins: &Basins, warning: Option<String>) -> Self {
         let class = |index| ClassReport::new(basins, index);
         Self {
             machine: MachineReport::of(machine),
             grid: basins.grid,
             basins: (0..basins.classes.len()).map(class).collect(),
+            warning,
             title: title(machine),
             units: Units::of(machine),
         }
@@ -185,8 +189,11 @@ pub(super) fn places() -> [Column<PlaceReport>; 7] {
 impl Report for BasinReport {
     fn text(&self) -> String {
         let (across, up) = (self.grid.across.cells, self.grid.up.cells);
+        let warning = self.warning.as_ref();
+        let warning = warning.map(|warning| format!("\nWarning: {warning}.\n"));
         format!("{}: {across} x {up} initial states\n\n", self.title)
             + &text(&columns(), &self.basins, &self.units)
+            + &warning.unwrap_or_default()
     }
 }
 

@@ -109,33 +109,21 @@ fn help() -> String {
 /// [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
     let machine = arguments.machine.machine()?;
+    let followed = |flags, name, ends| Followed::new(arguments, &machine, flags, name, ends);
     let ends = (arguments.from, arguments.to);
-    let first = Followed::new(
-        arguments,
-        &machine,
-        ["parameter", ""],
-        &arguments.parameter,
-        ends,
-    )?;
-    let second = match (
-        &arguments.second,
-        arguments.second_from,
-        arguments.second_to,
-    ) {
-        (Some(name), Some(from), Some(to)) => {
-            let flags = ["second", "second-"];
-            Some(Followed::new(arguments, &machine, flags, name, (from, to))?)
-        }
-        _ => None,
-    };
+    let first = followed(["parameter", ""], &arguments.parameter, ends)?;
+    let ends = arguments.second_from.zip(arguments.second_to);
+    let second = arguments.second.as_ref().zip(ends);
+    let second = second
+        .map(|(name, ends)| followed(["second", "second-"], name, ends))
+        .transpose()?;
     if second
         .as_ref()
-        .is_some_and(|second| second.parameter == first.parameter)
+        .is_some_and(|it| it.parameter == first.parameter)
     {
         let name = machine.name(first.parameter);
-        return Err(Failure::usage(format!(
-            "--second {name}: must be another one than --parameter"
-        )));
+        let message = format!("--second {name}: must be another one than --parameter");
+        return Err(Failure::usage(message));
     }
     let files = if second.is_some() {
         &FILES[..]
@@ -144,36 +132,31 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
     };
     let export = Export::open(&arguments.output, files)?;
     let branches = branches::branches(arguments, &machine, &first)?;
-    export.table(
-        "branches",
-        &tables::branch_columns(),
-        tables::branch_rows(&branches),
-    )?;
     let chart = chart::branches(&machine, first.parameter, &branches);
-    export.file("branch_chart", chart.as_bytes())?;
-    let curves = match &second {
-        Some(second) => {
-            let both = [&first, second];
-            let curves = curves::curves(&machine, arguments, both, &branches[0])?;
-            export.table(
-                "curves",
-                &tables::curve_columns(),
-                tables::curve_rows(&curves),
-            )?;
-            let parameters = both.map(|one| one.parameter);
-            let chart = chart::curves(&machine, parameters, &curves);
-            export.file("curve_chart", chart.as_bytes())?;
-            Some((second.parameter, curves))
-        }
-        None => None,
-    };
-    let report = ContinuationReport::new(
-        &machine,
-        first.parameter,
-        arguments.points,
-        &branches,
-        curves.as_ref(),
-    );
+    let rows = tables::branch_rows(&branches);
+    export.sheet(
+        ["branches", "branch_chart"],
+        &tables::branch_columns(),
+        rows,
+        &chart,
+    )?;
+    let mut curves = None;
+    if let Some(second) = &second {
+        let both = [&first, second];
+        let found = curves::curves(&machine, arguments, both, &branches[0])?;
+        let chart = chart::curves(&machine, both.map(|one| one.parameter), &found);
+        let rows = tables::curve_rows(&found);
+        export.sheet(
+            ["curves", "curve_chart"],
+            &tables::curve_columns(),
+            rows,
+            &chart,
+        )?;
+        curves = Some((second.parameter, found));
+    }
+    let most = arguments.points;
+    let report =
+        ContinuationReport::new(&machine, first.parameter, most, &branches, curves.as_ref());
     export.finish(&report, arguments.format)
 }
 

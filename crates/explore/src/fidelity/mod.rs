@@ -12,7 +12,7 @@ mod text;
 use std::path::PathBuf;
 
 use clap::Args;
-use softstop::Machine;
+use softstop::{Allowed, Machine};
 use softstop_dynamics::models::{Likeness, Quantity};
 
 use crate::fidelity::chart::FidelityChart;
@@ -23,9 +23,8 @@ use softstop_console::arguments::MachineArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
-use softstop_console::machine::require;
 use softstop_console::output::Format;
-use softstop_console::range;
+use softstop_console::range::{self, within};
 use structure::Structure;
 use study::{Study, Task};
 
@@ -132,38 +131,31 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
         repeats: arguments.repeats,
     };
     let study = Study::new(&machine.scene, &task)?;
-    let structure = match arguments.structure {
-        true => Some(Structure::new(&machine, &study, arguments)?),
-        false => None,
-    };
+    let structure = arguments.structure;
+    let structure = structure.then(|| Structure::new(&machine, &study, arguments));
+    let structure = structure.transpose()?;
     let report = FidelityReport::new(arguments, &machine, &study, structure.as_ref());
-    export.table("table", &report::columns(), report.rows())?;
     let chart = FidelityChart::new(&report.picture()).svg();
-    export.file("chart", chart.as_bytes())?;
+    export.sheet(
+        ["table", "chart"],
+        &report::columns(),
+        report.rows(),
+        &chart,
+    )?;
     if let Some(structure) = &structure {
-        export.table("regimes", &structure::columns(), structure.table())?;
         let title = format!("Regimes of the models of {}", report.scene());
         let chart = RegimeChart::new(title, &machine, structure.rows()).svg();
-        export.file("regime_chart", chart.as_bytes())?;
+        let kinds = ["regimes", "regime_chart"];
+        export.sheet(kinds, &structure::columns(), structure.table(), &chart)?;
     }
     export.finish(&report, arguments.format)
 }
 
 fn check(arguments: &FidelityArguments) -> Result<(), Failure> {
-    let tolerance = arguments.tolerance;
-    let fits = tolerance.is_finite() && tolerance >= 0.0;
-    require(fits, "tolerance", tolerance, "finite and >= 0")?;
-    for (name, value, least, most) in [
-        ("points", arguments.points, 2, 10_000),
-        ("periods", arguments.periods, 1, 1_000_000),
-        ("repeats", arguments.repeats, 1, 1000),
-    ] {
-        if !(least..=most).contains(&value) {
-            let message = format!("{name} = {value}: must be {least} to {most}");
-            return Err(Failure::usage(message));
-        }
-    }
-    Ok(())
+    Allowed::NotNegative.check("tolerance", arguments.tolerance)?;
+    within("points", arguments.points, 2..=10_000)?;
+    within("periods", arguments.periods, 1..=1_000_000)?;
+    within("repeats", arguments.repeats, 1..=1000)
 }
 
 /// The machine; A and B are the paper's names of its points.

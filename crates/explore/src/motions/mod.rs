@@ -13,6 +13,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::output::{self, Format};
 use softstop_console::progress::Progress;
+use softstop_console::range::within;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -89,18 +90,10 @@ pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
 }
 
 fn options(arguments: &MotionsArguments) -> Result<Options, Failure> {
-    let within = |name: &str, value: u64, most: u64| {
-        if (1..=most).contains(&value) {
-            return Ok(());
-        }
-        Err(Failure::usage(format!(
-            "{name} = {value}: must be 1 to {most}"
-        )))
-    };
-    within("starts", arguments.starts as u64, 1_000_000)?;
-    within("transient", arguments.transient, 1_000_000)?;
-    within("longest", arguments.longest as u64, 10_000)?;
-    within("patience", arguments.patience, 1_000_000_000_000)?;
+    within("starts", arguments.starts, 1..=1_000_000)?;
+    within("transient", arguments.transient, 1..=1_000_000)?;
+    within("longest", arguments.longest, 1..=10_000)?;
+    within("patience", arguments.patience, 1..=1_000_000_000_000)?;
     Ok(Options {
         starts: arguments.starts,
         seed: arguments.seed,

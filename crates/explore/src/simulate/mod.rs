@@ -9,14 +9,14 @@ mod tally;
 use std::path::PathBuf;
 
 use clap::Args;
-use softstop::{Machine, PhaseKind, Start};
+use softstop::{Allowed, Machine, PhaseKind, Start};
 
 use crate::simulate::chart::MotionChart;
 use report::SimulateReport;
 use softstop_console::arguments::MachineArguments;
 use softstop_console::failure::Failure;
-use softstop_console::machine::require;
 use softstop_console::output::{self, Folder, Format};
+use softstop_console::range::within;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -120,27 +120,13 @@ pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
 }
 
 fn check(arguments: &SimulateArguments) -> Result<(), Failure> {
-    let within = |name: &str, value: u64, most: u64| {
-        if (1..=most).contains(&value) {
-            Ok(())
-        } else {
-            Err(Failure::usage(format!(
-                "{name} = {value}: must be 1 to {most}"
-            )))
-        }
-    };
-    within("periods", arguments.periods, 1_000_000)?;
-    within("samples-per-period", arguments.samples_per_period, 100_000)?;
-    let rows = arguments.periods * arguments.samples_per_period;
-    within("periods x samples-per-period", rows, MOST_ROWS)?;
-    for (name, value) in [
-        ("position", arguments.position),
-        ("velocity", arguments.velocity),
-    ] {
-        let value = value.unwrap_or(0.0);
-        require(value.is_finite(), name, value, "finite")?;
-    }
-    Ok(())
+    within("periods", arguments.periods, 1..=1_000_000)?;
+    let samples = arguments.samples_per_period;
+    within("samples-per-period", samples, 1..=100_000)?;
+    let rows = arguments.periods * samples;
+    within("periods x samples-per-period", rows, 1..=MOST_ROWS)?;
+    Allowed::Finite.check("position", arguments.position.unwrap_or(0.0))?;
+    Ok(Allowed::Finite.check("velocity", arguments.velocity.unwrap_or(0.0))?)
 }
 
 /// A phase's name in the tables, as in the library's own JSON.

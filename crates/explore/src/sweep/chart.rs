@@ -60,7 +60,7 @@ impl<'a> SweepChart<'a> {
     /// The picture as an SVG document.
     #[must_use]
     pub fn svg(&self) -> String {
-        let (width, height) = (FIRST.0 + PANEL.0 + 24.0, FIRST.1 + 2.0 * NEXT + 20.0);
+        let (width, height) = (FIRST.0 + PANEL.0 + 24.0, FIRST.1 + 2.0 * NEXT + 44.0);
         let mut pen = Pen::new(width, height);
         pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
         heading(&mut pen, (FIRST.0, 36.0), &self.title(), "");
@@ -75,7 +75,7 @@ impl<'a> SweepChart<'a> {
             .label("before-impact velocity", "X′₋", Dimension::Velocity);
         let panel = self.panel(&mut pen, 1, &velocity, |step| step.velocities.clone());
         self.arrows(&mut pen, &panel);
-        pen.legend((FIRST.0, height - 44.0), LETTERS, &self.legend());
+        pen.legend((FIRST.0, height - 60.0), LETTERS, &self.legend());
         pen.svg()
     }
 

@@ -6,9 +6,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use serde::{Deserialize, Serialize};
+use softstop::{Scene, Start};
 use softstop_dynamics::sweep::{Chain, Plan, Step};
 
 use softstop_console::failure::Failure;
+use softstop_console::output::json;
 
 /// The file, beside those of the result.
 const NAME: &str = "sweep.part";
@@ -30,14 +32,39 @@ struct Content {
 /// Bytes of the checksum at the file's end.
 const CHECK: usize = 4;
 
+/// What is swept: a file goes with the same one alone.
+#[derive(Serialize)]
+struct Swept<'a> {
+    version: &'static str,
+    parameter: &'static str,
+    range: (f64, f64),
+    steps: usize,
+    periods: u64,
+    tolerance: f64,
+    start: Start,
+    chains: Vec<(&'a Scene, &'static str)>,
+}
+
 impl Keep {
-    pub(super) fn new(folder: &Path, plan: &Plan, chains: &[Chain]) -> Self {
-        let machines = chains.iter().map(|chain| (&chain.machine, chain.direction));
-        let machines: Vec<_> = machines.collect();
-        Self {
+    pub(super) fn new(folder: &Path, plan: &Plan, chains: &[Chain]) -> Result<Self, Failure> {
+        let each = chains.iter();
+        let each = each.map(|chain| (&chain.machine.scene, chain.direction.name()));
+        let swept = Swept {
+            version: env!("CARGO_PKG_VERSION"),
+            parameter: chains
+                .first()
+                .map_or("", |it| it.machine.name(plan.parameter)),
+            range: plan.range,
+            steps: plan.steps,
+            periods: plan.periods,
+            tolerance: plan.tolerance,
+            start: plan.start,
+            chains: each.collect(),
+        };
+        Ok(Self {
             path: folder.join(NAME),
-            of: format!("{} {plan:?} {machines:?}", env!("CARGO_PKG_VERSION")),
-        }
+            of: json(&swept)?,
+        })
     }
 
     /// Puts what is done into the file, whole or not at all.

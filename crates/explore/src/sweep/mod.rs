@@ -21,9 +21,9 @@ use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::machine::require;
 use softstop_console::output::Format;
 use softstop_console::progress::Progress;
+use softstop_console::range::{require, within};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -148,14 +148,14 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let plan = plan(arguments, parameter)?;
     let mut chains = chains(arguments, &machine, parameter)?;
     let export = Export::open(&arguments.output, &FILES)?;
-    let keep = Keep::new(&arguments.output, &plan, &chains);
+    let keep = Keep::new(&arguments.output, &plan, &chains)?;
     if arguments.resume {
         keep.restore(&mut chains)?;
     }
     follow(&plan, &mut chains, &keep)?;
-    export.table("table", &steps::columns(), steps::rows(&plan, &chains))?;
     let chart = SweepChart::new(&machine, &plan, &chains).svg();
-    export.file("chart", chart.as_bytes())?;
+    let rows = steps::rows(&plan, &chains);
+    export.sheet(["table", "chart"], &steps::columns(), rows, &chart)?;
     export.finish(
         &SweepReport::new(&machine, &plan, &chains),
         arguments.format,
@@ -166,10 +166,8 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
 
 fn plan(arguments: &SweepArguments, parameter: Parameter) -> Result<Plan, Failure> {
     let (steps, periods) = (arguments.steps, arguments.periods);
-    let fits = (2..=MOST).contains(&steps);
-    require(fits, "steps", steps as f64, &format!("2 to {MOST}"))?;
-    let fits = (1..=1_000_000).contains(&periods);
-    require(fits, "periods", periods as f64, "1 to 1000000")?;
+    within("steps", steps, 2..=MOST)?;
+    within("periods", periods, 1..=1_000_000)?;
     let tolerance = arguments.tolerance;
     let fits = tolerance > 0.0 && tolerance < 1.0;
     require(fits, "tolerance", tolerance, "> 0 and < 1")?;

@@ -18,9 +18,9 @@ use clap::Args;
 use crate::filter::Filter;
 use report::FailuresReport;
 use softstop_console::failure::Failure;
-use softstop_console::machine::require;
 use softstop_console::output::{self, Folder, Format};
 use softstop_console::progress::Progress;
+use softstop_console::range::{require, within};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -123,13 +123,7 @@ fn atlases(
 }
 
 fn check(arguments: &FailuresArguments) -> Result<(), Failure> {
-    let points = arguments.points;
-    require(
-        (2..=200).contains(&points),
-        "points",
-        points as f64,
-        "2 to 200",
-    )?;
+    within("points", arguments.points, 2..=200)?;
     let tolerance = arguments.tolerance;
     let fits = tolerance > 0.0 && tolerance < 1.0;
     require(fits, "tolerance", tolerance, "> 0 and < 1")?;

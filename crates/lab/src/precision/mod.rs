@@ -27,9 +27,9 @@ use family::Family;
 use measure::{Bench, Effort, Row};
 use report::{PrecisionReport, SceneReport};
 use softstop_console::failure::Failure;
-use softstop_console::machine::require;
 use softstop_console::output::{self, Folder, Format};
 use softstop_console::progress::Progress;
+use softstop_console::range::{require, within};
 use truth::Truth;
 
 const EXAMPLES: &str = "\
@@ -121,9 +121,7 @@ fn check(arguments: &PrecisionArguments) -> Result<(), Failure> {
     let periods = arguments.periods.unwrap_or(case::PERIODS);
     let good = periods > 0.0 && periods <= 1e5;
     require(good, "periods", periods, "above 0 to 100000")?;
-    let budget = arguments.budget;
-    let good = (1e-3..=3600.0).contains(&budget);
-    require(good, "budget", budget, "0.001 to 3600")
+    within("budget", arguments.budget, 1e-3..=3600.0)
 }
 
 /// The methods that the user wants, the exact one first.

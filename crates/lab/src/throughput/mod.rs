@@ -17,9 +17,9 @@ use fleet::RANGE;
 use report::ThroughputReport;
 use softstop_console::export;
 use softstop_console::failure::Failure;
-use softstop_console::machine::require;
 use softstop_console::output::Format;
 use softstop_console::progress::Progress;
+use softstop_console::range::within;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -62,10 +62,8 @@ pub struct ThroughputArguments {
 /// [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     let ThroughputArguments { check, repeats, .. } = *arguments;
-    let good = check <= 1_000_000_000;
-    require(good, "check", check as f64, "0 to 1000000000")?;
-    let good = (1..=1000).contains(&repeats);
-    require(good, "repeats", repeats as f64, "1 to 1000")?;
+    within("check", check, 0..=1_000_000_000)?;
+    within("repeats", repeats, 1..=1000)?;
     let fleet = RANGE.fleet().context("the machines of the measurement")?;
     let sets = measure::narrower();
     let progress = Progress::new(measure::measurements(&sets, repeats), "measurements");
