@@ -12,7 +12,7 @@ pub mod report;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{Parser, Subcommand, ValueEnum};
 
 use softstop_console::failure::Failure;
 use softstop_console::{output, schema};
@@ -41,6 +41,7 @@ Examples:
   softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
   softstop fmu docs/scenes/hertz.toml              the same machine for FMI 2.0 co-simulation
   softstop schema > machine.schema.json            what machine files may hold, for editors
+  softstop schema task > task.schema.json          what the files of optimize --config may hold
   softstop stops                                   pictures of all the stops' laws
   softstop fidelity B --tolerance 0.02             the simplest model that will do
 
@@ -66,14 +67,28 @@ pub enum Command {
     Optimize(optimize::OptimizeArguments),
     /// Pack a machine as an FMU for co-simulation
     Fmu(fmu::FmuArguments),
-    /// Print the JSON Schema of machine files, for editors
-    Schema,
+    /// Print the JSON Schema of machine files or of task files, for editors
+    Schema {
+        /// Which files
+        #[arg(value_enum, default_value_t, value_name = "FILES")]
+        of: Files,
+    },
     /// Run any scene: a motion as tables, a chart and a summary
     Simulate(simulate::SimulateArguments),
     /// Draw the laws of all stops: contact force over deflection
     Stops(stops::StopsArguments),
     /// How simple a model of a scene may be: error and cost of ever simpler stops
     Fidelity(fidelity::FidelityArguments),
+}
+
+/// Files that are written by hand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Files {
+    /// A machine
+    #[default]
+    Machine,
+    /// A task of `softstop optimize --config`
+    Task,
 }
 
 /// Reads the command line, does what it says and turns the outcome into an exit code.
@@ -95,7 +110,10 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Basin(arguments) => basin::run(&arguments),
         Command::Optimize(arguments) => optimize::run(&arguments),
         Command::Fmu(arguments) => fmu::run(&arguments),
-        Command::Schema => output::print(&output::json(&schema::machine())?),
+        Command::Schema { of } => output::print(&output::json(&match of {
+            Files::Machine => schema::machine(),
+            Files::Task => optimize::task_schema(),
+        })?),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Stops(arguments) => stops::run(&arguments),
         Command::Fidelity(arguments) => fidelity::run(&arguments),

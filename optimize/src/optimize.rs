@@ -40,7 +40,7 @@ Examples:
   softstop optimize --fix clearance=10 --bounds frequency=1.1:1.2 --preload-deflection 10
       only frequencies that the drive can run at; the preload following the stiffness
   softstop optimize --config task.toml --seed 1
-      with task.toml holding, say,
+      with task.toml (softstop schema task says what it may hold) holding, say,
           regime = \"loaded\"
           margin = 0.25
           [fix]
@@ -55,6 +55,12 @@ The zone of a machine reaches from g0 to s_SN; the drive frequency is g0 + s (s_
 --fix. Three files are written, whole or not at all: design.json
 (what --format json prints), design.svg (velocity over frequency) and design.fmu (the machine
 for FMI 2.0 co-simulation, starting in the design's motion).";
+
+/// The JSON Schema of task files.
+#[must_use]
+pub fn task_schema() -> serde_json::Value {
+    configuration::Task::schema()
+}
 
 /// Arguments of `softstop optimize`.
 #[derive(Debug, Args)]

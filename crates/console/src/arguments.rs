@@ -92,6 +92,20 @@ impl MachineArguments {
         }
     }
 
+    /// Refuses a start that is given on the command line, where it plays no part.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] naming it.
+    pub fn refuse_start(&self) -> Result<(), Failure> {
+        let is_start = |key: &&String| key.starts_with("initial.") || key.starts_with("start.");
+        match self.keys().iter().find(is_start) {
+            Some(key) => Err(Failure::usage(format!(
+                "{key}: the machine's own start plays no part"
+            ))),
+            None => Ok(()),
+        }
+    }
+
     /// The paper's machine that is asked for; none if it is a file's.
     fn named(&self) -> Result<Option<Option<Regime>>, Failure> {
         let Some(path) = &self.machine else {

@@ -1,7 +1,43 @@
-//! The JSON Schema of machine files, made from the list of parameters.
+//! The JSON Schema of machine files, made from the list of parameters, and parts of that of task files.
 
+use crate::machine::{Regime, SceneSettings};
+use clap::{Args, Command, ValueEnum};
 use serde_json::{Map, Value, json};
 use softstop::{Allowed, Excitation, Language, Machine, Parameter, Release, Scene, Stop};
+
+/// The draft in which schemas are written.
+pub const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
+
+/// One of the words of the command line.
+#[must_use]
+pub fn words<T: ValueEnum>() -> Value {
+    let words = T::value_variants().iter();
+    let words = words.filter_map(|word| Some(word.to_possible_value()?.get_name().to_owned()));
+    json!({ "enum": words.collect::<Vec<_>>() })
+}
+
+/// A table of values by the dotted keys of a machine's file.
+#[must_use]
+pub fn keyed(value: Value) -> Value {
+    let inner = json!({ "type": "object", "additionalProperties": value });
+    json!({ "type": "object", "additionalProperties": { "anyOf": [value, inner] } })
+}
+
+/// The shorthands of the paper's machines, as the command line has them.
+#[must_use]
+pub fn shorthands() -> Value {
+    let flags = SceneSettings::augment_args(Command::new("shorthands"));
+    let all = flags.get_arguments().map(|flag| {
+        let mut schema = match flag.get_id().as_str() {
+            "regime" => words::<Regime>(),
+            _ => json!({ "type": "number" }),
+        };
+        let what = flag.get_help().map(ToString::to_string);
+        schema["description"] = what.unwrap_or_default().into();
+        (flag.get_id().to_string(), schema)
+    });
+    object(Map::from_iter(all))
+}
 
 /// The schema of machine files (draft 2020-12). Editors find it by a first line
 /// `#:schema ./machine.schema.json`.
@@ -32,7 +68,7 @@ pub fn machine() -> Value {
         .map(Value::from)
         .collect();
     json!({
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$schema": DRAFT,
         "title": "softstop machine",
         "description": "An impact oscillator in SI units, or in the paper's ratios (m = k1 = F0 = 1).",
         "type": "object",

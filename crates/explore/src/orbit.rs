@@ -46,6 +46,7 @@ pub struct OrbitArguments {
 /// # Errors
 /// [`Failure::Usage`] for values no machine can have, [`Failure::Run`] if there is no orbit.
 pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
+    arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
     let orbit = softstop_dynamics::orbit::find(&machine.scene).map_err(|error| match error {
         OrbitError::NotFound { clearance, .. } => anyhow!(

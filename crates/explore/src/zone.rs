@@ -44,6 +44,7 @@ pub struct ZoneArguments {
 pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
     let why = "the zone is a range of drive frequencies, whatever the machine's own";
     arguments.machine.refuse(Parameter::Frequency, why)?;
+    arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
     let zone = softstop_dynamics::zone::hysteresis(&machine.scene);
     let zone = zone.map_err(|error| match error {

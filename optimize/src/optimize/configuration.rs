@@ -3,37 +3,73 @@
 use std::path::PathBuf;
 
 use serde::Deserialize;
+use serde_json::json;
 use softstop_console::failure::Failure;
 use softstop_console::machine::{Regime, SceneSettings};
 use softstop_console::output::Format;
+use softstop_console::schema;
 use toml::{Table, Value};
 
 use super::named::Named;
+use crate::design::search::LEAST_EVALUATIONS;
 
-/// The file.
-#[derive(Debug, Clone, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Task {
+/// The keys of a file with their types, what the schema says of them, and what they are.
+macro_rules! task {
+    ($($(#[doc = $what:literal])* $key:ident: $type:ty, $schema:expr;)*) => {
+        /// The file.
+        #[derive(Debug, Clone, Default, Deserialize)]
+        #[serde(deny_unknown_fields, default)]
+        pub struct Task {
+            $($(#[doc = $what])* pub $key: $type,)*
+        }
+
+        impl Task {
+            /// The JSON Schema of such files (draft 2020-12).
+            #[must_use]
+            pub fn schema() -> serde_json::Value {
+                let mut keys = serde_json::Map::new();
+                $({
+                    let mut schema: serde_json::Value = $schema;
+                    schema["description"] = concat!($($what),*).trim().into();
+                    keys.insert(stringify!($key).to_owned(), schema);
+                })*
+                json!({
+                    "$schema": schema::DRAFT,
+                    "title": "softstop task",
+                    "description": "What softstop optimize --config searches; the command line has the last word.",
+                    "type": "object",
+                    "properties": keys,
+                    "additionalProperties": false,
+                    "not": { "required": ["machine", "regime"] },
+                })
+            }
+        }
+    };
+}
+
+task! {
     /// Machine file, seen from the task's folder, or `unloaded` or `loaded`.
-    pub machine: Option<PathBuf>,
+    machine: Option<PathBuf>, json!({ "type": "string" });
     /// Without or with a strip: the paper's machine.
-    pub regime: Option<Regime>,
+    regime: Option<Regime>, schema::words::<Regime>();
     /// Distance M from both ends of the zone as a share of its width, 0 to 0.5.
-    pub margin: Option<f64>,
+    margin: Option<f64>, json!({ "type": "number", "minimum": 0, "maximum": 0.5 });
     /// Values held, by the keys of the machine's file.
-    pub fix: Table,
+    fix: Table, schema::keyed(json!({ "type": "number" }));
     /// Ranges searched: `clearance = [2, 22]`.
-    pub bounds: Table,
+    bounds: Table, schema::keyed(json!({
+        "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2
+    }));
     /// The rest of the paper's machine.
-    pub scene: SceneSettings,
+    scene: SceneSettings, schema::shorthands();
     /// Seed of the search.
-    pub seed: Option<u64>,
+    seed: Option<u64>, json!({ "type": "integer", "minimum": 0 });
     /// Zones that the search may compute.
-    pub evaluations: Option<u64>,
+    evaluations: Option<u64>, json!({ "type": "integer", "minimum": LEAST_EVALUATIONS });
     /// Output folder.
-    pub output: Option<PathBuf>,
+    output: Option<PathBuf>, json!({ "type": "string" });
     /// How to print the result.
-    pub format: Option<Format>,
+    format: Option<Format>, schema::words::<Format>();
 }
 
 impl Task {
@@ -88,5 +124,38 @@ fn range(value: &Value) -> Option<[f64; 2]> {
     match value.as_array()?.as_slice() {
         [low, high] => Some([number(low)?, number(high)?]),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Task;
+
+    /// A task with every key; a key that the schema lacks is unknown to the reader, and the other way about.
+    #[test]
+    fn schema_and_reader_have_the_same_keys() -> Result<(), Box<dyn std::error::Error>> {
+        let file = "machine = \"press.toml\"\nregime = \"loaded\"\nmargin = 0.2\nseed = 1\n\
+                    evaluations = 200\noutput = \"there\"\nformat = \"json\"\n[fix]\nstop.stiffness = 7\n\
+                    [bounds]\nclearance = [2, 22]\n[scene]\ndamping = 0.02\n";
+        toml::from_str::<Task>(file)?;
+        let written: toml::Table = toml::from_str(file)?;
+        let schema = Task::schema();
+        let keys = schema["properties"].as_object().ok_or("no keys")?;
+        let mut all: Vec<&str> = written.keys().map(String::as_str).collect();
+        all.sort_unstable();
+        let mut stated: Vec<&str> = keys.keys().map(String::as_str).collect();
+        stated.sort_unstable();
+        assert_eq!(all, stated);
+        let scene = keys["scene"]["properties"].as_object().ok_or("no ratios")?;
+        for (key, rule) in scene {
+            let value = if rule["enum"].is_array() {
+                "\"loaded\""
+            } else {
+                "1.5"
+            };
+            toml::from_str::<Task>(&format!("[scene]\n{key} = {value}\n"))?;
+        }
+        assert_eq!(scene.len(), 12);
+        Ok(())
     }
 }

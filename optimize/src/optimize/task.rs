@@ -98,6 +98,7 @@ impl Job {
 
 /// The command line's machine, or else the file's.
 fn machine(arguments: &OptimizeArguments, task: &Task) -> Result<Machine, Failure> {
+    arguments.machine.refuse_start()?;
     let mut stated = arguments.machine.clone();
     let says_scene = task.regime.is_some() || task.scene != SceneSettings::default();
     if let Some(machine) = &task.machine {

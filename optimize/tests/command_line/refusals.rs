@@ -103,16 +103,31 @@ fn what_a_machine_does_not_have_is_refused_by_every_command() -> Outcome {
     let output = folder.path().join("out");
     let output = output.to_str().ok_or("path")?;
     let scene = format!("{}/../docs/scenes/hertz.toml", env!("CARGO_MANIFEST_DIR"));
-    let commands: [&[&str]; 6] = [
+    let range = ["--from", "0.9", "--to", "1.5", "--output", output];
+    let follow = [&["continue", "--parameter", "eta"], &range[..]].concat();
+    let sweep = [&["sweep"], &range[..]].concat();
+    let commands: [&[&str]; 10] = [
         &["orbit"],
         &["zone"],
         &["motions"],
+        &follow,
+        &sweep,
+        &["basin", "--output", output],
+        &["fidelity", "--output", output],
         &["simulate", "--output", output],
         &["fmu", "--output", output],
         &["optimize", "--output", output],
     ];
     for command in commands {
         let with = |more: &[&'static str]| [command, more].concat();
+        let starts = ["simulate", "fidelity", "fmu"].contains(&command[0]);
+        if !starts {
+            SOFTSTOP.ends_with(
+                &with(&["--set", "initial.velocity=3"]),
+                2,
+                &["initial.velocity", "plays no part"],
+            );
+        }
         SOFTSTOP.ends_with(
             &with(&["--set", "clearence=3"]),
             2,
@@ -146,8 +161,52 @@ fn what_a_machine_does_not_have_is_refused_by_every_command() -> Outcome {
             &["--regime", "hertz.toml"],
         );
     }
-    SOFTSTOP.ends_with(&["zone", "--frequency", "1.2"], 2, &["frequency"]);
-    SOFTSTOP.ends_with(&["zone", "--set", "eta=1.2"], 2, &["eta"]);
+    assert!(!Path::new(output).exists());
+    Ok(())
+}
+
+/// What a command does not use is refused, not ignored.
+#[test]
+fn what_a_command_does_not_use_is_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let output = folder.path().join("out");
+    let output = output.to_str().ok_or("path")?;
+    let swept = ["sweep", "--from", "0.9", "--to", "1.5"];
+    let cases: [(&[&str], &[&str], &[&str]); 12] = [
+        (&["zone"], &["--frequency", "1.2"], &["frequency"]),
+        (&["zone"], &["--set", "eta=1.2"], &["eta"]),
+        (
+            &swept,
+            &["--frequency", "1.2"],
+            &["frequency", "it is swept"],
+        ),
+        (&swept, &["--set", "w=1.2"], &["w", "it is swept"]),
+        (
+            &swept,
+            &["--clearances", "2,6", "--set", "rho=3"],
+            &["rho", "--clearances"],
+        ),
+        (
+            &["basin", "--along-zone", "3"],
+            &["--frequency", "1.2"],
+            &["frequency"],
+        ),
+        (&["basin"], &["--phi", "0:1"], &["--phi", "the plane"]),
+        (
+            &["basin", "--plane", "phi,v"],
+            &["--x", "0:1"],
+            &["--x", "the plane"],
+        ),
+        (&["fidelity"], &["--sweep", "1:2"], &["--structure"]),
+        (&["stops"], &["--set", "clearance=3"], &["--set"]),
+        (&["stops"], &["unloaded"], &["unloaded"]),
+        (&["motions"], &["--output", "there"], &["--output"]),
+    ];
+    for (command, more, words) in cases {
+        let writes = ["sweep", "basin", "fidelity", "stops"].contains(&command[0]);
+        let place: &[&str] = if writes { &["--output", output] } else { &[] };
+        SOFTSTOP.ends_with(&[command, place, more].concat(), 2, words);
+    }
     assert!(!Path::new(output).exists());
     Ok(())
 }

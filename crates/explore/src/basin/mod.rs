@@ -114,6 +114,7 @@ fn help() -> String {
 /// written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &BasinArguments) -> Result<(), Failure> {
     let options = options(arguments)?;
+    arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
     match arguments.along_zone {
         Some(places) => {

@@ -42,6 +42,18 @@ impl FromStr for Plane {
 /// The grid for a scene.
 pub(super) fn grid(arguments: &BasinArguments, scene: &Scene) -> Result<Grid, Failure> {
     Allowed::Finite.check("at", arguments.at)?;
+    for (flag, range, quantity) in [
+        ("x", arguments.x, Quantity::Position),
+        ("v", arguments.v, Quantity::Velocity),
+        ("phi", arguments.phi, Quantity::Angle),
+    ] {
+        let Plane { across, up } = arguments.plane;
+        if range.is_some() && across != quantity && up != quantity {
+            let message =
+                format!("--{flag}: the plane does not show it; --at has the value of all cells");
+            return Err(Failure::usage(message));
+        }
+    }
     let drive = scene.excitation;
     let free = drive.amplitude / (scene.mass * drive.frequency * drive.frequency);
     let length = scene.clearance.abs().max(free);

@@ -108,6 +108,7 @@ fn help() -> String {
 /// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if there is no orbit to start from,
 /// [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
+    arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
     let followed = |flags, name, ends| Followed::new(arguments, &machine, flags, name, ends);
     let ends = (arguments.from, arguments.to);

@@ -74,6 +74,7 @@ pub struct MotionsArguments {
 /// [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
     let options = options(arguments)?;
+    arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
     let progress = Progress::new(1, "drive periods at most");
     let watcher = |done, planned| {

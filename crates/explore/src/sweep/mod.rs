@@ -139,12 +139,17 @@ const KEEPING: Duration = Duration::from_secs(10);
 /// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if the folder cannot be written,
 /// [`Failure::Suspended`] after Ctrl-C.
 pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
+    arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
     let parameter = arguments
         .machine
         .parameter(&machine, "parameter", &arguments.parameter)?;
     let why = "is not used, for it is swept: --from and --to have its values";
     arguments.machine.refuse(parameter, why)?;
+    if !arguments.clearances.is_empty() {
+        let why = "is not used, for --clearances has the values";
+        arguments.machine.refuse(Parameter::Clearance, why)?;
+    }
     let plan = plan(arguments, parameter)?;
     let mut chains = chains(arguments, &machine, parameter)?;
     let export = Export::open(&arguments.output, &FILES)?;
