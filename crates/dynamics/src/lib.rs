@@ -10,11 +10,17 @@ pub mod continuation;
 pub mod models;
 pub mod motion;
 pub mod orbit;
-pub mod peak;
+mod peak;
 pub mod sweep;
 pub mod transitions;
 pub mod watch;
 pub mod zone;
+
+/// What sibling crates share beyond this page, without any promise.
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::peak::highest;
+}
 
 pub use nalgebra;
 pub use softstop;

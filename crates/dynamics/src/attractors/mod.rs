@@ -27,6 +27,7 @@ use softstop::{MotionError, Scene, SceneError, Start};
 
 /// How certain a periodic motion is.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Certainty {
     /// Largest distance between states of the simulated motion one of its periods apart, in units of its
     /// size, when it was first met.
@@ -167,6 +168,7 @@ pub fn classify(scene: &Scene, start: Start, options: &Options) -> Result<Attrac
 
 /// Where a motion is after the transient.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Arrival {
     /// Its state at drive angle phi.
     pub state: Start,

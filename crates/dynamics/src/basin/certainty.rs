@@ -10,6 +10,7 @@ use crate::zone::{Zone, ZoneError};
 
 /// The basins at one place of the zone.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Establishing {
     /// Place s: 0 at g0, 1 at s_SN.
     pub place: f64,
@@ -25,6 +26,7 @@ pub struct Establishing {
 
 /// Why there is no establishing certainty.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum CertaintyError {
     /// A place outside the zone.
     #[error(transparent)]

@@ -4,6 +4,7 @@ use super::grid::Grid;
 
 /// A ball inside a basin.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Clearing {
     /// Its centre on both axes.
     pub centre: [f64; 2],

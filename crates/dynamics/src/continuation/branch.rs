@@ -18,6 +18,7 @@ use crate::orbit::OrbitError;
 
 /// A branch of orbits, in order of arclength.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Branch {
     /// Drive periods of the orbits.
     pub periods: u64,

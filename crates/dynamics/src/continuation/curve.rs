@@ -58,6 +58,7 @@ pub enum CurveEnd {
 
 /// A curve of special points of one kind in two parameters.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Curve {
     /// What they are.
     pub kind: SpecialKind,

@@ -93,6 +93,7 @@ impl SpecialKind {
 
 /// A special point of a branch.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Special {
     /// What it is.
     pub kind: SpecialKind,

@@ -14,6 +14,7 @@ use softstop::{
 
 /// What the settled motion of a machine gives.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Observation {
     /// Position in m and velocity in m/s at drive angle phi with which it was observed from.
     #[serde(serialize_with = "pair")]

@@ -19,6 +19,7 @@ const SURE: f64 = 3.0;
 /// orthogonal anew after each drive period (Benettin et al. 1980). Along the motion itself nothing grows:
 /// time adds a third exponent, 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Exponents {
     /// Of the map, per drive period, the larger first. Minus infinity where sticking wipes out all
     /// differences.

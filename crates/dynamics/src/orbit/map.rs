@@ -21,6 +21,7 @@ pub struct StroboscopicMap {
 
 /// One application of the map.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Passage {
     /// Position and velocity after the periods.
     pub end: Vector2<f64>,

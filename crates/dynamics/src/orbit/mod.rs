@@ -29,6 +29,7 @@ use softstop::{MotionError, SceneError};
 
 /// Why there is no orbit.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum OrbitError {
     /// The search found none.
     #[error(

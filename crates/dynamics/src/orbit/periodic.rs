@@ -13,6 +13,7 @@ pub(super) const SAME: f64 = 1e-9;
 
 /// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Orbit {
     /// The scene it belongs to.
     pub scene: Scene,

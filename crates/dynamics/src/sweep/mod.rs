@@ -75,6 +75,7 @@ pub struct Plan {
 
 /// A plan that cannot be.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum PlanError {
     /// The range is empty or not finite.
     #[error("range = {from} to {to}: must be finite, and rising")]

@@ -39,6 +39,7 @@ impl From<SpecialKind> for EndKind {
 
 /// One end.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct WindowEnd {
     /// By what.
     pub kind: EndKind,
@@ -48,6 +49,7 @@ pub struct WindowEnd {
 
 /// A periodic motion from one end of its stability to the other.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Window {
     /// The motion.
     pub motion: MotionKind,

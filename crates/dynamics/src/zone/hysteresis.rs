@@ -8,6 +8,7 @@ use softstop::Scene;
 
 /// The hysteresis zone of one machine, with its branch of z = 1 motions.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Zone {
     /// The machine; the frequency of its drive plays no part.
     pub scene: Scene,

@@ -8,7 +8,7 @@ mod hysteresis;
 mod loss;
 
 pub use bounds::Bounds;
-pub use grazing::{free_amplitude, grazing_frequencies, largest_free_amplitude};
+pub use grazing::{free_amplitude, grazing_frequencies};
 pub use hysteresis::{Zone, hysteresis};
 pub use loss::loss_of_stability;
 

@@ -139,13 +139,14 @@ fn the_cheapest_within_the_tolerance_is_named() -> Outcome {
 fn errors_are_relative_and_angles_wrap() -> Outcome {
     let truth = Ratios::unloaded().scene()?;
     let observed = Observation::settled(&truth, None, FLUNG)?;
-    let answers = |impact_phase, velocity| Answers {
-        observed: Observation {
-            impact_phase: Some(impact_phase),
-            before_impact_velocity: Some(velocity),
-            ..observed
-        },
-        bounds: None,
+    let answers = |impact_phase, velocity| {
+        let mut observed = observed;
+        observed.impact_phase = Some(impact_phase);
+        observed.before_impact_velocity = Some(velocity);
+        Answers {
+            observed,
+            bounds: None,
+        }
     };
     let (a, b) = (answers(0.1, 8.0), answers(6.2, 10.0));
     let velocity = Quantity::BeforeImpactVelocity.error(&a, &b).ok_or("both")?;

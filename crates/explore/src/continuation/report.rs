@@ -187,7 +187,7 @@ impl BranchReport {
 }
 
 impl SpecialReport {
-    fn new(Special { kind, point }: &Special) -> Self {
+    fn new(Special { kind, point, .. }: &Special) -> Self {
         Self {
             symbol: kind.symbol(),
             name: describe(kind),

@@ -6,8 +6,8 @@ use softstop::{Ratios, Scene};
 use softstop_dynamics::continuation::{
     Along, BranchPoint, Curve, Family, Heading, Parameter, Region, SpecialKind, Test, curve,
 };
+use softstop_dynamics::internals::highest;
 use softstop_dynamics::orbit::{Orbit, StroboscopicMap, find};
-use softstop_dynamics::peak::highest;
 use softstop_dynamics::zone::{
     ZoneError, free_amplitude, grazing_frequencies, hysteresis, loss_of_stability,
 };
