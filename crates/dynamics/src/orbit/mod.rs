@@ -12,7 +12,7 @@ mod periodic;
 pub(crate) mod recurrence;
 mod regime;
 mod search;
-pub(crate) mod turn;
+pub mod turn;
 
 pub use exponents::Exponents;
 pub use map::{Passage, StroboscopicMap};

@@ -4,7 +4,7 @@ use softstop::internals::{Course, Guard, Outlook, first_crossing};
 
 /// A turning point of a course.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Turn {
+pub struct Turn {
     /// True if it turns back, away from the stop.
     pub back: bool,
     /// Time in s since the course began.
@@ -15,7 +15,7 @@ pub(crate) struct Turn {
 
 /// The turning points of a course within `duration` seconds, back and forward by turns: first the first `back` or
 /// forward.
-pub(crate) fn turns(course: &Course, duration: f64, back: bool) -> impl Iterator<Item = Turn> {
+pub fn turns(course: &Course, duration: f64, back: bool) -> impl Iterator<Item = Turn> {
     let moves = !course.is_held() && !course.is_chattering();
     let (mut node, mut back) = (course.start(), back);
     std::iter::from_fn(move || {

@@ -7,8 +7,9 @@
 //! it than that, and wherever the errors have grown so far that the tangent says nothing of them.
 
 use nalgebra::Matrix2;
-use softstop::internals::{Course, Guard, Outlook, first_crossing};
+use softstop::internals::Course;
 use softstop::{Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene, Start, Tangent};
+use softstop_dynamics::orbit::turn::turns;
 
 /// Errors of position (m) and velocity (m/s) made on one arc. An arc has some ten windows and the motions are
 /// up to 20 m and 30 m/s large: rounding makes at most some 10 * 4e-15, the 4th differences of both
@@ -90,10 +91,8 @@ impl Observer for Doubt {
         self.carry();
         self.covariance += Matrix2::identity() * (ROUNDING * ROUNDING);
         let errors = before.max(self.errors());
-        let mut near = false;
-        turns(arc.course, elapsed, |position| {
-            near |= self.passes_near(position, errors);
-        });
+        let mut turns = turns(arc.course, elapsed, goes_on(arc.course, elapsed));
+        let near = turns.any(|turn| self.passes_near(turn.position, errors));
         self.verdict.doubtful |= near;
     }
 
@@ -117,26 +116,10 @@ impl Observer for Doubt {
     }
 }
 
-/// Tells the positions at which the mass turns within `duration` seconds.
-fn turns(course: &Course, duration: f64, mut tell: impl FnMut(f64)) {
-    if course.is_held() {
-        return;
-    }
-    let guards = [Guard::turning_back(), Guard::turning_forward()];
-    let mut node = course.start();
-    let heading = match node.velocity {
-        0.0 => course.node(1e-6 * duration).velocity,
-        velocity => velocity,
-    };
-    let mut next = usize::from(heading < 0.0);
-    while let Outlook::Crossing(found) =
-        first_crossing(course, &guards[next..=next], node, duration)
-    {
-        if found.elapsed > duration {
-            return;
-        }
-        tell(found.position);
-        node = course.node(found.elapsed);
-        next = 1 - next;
+/// Whether the mass turns back first, on its way from the start of a course.
+fn goes_on(course: &Course, duration: f64) -> bool {
+    match course.start().velocity {
+        0.0 => course.node(1e-6 * duration).velocity >= 0.0,
+        velocity => velocity >= 0.0,
     }
 }
