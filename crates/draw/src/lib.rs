@@ -3,6 +3,7 @@
 //! picture).
 #![forbid(unsafe_code)]
 
+mod axes;
 pub mod panel;
 pub mod pen;
 pub mod scale;
