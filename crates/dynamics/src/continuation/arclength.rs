@@ -14,13 +14,12 @@ pub(crate) trait Equations {
     /// Residual and more.
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Self::Point>, OrbitError>;
 
-    /// Derivatives of the residual, a row for each equation. Their error slows the convergence; the
-    /// residual alone decides the result.
-    fn jacobian(
-        &self,
-        at: &DVector<f64>,
-        here: &Evaluation<Self::Point>,
-    ) -> Result<DMatrix<f64>, OrbitError>;
+    /// Those columns of the Jacobian that cost evaluations of their own, the last ones.
+    fn slopes(&self, at: &DVector<f64>) -> Result<DMatrix<f64>, OrbitError>;
+
+    /// Derivatives of the residual, a row for each equation, with these columns. Their error slows the
+    /// convergence; the residual alone decides the result.
+    fn jacobian(&self, here: &Evaluation<Self::Point>, slopes: &DMatrix<f64>) -> DMatrix<f64>;
 }
 
 /// A system at one place.
@@ -41,6 +40,8 @@ pub(crate) struct Node<P> {
 
 /// Newton steps of one correction.
 const CORRECTIONS: usize = 12;
+/// A step with kept slopes that leaves more than this share of the residual is the last with them.
+const STALE: f64 = 0.02;
 /// Scaled half-width of the central differences.
 pub(crate) const DIFFERENCE: f64 = 1e-6;
 
@@ -52,6 +53,16 @@ pub(crate) fn correct<E: Equations>(
     guess: &DVector<f64>,
     normal: Option<&DVector<f64>>,
 ) -> Result<Node<E::Point>, OrbitError> {
+    correct_with(equations, guess, normal, &mut None)
+}
+
+/// The same with the slopes of a place nearby, if there are any, as long as they serve; it leaves the last ones.
+fn correct_with<E: Equations>(
+    equations: &E,
+    guess: &DVector<f64>,
+    normal: Option<&DVector<f64>>,
+    slopes: &mut Option<DMatrix<f64>>,
+) -> Result<Node<E::Point>, OrbitError> {
     let mut at = guess.clone();
     let mut last = f64::INFINITY;
     for _ in 0..CORRECTIONS {
@@ -60,9 +71,11 @@ pub(crate) fn correct<E: Equations>(
         if size <= here.tolerance && size >= 0.1 * last {
             return Ok(Node { at, here });
         }
+        let kept = slopes.take().filter(|_| size <= STALE * last);
         last = size;
+        let known = kept.map_or_else(|| equations.slopes(&at), Ok)?;
         let mut right = here.residual.clone();
-        let mut matrix = -equations.jacobian(&at, &here)?;
+        let mut matrix = -equations.jacobian(&here, slopes.insert(known));
         if let Some(normal) = normal {
             right = right.push(normal.dot(&(guess - &at)));
             matrix = bordered(matrix, normal);
@@ -87,17 +100,18 @@ fn bordered(matrix: DMatrix<f64>, normal: &DVector<f64>) -> DMatrix<f64> {
     matrix
 }
 
-/// Unit direction of a curve at a node, on the side of `along`.
+/// Unit direction of a curve at a node, on the side of `along`, and the slopes there.
 pub(crate) fn tangent<E: Equations>(
     equations: &E,
     node: &Node<E::Point>,
     along: &DVector<f64>,
-) -> Result<DVector<f64>, OrbitError> {
-    let matrix = bordered(equations.jacobian(&node.at, &node.here)?, along);
+) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
+    let slopes = equations.slopes(&node.at)?;
+    let matrix = bordered(equations.jacobian(&node.here, &slopes), along);
     let mut right = DVector::zeros(node.at.len());
     right[node.at.len() - 1] = 1.0;
     match matrix.lu().solve(&right).map(|found| found.normalize()) {
-        Some(direction) if direction.iter().all(|part| part.is_finite()) => Ok(direction),
+        Some(direction) if direction.iter().all(|part| part.is_finite()) => Ok((direction, slopes)),
         _ => Err(OrbitError::Diverged { residual: 0.0 }),
     }
 }
@@ -127,7 +141,8 @@ pub(crate) fn differences<E: Equations>(
 }
 
 /// The node between two neighbours at which `test` changes its sign, and its share of the way: trials
-/// along the chord, each corrected onto the curve, until they are `width` apart on it.
+/// on the curve through the nearest nodes known, each corrected across the chord, until they are `width` apart on
+/// it.
 pub(crate) fn locate<E: Equations>(
     equations: &E,
     (from, to): (&Node<E::Point>, &Node<E::Point>),
@@ -136,25 +151,45 @@ pub(crate) fn locate<E: Equations>(
 ) -> Result<(Node<E::Point>, f64), OrbitError> {
     let way = &to.at - &from.at;
     let chord = way.normalize();
-    let mut best: Option<(Node<E::Point>, f64, f64)> = None;
-    let ends = ((0.0, test(from)), (1.0, test(to)));
+    let mut slopes = None;
+    let mut known = vec![
+        (0.0, test(from), from.clone()),
+        (1.0, test(to), to.clone()),
+    ];
+    let ends = ((0.0, known[0].1), (1.0, known[1].1));
     narrow(ends.0, ends.1, width / way.norm(), |share| {
-        let node = correct(equations, &(&from.at + share * &way), Some(&chord))?;
+        let guess = interpolated(&known, share);
+        let node = correct_with(equations, &guess, Some(&chord), &mut slopes)?;
         let value = test(&node);
-        if best
-            .as_ref()
-            .is_none_or(|known| value.abs() <= known.2.abs())
-        {
-            best = Some((node, share, value));
-        }
+        known.push((share, value, node));
         Ok::<f64, OrbitError>(value)
     })?;
-    let near = if ends.0.1.abs() < ends.1.1.abs() {
-        (from.clone(), 0.0)
-    } else {
-        (to.clone(), 1.0)
+    let best = known
+        .into_iter()
+        .rev()
+        .min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    best.map(|(share, _, node)| (node, share))
+        .ok_or(OrbitError::Diverged { residual: f64::NAN })
+}
+
+/// Nodes that a guess between nodes is drawn through, and the shares of the way that they are apart at least.
+const SUPPORT: usize = 4;
+const APART: f64 = 1e-6;
+
+/// The point at this share of the way on the polynomial (Lagrange) through the nodes nearest to it.
+fn interpolated<P>(known: &[(f64, f64, Node<P>)], share: f64) -> DVector<f64> {
+    let mut near: Vec<(f64, &DVector<f64>)> =
+        known.iter().map(|(at, _, node)| (*at, &node.at)).collect();
+    near.sort_by(|a, b| (a.0 - share).abs().total_cmp(&(b.0 - share).abs()));
+    near.dedup_by(|a, b| (a.0 - b.0).abs() < APART);
+    near.truncate(SUPPORT);
+    let weight = |index: usize| -> f64 {
+        let others = near.iter().enumerate().filter(|(other, _)| *other != index);
+        let factors = others.map(|(_, (at, _))| (share - at) / (near[index].0 - at));
+        factors.product()
     };
-    Ok(best.map_or(near, |(node, share, _)| (node, share)))
+    let parts = near.iter().enumerate().map(|(index, (_, at))| *at * weight(index));
+    parts.fold(DVector::zeros(known[0].2.at.len()), |sum, part| sum + part)
 }
 
 /// First, smallest and largest arclength steps.
@@ -170,6 +205,7 @@ pub(crate) struct Walker<'a, E: Equations> {
     equations: &'a E,
     pub node: Node<E::Point>,
     pub direction: DVector<f64>,
+    slopes: DMatrix<f64>,
     pub step: f64,
     largest: f64,
 }
@@ -178,15 +214,17 @@ pub(crate) struct Walker<'a, E: Equations> {
 pub(crate) struct Stride<P> {
     pub node: Node<P>,
     direction: DVector<f64>,
+    slopes: DMatrix<f64>,
     grows: bool,
 }
 
 impl<P> Stride<P> {
     /// A step onto a node found otherwise.
-    pub fn onto(node: Node<P>, direction: DVector<f64>) -> Self {
+    pub fn onto(node: Node<P>, (direction, slopes): (DVector<f64>, DMatrix<f64>)) -> Self {
         Self {
             node,
             direction,
+            slopes,
             grows: false,
         }
     }
@@ -200,11 +238,12 @@ impl<'a, E: Equations> Walker<'a, E> {
         along: &DVector<f64>,
         largest: f64,
     ) -> Result<Self, OrbitError> {
-        let direction = tangent(equations, &node, along)?;
+        let (direction, slopes) = tangent(equations, &node, along)?;
         Ok(Self {
             equations,
             node,
             direction,
+            slopes,
             step: FIRST_STEP.min(largest),
             largest,
         })
@@ -213,8 +252,9 @@ impl<'a, E: Equations> Walker<'a, E> {
     /// The next node at the present length of step.
     pub fn attempt(&self) -> Result<Stride<E::Point>, OrbitError> {
         let guess = &self.node.at + self.step * &self.direction;
-        let node = correct(self.equations, &guess, Some(&self.direction))?;
-        let direction = tangent(self.equations, &node, &self.direction)?;
+        let mut slopes = Some(self.slopes.clone());
+        let node = correct_with(self.equations, &guess, Some(&self.direction), &mut slopes)?;
+        let (direction, slopes) = tangent(self.equations, &node, &self.direction)?;
         let turn = direction.dot(&self.direction);
         if turn <= LARGEST_TURN {
             return Err(OrbitError::Diverged { residual: 0.0 });
@@ -222,6 +262,7 @@ impl<'a, E: Equations> Walker<'a, E> {
         Ok(Stride {
             node,
             direction,
+            slopes,
             grows: turn > GENTLE_TURN,
         })
     }
@@ -230,6 +271,7 @@ impl<'a, E: Equations> Walker<'a, E> {
     pub fn take(&mut self, stride: Stride<E::Point>) {
         self.node = stride.node;
         self.direction = stride.direction;
+        self.slopes = stride.slopes;
         if stride.grows {
             self.step = (1.6 * self.step).min(self.largest);
         }

@@ -77,8 +77,8 @@ impl<F: Family> Follower<'_, F> {
         // The position goes on evenly, unless it is thrown back.
         let mut along = DVector::zeros(node.at.len());
         along[0] = node.at[0] - walker.node.at[0];
-        let direction = tangent(&self.shooting, &node, &along.normalize()).ok()?;
-        Some(Stride::onto(node, direction))
+        let onward = tangent(&self.shooting, &node, &along.normalize()).ok()?;
+        Some(Stride::onto(node, onward))
     }
 
     /// The surface just ahead and its scaled distance.

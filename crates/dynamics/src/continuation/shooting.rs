@@ -72,22 +72,22 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         })
     }
 
-    /// The exact Jacobian of the map, and central differences for the parameters.
-    fn jacobian(
-        &self,
-        at: &DVector<f64>,
-        here: &Evaluation<Round>,
-    ) -> Result<DMatrix<f64>, OrbitError> {
+    /// Central differences for the parameters.
+    fn slopes(&self, at: &DVector<f64>) -> Result<DMatrix<f64>, OrbitError> {
+        differences(self, at, 2)
+    }
+
+    /// The exact Jacobian of the map, and the slopes.
+    fn jacobian(&self, here: &Evaluation<Round>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
         let (m, ratio) = (&here.point.monodromy, self.scales[1] / self.scales[0]);
         let own = DMatrix::from_row_slice(
             2,
             2,
             &[m.m11 - 1.0, m.m12 * ratio, m.m21 / ratio, m.m22 - 1.0],
         );
-        let slopes = differences(self, at, 2)?;
         let mut jacobian = own.resize_horizontally(2 + N, 0.0);
-        jacobian.columns_mut(2, N).copy_from(&slopes);
-        Ok(jacobian)
+        jacobian.columns_mut(2, N).copy_from(slopes);
+        jacobian
     }
 }
 
@@ -123,12 +123,12 @@ impl<F: Family<N>, const N: usize> Equations for Critical<'_, F, N> {
         })
     }
 
-    fn jacobian(
-        &self,
-        at: &DVector<f64>,
-        _: &Evaluation<Round>,
-    ) -> Result<DMatrix<f64>, OrbitError> {
+    fn slopes(&self, at: &DVector<f64>) -> Result<DMatrix<f64>, OrbitError> {
         differences(self, at, 0)
+    }
+
+    fn jacobian(&self, _: &Evaluation<Round>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
+        slopes.clone()
     }
 }
 

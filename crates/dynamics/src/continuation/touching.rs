@@ -119,12 +119,12 @@ impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
         })
     }
 
-    fn jacobian(
-        &self,
-        at: &DVector<f64>,
-        _: &Evaluation<Contact>,
-    ) -> Result<DMatrix<f64>, OrbitError> {
+    fn slopes(&self, at: &DVector<f64>) -> Result<DMatrix<f64>, OrbitError> {
         differences(self, at, 0)
+    }
+
+    fn jacobian(&self, _: &Evaluation<Contact>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
+        slopes.clone()
     }
 }
 
