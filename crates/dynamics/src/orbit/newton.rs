@@ -18,6 +18,16 @@ pub fn fixed_point(
     map: &StroboscopicMap,
     start: Vector2<f64>,
 ) -> Result<(Vector2<f64>, Passage), OrbitError> {
+    let found = fixed_point_unless(map, start, |_| false)?;
+    found.ok_or(OrbitError::Diverged { residual: f64::NAN })
+}
+
+/// The same; none as soon as a step leads to a state that is known.
+pub(super) fn fixed_point_unless(
+    map: &StroboscopicMap,
+    start: Vector2<f64>,
+    known: impl Fn(Vector2<f64>) -> bool,
+) -> Result<Option<(Vector2<f64>, Passage)>, OrbitError> {
     let mut state = start;
     let mut passage = map.apply(state)?;
     let scales = map.scales();
@@ -32,12 +42,15 @@ pub fn fixed_point(
         let next_residual = next_passage.end - next;
         let shrinks = size(&next_residual) < size(&residual);
         if !shrinks && size(&residual) <= scales.rounding(&state, &passage.monodromy) {
-            return Ok((state, passage));
+            return Ok(Some((state, passage)));
+        }
+        if known(next) {
+            return Ok(None);
         }
         (state, passage, residual) = (next, next_passage, next_residual);
     }
     if size(&residual) <= scales.rounding(&state, &passage.monodromy) {
-        return Ok((state, passage));
+        return Ok(Some((state, passage)));
     }
     Err(OrbitError::Diverged {
         residual: size(&residual),

@@ -44,7 +44,7 @@ pub struct Orbit {
 /// work grows with the cube.
 const MOST_IMPACTS: usize = 128;
 /// Norm of a Jacobian beyond which impacts are looked at one by one.
-const STEEP: f64 = 1e3;
+pub(super) const STEEP: f64 = 1e3;
 
 impl Orbit {
     /// The z = 1 orbit, stable or not, that Newton's method reaches from a state near it.

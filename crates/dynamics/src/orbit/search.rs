@@ -4,7 +4,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
-use super::{Orbit, OrbitError};
+use super::periodic::STEEP;
+use super::newton::fixed_point_unless;
+use super::{Orbit, OrbitError, Passage, StroboscopicMap, is_stable};
 use softstop::internals::Scales;
 use softstop::{Scene, Start};
 use softstop_lanes::{Job, Machine, Watch};
@@ -13,9 +15,12 @@ use softstop_lanes::{Job, Machine, Watch};
 const SPEEDS: [f64; 9] = [0.3, 0.6, 0.9, 1.0, 1.1, 1.25, 1.6, 2.0, 3.0];
 /// Directions of the starts in the plane (w x, x').
 const DIRECTIONS: usize = 16;
-/// Drive periods for which a start may settle before Newton's method takes over: few, which finds
-/// motions with small basins, and more; and far more if neither finds any.
-const SETTLING: [&[u64]; 2] = [&[2, 12], &[60]];
+/// Drive periods for which starts are followed; the longer way only where the shorter one finds nothing.
+const SETTLING: [u64; 2] = [12, 60];
+/// Distance, in scales of the motion, that a state may move within a period and yet lie near an orbit.
+const RETURNS: f64 = 0.5;
+/// Distance, in the same scales, within which one state stands for another.
+const SAME: f64 = 0.02;
 
 /// The stable z = 1 motion of a scene with the highest before-impact velocity, found from starts
 /// spread over the plane of states.
@@ -25,17 +30,22 @@ const SETTLING: [&[u64]; 2] = [&[2, 12], &[60]];
 /// invalid.
 pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
     let machines = [Machine::new(scene)?];
-    for settling in SETTLING {
-        let best = settled(&machines, starts(scene), settling)
-            .into_iter()
-            .filter_map(|state| Orbit::near(scene, state).ok())
-            .filter(Orbit::is_stable)
-            .max_by(|a, b| {
-                a.before_impact_velocity()
-                    .total_cmp(&b.before_impact_velocity())
-            });
-        if let Some(orbit) = best {
-            return Ok(orbit);
+    let map = StroboscopicMap::new(scene, 1)?;
+    let distance = Distance::of(scene);
+    for periods in SETTLING {
+        let mut known: Vec<Fixed> = Vec::new();
+        for state in returning(&machines, starts(scene), periods, distance) {
+            let near = |state| {
+                let stands = |other: &Fixed| distance.between(other.state, state) < SAME;
+                known.iter().any(stands)
+            };
+            if !near(state) {
+                known.extend(Fixed::beside(scene, &map, state, near));
+            }
+        }
+        let single = known.into_iter().filter(|known| known.impacts == 1);
+        if let Some(best) = single.max_by(|a, b| a.velocity.total_cmp(&b.velocity)) {
+            return Orbit::near(scene, best.state);
         }
     }
     Err(OrbitError::NotFound {
@@ -44,42 +54,118 @@ pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
     })
 }
 
-/// Where the starts have come to after each of these numbers of periods, in ascending order; those that lead
-/// nowhere are left out.
-fn settled(
+/// A stable motion that repeats after one drive period.
+struct Fixed {
+    state: Vector2<f64>,
+    impacts: usize,
+    /// Before-impact velocity in m/s of its hardest impact.
+    velocity: f64,
+}
+
+impl Fixed {
+    /// The one that Newton's method reaches from a state near it, unless it comes near one that is known.
+    fn beside(
+        scene: &Scene,
+        map: &StroboscopicMap,
+        state: Vector2<f64>,
+        known: impl Fn(Vector2<f64>) -> bool,
+    ) -> Option<Self> {
+        let steep = |passage: &Passage| map.scales().jacobian(&passage.monodromy).norm() > STEEP;
+        match fixed_point_unless(map, state, known) {
+            Ok(None) => None,
+            Ok(Some((state, passage))) if !steep(&passage) => {
+                is_stable(&passage.monodromy).then(|| Self {
+                    state,
+                    impacts: passage.impacts.len(),
+                    velocity: passage.impacts.iter().copied().fold(0.0, f64::max),
+                })
+            }
+            _ => {
+                let orbit = Orbit::near(scene, state).ok()?;
+                orbit.is_stable().then(|| Self {
+                    state: orbit.state(),
+                    impacts: 1,
+                    velocity: orbit.before_impact_velocity(),
+                })
+            }
+        }
+    }
+}
+
+/// Measures distances of states in scales of the motion.
+#[derive(Debug, Clone, Copy)]
+struct Distance {
+    length: f64,
+    speed: f64,
+}
+
+impl Distance {
+    fn of(scene: &Scene) -> Self {
+        let Scales { length, rate } = scene.motion_scales();
+        Self {
+            length,
+            speed: length * rate,
+        }
+    }
+
+    fn between(self, a: Vector2<f64>, b: Vector2<f64>) -> f64 {
+        let way = a - b;
+        (way.x / self.length).hypot(way.y / self.speed)
+    }
+}
+
+/// The state of each motion over so many drive periods that moves least within a period with one impact, if it
+/// moves little: the least first.
+fn returning(
     machines: &[Machine],
     starts: impl Iterator<Item = Start>,
-    periods: &[u64],
+    periods: u64,
+    distance: Distance,
 ) -> Vec<Vector2<f64>> {
-    let last = periods.last().copied().unwrap_or(0);
     let jobs: Vec<Job> = starts
         .map(|start| Job {
             machine: 0,
             start,
-            periods: last,
+            periods,
         })
         .collect();
-    let mut stages = Stages {
-        periods,
-        states: Vec::new(),
+    let mut returns = Returns {
+        distance,
+        last: jobs.iter().map(|job| job.start.into()).collect(),
+        impacts: vec![0; jobs.len()],
+        least: vec![(f64::INFINITY, Vector2::zeros()); jobs.len()],
     };
-    softstop_lanes::run(machines, &jobs, &mut stages);
-    stages.states
+    softstop_lanes::run(machines, &jobs, &mut returns);
+    let mut least = returns.least;
+    least.retain(|(moves, _)| *moves < RETURNS);
+    least.sort_by(|a, b| a.0.total_cmp(&b.0));
+    least.into_iter().map(|(_, state)| state).collect()
 }
 
-/// Keeps the states after some numbers of periods.
-struct Stages<'a> {
-    periods: &'a [u64],
-    states: Vec<Vector2<f64>>,
+/// Keeps of each motion the state that moves least within a period with one impact.
+struct Returns {
+    distance: Distance,
+    last: Vec<Vector2<f64>>,
+    /// Impacts in the present period.
+    impacts: Vec<u64>,
+    least: Vec<(f64, Vector2<f64>)>,
 }
 
-impl Watch for Stages<'_> {
+impl Watch for Returns {
+    const IMPACTS: bool = true;
     const PERIODS: bool = true;
 
-    fn period(&mut self, _: usize, cycle: u64, state: Start) {
-        if self.periods.contains(&cycle) {
-            self.states
-                .push(Vector2::new(state.position, state.velocity));
+    fn impact(&mut self, job: usize, _: u64, _: f64, _: f64) {
+        self.impacts[job] += 1;
+    }
+
+    fn period(&mut self, job: usize, _: u64, state: Start) {
+        let state = state.into();
+        let last = std::mem::replace(&mut self.last[job], state);
+        let impacts = std::mem::take(&mut self.impacts[job]);
+        let moves = self.distance.between(state, last);
+        if impacts == 1 && moves < self.least[job].0 {
+            self.least[job] = (moves, state);
         }
     }
 }
