@@ -4,7 +4,8 @@ use std::cell::RefCell;
 
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentOpt;
-use softstop_dynamics::orbit::Orbit;
+use softstop_dynamics::continuation::BranchPoint;
+use softstop_dynamics::orbit::{Orbit, multipliers};
 use softstop_dynamics::zone::Zone;
 
 use super::Infeasible;
@@ -53,33 +54,33 @@ fn samples(window: Interval) -> [f64; SAMPLES] {
 /// The motions along a zone and the best that was met.
 struct Line<'zone> {
     zone: &'zone Zone,
-    best: RefCell<Option<(f64, Orbit)>>,
+    best: RefCell<Option<(f64, BranchPoint)>>,
     reason: RefCell<Option<String>>,
 }
 
 impl Line<'_> {
     /// Minus the velocity of the stable motion; for others a finite grade above all of those.
     fn cost_at(&self, place: f64) -> f64 {
-        let orbit = match self.zone.orbit_at(place) {
-            Ok(orbit) => orbit,
+        let point = match self.zone.point_at(place) {
+            Ok(point) => point,
             Err(error) => {
                 self.reason.replace(Some(error.to_string()));
                 return LOST;
             }
         };
-        let velocity = orbit.before_impact_velocity();
+        let velocity = point.before_impact_velocity();
         // At the fold itself a multiplier is 1: the limit of the stable motions, wanted for M = 0.
-        if !(orbit.is_stable() || place >= 1.0) || !velocity.is_finite() {
+        if !(point.is_stable() || place >= 1.0) || !velocity.is_finite() {
             self.reason
                 .replace(Some("the z = 1 motion is not stable there".to_owned()));
-            return instability(&orbit);
+            return instability(&point);
         }
         let mut best = self.best.borrow_mut();
         if best
             .as_ref()
             .is_none_or(|(_, known)| velocity > known.before_impact_velocity())
         {
-            *best = Some((place, orbit));
+            *best = Some((place, point));
         }
         -velocity
     }
@@ -104,10 +105,14 @@ impl Line<'_> {
     }
 
     fn result(&self, gap: f64) -> Result<(f64, Orbit), Infeasible> {
-        self.best.take().ok_or_else(|| Infeasible {
+        let lost = |reason| Infeasible {
             gap: gap.max(0.0),
-            reason: self.reason.take().unwrap_or_default(),
-        })
+            reason,
+        };
+        let best = self.best.take();
+        let (place, point) = best.ok_or_else(|| lost(self.reason.take().unwrap_or_default()))?;
+        let orbit = self.zone.orbit(&point);
+        Ok((place, orbit.map_err(|error| lost(error.to_string()))?))
     }
 }
 
@@ -124,9 +129,8 @@ impl CostFunction for &Line<'_> {
 const LOST: f64 = 10.0;
 
 /// The grade of an unstable motion: how far its largest multiplier is outside the unit circle.
-fn instability(orbit: &Orbit) -> f64 {
-    let largest = orbit
-        .multipliers()
+fn instability(point: &BranchPoint) -> f64 {
+    let largest = multipliers(&point.monodromy)
         .iter()
         .map(|multiplier| multiplier.norm())
         .fold(0.0, f64::max);

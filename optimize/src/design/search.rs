@@ -1,8 +1,8 @@
 //! The outer search over stiffness and clearance: a survey on a lattice, a particle swarm that
-//! starts from it, then Nelder-Mead from the best particle, restarted with a fresh, smaller
-//! simplex until nothing is gained. The survey is there because the best velocity can stand on
-//! a narrow ridge that a random swarm misses: where a zone gains a second fold inside it, the
-//! velocity jumps.
+//! starts from it until it gains little, then Nelder-Mead from the best particle, restarted with a
+//! fresh, smaller simplex until nothing is gained. The survey is there because the best velocity can
+//! stand on a narrow ridge that a random swarm misses: where a zone gains a second fold inside it,
+//! the velocity jumps.
 //!
 //! All see the unit cube. The swarm keeps to it by itself; Nelder-Mead does not, so points
 //! outside are pulled in, and an optimum on the boundary (common here) is met exactly.
@@ -21,8 +21,12 @@ use super::{Design, Problem};
 pub const LEAST_EVALUATIONS: u64 = 100;
 /// Particles of the swarm for each coordinate.
 const PARTICLES: usize = 12;
-/// Most points of the survey along an axis.
+/// Most points of the survey, and along an axis.
+const LARGEST_SURVEY: u64 = 160;
 const LONGEST_EDGE: usize = 64;
+/// Rounds of the swarm between two looks at what it has gained, and the gain, relative, that is too little to go on.
+const SWARM_ROUNDS: u64 = 3;
+const SWARM_GAIN: f64 = 1e-3;
 /// Greatest velocity of a particle at the start, in edges of the cube per round.
 const FASTEST: f64 = 0.2;
 /// Edges of the first simplex of the polish, as a share of the box.
@@ -128,7 +132,7 @@ fn outer(cost: &Cost<'_>, settings: Settings) -> Result<Vec<f64>, Error> {
         cost.watch.evaluated(None);
         return Ok(Vec::new());
     }
-    let survey = survey(cost, settings.evaluations / 3)?;
+    let survey = survey(cost, LARGEST_SURVEY.min(settings.evaluations / 3))?;
     let left = settings.evaluations - survey.len() as u64;
     let swarm = left * 2 / 3;
     let start = swarm_best(cost, &survey, settings.seed, swarm)?;
@@ -233,22 +237,34 @@ fn swarm_best(
     evaluations: u64,
 ) -> Result<Point, Error> {
     let dimension = cost.space.dimension();
-    let (particles, generator) = particles(survey, seed);
+    let (mut particles, generator) = particles(survey, seed);
     let cube = (vec![0.0; dimension], vec![1.0; dimension]);
-    let rounds = evaluations / particles.len() as u64;
-    let solver = ParticleSwarm::new(cube, particles.len()).with_rng_generator(generator);
-    let result = Executor::new(Stoppable(cost), solver)
-        .configure(|state| state.population(particles).max_iters(rounds))
-        .timer(false)
-        .run()?;
-    let best = result
-        .state
-        .get_best_param()
-        .ok_or_else(|| Error::msg("the swarm is empty"))?;
-    Ok(Point {
-        unit: best.position.clone(),
-        cost: best.cost,
-    })
+    let mut solver = ParticleSwarm::new(cube, particles.len()).with_rng_generator(generator);
+    let mut left = evaluations / particles.len() as u64;
+    let mut best = survey[0].clone();
+    while left > 0 {
+        let rounds = left.min(SWARM_ROUNDS);
+        let result = Executor::new(Stoppable(cost), solver)
+            .configure(|state| state.population(particles).max_iters(rounds))
+            .timer(false)
+            .run()?;
+        let empty = || Error::msg("the swarm is empty");
+        let found = result.state.get_best_param().ok_or_else(empty)?;
+        let gain = best.cost - found.cost;
+        if gain > 0.0 {
+            best = Point {
+                unit: found.position.clone(),
+                cost: found.cost,
+            };
+        }
+        if gain <= SWARM_GAIN * best.cost.abs() {
+            break;
+        }
+        particles = result.state.get_population().ok_or_else(empty)?.clone();
+        solver = result.solver;
+        left -= rounds;
+    }
+    Ok(best)
 }
 
 fn polish(cost: &Cost<'_>, start: Point, evaluations: u64) -> Result<Point, Error> {
@@ -263,7 +279,7 @@ fn polish(cost: &Cost<'_>, start: Point, evaluations: u64) -> Result<Point, Erro
         if gain > 0.0 {
             best = found;
         }
-        if !enough && edge < FIRST_EDGE * NARROWING {
+        if !enough && edge < FIRST_EDGE {
             break;
         }
         edge *= NARROWING;

@@ -56,6 +56,17 @@ pub(crate) fn correct<E: Equations>(
     correct_with(equations, guess, normal, &mut None)
 }
 
+/// The same where the last unknown is given: its slopes play no part.
+pub(crate) fn correct_at<E: Equations>(
+    equations: &E,
+    guess: &DVector<f64>,
+) -> Result<Node<E::Point>, OrbitError> {
+    let unknowns = guess.len();
+    let normal = DVector::from_fn(unknowns, |row, _| f64::from(u8::from(row + 1 == unknowns)));
+    let mut none = Some(DMatrix::zeros(unknowns - 1, 1));
+    correct_with(equations, guess, Some(&normal), &mut none)
+}
+
 /// The same with the slopes of a place nearby, if there are any, as long as they serve; it leaves the last ones.
 fn correct_with<E: Equations>(
     equations: &E,
@@ -152,10 +163,7 @@ pub(crate) fn locate<E: Equations>(
     let way = &to.at - &from.at;
     let chord = way.normalize();
     let mut slopes = None;
-    let mut known = vec![
-        (0.0, test(from), from.clone()),
-        (1.0, test(to), to.clone()),
-    ];
+    let mut known = vec![(0.0, test(from), from.clone()), (1.0, test(to), to.clone())];
     let ends = ((0.0, known[0].1), (1.0, known[1].1));
     narrow(ends.0, ends.1, width / way.norm(), |share| {
         let guess = interpolated(&known, share);
@@ -188,7 +196,10 @@ fn interpolated<P>(known: &[(f64, f64, Node<P>)], share: f64) -> DVector<f64> {
         let factors = others.map(|(_, (at, _))| (share - at) / (near[index].0 - at));
         factors.product()
     };
-    let parts = near.iter().enumerate().map(|(index, (_, at))| *at * weight(index));
+    let parts = near
+        .iter()
+        .enumerate()
+        .map(|(index, (_, at))| *at * weight(index));
     parts.fold(DVector::zeros(known[0].2.at.len()), |sum, part| sum + part)
 }
 
@@ -206,6 +217,8 @@ pub(crate) struct Walker<'a, E: Equations> {
     pub node: Node<E::Point>,
     pub direction: DVector<f64>,
     slopes: DMatrix<f64>,
+    /// Change of the direction by arclength, across it.
+    bend: DVector<f64>,
     pub step: f64,
     largest: f64,
 }
@@ -241,6 +254,7 @@ impl<'a, E: Equations> Walker<'a, E> {
         let (direction, slopes) = tangent(equations, &node, along)?;
         Ok(Self {
             equations,
+            bend: DVector::zeros(direction.len()),
             node,
             direction,
             slopes,
@@ -251,7 +265,8 @@ impl<'a, E: Equations> Walker<'a, E> {
 
     /// The next node at the present length of step.
     pub fn attempt(&self) -> Result<Stride<E::Point>, OrbitError> {
-        let guess = &self.node.at + self.step * &self.direction;
+        let along = &self.direction + 0.5 * self.step * &self.bend;
+        let guess = &self.node.at + self.step * along;
         let mut slopes = Some(self.slopes.clone());
         let node = correct_with(self.equations, &guess, Some(&self.direction), &mut slopes)?;
         let (direction, slopes) = tangent(self.equations, &node, &self.direction)?;
@@ -269,6 +284,12 @@ impl<'a, E: Equations> Walker<'a, E> {
 
     /// Goes there.
     pub fn take(&mut self, stride: Stride<E::Point>) {
+        let far = (&stride.node.at - &self.node.at).norm();
+        let turn = (&stride.direction - &self.direction) / far;
+        self.bend = &turn - turn.dot(&stride.direction) * &stride.direction;
+        if !self.bend.iter().all(|part| part.is_finite()) {
+            self.bend.fill(0.0);
+        }
         self.node = stride.node;
         self.direction = stride.direction;
         self.slopes = stride.slopes;
@@ -280,6 +301,7 @@ impl<'a, E: Equations> Walker<'a, E> {
     /// Goes there, and on with steps as from a start.
     pub fn set_out(&mut self, stride: Stride<E::Point>) {
         self.take(stride);
+        self.bend.fill(0.0);
         self.step = FIRST_STEP.min(self.largest);
     }
 

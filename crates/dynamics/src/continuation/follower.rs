@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use nalgebra::{DVector, Vector2};
 
 use super::Family;
-use super::arclength::{self, LARGEST_STEP, Node, Walker, correct};
+use super::arclength::{self, LARGEST_STEP, Node, Walker, correct, correct_at};
 use super::point::BranchPoint;
 use super::round::Round;
 use super::shooting::{Critical, Shooting};
@@ -14,6 +14,10 @@ use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
 
 /// Scaled distance along a branch to which special points are located.
 pub(crate) const WIDTH: f64 = 1e-12;
+
+/// Distance of a point from the chord between its neighbours, as a share of the chord, within which it is taken for
+/// a point between them.
+const ASIDE: f64 = 0.2;
 
 /// Which way a branch is followed from its start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,7 +70,7 @@ impl<'a, F: Family> Follower<'a, F> {
         state: Vector2<f64>,
     ) -> Result<Node<Round>, OrbitError> {
         let guess = self.shooting.scaled(state, [parameter]);
-        correct(&self.shooting, &guess, Some(&Self::direction(Heading::Up)))
+        correct_at(&self.shooting, &guess)
     }
 
     /// The direction of rising or falling parameters.
@@ -133,6 +137,32 @@ impl<'a, F: Family> Follower<'a, F> {
         let test = |node: &Node<Round>| test(&self.point_at(node));
         let (node, _) = arclength::locate(&self.shooting, ends, WIDTH, test)?;
         Ok(self.point_at(&node))
+    }
+
+    /// The point between two neighbours at a value of the parameter between theirs.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if a correction fails.
+    pub fn between(
+        &self,
+        from: &BranchPoint,
+        to: &BranchPoint,
+        parameter: f64,
+    ) -> Result<BranchPoint, OrbitError> {
+        let ends = [from, to].map(|end| self.shooting.scaled(end.state(), [end.parameter]));
+        let way = &ends[1] - &ends[0];
+        let share = (parameter - from.parameter) / (to.parameter - from.parameter);
+        let state = from.state().lerp(&to.state(), share);
+        if let Ok(node) = self.start(parameter, state) {
+            let along = way.dot(&(&node.at - &ends[0])) / way.norm_squared();
+            let off = &node.at - &ends[0] - along * &way;
+            let point = self.point_at(&node);
+            let same_side = from.fold_test().signum() * point.fold_test().signum() > 0.0;
+            if same_side && (0.0..=1.0).contains(&along) && off.norm() < ASIDE * way.norm() {
+                return Ok(point);
+            }
+        }
+        self.locate(from, to, |point| point.parameter - parameter)
     }
 
     /// The orbit at which a test vanishes, by Newton's method for orbit and parameter together.

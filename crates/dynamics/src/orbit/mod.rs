@@ -21,6 +21,7 @@ pub use pattern::{Count, ImpactPattern};
 pub use periodic::Orbit;
 pub use regime::Regime;
 pub use search::find;
+pub(crate) use search::find_soon;
 
 use nalgebra::{Complex, Matrix2};
 use thiserror::Error;

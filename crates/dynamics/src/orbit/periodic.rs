@@ -86,15 +86,22 @@ impl Orbit {
                 Ok(Self::by_impacts(scene, orbit.periods, &impacts).unwrap_or(orbit))
             }
             Ok(orbit) => Ok(orbit),
-            Err(error) => {
-                let guesses = guesses(scene, state, periods)?;
-                let mut found = guesses
-                    .iter()
-                    .filter(|impacts| impacts.len() <= most)
-                    .filter_map(|impacts| Self::by_impacts(scene, periods, impacts).ok());
-                found.next().ok_or(error)
-            }
+            Err(error) => Self::by_guesses(scene, state, periods, most).ok_or(error),
         }
+    }
+
+    /// From impact to impact, from guesses near a state.
+    pub(super) fn by_guesses(
+        scene: &Scene,
+        state: Vector2<f64>,
+        periods: u64,
+        most: usize,
+    ) -> Option<Self> {
+        guesses(scene, state, periods)
+            .ok()?
+            .iter()
+            .filter(|impacts| impacts.len() <= most)
+            .find_map(|impacts| Self::by_impacts(scene, periods, impacts).ok())
     }
 
     /// Times in s and before-impact velocities in m/s of its impacts.

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
-use super::periodic::STEEP;
 use super::newton::fixed_point_unless;
+use super::periodic::STEEP;
 use super::{Orbit, OrbitError, Passage, StroboscopicMap, is_stable};
 use softstop::internals::Scales;
 use softstop::{Scene, Start};
@@ -15,10 +15,11 @@ use softstop_lanes::{Job, Machine, Watch};
 const SPEEDS: [f64; 9] = [0.3, 0.6, 0.9, 1.0, 1.1, 1.25, 1.6, 2.0, 3.0];
 /// Directions of the starts in the plane (w x, x').
 const DIRECTIONS: usize = 16;
-/// Drive periods for which starts are followed; the longer way only where the shorter one finds nothing.
-const SETTLING: [u64; 2] = [12, 60];
+/// Drive periods after which Newton's method may take over: few, which finds motions with small basins, and more;
+/// and far more if neither finds any.
+const SETTLING: [&[u64]; 2] = [&[2, 12], &[60]];
 /// Distance, in scales of the motion, that a state may move within a period and yet lie near an orbit.
-const RETURNS: f64 = 0.5;
+const RETURNS: f64 = 0.2;
 /// Distance, in the same scales, within which one state stands for another.
 const SAME: f64 = 0.02;
 
@@ -29,21 +30,41 @@ const SAME: f64 = 0.02;
 /// [`OrbitError::NotFound`] if no start leads to one; [`OrbitError::Motion`] if the scene is
 /// invalid.
 pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
+    search(scene, usize::MAX)
+}
+
+/// The same from those motions that come back near to where they were, and only if they lead to none, from all.
+///
+/// # Errors
+/// As [`find`].
+pub(crate) fn find_soon(scene: &Scene) -> Result<Orbit, OrbitError> {
+    search(scene, 1)
+}
+
+/// The best of all motions that the first groups of states lead to; further groups are tried only as long as there is
+/// none.
+fn search(scene: &Scene, groups: usize) -> Result<Orbit, OrbitError> {
     let machines = [Machine::new(scene)?];
     let map = StroboscopicMap::new(scene, 1)?;
     let distance = Distance::of(scene);
-    for periods in SETTLING {
+    for settling in SETTLING {
         let mut known: Vec<Fixed> = Vec::new();
-        for state in returning(&machines, starts(scene), periods, distance) {
-            let near = |state| {
-                let stands = |other: &Fixed| distance.between(other.state, state) < SAME;
-                known.iter().any(stands)
-            };
-            if !near(state) {
-                known.extend(Fixed::beside(scene, &map, state, near));
+        let candidates = returning(&machines, starts(scene), settling, distance);
+        for (group, states) in candidates.into_iter().enumerate() {
+            if group >= groups && known.iter().any(Fixed::is_single) {
+                break;
+            }
+            for state in states {
+                let near = |state| {
+                    let stands = |other: &Fixed| distance.between(other.state, state) < SAME;
+                    known.iter().any(stands)
+                };
+                if !near(state) {
+                    known.extend(Fixed::beside(scene, &map, state, near));
+                }
             }
         }
-        let single = known.into_iter().filter(|known| known.impacts == 1);
+        let single = known.into_iter().filter(Fixed::is_single);
         if let Some(best) = single.max_by(|a, b| a.velocity.total_cmp(&b.velocity)) {
             return Orbit::near(scene, best.state);
         }
@@ -63,6 +84,10 @@ struct Fixed {
 }
 
 impl Fixed {
+    fn is_single(&self) -> bool {
+        self.impacts == 1
+    }
+
     /// The one that Newton's method reaches from a state near it, unless it comes near one that is known.
     fn beside(
         scene: &Scene,
@@ -80,9 +105,13 @@ impl Fixed {
                     velocity: passage.impacts.iter().copied().fold(0.0, f64::max),
                 })
             }
-            _ => {
-                let orbit = Orbit::near(scene, state).ok()?;
-                orbit.is_stable().then(|| Self {
+            found => {
+                let orbit = match found {
+                    Ok(_) => Orbit::near(scene, state).ok()?,
+                    Err(_) => Orbit::by_guesses(scene, state, 1, 1)?,
+                };
+                let is_single = orbit.impacts.len() == 1 && orbit.periods == 1;
+                (is_single && orbit.is_stable()).then(|| Self {
                     state: orbit.state(),
                     impacts: 1,
                     velocity: orbit.before_impact_velocity(),
@@ -114,44 +143,50 @@ impl Distance {
     }
 }
 
-/// The state of each motion over so many drive periods that moves least within a period with one impact, if it
-/// moves little: the least first.
+/// Of each motion the state that moves least within a period with one impact, where it moves little, the least
+/// first; then where all motions are after each of these numbers of periods, in ascending order.
 fn returning(
     machines: &[Machine],
     starts: impl Iterator<Item = Start>,
-    periods: u64,
+    settling: &[u64],
     distance: Distance,
-) -> Vec<Vector2<f64>> {
+) -> [Vec<Vector2<f64>>; 2] {
     let jobs: Vec<Job> = starts
         .map(|start| Job {
             machine: 0,
             start,
-            periods,
+            periods: settling[settling.len() - 1],
         })
         .collect();
     let mut returns = Returns {
         distance,
+        settling,
         last: jobs.iter().map(|job| job.start.into()).collect(),
         impacts: vec![0; jobs.len()],
-        least: vec![(f64::INFINITY, Vector2::zeros()); jobs.len()],
+        least: vec![(RETURNS, Vector2::zeros()); jobs.len()],
+        settled: Vec::new(),
     };
     softstop_lanes::run(machines, &jobs, &mut returns);
     let mut least = returns.least;
     least.retain(|(moves, _)| *moves < RETURNS);
     least.sort_by(|a, b| a.0.total_cmp(&b.0));
-    least.into_iter().map(|(_, state)| state).collect()
+    let near = least.into_iter().map(|(_, state)| state).collect();
+    [near, returns.settled]
 }
 
-/// Keeps of each motion the state that moves least within a period with one impact.
-struct Returns {
+/// Keeps of each motion the state that moves least within a period with one impact, and the states after some numbers
+/// of periods.
+struct Returns<'a> {
     distance: Distance,
+    settling: &'a [u64],
     last: Vec<Vector2<f64>>,
     /// Impacts in the present period.
     impacts: Vec<u64>,
     least: Vec<(f64, Vector2<f64>)>,
+    settled: Vec<Vector2<f64>>,
 }
 
-impl Watch for Returns {
+impl Watch for Returns<'_> {
     const IMPACTS: bool = true;
     const PERIODS: bool = true;
 
@@ -159,8 +194,11 @@ impl Watch for Returns {
         self.impacts[job] += 1;
     }
 
-    fn period(&mut self, job: usize, _: u64, state: Start) {
+    fn period(&mut self, job: usize, cycle: u64, state: Start) {
         let state = state.into();
+        if self.settling.contains(&cycle) {
+            self.settled.push(state);
+        }
         let last = std::mem::replace(&mut self.last[job], state);
         let impacts = std::mem::take(&mut self.impacts[job]);
         let moves = self.distance.between(state, last);

@@ -2,7 +2,7 @@
 
 use super::{Frequencies, ZoneError, at, grazing_frequencies};
 use crate::continuation::{BranchPoint, Follower, Heading};
-use crate::orbit::{Orbit, OrbitError, find};
+use crate::orbit::{Orbit, OrbitError, find_soon};
 use crate::watch::stop_if;
 use softstop::Scene;
 
@@ -47,7 +47,7 @@ const FARTHEST: f64 = 8.0;
 pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
     let (frequency_g0_below, frequency_g0) = grazing_frequencies(scene)?;
     let family = Frequencies(scene);
-    let start = find(&at(scene, frequency_g0)).map_err(|_| ZoneError::NoOrbit {
+    let start = find_soon(&at(scene, frequency_g0)).map_err(|_| ZoneError::NoOrbit {
         frequency: frequency_g0,
     })?;
     let follower = Follower::new(&family, 1);
@@ -115,12 +115,29 @@ impl Zone {
         self.frequency_g0 + share * (self.frequency_sn - self.frequency_g0)
     }
 
-    /// The z = 1 orbit of the highest before-impact velocity at a place s of the zone, on the stable
-    /// side of the folds; s = 1 is the last fold itself.
+    /// The z = 1 orbit at a place s of the zone, as [`Zone::point_at`] has it.
     ///
     /// # Errors
     /// [`ZoneError::Outside`] if s is not in [0, 1]; [`ZoneError::Orbit`] if the orbit is lost.
     pub fn orbit_at(&self, share: f64) -> Result<Orbit, ZoneError> {
+        self.orbit(&self.point_at(share)?)
+    }
+
+    /// The whole orbit at a point of the branch.
+    ///
+    /// # Errors
+    /// [`ZoneError::Orbit`] if the orbit is lost.
+    pub fn orbit(&self, point: &BranchPoint) -> Result<Orbit, ZoneError> {
+        let family = Frequencies(&self.scene);
+        Ok(Follower::new(&family, 1).orbit(point)?)
+    }
+
+    /// The z = 1 motion of the highest before-impact velocity at a place s of the zone, on the stable
+    /// side of the folds; s = 1 is the last fold itself.
+    ///
+    /// # Errors
+    /// [`ZoneError::Outside`] if s is not in [0, 1]; [`ZoneError::Orbit`] if the orbit is lost.
+    pub fn point_at(&self, share: f64) -> Result<BranchPoint, ZoneError> {
         if !(0.0..=1.0).contains(&share) {
             return Err(ZoneError::Outside { share });
         }
@@ -136,9 +153,7 @@ impl Zone {
             let point = match (from.parameter - target, to.parameter - target) {
                 (0.0, _) => from.clone(),
                 (_, 0.0) => to.clone(),
-                (a, b) if a * b < 0.0 => {
-                    follower.locate(from, to, |point| point.parameter - target)?
-                }
+                (a, b) if a * b < 0.0 => follower.between(from, to, target)?,
                 _ => continue,
             };
             let stronger =
@@ -151,6 +166,6 @@ impl Zone {
             frequency: target,
             clearance: self.scene.clearance,
         };
-        Ok(follower.orbit(&best.ok_or(lost)?)?)
+        Ok(best.ok_or(lost)?)
     }
 }
