@@ -104,7 +104,8 @@ impl<'a, F: Family> Follower<'a, F> {
             node,
             &Self::direction(heading),
             self.largest,
-        )?;
+        )?
+        .bending();
         while points.len() < limit {
             match walker.attempt() {
                 Ok(stride) if stride.node.here.point.sequence == sequence => {
