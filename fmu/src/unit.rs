@@ -66,11 +66,11 @@ const FILES: [(&str, &[u8]); 6] = [
     ),
     (
         "documentation/licenses/LICENSE-MIT.txt",
-        include_bytes!("../../LICENSE-MIT"),
+        include_bytes!("../LICENSE-MIT"),
     ),
     (
         "documentation/licenses/LICENSE-APACHE.txt",
-        include_bytes!("../../LICENSE-APACHE"),
+        include_bytes!("../LICENSE-APACHE"),
     ),
     (
         "documentation/licenses/third-party.txt",
