@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod clock;
+mod examples;
 mod flow_reference;
 mod force;
 mod force_reference;

@@ -21,3 +21,20 @@ pub use scenes::{loaded, unloaded};
 pub fn docs(name: &str) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs")).join(name)
 }
+
+/// Makes a test of each example, which holds what it asserts: name and path, relative to the file of the call.
+#[macro_export]
+macro_rules! examples {
+    ($($name:ident: $path:literal),*) => {
+        $(
+            #[path = $path]
+            mod $name;
+        )*
+        $(
+            #[test]
+            fn $name() -> Result<(), Box<dyn std::error::Error>> {
+                $name::main()
+            }
+        )*
+    };
+}

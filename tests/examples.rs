@@ -1,0 +1,6 @@
+//! The examples hold what they assert.
+
+softstop_testing::examples! {
+    press: "../examples/press.rs",
+    observer: "../examples/observer.rs"
+}
