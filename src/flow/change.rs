@@ -1,4 +1,4 @@
-//! How a course changes with its start and with the push: variational equations, exact.
+//! How a course and the energy supplied along it change with its start and with the push: variational equations, exact.
 
 use nalgebra::{Matrix2, Vector2};
 

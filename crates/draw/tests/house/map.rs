@@ -11,31 +11,51 @@ pub const HEADING: &str = "\n## Map\n";
 /// The map as Markdown: a list for each room, a line for each folder.
 pub fn draw(rooms: &[Room]) -> String {
     let mut map = format!(
-        "{HEADING}\nEach file with what it says of itself and, in brackets, its types and the functions that others may use; \
-         `UPDATE=1 cargo test -p softstop-draw --test house` writes this list.\n"
+        "{HEADING}\n<details><summary>Each file with what it says of itself and, in brackets, its types and the functions \
+         that others may use. What stands right behind a folder's name is in its <code>mod.rs</code>. \
+         <code>UPDATE=1 cargo test -p softstop-draw --test house</code> writes this list.</summary>\n"
     );
     for room in rooms {
         let place = room.place.trim_end_matches('/');
         let source = if place.is_empty() { "src" } else { place };
         map += &format!("\n**`{source}/`** {}\n\n", room.job);
         folder(&room.folder.join("src"), "", &mut map);
+        map += &tests(&room.folder.join("tests"));
     }
-    map
+    map + "\n</details>\n"
+}
+
+/// The line of a room's tests: their names alone, which say what is claimed.
+fn tests(path: &Path) -> String {
+    if !path.is_dir() {
+        return String::new();
+    }
+    let (_, files) = entries(path);
+    let is_test =
+        |file: &&PathBuf| file.extension().is_some_and(|it| it == "rs") && stem(file) != "main";
+    let names: Vec<String> = files
+        .iter()
+        .filter(is_test)
+        .map(|file| format!("`{}`", stem(file)))
+        .collect();
+    format!("- **tests/** {}\n", names.join(", "))
+}
+
+/// The folders and the files in a folder, by name.
+fn entries(path: &Path) -> (Vec<PathBuf>, Vec<PathBuf>) {
+    let entries = fs::read_dir(path).expect("a folder");
+    let mut entries: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    entries.sort();
+    entries.into_iter().partition(|path| path.is_dir())
 }
 
 /// The line of a folder, and those of the folders in it.
 fn folder(path: &Path, name: &str, map: &mut String) {
-    let mut entries: Vec<PathBuf> = fs::read_dir(path)
-        .expect("a folder")
-        .map(|entry| entry.expect("an entry").path())
-        .collect();
-    entries.sort();
-    let (folders, files): (Vec<_>, Vec<_>) = entries.into_iter().partition(|path| path.is_dir());
-    // A folder speaks by its `mod.rs`, or by the file of its name beside it; a room by its manifest.
-    let speaks = |file: &&PathBuf| {
-        let stem = stem(file);
-        stem != "lib" && stem != "mod" && !file.with_extension("").is_dir()
-    };
+    let (folders, files) = entries(path);
+    // A folder speaks by its `mod.rs`, a room by its manifest.
+    let speaks = |file: &&PathBuf| !["lib", "mod"].contains(&stem(file).as_str());
     let words: Vec<String> = files
         .iter()
         .filter(speaks)
@@ -58,13 +78,7 @@ fn head(path: &Path, name: &str) -> Option<String> {
         let names = defined(&text).join(", ");
         return (!names.is_empty()).then(|| format!("`lib` ({names})"));
     }
-    let beside = path.with_extension("rs");
-    let file = if beside.exists() {
-        beside
-    } else {
-        path.join("mod.rs")
-    };
-    Some(format!("**{name}/** {}", said(&file)))
+    Some(format!("**{name}/** {}", said(&path.join("mod.rs"))))
 }
 
 fn stem(path: &Path) -> String {

@@ -1,4 +1,4 @@
-//! A scene as layers of positions with their laws, in many digits.
+//! A scene as layers of positions, their laws and what rubs there, in many digits.
 //!
 //! Built from the user's data alone: sums of parameters are not rounded, and nothing of the core's lowering is used.
 
