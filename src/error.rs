@@ -7,7 +7,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum SceneError {
     /// A parameter lies outside its range.
-    #[error("{name} = {value}: must be {allowed}")]
+    #[error("{name} = {}: must be {allowed}", plain(*value))]
     OutOfRange {
         /// The parameter's name, as in TOML and in the FMU.
         name: &'static str,
@@ -32,8 +32,9 @@ pub enum SceneError {
     NoSlope,
     /// A slope that does not follow the one before it.
     #[error(
-        "{list}[{index}]: from = {from}, stiffness = {stiffness}: the first slope must begin at \
-         0, each further one beyond the one before it, and stiffness must be finite and >= 0"
+        "{list}[{index}]: from = {}, stiffness = {}: the first slope must begin at 0, each further \
+         one beyond the one before it, and stiffness must be finite and >= 0, both at most 1e12",
+        plain(*from), plain(*stiffness)
     )]
     Slope {
         /// Which of the two lists.
@@ -108,6 +109,9 @@ pub enum MachineError {
     /// Two keys for one thing.
     #[error("{0} and {1}: only one of the two can be given")]
     Both(&'static str, &'static str),
+    /// The letter of a ratio, and the key of a machine in SI units that is to be used instead.
+    #[error("{0}: is a ratio, but this machine is in SI units; say {1}")]
+    Ratio(String, &'static str),
     /// A key that is set twice.
     #[error("{0}: is set twice")]
     Twice(&'static str),
@@ -125,6 +129,15 @@ pub enum MachineError {
 impl From<SceneError> for MachineError {
     fn from(source: SceneError) -> Self {
         Self::Value { line: None, source }
+    }
+}
+
+/// A number as it is, or with a power of ten if it would be long.
+pub fn plain(value: f64) -> String {
+    match value.abs() {
+        0.0 | 1e-5..1e16 => value.to_string(),
+        size if size.is_finite() => format!("{value:e}"),
+        _ => value.to_string(),
     }
 }
 

@@ -66,15 +66,17 @@ fn every_parameter_is_set_by_its_name_its_letter_and_its_older_names() -> Outcom
                         other.name()
                     );
                 }
-                for alias in about.aliases.iter().chain([&about.letter]) {
+                for alias in about.aliases {
                     let found = machine.parameter(alias)?;
                     assert!(found.is_called(alias));
                     assert_eq!(machine.parameter(&alias.replace('_', "-"))?, found);
                 }
-                assert_eq!(
-                    machine.parameter(about.letter)?.about().letter,
-                    about.letter
-                );
+                match machine.parameter(about.letter) {
+                    Err(MachineError::Ratio(_, key)) if machine.speaks == Language::Si => {
+                        assert_eq!(key, about.name);
+                    }
+                    found => assert_eq!(found?.about().letter, about.letter),
+                }
             }
         }
     }
@@ -187,6 +189,77 @@ fn frequencies_are_spoken_in_hertz_if_stated_so() -> Outcome {
     Ok(())
 }
 
+/// The key decides the unit, whichever of the two a machine speaks.
+#[test]
+fn keys_have_one_unit_on_every_machine() -> Outcome {
+    let si = full(STOPS[4])?;
+    let mut hertz = si.clone();
+    hertz.apply([("excitation.frequency_hz", "11.6")])?;
+    let paper = ratios(STOPS[4])?;
+    let unit = |machine: &Machine, key: &str| machine.stated(key).map(|(_, unit)| unit);
+    let tau = std::f64::consts::TAU;
+    for (rad, hz) in [
+        ("excitation.frequency", "excitation.frequency_hz"),
+        ("frequency", "frequency-hz"),
+    ] {
+        assert_eq!(
+            (unit(&si, rad)?, unit(&hertz, hz)?, unit(&paper, rad)?),
+            (1.0, 1.0, 1.0)
+        );
+        assert_eq!((unit(&si, hz)?, unit(&hertz, rad)?), (tau, 1.0 / tau));
+        assert!(unit(&paper, hz).is_err());
+    }
+    let mut deflected = si.clone();
+    deflected.apply([("stop.preload_deflection", "0.01")])?;
+    for (machine, is, other) in [
+        (&si, "stop.preload", "stop.preload_deflection"),
+        (&deflected, "stop.preload_deflection", "stop.preload"),
+    ] {
+        assert_eq!(unit(machine, is)?, 1.0);
+        let said = unit(machine, other).err().ok_or("accepted")?.to_string();
+        assert!(said.contains(is), "{said}");
+    }
+    Ok(())
+}
+
+#[test]
+fn letters_of_ratios_are_refused_in_si_units() -> Outcome {
+    let si = full(STOPS[4])?;
+    let mut hertz = si.clone();
+    hertz.apply([("frequency_hz", "11.6")])?;
+    let letters = [
+        "beta1", "eta", "rho", "beta", "k4", "Fp", "k2", "k3", "sigma", "nu", "epsilon",
+    ];
+    for letter in letters {
+        let error = si
+            .clone()
+            .apply([(letter, "0.5")])
+            .err()
+            .ok_or("accepted")?;
+        assert!(matches!(error, MachineError::Ratio(..)), "{error}");
+    }
+    for letter in [
+        "m", "k1", "b1", "F0", "w", "phi", "r", "b", "s", "v", "e", "R",
+    ] {
+        si.clone().apply([(letter, "0.5")])?;
+    }
+    for (machine, key) in [
+        (si, "excitation.frequency"),
+        (hertz, "excitation.frequency_hz"),
+    ] {
+        let said = machine
+            .parameter("eta")
+            .err()
+            .ok_or("accepted")?
+            .to_string();
+        assert_eq!(
+            said,
+            format!("eta: is a ratio, but this machine is in SI units; say {key}")
+        );
+    }
+    Ok(())
+}
+
 #[test]
 fn a_new_stop_takes_only_what_is_set_with_it() -> Outcome {
     let mut machine = full(STOPS[4])?;
@@ -216,7 +289,7 @@ fn wrong_files_are_told_with_line_key_value_and_range() {
                 [excitation]\namplitude = 1\nfrequency = 1.15\n\
                 [stop]\nmodel = \"preloaded\"\nstiffness = 7\npreload = 70\n[start]\nposition = 1\n";
     assert_eq!(complaint(good), "");
-    let cases: [(&str, &str, &[&str]); 12] = [
+    let cases: [(&str, &str, &[&str]); 13] = [
         ("mass = 1", "mass = 0", &["line 1", "mass = 0", "> 0"]),
         (
             "stiffness = 7",
@@ -247,6 +320,11 @@ fn wrong_files_are_told_with_line_key_value_and_range() {
             "[start]\nposition",
             "[initial]\nposition = nan\nvelocity",
             &["line 14", "initial.position = NaN"],
+        ),
+        (
+            "preload = 70",
+            "preload = 1e300",
+            &["line 12", "stop.preload = 1e300", "at most 1e12"],
         ),
         (
             "[start]",
@@ -284,7 +362,7 @@ fn wrong_files_are_told_with_line_key_value_and_range() {
 fn changes_that_fit_no_machine_are_refused() -> Outcome {
     let mut unloaded = Machine::named("unloaded").ok_or("none")?;
     type Case<'a> = (&'a [(&'a str, &'a str)], &'a [&'a str]);
-    let cases: [Case<'_>; 8] = [
+    let cases: [Case<'_>; 11] = [
         (
             &[("clearence", "3")],
             &["clearence", "did you mean clearance?"],
@@ -298,6 +376,20 @@ fn changes_that_fit_no_machine_are_refused() -> Outcome {
         (&[("clearance", "wide")], &["clearance = wide", "number"]),
         (&[("clearance", "nan")], &["clearance = NaN", "finite"]),
         (&[("damping", "-1")], &["damping = -1", ">= 0"]),
+        (&[("clearance", "1e160")], &["clearance = 1e160", "1e12"]),
+        (
+            &[("foo", "1")],
+            &[
+                "foo",
+                "stop.model",
+                "stop.preload_deflection",
+                "initial.position",
+            ],
+        ),
+        (
+            &[("stop.model", "rigid")],
+            &["missing key `stop.restitution`"],
+        ),
         (&[("rho", "3"), ("clearance", "4")], &["clearance", "twice"]),
     ];
     for (changes, words) in cases {

@@ -223,7 +223,7 @@ fn an_interrupt_leaves_nothing_behind() -> Outcome {
     let place = folder.path().join("new");
     // The search for a motion that is not there, among slow ones, takes seconds.
     let scene = format!("{}/../docs/scenes/chatter.toml", env!("CARGO_MANIFEST_DIR"));
-    let way = ["--parameter", "eta", "--from", "0.1", "--to", "1.8"];
+    let way = ["--parameter", "w", "--from", "0.1", "--to", "1.8"];
     let arguments = [&[scene.as_str(), "--orbit", "5/7"], &way[..]].concat();
     let child = command(&arguments, &place)
         .stdout(Stdio::piped())

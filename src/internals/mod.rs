@@ -2,6 +2,7 @@
 
 pub mod samples;
 
+pub use crate::error::plain;
 pub use crate::events::{Guard, Outlook, first_crossing};
 pub use crate::flow::{Course, Departure, Flow, Modes, Polynomial};
 pub use crate::integrator::{Evaluations, Motion, Walk, mechanical_energy, work};

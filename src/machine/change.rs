@@ -7,14 +7,6 @@ use super::{Language, Machine, keys};
 use crate::error::MachineError;
 use crate::scene::{Parameter, Stop};
 
-/// Keys of the stop that are no numbers: they make a new stop.
-const WORDS: [&str; 4] = [
-    keys::MODEL,
-    "stop.release",
-    "stop.loading",
-    "stop.unloading",
-];
-
 impl Machine {
     /// Sets keys of its file to values, written as in the file. A new `stop.model` takes only what is set
     /// with it; a new number of the drive in rad/s or Hz is what its key says.
@@ -30,7 +22,10 @@ impl Machine {
             .into_iter()
             .map(|(key, value)| (key.replace('-', "_"), value.trim()))
             .collect();
-        if changes.iter().any(|(key, _)| WORDS.contains(&key.as_str())) {
+        if changes
+            .iter()
+            .any(|(key, _)| keys::WORDS.contains(&key.as_str()))
+        {
             self.rebuild_stop(&changes)?;
         }
         let mut done = Vec::new();
@@ -47,7 +42,7 @@ impl Machine {
 
     /// Sets one key; its name.
     fn apply_one(&mut self, key: &str, text: &str) -> Result<&'static str, MachineError> {
-        if let Some(word) = WORDS.into_iter().find(|word| *word == key) {
+        if let Some(word) = keys::WORDS.into_iter().find(|word| *word == key) {
             return Ok(word);
         }
         let number = || number(key, text);
@@ -74,16 +69,14 @@ impl Machine {
                 return Ok(Parameter::Frequency.name());
             }
             keys::DEFLECTION | "preload_deflection" => {
-                if self.value(Parameter::Preload).is_none() {
-                    return Err(self.unknown(keys::DEFLECTION));
-                }
+                self.known(keys::DEFLECTION)?;
                 self.preload_deflection = Some(0.0);
                 self.set(Parameter::Preload, number()?);
                 return Ok(Parameter::Preload.name());
             }
             _ => {}
         }
-        let parameter = self.parameter(key)?;
+        let parameter = self.known(key)?;
         let value = number()?;
         match parameter {
             Parameter::Preload => self.preload_deflection = None,
@@ -95,6 +88,14 @@ impl Machine {
         }
         self.set(parameter, value);
         Ok(parameter.name())
+    }
+
+    /// The parameter of a key.
+    fn known(&self, key: &str) -> Result<Parameter, MachineError> {
+        self.parameter(key).map_err(|error| match error {
+            MachineError::Ratio(..) => error,
+            _ => self.unknown(key, self.keys()),
+        })
     }
 
     /// Makes the stop anew from what is set of it: a new model from that alone.
@@ -116,8 +117,12 @@ impl Machine {
                 None => None,
             };
         }
-        self.scene.stop = Stop::deserialize(stop)
-            .map_err(|error| MachineError::Syntax(format!("stop: {}", error.message())))?;
+        self.scene.stop = Stop::deserialize(stop).map_err(|error| {
+            MachineError::Syntax(format!(
+                "stop: {}",
+                error.message().replace("field `", "key `stop.")
+            ))
+        })?;
         Ok(())
     }
 }

@@ -61,7 +61,7 @@ impl Machine {
         let of_stop = |place: &&Place| place.key.starts_with("stop.") && place.key != keys::MODEL;
         match places.iter().find(of_stop) {
             Some(place) if machine.scene.stop == Stop::None => {
-                return Err(machine.unknown(&place.key));
+                return Err(machine.unknown(&place.key, machine.keys()));
             }
             _ => {}
         }
@@ -210,7 +210,12 @@ fn read(mut file: Spanned<DeTable<'_>>, language: Language) -> Result<Machine, T
         };
         file = Spanned::new(span, ratios);
         let table = file.get_mut();
-        initial = self::initial(table)?.or(initial);
+        initial = match (initial, self::initial(table)?) {
+            (Some(_), Some(_)) => {
+                return Err(MachineError::Both("initial", "ratios.initial").into());
+            }
+            (beside, inside) => inside.or(beside),
+        };
         put(table, "mass = 1.0\nstiffness = 1.0")?;
         if let Some(excitation) = inner(table, "excitation") {
             put(excitation, "amplitude = 1.0")?;

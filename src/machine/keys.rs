@@ -1,22 +1,30 @@
 //! The keys of machine files that are no numbers of a scene, and what a misspelt key was meant to be.
 
+use std::f64::consts::TAU;
+
 use super::{Language, Machine};
 use crate::error::MachineError;
-use crate::scene::Parameter;
+use crate::scene::{Dimension, Parameter, Stop};
 
 pub(super) const POSITION: &str = "initial.position";
 pub(super) const VELOCITY: &str = "initial.velocity";
 pub(super) const FREQUENCY_HZ: &str = "excitation.frequency_hz";
 pub(super) const DEFLECTION: &str = "stop.preload_deflection";
 pub(super) const MODEL: &str = "stop.model";
+const RELEASE: &str = "stop.release";
+const LOADING: &str = "stop.loading";
+const UNLOADING: &str = "stop.unloading";
+
+/// Keys of the stop that are no numbers: they make a new stop.
+pub(super) const WORDS: [&str; 4] = [MODEL, RELEASE, LOADING, UNLOADING];
 
 /// Keys of a file that are no [`Parameter`], of machines in SI units.
 pub(super) const FURTHER: [&str; 10] = [
     FREQUENCY_HZ,
     MODEL,
-    "stop.release",
-    "stop.loading",
-    "stop.unloading",
+    RELEASE,
+    LOADING,
+    UNLOADING,
     DEFLECTION,
     POSITION,
     VELOCITY,
@@ -70,28 +78,93 @@ fn edits(a: &str, b: &str) -> usize {
     row[b.len()]
 }
 
+/// The parameter that a key states in another way than by its name.
+pub(super) fn stated_otherwise(key: &str) -> Option<Parameter> {
+    match key {
+        FREQUENCY_HZ | "frequency_hz" => Some(Parameter::Frequency),
+        DEFLECTION | "preload_deflection" => Some(Parameter::Preload),
+        _ => None,
+    }
+}
+
+/// True if a key is the letter of a ratio of what machines in SI units have.
+fn is_ratio(key: &str, parameter: Parameter) -> bool {
+    let about = parameter.about();
+    let is_quotient = about.dimension != Dimension::Angle && !ONES.contains(&parameter);
+    key == about.letter && key != about.symbol && is_quotient
+}
+
 impl Machine {
-    /// The parameter of this name, letter or older name that it has. `stiffness` is that of the suspension,
-    /// or of the stop in ratios.
+    /// The parameter of this name, letter or older name that it has, or that this key states otherwise.
+    /// `stiffness` is that of the suspension, or of the stop in ratios; only machines in ratios know the
+    /// letters of ratios.
     ///
     /// # Errors
-    /// [`MachineError::Lacks`] or [`MachineError::UnknownKey`], with what it has instead.
+    /// [`MachineError::Lacks`] or [`MachineError::UnknownKey`], with what it has instead;
+    /// [`MachineError::Ratio`].
     pub fn parameter(&self, name: &str) -> Result<Parameter, MachineError> {
         let name = name.replace('-', "_");
-        let named =
-            |parameter: &Parameter| name == self.name(*parameter) || name == parameter.name();
+        let known = |parameter: &Parameter| match parameter {
+            Parameter::Frequency => self.speaks != Language::Ratios,
+            _ => true,
+        };
+        let otherwise = stated_otherwise(&name).filter(known);
+        let named = |parameter: &Parameter| name == parameter.name();
         let called = |parameter: &Parameter| parameter.is_called(&name);
         let found = self
             .parameters()
-            .find(named)
+            .find(|parameter| otherwise == Some(*parameter) || named(parameter))
             .or_else(|| self.parameters().find(called));
-        found.ok_or_else(|| self.unknown(&name))
+        match found {
+            None => Err(self.unknown(&name, self.numbers())),
+            Some(found) if self.speaks != Language::Ratios && is_ratio(&name, found) => {
+                Err(MachineError::Ratio(name, self.name(found)))
+            }
+            Some(found) => Ok(found),
+        }
     }
 
-    /// Why it does not have this key.
-    pub(super) fn unknown(&self, key: &str) -> MachineError {
-        let mut has: Vec<&'static str> = self.parameters().map(|it| self.name(it)).collect();
-        has.extend([POSITION, VELOCITY]);
+    /// The parameter of a key, and the unit of that key in the machine's own one: `excitation.frequency` is
+    /// in rad/s and `excitation.frequency_hz` in Hz, whichever of the two the machine speaks.
+    ///
+    /// # Errors
+    /// As [`Machine::parameter`]; [`MachineError::Lacks`] if the machine states its preload otherwise.
+    pub fn stated(&self, key: &str) -> Result<(Parameter, f64), MachineError> {
+        let parameter = self.parameter(key)?;
+        let key = key.replace('-', "_");
+        let otherwise = stated_otherwise(&key).is_some();
+        match (parameter, self.speaks) {
+            (Parameter::Preload, _) if otherwise != self.preload_deflection.is_some() => {
+                Err(self.unknown(&key, self.numbers()))
+            }
+            (Parameter::Frequency, Language::Hertz) if !otherwise => Ok((parameter, 1.0 / TAU)),
+            (Parameter::Frequency, Language::Si) if otherwise => Ok((parameter, TAU)),
+            _ => Ok((parameter, 1.0)),
+        }
+    }
+
+    /// The names of its parameters.
+    fn numbers(&self) -> Vec<&'static str> {
+        self.parameters().map(|it| self.name(it)).collect()
+    }
+
+    /// All keys of a file that it has.
+    pub(super) fn keys(&self) -> Vec<&'static str> {
+        let has = |key: &&str| match *key {
+            FREQUENCY_HZ => self.speaks == Language::Si,
+            DEFLECTION => {
+                self.preload_deflection.is_none() && self.value(Parameter::Preload).is_some()
+            }
+            RELEASE => matches!(self.scene.stop, Stop::KelvinVoigt { .. }),
+            LOADING | UNLOADING => matches!(self.scene.stop, Stop::PiecewiseLinear { .. }),
+            _ => true,
+        };
+        let further = FURTHER.into_iter().filter(has);
+        self.numbers().into_iter().chain(further).collect()
+    }
+
+    /// Why it does not have this key; what it has.
+    pub(super) fn unknown(&self, key: &str, has: Vec<&'static str>) -> MachineError {
         let exists = FURTHER.contains(&key) || Parameter::ALL.iter().any(|it| it.is_called(key));
         if exists {
             return MachineError::Lacks {

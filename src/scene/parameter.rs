@@ -121,25 +121,28 @@ impl Dimension {
     }
 }
 
-/// Where a value may lie.
+/// Where a value may lie; its size is at most [`Allowed::LARGEST`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Allowed {
-    /// Finite and > 0.
+    /// > 0 and not too large.
     Positive,
-    /// Finite and >= 0.
+    /// >= 0 and not too large.
     NotNegative,
-    /// Finite.
+    /// Not too large, of either sign.
     Finite,
     /// From 0 to 1.
     Share,
-    /// Finite and >= 1.
+    /// >= 1 and not too large.
     AtLeastOne,
 }
 
 impl Allowed {
+    /// A number far above any machine's, below which no intermediate result overflows.
+    pub const LARGEST: f64 = 1e12;
+
     /// True if the value lies there.
     pub fn holds(self, value: f64) -> bool {
-        value.is_finite()
+        value.abs() <= Self::LARGEST
             && match self {
                 Self::Positive => value > 0.0,
                 Self::NotNegative => value >= 0.0,
@@ -152,11 +155,11 @@ impl Allowed {
     /// In words, as after "must be".
     pub const fn words(self) -> &'static str {
         match self {
-            Self::Positive => "finite and > 0",
-            Self::NotNegative => "finite and >= 0",
-            Self::Finite => "finite",
+            Self::Positive => "finite and > 0, at most 1e12",
+            Self::NotNegative => "finite and >= 0, at most 1e12",
+            Self::Finite => "finite, from -1e12 to 1e12",
             Self::Share => "in [0, 1]",
-            Self::AtLeastOne => "finite and >= 1",
+            Self::AtLeastOne => "finite and >= 1, at most 1e12",
         }
     }
 

@@ -1,6 +1,6 @@
 //! Range checks: a scene that passes them can be simulated.
 
-use super::{Parameter, Scene, Slope, Stop, force_of};
+use super::{Allowed, Parameter, Scene, Slope, Stop, force_of};
 use crate::error::SceneError;
 
 /// Refuses slopes out of order, and a way back that would give more than the way forward took.
@@ -36,9 +36,10 @@ fn in_order(list: &'static str, slopes: &[Slope]) -> Result<(), SceneError> {
     for (index, slope) in slopes.iter().enumerate() {
         let fits = match index.checked_sub(1) {
             None => slope.from == 0.0,
-            Some(previous) => slope.from.is_finite() && slope.from > slopes[previous].from,
+            Some(previous) => slope.from > slopes[previous].from,
         };
-        if !(fits && slope.stiffness.is_finite() && slope.stiffness >= 0.0) {
+        let allowed = [slope.from, slope.stiffness].map(|value| Allowed::NotNegative.holds(value));
+        if !fits || allowed != [true; 2] {
             return Err(SceneError::Slope {
                 list,
                 index,

@@ -1,6 +1,5 @@
 //! The machine on the command line: a file or the paper's, and changes of it.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -9,13 +8,13 @@ use softstop::{Language, Machine, Parameter};
 
 use crate::failure::Failure;
 use crate::machine::{Regime, SceneSettings};
-use crate::scene_file::read_toml;
+use crate::scene_file::{read_toml, text};
 
 /// Arguments of every command that looks at one machine.
 #[derive(Debug, Clone, PartialEq, Default, Args)]
 pub struct MachineArguments {
     /// Machine: a TOML file (softstop schema says what it may hold), or the paper's by its name,
-    /// `unloaded` or `loaded` [default: unloaded]
+    /// `unloaded` (also A, its point in Fig. 7) or `loaded` (B) [default: unloaded]
     #[arg(value_name = "MACHINE")]
     pub machine: Option<PathBuf>,
     /// Change a value of the machine, by its key in the file; repeatable
@@ -66,7 +65,11 @@ impl MachineArguments {
     /// As [`MachineArguments::machine`].
     pub fn machine_over(&self, below: &SceneSettings) -> Result<Machine, Failure> {
         let mut machine = match self.named()? {
-            Some(regime) => self.paper(regime, below)?,
+            Some(regime) => {
+                let machine = self.paper(regime, below)?;
+                self.refuse_both(&machine)?;
+                machine
+            }
             None if *below == SceneSettings::default() => self.file()?,
             None => {
                 return Err(Failure::usage(
@@ -81,15 +84,17 @@ impl MachineArguments {
         Ok(machine)
     }
 
-    /// Refuses a parameter that is given on the command line, and why.
+    /// Refuses a parameter of the machine that is given on the command line, and why.
     ///
     /// # Errors
     /// [`Failure::Usage`] naming it.
-    pub fn refuse(&self, parameter: Parameter, why: &str) -> Result<(), Failure> {
-        match self.keys().iter().find(|key| parameter.is_called(key)) {
-            Some(key) => Err(Failure::usage(format!("{key}: {why}"))),
-            None => Ok(()),
-        }
+    pub fn refuse(
+        &self,
+        machine: &Machine,
+        parameter: Parameter,
+        why: &str,
+    ) -> Result<(), Failure> {
+        self.refuse_key(|key| machine.parameter(key) == Ok(parameter), why)
     }
 
     /// Refuses a start that is given on the command line, where it plays no part.
@@ -97,13 +102,49 @@ impl MachineArguments {
     /// # Errors
     /// [`Failure::Usage`] naming it.
     pub fn refuse_start(&self) -> Result<(), Failure> {
-        let is_start = |key: &&String| key.starts_with("initial.") || key.starts_with("start.");
-        match self.keys().iter().find(is_start) {
-            Some(key) => Err(Failure::usage(format!(
-                "{key}: the machine's own start plays no part"
-            ))),
+        let is_start = |key: &str| key.starts_with("initial.") || key.starts_with("start.");
+        self.refuse_key(is_start, "the machine's own start plays no part")
+    }
+
+    /// Refuses a coordinate of the start, `position` or `velocity`, that is set although a flag of this name
+    /// gives it.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] naming both.
+    pub fn refuse_start_beside(&self, flag: &str) -> Result<(), Failure> {
+        let is_same = |key: &str| {
+            ["initial.", "start."]
+                .map(|table| table.to_owned() + flag)
+                .contains(&key.to_owned())
+        };
+        self.refuse_key(is_same, &format!("goes not with --{flag}"))
+    }
+
+    /// Refuses a key that the command line states, and why.
+    fn refuse_key(&self, is_refused: impl Fn(&str) -> bool, why: &str) -> Result<(), Failure> {
+        match self.keys().iter().find(|key| is_refused(key)) {
+            Some(key) => Err(Failure::usage(format!("{key}: {why}"))),
             None => Ok(()),
         }
+    }
+
+    /// Refuses a value that is given by a shorthand and by its key, or that a new stop would not have.
+    fn refuse_both(&self, machine: &Machine) -> Result<(), Failure> {
+        for (name, _) in self.ratios.given() {
+            for Change { key, .. } in &self.set {
+                let Ok(shorthand) = machine.parameter(name) else {
+                    continue;
+                };
+                let is_lost = key == "stop.model" && shorthand.name().starts_with("stop.");
+                if is_lost || machine.parameter(key) == Ok(shorthand) {
+                    let flag = name.replace('_', "-");
+                    return Err(Failure::usage(format!(
+                        "--{flag} and --set {key}: only one of the two can be given"
+                    )));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The paper's machine that is asked for; none if it is a file's.
@@ -111,20 +152,19 @@ impl MachineArguments {
         let Some(path) = &self.machine else {
             return Ok(Some(None));
         };
-        let named = [Regime::Unloaded, Regime::Loaded]
-            .into_iter()
-            .find(|regime| path.as_os_str() == regime.name());
+        let named = Regime::called(path);
         match (named, self.ratios.regime) {
             (Some(named), Some(regime)) if named != regime => Err(Failure::usage(format!(
                 "{}: goes not with --regime {}",
-                named.name(),
+                path.display(),
                 regime.name()
             ))),
             (named, _) => Ok(named.map(Some)),
         }
     }
 
-    /// The parameter of this name that the machine has; `flag` asks for it.
+    /// The parameter of this key that the machine has, and the key's unit in the machine's own
+    /// ([`Machine::stated`]); `flag` asks for it.
     ///
     /// # Errors
     /// [`Failure::Usage`] naming the flag, and what the machine has instead.
@@ -133,8 +173,8 @@ impl MachineArguments {
         machine: &Machine,
         flag: &str,
         name: &str,
-    ) -> Result<Parameter, Failure> {
-        let found = machine.parameter(name);
+    ) -> Result<(Parameter, f64), Failure> {
+        let found = machine.stated(name);
         found.map_err(|error| Failure::usage(format!("--{flag} {name}: {error}")))
     }
 
@@ -160,7 +200,10 @@ impl MachineArguments {
     /// The machine of the file.
     fn file(&self) -> Result<Machine, Failure> {
         let path = self.machine.as_deref().unwrap_or(Path::new(""));
-        let key = |name| Machine::named(Regime::Loaded.name())?.parameter(name).ok();
+        let key = |name| {
+            let parameter = Machine::named(Regime::Loaded.name())?.parameter(name).ok();
+            parameter.filter(|parameter| parameter.is_called(name))
+        };
         let flag = match (self.ratios.regime, self.ratios.given().first()) {
             (Some(_), _) => Some(("regime", String::new())),
             (_, Some((name, value))) => {
@@ -186,8 +229,7 @@ impl MachineArguments {
 /// [`Failure::Usage`] naming the file, and line, key, value and range of what is wrong in it.
 pub fn read(path: &Path) -> Result<Machine, Failure> {
     let place = path.display();
-    let text = fs::read_to_string(path)
-        .map_err(|error| Failure::usage(format!("{place}: cannot be read: {error}")))?;
+    let text = text(path)?;
     let mut machine =
         Machine::from_toml(&text).map_err(|error| Failure::usage(format!("{place}: {error}")))?;
     if machine.name.is_none() {

@@ -1,5 +1,7 @@
 //! The paper's ratios as shorthands on the command line and in task files.
 
+use std::path::Path;
+
 use clap::{Args, ValueEnum};
 use serde::{Deserialize, Serialize};
 use softstop::Ratios;
@@ -31,6 +33,13 @@ impl Regime {
             Self::Unloaded => "A",
             Self::Loaded => "B",
         }
+    }
+
+    /// The one of a machine that is called by the name of its regime or of its point.
+    #[must_use]
+    pub fn called(machine: &Path) -> Option<Self> {
+        let mut all = Self::value_variants().iter().copied();
+        all.find(|it| machine == Path::new(it.name()) || machine == Path::new(it.point()))
     }
 
     /// As on the command line.

@@ -48,7 +48,7 @@ pub fn machine() -> Value {
     si.extend([
         ("name".to_owned(), text("Its name, also that of its FMU.")),
         ("description".to_owned(), text("What it is, in a sentence.")),
-        ("ratios".to_owned(), object(sections(Language::Ratios))),
+        ("ratios".to_owned(), ratios()),
     ]);
     let (start, damping) = (
         si["initial"].clone(),
@@ -74,13 +74,29 @@ pub fn machine() -> Value {
         "type": "object",
         "properties": si,
         "additionalProperties": false,
+        "not": { "required": ["initial", "start"] },
         "if": { "required": ["ratios"] },
-        "then": { "propertyNames": { "enum": beside } },
+        "then": {
+            "propertyNames": { "enum": beside },
+            "not": {
+                "properties": { "ratios": { "required": ["initial"] } },
+                "anyOf": [{ "required": ["initial"] }, { "required": ["start"] }],
+            },
+        },
         "else": {
             "required": required,
             "oneOf": [{ "required": ["contact"] }, { "required": ["contact_damping"] }],
         },
     })
+}
+
+/// The table of ratios.
+fn ratios() -> Value {
+    let sections = sections(Language::Ratios);
+    let required = required(&sections);
+    let mut ratios = object(sections);
+    ratios["required"] = required.into();
+    ratios
 }
 
 /// The keys of a machine in a language, by their tables.
@@ -107,15 +123,13 @@ fn sections(language: Language) -> Map<String, Value> {
     if language == Language::Ratios {
         drive["required"] = json!(["frequency"]);
     } else {
-        drive["properties"]["frequency_hz"] = json!({
-            "type": "number",
-            "exclusiveMinimum": 0,
-            "description": "drive frequency in Hz, instead of frequency; text, charts and JSON then speak Hz",
-        });
+        let what =
+            "drive frequency in Hz, instead of frequency; text, charts and JSON then speak Hz";
+        drive["properties"]["frequency_hz"] = within(Allowed::Positive, what);
         drive["required"] = json!(["amplitude"]);
         drive["oneOf"] = json!([{ "required": ["frequency"] }, { "required": ["frequency_hz"] }]);
     }
-    let state = |what| json!({ "type": "number", "description": what });
+    let state = |what| within(Allowed::Finite, what);
     let initial = [
         ("position".to_owned(), state("position at time 0")),
         ("velocity".to_owned(), state("velocity at time 0")),
@@ -170,18 +184,22 @@ fn number(parameter: Parameter, language: Language) -> Value {
         (_, "") => about.meaning.to_owned(),
         (_, unit) => format!("{} in {unit}", about.meaning),
     };
-    let mut schema = json!({ "type": "number", "description": what });
-    let (limit, value) = match about.allowed {
-        Allowed::Finite => return schema,
-        Allowed::Positive => ("exclusiveMinimum", 0),
-        Allowed::NotNegative | Allowed::Share => ("minimum", 0),
-        Allowed::AtLeastOne => ("minimum", 1),
+    within(about.allowed, &what)
+}
+
+/// A number in a range.
+fn within(allowed: Allowed, what: &str) -> Value {
+    let (limit, least) = match allowed {
+        Allowed::Finite => ("minimum", -Allowed::LARGEST),
+        Allowed::Positive => ("exclusiveMinimum", 0.0),
+        Allowed::NotNegative | Allowed::Share => ("minimum", 0.0),
+        Allowed::AtLeastOne => ("minimum", 1.0),
     };
-    schema[limit] = value.into();
-    if about.allowed == Allowed::Share {
-        schema["maximum"] = 1.into();
-    }
-    schema
+    let most = match allowed {
+        Allowed::Share => 1.0,
+        _ => Allowed::LARGEST,
+    };
+    json!({ "type": "number", "description": what, limit: least, "maximum": most })
 }
 
 /// A stop of each law.
@@ -238,19 +256,16 @@ fn law(stop: Stop, language: Language) -> Value {
         properties.insert("release".to_owned(), json!({ "enum": ways }));
     }
     if chained {
-        let chain = json!({ "type": "array", "items": slope() });
-        properties.insert("loading".to_owned(), chain.clone());
-        properties.insert("unloading".to_owned(), chain);
+        let chain = |least| json!({ "type": "array", "items": slope(), "minItems": least });
+        properties.insert("loading".to_owned(), chain(1));
+        properties.insert("unloading".to_owned(), chain(0));
         required.push("loading".to_owned());
     }
     let mut law = object(properties);
     if machine.value(Parameter::Preload).is_some() {
         required.retain(|key| key != "preload");
-        law["properties"]["preload_deflection"] = json!({
-            "type": "number",
-            "minimum": 0,
-            "description": "preload as a deflection, instead of preload: the force follows the stiffness",
-        });
+        let what = "preload as a deflection, instead of preload: the force follows the stiffness";
+        law["properties"]["preload_deflection"] = within(Allowed::NotNegative, what);
         law["oneOf"] = json!([
             { "required": ["preload"] },
             { "required": ["preload_deflection"] },
@@ -261,10 +276,10 @@ fn law(stop: Stop, language: Language) -> Value {
 }
 
 fn slope() -> Value {
-    let at_least_zero = json!({ "type": "number", "minimum": 0 });
+    let number = |what| within(Allowed::NotNegative, what);
     let mut slope = object(Map::from_iter([
-        ("from".to_owned(), at_least_zero.clone()),
-        ("stiffness".to_owned(), at_least_zero),
+        ("from".to_owned(), number("deflection at which it begins")),
+        ("stiffness".to_owned(), number("its stiffness")),
     ]));
     require_all(&mut slope);
     slope

@@ -46,6 +46,11 @@ fn holds(value: &Value, word: &str, rule: &Value, all: &serde_json::Map<String, 
         }
         "propertyNames" => keys().all(|key| fulfils(&Value::from(key.as_str()), rule)),
         "required" => list().all(|key| value.get(key.as_str().unwrap_or_default()).is_some()),
+        "not" => !fulfils(value, rule),
+        "anyOf" => list().any(|rule| fulfils(value, rule)),
+        "minItems" => value
+            .as_array()
+            .is_none_or(|items| items.len() as f64 >= limit),
         "oneOf" => list().filter(|rule| fulfils(value, rule)).count() == 1,
         "items" => value
             .as_array()
@@ -101,6 +106,9 @@ fn schema_and_reader_agree() -> Outcome {
                   excitation = { frequency = 1.15 }\n[ratios.stop]\nmodel = \"hertz\"\nstiffness = 150\n\
                   [ratios.piercing]\nstiffness = 21\nfriction = 23\nthickness = 0.4\ntravel = 0.5\n\
                   [initial]\nvelocity = 14\n";
+    let slopes = "[ratios]\ndamping = 0.02\nclearance = 10\ncontact.damping = 0.09\n\
+                  excitation.frequency = 1.15\ninitial.position = 1\n\
+                  stop = { model = \"piecewiseLinear\", loading = [{ from = 0, stiffness = 20 }] }\n";
     let changes = [
         (si, "", "", true),
         (ratios, "", "", true),
@@ -162,6 +170,15 @@ fn schema_and_reader_agree() -> Outcome {
             true,
         ),
         (ratios, "friction = 23", "", false),
+        (si, "[initial]", "[start]\nvelocity = 2\n[initial]", false),
+        (si, "clearance = 10", "clearance = 1e13", false),
+        (si, "position = 1", "position = 1e13", false),
+        (ratios, "clearance = 10\n", "", false),
+        (ratios, "contact.damping = 0.09\n", "", false),
+        (ratios, "[ratios]", "[ratios]\ninitial.position = 1", false),
+        ("[ratios]\nclearance = 10\n", "", "", false),
+        (slopes, "", "", true),
+        (slopes, "[{ from = 0, stiffness = 20 }]", "[]", false),
     ];
     for (file, from, to, good) in changes {
         let text = file.replacen(from, to, 1);

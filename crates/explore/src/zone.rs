@@ -42,16 +42,18 @@ pub struct ZoneArguments {
 /// # Errors
 /// [`Failure::Usage`] for values no machine can have, or none with a zone; [`Failure::Run`] if none is found.
 pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
-    let why = "the zone is a range of drive frequencies, whatever the machine's own";
-    arguments.machine.refuse(Parameter::Frequency, why)?;
     arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
+    let why = "the zone is a range of drive frequencies, whatever the machine's own";
+    arguments
+        .machine
+        .refuse(&machine, Parameter::Frequency, why)?;
     let zone = softstop_dynamics::zone::hysteresis(&machine.scene);
     let zone = zone.map_err(|error| match error {
         ZoneError::NoGrazing { .. } => Failure::usage(error.to_string()),
         error => {
             let place = format!("no hysteresis zone found of {}", title(&machine));
-            Failure::Run(anyhow!(error).context(place))
+            Failure::Run(anyhow!(error.stated(&machine)).context(place))
         }
     })?;
     let report = ZoneReport::new(&machine, &zone);

@@ -48,7 +48,7 @@ macro_rules! task {
 }
 
 task! {
-    /// Machine file, seen from the task's folder, or `unloaded` or `loaded`.
+    /// Machine file, seen from the task's folder, or `unloaded` (A) or `loaded` (B).
     machine: Option<PathBuf>, json!({ "type": "string" });
     /// Without or with a strip: the paper's machine.
     regime: Option<Regime>, schema::words::<Regime>();

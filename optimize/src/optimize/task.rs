@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::failure::Failure;
-use softstop_console::machine::SceneSettings;
+use softstop_console::machine::{Regime, SceneSettings};
 use softstop_console::output::Format;
 use softstop_console::range::require;
 use softstop_console::scene_file;
@@ -107,9 +107,7 @@ fn machine(arguments: &OptimizeArguments, task: &Task) -> Result<Machine, Failur
                 "machine and scene: only one of the two can be given in a task",
             ));
         }
-        let is_named = ["unloaded", "loaded"]
-            .iter()
-            .any(|name| machine.as_os_str() == *name);
+        let is_named = Regime::called(machine).is_some();
         let folder = arguments.config.as_ref().and_then(|path| path.parent());
         let place = folder
             .filter(|_| !is_named)
@@ -163,15 +161,19 @@ fn axes(machine: &Machine, layers: &[Words]) -> Result<(Vec<Axis>, Interval), Fa
     for words in layers {
         let above = ranges.len();
         for word in &words.ranges {
-            let parameter = parameter(machine, &word.name)?;
+            let stated = machine.stated(&word.name);
+            let (parameter, unit) = stated.map_err(|error| Failure::usage(error.to_string()))?;
             if ranges[above..].iter().any(|(other, _)| *other == parameter) {
                 return Err(only_one(machine, parameter));
             }
-            ranges.push((parameter, interval(machine, parameter, word.value)?));
+            ranges.push((
+                parameter,
+                interval(machine, parameter, word.value.map(|end| end * unit))?,
+            ));
         }
         for name in &words.stated {
             // What is stated of the machine is held, if the search would choose it.
-            let Ok(parameter) = parameter(machine, name) else {
+            let Ok(parameter) = machine.parameter(name) else {
                 continue;
             };
             let usual = DEFAULTS.iter().any(|(usual, _)| *usual == parameter);
@@ -206,11 +208,6 @@ fn axes(machine: &Machine, layers: &[Words]) -> Result<(Vec<Axis>, Interval), Fa
         }
     }
     Ok((axes, frequency))
-}
-
-fn parameter(machine: &Machine, name: &str) -> Result<Parameter, Failure> {
-    let parameter = machine.parameter(&name.replace('-', "_"));
-    parameter.map_err(|error| Failure::usage(error.to_string()))
 }
 
 fn only_one(machine: &Machine, parameter: Parameter) -> Failure {

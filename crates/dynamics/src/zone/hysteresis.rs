@@ -48,7 +48,7 @@ pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
     let (frequency_g0_below, frequency_g0) = grazing_frequencies(scene)?;
     let family = Frequencies(scene);
     let start = find_soon(&at(scene, frequency_g0)).map_err(|_| ZoneError::NoOrbit {
-        frequency: frequency_g0,
+        frequency: frequency_g0.into(),
     })?;
     let follower = Follower::new(&family, 1);
     let mut branch =
@@ -96,7 +96,10 @@ fn insert_folds(
 }
 
 fn no_fold(branch: &[BranchPoint]) -> ZoneError {
-    let frequency = branch.last().map_or(f64::NAN, |point| point.parameter);
+    let frequency = branch
+        .last()
+        .map_or(f64::NAN, |point| point.parameter)
+        .into();
     if branch.iter().all(BranchPoint::is_stable) {
         ZoneError::NoFold { frequency }
     } else {

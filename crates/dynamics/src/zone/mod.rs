@@ -12,12 +12,14 @@ pub use grazing::{free_amplitude, grazing_frequencies};
 pub use hysteresis::{Zone, hysteresis};
 pub use loss::loss_of_stability;
 
+use std::fmt::{self, Display, Formatter};
+
 use thiserror::Error;
 
 use crate::continuation::Family;
 use crate::orbit::OrbitError;
-use softstop::internals::Scales;
-use softstop::{MotionError, Scene, SceneError};
+use softstop::internals::{Scales, plain};
+use softstop::{Dimension, Machine, MotionError, Parameter, Scene, SceneError};
 
 /// Why a machine has no hysteresis zone.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -35,26 +37,22 @@ pub enum ZoneError {
         largest: f64,
     },
     /// There is no stable z = 1 motion where the zone would begin.
-    #[error(
-        "no hysteresis: no stable z = 1 motion at the grazing boundary frequency = {frequency}"
-    )]
+    #[error("no hysteresis: no stable z = 1 motion at the grazing boundary, {frequency}")]
     NoOrbit {
-        /// Frequency of the grazing boundary in rad/s.
-        frequency: f64,
+        /// Frequency of the grazing boundary.
+        frequency: Stated,
     },
     /// The z = 1 branch loses its stability otherwise than by a fold.
-    #[error(
-        "the z = 1 branch loses its stability by a flip near frequency = {frequency}, before any fold"
-    )]
+    #[error("the z = 1 branch loses its stability by a flip near {frequency}, before any fold")]
     Flip {
-        /// Frequency in rad/s at which it is first seen unstable.
-        frequency: f64,
+        /// Frequency at which it is first seen unstable.
+        frequency: Stated,
     },
     /// The z = 1 branch goes on without a fold.
-    #[error("the z = 1 branch was followed to frequency = {frequency} without meeting a fold")]
+    #[error("the z = 1 branch was followed to {frequency} without meeting a fold")]
     NoFold {
-        /// Frequency in rad/s up to which it was followed.
-        frequency: f64,
+        /// Frequency up to which it was followed.
+        frequency: Stated,
     },
     /// A place outside the zone was asked for.
     #[error("s = {share}: must lie in [0, 1], from g0 to s_SN")]
@@ -65,6 +63,43 @@ pub enum ZoneError {
     /// The branch could not be computed.
     #[error(transparent)]
     Orbit(#[from] OrbitError),
+}
+
+impl ZoneError {
+    /// The same with its frequency as a machine states it.
+    #[must_use]
+    pub fn stated(mut self, machine: &Machine) -> Self {
+        if let Self::NoOrbit { frequency } | Self::Flip { frequency } | Self::NoFold { frequency } =
+            &mut self
+        {
+            frequency.key = machine.name(Parameter::Frequency);
+            frequency.value = machine.to_own(Dimension::Frequency, frequency.value);
+        }
+        self
+    }
+}
+
+/// A drive frequency under a key of machine files, which says its unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stated {
+    /// The key: `excitation.frequency` for rad/s.
+    pub key: &'static str,
+    /// The frequency.
+    pub value: f64,
+}
+
+impl From<f64> for Stated {
+    /// A frequency in rad/s.
+    fn from(value: f64) -> Self {
+        let key = Parameter::Frequency.name();
+        Self { key, value }
+    }
+}
+
+impl Display for Stated {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} = {}", self.key, plain(self.value))
+    }
 }
 
 impl From<SceneError> for ZoneError {

@@ -119,7 +119,9 @@ pub fn run(arguments: &BasinArguments) -> Result<(), Failure> {
     match arguments.along_zone {
         Some(places) => {
             let why = "is not used, for the zone has its own frequencies";
-            arguments.machine.refuse(Parameter::Frequency, why)?;
+            arguments
+                .machine
+                .refuse(&machine, Parameter::Frequency, why)?;
             along(arguments, &options, &machine, places)
         }
         None => picture(arguments, &options, &machine),

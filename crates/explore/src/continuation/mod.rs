@@ -31,7 +31,7 @@ Examples:
       the isolated z = 2/3 motion, found from scratch at eta = 0.9875
   softstop continue --parameter eta --from 0.9 --to 1.8 --second rho --second-from 2 --second-to 18
       besides, each special point as a curve in (eta, rho): regions of the z = 1 motion
-  softstop continue --parameter rho --from -1 --to 20 --double 4 docs/scenes/rigid.toml
+  softstop continue --parameter clearance --from -1 --to 20 --double 4 docs/scenes/rigid.toml
       any machine in its own units; from each flip on to the orbits of twice the period, four times
   softstop continue --parameter k4 --from 1 --to 40 --state 6.9,9.5
       along the stop's stiffness, from an orbit near a state: an unstable one if that is nearest
@@ -47,8 +47,8 @@ The parameter starts at the machine's own value, which must lie between --from a
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct ContinueArguments {
-    /// Parameter to follow the motion along, by its key in the file or its letter, such as
-    /// excitation.frequency (eta), clearance (rho), stop.stiffness (k4) or mass
+    /// Parameter to follow the motion along, by its key in the file, whose unit the values are in, such
+    /// as excitation.frequency, excitation.frequency_hz or mass, or by its letter of ratios (eta, rho, k4)
     #[arg(long, value_name = "NAME")]
     pub parameter: String,
     /// Lowest value of the parameter
@@ -177,18 +177,23 @@ impl Followed {
         name: &str,
         (from, to): (f64, f64),
     ) -> Result<Self, Failure> {
-        let parameter = arguments.machine.parameter(machine, flag, name)?;
-        let start = machine.value(parameter).unwrap_or(f64::NAN);
+        let (parameter, unit) = arguments.machine.parameter(machine, flag, name)?;
+        let own = machine.value(parameter).unwrap_or(f64::NAN);
+        let start = own / unit;
         if from.is_finite() && to.is_finite() && from < to && (from..=to).contains(&start) {
             return Ok(Self {
                 parameter,
-                start,
-                range: (from, to),
+                start: own,
+                range: (from * unit, to * unit),
             });
         }
         Err(Failure::usage(format!(
             "--{prefix}from {from} --{prefix}to {to}: must be finite and enclose the machine's own {} = {start}",
-            machine.name(parameter)
+            if unit == 1.0 {
+                machine.name(parameter)
+            } else {
+                name
+            },
         )))
     }
 }

@@ -12,7 +12,7 @@ mod text;
 use std::path::PathBuf;
 
 use clap::Args;
-use softstop::{Allowed, Machine};
+use softstop::Allowed;
 use softstop_dynamics::models::{Likeness, Quantity};
 
 use crate::fidelity::chart::FidelityChart;
@@ -90,7 +90,7 @@ pub struct FidelityArguments {
     /// How to print the result
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
-    /// The machine; A and B are the paper's points, unloaded and loaded.
+    /// The machine.
     #[command(flatten)]
     pub machine: MachineArguments,
 }
@@ -114,7 +114,7 @@ fn help() -> String {
 /// folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     check(arguments)?;
-    let machine = machine(arguments)?;
+    let machine = arguments.machine.machine()?;
     let files = if arguments.structure {
         &FILES[..]
     } else {
@@ -156,17 +156,6 @@ fn check(arguments: &FidelityArguments) -> Result<(), Failure> {
     within("points", arguments.points, 2..=10_000)?;
     within("periods", arguments.periods, 1..=1_000_000)?;
     within("repeats", arguments.repeats, 1..=1000)
-}
-
-/// The machine; A and B are the paper's names of its points.
-fn machine(arguments: &FidelityArguments) -> Result<Machine, Failure> {
-    let mut named = arguments.machine.clone();
-    named.machine = named.machine.map(|path| match path.to_str() {
-        Some("A") => "unloaded".into(),
-        Some("B") => "loaded".into(),
-        _ => path,
-    });
-    named.machine()
 }
 
 /// What a model has in common with the contact, in a word.

@@ -88,6 +88,13 @@ const MOST_ROWS: u64 = 20_000_000;
 /// on or the folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
     check(arguments)?;
+    let given = [
+        ("position", arguments.position),
+        ("velocity", arguments.velocity),
+    ];
+    for (flag, _) in given.iter().filter(|(_, value)| value.is_some()) {
+        arguments.machine.refuse_start_beside(flag)?;
+    }
     let machine = arguments.machine.machine()?;
     let Machine { scene, start, .. } = &machine;
     let start = Start::new(

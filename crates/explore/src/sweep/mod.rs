@@ -82,9 +82,10 @@ impl Ways {
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct SweepArguments {
-    /// Parameter to sweep, by its key in the file or its letter, such as clearance (rho) or mass
-    #[arg(long, value_name = "NAME", default_value = "excitation.frequency")]
-    pub parameter: String,
+    /// Parameter to sweep, by its key in the file, whose unit the values are in, or by its letter of ratios
+    /// [default: the drive frequency, as the machine states it]
+    #[arg(long, value_name = "NAME")]
+    pub parameter: Option<String>,
     /// First value
     #[arg(long, value_name = "VALUE")]
     pub from: f64,
@@ -141,17 +142,20 @@ const KEEPING: Duration = Duration::from_secs(10);
 pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
-    let parameter = arguments
-        .machine
-        .parameter(&machine, "parameter", &arguments.parameter)?;
+    let name = arguments.parameter.as_deref();
+    let name = name.unwrap_or_else(|| machine.name(Parameter::Frequency));
+    let (parameter, unit) = arguments.machine.parameter(&machine, "parameter", name)?;
+    let ends = [arguments.from * unit, arguments.to * unit];
     let why = "is not used, for it is swept: --from and --to have its values";
-    arguments.machine.refuse(parameter, why)?;
+    arguments.machine.refuse(&machine, parameter, why)?;
     if !arguments.clearances.is_empty() {
         let why = "is not used, for --clearances has the values";
-        arguments.machine.refuse(Parameter::Clearance, why)?;
+        arguments
+            .machine
+            .refuse(&machine, Parameter::Clearance, why)?;
     }
-    let plan = plan(arguments, parameter)?;
-    let mut chains = chains(arguments, &machine, parameter)?;
+    let plan = plan(arguments, parameter, ends)?;
+    let mut chains = chains(arguments, &machine, parameter, ends)?;
     let export = Export::open(&arguments.output, &FILES)?;
     let keep = Keep::new(&arguments.output, &plan, &chains)?;
     if arguments.resume {
@@ -169,14 +173,20 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-fn plan(arguments: &SweepArguments, parameter: Parameter) -> Result<Plan, Failure> {
+fn plan(
+    arguments: &SweepArguments,
+    parameter: Parameter,
+    [from, to]: [f64; 2],
+) -> Result<Plan, Failure> {
     let (steps, periods) = (arguments.steps, arguments.periods);
     within("steps", steps, 2..=MOST)?;
     within("periods", periods, 1..=1_000_000)?;
     let tolerance = arguments.tolerance;
     let fits = tolerance > 0.0 && tolerance < 1.0;
     require(fits, "tolerance", tolerance, "> 0 and < 1")?;
-    let (from, to) = (arguments.from, arguments.to);
+    for (flag, value) in [("--from", from), ("--to", to)] {
+        require(value.is_finite(), flag, value, "finite")?;
+    }
     let plan = Plan::new(parameter, (from.min(to), from.max(to)), steps, periods)
         .map_err(|error| Failure::usage(error.to_string()))?;
     Ok(Plan { tolerance, ..plan })
@@ -190,6 +200,7 @@ fn chains(
     arguments: &SweepArguments,
     machine: &Machine,
     parameter: Parameter,
+    [from, to]: [f64; 2],
 ) -> Result<Vec<Chain>, Failure> {
     if !arguments.clearances.is_empty() && parameter == Parameter::Clearance {
         return Err(Failure::usage(
@@ -206,9 +217,9 @@ fn chains(
         machines.push(machine.clone());
     }
     for machine in &machines {
-        check(machine, parameter, [arguments.from, arguments.to])?;
+        check(machine, parameter, [from, to])?;
     }
-    let falls = arguments.from > arguments.to;
+    let falls = from > to;
     let ways = arguments
         .direction
         .unwrap_or(if falls { Ways::Down } else { Ways::Both });
