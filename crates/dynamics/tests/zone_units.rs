@@ -1,9 +1,9 @@
 //! A machine in SI has the zone of the same machine in ratios, whatever its stop.
 
 use proptest::prelude::*;
-use softstop::{Piercing, Ratios, Scene, Stop, Units};
+use softstop::{Language, Machine, Piercing, Ratios, Scene, Stop, Units};
 use softstop_dynamics::continuation::{Heading, Test};
-use softstop_dynamics::zone::{hysteresis, loss_of_stability};
+use softstop_dynamics::zone::{ZoneError, hysteresis, loss_of_stability};
 use softstop_testing::random;
 
 /// A machine by its clearance, its damping and which stop it has.
@@ -78,4 +78,16 @@ proptest! {
             (plain, other) => prop_assert!(plain.is_err() && other.is_err(), "{plain:?} {other:?}"),
         }
     }
+}
+
+#[test]
+fn a_zone_that_is_not_there_is_told_in_the_units_of_the_machine() {
+    let mut machine = Machine::of_scene(machine(10.0, 0.02, 0));
+    let error = ZoneError::NoFold {
+        frequency: std::f64::consts::PI.into(),
+    };
+    let said = |machine: &Machine| error.clone().stated(machine).to_string();
+    assert!(said(&machine).contains("followed to excitation.frequency = 3.14159"));
+    machine.speaks = Language::Hertz;
+    assert!(said(&machine).contains("followed to excitation.frequency_hz = 0.5 without"));
 }

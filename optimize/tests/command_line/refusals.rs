@@ -165,6 +165,70 @@ fn what_a_machine_does_not_have_is_refused_by_every_command() -> Outcome {
     Ok(())
 }
 
+/// The key of a frequency says its unit to every flag, and letters of ratios are for ratios.
+#[test]
+fn keys_are_read_in_their_own_unit() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let file = folder.path().join("hertz.toml");
+    let text = "mass = 20\nstiffness = 8e4\ndamping = 50\nclearance = 0.012\ncontact.damping = 230\n\
+                excitation = { amplitude = 96, frequency_hz = 10 }\nstop.model = \"none\"\n";
+    fs::write(&file, text)?;
+    let path = file.to_str().ok_or("path")?;
+    let cases: [(&[&str], &[&str]); 6] = [
+        (
+            &[
+                "continue",
+                "--parameter",
+                "excitation.frequency",
+                "--from",
+                "9",
+                "--to",
+                "11",
+            ],
+            &["excitation.frequency = 62.83"],
+        ),
+        (
+            &[
+                "continue",
+                "--parameter",
+                "excitation.frequency_hz",
+                "--from",
+                "60",
+                "--to",
+                "65",
+            ],
+            &["excitation.frequency_hz = 10"],
+        ),
+        (
+            &[
+                "continue",
+                "--parameter",
+                "eta",
+                "--from",
+                "0.9",
+                "--to",
+                "1.5",
+            ],
+            &["eta", "excitation.frequency_hz"],
+        ),
+        (
+            &["orbit", "--set", "eta=1"],
+            &["eta", "excitation.frequency_hz"],
+        ),
+        (
+            &["optimize", "--fix", "eta=1"],
+            &["eta", "excitation.frequency_hz"],
+        ),
+        (&["sweep", "--from", "1", "--to", "nan"], &["--to = NaN"]),
+    ];
+    for (command, words) in cases {
+        SOFTSTOP.ends_with(&[command, &[path]].concat(), 2, words);
+    }
+    fs::write(&file, " ".repeat((1 << 20) + 1))?;
+    SOFTSTOP.ends_with(&["orbit", path], 2, &["1 MiB"]);
+    Ok(())
+}
+
 /// What a command does not use is refused, not ignored.
 #[test]
 fn what_a_command_does_not_use_is_refused() -> Outcome {
@@ -172,7 +236,7 @@ fn what_a_command_does_not_use_is_refused() -> Outcome {
     let output = folder.path().join("out");
     let output = output.to_str().ok_or("path")?;
     let swept = ["sweep", "--from", "0.9", "--to", "1.5"];
-    let cases: [(&[&str], &[&str], &[&str]); 12] = [
+    let cases: [(&[&str], &[&str], &[&str]); 15] = [
         (&["zone"], &["--frequency", "1.2"], &["frequency"]),
         (&["zone"], &["--set", "eta=1.2"], &["eta"]),
         (
@@ -191,6 +255,21 @@ fn what_a_command_does_not_use_is_refused() -> Outcome {
             &["--frequency", "1.2"],
             &["frequency"],
         ),
+        (
+            &["orbit"],
+            &["--clearance", "6", "--set", "rho=5"],
+            &["--clearance", "--set rho"],
+        ),
+        (
+            &["orbit", "--stiffness", "6"],
+            &["--set", "stop.model=rigid", "--set", "R=0.5"],
+            &["--stiffness", "stop.model"],
+        ),
+        (
+            &["simulate", "--position", "3"],
+            &["--set", "initial.position=2"],
+            &["--position", "initial.position"],
+        ),
         (&["basin"], &["--phi", "0:1"], &["--phi", "the plane"]),
         (
             &["basin", "--plane", "phi,v"],
@@ -203,7 +282,7 @@ fn what_a_command_does_not_use_is_refused() -> Outcome {
         (&["motions"], &["--output", "there"], &["--output"]),
     ];
     for (command, more, words) in cases {
-        let writes = ["sweep", "basin", "fidelity", "stops"].contains(&command[0]);
+        let writes = ["simulate", "sweep", "basin", "fidelity", "stops"].contains(&command[0]);
         let place: &[&str] = if writes { &["--output", output] } else { &[] };
         SOFTSTOP.ends_with(&[command, place, more].concat(), 2, words);
     }
