@@ -2,7 +2,9 @@
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
 use crate::common::{OK, OUTPUTS, Unit};
+use approx::assert_abs_diff_eq;
 use softstop_fmu::ffi::*;
+use softstop_testing::tolerance::SOLVED;
 
 fn outputs(unit: &Unit) -> [f64; 9] {
     OUTPUTS.map(|name| unit.get(name))
@@ -150,7 +152,7 @@ fn parameters_in_initialisation() {
     assert_eq!(felt, 13);
     // k (x - r - s - v) - k x + ... is linear in the preload.
     let found = unit.derivatives(&["contact.force"], &[("stop.preload", 1.0)]);
-    assert!((found.expect("available")[0] - 1.0).abs() < 1e-10);
+    assert_abs_diff_eq!(found.expect("available")[0], 1.0, epsilon = SOLVED);
 }
 
 /// At the end of its range a parameter can be changed to one side only.
@@ -183,7 +185,7 @@ fn parameters_at_the_end_of_their_range() {
     let expected: Vec<_> = (0..9).map(|n| (there[n] - here[n]) / 1e-6).collect();
     assert_close(&found, &expected, 1e-5, "thickness");
     // Pressed with k4 (x - r - s), k4 = 7.
-    assert!((found[3] + 7.0).abs() < 1e-9, "{}", found[3]);
+    assert_abs_diff_eq!(found[3], -7.0, epsilon = 1e-9);
 }
 
 #[test]

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
+use approx::assert_abs_diff_eq;
 use serde_json::Value;
 use softstop::Ratios;
 use softstop_dynamics::zone::grazing_frequencies;
@@ -44,7 +45,7 @@ fn specials(branch: &Value) -> Vec<(&str, f64)> {
 
 #[track_caller]
 fn near(found: f64, expected: f64, width: f64) {
-    assert!((found - expected).abs() < width, "{found}, not {expected}");
+    assert_abs_diff_eq!(found, expected, epsilon = width);
 }
 
 #[test]

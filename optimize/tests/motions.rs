@@ -1,5 +1,7 @@
 //! `softstop motions` as users and scripts meet it: the coexisting motions of Peterka 2003, Figs. 8 and 9.
 
+use approx::assert_abs_diff_eq;
+use softstop_testing::tolerance::{MOTION, printed};
 use std::process::{Command, Output};
 
 use serde_json::Value;
@@ -67,20 +69,21 @@ fn point_a_has_its_figures() -> Outcome {
     assert_eq!(one["z"], "1");
     let near = |key: &str, expected: f64, width: f64| {
         let found = number(&one[key]);
-        assert!((found - expected).abs() < width, "{key}: {found}");
+        println!("{key}");
+        assert_abs_diff_eq!(found, expected, epsilon = width);
     };
     near("position", 6.901_267_951_548, 1e-10);
     near("velocity", 9.516_655_745_459, 1e-10);
     near("max_position", 10.260_59, 5e-6);
     let velocity = number(&one["before_impact_velocities"][0]);
-    assert!((velocity - 6.494_627).abs() < 5e-7, "{velocity}");
+    assert_abs_diff_eq!(velocity, 6.494_627, epsilon = printed(6));
     let modulus = number(&one["multipliers"][0]["modulus"]);
-    assert!((modulus * modulus - 0.7858).abs() < 5e-5, "{modulus}");
+    assert_abs_diff_eq!(modulus * modulus, 0.7858, epsilon = printed(4));
     // The exponent per drive period is the logarithm of the larger multiplier.
     let exponent = number(&one["exponents"]["per_period"][0]);
-    assert!((exponent - modulus.ln()).abs() < 1e-12, "{exponent}");
+    assert_abs_diff_eq!(exponent, modulus.ln(), epsilon = MOTION);
     let shares: f64 = motions.iter().map(|motion| number(&motion["share"])).sum();
-    assert!((shares - 1.0).abs() < 1e-12);
+    assert_abs_diff_eq!(shares, 1.0, epsilon = MOTION);
     Ok(())
 }
 

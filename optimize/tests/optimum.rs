@@ -1,9 +1,11 @@
 //! The optimum against dense grids, and the promises of the search.
 
+use approx::{assert_abs_diff_eq, assert_relative_eq};
 use softstop::{Machine, Parameter, Units};
 use softstop_optimize::design::search::{SearchError, Settings, Unwatched, Watch, search};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
+use softstop_testing::tolerance::{MOTION, printed};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -107,12 +109,7 @@ fn best_clearance_of_the_papers_stop() -> Outcome {
         });
     agrees(design.before_impact_velocity(), best.0, 1e-3);
     let step = 20.0 / 400.0;
-    assert!(
-        (design.machine.scene.clearance - best.1).abs() <= step,
-        "{} {}",
-        design.machine.scene.clearance,
-        best.1
-    );
+    assert_abs_diff_eq!(design.machine.scene.clearance, best.1, epsilon = step);
     Ok(())
 }
 
@@ -165,10 +162,8 @@ fn a_narrow_ridge_is_found_with_any_seed() -> Outcome {
             &Unwatched,
         )?;
         let velocity = design.before_impact_velocity();
-        assert!(
-            (velocity - 16.28637).abs() < 1e-3,
-            "seed {seed}: {velocity}"
-        );
+        println!("seed {seed}");
+        assert_abs_diff_eq!(velocity, 16.28637, epsilon = 1e-3);
     }
     Ok(())
 }
@@ -227,20 +222,16 @@ fn frequency_bounds_cut_the_zone() -> Outcome {
         ..problem(0.1)
     };
     let design = solve(&bounded, 100)?;
-    assert!(
-        (design.frequency() - 1.2).abs() < 1e-12,
-        "{}",
-        design.frequency()
-    );
+    assert_abs_diff_eq!(design.frequency(), 1.2, epsilon = MOTION);
     let fixed = Problem {
         frequency: Interval::held(1.15),
         ..bounded
     };
     let design = solve(&fixed, 100)?;
-    assert!(
-        (design.before_impact_velocity() - 6.494627).abs() < 5e-7,
-        "{}",
-        design.before_impact_velocity()
+    assert_abs_diff_eq!(
+        design.before_impact_velocity(),
+        6.494627,
+        epsilon = printed(6)
     );
     Ok(())
 }
@@ -281,11 +272,11 @@ fn a_machine_in_si_units_has_the_same_optimum() -> Outcome {
     let (ratios, press) = (solve(&ratios, 400)?, solve(&press, 400)?);
     let speed = length * (units.stiffness / units.mass).sqrt();
     let velocity = press.before_impact_velocity() / speed;
-    let same = |a: f64, b: f64, within: f64| (a - b).abs() <= within * b;
-    assert!(same(velocity, ratios.before_impact_velocity(), 1e-9));
+    let same = |a: f64, b: f64, within: f64| assert_relative_eq!(a, b, max_relative = within);
+    same(velocity, ratios.before_impact_velocity(), 1e-9);
     let clearance = |design: &Design| design.machine.scene.clearance;
     // Where the velocity is flat the place is known to the root of that.
-    assert!(same(clearance(&press) / length, clearance(&ratios), 1e-4));
+    same(clearance(&press) / length, clearance(&ratios), 1e-4);
     Ok(())
 }
 

@@ -1,5 +1,6 @@
 //! The branch of z = 1 from grazing to grazing, with its flip and its fold.
 
+use approx::assert_abs_diff_eq;
 use std::ops::ControlFlow;
 
 use softstop::Ratios;
@@ -26,6 +27,10 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let symbols: Vec<&str> = branch.specials.iter().map(|it| it.kind.symbol()).collect();
     assert_eq!(symbols, ["G", "PD", "SN", "G"]);
-    assert!((branch.specials[2].point.parameter - 1.369_036).abs() < 1e-6);
+    assert_abs_diff_eq!(
+        branch.specials[2].point.parameter,
+        1.369_036,
+        epsilon = 1e-6
+    );
     Ok(())
 }

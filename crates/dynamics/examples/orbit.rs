@@ -1,5 +1,6 @@
 //! A periodic motion with its Floquet multipliers and its Lyapunov exponents.
 
+use approx::assert_abs_diff_eq;
 use softstop::Ratios;
 use softstop_dynamics::orbit::{self, Exponents};
 
@@ -13,10 +14,14 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
         orbit.before_impact_velocity()
     );
     println!("multipliers {:?}", orbit.multipliers());
-    assert!((orbit.before_impact_velocity() - 6.494_627_429_363).abs() < 1e-10);
+    assert_abs_diff_eq!(
+        orbit.before_impact_velocity(),
+        6.494_627_429_363,
+        epsilon = 1e-10
+    );
     assert!(orbit.is_stable() && exponents.per_period[0] < 0.0);
     // No sliding: the determinant is that of the damping alone.
     let damped = (-orbit.damping_integral).exp();
-    assert!((orbit.determinant() / damped - 1.0).abs() < 1e-9);
+    assert_abs_diff_eq!(orbit.determinant() / damped, 1.0, epsilon = 1e-9);
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! A machine simulated from a start: its impacts and its energy.
 
+use approx::assert_abs_diff_eq;
 use softstop::{Ratios, Start};
 
 /// Runs the example.
@@ -15,7 +16,11 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
         "velocity before the last impact: {}",
         last.before_impact_velocity
     );
-    assert!((last.before_impact_velocity - 6.494_627_429_363).abs() < 1e-10);
+    assert_abs_diff_eq!(
+        last.before_impact_velocity,
+        6.494_627_429_363,
+        epsilon = 1e-10
+    );
     assert!(motion.energy_defect().abs() < 1e-11 * motion.work.supplied);
     Ok(())
 }

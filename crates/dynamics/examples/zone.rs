@@ -1,5 +1,6 @@
 //! Where impacts and rest coexist: the hysteresis zone of a machine, in ratios and in SI.
 
+use approx::assert_abs_diff_eq;
 use softstop::{Ratios, Units};
 use softstop_dynamics::zone;
 
@@ -8,8 +9,8 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let machine = Ratios::unloaded().scene()?;
     let zone = zone::hysteresis(&machine)?;
     println!("eta from {} to {}", zone.frequency_g0, zone.frequency_sn);
-    assert!((zone.frequency_g0 - 1.04444).abs() < 5e-6);
-    assert!((zone.frequency_sn - 1.369_036).abs() < 5e-7);
+    assert_abs_diff_eq!(zone.frequency_g0, 1.04444, epsilon = 5e-6);
+    assert_abs_diff_eq!(zone.frequency_sn, 1.369_036, epsilon = 5e-7);
 
     let units = Units {
         mass: 12.0,
@@ -23,6 +24,6 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
         zone_in_si.frequency_g0, zone_in_si.frequency_sn
     );
     let ratio = zone_in_si.frequency_sn / zone.frequency_sn;
-    assert!((ratio / units.frequency() - 1.0).abs() < 1e-9);
+    assert_abs_diff_eq!(ratio / units.frequency(), 1.0, epsilon = 1e-9);
     Ok(())
 }

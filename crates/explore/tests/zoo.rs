@@ -1,5 +1,7 @@
 //! The zoo of stops: its pictures, its page and its example scenes say what the library does.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq, assert_relative_eq};
+use softstop_testing::tolerance::printed;
 use std::fs;
 
 use softstop::{PhaseKind, Release, Scene, Slope, Stop};
@@ -51,7 +53,7 @@ fn look_alike(a: &str, b: &str) -> bool {
     };
     let (a, b) = (words(a), words(b));
     let same = |(a, b): (&String, &String)| match (a.parse::<f64>(), b.parse::<f64>()) {
-        (Ok(a), Ok(b)) => (a - b).abs() <= PIXELS,
+        (Ok(a), Ok(b)) => abs_diff_eq!(a, b, epsilon = PIXELS),
         _ => a == b,
     };
     a.len() == b.len() && a.iter().zip(&b).all(same)
@@ -164,10 +166,8 @@ fn the_area_of_a_loop_is_the_energy_that_the_stroke_loses() -> Outcome {
         ("rigid.toml", 6.0, false),
     ] {
         let (kinetic, area) = lost(name, speed, damped)?;
-        assert!(
-            (kinetic - area).abs() < 2e-3 * speed * speed,
-            "{name}: {kinetic} {area}"
-        );
+        println!("{name}");
+        assert_abs_diff_eq!(kinetic, area, epsilon = 2e-3 * speed * speed);
     }
     Ok(())
 }
@@ -181,7 +181,8 @@ fn elastic_stops_throw_the_mass_back_as_fast_as_it_came() -> Outcome {
     ] {
         let stroke = Stroke::new(&scene(name)?, speed, 0.1, false)?;
         let exit = stroke.exit_speed.ok_or("the mass does not come back")?;
-        assert!((exit - speed).abs() < 1e-9 * speed, "{name}: {exit}");
+        println!("{name}");
+        assert_relative_eq!(exit, speed, max_relative = 1e-9);
     }
     Ok(())
 }
@@ -253,8 +254,8 @@ fn a_stop_without_stiffness_is_none() -> Outcome {
         none.scene.trajectory(none.start, 20)?.end,
         slack.trajectory(none.start, 20)?.end,
     );
-    assert!((a.position - b.position).abs() < 1e-11);
-    assert!((a.velocity - b.velocity).abs() < 1e-11);
+    assert_abs_diff_eq!(a.position, b.position, epsilon = 1e-11);
+    assert_abs_diff_eq!(a.velocity, b.velocity, epsilon = 1e-11);
     Ok(())
 }
 
@@ -276,7 +277,7 @@ fn great_stiffness_is_a_rigid_stop() -> Outcome {
     // b - b1 is what remains as damping of the stroke.
     let z = (180.0 - 0.04) / 2e3_f64;
     let restitution = (-std::f64::consts::PI * z / (1.0 - z * z).sqrt()).exp();
-    assert!((exit / 6.0 - restitution).abs() < 5e-3, "{}", exit / 6.0);
+    assert_abs_diff_eq!(exit / 6.0, restitution, epsilon = printed(2));
     Ok(())
 }
 

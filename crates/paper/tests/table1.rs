@@ -1,11 +1,13 @@
 //! Rows of the paper's Table 1, found from a few frequencies. The whole table takes longer than a test may:
 //! `softstop-lab table1`.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use softstop_dynamics::attractors::Options;
 use softstop_dynamics::transitions::Rules;
 use softstop_paper::table1::paper::{INTERVALS, ROWS};
 use softstop_paper::table1::report::{RowReport, TableReport};
 use softstop_paper::table1::{transitions, values};
+use softstop_testing::tolerance::GROWN;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -43,7 +45,8 @@ fn compare(table: &TableReport, expected: &[Expected]) {
 }
 
 fn is_near(row: &RowReport, eta: f64, tolerance: f64) -> bool {
-    row.eta.is_some_and(|found| (found - eta).abs() < tolerance)
+    row.eta
+        .is_some_and(|found| abs_diff_eq!(found, eta, epsilon = tolerance))
 }
 
 #[test]
@@ -53,7 +56,7 @@ fn rest_ends_by_grazing_and_impacts_by_a_fold_beyond_it() -> Outcome {
     // Grazing in closed form: the amplitude of the free motion is the clearance.
     let amplitude = |eta: f64| 1.0 / (1.0 - eta * eta).hypot(0.04 * eta);
     let eta = grazing.eta.ok_or("row 18 was not found")?;
-    assert!((amplitude(eta) - 10.0).abs() < 1e-8, "{eta}");
+    assert_abs_diff_eq!(amplitude(eta), 10.0, epsilon = GROWN);
     assert_eq!(grazing.kind.as_deref(), Some("G"));
     assert!(is_near(fold, 1.369_036, 5e-7), "{fold:?}");
     assert_eq!(fold.kind.as_deref(), Some("SN"));

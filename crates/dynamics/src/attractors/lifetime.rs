@@ -79,6 +79,8 @@ impl Looks {
 #[cfg(test)]
 mod tests {
     use super::Looks;
+    use approx::assert_abs_diff_eq;
+    use softstop_testing::tolerance::DIFFERENCED;
 
     /// Exponential lifetimes at their quantiles, looked at after 500, 1000, 2000, ... drive periods.
     #[test]
@@ -99,7 +101,7 @@ mod tests {
             }
         }
         let found = looks.lifetime().expect("all have gone");
-        assert!((found / mean - 1.0).abs() < 0.02, "{found}");
+        assert_abs_diff_eq!(found / mean, 1.0, epsilon = 0.02);
     }
 
     #[test]
@@ -109,6 +111,10 @@ mod tests {
         assert_eq!(looks.lifetime(), None);
         assert_eq!(looks.watched(), 1000);
         looks.note(1000, true);
-        assert!((looks.lifetime().expect("one has gone") - 1000.0 / 2_f64.ln()).abs() < 1e-6);
+        assert_abs_diff_eq!(
+            looks.lifetime().expect("one has gone"),
+            1000.0 / 2_f64.ln(),
+            epsilon = DIFFERENCED
+        );
     }
 }

@@ -99,6 +99,8 @@ fn transform(f: &[f64], h: f64) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::basin::Axis;
+    use approx::assert_abs_diff_eq;
+    use softstop_testing::tolerance::MOTION;
 
     fn grid(columns: usize, rows: usize) -> Grid {
         Grid::states(
@@ -117,7 +119,7 @@ mod tests {
         };
         let found = clearing(&grid, inside).expect("there is a disc");
         assert!((found.centre[0] - 0.2).abs() < 0.02 && (found.centre[1] + 0.1).abs() < 0.02);
-        assert!((found.radius - 0.5).abs() < 0.02, "{found:?}");
+        assert_abs_diff_eq!(found.radius, 0.5, epsilon = 0.02);
     }
 
     #[test]
@@ -141,17 +143,13 @@ mod tests {
             best = best.max(nearest);
         }
         let found = clearing(&grid, inside).expect("some cells are inside");
-        assert!(
-            (found.radius - best).abs() < 1e-12,
-            "{} {best}",
-            found.radius
-        );
+        assert_abs_diff_eq!(found.radius, best, epsilon = MOTION);
     }
 
     #[test]
     fn nothing_is_inside_of_nothing() {
         assert_eq!(clearing(&grid(5, 5), |_| false), None);
         let all = clearing(&grid(5, 5), |_| true).expect("the whole grid");
-        assert!((all.radius - 1.2).abs() < 1e-12);
+        assert_abs_diff_eq!(all.radius, 1.2, epsilon = MOTION);
     }
 }

@@ -126,16 +126,14 @@ impl Alpha {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::assert_abs_diff_eq;
 
     fn limit(scheme: Scheme, zeta: f64) -> f64 {
         scheme.stability_limit(zeta).expect("a limit")
     }
 
     fn assert_near(found: f64, expected: f64) {
-        assert!(
-            (found - expected).abs() < 1e-9 * expected.max(1e-3),
-            "{found} {expected}"
-        );
+        assert_abs_diff_eq!(found, expected, epsilon = 1e-9 * expected.max(1e-3));
     }
 
     #[test]

@@ -126,6 +126,7 @@ fn nearest(impacts: &[Impact], time: f64) -> Option<Impact> {
 #[cfg(test)]
 mod tests {
     use super::{Errors, Impact, Scale, Solution};
+    use approx::assert_abs_diff_eq;
 
     const SCALE: Scale = Scale {
         position: 10.0,
@@ -150,9 +151,13 @@ mod tests {
         let truth = solution((1.0, 2.0), &[(0.5, 3.0), (2.5, 3.0)]);
         let found = solution((1.3, 2.16), &[(0.52, 3.0), (2.5, 2.6)]);
         let errors = Errors::between(&found, &truth, &SCALE);
-        assert!((errors.end - 0.05).abs() < 1e-15);
-        assert!((errors.impact_time.expect("a value") - 0.01).abs() < 1e-15);
-        assert!((errors.impact_velocity.expect("a value") - 0.1).abs() < 1e-15);
+        assert_abs_diff_eq!(errors.end, 0.05, epsilon = 1e-15);
+        assert_abs_diff_eq!(errors.impact_time.expect("a value"), 0.01, epsilon = 1e-15);
+        assert_abs_diff_eq!(
+            errors.impact_velocity.expect("a value"),
+            0.1,
+            epsilon = 1e-15
+        );
         assert_eq!(errors.impact_difference, 0);
         assert_eq!(errors.worst(), errors.impact_velocity.expect("a value"));
     }

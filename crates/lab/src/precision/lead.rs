@@ -157,6 +157,8 @@ fn between(coarse: Point, fine: Point, accuracy: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{Quantity, Row, leads, time_at};
+    use approx::assert_abs_diff_eq;
+    use softstop_testing::tolerance::MOTION;
 
     fn row(method: &str, end: f64, seconds: f64, impact_difference: i64) -> Row {
         Row {
@@ -172,7 +174,7 @@ mod tests {
     fn between_two_points_time_is_a_power_of_error() {
         let points = [(1e-2, 1.0), (1e-4, 10.0), (1e-8, 100.0)];
         let time = time_at(&points, 1e-3).expect("a value");
-        assert!((time - 10.0_f64.sqrt()).abs() < 1e-12);
+        assert_abs_diff_eq!(time, 10.0_f64.sqrt(), epsilon = MOTION);
         assert_eq!(time_at(&points, 1.0), Some(1.0));
         assert_eq!(time_at(&points, 1e-9), None);
     }

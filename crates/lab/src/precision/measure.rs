@@ -229,6 +229,8 @@ impl Pace {
 #[cfg(test)]
 mod tests {
     use super::{Duration, Pace, Work};
+    use approx::assert_abs_diff_eq;
+    use softstop_testing::tolerance::MOTION;
 
     #[test]
     fn the_next_run_is_foreseen_from_the_last_two() {
@@ -239,9 +241,9 @@ mod tests {
             evaluations: 40,
         };
         pace.ran(Duration::from_millis(100), &work);
-        assert!((pace.foreseen() - 0.2).abs() < 1e-12);
+        assert_abs_diff_eq!(pace.foreseen(), 0.2, epsilon = MOTION);
         pace.ran(Duration::from_millis(300), &work);
-        assert!((pace.foreseen() - 0.9).abs() < 1e-12);
-        assert!((pace.step.expect("a value") - 0.03).abs() < 1e-12);
+        assert_abs_diff_eq!(pace.foreseen(), 0.9, epsilon = MOTION);
+        assert_abs_diff_eq!(pace.step.expect("a value"), 0.03, epsilon = MOTION);
     }
 }
