@@ -7,6 +7,7 @@ mod refusals;
 
 use std::fs;
 
+use approx::assert_abs_diff_eq;
 use serde_json::Value;
 use softstop_testing::Program;
 
@@ -29,10 +30,7 @@ fn number(value: &Value, key: &str) -> f64 {
 
 #[track_caller]
 fn near(found: f64, expected: f64, tolerance: f64) {
-    assert!(
-        (found - expected).abs() <= tolerance,
-        "{found} is not {expected} +- {tolerance}"
-    );
+    assert_abs_diff_eq!(found, expected, epsilon = tolerance);
 }
 
 #[test]
@@ -80,8 +78,12 @@ fn orbit_at_point_b() -> Outcome {
 
 #[test]
 fn preload_as_a_deflection_is_the_papers_reading() -> Outcome {
-    let force = json(&["orbit", "--preload", "70", "--format", "json"])?;
-    let deflection = json(&["orbit", "--preload-deflection", "10", "--format", "json"])?;
+    let mut force = json(&["orbit", "--preload", "70", "--format", "json"])?;
+    let mut deflection = json(&["orbit", "--preload-deflection", "10", "--format", "json"])?;
+    // Each is told as it was stated.
+    let stated = [&mut force, &mut deflection].map(|report| report["machine"]["parameters"].take());
+    assert_eq!(stated[0]["stop.preload"], 70.0);
+    assert_eq!(stated[1]["stop.preload_deflection"], 10.0);
     assert_eq!(force, deflection);
     Ok(())
 }

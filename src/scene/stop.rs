@@ -10,6 +10,7 @@ pub enum Stop {
     /// No stop: the linear oscillator (Fig. 1a).
     None,
     /// A spring beside a damper: F = stiffness d (Fig. 2a); the damper is the contact damping.
+    #[serde(alias = "kelvin-voigt")]
     KelvinVoigt {
         /// Stiffness k2 in N/m, >= 0.
         stiffness: f64,
@@ -18,6 +19,7 @@ pub enum Stop {
         release: Release,
     },
     /// A continuous chain of slopes (Fig. 2b), on the way back that of `unloading`.
+    #[serde(alias = "piecewise-linear")]
     PiecewiseLinear {
         /// Slopes while the mass moves on; the first begins at deflection 0.
         loading: Vec<Slope>,
@@ -77,6 +79,7 @@ pub enum Release {
     #[default]
     Clearance,
     /// Where spring and damper together cease to press: contact never pulls.
+    #[serde(alias = "zero-force")]
     ZeroForce,
 }
 

@@ -4,7 +4,8 @@
 //! A command fills one plain struct, its report, whose field names are the keys of the JSON, and says in
 //! [`Report::text`] what people read, mostly by [`column::text`](crate::column::text) of the columns that
 //! CSV has, too. The rest is here: the paths of the files stand in JSON as `files` (kind -> path) and
-//! after the text.
+//! after the text. The kind is what the file is, `csv`, `json`, `svg`, `png` or `fmu`; where a command has
+//! several of one, its name stands in front: `curves_csv`.
 //!
 //! ```
 //! use serde::Serialize;
@@ -16,11 +17,11 @@
 //! #[derive(Serialize)]
 //! struct Orders { orders: Vec<Order> }
 //! #[derive(Serialize)]
-//! struct Order { motion: String, share: f64 }
+//! struct Order { z: String, share: f64 }
 //!
 //! fn table() -> [Column<Order>; 2] {
 //!     columns! { Order, it;
-//!         "motion" [None] Plain, "z = p/n" => it.motion.as_str();
+//!         "z" [None] Plain, "p/n" => it.z.as_str();
 //!         "share" [None] Percent(1), "of all starts" => it.share;
 //!     }
 //! }
@@ -32,12 +33,12 @@
 //! }
 //!
 //! # let folder = tempfile::tempdir().map_err(anyhow::Error::from)?;
-//! let report = Orders { orders: vec![Order { motion: "z = 1".to_owned(), share: 0.5 }] };
-//! let export = Export::open(folder.path(), &[("table", "orders.csv"), ("report", "orders.json")])?;
-//! export.table("table", &table(), &report.orders)?;
+//! let report = Orders { orders: vec![Order { z: "1".to_owned(), share: 0.5 }] };
+//! let export = Export::open(folder.path(), &[("csv", "orders.csv"), ("json", "orders.json")])?;
+//! export.table("csv", &table(), &report.orders)?;
 //! export.finish(&report, Format::Text)?;
 //! let table = std::fs::read_to_string(folder.path().join("orders.csv")).map_err(anyhow::Error::from)?;
-//! assert_eq!(table, "motion,share\nz = 1,0.5\n");
+//! assert_eq!(table, "z,share\n1,0.5\n");
 //! assert!(folder.path().join("orders.json").exists());
 //! # Ok::<(), softstop_console::failure::Failure>(())
 //! ```

@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use serde_json::{Map, Value};
-use softstop::{Dimension, Language, Machine, Parameter};
-use softstop_dynamics::orbit::Orbit;
+use softstop::{Dimension, Language, Machine, Parameter, Ratios, Stop};
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::orbit::{self, Orbit};
 
 use crate::machine::Regime;
 use crate::table::{Row, number, row};
+use crate::units;
 
 /// A Floquet multiplier.
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -33,68 +35,78 @@ impl Multiplier {
     }
 }
 
-/// A machine by the keys of its file, as its user states it: one like the paper's by the names of the
-/// paper's ratios, any other with its name, its units and its parameters.
+/// A machine as its user states it, whatever the command.
 #[derive(Debug, Clone, Serialize)]
-#[serde(transparent)]
-pub struct MachineReport(Map<String, Value>);
+pub struct MachineReport {
+    /// Its name, if it has one.
+    pub name: Option<String>,
+    /// `si`, `hertz` (SI with the drive's frequency in Hz) or `ratios`.
+    pub language: &'static str,
+    /// Its units, by what they measure.
+    pub units: BTreeMap<&'static str, &'static str>,
+    /// All that it has, in its own units, by the dotted keys of its file, as `--set` takes them.
+    pub parameters: Map<String, Value>,
+}
 
 impl MachineReport {
     /// This machine.
     #[must_use]
     pub fn of(machine: &Machine) -> Self {
-        let mut report = Map::new();
-        let is_drive = |parameter: &Parameter| *parameter == Parameter::Frequency;
-        let parameters = machine.parameters().filter(|it| !is_drive(it));
-        let value = |parameter| machine.value(parameter).unwrap_or(f64::NAN);
-        if let Some(ratios) = machine.ratios().filter(|ratios| ratios.rigid.is_none()) {
-            let regime = ratios.piercing.map_or(Regime::Unloaded, |_| Regime::Loaded);
-            report.insert("regime".to_owned(), regime.name().into());
-            let preload = ("preload".to_owned(), ratios.preload);
-            let of_ratios = parameters.filter_map(|it| Some((ratio(it)?.to_owned(), value(it))));
-            report.extend(
-                of_ratios
-                    .chain([preload])
-                    .map(|(key, value)| (key, value.into())),
-            );
-            return Self(report);
+        let number = |it| Some((machine.name(it).to_owned(), machine.value(it)?.into()));
+        let numbers = machine.parameters().filter_map(number);
+        Self {
+            name: machine.name.clone(),
+            language: match machine.speaks {
+                Language::Si => "si",
+                Language::Hertz => "hertz",
+                Language::Ratios => "ratios",
+            },
+            units: units::names(machine),
+            parameters: law(&machine.scene.stop).chain(numbers).collect(),
         }
-        let name = machine.name.as_deref().unwrap_or("machine");
-        report.insert("machine".to_owned(), name.into());
-        report.insert("clearance".to_owned(), value(Parameter::Clearance).into());
-        let units = units(machine).into_iter();
-        let units = units.map(|(what, unit)| (what.to_owned(), unit.into()));
-        report.insert("units".to_owned(), Map::from_iter(units).into());
-        let parameters = parameters.map(|it| (key(machine.name(it)), value(it).into()));
-        let model = ("stop_model".to_owned(), machine.scene.stop.model().into());
-        let parameters = Map::from_iter(parameters.chain([model]));
-        report.insert("parameters".to_owned(), parameters.into());
-        Self(report)
     }
 }
 
-/// The names of a machine's units.
-#[must_use]
-pub fn units(machine: &Machine) -> BTreeMap<&'static str, &'static str> {
-    let name = |dimension, ratio| match machine.speaks {
-        Language::Ratios => ratio,
-        _ => machine.unit(dimension),
-    };
-    [
-        ("length", name(Dimension::Length, "F0/k1")),
-        ("velocity", name(Dimension::Velocity, "F0/sqrt(m k1)")),
-        ("frequency", name(Dimension::Frequency, "sqrt(k1/m)")),
-        ("force", name(Dimension::Force, "F0")),
-        ("time", name(Dimension::Time, "sqrt(m/k1)")),
-        ("energy", name(Dimension::Energy, "F0^2/k1")),
-    ]
-    .into()
+/// What makes out a stop's law besides numbers: its model, its release, its slopes.
+fn law(stop: &Stop) -> impl Iterator<Item = (String, Value)> + use<> {
+    let law = serde_json::to_value(stop).unwrap_or_default();
+    let fields = law.as_object().cloned().unwrap_or_default().into_iter();
+    fields
+        .filter(|(_, value)| !value.is_number())
+        .map(|(key, value)| (format!("stop.{key}"), value))
 }
 
-/// A dotted name as a key of JSON.
-#[must_use]
-pub fn key(name: &str) -> String {
-    name.replace('.', "_")
+/// A machine where its keys were promised: one like the paper's by the names of the paper's ratios, too.
+#[derive(Debug, Clone, Serialize)]
+pub struct Stated {
+    /// Regime and ratios of a machine like the paper's, but for its frequency; empty for any other.
+    #[serde(flatten)]
+    pub ratios: Map<String, Value>,
+    /// The machine.
+    pub machine: MachineReport,
+}
+
+impl Stated {
+    /// This machine.
+    #[must_use]
+    pub fn of(machine: &Machine) -> Self {
+        let ratios = machine.ratios().filter(|ratios| ratios.rigid.is_none());
+        Self {
+            ratios: ratios.map_or_else(Map::new, |ratios| flat(machine, &ratios)),
+            machine: MachineReport::of(machine),
+        }
+    }
+}
+
+fn flat(machine: &Machine, ratios: &Ratios) -> Map<String, Value> {
+    let regime = ratios.piercing.map_or(Regime::Unloaded, |_| Regime::Loaded);
+    let named = |it| Some((ratio(it)?.to_owned(), machine.value(it)?.into()));
+    let named = machine.parameters().filter_map(named);
+    let others = [
+        ("regime".to_owned(), regime.name().into()),
+        ("preload".to_owned(), ratios.preload.into()),
+    ];
+    named.chain(others).collect()
 }
 
 /// What the paper's ratio of a parameter is called in JSON; none of those that have no ratio.
@@ -110,6 +122,51 @@ const fn ratio(parameter: Parameter) -> Option<&'static str> {
         Parameter::Travel => "travel",
         _ => return None,
     })
+}
+
+/// What a motion settles on, by the same names in all reports.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct MotionName {
+    /// `periodic`, `chatter`, `rest`, `chaos`, `transient_chaos`, `unsettled` or `lost`.
+    pub kind: &'static str,
+    /// p/n of a motion that repeats, `1` for 1/1; `∞/n` for complete chatter.
+    pub z: Option<String>,
+    /// Its impacts in each of its drive periods, where they are known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub order: Option<String>,
+    /// As people read it.
+    #[serde(skip)]
+    pub text: String,
+}
+
+impl MotionName {
+    /// That of a motion.
+    #[must_use]
+    pub fn of(motion: &MotionKind) -> Self {
+        Self {
+            kind: motion.key(),
+            z: motion.z(),
+            order: motion.order().map(ToString::to_string),
+            text: motion.to_string(),
+        }
+    }
+
+    /// That of a regime whose order is not known; without one the motion has not settled.
+    #[must_use]
+    pub fn of_regime(regime: Option<orbit::Regime>) -> Self {
+        Self {
+            kind: regime.map_or(MotionKind::Unsettled.key(), |_| "periodic"),
+            z: regime.map(|regime| regime.to_string()),
+            order: None,
+            text: regime.map_or("irregular".to_owned(), |regime| format!("z = {regime}")),
+        }
+    }
+
+    /// In a word: z, or the kind of what does not repeat.
+    #[must_use]
+    pub fn word(&self) -> &str {
+        self.z.as_deref().unwrap_or(self.kind)
+    }
 }
 
 /// A motion, in the units of its machine.

@@ -1,6 +1,8 @@
 //! The names of units.
 
-use softstop::{Language, Machine};
+use std::collections::BTreeMap;
+
+use softstop::{Dimension, Language, Machine, Parameter};
 
 /// What a number is one of; [`Units`] has the names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,4 +80,60 @@ impl Units {
             unit => format!("{name} ({unit})"),
         }
     }
+}
+
+/// The unit of a quantity by its name in JSON: that of a ratio, too.
+#[must_use]
+pub const fn name(machine: &Machine, dimension: Dimension) -> &'static str {
+    match (machine.speaks, dimension) {
+        (Language::Ratios, Dimension::Mass) => "m",
+        (Language::Ratios, Dimension::Stiffness) => "k1",
+        (Language::Ratios, Dimension::Damping) => "2 sqrt(m k1)",
+        (Language::Ratios, Dimension::Force) => "F0",
+        (Language::Ratios, Dimension::Frequency) => "sqrt(k1/m)",
+        (Language::Ratios, Dimension::Length) => "F0/k1",
+        (Language::Ratios, Dimension::Velocity) => "F0/sqrt(m k1)",
+        (Language::Ratios, Dimension::Time) => "sqrt(m/k1)",
+        (Language::Ratios, Dimension::Energy) => "F0^2/k1",
+        (Language::Ratios, Dimension::Slowness) => "sqrt(m k1)/F0",
+        (Language::Ratios, other) => other.unit(),
+        _ => machine.unit(dimension),
+    }
+}
+
+/// The unit of a parameter by its name in JSON.
+#[must_use]
+pub fn of_parameter(machine: &Machine, parameter: Parameter) -> &'static str {
+    let is_power = Parameter::Exponent.get(&machine.scene).is_some();
+    match (parameter, machine.speaks) {
+        (Parameter::Preload, _) if machine.preload_deflection.is_some() => {
+            name(machine, Dimension::Length)
+        }
+        (Parameter::StopStiffness, Language::Ratios) if is_power => "F0 (k1/F0)^exponent",
+        (Parameter::StopStiffness, _) if is_power => "N/m^exponent",
+        _ => name(machine, parameter.about().dimension),
+    }
+}
+
+/// The units of a machine's parameters and results, by what they measure.
+#[must_use]
+pub fn names(machine: &Machine) -> BTreeMap<&'static str, &'static str> {
+    let all = [
+        ("length", Dimension::Length),
+        ("velocity", Dimension::Velocity),
+        ("frequency", Dimension::Frequency),
+        ("angle", Dimension::Angle),
+        ("force", Dimension::Force),
+        ("time", Dimension::Time),
+        ("energy", Dimension::Energy),
+        ("mass", Dimension::Mass),
+        ("stiffness", Dimension::Stiffness),
+        ("damping", Dimension::Damping),
+        ("slowness", Dimension::Slowness),
+    ];
+    let all = all.map(|(what, dimension)| (what, name(machine, dimension)));
+    let stop = Parameter::StopStiffness;
+    let power = Parameter::Exponent.get(&machine.scene);
+    let power = power.map(|_| (stop.name(), of_parameter(machine, stop)));
+    all.into_iter().chain(power).collect()
 }

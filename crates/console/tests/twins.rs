@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use softstop::{Machine, Parameter, Ratios, Units};
-use softstop_console::report::MachineReport;
+use softstop_console::report::{MachineReport, Stated};
 use softstop_dynamics::{orbit, zone};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -85,13 +85,59 @@ fn zones_of_twins_are_the_same() -> Outcome {
 #[test]
 fn reports_speak_the_units_of_the_machine() -> Outcome {
     let machine = &machines()?[0];
-    let paper = serde_json::to_value(MachineReport::of(machine))?;
+    let paper = serde_json::to_value(Stated::of(machine))?;
     assert_eq!(paper["regime"], "unloaded");
-    assert!(paper.get("units").is_none());
-    let twin = serde_json::to_value(MachineReport::of(&twin(machine)?))?;
+    assert_eq!(paper["stiffness"], 7.0);
+    assert_eq!(paper["machine"]["language"], "ratios");
+    assert_eq!(paper["machine"]["units"]["length"], "F0/k1");
+    assert_eq!(paper["machine"]["units"]["damping"], "2 sqrt(m k1)");
+    assert!(paper["machine"]["parameters"].get("mass").is_none());
+    let twin = serde_json::to_value(Stated::of(&twin(machine)?))?;
+    assert!(twin.get("regime").is_none());
+    let twin = &twin["machine"];
+    assert_eq!(twin["language"], "hertz");
     assert_eq!(twin["units"]["frequency"], "Hz");
     assert_eq!(twin["units"]["length"], "m");
     assert_eq!(twin["parameters"]["mass"], 20.0);
-    assert_eq!(twin["clearance"], 10.0 * UNITS.length());
+    assert_eq!(twin["parameters"]["clearance"], 10.0 * UNITS.length());
+    assert!(twin["parameters"]["excitation.frequency_hz"].is_number());
+    Ok(())
+}
+
+#[test]
+fn reports_tell_machines_apart_that_move_differently() -> Outcome {
+    let slopes = "[{ from = 0, stiffness = 9 }]";
+    let differences: [&[(&str, &str)]; 9] = [
+        &[],
+        &[("excitation.frequency", "1.2")],
+        &[("excitation.phase", "0.3")],
+        &[("name", "press")],
+        &[("stop.preload_deflection", "10")],
+        &[("stop.model", "kelvin-voigt"), ("stop.stiffness", "60")],
+        &[
+            ("stop.model", "kelvinVoigt"),
+            ("stop.stiffness", "60"),
+            ("stop.release", "zeroForce"),
+        ],
+        &[("stop.model", "piecewiseLinear"), ("stop.loading", slopes)],
+        &[
+            ("stop.model", "piecewiseLinear"),
+            ("stop.loading", slopes),
+            ("stop.unloading", "[{ from = 0, stiffness = 5 }]"),
+        ],
+    ];
+    let mut reports = Vec::new();
+    for changes in differences {
+        let mut machine = machines()?[0].clone();
+        machine.apply(changes.iter().copied())?;
+        reports.push(serde_json::to_value(MachineReport::of(&machine))?);
+    }
+    for (index, report) in reports.iter().enumerate() {
+        assert!(!reports[..index].contains(report), "{report}");
+    }
+    let keys = |index: usize| reports[index]["parameters"].clone();
+    assert_eq!(keys(5)["stop.model"], "kelvinVoigt");
+    assert_eq!(keys(5)["stop.release"], "clearance");
+    assert_eq!(keys(8)["stop.unloading"][0]["stiffness"], 5.0);
     Ok(())
 }

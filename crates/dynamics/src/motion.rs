@@ -60,6 +60,16 @@ impl MotionKind {
         }
     }
 
+    /// z = p/n as JSON and CSV have it: `2/3`, `1` for 1/1, `∞/n` for complete chatter.
+    pub fn z(&self) -> Option<String> {
+        match self {
+            Self::Periodic { regime, .. } => Some(regime.to_string()),
+            Self::Chatter { periods: 1, .. } => Some("∞".to_owned()),
+            Self::Chatter { periods, .. } => Some(format!("∞/{periods}")),
+            _ => None,
+        }
+    }
+
     /// Drive periods after which it repeats, if it does.
     pub fn periods(&self) -> Option<u64> {
         match self {

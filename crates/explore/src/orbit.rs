@@ -9,7 +9,7 @@ use softstop::{Machine, Parameter};
 use softstop_console::arguments::MachineArguments;
 use softstop_console::failure::Failure;
 use softstop_console::output::{self, Format};
-use softstop_console::report::{self, MachineReport, MotionReport};
+use softstop_console::report::{self, MotionReport, Stated};
 use softstop_console::table::{heading, table};
 
 const EXAMPLES: &str = "\
@@ -71,7 +71,7 @@ pub struct OrbitReport {
     pub motion: MotionReport,
     /// Where it was found.
     #[serde(flatten)]
-    pub machine: MachineReport,
+    pub machine: Stated,
 }
 
 impl OrbitReport {
@@ -80,7 +80,7 @@ impl OrbitReport {
     pub fn new(machine: &Machine, orbit: &Orbit) -> Self {
         Self {
             motion: MotionReport::of(machine, orbit),
-            machine: MachineReport::of(machine),
+            machine: Stated::of(machine),
         }
     }
 }

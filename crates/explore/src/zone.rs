@@ -8,7 +8,7 @@ use softstop::{Dimension, Machine, Parameter};
 use softstop_console::arguments::{MachineArguments, title};
 use softstop_console::failure::Failure;
 use softstop_console::output::{self, Format};
-use softstop_console::report::{self, MachineReport};
+use softstop_console::report::{self, Stated};
 use softstop_console::table::{heading, number, row, table};
 use softstop_dynamics::zone::{Zone, ZoneError};
 
@@ -74,7 +74,7 @@ pub struct ZoneReport {
     pub velocity_sn: f64,
     /// The machine.
     #[serde(flatten)]
-    pub machine: MachineReport,
+    pub machine: Stated,
 }
 
 impl ZoneReport {
@@ -86,7 +86,7 @@ impl ZoneReport {
             frequency_g0: own(zone.frequency_g0),
             frequency_sn: own(zone.frequency_sn),
             velocity_sn: zone.velocity_sn,
-            machine: MachineReport::of(machine),
+            machine: Stated::of(machine),
         }
     }
 }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use softstop::{Dimension, Parameter};
 use softstop_console::export::Report;
-use softstop_console::report::{MachineReport, MotionReport};
+use softstop_console::report::{MotionReport, Stated};
 
 use crate::design::{Design, Problem};
 use crate::optimize::reference::Reference;
@@ -17,7 +17,7 @@ use crate::optimize::reference::Reference;
 pub struct DesignReport {
     /// The machine.
     #[serde(flatten)]
-    pub machine: MachineReport,
+    pub machine: Stated,
     /// The motion.
     #[serde(flatten)]
     pub motion: MotionReport,
@@ -40,7 +40,7 @@ impl DesignReport {
         let machine = &design.machine;
         let own = |frequency| machine.to_own(Dimension::Frequency, frequency);
         Self {
-            machine: MachineReport::of(machine),
+            machine: Stated::of(machine),
             motion: MotionReport::of(machine, &design.orbit),
             frequency_g0: own(design.zone.frequency_g0),
             frequency_sn: own(design.zone.frequency_sn),
@@ -103,7 +103,7 @@ fn near_end(problem: &Problem, frequency: f64) -> Option<&'static str> {
 pub struct ReferenceReport {
     /// The machine.
     #[serde(flatten)]
-    pub machine: MachineReport,
+    pub machine: Stated,
     /// The motion.
     #[serde(flatten)]
     pub motion: MotionReport,
@@ -117,7 +117,7 @@ impl ReferenceReport {
     pub fn new(reference: &Reference, design_velocity: f64) -> Self {
         let Reference { machine, orbit, .. } = reference;
         Self {
-            machine: MachineReport::of(machine),
+            machine: Stated::of(machine),
             motion: MotionReport::of(machine, orbit),
             gain: design_velocity / orbit.before_impact_velocity(),
         }

@@ -10,7 +10,7 @@ use softstop::{Release, Scene, Stop};
 
 /// A rung: a law of contact, simple ones first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "camelCase")]
 pub enum Rung {
     /// No stop.
     Linear,
@@ -37,12 +37,12 @@ impl Rung {
         Self::Full,
     ];
 
-    /// Its name, as in JSON.
+    /// Its name, as in JSON; that of a stop is its `model`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Linear => "linear",
             Self::Rigid => "rigid",
-            Self::KelvinVoigt => "kelvin-voigt",
+            Self::KelvinVoigt => "kelvinVoigt",
             Self::Preloaded => "preloaded",
             Self::Hertz => "hertz",
             Self::Full => "full",

@@ -92,14 +92,14 @@ pub struct BasinArguments {
 }
 
 const PICTURE: [(&str, &str); 3] = [
-    ("picture", "basin.png"),
-    ("table", "basin.csv"),
-    ("report", "basin.json"),
+    ("png", "basin.png"),
+    ("csv", "basin.csv"),
+    ("json", "basin.json"),
 ];
 const ALONG: [(&str, &str); 3] = [
-    ("chart", "certainty.svg"),
-    ("table", "certainty.csv"),
-    ("report", "certainty.json"),
+    ("svg", "certainty.svg"),
+    ("csv", "certainty.csv"),
+    ("json", "certainty.json"),
 ];
 
 fn help() -> String {
@@ -158,9 +158,9 @@ fn picture(
     let png = BasinPicture::new(machine, &basins, &shown)
         .png()
         .map_err(|error| anyhow!("cannot draw basin.png: {error}"))?;
-    export.file("picture", &png)?;
+    export.file("png", &png)?;
     let report = BasinReport::new(machine, &basins, plane::beyond(machine, &grid));
-    export.table("table", &report::columns(), &report.basins)?;
+    export.table("csv", &report::columns(), &report.basins)?;
     export.finish(&report, arguments.format)
 }
 
@@ -185,11 +185,6 @@ fn along(
     let title = format!("Establishing certainty: {}", title(machine));
     let chart = certainty::chart(machine, &found, &title);
     let report = CertaintyReport::new(machine, &grid, &found);
-    export.sheet(
-        ["table", "chart"],
-        &report::places(),
-        &report.places,
-        &chart,
-    )?;
+    export.sheet(["csv", "svg"], &report::places(), &report.places, &chart)?;
     export.finish(&report, arguments.format)
 }

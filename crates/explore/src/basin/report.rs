@@ -6,7 +6,7 @@ use softstop_console::arguments::title;
 use softstop_console::column::{Column, Units, text};
 use softstop_console::columns;
 use softstop_console::export::Report;
-use softstop_console::report::MachineReport;
+use softstop_console::report::{MachineReport, MotionName};
 use softstop_dynamics::basin::{Basins, Establishing, Grid};
 use softstop_dynamics::orbit::Regime;
 
@@ -32,9 +32,8 @@ pub struct BasinReport {
 #[derive(Debug, Serialize)]
 pub struct ClassReport {
     /// What its motions settle on.
-    pub motion: String,
-    /// Order of impacts of a periodic motion.
-    pub order: Option<String>,
+    #[serde(flatten)]
+    pub motion: MotionName,
     /// Its hardest impact.
     pub before_impact_velocity: Option<f64>,
     /// Largest Lyapunov exponent per drive period, of what does not return.
@@ -84,7 +83,17 @@ pub struct PlaceReport {
     /// Radius of the largest ball inside its basin, in units of half of each axis.
     pub integrity: Option<f64>,
     /// All motions there and their shares.
-    pub motions: Vec<(String, f64)>,
+    pub motions: Vec<ShareReport>,
+}
+
+/// A motion and its share of the cells.
+#[derive(Debug, Serialize)]
+pub struct ShareReport {
+    /// The motion.
+    #[serde(flatten)]
+    pub motion: MotionName,
+    /// Its share.
+    pub share: f64,
 }
 
 impl BasinReport {
@@ -107,8 +116,7 @@ impl ClassReport {
         let ball = basins.largest_ball(index);
         let orbit = class.orbit.as_ref();
         Self {
-            motion: class.motion.to_string(),
-            order: class.motion.order().map(ToString::to_string),
+            motion: MotionName::of(&class.motion),
             before_impact_velocity: orbit.map(|orbit| orbit.before_impact_velocity()),
             exponent: class.exponents.map(|exponents| exponents.per_period[0]),
             cells: class.cells,
@@ -137,7 +145,10 @@ impl CertaintyReport {
 impl PlaceReport {
     fn new(machine: &Machine, place: &Establishing) -> Self {
         let basins = &place.basins;
-        let classes = basins.classes.iter();
+        let motions = basins.classes.iter().map(|class| ShareReport {
+            motion: MotionName::of(&class.motion),
+            share: class.share,
+        });
         Self {
             place: place.place,
             frequency: machine.to_own(Dimension::Frequency, place.frequency),
@@ -145,24 +156,23 @@ impl PlaceReport {
             certainty_low: place.interval[0],
             certainty_high: place.interval[1],
             integrity: basins.largest_ball_of(Regime::ONE).map(|ball| ball.radius),
-            motions: classes
-                .map(|class| (class.motion.to_string(), class.share))
-                .collect(),
+            motions: motions.collect(),
         }
     }
 
     fn motions(&self) -> String {
         let motions = self.motions.iter();
-        let motions = motions.map(|(name, share)| format!("{name}: {share:.6}"));
+        let motions = motions.map(|it| format!("{}: {:.6}", it.motion.word(), it.share));
         motions.collect::<Vec<_>>().join(", ")
     }
 }
 
 /// The columns of `basin.csv`.
-pub(super) fn columns() -> [Column<ClassReport>; 9] {
+pub(super) fn columns() -> [Column<ClassReport>; 10] {
     columns! { ClassReport, it;
-        "motion" [None] Plain, "on which the basin's motions settle" => it.motion.as_str();
-        "order" [None] Plain, "impacts in each of its drive periods" => it.order.clone();
+        "kind" [None] Plain, "of what the basin's motions settle on" => it.motion.kind;
+        "z" [None] Plain, "its p/n, if it repeats" => it.motion.z.as_deref();
+        "order" [None] Plain, "impacts in each of its drive periods" => it.motion.order.as_deref();
         "before_impact_velocity" [Velocity] Fixed(4), "of its hardest impact" => it.before_impact_velocity;
         "exponent" [None], "Lyapunov's, per drive period, unless periodic" => it.exponent;
         "cells" [None], "that belong to it" => it.cells;
@@ -182,7 +192,7 @@ pub(super) fn places() -> [Column<PlaceReport>; 7] {
         "certainty_low" [None] Fixed(5), "lower end of its 95 % interval" => it.certainty_low;
         "certainty_high" [None] Fixed(5), "upper end of it" => it.certainty_high;
         "integrity" [None] Fixed(4), "radius of the largest ball, in half axes" => it.integrity;
-        "motions" [None], "all motions and their shares" => it.motions();
+        "motions" [None], "z or kind of all motions, and their shares" => it.motions();
     }
 }
 

@@ -91,10 +91,10 @@ pub struct ContinueArguments {
 }
 
 const FILES: [(&str, &str); 4] = [
-    ("branches", "branches.csv"),
-    ("branch_chart", "branches.svg"),
-    ("curves", "curves.csv"),
-    ("curve_chart", "curves.svg"),
+    ("branches_csv", "branches.csv"),
+    ("branches_svg", "branches.svg"),
+    ("curves_csv", "curves.csv"),
+    ("curves_svg", "curves.svg"),
 ];
 
 fn help() -> String {
@@ -136,7 +136,7 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
     let chart = chart::branches(&machine, first.parameter, &branches);
     let rows = tables::branch_rows(&branches);
     export.sheet(
-        ["branches", "branch_chart"],
+        ["branches_csv", "branches_svg"],
         &tables::branch_columns(),
         rows,
         &chart,
@@ -148,7 +148,7 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
         let chart = chart::curves(&machine, both.map(|one| one.parameter), &found);
         let rows = tables::curve_rows(&found);
         export.sheet(
-            ["curves", "curve_chart"],
+            ["curves_csv", "curves_svg"],
             &tables::curve_columns(),
             rows,
             &chart,

@@ -12,6 +12,7 @@ use softstop_console::columns;
 use softstop_console::export::Report;
 use softstop_console::report::MachineReport;
 use softstop_console::table::heading;
+use softstop_console::units;
 
 /// Everything that `softstop continue` found.
 #[derive(Debug, Serialize)]
@@ -20,7 +21,7 @@ pub struct ContinuationReport {
     pub machine: MachineReport,
     /// The parameter.
     pub parameter: &'static str,
-    /// Its unit, empty for ratios.
+    /// Its unit.
     pub unit: &'static str,
     /// The branches: that of the start, and doubled ones.
     pub branches: Vec<BranchReport>,
@@ -73,7 +74,7 @@ pub struct SpecialReport {
 pub struct CurvesReport {
     /// The second parameter.
     pub parameter: &'static str,
-    /// Its unit, empty for ratios.
+    /// Its unit.
     pub unit: &'static str,
     /// The curves.
     pub curves: Vec<CurveReport>,
@@ -154,7 +155,7 @@ impl ContinuationReport {
     ) -> Self {
         let branch = |branch| BranchReport::new(branch, most);
         let curve = |curve| CurveReport::new(curve, most);
-        let unit = |parameter: Parameter| machine.unit(parameter.about().dimension);
+        let unit = |parameter| units::of_parameter(machine, parameter);
         Self {
             machine: MachineReport::of(machine),
             parameter: machine.name(parameter),

@@ -42,7 +42,7 @@ Examples:
       also the regimes z = p/n of all models over 91 frequencies, from two starts
 
 The models, simple ones first: linear (no stop), rigid (with the contact's restitution),
-kelvin-voigt (a spring beside a damper), preloaded (the scene's own stop without the strip before
+kelvinVoigt (a spring beside a damper), preloaded (the scene's own stop without the strip before
 it), hertz (a sphere with Hunt and Crossley's dissipation), full (the scene itself). Each agrees
 with the scene's contact at one velocity: in its restitution and, if it is soft, in its largest
 penetration or its duration. docs/fidelity.md has the formulas and where they come from.
@@ -96,10 +96,10 @@ pub struct FidelityArguments {
 }
 
 const FILES: [(&str, &str); 4] = [
-    ("table", "fidelity.csv"),
-    ("chart", "fidelity.svg"),
-    ("regimes", "structure.csv"),
-    ("regime_chart", "structure.svg"),
+    ("fidelity_csv", "fidelity.csv"),
+    ("fidelity_svg", "fidelity.svg"),
+    ("structure_csv", "structure.csv"),
+    ("structure_svg", "structure.svg"),
 ];
 
 fn help() -> String {
@@ -137,7 +137,7 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     let report = FidelityReport::new(arguments, &machine, &study, structure.as_ref());
     let chart = FidelityChart::new(&report.picture()).svg();
     export.sheet(
-        ["table", "chart"],
+        ["fidelity_csv", "fidelity_svg"],
         &report::columns(),
         report.rows(),
         &chart,
@@ -145,7 +145,7 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     if let Some(structure) = &structure {
         let title = format!("Regimes of the models of {}", report.scene());
         let chart = RegimeChart::new(title, &machine, structure.rows()).svg();
-        let kinds = ["regimes", "regime_chart"];
+        let kinds = ["structure_csv", "structure_svg"];
         export.sheet(kinds, &structure::columns(), structure.table(), &chart)?;
     }
     export.finish(&report, arguments.format)

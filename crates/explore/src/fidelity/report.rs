@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use softstop::{Dimension, Language, Machine, Stop};
+use softstop::{Dimension, Language, Machine};
 use softstop_dynamics::models::{Likeness, Quantity, Rung};
 use softstop_dynamics::zone::Bounds;
 
@@ -15,7 +15,8 @@ use crate::fidelity::chart::{Candidate, FidelityPicture};
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Units};
 use softstop_console::columns;
-use softstop_console::report::MachineReport;
+use softstop_console::report::{MachineReport, MotionName};
+use softstop_console::units;
 
 /// A model by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -41,10 +42,11 @@ pub(super) struct ModelReport {
     #[serde(flatten)]
     pub(super) named: Named,
     pub(super) is_scene: bool,
-    stop: Stop,
-    contact_damping: f64,
-    /// z = p/n; none if it does not repeat.
-    motion: Option<String>,
+    /// The machine with this stop.
+    machine: MachineReport,
+    /// What it settles on.
+    #[serde(flatten)]
+    motion: MotionName,
     /// Of the quantity that was asked for.
     pub(super) value: Option<f64>,
     pub(super) error: Option<f64>,
@@ -203,10 +205,15 @@ fn named(rung: Rung, likeness: Option<Likeness>) -> Named {
 
 /// The unit of a quantity as the machine has it.
 fn unit(machine: &Machine, quantity: Quantity) -> &'static str {
+    let own = |dimension| units::name(machine, dimension);
     match (quantity.unit(), machine.speaks) {
-        ("rad/s", _) => machine.unit(Dimension::Frequency),
-        ("rad" | "impacts per period", _) => quantity.unit(),
-        (_, Language::Ratios) => "",
+        ("rad/s", _) => own(Dimension::Frequency),
+        ("m/s", _) => own(Dimension::Velocity),
+        ("m", _) => own(Dimension::Length),
+        ("N", _) => own(Dimension::Force),
+        ("s", _) => own(Dimension::Time),
+        ("J", _) => own(Dimension::Energy),
+        ("W", Language::Ratios) => "F0^2/sqrt(m k1)",
         (unit, _) => unit,
     }
 }
@@ -225,13 +232,15 @@ fn model(machine: &Machine, entry: &Entry, quantity: Quantity, study: &Study) ->
         unit: unit(machine, quantity),
         error: quantity.error(&study.truth, &entry.answers),
     };
-    let regime = entry.answers.observed.regime;
     ModelReport {
         named: named(entry.rung, entry.likeness),
         is_scene: entry.is_truth,
-        stop: entry.scene.stop.clone(),
-        contact_damping: entry.scene.contact_damping,
-        motion: regime.map(|regime| format!("z = {regime}")),
+        machine: MachineReport::of(&Machine {
+            scene: entry.scene.clone(),
+            preload_deflection: None,
+            ..machine.clone()
+        }),
+        motion: MotionName::of_regime(entry.answers.observed.regime),
         value: own(machine, quantity, quantity.value(&entry.answers)),
         error: entry.error,
         cost: entry.cost,

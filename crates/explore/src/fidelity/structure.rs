@@ -14,6 +14,7 @@ use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
+use softstop_console::report::MotionName;
 
 /// Drive periods after which a motion counts as settled.
 const TRANSIENT: u64 = 200;
@@ -145,11 +146,11 @@ impl Structure {
         })
     }
 
-    /// The regimes of a model in order of frequency, each once where it is the same at neighbours.
+    /// z or kind of a model's motions in order of frequency, each once where it is the same at neighbours.
     pub(super) fn sequence(track: &Track, origin: Origin) -> Vec<String> {
         let mut names: Vec<String> = track.regimes[origin as usize]
             .iter()
-            .map(|regime| regime.map_or("irregular".to_owned(), |regime| format!("z = {regime}")))
+            .map(|regime| MotionName::of_regime(*regime).word().to_owned())
             .collect();
         names.dedup();
         names
@@ -164,7 +165,7 @@ impl Structure {
                     track,
                     start,
                     frequency: *frequency,
-                    regime: *regime,
+                    motion: MotionName::of_regime(*regime),
                 })
             })
         })
@@ -195,7 +196,7 @@ pub(super) struct Row<'a> {
     track: &'a Track,
     start: Origin,
     frequency: f64,
-    regime: Option<Regime>,
+    motion: MotionName,
 }
 
 /// The columns of `structure.csv`.
@@ -205,8 +206,8 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 6] {
         "matched" [None], "what it shares with the contact, if anything" => row.track.likeness.map(word);
         "start" [None], "rest, or flung towards the stop" => row.start.name();
         "frequency" [Frequency], "of the drive" => row.frequency;
-        "impacts" [None], "p of z = p/n; empty if irregular" => row.regime.map(|regime| regime.impacts);
-        "periods" [None], "n of it" => row.regime.map(|regime| regime.periods);
+        "kind" [None], "of the motion: periodic or unsettled" => row.motion.kind;
+        "z" [None], "its p/n, if it repeats" => row.motion.z.as_deref();
     }
 }
 

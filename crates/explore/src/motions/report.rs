@@ -1,25 +1,22 @@
 //! What `softstop motions` reports.
 
-use std::collections::BTreeMap;
-
 use serde::Serialize;
-use softstop::{Machine, Scene};
+use softstop::Machine;
 use softstop_dynamics::attractors::{Attractor, Certainty, Chaos, Options, Survey};
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{Exponents, Orbit};
 
 use softstop_console::arguments::title;
-use softstop_console::report::{Multiplier, units};
+use softstop_console::report::{MachineReport, MotionName, Multiplier};
 
 /// All motions of a machine.
 #[derive(Debug, Clone, Serialize)]
 pub struct MotionsReport {
-    /// The machine's name.
-    pub machine: String,
-    /// Its units.
-    pub units: BTreeMap<&'static str, &'static str>,
-    /// The machine, SI units.
-    pub scene: Scene,
+    /// The machine.
+    pub machine: MachineReport,
+    /// What it is called.
+    #[serde(skip)]
+    pub title: String,
     /// The motions, that with the largest share of starts first.
     pub motions: Vec<SettledReport>,
     /// Starts that the shares count.
@@ -46,11 +43,9 @@ pub struct SettledReport {
     pub share: f64,
     /// How many that were.
     pub starts: usize,
-    /// What it is, in a word.
-    pub kind: &'static str,
-    /// What it is called.
-    #[serde(skip)]
-    pub name: String,
+    /// What it is.
+    #[serde(flatten)]
+    pub name: MotionName,
     /// If it repeats.
     #[serde(flatten)]
     pub periodic: Option<PeriodicReport>,
@@ -79,14 +74,10 @@ pub struct UnsettledReport {
 /// A periodic motion.
 #[derive(Debug, Clone, Serialize)]
 pub struct PeriodicReport {
-    /// p/n, or the infinity sign for complete chatter.
-    pub z: String,
     /// Impacts p; of complete chatter those before the summed ones.
     pub impacts: u64,
     /// Drive periods n.
     pub periods: u64,
-    /// Impacts in each drive period, in order.
-    pub order: String,
     /// True for complete chatter.
     pub chatter: bool,
     /// Position in m at drive angle phi.
@@ -124,8 +115,10 @@ pub struct ChaosReport {
     pub velocity: f64,
     /// Mean impacts per drive period.
     pub impacts_per_period: f64,
-    /// Least and largest before-impact velocity in m/s; null without impacts.
-    pub velocities: Option<[f64; 2]>,
+    /// Least before-impact velocity; null without impacts.
+    pub least_before_impact_velocity: Option<f64>,
+    /// The largest one.
+    pub before_impact_velocity: Option<f64>,
     /// Its exponents.
     pub exponents: ExponentReport,
     /// Drive periods for which motions on it were watched, all together.
@@ -149,9 +142,8 @@ impl MotionsReport {
     pub fn new(machine: &Machine, options: &Options, survey: &Survey) -> Self {
         let lost = survey.lost.as_ref();
         Self {
-            machine: title(machine),
-            units: units(machine),
-            scene: machine.scene.clone(),
+            machine: MachineReport::of(machine),
+            title: title(machine),
             motions: survey.attractors.iter().map(SettledReport::new).collect(),
             starts: survey.starts,
             lost: lost.map_or(0, |(count, _)| *count),
@@ -172,8 +164,7 @@ impl SettledReport {
         Self {
             share: attractor.share,
             starts: attractor.starts,
-            kind: attractor.motion.key(),
-            name: attractor.motion.to_string(),
+            name: MotionName::of(&attractor.motion),
             periodic: orbit.map(|(orbit, certainty)| PeriodicReport::new(orbit, &certainty)),
             chaos: attractor.chaos.as_ref().map(ChaosReport::new),
             positions: attractor.positions,
@@ -189,16 +180,9 @@ impl SettledReport {
 impl PeriodicReport {
     fn new(orbit: &Orbit, certainty: &Certainty) -> Self {
         let regime = orbit.regime();
-        let z = if orbit.chatters() {
-            "∞".to_owned()
-        } else {
-            regime.to_string()
-        };
         Self {
-            z,
             impacts: regime.impacts,
             periods: regime.periods,
-            order: orbit.pattern().to_string(),
             chatter: orbit.chatters(),
             position: orbit.position,
             velocity: orbit.velocity,
@@ -221,7 +205,8 @@ impl ChaosReport {
             position: chaos.state.position,
             velocity: chaos.state.velocity,
             impacts_per_period: chaos.impacts_per_period,
-            velocities: chaos.velocities,
+            least_before_impact_velocity: chaos.velocities.map(|[least, _]| least),
+            before_impact_velocity: chaos.velocities.map(|[_, largest]| largest),
             exponents: ExponentReport::new(&chaos.exponents),
             watched: chaos.watched,
         }

@@ -42,11 +42,11 @@ const MOST_VELOCITIES: usize = 8;
 pub(super) fn text(machine: &Machine, report: &MotionsReport) -> String {
     let signs = Signs::new(machine);
     let (m, v) = (&signs.length, &signs.velocity);
-    let mut text = heading(&format!("All motions of {}", report.machine));
+    let mut text = heading(&format!("All motions of {}", report.title));
     for motion in &report.motions {
         text += &format!(
             "\n{} ({:.1} % of starts)\n",
-            motion.name,
+            motion.name.text,
             100.0 * motion.share
         );
         text += &table(&rows(motion, &signs));
@@ -65,7 +65,7 @@ pub(super) fn text(machine: &Machine, report: &MotionsReport) -> String {
 fn rows(motion: &SettledReport, signs: &Signs) -> Vec<Row> {
     let mut rows = Vec::new();
     if let Some(orbit) = &motion.periodic {
-        rows.extend(periodic(orbit, signs));
+        rows.extend(periodic(orbit, motion.name.order.as_deref(), signs));
     }
     if let Some([low, high]) = motion.positions {
         let held = format!("{low:.6} to {high:.6}{}", signs.length);
@@ -87,10 +87,13 @@ fn line(label: &str, value: String) -> Row {
     row(&format!("  {label}"), [value])
 }
 
-fn periodic(orbit: &PeriodicReport, signs: &Signs) -> Vec<Row> {
+fn periodic(orbit: &PeriodicReport, order: Option<&str>, signs: &Signs) -> Vec<Row> {
     let mut rows = Vec::new();
     if orbit.impacts > 0 {
-        rows.push(line("order of impacts", orbit.order.clone()));
+        rows.push(line(
+            "order of impacts",
+            order.unwrap_or_default().to_owned(),
+        ));
         rows.push(line(
             &signs.impact(),
             velocities(&orbit.before_impact_velocities),
@@ -153,7 +156,11 @@ fn chaos(chaos: &ChaosReport, signs: &Signs) -> Vec<Row> {
         "impacts per drive period",
         format!("{:.3}", chaos.impacts_per_period),
     ));
-    if let Some([least, largest]) = chaos.velocities {
+    let ends = (
+        chaos.least_before_impact_velocity,
+        chaos.before_impact_velocity,
+    );
+    if let (Some(least), Some(largest)) = ends {
         rows.push(line(&signs.impact(), format!("{least:.4} to {largest:.4}")));
     }
     rows.push(line(

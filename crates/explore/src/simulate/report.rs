@@ -10,7 +10,7 @@ use super::tally::{Impact, Rest};
 use super::{CHART, CROSSINGS, MOTION, SimulateArguments, name};
 use softstop_console::arguments::title;
 use softstop_console::output::Folder;
-use softstop_console::report::units;
+use softstop_console::report::MachineReport;
 use softstop_console::table::{Row, figure, heading, row, table};
 
 /// A state.
@@ -25,9 +25,10 @@ pub(super) struct State {
 struct ImpactsReport {
     count: u64,
     per_period: f64,
-    lowest_velocity: Option<f64>,
-    mean_velocity: Option<f64>,
-    highest_velocity: Option<f64>,
+    least_before_impact_velocity: Option<f64>,
+    mean_before_impact_velocity: Option<f64>,
+    /// The largest one.
+    before_impact_velocity: Option<f64>,
     /// The last ones; all stand in crossings.csv.
     last: Vec<Impact>,
 }
@@ -50,11 +51,13 @@ struct PhaseReport {
     share: f64,
 }
 
-/// The summary, SI units.
+/// The summary, in the machine's own units.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct SimulateReport {
-    scene: String,
-    units: BTreeMap<&'static str, &'static str>,
+    machine: MachineReport,
+    #[serde(skip)]
+    title: String,
+    #[serde(skip)]
     stop: &'static str,
     periods: u64,
     period: f64,
@@ -79,10 +82,14 @@ impl SimulateReport {
         folder: &Folder,
     ) -> Self {
         let tally = &outcome.tally;
-        let files = [("motion", MOTION), ("crossings", CROSSINGS), ("svg", CHART)];
+        let files = [
+            ("motion_csv", MOTION),
+            ("crossings_csv", CROSSINGS),
+            ("svg", CHART),
+        ];
         Self {
-            scene: title(machine),
-            units: units(machine),
+            machine: MachineReport::of(machine),
+            title: title(machine),
             stop: machine.scene.stop.model(),
             periods: arguments.periods,
             period: machine.scene.period(),
@@ -104,7 +111,7 @@ impl SimulateReport {
     /// The chart's title.
     pub(super) fn title(&self) -> String {
         let drawn = self.periods.min(DRAWN);
-        let file = &self.scene;
+        let file = &self.title;
         if drawn == self.periods {
             format!("{file}: {drawn} drive periods")
         } else {
@@ -114,7 +121,7 @@ impl SimulateReport {
 
     /// The summary for people.
     pub(super) fn text(&self, machine: &Machine) -> String {
-        let title = format!("Motion of {} (stop: {})", self.scene, self.stop);
+        let title = format!("Motion of {} (stop: {})", self.title, self.stop);
         let mut text = heading(&title);
         text += &table(&self.overview(machine));
         text += "\nPhases visited\n";
@@ -151,15 +158,15 @@ impl SimulateReport {
             row("  per period", [figure(impacts.per_period)]),
             row(
                 &label("  lowest before-impact velocity", Dimension::Velocity),
-                [or_none(impacts.lowest_velocity)],
+                [or_none(impacts.least_before_impact_velocity)],
             ),
             row(
                 &label("  mean", Dimension::Velocity),
-                [or_none(impacts.mean_velocity)],
+                [or_none(impacts.mean_before_impact_velocity)],
             ),
             row(
                 &label("  highest", Dimension::Velocity),
-                [or_none(impacts.highest_velocity)],
+                [or_none(impacts.before_impact_velocity)],
             ),
             row("strips pierced", [self.pierced.to_string()]),
             row("rests", [self.rest_count.to_string()]),
@@ -248,9 +255,9 @@ fn impacts(outcome: &Outcome, periods: u64) -> ImpactsReport {
     ImpactsReport {
         count: impacts.count,
         per_period: impacts.count as f64 / periods as f64,
-        lowest_velocity: impacts.range.map(|range| range.0),
-        mean_velocity: impacts.mean(),
-        highest_velocity: impacts.range.map(|range| range.1),
+        least_before_impact_velocity: impacts.range.map(|range| range.0),
+        mean_before_impact_velocity: impacts.mean(),
+        before_impact_velocity: impacts.range.map(|range| range.1),
         last: impacts.recent.clone(),
     }
 }

@@ -72,8 +72,9 @@ impl Report for StopsReport {
 /// # Errors
 /// [`Failure::Run`] if the folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &StopsArguments) -> Result<(), Failure> {
-    let files = ZOO.map(|exhibit| (exhibit.name, format!("{}.svg", exhibit.name)));
-    let files = files.each_ref().map(|(kind, file)| (*kind, file.as_str()));
+    let files = ZOO.map(|it| (format!("{}_svg", it.name), format!("{}.svg", it.name)));
+    let files = files.each_ref();
+    let files = files.map(|(kind, file)| (kind.as_str(), file.as_str()));
     let export = Export::open(&arguments.output, &files)?;
     for exhibit in &ZOO {
         export.file(exhibit.name, picture(exhibit)?.as_bytes())?;

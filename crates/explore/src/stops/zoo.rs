@@ -41,7 +41,7 @@ macro_rules! specimen {
 /// All pictures of the zoo.
 pub const ZOO: [Exhibit; 6] = [
     Exhibit {
-        name: "kelvin-voigt",
+        name: "kelvinVoigt",
         title: "Kelvin-Voigt: spring beside damper",
         speed: 6.0,
         damped: true,
@@ -51,7 +51,7 @@ pub const ZOO: [Exhibit; 6] = [
         ],
     },
     Exhibit {
-        name: "piecewise-linear",
+        name: "piecewiseLinear",
         title: "Piecewise linear: a chain of slopes",
         speed: 6.0,
         damped: false,

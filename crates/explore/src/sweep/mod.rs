@@ -127,9 +127,9 @@ pub struct SweepArguments {
 }
 
 const FILES: [(&str, &str); 3] = [
-    ("table", "sweep.csv"),
-    ("chart", "sweep.svg"),
-    ("report", "sweep.json"),
+    ("csv", "sweep.csv"),
+    ("svg", "sweep.svg"),
+    ("json", "sweep.json"),
 ];
 /// How often what is done is kept for `--resume`.
 const KEEPING: Duration = Duration::from_secs(10);
@@ -164,7 +164,7 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     follow(&plan, &mut chains, &keep)?;
     let chart = SweepChart::new(&machine, &plan, &chains).svg();
     let rows = steps::rows(&plan, &chains);
-    export.sheet(["table", "chart"], &steps::columns(), rows, &chart)?;
+    export.sheet(["csv", "svg"], &steps::columns(), rows, &chart)?;
     export.finish(
         &SweepReport::new(&machine, &plan, &chains),
         arguments.format,

@@ -5,7 +5,8 @@ use softstop::Machine;
 use softstop_console::column::{Column, Unit, Units, text};
 use softstop_console::columns;
 use softstop_console::export::Report;
-use softstop_console::report::MachineReport;
+use softstop_console::report::{MachineReport, MotionName};
+use softstop_console::units;
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::sweep::{Chain, Coexistence, Direction, Jump, Plan, hysteresis};
 
@@ -18,7 +19,7 @@ pub struct SweepReport {
     pub machine: MachineReport,
     /// What was swept.
     pub parameter: &'static str,
-    /// Its unit, empty for ratios.
+    /// Its unit.
     pub unit: &'static str,
     /// Its least and largest value.
     pub range: [f64; 2],
@@ -63,9 +64,9 @@ pub struct JumpReport {
     /// Value after.
     pub to: f64,
     /// Motion before.
-    pub before: String,
+    pub before: MotionName,
     /// Motion after.
-    pub after: String,
+    pub after: MotionName,
     /// Largest before-impact velocities before and after.
     pub before_impact_velocities: [f64; 2],
 }
@@ -80,9 +81,9 @@ pub struct ZoneReport {
     /// Largest value.
     pub to: f64,
     /// Motion on the way up.
-    pub up: String,
+    pub up: MotionName,
     /// Motion on the way down.
-    pub down: String,
+    pub down: MotionName,
 }
 
 impl SweepReport {
@@ -107,7 +108,7 @@ impl SweepReport {
         Self {
             machine: MachineReport::of(machine),
             parameter: machine.name(plan.parameter),
-            unit: machine.unit(plan.parameter.about().dimension),
+            unit: units::of_parameter(machine, plan.parameter),
             range: plan.range.into(),
             steps: plan.steps,
             periods: plan.periods,
@@ -170,14 +171,15 @@ impl ZoneReport {
     }
 }
 
-/// A motion with the order of its impacts, where there are several of them.
-fn name(motion: &MotionKind) -> String {
-    match motion.told_order() {
-        Some(order) if motion.regime().is_none_or(|it| it.impacts > 1) => {
-            format!("{motion} ({order})")
-        }
-        _ => motion.to_string(),
+/// A motion; people read the order of its impacts, too, where there are several of them.
+fn name(motion: &MotionKind) -> MotionName {
+    let mut name = MotionName::of(motion);
+    if let Some(order) = motion.told_order()
+        && motion.regime().is_none_or(|it| it.impacts > 1)
+    {
+        name.text += &format!(" ({order})");
     }
+    name
 }
 
 /// Jumps of a sweep that are told; the file holds all.
@@ -233,8 +235,8 @@ fn jumps(digits: usize) -> [Column<JumpReport>; 6] {
     columns! { JumpReport, jump;
         "jump_from" [None] Fixed(digits), "value before" => jump.from;
         "to" [None] Fixed(digits), "value after" => jump.to;
-        "before" [None] Plain, "motion" => jump.before.as_str();
-        "after" [None] Plain, "motion" => jump.after.as_str();
+        "before" [None] Plain, "motion" => jump.before.text.as_str();
+        "after" [None] Plain, "motion" => jump.after.text.as_str();
         "impact_before" [Velocity] Fixed(4), "hardest" => jump.before_impact_velocities[0];
         "impact_after" [Velocity] Fixed(4), "hardest" => jump.before_impact_velocities[1];
     }
@@ -245,7 +247,7 @@ fn zones(digits: usize) -> [Column<ZoneReport>; 5] {
         "clearance" [Length] Plain, "of the machine" => zone.clearance;
         "from" [None] Fixed(digits), "least value" => zone.from;
         "to" [None] Fixed(digits), "largest value" => zone.to;
-        "up" [None] Plain, "motion" => zone.up.as_str();
-        "down" [None] Plain, "motion" => zone.down.as_str();
+        "up" [None] Plain, "motion" => zone.up.text.as_str();
+        "down" [None] Plain, "motion" => zone.down.text.as_str();
     }
 }

@@ -13,12 +13,13 @@ pub(super) struct Row<'a> {
 }
 
 /// The columns of `sweep.csv`.
-pub(super) fn columns<'a>() -> [Column<Row<'a>>; 13] {
+pub(super) fn columns<'a>() -> [Column<Row<'a>>; 14] {
     columns! { Row<'a>, row;
         "clearance" [Length], "of the machine, unless it is swept" => row.clearance;
         "direction" [None], "up or down" => row.direction.name();
         "value" [Of("own")], "of the parameter, in its own unit" => row.step.value;
-        "motion" [None], "p/n, or in words what it is" => motion(row.step);
+        "kind" [None], "of the motion" => row.step.motion.key();
+        "z" [None], "its p/n, if it repeats" => row.step.motion.z();
         "order" [None], "impacts in each drive period of n" => row.step.motion.told_order().map(ToString::to_string);
         "impacts_per_period" [None], "mean per drive period" => row.step.impacts_per_period;
         "growth_per_period" [None], "ln of that of small differences, unless p/n" => row.step.growth;
@@ -41,11 +42,6 @@ pub(super) fn rows<'a>(plan: &Plan, chains: &'a [Chain]) -> impl Iterator<Item =
             step,
         })
     })
-}
-
-fn motion(step: &Step) -> String {
-    let motion = step.motion.to_string();
-    motion.trim_start_matches("z = ").to_owned()
 }
 
 fn velocities(step: &Step) -> String {
