@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use softstop::{Dimension, Language, Machine};
+use softstop::{Dimension, Language, Machine, Start};
 use softstop_dynamics::models::{Likeness, Quantity, Rung};
 use softstop_dynamics::zone::Bounds;
 
@@ -82,6 +82,8 @@ pub(super) struct TrackReport {
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct FidelityReport {
     machine: MachineReport,
+    /// Where its motion starts.
+    start: Start,
     #[serde(skip)]
     pub(super) title: String,
     #[serde(skip)]
@@ -114,6 +116,7 @@ impl FidelityReport {
             title: title(machine),
             units: Units::of(machine),
             machine: MachineReport::of(machine),
+            start: machine.start,
             quantity,
             unit: unit(machine, quantity),
             tolerance: arguments.tolerance,
