@@ -21,8 +21,8 @@ use super::{Design, Problem};
 pub const LEAST_EVALUATIONS: u64 = 100;
 /// Particles of the swarm for each coordinate.
 const PARTICLES: usize = 12;
-/// Most points of the survey, and along an axis.
-const LARGEST_SURVEY: u64 = 160;
+/// Share of the evaluations that the survey takes for each coordinate, as 1 / share; most points along an axis.
+const SURVEY: u64 = 15;
 const LONGEST_EDGE: usize = 64;
 /// Rounds of the swarm between two looks at what it has gained, and the gain, relative, that is too little to go on.
 const SWARM_ROUNDS: u64 = 3;
@@ -132,7 +132,8 @@ fn outer(cost: &Cost<'_>, settings: Settings) -> Result<Vec<f64>, Error> {
         cost.watch.evaluated(None);
         return Ok(Vec::new());
     }
-    let survey = survey(cost, LARGEST_SURVEY.min(settings.evaluations / 3))?;
+    let share = (cost.space.dimension() as u64 * settings.evaluations) / SURVEY;
+    let survey = survey(cost, share.min(settings.evaluations / 3))?;
     let left = settings.evaluations - survey.len() as u64;
     let swarm = left * 2 / 3;
     let start = swarm_best(cost, &survey, settings.seed, swarm)?;

@@ -89,7 +89,7 @@ pub struct OptimizeArguments {
     /// Seed of the search: the same one gives the same result [default: 0]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
-    /// Zones to compute at most, at least 100 [default: 1200]
+    /// Zones to compute at most, at least 100; the search ends before when it gains nothing [default: 1200]
     #[arg(long, value_name = "N")]
     pub evaluations: Option<u64>,
     /// The machine.
