@@ -33,7 +33,7 @@ pub enum SceneError {
     /// A slope that does not follow the one before it.
     #[error(
         "{list}[{index}]: from = {}, stiffness = {}: the first slope must begin at 0, each further \
-         one beyond the one before it, and stiffness must be finite and >= 0, both at most 1e12",
+         one beyond the one before it, and stiffness must be finite and >= 0, both at most 1e24",
         plain(*from), plain(*stiffness)
     )]
     Slope {

@@ -138,7 +138,7 @@ pub enum Allowed {
 
 impl Allowed {
     /// A number far above any machine's, below which no intermediate result overflows.
-    pub const LARGEST: f64 = 1e12;
+    pub const LARGEST: f64 = 1e24;
 
     /// True if the value lies there.
     pub fn holds(self, value: f64) -> bool {
@@ -155,11 +155,11 @@ impl Allowed {
     /// In words, as after "must be".
     pub const fn words(self) -> &'static str {
         match self {
-            Self::Positive => "finite and > 0, at most 1e12",
-            Self::NotNegative => "finite and >= 0, at most 1e12",
-            Self::Finite => "finite, from -1e12 to 1e12",
+            Self::Positive => "finite and > 0, at most 1e24",
+            Self::NotNegative => "finite and >= 0, at most 1e24",
+            Self::Finite => "finite, from -1e24 to 1e24",
             Self::Share => "in [0, 1]",
-            Self::AtLeastOne => "finite and >= 1, at most 1e12",
+            Self::AtLeastOne => "finite and >= 1, at most 1e24",
         }
     }
 

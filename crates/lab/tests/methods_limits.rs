@@ -72,7 +72,7 @@ fn what_makes_no_sense_is_named() {
         let text = refusal(&rk4(0.01), |task| task.start.velocity = f64::NAN);
         assert_eq!(text, "velocity = NaN: must be finite");
         let text = refusal(&rk4(0.01), |task| task.scene.mass = 0.0);
-        assert_eq!(text, "mass = 0: must be finite and > 0, at most 1e12");
+        assert_eq!(text, "mass = 0: must be finite and > 0, at most 1e24");
         let text = refusal(&rk4(0.01), |task| {
             task.scene.stop = Stop::Rigid { restitution: 0.5 };
             task.start.position = 11.0;

@@ -1,6 +1,6 @@
 //! What the rows of the table are made of.
 
-use softstop::{Allowed, Sensitivity};
+use softstop::Sensitivity;
 use softstop_fmi::Quantity;
 use softstop_fmi::variable::{Access, Dependencies, Kind, RealKind, Slot, Variable};
 
@@ -10,8 +10,8 @@ use crate::start::slot::SLOPES;
 /// One row of the table.
 pub(crate) type Row = Variable<Machine, Sensitivity>;
 
-/// The largest size of a number.
-pub(super) const LARGE: f64 = Allowed::LARGEST;
+/// A number far above any machine's, below which no intermediate result overflows.
+pub(super) const LARGE: f64 = 1e12;
 /// Stands for "greater than zero" in ranges that the standard can only close.
 pub(super) const SMALL: f64 = 1e-12;
 
