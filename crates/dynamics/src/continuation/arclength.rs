@@ -4,7 +4,6 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::orbit::OrbitError;
-use softstop::internals::narrow;
 
 /// A system in scaled unknowns. To add one, implement the two methods.
 pub(crate) trait Equations {
@@ -14,10 +13,10 @@ pub(crate) trait Equations {
     /// Residual and more.
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Self::Point>, OrbitError>;
 
-    /// Those columns of the Jacobian that cost evaluations of their own, the last ones.
-    fn slopes(&self, at: &DVector<f64>) -> Result<DMatrix<f64>, OrbitError>;
+    /// Unknowns for which an evaluation tells the derivatives; those for the others, the slopes, are differences.
+    const EXACT: usize;
 
-    /// Derivatives of the residual, a row for each equation, with these columns. Their error slows the
+    /// Derivatives of the residual, a row for each equation, with these slopes. Their error slows the
     /// convergence; the residual alone decides the result.
     fn jacobian(&self, here: &Evaluation<Self::Point>, slopes: &DMatrix<f64>) -> DMatrix<f64>;
 }
@@ -53,7 +52,7 @@ pub(crate) fn correct<E: Equations>(
     guess: &DVector<f64>,
     normal: Option<&DVector<f64>>,
 ) -> Result<Node<E::Point>, OrbitError> {
-    correct_with(equations, guess, normal, &mut None)
+    correct_with(equations, guess, normal, &mut None, Care::Full)
 }
 
 /// The same where the last unknown is given: its slopes play no part.
@@ -64,27 +63,41 @@ pub(crate) fn correct_at<E: Equations>(
     let unknowns = guess.len();
     let normal = DVector::from_fn(unknowns, |row, _| f64::from(u8::from(row + 1 == unknowns)));
     let mut none = Some(DMatrix::zeros(unknowns - 1, 1));
-    correct_with(equations, guess, Some(&normal), &mut none)
+    correct_with(equations, guess, Some(&normal), &mut none, Care::Full)
 }
 
+/// How carefully solutions are computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Care {
+    /// To the last digit, with central differences.
+    Full,
+    /// Well within what rounding leaves, with one-sided differences.
+    Quick,
+}
+
+/// Share of the tolerance that is well within it.
+const WITHIN: f64 = 0.02;
+
 /// The same with the slopes of a place nearby, if there are any, as long as they serve; it leaves the last ones.
-fn correct_with<E: Equations>(
+pub(super) fn correct_with<E: Equations>(
     equations: &E,
     guess: &DVector<f64>,
     normal: Option<&DVector<f64>>,
     slopes: &mut Option<DMatrix<f64>>,
+    care: Care,
 ) -> Result<Node<E::Point>, OrbitError> {
     let mut at = guess.clone();
     let mut last = f64::INFINITY;
     for _ in 0..CORRECTIONS {
         let here = equations.evaluate(&at)?;
         let size = here.residual.norm();
-        if size <= here.tolerance && size >= 0.1 * last {
+        let enough = care == Care::Quick && size <= WITHIN * here.tolerance;
+        if enough || (size <= here.tolerance && size >= 0.1 * last) {
             return Ok(Node { at, here });
         }
         let kept = slopes.take().filter(|_| size <= STALE * last);
         last = size;
-        let known = kept.map_or_else(|| equations.slopes(&at), Ok)?;
+        let known = kept.map_or_else(|| slopes_at(equations, &at, &here, care), Ok)?;
         let mut right = here.residual.clone();
         let mut matrix = -equations.jacobian(&here, slopes.insert(known));
         if let Some(normal) = normal {
@@ -117,7 +130,16 @@ pub(crate) fn tangent<E: Equations>(
     node: &Node<E::Point>,
     along: &DVector<f64>,
 ) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
-    let slopes = equations.slopes(&node.at)?;
+    tangent_with(equations, node, along, Care::Full)
+}
+
+fn tangent_with<E: Equations>(
+    equations: &E,
+    node: &Node<E::Point>,
+    along: &DVector<f64>,
+    care: Care,
+) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
+    let slopes = slopes_at(equations, &node.at, &node.here, care)?;
     let matrix = bordered(equations.jacobian(&node.here, &slopes), along);
     let mut right = DVector::zeros(node.at.len());
     right[node.at.len() - 1] = 1.0;
@@ -127,80 +149,34 @@ pub(crate) fn tangent<E: Equations>(
     }
 }
 
-/// Columns of central differences of a residual, one for each unknown from `first` on; of one-sided ones where
-/// there is no machine on the other side.
-pub(crate) fn differences<E: Equations>(
+/// Columns of differences of a residual for the unknowns without exact derivatives: central ones, or one-sided where
+/// that is enough or there is no machine on the other side.
+fn slopes_at<E: Equations>(
     equations: &E,
     at: &DVector<f64>,
-    first: usize,
+    here: &Evaluation<E::Point>,
+    care: Care,
 ) -> Result<DMatrix<f64>, OrbitError> {
     let mut columns = Vec::new();
-    for unknown in first..at.len() {
+    for unknown in E::EXACT..at.len() {
         let beside = |shift: f64| {
             let mut at = at.clone();
             at[unknown] += shift;
             equations.evaluate(&at).map(|found| found.residual)
         };
-        columns.push(match (beside(DIFFERENCE), beside(-DIFFERENCE)) {
-            (Ok(ahead), Ok(behind)) => (ahead - behind) / (2.0 * DIFFERENCE),
-            (Ok(ahead), Err(_)) => (ahead - equations.evaluate(at)?.residual) / DIFFERENCE,
-            (Err(_), Ok(behind)) => (equations.evaluate(at)?.residual - behind) / DIFFERENCE,
-            (Err(error), Err(_)) => return Err(error),
+        let one_sided = |there: DVector<f64>, shift: f64| (there - &here.residual) / shift;
+        let ahead = beside(DIFFERENCE);
+        columns.push(match (ahead, care) {
+            (Ok(ahead), Care::Quick) => one_sided(ahead, DIFFERENCE),
+            (ahead, _) => match (ahead, beside(-DIFFERENCE)) {
+                (Ok(ahead), Ok(behind)) => (ahead - behind) / (2.0 * DIFFERENCE),
+                (Ok(ahead), Err(_)) => one_sided(ahead, DIFFERENCE),
+                (Err(_), Ok(behind)) => one_sided(behind, -DIFFERENCE),
+                (Err(error), Err(_)) => return Err(error),
+            },
         });
     }
     Ok(DMatrix::from_columns(&columns))
-}
-
-/// The node between two neighbours at which `test` changes its sign, and its share of the way: trials
-/// on the curve through the nearest nodes known, each corrected across the chord, until they are `width` apart on
-/// it.
-pub(crate) fn locate<E: Equations>(
-    equations: &E,
-    (from, to): (&Node<E::Point>, &Node<E::Point>),
-    width: f64,
-    test: impl Fn(&Node<E::Point>) -> f64,
-) -> Result<(Node<E::Point>, f64), OrbitError> {
-    let way = &to.at - &from.at;
-    let chord = way.normalize();
-    let mut slopes = None;
-    let mut known = vec![(0.0, test(from), from.clone()), (1.0, test(to), to.clone())];
-    let ends = ((0.0, known[0].1), (1.0, known[1].1));
-    narrow(ends.0, ends.1, width / way.norm(), |share| {
-        let guess = interpolated(&known, share);
-        let node = correct_with(equations, &guess, Some(&chord), &mut slopes)?;
-        let value = test(&node);
-        known.push((share, value, node));
-        Ok::<f64, OrbitError>(value)
-    })?;
-    let best = known
-        .into_iter()
-        .rev()
-        .min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    best.map(|(share, _, node)| (node, share))
-        .ok_or(OrbitError::Diverged { residual: f64::NAN })
-}
-
-/// Nodes that a guess between nodes is drawn through, and the shares of the way that they are apart at least.
-const SUPPORT: usize = 4;
-const APART: f64 = 1e-6;
-
-/// The point at this share of the way on the polynomial (Lagrange) through the nodes nearest to it.
-fn interpolated<P>(known: &[(f64, f64, Node<P>)], share: f64) -> DVector<f64> {
-    let mut near: Vec<(f64, &DVector<f64>)> =
-        known.iter().map(|(at, _, node)| (*at, &node.at)).collect();
-    near.sort_by(|a, b| (a.0 - share).abs().total_cmp(&(b.0 - share).abs()));
-    near.dedup_by(|a, b| (a.0 - b.0).abs() < APART);
-    near.truncate(SUPPORT);
-    let weight = |index: usize| -> f64 {
-        let others = near.iter().enumerate().filter(|(other, _)| *other != index);
-        let factors = others.map(|(_, (at, _))| (share - at) / (near[index].0 - at));
-        factors.product()
-    };
-    let parts = near
-        .iter()
-        .enumerate()
-        .map(|(index, (_, at))| *at * weight(index));
-    parts.fold(DVector::zeros(known[0].2.at.len()), |sum, part| sum + part)
 }
 
 /// First, smallest and largest arclength steps.
@@ -219,6 +195,7 @@ pub(crate) struct Walker<'a, E: Equations> {
     slopes: DMatrix<f64>,
     /// Change of the direction by arclength, across it, where guesses take it.
     bend: Option<DVector<f64>>,
+    care: Care,
     pub step: f64,
     largest: f64,
 }
@@ -255,6 +232,7 @@ impl<'a, E: Equations> Walker<'a, E> {
         Ok(Self {
             equations,
             bend: None,
+            care: Care::Full,
             node,
             direction,
             slopes,
@@ -263,10 +241,11 @@ impl<'a, E: Equations> Walker<'a, E> {
         })
     }
 
-    /// The same with guesses that bend as the curve did: for smooth curves, in fewer steps of Newton's method.
-    pub fn bending(self) -> Self {
+    /// The same in fewer evaluations, with guesses that bend as the curve did: for smooth curves.
+    pub fn quick(self) -> Self {
         Self {
             bend: Some(DVector::zeros(self.direction.len())),
+            care: Care::Quick,
             ..self
         }
     }
@@ -278,8 +257,9 @@ impl<'a, E: Equations> Walker<'a, E> {
             guess += 0.5 * self.step * self.step * bend;
         }
         let mut slopes = Some(self.slopes.clone());
-        let node = correct_with(self.equations, &guess, Some(&self.direction), &mut slopes)?;
-        let (direction, slopes) = tangent(self.equations, &node, &self.direction)?;
+        let (equations, across) = (self.equations, Some(&self.direction));
+        let node = correct_with(equations, &guess, across, &mut slopes, self.care)?;
+        let (direction, slopes) = tangent_with(equations, &node, &self.direction, self.care)?;
         let turn = direction.dot(&self.direction);
         if turn <= LARGEST_TURN {
             return Err(OrbitError::Diverged { residual: 0.0 });

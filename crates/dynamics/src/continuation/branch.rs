@@ -5,11 +5,12 @@ use std::ops::ControlFlow;
 use nalgebra::{DVector, Vector2};
 
 use super::Family;
-use super::arclength::{self, Node, Walker};
+use super::arclength::{Node, Walker};
 use super::caution::SHORT;
 use super::detect::passes_by;
 use super::follower::{Follower, Heading, WIDTH};
 use super::graze::Approach;
+use super::locate::locate;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::round::Round;
 use super::test::Test;
@@ -211,7 +212,7 @@ impl<F: Family> Follower<'_, F> {
         let (to, end) = match (bound, merged) {
             (Some(bound), _) => {
                 let test = |node: &Node<Round>| self.shooting.parameters(&node.at)[0] - bound;
-                let (node, _) = arclength::locate(&self.shooting, (from, to), WIDTH, test)?;
+                let (node, _) = locate(&self.shooting, (from, to), WIDTH, test)?;
                 (node, Some(End::Range))
             }
             (None, Some(point)) => {

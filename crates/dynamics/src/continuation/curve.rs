@@ -5,8 +5,9 @@ use std::ops::ControlFlow;
 use nalgebra::{DVector, Matrix2};
 
 use super::Family;
-use super::arclength::{self, Equations, Node, Walker, correct};
+use super::arclength::{Equations, Node, Walker, correct};
 use super::follower::WIDTH;
+use super::locate::locate;
 use super::point::{BranchPoint, Graze, SpecialKind};
 use super::round::{Round, Sequence};
 use super::shooting::{Critical, Shooting};
@@ -255,7 +256,7 @@ fn within<E: Codimension>(
         let bound = now.clamp(low, high);
         if bound != now && value(from) != bound {
             let test = |node: &Node<E::Point>| value(node) - bound;
-            let (node, _) = arclength::locate(equations, (from, &end.0), WIDTH, test)?;
+            let (node, _) = locate(equations, (from, &end.0), WIDTH, test)?;
             end = (node, true);
         }
     }

@@ -1,9 +1,10 @@
 //! What lies on one step of a branch: special points, ends.
 
 use super::Family;
-use super::arclength::{self, Node};
+use super::arclength::Node;
 use super::follower::{Follower, WIDTH};
 use super::graze::Approach;
+use super::locate::locate;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::round::Round;
 use super::test::Test;
@@ -56,7 +57,7 @@ impl<F: Family> Follower<'_, F> {
         for test in Test::ALL {
             if test.passes(&a.monodromy, &b.monodromy) {
                 let value = |node: &Node<Round>| test.value(&node.here.point.monodromy);
-                let (node, share) = arclength::locate(&self.shooting, (from, to), WIDTH, value)?;
+                let (node, share) = locate(&self.shooting, (from, to), WIDTH, value)?;
                 let point = self.point_at(&node);
                 let kind = SpecialKind::Critical(test);
                 found.push((share, Special { kind, point }));

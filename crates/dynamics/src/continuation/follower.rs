@@ -6,6 +6,7 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::{self, LARGEST_STEP, Node, Walker, correct, correct_at};
+use super::locate::locate;
 use super::point::BranchPoint;
 use super::round::Round;
 use super::shooting::{Critical, Shooting};
@@ -105,7 +106,7 @@ impl<'a, F: Family> Follower<'a, F> {
             &Self::direction(heading),
             self.largest,
         )?
-        .bending();
+        .quick();
         while points.len() < limit {
             match walker.attempt() {
                 Ok(stride) if stride.node.here.point.sequence == sequence => {
@@ -136,7 +137,7 @@ impl<'a, F: Family> Follower<'a, F> {
     ) -> Result<BranchPoint, OrbitError> {
         let ends = (&self.node_at(from)?, &self.node_at(to)?);
         let test = |node: &Node<Round>| test(&self.point_at(node));
-        let (node, _) = arclength::locate(&self.shooting, ends, WIDTH, test)?;
+        let (node, _) = locate(&self.shooting, ends, WIDTH, test)?;
         Ok(self.point_at(&node))
     }
 

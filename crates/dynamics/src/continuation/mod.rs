@@ -35,6 +35,7 @@ mod detect;
 mod face;
 mod follower;
 mod graze;
+mod locate;
 mod near;
 mod point;
 mod round;

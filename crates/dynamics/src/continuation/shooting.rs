@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
-use super::arclength::{Equations, Evaluation, differences};
+use super::arclength::{Equations, Evaluation};
 use super::round::Round;
 use super::test::Test;
 use crate::orbit::OrbitError;
@@ -59,6 +59,7 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
 
 impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
     type Point = Round;
+    const EXACT: usize = 2;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Round>, OrbitError> {
         let state = self.state(at);
@@ -70,11 +71,6 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
             tolerance: round_off(&scene, &state, &round.monodromy, self.family.state_scales()),
             point: round,
         })
-    }
-
-    /// Central differences for the parameters.
-    fn slopes(&self, at: &DVector<f64>) -> Result<DMatrix<f64>, OrbitError> {
-        differences(self, at, 2)
     }
 
     /// The exact Jacobian of the map, and the slopes.
@@ -112,6 +108,7 @@ pub(crate) struct Critical<'a, F, const N: usize> {
 
 impl<F: Family<N>, const N: usize> Equations for Critical<'_, F, N> {
     type Point = Round;
+    const EXACT: usize = 0;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Round>, OrbitError> {
         let orbit = self.shooting.evaluate(at)?;
@@ -121,10 +118,6 @@ impl<F: Family<N>, const N: usize> Equations for Critical<'_, F, N> {
             tolerance: orbit.tolerance.max(TEST_TOLERANCE),
             point: orbit.point,
         })
-    }
-
-    fn slopes(&self, at: &DVector<f64>) -> Result<DMatrix<f64>, OrbitError> {
-        differences(self, at, 0)
     }
 
     fn jacobian(&self, _: &Evaluation<Round>, slopes: &DMatrix<f64>) -> DMatrix<f64> {

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
-use super::arclength::{Equations, Evaluation, Node, differences};
+use super::arclength::{Equations, Evaluation, Node};
 use super::face::Face;
 use super::round::carry_on;
 use super::shooting::round_off;
@@ -88,6 +88,7 @@ impl<F: Family<N>, const N: usize> Touching<'_, F, N> {
 
 impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
     type Point = Contact;
+    const EXACT: usize = 0;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Contact>, OrbitError> {
         let (scene, touch) = self.scene(at)?;
@@ -117,10 +118,6 @@ impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
                 impacts: watch.impacts,
             },
         })
-    }
-
-    fn slopes(&self, at: &DVector<f64>) -> Result<DMatrix<f64>, OrbitError> {
-        differences(self, at, 0)
     }
 
     fn jacobian(&self, _: &Evaluation<Contact>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
