@@ -76,8 +76,8 @@ pub fn run(arguments: &StopsArguments) -> Result<(), Failure> {
     let files = files.each_ref();
     let files = files.map(|(kind, file)| (kind.as_str(), file.as_str()));
     let export = Export::open(&arguments.output, &files)?;
-    for exhibit in &ZOO {
-        export.file(exhibit.name, picture(exhibit)?.as_bytes())?;
+    for (exhibit, (kind, _)) in ZOO.iter().zip(&files) {
+        export.file(kind, picture(exhibit)?.as_bytes())?;
     }
     let pictures = ZOO.map(|exhibit| PictureReport {
         name: exhibit.name,
