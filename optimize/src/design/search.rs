@@ -258,7 +258,8 @@ fn swarm_best(
                 cost: found.cost,
             };
         }
-        if gain <= SWARM_GAIN * best.cost.abs() {
+        let feasible = best.cost < 0.0;
+        if feasible && gain <= SWARM_GAIN * best.cost.abs() {
             break;
         }
         particles = result.state.get_population().ok_or_else(empty)?.clone();
