@@ -6,8 +6,10 @@
 //! then found along it ([`along`]). [`search`] drives the outer search.
 
 pub mod along;
+mod polish;
 pub mod search;
 pub mod space;
+mod survey;
 
 use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_dynamics::orbit::Orbit;

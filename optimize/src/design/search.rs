@@ -8,36 +8,27 @@
 //! outside are pulled in, and an optimum on the boundary (common here) is met exactly.
 
 use argmin::core::{CostFunction, Error, Executor, State};
-use argmin::solver::neldermead::NelderMead;
 use argmin::solver::particleswarm::{Particle, ParticleSwarm};
 use argmin_math::ArgminRandom;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
+use super::polish::polish;
 use super::space::Space;
+use super::survey::survey;
 use super::{Design, Problem};
 
 /// Fewest zones a search makes sense with.
 pub const LEAST_EVALUATIONS: u64 = 100;
 /// Particles of the swarm for each coordinate.
 const PARTICLES: usize = 12;
-/// Share of the evaluations that the survey takes for each coordinate, as 1 / share; most points along an axis.
+/// Share of the evaluations that the survey takes for each coordinate, as 1 / share.
 const SURVEY: u64 = 15;
-const LONGEST_EDGE: usize = 64;
 /// Rounds of the swarm between two looks at what it has gained, and the gain, relative, that is too little to go on.
 const SWARM_ROUNDS: u64 = 3;
 const SWARM_GAIN: f64 = 1e-3;
 /// Greatest velocity of a particle at the start, in edges of the cube per round.
 const FASTEST: f64 = 0.2;
-/// Edges of the first simplex of the polish, as a share of the box.
-const FIRST_EDGE: f64 = 0.05;
-/// By how much each restart of the polish narrows the simplex.
-const NARROWING: f64 = 0.2;
-const RESTARTS: usize = 8;
-/// Rounds of one start of the polish: far more than it takes in two coordinates.
-const MOST_ROUNDS: u64 = 200;
-/// A restart that gains less than this, relative, is the last.
-const GAIN: f64 = 1e-10;
 
 /// How to search.
 #[derive(Debug, Clone, Copy)]
@@ -142,15 +133,15 @@ fn outer(cost: &Cost<'_>, settings: Settings) -> Result<Vec<f64>, Error> {
 
 /// A point of the unit cube and what it costs.
 #[derive(Debug, Clone)]
-struct Point {
-    unit: Vec<f64>,
-    cost: f64,
+pub(super) struct Point {
+    pub unit: Vec<f64>,
+    pub cost: f64,
 }
 
 /// What the optimisers minimise: minus the velocity, or a finite grade above every velocity.
-struct Cost<'search> {
+pub(super) struct Cost<'search> {
     problem: &'search Problem,
-    space: Space<'search>,
+    pub space: Space<'search>,
     watch: &'search dyn Watch,
 }
 
@@ -175,7 +166,7 @@ impl CostFunction for &Cost<'_> {
 }
 
 /// The same for the swarm, which is to end at once when it is stopped.
-struct Stoppable<'search>(&'search Cost<'search>);
+pub(super) struct Stoppable<'search>(pub &'search Cost<'search>);
 
 impl CostFunction for Stoppable<'_> {
     type Param = Vec<f64>;
@@ -187,29 +178,6 @@ impl CostFunction for Stoppable<'_> {
         }
         self.0.cost(unit)
     }
-}
-
-/// Points of a lattice over the cube, its boundary included, the best ones first.
-fn survey(cost: &Cost<'_>, evaluations: u64) -> Result<Vec<Point>, Error> {
-    let dimension = cost.space.dimension();
-    let root = (evaluations as f64).powf(1.0 / dimension as f64) + 1e-9;
-    let edge = (root as usize).clamp(2, LONGEST_EDGE);
-    let units: Vec<Vec<f64>> = (0..edge.pow(dimension as u32))
-        .map(|index| lattice_point(index, edge, dimension))
-        .collect();
-    let costs = Stoppable(cost).bulk_cost(&units)?;
-    let points = units.into_iter().zip(costs);
-    let mut points: Vec<Point> = points.map(|(unit, cost)| Point { unit, cost }).collect();
-    points.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    Ok(points)
-}
-
-/// The point of this number in a lattice with `edge` points along each axis.
-fn lattice_point(index: usize, edge: usize, dimension: usize) -> Vec<f64> {
-    let digit = |axis: usize| index / edge.pow(axis as u32) % edge;
-    (0..dimension)
-        .map(|axis| digit(axis) as f64 / (edge - 1) as f64)
-        .collect()
 }
 
 /// The swarm: one half the best of the survey, the other spread over the rest of it.
@@ -267,79 +235,4 @@ fn swarm_best(
         left -= rounds;
     }
     Ok(best)
-}
-
-fn polish(cost: &Cost<'_>, start: Point, evaluations: u64) -> Result<Point, Error> {
-    let mut best = start;
-    let mut edge = FIRST_EDGE;
-    // A Nelder-Mead step takes one or two evaluations, a shrinking one more than that.
-    let rounds = (evaluations / (2 * RESTARTS as u64)).clamp(10, MOST_ROUNDS);
-    for _ in 0..RESTARTS {
-        let found = nelder_mead(cost, &best, edge, rounds)?;
-        let gain = best.cost - found.cost;
-        let enough = gain > GAIN * best.cost.abs();
-        if gain > 0.0 {
-            best = found;
-        }
-        if !enough && edge < FIRST_EDGE {
-            break;
-        }
-        edge *= NARROWING;
-    }
-    Ok(best)
-}
-
-fn nelder_mead(cost: &Cost<'_>, from: &Point, edge: f64, rounds: u64) -> Result<Point, Error> {
-    let tolerance = 1e-13 * from.cost.abs().max(1.0);
-    let solver = NelderMead::new(simplex(&from.unit, edge)).with_sd_tolerance(tolerance)?;
-    let result = Executor::new(cost, solver)
-        .configure(|state| state.max_iters(rounds))
-        .timer(false)
-        .run()?;
-    let unit = result
-        .state
-        .get_best_param()
-        .ok_or_else(|| Error::msg("the simplex is empty"))?;
-    Ok(Point {
-        unit: unit
-            .iter()
-            .map(|coordinate| coordinate.clamp(0.0, 1.0))
-            .collect(),
-        cost: result.state.get_best_cost(),
-    })
-}
-
-/// A simplex with one corner here and its edges pointing into the cube.
-fn simplex(unit: &[f64], edge: f64) -> Vec<Vec<f64>> {
-    let mut corners = vec![unit.to_vec()];
-    for axis in 0..unit.len() {
-        let mut corner = unit.to_vec();
-        corner[axis] += if corner[axis] + edge > 1.0 {
-            -edge
-        } else {
-            edge
-        };
-        corners.push(corner);
-    }
-    corners
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{lattice_point, simplex};
-
-    #[test]
-    fn the_survey_reaches_the_corners() {
-        assert_eq!(lattice_point(0, 3, 2), [0.0, 0.0]);
-        assert_eq!(lattice_point(5, 3, 2), [1.0, 0.5]);
-        assert_eq!(lattice_point(8, 3, 2), [1.0, 1.0]);
-    }
-
-    #[test]
-    fn simplices_stay_inside_the_cube() {
-        assert_eq!(
-            simplex(&[1.0, 0.0], 0.25),
-            [[1.0, 0.0], [0.75, 0.0], [1.0, 0.25]]
-        );
-    }
 }
