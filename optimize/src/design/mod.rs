@@ -6,6 +6,7 @@
 //! then found along it ([`along`]). [`search`] drives the outer search.
 
 pub mod along;
+mod cost;
 mod polish;
 pub mod search;
 pub mod space;

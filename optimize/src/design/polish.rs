@@ -3,7 +3,7 @@
 use argmin::core::{Error, Executor, State};
 use argmin::solver::neldermead::NelderMead;
 
-use super::search::{Cost, Point};
+use super::cost::{Cost, Point};
 
 /// Edges of the first simplex of the polish, as a share of the box.
 const FIRST_EDGE: f64 = 0.05;

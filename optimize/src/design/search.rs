@@ -7,12 +7,14 @@
 //! All see the unit cube. The swarm keeps to it by itself; Nelder-Mead does not, so points
 //! outside are pulled in, and an optimum on the boundary (common here) is met exactly.
 
-use argmin::core::{CostFunction, Error, Executor, State};
+use argmin::core::{Error, Executor, State};
 use argmin::solver::particleswarm::{Particle, ParticleSwarm};
 use argmin_math::ArgminRandom;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
+use super::cost::{Cost, Point, Stoppable};
+pub use super::cost::{Unwatched, Watch};
 use super::polish::polish;
 use super::space::Space;
 use super::survey::survey;
@@ -37,25 +39,6 @@ pub struct Settings {
     pub seed: u64,
     /// Zones to compute at most, at least [`LEAST_EVALUATIONS`].
     pub evaluations: u64,
-}
-
-/// Who watches the search, from several threads at once.
-pub trait Watch: Sync {
-    /// One more zone has been computed; the velocity is that of its best motion, if any.
-    fn evaluated(&self, velocity: Option<f64>);
-    /// Whether to give up.
-    fn stop(&self) -> bool;
-}
-
-/// Watches nothing.
-#[derive(Debug, Clone, Copy)]
-pub struct Unwatched;
-
-impl Watch for Unwatched {
-    fn evaluated(&self, _: Option<f64>) {}
-    fn stop(&self) -> bool {
-        false
-    }
 }
 
 /// Why a search has no design to show.
@@ -129,55 +112,6 @@ fn outer(cost: &Cost<'_>, settings: Settings) -> Result<Vec<f64>, Error> {
     let swarm = left * 2 / 3;
     let start = swarm_best(cost, &survey, settings.seed, swarm)?;
     Ok(polish(cost, start, left - swarm)?.unit)
-}
-
-/// A point of the unit cube and what it costs.
-#[derive(Debug, Clone)]
-pub(super) struct Point {
-    pub unit: Vec<f64>,
-    pub cost: f64,
-}
-
-/// What the optimisers minimise: minus the velocity, or a finite grade above every velocity.
-pub(super) struct Cost<'search> {
-    problem: &'search Problem,
-    pub space: Space<'search>,
-    watch: &'search dyn Watch,
-}
-
-impl CostFunction for &Cost<'_> {
-    type Param = Vec<f64>;
-    type Output = f64;
-
-    /// Never is NaN (the swarm would panic, Nelder-Mead stall) and never fails (Nelder-Mead
-    /// would panic); once stopped, infinite.
-    fn cost(&self, unit: &Vec<f64>) -> Result<f64, Error> {
-        if self.watch.stop() {
-            return Ok(f64::INFINITY);
-        }
-        let outcome = self.problem.at(&self.space.values(unit));
-        self.watch
-            .evaluated(outcome.as_ref().ok().map(Design::before_impact_velocity));
-        Ok(match outcome {
-            Ok(design) => -design.before_impact_velocity(),
-            Err(infeasible) => 1.0 + infeasible.gap,
-        })
-    }
-}
-
-/// The same for the swarm, which is to end at once when it is stopped.
-pub(super) struct Stoppable<'search>(pub &'search Cost<'search>);
-
-impl CostFunction for Stoppable<'_> {
-    type Param = Vec<f64>;
-    type Output = f64;
-
-    fn cost(&self, unit: &Vec<f64>) -> Result<f64, Error> {
-        if self.0.watch.stop() {
-            return Err(SearchError::Stopped.into());
-        }
-        self.0.cost(unit)
-    }
 }
 
 /// The swarm: one half the best of the survey, the other spread over the rest of it.

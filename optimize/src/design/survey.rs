@@ -2,7 +2,7 @@
 
 use argmin::core::{CostFunction, Error};
 
-use super::search::{Cost, Point, Stoppable};
+use super::cost::{Cost, Point, Stoppable};
 
 /// Most points along an axis.
 const LONGEST_EDGE: usize = 64;
