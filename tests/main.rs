@@ -9,6 +9,7 @@ mod force_reference;
 mod guarantee;
 mod long_runs;
 mod machine;
+mod machine_refusals;
 mod no_event_missed;
 mod rates;
 mod sensitivities;

@@ -47,6 +47,7 @@ use std::borrow::Borrow;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use anyhow::anyhow;
 use serde::Serialize;
 
 use crate::column::{Column, cells, names};
@@ -106,7 +107,7 @@ impl Export {
     /// # Errors
     /// [`Failure::Run`] naming the file.
     pub fn file(&self, kind: &str, content: &[u8]) -> Result<(), Failure> {
-        self.folder.stage(self.name(kind), content)
+        self.folder.stage(self.name(kind)?, content)
     }
 
     /// Writes a table as the file of a kind.
@@ -119,7 +120,7 @@ impl Export {
         columns: &[Column<T>],
         rows: impl IntoIterator<Item = impl Borrow<T>>,
     ) -> Result<(), Failure> {
-        let mut table = self.folder.create(self.name(kind))?;
+        let mut table = self.folder.create(self.name(kind)?)?;
         table.header(&names(columns))?;
         for row in rows {
             table.row(&cells(columns, row.borrow()))?;
@@ -167,9 +168,10 @@ impl Export {
         })
     }
 
-    /// The name of the file of a kind; a kind that was not opened is its own name.
-    fn name<'a>(&'a self, kind: &'a str) -> &'a str {
+    /// The name of the file of a kind.
+    fn name(&self, kind: &str) -> Result<&str, Failure> {
         let file = self.files.iter().find(|(other, _)| other == kind);
-        file.map_or(kind, |(_, name)| name)
+        let name = file.map(|(_, name)| name.as_str());
+        name.ok_or_else(|| Failure::Run(anyhow!("no file was opened for {kind}")))
     }
 }

@@ -19,6 +19,7 @@ pub mod zone;
 /// What sibling crates share beyond this page, without any promise.
 #[doc(hidden)]
 pub mod internals {
+    pub use crate::orbit::turn::turns;
     pub use crate::peak::highest;
 }
 

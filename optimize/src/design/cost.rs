@@ -48,7 +48,7 @@ impl CostFunction for &Cost<'_> {
         if self.watch.stop() {
             return Ok(f64::INFINITY);
         }
-        let outcome = self.problem.at(&self.space.values(unit));
+        let outcome = self.problem.soon(&self.space.values(unit));
         self.watch
             .evaluated(outcome.as_ref().ok().map(Design::before_impact_velocity));
         Ok(match outcome {

@@ -84,8 +84,24 @@ impl Problem {
     /// # Errors
     /// [`Infeasible`] if there is no zone, or none of it is allowed and stable.
     pub fn at(&self, values: &[f64]) -> Result<Design, Infeasible> {
-        let mut machine = self.machine_at(values);
-        let zone = zone::hysteresis(&machine.scene).map_err(|error| Infeasible {
+        let machine = self.machine_at(values);
+        let zone = zone::hysteresis(&machine.scene);
+        self.best_of(machine, zone)
+    }
+
+    /// The same on the way of a search.
+    fn soon(&self, values: &[f64]) -> Result<Design, Infeasible> {
+        let machine = self.machine_at(values);
+        let zone = zone::hysteresis_soon(&machine.scene);
+        self.best_of(machine, zone)
+    }
+
+    fn best_of(
+        &self,
+        mut machine: Machine,
+        zone: Result<Zone, ZoneError>,
+    ) -> Result<Design, Infeasible> {
+        let zone = zone.map_err(|error| Infeasible {
             gap: distance_from_zones(&machine.scene, &error),
             reason: error.to_string(),
         })?;

@@ -5,16 +5,15 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::orbit::OrbitError;
 
-/// A system in scaled unknowns. To add one, implement the two methods.
+/// A system in scaled unknowns. To add one, say what is exact and implement the two methods.
 pub(crate) trait Equations {
     /// What an evaluation brings to light besides the residual.
     type Point: Clone;
+    /// Unknowns for which an evaluation tells the derivatives; those for the others, the slopes, are differences.
+    const EXACT: usize;
 
     /// Residual and more.
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Self::Point>, OrbitError>;
-
-    /// Unknowns for which an evaluation tells the derivatives; those for the others, the slopes, are differences.
-    const EXACT: usize;
 
     /// Derivatives of the residual, a row for each equation, with these slopes. Their error slows the
     /// convergence; the residual alone decides the result.

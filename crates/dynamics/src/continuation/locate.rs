@@ -6,6 +6,9 @@ use super::arclength::{Care, Equations, Node, correct_with};
 use crate::orbit::OrbitError;
 use softstop::internals::narrow;
 
+/// The first two nodes known are those that a special point lies between.
+const ENDS: usize = 2;
+
 /// The node between two neighbours at which `test` changes its sign, and its share of the way: trials
 /// on the curve through the nearest nodes known, each corrected across the chord, until they are `width` apart on
 /// it.
@@ -27,7 +30,9 @@ pub(crate) fn locate<E: Equations>(
         known.push((share, value, node));
         Ok::<f64, OrbitError>(value)
     })?;
-    let best = known
+    let tried = known.split_off(ENDS);
+    let candidates = if tried.is_empty() { known } else { tried };
+    let best = candidates
         .into_iter()
         .rev()
         .min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));

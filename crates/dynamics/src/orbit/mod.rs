@@ -12,7 +12,7 @@ mod periodic;
 pub(crate) mod recurrence;
 mod regime;
 mod search;
-pub mod turn;
+pub(crate) mod turn;
 
 pub use exponents::Exponents;
 pub use map::{Passage, StroboscopicMap};

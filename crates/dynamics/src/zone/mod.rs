@@ -9,7 +9,7 @@ mod loss;
 
 pub use bounds::Bounds;
 pub use grazing::{free_amplitude, grazing_frequencies};
-pub use hysteresis::{Zone, hysteresis};
+pub use hysteresis::{Zone, hysteresis, hysteresis_soon};
 pub use loss::loss_of_stability;
 
 use std::fmt::{self, Display, Formatter};
