@@ -1,7 +1,7 @@
 //! Gauss's rule over a stretch of time.
 
 /// Nodes and weights of the eight-point Gauss rule on [-1, 1] (Abramowitz and Stegun, table 25.4),
-/// positive half. Over one Taylor reach its error on the products below is under 1e-17.
+/// positive half. Over one Taylor reach its error on the products of force and velocity is under 1e-17.
 const GAUSS: [(f64, f64); 4] = [
     (0.183_434_642_495_65, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),

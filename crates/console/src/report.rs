@@ -158,7 +158,7 @@ impl MotionName {
             kind: regime.map_or(MotionKind::Unsettled.key(), |_| "periodic"),
             z: regime.map(|regime| regime.to_string()),
             order: None,
-            text: regime.map_or("irregular".to_owned(), |regime| format!("z = {regime}")),
+            text: regime.map_or("unsettled".to_owned(), |regime| format!("z = {regime}")),
         }
     }
 

@@ -39,6 +39,7 @@ const ANY: Interval = Interval {
     low: f64::MIN_POSITIVE,
     high: f64::INFINITY,
 };
+/// Zones to compute at most, unless that is said.
 const EVALUATIONS: u64 = 1200;
 const OUTPUT: &str = "softstop-design";
 

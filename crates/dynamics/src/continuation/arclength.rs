@@ -61,8 +61,8 @@ pub(crate) fn correct_at<E: Equations>(
 ) -> Result<Node<E::Point>, OrbitError> {
     let unknowns = guess.len();
     let normal = DVector::from_fn(unknowns, |row, _| f64::from(u8::from(row + 1 == unknowns)));
-    let mut none = Some(DMatrix::zeros(unknowns - 1, 1));
-    correct_with(equations, guess, Some(&normal), &mut none, Care::Full)
+    let mut none = Some(DMatrix::zeros(unknowns - 1, unknowns - E::EXACT));
+    correct_with(equations, guess, Some(&normal), &mut none, Care::Given)
 }
 
 /// How carefully solutions are computed.
@@ -72,6 +72,8 @@ pub(super) enum Care {
     Full,
     /// Well within what rounding leaves, with one-sided differences.
     Quick,
+    /// To the last digit, with the last unknown given: slopes play no part.
+    Given,
 }
 
 /// Share of the tolerance that is well within it.
@@ -94,7 +96,9 @@ pub(super) fn correct_with<E: Equations>(
         if enough || (size <= here.tolerance && size >= 0.1 * last) {
             return Ok(Node { at, here });
         }
-        let kept = slopes.take().filter(|_| size <= STALE * last);
+        let kept = slopes
+            .take()
+            .filter(|_| care == Care::Given || size <= STALE * last);
         last = size;
         let known = kept.map_or_else(|| slopes_at(equations, &at, &here, care), Ok)?;
         let mut right = here.residual.clone();

@@ -10,7 +10,7 @@ pub fn free_amplitude(scene: &Scene, frequency: f64) -> f64 {
 }
 
 /// The largest of these amplitudes, at resonance; infinite without damping.
-pub fn largest_free_amplitude(scene: &Scene) -> f64 {
+fn largest_free_amplitude(scene: &Scene) -> f64 {
     let (m, k, force) = (scene.mass, scene.stiffness, scene.excitation.amplitude);
     let square = scene.damping * scene.damping;
     if m * k > 0.5 * square {

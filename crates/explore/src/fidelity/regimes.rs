@@ -52,7 +52,7 @@ const CLASSES: [(&str, &str); 7] = [
     ("z = p/2", "#E69F00"),
     ("z = p/3", "#009E73"),
     ("z = p/n, n > 3", "#CC79A7"),
-    ("irregular", "#000000"),
+    ("unsettled", "#000000"),
 ];
 
 fn class(regime: Option<Regime>) -> usize {

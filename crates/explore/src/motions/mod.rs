@@ -20,7 +20,7 @@ Examples:
   softstop motions --frequency 0.9875 --clearance 10
       three motions coexist: chaos, z = 2/3 and (2/4)B of the paper's Fig. 9
   softstop motions --frequency 0.9526475
-      below g0: z = 0, and chaos that ends after some 15,000 periods
+      below g0: z = 0, and chaos that ends after some 14,000 periods
   softstop motions docs/scenes/rigid.toml --starts 1000
       any machine with any stop, in the units of its file; more starts find smaller basins
   softstop motions --regime loaded --frequency 1.15 --format json

@@ -46,8 +46,7 @@ pub fn judge(scene: &Scene, start: Start, periods: u64) -> Result<Verdict, Motio
     let mut motion = scene.motion(start)?;
     let end = Clock::at_cycle(periods);
     motion.advance(end, &mut doubt)?;
-    let arc = motion.arc();
-    doubt.arc(&arc, motion.clock().elapsed(arc.start, end));
+    motion.tell_arc(&mut doubt);
     Ok(doubt.verdict)
 }
 
