@@ -5,9 +5,11 @@ use approx::abs_diff_eq;
 use softstop_testing::tolerance::SOLVED;
 use std::ops::ControlFlow;
 
-use softstop::{Ratios, Scene, Stop};
-use softstop_dynamics::continuation::{Along, Branch, Follower, Limits, Parameter};
-use softstop_dynamics::orbit::{Orbit, find};
+use softstop::{Machine, Ratios, Scene, Stop};
+use softstop_dynamics::continuation::{
+    Along, Branch, BranchPoint, End, Follower, Limits, Parameter,
+};
+use softstop_dynamics::orbit::{Orbit, StroboscopicMap, find};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -96,4 +98,34 @@ fn a_rigid_stop_met_at_drive_angle_phi() -> Outcome {
         ..ratios.scene()?
     };
     assert_section_does_not_matter(&scene, (0.6, 2.0))
+}
+
+/// The deepest point passes the kinks of loading and unloading, at 10.3 and 10.4.
+#[test]
+fn turning_points_pass_kinks() -> Outcome {
+    let file = include_str!("../../../docs/scenes/piecewise-linear-unloading.toml");
+    let scene = Machine::from_toml(file)?.scene;
+    let branch = branch(&scene, 0.0, (0.9, 1.6))?;
+    assert!(
+        matches!(branch.ends, (End::Range, End::Range)),
+        "{:?}",
+        branch.ends
+    );
+    let symbols: Vec<&str> = specials(&branch).iter().map(|special| special.0).collect();
+    assert_eq!(symbols, ["G", "SN", "G", "SN"]);
+    let deepest = |point: &&BranchPoint| {
+        let mut scene = scene.clone();
+        scene.excitation.frequency = point.parameter;
+        StroboscopicMap::new(&scene, 1)
+            .and_then(|map| map.max_position(point.state()))
+            .is_ok_and(|position| position > 10.4)
+    };
+    let stable = branch.points.iter().filter(|point| point.is_stable());
+    assert!(stable.clone().any(|point| deepest(&point)));
+    assert!(
+        stable
+            .clone()
+            .any(|point| point.impacts.len() == 1 && !deepest(&point))
+    );
+    Ok(())
 }

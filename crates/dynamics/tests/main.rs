@@ -13,5 +13,6 @@ mod limits;
 mod machine_reference;
 mod stop_invariants;
 mod sweep;
+mod zone_light;
 mod zone_reference;
 mod zone_units;

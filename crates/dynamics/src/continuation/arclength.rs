@@ -211,18 +211,6 @@ pub(crate) struct Stride<P> {
     grows: bool,
 }
 
-impl<P> Stride<P> {
-    /// A step onto a node found otherwise.
-    pub fn onto(node: Node<P>, (direction, slopes): (DVector<f64>, DMatrix<f64>)) -> Self {
-        Self {
-            node,
-            direction,
-            slopes,
-            grows: false,
-        }
-    }
-}
-
 impl<'a, E: Equations> Walker<'a, E> {
     /// From a node on the side of `along`, with steps of at most `largest`.
     pub fn new(
@@ -288,12 +276,6 @@ impl<'a, E: Equations> Walker<'a, E> {
         if stride.grows {
             self.step = (1.6 * self.step).min(self.largest);
         }
-    }
-
-    /// Goes there, and on with steps as from a start.
-    pub fn set_out(&mut self, stride: Stride<E::Point>) {
-        self.take(stride);
-        self.step = FIRST_STEP.min(self.largest);
     }
 
     /// Shortens the step; false if it is the shortest already.

@@ -8,7 +8,7 @@ use super::Family;
 use super::arclength::{Node, Walker};
 use super::caution::SHORT;
 use super::detect::passes_by;
-use super::follower::{Follower, Heading, WIDTH};
+use super::follower::{Follower, Heading, Turned, WIDTH};
 use super::graze::Approach;
 use super::locate::locate;
 use super::point::{BranchPoint, Special, SpecialKind};
@@ -49,7 +49,7 @@ impl Branch {
     }
 }
 
-impl<F: Family> Follower<'_, F> {
+impl<'a, F: Family> Follower<'a, F> {
     /// The branch through the orbit near a state, towards falling and rising parameters, with every
     /// fold, flip, Neimark-Sacker point and grazing on it. `watch` sees each point as it comes, and the last
     /// one again whenever the next one was not reached by a step.
@@ -84,7 +84,7 @@ impl<F: Family> Follower<'_, F> {
                 &mut watch,
             )?,
         };
-        Ok(self.joined(&start, down, up))
+        self.joined(&start, down, up)
     }
 
     /// The drive periods after which an orbit really repeats.
@@ -110,23 +110,23 @@ impl<F: Family> Follower<'_, F> {
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
         let way = self.way(start.clone(), along, limits, watch)?;
-        let mut branch = self.joined(&start, Way::none(), way);
+        let mut branch = self.joined(&start, Way::none(), way)?;
         branch.ends.0 = End::Merged;
         Ok(branch)
     }
 
-    fn joined(&self, start: &Node<Round>, mut down: Way, up: Way) -> Branch {
+    fn joined(&self, start: &Node<Round>, mut down: Way, up: Way) -> Result<Branch, OrbitError> {
         down.points.reverse();
         down.specials.reverse();
-        down.points.push(self.point_at(start));
+        down.points.push(self.point_at(start)?);
         down.points.extend(up.points);
         down.specials.extend(up.specials);
-        Branch {
+        Ok(Branch {
             periods: self.shooting.periods,
             points: down.points,
             specials: down.specials,
             ends: (down.end, up.end),
-        }
+        })
     }
 
     fn way(
@@ -137,14 +137,36 @@ impl<F: Family> Follower<'_, F> {
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Way, OrbitError> {
         let mut way = Way::none();
-        let origin = start.clone();
+        let origin = self.point_at(&start)?;
+        let mut next = Some(self.set_out(start, along.clone()));
+        while let Some(Turned {
+            follower,
+            node,
+            along,
+        }) = next
+        {
+            next = follower.go_on(&mut way, (node, &along), &origin, limits, watch)?;
+        }
+        Ok(way)
+    }
+
+    /// Goes on along a branch as long as this section serves; then how it goes on, if it does.
+    fn go_on(
+        &self,
+        way: &mut Way,
+        (start, along): (Node<Round>, &DVector<f64>),
+        origin: &BranchPoint,
+        limits: &Limits,
+        watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
+    ) -> Result<Option<Turned<'a, F>>, OrbitError> {
+        let origin = self.place(origin)?;
         let mut approach = Approach::of(&self.shooting, &start)?;
         let mut walker = Walker::new(&self.shooting, start, along, self.largest)?;
         let mut crawled = 0;
         while way.points.len() < limits.points {
             if crawled > LONGEST_CRAWL {
-                self.give_up(&mut way, &walker, &approach, limits, UNSTABLE);
-                return Ok(way);
+                self.give_up(way, &walker, &approach, limits, UNSTABLE);
+                return Ok(None);
             }
             let stride = walker.attempt().and_then(|stride| {
                 let ahead = Approach::of(&self.shooting, &stride.node)?;
@@ -155,7 +177,7 @@ impl<F: Family> Follower<'_, F> {
                     let last = walker.node.clone();
                     crawled = if walker.step < SHORT { crawled + 1 } else { 0 };
                     walker.take(stride);
-                    let end = self.record(&mut way, (&last, &walker.node), &origin, limits)?;
+                    let end = self.record(way, (&last, &walker.node), &origin, limits)?;
                     approach = ahead;
                     let stopped = way
                         .points
@@ -163,39 +185,32 @@ impl<F: Family> Follower<'_, F> {
                         .is_some_and(|point| watch(point).is_break());
                     if let Some(end) = end.or(stopped.then_some(End::Stopped)) {
                         way.end = end;
-                        return Ok(way);
+                        return Ok(None);
                     }
                 }
                 refused => {
-                    if watch(&self.point_at(&walker.node)).is_break() {
+                    if watch(&self.point_at(&walker.node)?).is_break() {
                         way.end = End::Stopped;
-                        return Ok(way);
+                        return Ok(None);
+                    }
+                    let turned = self.turned(&walker.node, &walker.direction);
+                    if turned.is_some() {
+                        return Ok(turned);
                     }
                     if !self.is_gentle(&walker.node)
                         && way.grazes(self.graze_ahead(&walker, &approach))
                     {
-                        return Ok(way);
-                    }
-                    if let Some(stride) = self.over_corner(&walker) {
-                        let last = walker.node.clone();
-                        walker.set_out(stride);
-                        approach = Approach::of(&self.shooting, &walker.node)?;
-                        let end = self.record(&mut way, (&last, &walker.node), &origin, limits)?;
-                        if let Some(end) = end {
-                            way.end = end;
-                            return Ok(way);
-                        }
-                        continue;
+                        return Ok(None);
                     }
                     if !walker.shorten() {
                         let error = refused.err().unwrap_or(UNSTABLE);
-                        self.give_up(&mut way, &walker, &approach, limits, error);
-                        return Ok(way);
+                        self.give_up(way, &walker, &approach, limits, error);
+                        return Ok(None);
                     }
                 }
             }
         }
-        Ok(way)
+        Ok(None)
     }
 
     /// Adds the end of a step and the special points on it; says why the branch ends there, if it does.
@@ -203,7 +218,7 @@ impl<F: Family> Follower<'_, F> {
         &self,
         way: &mut Way,
         (from, to): (&Node<Round>, &Node<Round>),
-        origin: &Node<Round>,
+        origin: &DVector<f64>,
         limits: &Limits,
     ) -> Result<Option<End>, OrbitError> {
         let closes = way.points.len() >= SHORTEST_LOOP && passes_by(from, to, origin);
@@ -225,7 +240,7 @@ impl<F: Family> Follower<'_, F> {
         way.points
             .extend(specials.iter().map(|special| special.point.clone()));
         way.specials.extend(specials);
-        way.points.push(self.point_at(&to));
+        way.points.push(self.point_at(&to)?);
         Ok(end)
     }
 }

@@ -40,8 +40,13 @@ impl<F: Family> Follower<'_, F> {
             return;
         }
         if let Some(node) = self.bound_at(&walker.node, limits) {
-            way.points.push(self.point_at(&node));
-            way.end = End::Range;
+            way.end = match self.point_at(&node) {
+                Ok(point) => {
+                    way.points.push(point);
+                    End::Range
+                }
+                Err(error) => End::Lost(error),
+            };
             return;
         }
         way.end = End::Lost(error);
@@ -90,8 +95,9 @@ impl<F: Family> Follower<'_, F> {
         approach: &Approach,
     ) -> Option<Special> {
         approach.grazes(&self.shooting).into_iter().find(|special| {
-            let point = &special.point;
-            let at = self.shooting.scaled(point.state(), [point.parameter]);
+            let Ok(at) = self.place(&special.point) else {
+                return false;
+            };
             let way = at - &walker.node.at;
             way.norm() < reach && way.dot(&walker.direction) > 0.5 * way.norm()
         })

@@ -1,5 +1,7 @@
 //! What lies on one step of a branch: special points, ends.
 
+use nalgebra::DVector;
+
 use super::Family;
 use super::arclength::Node;
 use super::follower::{Follower, WIDTH};
@@ -58,7 +60,7 @@ impl<F: Family> Follower<'_, F> {
             if test.passes(&a.monodromy, &b.monodromy) {
                 let value = |node: &Node<Round>| test.value(&node.here.point.monodromy);
                 let (node, share) = locate(&self.shooting, (from, to), WIDTH, value)?;
-                let point = self.point_at(&node);
+                let point = self.point_at(&node)?;
                 let kind = SpecialKind::Critical(test);
                 found.push((share, Special { kind, point }));
             }
@@ -79,8 +81,7 @@ impl<F: Family> Follower<'_, F> {
         let way = &to.at - &from.at;
         for node in [from, to] {
             for mut special in Approach::of(&self.shooting, node)?.grazes(&self.shooting) {
-                let point = &special.point;
-                let at = self.shooting.scaled(point.state(), [point.parameter]);
+                let at = self.place(&special.point)?;
                 let share = (&at - &from.at).dot(&way) / way.norm_squared();
                 if !(0.0..=1.0).contains(&share) {
                     continue;
@@ -120,9 +121,9 @@ impl<F: Family> Follower<'_, F> {
 }
 
 /// True if a step passes the start of the branch.
-pub(super) fn passes_by(from: &Node<Round>, to: &Node<Round>, origin: &Node<Round>) -> bool {
+pub(super) fn passes_by(from: &Node<Round>, to: &Node<Round>, origin: &DVector<f64>) -> bool {
     let way = &to.at - &from.at;
-    let share = (&origin.at - &from.at).dot(&way) / way.norm_squared();
-    let off = &origin.at - (&from.at + share * &way);
+    let share = (origin - &from.at).dot(&way) / way.norm_squared();
+    let off = origin - (&from.at + share * &way);
     (0.0..=1.0).contains(&share) && off.norm() < CLOSED * way.norm()
 }

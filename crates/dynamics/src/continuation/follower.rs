@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use nalgebra::{DVector, Vector2};
 
 use super::Family;
-use super::arclength::{self, LARGEST_STEP, Node, Walker, correct, correct_at};
+use super::arclength::{Equations, LARGEST_STEP, Node, Walker, correct, correct_at};
 use super::locate::locate;
 use super::point::BranchPoint;
 use super::round::Round;
@@ -36,6 +36,13 @@ pub struct Follower<'a, F> {
     pub(super) largest: f64,
 }
 
+/// A branch seen at another section: a node of it, and the direction in which it goes on.
+pub(super) struct Turned<'a, F> {
+    pub follower: Follower<'a, F>,
+    pub node: Node<Round>,
+    pub along: DVector<f64>,
+}
+
 impl<'a, F: Family> Follower<'a, F> {
     /// A follower of the orbits of `family` over `periods` drive periods.
     pub fn new(family: &'a F, periods: u64) -> Self {
@@ -54,7 +61,18 @@ impl<'a, F: Family> Follower<'a, F> {
 
     /// The same for another number of drive periods.
     pub(super) fn over(&self, periods: u64) -> Self {
-        Self::new(self.shooting.family, periods).with_steps(self.largest)
+        let follower = Self::new(self.shooting.family, periods).with_steps(self.largest);
+        follower.with_turn(self.shooting.turn)
+    }
+
+    /// The same with its section so many drive periods after drive angle phi.
+    pub(super) fn with_turn(&self, turn: f64) -> Self {
+        let mut shooting = Shooting::new(self.shooting.family, self.shooting.periods);
+        shooting.turn = turn.rem_euclid(shooting.periods as f64);
+        Self {
+            shooting,
+            largest: self.largest,
+        }
     }
 
     /// The orbit at `parameter`, stable or not, that Newton's method reaches from a state near it.
@@ -62,7 +80,7 @@ impl<'a, F: Family> Follower<'a, F> {
     /// # Errors
     /// [`OrbitError`] if it does not settle.
     pub fn point(&self, parameter: f64, state: Vector2<f64>) -> Result<BranchPoint, OrbitError> {
-        Ok(self.point_at(&self.start(parameter, state)?))
+        self.point_at(&self.start(parameter, state)?)
     }
 
     pub(super) fn start(
@@ -96,33 +114,62 @@ impl<'a, F: Family> Follower<'a, F> {
         limit: usize,
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Vec<BranchPoint>, OrbitError> {
-        let state = Vector2::new(start.position, start.velocity);
-        let node = self.start(parameter, state)?;
-        let sequence = node.here.point.sequence;
-        let mut points = vec![self.point_at(&node)];
-        let mut walker = Walker::new(
-            &self.shooting,
+        let node = self.start(parameter, start.state())?;
+        let mut points = vec![self.point_at(&node)?];
+        let mut next = Some(self.set_out(node, Self::direction(heading)));
+        while let Some(Turned {
+            follower,
             node,
-            &Self::direction(heading),
-            self.largest,
-        )?
-        .quick();
+            along,
+        }) = next
+        {
+            next = follower.follow_on((node, &along), limit, &mut points, &mut watch)?;
+        }
+        Ok(points)
+    }
+
+    /// The beginning of a branch, seen at this section.
+    pub(super) fn set_out(&self, node: Node<Round>, along: DVector<f64>) -> Turned<'a, F> {
+        Turned {
+            follower: self.with_turn(self.shooting.turn),
+            node,
+            along,
+        }
+    }
+
+    /// Follows a branch as long as this section serves; then how it goes on, if it does.
+    fn follow_on(
+        &self,
+        (node, along): (Node<Round>, &DVector<f64>),
+        limit: usize,
+        points: &mut Vec<BranchPoint>,
+        watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
+    ) -> Result<Option<Turned<'a, F>>, OrbitError> {
+        let sequence = node.here.point.sequence;
+        let mut walker = Walker::new(&self.shooting, node, along, self.largest)?.quick();
         while points.len() < limit {
             match walker.attempt() {
                 Ok(stride) if stride.node.here.point.sequence == sequence => {
                     walker.take(stride);
-                    let point = self.point_at(&walker.node);
+                    let point = self.point_at(&walker.node)?;
                     let ends = watch(&point).is_break();
                     points.push(point);
                     if ends {
                         break;
                     }
                 }
-                _ if walker.shorten() => {}
-                _ => break,
+                _ => {
+                    let turned = self.turned(&walker.node, &walker.direction);
+                    if turned.is_some() {
+                        return Ok(turned);
+                    }
+                    if !walker.shorten() {
+                        break;
+                    }
+                }
             }
         }
-        Ok(points)
+        Ok(None)
     }
 
     /// The point between two neighbours at which `test` changes its sign.
@@ -135,10 +182,21 @@ impl<'a, F: Family> Follower<'a, F> {
         to: &BranchPoint,
         test: impl Fn(&BranchPoint) -> f64,
     ) -> Result<BranchPoint, OrbitError> {
-        let ends = (&self.node_at(from)?, &self.node_at(to)?);
-        let test = |node: &Node<Round>| test(&self.point_at(node));
-        let (node, _) = locate(&self.shooting, ends, WIDTH, test)?;
-        Ok(self.point_at(&node))
+        let ends = (self.node_at(from)?, self.node_at(to)?);
+        match self.clear_of(&ends.0).or_else(|| self.clear_of(&ends.1)) {
+            None => self.locate_between((&ends.0, &ends.1), test),
+            Some(clear) => clear.locate_between((&clear.node_at(from)?, &clear.node_at(to)?), test),
+        }
+    }
+
+    fn locate_between(
+        &self,
+        ends: (&Node<Round>, &Node<Round>),
+        test: impl Fn(&BranchPoint) -> f64,
+    ) -> Result<BranchPoint, OrbitError> {
+        let value = |node: &Node<Round>| self.point_at(node).map_or(f64::NAN, |point| test(&point));
+        let (node, _) = locate(&self.shooting, ends, WIDTH, value)?;
+        self.point_at(&node)
     }
 
     /// The point between two neighbours at a value of the parameter between theirs.
@@ -158,7 +216,7 @@ impl<'a, F: Family> Follower<'a, F> {
         if let Ok(node) = self.start(parameter, state) {
             let along = way.dot(&(&node.at - &ends[0])) / way.norm_squared();
             let off = &node.at - &ends[0] - along * &way;
-            let point = self.point_at(&node);
+            let point = self.point_at(&node)?;
             let same_side = from.fold_test().signum() * point.fold_test().signum() > 0.0;
             if same_side && (0.0..=1.0).contains(&along) && off.norm() < ASIDE * way.norm() {
                 return Ok(point);
@@ -176,8 +234,9 @@ impl<'a, F: Family> Follower<'a, F> {
             shooting: Shooting::<F, 1>::new(self.shooting.family, self.shooting.periods),
             test,
         };
-        let guess = self.shooting.scaled(near.state(), [near.parameter]);
-        Ok(self.point_at(&correct(&critical, &guess, None)?))
+        let guess = critical.shooting.scaled(near.state(), [near.parameter]);
+        let plain = self.with_turn(0.0);
+        plain.point_at(&correct(&critical, &guess, None)?)
     }
 
     /// The full orbit at a point.
@@ -191,21 +250,31 @@ impl<'a, F: Family> Follower<'a, F> {
         Orbit::on(&scene, &map, point.state(), &passage)
     }
 
-    pub(super) fn point_at(&self, node: &Node<Round>) -> BranchPoint {
+    /// A node as it is seen at drive angle phi.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if it cannot be carried there.
+    pub(super) fn point_at(&self, node: &Node<Round>) -> Result<BranchPoint, OrbitError> {
+        if self.shooting.turn != 0.0 {
+            let at = self.carried(&node.at, -self.shooting.turn)?;
+            let plain = self.with_turn(0.0);
+            let here = plain.shooting.evaluate(&at)?;
+            return plain.point_at(&Node { at, here });
+        }
         let state = self.shooting.state(&node.at);
         let [parameter] = self.shooting.parameters(&node.at);
-        BranchPoint {
+        Ok(BranchPoint {
             parameter,
             position: state.x,
             velocity: state.y,
             impacts: node.here.point.impacts.clone(),
             monodromy: node.here.point.monodromy,
-        }
+        })
     }
 
     pub(super) fn node_at(&self, point: &BranchPoint) -> Result<Node<Round>, OrbitError> {
-        let at = self.shooting.scaled(point.state(), [point.parameter]);
-        let here = arclength::Equations::evaluate(&self.shooting, &at)?;
+        let at = self.place(point)?;
+        let here = self.shooting.evaluate(&at)?;
         Ok(Node { at, here })
     }
 }

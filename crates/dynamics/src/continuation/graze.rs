@@ -23,7 +23,10 @@ pub(crate) struct Approach {
     /// Crossings of the orbit, and those that a dying impact takes along.
     crossings: (usize, usize),
     parameter: f64,
+    /// Drive angle at the section and frequency.
     drive: (f64, f64),
+    /// Drive angle from phi to the section.
+    turned: f64,
     speed: f64,
 }
 
@@ -43,6 +46,7 @@ impl Approach {
             crossings: (total, if bounces { 1 } else { 2 }),
             parameter: shooting.parameters(&node.at)[0],
             drive: (scene.excitation.phase, scene.excitation.frequency),
+            turned: TAU * shooting.turn,
             speed: shooting.velocity_scale(),
         })
     }
@@ -95,6 +99,7 @@ impl Approach {
         let [parameter] = touching.parameters(&node.at);
         let state = touching.state(&node)?;
         let Contact { monodromy, impacts } = node.here.point;
+        let phase = phase - self.turned;
         let graze = Graze {
             angle: phase + (node.at[0] - phase).rem_euclid(TAU * shooting.periods as f64),
             impacts: impacts.len(),

@@ -35,6 +35,8 @@ pub(crate) struct Round {
     pub sequence: Sequence,
     /// The slowest crossing of a surface.
     pub slowest: Option<Touch>,
+    /// Drive periods between time 0 and the nearest crossing before or after it; 0 if the mass is held at time 0.
+    pub margin: f64,
 }
 
 impl Round {
@@ -48,6 +50,8 @@ impl Round {
             impacts: Vec::new(),
             sequence: Sequence::default(),
             slowest: None,
+            margin: f64::INFINITY,
+            periods: periods as f64,
         };
         let mut ends = Vec::with_capacity(periods as usize);
         for period in 1..=periods {
@@ -63,6 +67,7 @@ impl Round {
             impacts: watch.impacts,
             sequence: watch.sequence,
             slowest: watch.slowest,
+            margin: watch.margin,
         })
     }
 
@@ -102,15 +107,23 @@ struct Watch<'a> {
     impacts: Vec<f64>,
     sequence: Sequence,
     slowest: Option<Touch>,
+    margin: f64,
+    periods: f64,
 }
 
 impl Observer for Watch<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         self.tangent.arc(arc, elapsed);
+        if arc.course.is_held() && arc.start == Clock::at_cycle(0) {
+            self.margin = 0.0;
+        }
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
         self.tangent.crossing(crossing);
+        let Instant { cycles, offset } = crossing.instant;
+        let time = cycles + offset / self.clock.period();
+        self.margin = self.margin.min(time).min(self.periods - time);
         self.impacts.extend(crossing.impact_velocity());
         match crossing.kind {
             CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } => self.passes(crossing),
@@ -155,8 +168,10 @@ impl Watch<'_> {
 /// there.
 pub(crate) fn grazes_gently(scene: &Scene) -> bool {
     let continuous = match &scene.stop {
-        Stop::None | Stop::KelvinVoigt { .. } | Stop::Hertz { .. } => true,
-        Stop::PiecewiseLinear { unloading, .. } => unloading.is_empty(),
+        Stop::None
+        | Stop::KelvinVoigt { .. }
+        | Stop::PiecewiseLinear { .. }
+        | Stop::Hertz { .. } => true,
         Stop::Preloaded { preload, .. } => *preload == 0.0,
         Stop::Rigid { .. } => false,
     };

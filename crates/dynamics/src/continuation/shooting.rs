@@ -1,5 +1,7 @@
 //! The equations of a periodic orbit: P(s) = s over a number of drive periods.
 
+use std::f64::consts::TAU;
+
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
@@ -15,6 +17,8 @@ use softstop::{MotionError, Scene};
 pub(crate) struct Shooting<'a, F, const N: usize> {
     pub family: &'a F,
     pub periods: u64,
+    /// Drive periods from drive angle phi to the section.
+    pub turn: f64,
     scales: DVector<f64>,
 }
 
@@ -25,6 +29,7 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
         Self {
             family,
             periods,
+            turn: 0.0,
             scales: DVector::from_iterator(2 + N, scales),
         }
     }
@@ -32,11 +37,6 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
     pub fn scaled(&self, state: Vector2<f64>, parameters: [f64; N]) -> DVector<f64> {
         let raw = [state.x, state.y].into_iter().chain(parameters);
         DVector::from_iterator(2 + N, raw).component_div(&self.scales)
-    }
-
-    /// A position in units of its scale.
-    pub fn scaled_position(&self, position: f64) -> f64 {
-        position / self.scales[0]
     }
 
     pub fn state(&self, at: &DVector<f64>) -> Vector2<f64> {
@@ -47,8 +47,11 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
         std::array::from_fn(|index| at[2 + index] * self.scales[2 + index])
     }
 
+    /// The scene with time 0 at the section.
     pub fn scene(&self, at: &DVector<f64>) -> Result<Scene, MotionError> {
-        self.family.scene(self.parameters(at))
+        let mut scene = self.family.scene(self.parameters(at))?;
+        scene.excitation.phase += TAU * self.turn;
+        Ok(scene)
     }
 
     /// Typical size of the velocity in m/s.

@@ -84,6 +84,13 @@ impl<'a> Legs<'a> {
         Err(diverged(attempt.residual.norm()))
     }
 
+    /// What a motion with this impact alone is off by at the next one: position and velocity, scaled; none where there
+    /// is no such motion.
+    pub(super) fn gap(&self, time: f64, velocity: f64) -> Option<[f64; 2]> {
+        let attempt = self.attempt(&Unknowns::from_vec(vec![time, velocity]))?;
+        Some([attempt.residual[0], attempt.residual[1]])
+    }
+
     /// The residual that rounding alone may leave.
     fn rounding(&self, at: &Unknowns, attempt: &Attempt) -> f64 {
         let velocities = at.iter().skip(1).step_by(2);

@@ -11,6 +11,7 @@ mod pattern;
 mod periodic;
 pub(crate) mod recurrence;
 mod regime;
+mod scan;
 mod search;
 pub(crate) mod turn;
 

@@ -1,0 +1,135 @@
+//! The drive angle at which a branch is looked at.
+//!
+//! Where the state at drive angle phi comes to lie on a surface, the orbit crosses the surface as before. But if the
+//! force jumps there, so does the acceleration, and the state at that angle changes its direction along the branch;
+//! at a rigid wall it jumps from before the impact to after it, and at rest it does not change at all. No short step of
+//! a smooth curve leads over that. Seen in the middle of the longest flight the same branch is smooth.
+
+use nalgebra::{DVector, Vector2};
+
+use super::Family;
+use super::arclength::{Node, correct};
+use super::follower::{Follower, Turned};
+use super::point::BranchPoint;
+use super::round::{Round, carry_on};
+use softstop::{Arc, Clock, Crossing, MotionError, Observer, Scene};
+
+/// Drive periods between the section and a crossing within which the crossing may stand in the way.
+const NEAR: f64 = 0.05;
+/// How much farther from all crossings another section must be.
+const FARTHER: f64 = 2.0;
+/// Scaled distance back along a branch by which its direction is carried to another section.
+const BACK: f64 = 1e-6;
+
+impl<'a, F: Family> Follower<'a, F> {
+    /// The same branch seen where no crossing stands in the way; none if this section is as good as any.
+    pub(super) fn turned(
+        &self,
+        node: &Node<Round>,
+        direction: &DVector<f64>,
+    ) -> Option<Turned<'a, F>> {
+        let follower = self.clear_of(node)?;
+        let by = follower.shooting.turn - self.shooting.turn;
+        let carried = |at: &DVector<f64>| self.carried(at, by);
+        let at = carried(&node.at).ok()?;
+        let back = carried(&(&node.at - BACK * direction)).ok()?;
+        let along = (&at - back).normalize();
+        let node = correct(&follower.shooting, &at, Some(&along)).ok()?;
+        Some(Turned {
+            follower,
+            node,
+            along,
+        })
+    }
+
+    /// With the section in the middle of the orbit's longest flight; none if no crossing is near the present one.
+    pub(super) fn clear_of(&self, node: &Node<Round>) -> Option<Self> {
+        let margin = node.here.point.margin;
+        if margin > NEAR {
+            return None;
+        }
+        let scene = self.shooting.scene(&node.at).ok()?;
+        let state = self.shooting.state(&node.at);
+        let (middle, gap) = longest_flight(&scene, self.shooting.periods, state).ok()?;
+        (0.5 * gap > FARTHER * margin).then(|| self.with_turn(self.shooting.turn + middle))
+    }
+
+    /// A place some drive periods later on the same motion.
+    pub(super) fn carried(
+        &self,
+        at: &DVector<f64>,
+        periods: f64,
+    ) -> Result<DVector<f64>, MotionError> {
+        let whole = self.shooting.periods as f64;
+        let scene = self.shooting.scene(at)?;
+        let state = after(&scene, self.shooting.state(at), periods.rem_euclid(whole))?;
+        Ok(self.shooting.scaled(state, self.shooting.parameters(at)))
+    }
+
+    /// Where a point lies in this section.
+    pub(super) fn place(&self, point: &BranchPoint) -> Result<DVector<f64>, MotionError> {
+        let plain = self.with_turn(0.0);
+        let at = plain.shooting.scaled(point.state(), [point.parameter]);
+        match self.shooting.turn {
+            0.0 => Ok(at),
+            turn => plain.carried(&at, turn),
+        }
+    }
+}
+
+/// The state so many drive periods after time 0.
+fn after(scene: &Scene, state: Vector2<f64>, periods: f64) -> Result<Vector2<f64>, MotionError> {
+    let mut motion = scene.motion(state.into())?;
+    for period in 1..=periods as u64 {
+        carry_on(&mut motion, Clock::at_cycle(period), &mut ())?;
+    }
+    let clock = *motion.clock();
+    let end = clock.instant(periods * clock.period());
+    carry_on(&mut motion, end, &mut ())?;
+    Ok(motion.state().into())
+}
+
+/// Middle and length of the longest time in which a periodic motion crosses nothing and is not held, in drive periods.
+fn longest_flight(
+    scene: &Scene,
+    periods: u64,
+    state: Vector2<f64>,
+) -> Result<(f64, f64), MotionError> {
+    let mut motion = scene.motion(state.into())?;
+    let mut flights = Flights {
+        clock: *motion.clock(),
+        is_held: false,
+        last: None,
+        longest: (0.0, 0.0),
+    };
+    // Twice around: the longest flight may lead over the section.
+    for period in 1..=2 * periods {
+        carry_on(&mut motion, Clock::at_cycle(period), &mut flights)?;
+    }
+    Ok(flights.longest)
+}
+
+/// Looks for the longest flight; all times in drive periods.
+struct Flights {
+    clock: Clock,
+    is_held: bool,
+    last: Option<f64>,
+    /// Middle and length.
+    longest: (f64, f64),
+}
+
+impl Observer for Flights {
+    fn arc(&mut self, arc: &Arc<'_>, _: f64) {
+        self.is_held = arc.course.is_held() || arc.course.is_chattering();
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        let now = self.clock.time(crossing.instant) / self.clock.period();
+        if let Some(last) = self.last.replace(now)
+            && now - last > self.longest.1
+            && !self.is_held
+        {
+            self.longest = (0.5 * (last + now), now - last);
+        }
+    }
+}
