@@ -8,7 +8,7 @@ use softstop_dynamics::basin::{Axis, Basins, Grid, Options, basins_watched};
 use softstop_dynamics::motion::MotionKind;
 use softstop_lanes::{Job, Machine, Watch};
 
-use crate::figure::{self, Drawn, Figure, Studio};
+use crate::figure::{self, Drawn, Figure, Findings, Studio};
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 use softstop_explore::basin::picture::{BasinPage, BasinPicture};
@@ -25,16 +25,9 @@ const CELLS: [usize; 2] = [600, 100];
 /// States of chaos that are drawn, after so many drive periods.
 const STATES: (u64, u64) = (6000, 500);
 
-/// One of the planes.
-struct Plane {
-    name: &'static str,
-    title: &'static str,
-    frequency: f64,
-    across: Axis,
-    up: Axis,
-}
+/// One of the planes: name, title, frequency eta, and the axes across and up, whose cells are not yet known.
+type Plane = (&'static str, &'static str, f64, [Axis; 2]);
 
-/// A range of an axis whose cells are not yet known.
 const fn position(from: f64, to: f64) -> Axis {
     Axis::position(from, to, 0)
 }
@@ -44,73 +37,59 @@ const fn velocity(from: f64, to: f64) -> Axis {
 }
 
 const PLANES: [Plane; 4] = [
-    Plane {
-        name: "A",
-        title: "(a) Point A: η = 1.15, ρ = 10, at drive angle 0",
-        frequency: 1.15,
-        across: position(-20.0, 20.0),
-        up: velocity(-20.0, 20.0),
-    },
-    Plane {
-        name: "A, started at rest",
-        title: "(b) Point A, started at rest at X, at any drive angle",
-        frequency: 1.15,
-        across: Axis::angle(0.0, TAU, 0),
-        up: position(-20.0, 20.0),
-    },
-    Plane {
-        name: "near the fold",
-        title: "(c) Near the fold: η = 1.3, ρ = 10, at drive angle 0",
-        frequency: 1.3,
-        across: position(-20.0, 20.0),
-        up: velocity(-20.0, 20.0),
-    },
-    Plane {
-        name: "coexistence",
-        title: "(d) Three at once: η = 0.9875, ρ = 10, at drive angle 0",
-        frequency: 0.9875,
-        across: position(5.0, 11.0),
-        up: velocity(-2.0, 10.0),
-    },
+    (
+        "A",
+        "(a) Point A: η = 1.15, ρ = 10, at drive angle 0",
+        1.15,
+        [position(-20.0, 20.0), velocity(-20.0, 20.0)],
+    ),
+    (
+        "A, started at rest",
+        "(b) Point A, started at rest at X, at any drive angle",
+        1.15,
+        [Axis::angle(0.0, TAU, 0), position(-20.0, 20.0)],
+    ),
+    (
+        "near the fold",
+        "(c) Near the fold: η = 1.3, ρ = 10, at drive angle 0",
+        1.3,
+        [position(-20.0, 20.0), velocity(-20.0, 20.0)],
+    ),
+    (
+        "coexistence",
+        "(d) Three at once: η = 0.9875, ρ = 10, at drive angle 0",
+        0.9875,
+        [position(5.0, 11.0), velocity(-2.0, 10.0)],
+    ),
 ];
 
-impl Plane {
-    fn machine(&self) -> Result<softstop::Machine> {
-        let ratios = Ratios::unloaded().at_frequency(self.frequency);
-        Ok(softstop::Machine::of_ratios(&ratios)?)
-    }
-
-    fn grid(&self, cells: usize) -> Grid {
-        let with = |axis: Axis| Axis { cells, ..axis };
-        Grid::states(with(self.across), with(self.up), 0.0)
-    }
-}
-
 fn draw(studio: &Studio) -> Result<Drawn> {
-    let detail = studio.detail;
-    let cells = detail.pick(CELLS[0], CELLS[1]);
+    let cells = studio.detail.pick(CELLS[0], CELLS[1]);
     let each = (cells * cells) as u64;
     let progress = Progress::new(each * PLANES.len() as u64, "cells");
     let mut found = Vec::new();
-    for (index, plane) in PLANES.iter().enumerate() {
+    for (index, (_, title, frequency, axes)) in PLANES.into_iter().enumerate() {
         let watcher = |done, _| {
             progress.at(each * index as u64 + done);
             interrupt::go_on()
         };
-        let machine = plane.machine()?;
-        let scene = &machine.scene;
-        let basins = basins_watched(scene, &plane.grid(cells), &Options::default(), &watcher)?;
+        let ratios = Ratios::unloaded().at_frequency(frequency);
+        let machine = softstop::Machine::of_ratios(&ratios)?;
+        let [across, up] = axes.map(|axis| Axis { cells, ..axis });
+        let (scene, grid) = (&machine.scene, Grid::states(across, up, 0.0));
+        let basins = basins_watched(scene, &grid, &Options::default(), &watcher)?;
         let wandering = wandering(scene, &basins)?;
-        found.push((machine, basins, wandering));
+        found.push((machine, basins, wandering, title));
     }
     drop(progress);
-    let mut pictures = Vec::new();
-    for (plane, (machine, basins, wandering)) in PLANES.iter().zip(&found) {
-        let picture = BasinPicture::new(machine, basins, plane.title);
-        pictures.push(picture.with_wandering(wandering));
-    }
-    let png = BasinPage { pictures }.png().map_err(Error::msg)?;
-    let basins: Vec<&Basins> = found.iter().map(|(_, basins, _)| basins).collect();
+    let pictures = found.iter().map(|(machine, basins, wandering, title)| {
+        BasinPicture::new(machine, basins, title).with_wandering(wandering)
+    });
+    let page = BasinPage {
+        pictures: pictures.collect(),
+    };
+    let png = page.png().map_err(Error::msg)?;
+    let basins: Vec<&Basins> = found.iter().map(|found| &found.1).collect();
     Ok(Drawn {
         files: vec![png, table(&basins)?],
         findings: findings(&basins),
@@ -152,52 +131,48 @@ fn wandering(scene: &Scene, basins: &Basins) -> Result<Vec<(f64, f64)>> {
     Ok(log.0)
 }
 
+/// The basins of all planes with their numbers, and name and frequency of the plane.
+fn classes<'a>(all: &'a [&Basins]) -> impl Iterator<Item = (&'static str, f64, &'a Basins, usize)> {
+    let planes = PLANES.iter().zip(all);
+    planes.flat_map(|((name, _, frequency, _), basins)| {
+        (0..basins.classes.len()).map(|index| (*name, *frequency, *basins, index))
+    })
+}
+
 /// A row for each basin of each plane.
 fn table(all: &[&Basins]) -> Result<Vec<u8>> {
     let columns = "plane,eta,motion,impact_pattern,before_impact_velocity,cells,share,share_low,share_high,\
         largest_ball,ball_across,ball_up";
-    let rows = PLANES.iter().zip(all).flat_map(|(plane, basins)| {
-        basins
-            .classes
-            .iter()
-            .enumerate()
-            .map(move |(index, class)| {
-                let orbit = class.orbit.as_ref();
-                let ball = basins.largest_ball(index);
-                (
-                    plane.name,
-                    plane.frequency,
-                    class.motion.to_string(),
-                    orbit.map(|orbit| orbit.pattern().to_string()),
-                    orbit.map(|orbit| orbit.before_impact_velocity()),
-                    class.cells,
-                    class.share,
-                    class.interval,
-                    ball.map(|ball| ball.radius),
-                    ball.map(|ball| ball.centre[0]),
-                    ball.map(|ball| ball.centre[1]),
-                )
-            })
+    let rows = classes(all).map(|(plane, frequency, basins, index)| {
+        let (class, ball) = (&basins.classes[index], basins.largest_ball(index));
+        let orbit = class.orbit.as_ref();
+        (
+            (plane, frequency, class.motion.to_string()),
+            orbit.map(|orbit| orbit.pattern().to_string()),
+            orbit.map(|orbit| orbit.before_impact_velocity()),
+            (class.cells, class.share, class.interval),
+            ball.map(|ball| ball.radius),
+            ball.map(|ball| ball.centre[0]),
+            ball.map(|ball| ball.centre[1]),
+        )
     });
     figure::table(columns, rows)
 }
 
 /// Shares with their intervals, and the largest balls.
-fn findings(all: &[&Basins]) -> Vec<(String, f64)> {
-    let mut findings = Vec::new();
-    for (plane, basins) in PLANES.iter().zip(all) {
-        for (index, class) in basins.classes.iter().enumerate() {
-            let name = match class.motion.told_order() {
-                Some(order) => format!("{}, {} ({order})", plane.name, class.motion),
-                None => format!("{}, {}", plane.name, class.motion),
-            };
-            findings.push((format!("{name}: share"), class.share));
-            findings.push((format!("{name}: share at least"), class.interval[0]));
-            findings.push((format!("{name}: share at most"), class.interval[1]));
-            if let Some(ball) = basins.largest_ball(index) {
-                findings.push((format!("{name}: largest ball"), ball.radius));
-            }
-        }
+fn findings(all: &[&Basins]) -> Findings {
+    let mut findings = Findings::default();
+    for (plane, _, basins, index) in classes(all) {
+        let (class, ball) = (&basins.classes[index], basins.largest_ball(index));
+        let order = class.motion.told_order();
+        let order = order.map_or_else(String::new, |order| format!(" ({order})"));
+        let mut add = |what: &str, value: Option<f64>| {
+            findings.add(format!("{plane}, {}{order}: {what}", class.motion), value);
+        };
+        add("share", Some(class.share));
+        add("share at least", Some(class.interval[0]));
+        add("share at most", Some(class.interval[1]));
+        add("largest ball", ball.map(|ball| ball.radius));
     }
     findings
 }

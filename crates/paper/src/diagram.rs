@@ -3,7 +3,6 @@
 use anyhow::Result;
 use rayon::prelude::*;
 use softstop::Scene;
-use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::Regime;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
@@ -22,7 +21,7 @@ pub(super) fn ways(scene: &Scene) -> [Chain; 2] {
 }
 
 /// Carries all chains of all plans to their ends.
-pub(super) fn sweep(jobs: &mut [Job], what: &str) -> Result<()> {
+pub(super) fn sweep(mut jobs: Vec<Job>, what: &str) -> Result<Vec<Chain>> {
     let steps = jobs.iter().map(|(plan, chains)| plan.steps * chains.len());
     let progress = Progress::new(steps.sum::<usize>() as u64, what);
     let finished = jobs
@@ -31,11 +30,9 @@ pub(super) fn sweep(jobs: &mut [Job], what: &str) -> Result<()> {
     if !finished.collect::<Vec<bool>>().into_iter().all(|it| it) {
         return Err(Failure::Interrupted.into());
     }
-    let mut errors = jobs
-        .iter()
-        .flat_map(|job| &job.1)
-        .filter_map(|chain| chain.error.clone());
-    errors.next().map_or(Ok(()), |error| Err(error.into()))
+    let chains: Vec<Chain> = jobs.into_iter().flat_map(|job| job.1).collect();
+    let error = chains.iter().find_map(|chain| chain.error.clone());
+    error.map_or(Ok(chains), |error| Err(error.into()))
 }
 
 /// One way over a part of a sweep's range, going on from where that is when it comes there.
@@ -48,6 +45,11 @@ pub(super) fn part_of(sweep: &Chain, plan: &Plan) -> Job {
     let start = before.map_or(plan.start, |step| step.end);
     let chain = Chain::new(sweep.machine.clone(), sweep.direction);
     (Plan { start, ..*plan }, vec![chain])
+}
+
+/// The steps of some sweeps.
+pub(super) fn steps(chains: &[Chain]) -> impl Iterator<Item = &Step> + Clone {
+    chains.iter().flat_map(|chain| &chain.steps)
 }
 
 /// True if both steps show the same motion, or both one that does not repeat.
@@ -69,13 +71,16 @@ pub(super) fn is_one(step: &Step) -> bool {
     step.motion.regime() == Some(Regime::ONE)
 }
 
-/// A motion in a field: p/n, or in a word.
-pub(super) fn name(motion: &MotionKind) -> String {
-    motion.to_string().trim_start_matches("z = ").to_owned()
-}
+/// The columns of [`fields`].
+pub(super) const FIELDS: &str = "z,max_position,before_impact_velocities";
 
-/// Before-impact velocities in a field.
-pub(super) fn velocities(step: &Step) -> String {
-    let written = step.velocities.iter().map(|it| format!("{it:.6}"));
-    written.collect::<Vec<String>>().join(" ")
+/// The motion, p/n or in a word, its largest position and its before-impact velocities.
+pub(super) fn fields(step: &Step) -> [String; 3] {
+    let motion = step.motion.to_string();
+    let velocities = step.velocities.iter().map(|it| format!("{it:.6}"));
+    [
+        motion.trim_start_matches("z = ").to_owned(),
+        format!("{:.6}", step.max_position),
+        velocities.collect::<Vec<String>>().join(" "),
+    ]
 }

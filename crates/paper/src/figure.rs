@@ -1,6 +1,7 @@
 //! What a figure is, and what figures share.
 
 use std::cell::OnceCell;
+use std::collections::BTreeMap;
 
 use anyhow::Result;
 use serde::Serialize;
@@ -23,8 +24,19 @@ pub(crate) struct Figure {
 pub(crate) struct Drawn {
     /// Contents of the files, in the order of their names.
     pub(crate) files: Vec<Vec<u8>>,
-    /// What the figure shows in numbers: name and value, in the paper's symbols.
-    pub(crate) findings: Vec<(String, f64)>,
+    pub(crate) findings: Findings,
+}
+
+/// What a figure shows in numbers, by name, in the paper's symbols.
+#[derive(Debug, Default, Serialize)]
+pub(crate) struct Findings(pub(crate) BTreeMap<String, f64>);
+
+impl Findings {
+    /// Adds a value, if there is one.
+    pub(crate) fn add(&mut self, name: impl Into<String>, value: impl Into<Option<f64>>) {
+        self.0
+            .extend(value.into().map(|value| (name.into(), value)));
+    }
 }
 
 /// What figures share.
@@ -104,4 +116,11 @@ pub(crate) fn table<R: Serialize>(
         table.serialize(row)?;
     }
     Ok(table.into_inner()?)
+}
+
+/// Least and largest.
+pub(crate) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+        (low.min(value), high.max(value))
+    })
 }

@@ -4,6 +4,7 @@
 
 mod basins;
 mod certainty;
+mod curves;
 mod diagram;
 mod exponents;
 mod figure;
@@ -145,7 +146,7 @@ fn draw(
         figure: name,
         title: figure.title,
         files: figure.files.iter().map(|name| folder.place(name)).collect(),
-        findings: drawn.findings.into_iter().collect(),
+        findings: drawn.findings,
         seconds: begin.elapsed().as_secs_f64(),
     })
 }

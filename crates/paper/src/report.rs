@@ -1,10 +1,10 @@
 //! What `softstop-lab paper` has drawn: figures, files and findings, as JSON and for people.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde::Serialize;
 
+use crate::figure::Findings;
 use softstop_console::table::heading;
 
 /// All figures of a run.
@@ -26,7 +26,7 @@ pub(super) struct FigureReport {
     /// Its files.
     pub files: Vec<PathBuf>,
     /// What it shows in numbers.
-    pub findings: BTreeMap<String, f64>,
+    pub findings: Findings,
     /// Time that it took, in s.
     pub seconds: f64,
 }
@@ -47,7 +47,7 @@ impl PaperReport {
                 text += &format!("{:12}{}\n", "", file.display());
             }
             if self.figures.len() <= FEW {
-                for (name, value) in &figure.findings {
+                for (name, value) in &figure.findings.0 {
                     text += &format!("{:12}{name:<28} {value}\n", "");
                 }
             }

@@ -32,21 +32,16 @@ impl Starts {
     }
 
     fn grid(self, clearance: f64, cells: usize) -> Grid {
-        match self {
-            Self::AtRest => Grid::states(
-                Axis::angle(0.0, TAU, cells),
-                Axis::position(-clearance, clearance, cells),
-                0.0,
-            ),
-            Self::Square(half) => {
-                let far = half * clearance;
-                Grid::states(
-                    Axis::position(-far, far, cells),
-                    Axis::velocity(-far, far, cells),
-                    0.0,
-                )
-            }
-        }
+        let axes = |half: f64| {
+            let far = half * clearance;
+            let up = Axis::velocity(-far, far, cells);
+            (Axis::position(-far, far, cells), up)
+        };
+        let (across, up) = match self {
+            Self::AtRest => (Axis::angle(0.0, TAU, cells), axes(1.0).0),
+            Self::Square(half) => axes(half),
+        };
+        Grid::states(across, up, 0.0)
     }
 }
 
@@ -75,11 +70,9 @@ pub(super) struct Place {
 impl Curve {
     pub fn new(machine: Ratios, clearance: f64, starts: Starts) -> Result<Self> {
         let machine = machine.at_clearance(clearance);
-        let scene = machine.scene().context("no machine")?;
-        let zone = zone::hysteresis(&scene)
-            .with_context(|| format!("no hysteresis zone at rho = {clearance}"))?;
+        let zone = zone::hysteresis(&machine.scene()?);
         Ok(Self {
-            zone,
+            zone: zone.with_context(|| format!("no hysteresis zone at rho = {clearance}"))?,
             starts,
             places: Vec::new(),
         })
@@ -91,11 +84,16 @@ impl Curve {
 
     /// Which of the paper's machines.
     pub fn machine(&self) -> &'static str {
-        if self.zone.scene.piercing.is_some() {
-            "loaded"
-        } else {
-            "unloaded"
+        match self.zone.scene.piercing {
+            Some(_) => "loaded",
+            None => "unloaded",
         }
+    }
+
+    /// Which of them, at which clearance, with which starts.
+    pub fn name(&self) -> String {
+        let (machine, rho) = (self.machine(), self.clearance());
+        format!("{machine}, rho = {rho}, starts {}", self.starts.label())
     }
 
     fn at(&self, place: f64, cells: usize, progress: &Progress) -> Result<Place> {
@@ -134,13 +132,12 @@ pub(super) fn fill(
     cells: usize,
     progress: &Progress,
 ) -> Result<()> {
-    let tasks: Vec<(usize, f64)> = (0..curves.len())
-        .flat_map(|curve| places.iter().map(move |place| (curve, *place)))
-        .collect();
-    let found: Vec<Place> = tasks
+    let tasks = (0..curves.len()).flat_map(|curve| places.iter().map(move |place| (curve, *place)));
+    let tasks: Vec<(usize, f64)> = tasks.collect();
+    let found = tasks
         .par_iter()
-        .map(|(curve, place)| curves[*curve].at(*place, cells, progress))
-        .collect::<Result<_, _>>()?;
+        .map(|(curve, place)| curves[*curve].at(*place, cells, progress));
+    let found: Vec<Place> = found.collect::<Result<_>>()?;
     for ((curve, _), place) in tasks.into_iter().zip(found) {
         curves[curve].places.push(place);
     }

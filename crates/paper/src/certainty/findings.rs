@@ -1,37 +1,31 @@
 //! Findings on the certainty of z = 1: the paper's claim, tested.
 
 use super::curve::{Curve, Place};
+use crate::figure::Findings;
 
 /// Places of which the certainty is told.
 const TOLD: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// Certainties at the ends and in between, and how far the claim is off.
-pub(super) fn of(curves: &[Curve]) -> Vec<(String, f64)> {
-    let mut findings = Vec::new();
+pub(super) fn of(curves: &[Curve]) -> Findings {
+    let mut findings = Findings::default();
     for curve in curves {
-        let name = format!(
-            "{}, rho = {}, starts {}",
-            curve.machine(),
-            curve.clearance(),
-            curve.starts.label()
-        );
-        let mut tell = |what: &str, value: f64| findings.push((format!("{name}: {what}"), value));
-        let Some((first, last)) = curve.places.first().zip(curve.places.last()) else {
-            continue;
+        let name = curve.name();
+        let mut tell = |what: &str, value: Option<f64>| {
+            findings.add(format!("{name}: {what}"), value);
         };
-        tell("certainty near g0", first.certainty);
-        tell("certainty near s_SN", last.certainty);
+        let (first, last) = (curve.places.first(), curve.places.last());
+        let [certainty, integrity] = [|at: &Place| at.certainty, |at: &Place| at.integrity];
+        tell("certainty near g0", first.map(certainty));
+        tell("certainty near s_SN", last.map(certainty));
         for place in TOLD {
-            if let Some(found) = nearest(&curve.places, place) {
-                tell(&format!("certainty at s = {place}"), found.certainty);
-            }
+            let found = nearest(&curve.places, place).map(certainty);
+            tell(&format!("certainty at s = {place}"), found);
         }
-        tell(
-            "largest rise of the certainty away from g0",
-            rise(&curve.places),
-        );
-        tell("integrity near g0", first.integrity);
-        tell("integrity near s_SN", last.integrity);
+        let rise = rise(&curve.places);
+        tell("largest rise of the certainty away from g0", Some(rise));
+        tell("integrity near g0", first.map(integrity));
+        tell("integrity near s_SN", last.map(integrity));
     }
     findings
 }

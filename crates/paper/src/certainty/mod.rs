@@ -79,31 +79,31 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     })
 }
 
-/// What is shown of a place.
-type Show = fn(&Place) -> CertaintyPoint;
+/// What is shown of a place, and what that is called.
+type Show = (fn(&Place) -> (f64, Option<[f64; 2]>), &'static str);
+const CERTAINTY: Show = (
+    |place| (place.certainty, Some(place.interval)),
+    "certainty of z = 1",
+);
+const INTEGRITY: Show = (
+    |place| (place.integrity, None),
+    "radius of the largest ball in z = 1",
+);
 
-fn certainty(place: &Place) -> CertaintyPoint {
-    CertaintyPoint {
-        place: place.place,
-        value: place.certainty,
-        interval: Some(place.interval),
-    }
-}
-
-fn integrity(place: &Place) -> CertaintyPoint {
-    CertaintyPoint {
-        place: place.place,
-        value: place.integrity,
-        interval: None,
-    }
-}
-
-fn line(curve: &Curve, label: String, color: usize, show: Show) -> CertaintyCurve {
+fn line(curve: &Curve, label: String, color: usize, (show, _): Show) -> CertaintyCurve {
+    let point = |at: &Place| {
+        let (value, interval) = show(at);
+        CertaintyPoint {
+            place: at.place,
+            value,
+            interval,
+        }
+    };
     CertaintyCurve {
         label,
         color,
         is_dashed: false,
-        points: curve.places.iter().map(show).collect(),
+        points: curve.places.iter().map(point).collect(),
     }
 }
 
@@ -111,63 +111,52 @@ fn panels(curves: &[Curve]) -> Vec<CertaintyPanel> {
     let (unloaded, rest) = curves.split_at(CLEARANCES.len());
     let (loaded, others) = rest.split_at(CLEARANCES.len());
     let clearances = |curves: &[Curve], show: Show| -> Vec<CertaintyCurve> {
-        let line = |(color, curve): (usize, &Curve)| {
-            line(curve, format!("ρ = {}", curve.clearance()), color, show)
-        };
-        curves.iter().enumerate().map(line).collect()
+        let lines = curves.iter().enumerate();
+        let lines = lines
+            .map(|(color, curve)| line(curve, format!("ρ = {}", curve.clearance()), color, show));
+        lines.collect()
     };
     let mut regions: Vec<&Curve> = others.iter().collect();
     regions.insert(2, &unloaded[MIDDLE]);
     let regions = regions.into_iter().zip(REGION_COLORS);
-    let regions = regions.map(|(curve, color)| line(curve, curve.starts.label(), color, certainty));
+    let regions = regions.map(|(curve, color)| line(curve, curve.starts.label(), color, CERTAINTY));
     let regions: Vec<CertaintyCurve> = regions.collect();
-    let mut integrities = clearances(unloaded, integrity);
-    let mut extra = line(&loaded[MIDDLE], String::new(), MIDDLE, integrity);
-    extra.is_dashed = true;
-    integrities.push(extra);
-    let panel = |title: &str, curves, has_claim, has_legend| CertaintyPanel {
+    let mut integrities = clearances(unloaded, INTEGRITY);
+    let extra = line(&loaded[MIDDLE], String::new(), MIDDLE, INTEGRITY);
+    integrities.push(CertaintyCurve {
+        is_dashed: true,
+        ..extra
+    });
+    let [free, pierced] = [unloaded, loaded].map(|curves| clearances(curves, CERTAINTY));
+    let dashed = "(d) largest ball in the basins of (a); dashed: ρ = 10 of (b)";
+    let panels = [
+        ("(a) unloaded, starts |X|, |X′| < 2ρ", free, CERTAINTY),
+        ("(b) loaded, starts |X|, |X′| < 2ρ", pierced, CERTAINTY),
+        ("(c) unloaded, ρ = 10, other starts", regions, CERTAINTY),
+        (dashed, integrities, INTEGRITY),
+    ];
+    let panel = |(index, (title, curves, (_, up))): (usize, (&str, _, Show))| CertaintyPanel {
         title: title.to_owned(),
-        up: if has_claim { SHARE } else { BALL },
+        up,
         curves,
-        has_claim,
-        has_legend,
+        has_claim: index < 3,
+        has_legend: index == 2,
     };
-    let [free, pierced] = [unloaded, loaded].map(|curves| clearances(curves, certainty));
-    vec![
-        panel("(a) unloaded, starts |X|, |X′| < 2ρ", free, true, false),
-        panel("(b) loaded, starts |X|, |X′| < 2ρ", pierced, true, false),
-        panel("(c) unloaded, ρ = 10, other starts", regions, true, true),
-        panel(
-            "(d) largest ball in the basins of (a); dashed: ρ = 10 of (b)",
-            integrities,
-            false,
-            false,
-        ),
-    ]
+    panels.into_iter().enumerate().map(panel).collect()
 }
-
-/// What goes upwards in the panels.
-const SHARE: &str = "certainty of z = 1";
-const BALL: &str = "radius of the largest ball in z = 1";
 
 /// A row for each place of each curve.
 fn table(curves: &[Curve]) -> Result<Vec<u8>> {
+    let places = curves
+        .iter()
+        .flat_map(|curve| curve.places.iter().map(move |at| (curve, at)));
+    let rows = places.map(|(curve, at)| {
+        let (rho, starts) = (curve.clearance(), curve.starts.label());
+        let shares = (at.certainty, at.interval, at.integrity);
+        let place = (at.place, at.frequency);
+        (curve.machine(), rho, starts, place, shares, &at.motions)
+    });
     let columns =
         "machine,rho,starts,place,eta,certainty,certainty_low,certainty_high,integrity,motions";
-    let rows = curves.iter().flat_map(|curve| {
-        curve.places.iter().map(move |place| {
-            (
-                curve.machine(),
-                curve.clearance(),
-                curve.starts.label(),
-                place.place,
-                place.frequency,
-                place.certainty,
-                place.interval,
-                place.integrity,
-                &place.motions,
-            )
-        })
-    });
     figure::table(columns, rows)
 }

@@ -1,152 +1,116 @@
 //! The largest Lyapunov exponent beneath the bifurcation diagram.
 
-use softstop_draw::panel::{Axes, Panel, heading};
-use softstop_draw::pen::{Align, Pen, Stroke};
-use softstop_draw::style;
-use softstop_dynamics::sweep::Step;
-
+use super::{Part, Place, Point};
 use crate::diagram::{dots, same};
+use softstop_draw::panel::{Axes, Panel, heading};
+use softstop_draw::pen::{Align, Pen, Stroke, width};
+use softstop_draw::style;
 
 /// Pixels for each unit of length.
 const SCALE: f32 = 2.0;
 const WIDTH: f64 = 1200.0;
-/// Left and right ends of the columns, and the heights of the rows.
+/// Left and right ends of the columns, tops of the rows, and their height.
 const COLUMNS: [(f64, f64); 2] = [(84.0, 664.0), (756.0, 1172.0)];
-const HEIGHTS: [f64; 2] = [330.0, 330.0];
+const TOPS: [f64; 2] = [112.0, 466.0];
+const HEIGHT: f64 = 330.0;
 const LETTERS: u32 = 14;
 const DOT: f64 = 0.7;
 /// Colours: both ways, up only, down only.
 const COLOURS: [&str; 3] = ["#444444", style::DESIGN, style::OPTIMUM];
 
-/// A step of a sweep along eta.
-#[derive(Debug, Clone)]
-pub struct StabilityPoint {
-    /// The step.
-    pub step: Step,
-    /// The largest exponent per unit of tau, and the half-width of its 95 % interval.
-    pub exponent: (f64, f64),
+/// The picture as PNG: the whole range and a part of it, in the whole z = 1 up to its fold and points to mark on it
+/// with their names.
+pub(super) fn png(
+    parts: &[Part],
+    branch: &[Place],
+    marks: &[(String, Place)],
+    explanation: &str,
+) -> Result<Vec<u8>, String> {
+    let mut pen = Pen::new(WIDTH, TOPS[1] + HEIGHT + 58.0);
+    let title = "Stability of the motions along ρ = 10: the largest Lyapunov exponent λ";
+    heading(&mut pen, (COLUMNS[0].0, 30.0), title, explanation);
+    legend(&mut pen, 80.0);
+    for (index, (part, (left, right))) in parts.iter().zip(COLUMNS).enumerate() {
+        let is_whole = index == 0;
+        let points = part.ways.iter().flatten();
+        let top = points.map(|point| point.step.hardest()).fold(1.0, f64::max);
+        let ranges = [(-0.04 * top, 1.08 * top), part.exponents];
+        let panels = [0, 1].map(|row: usize| {
+            let area = (left, TOPS[row], right - left, HEIGHT);
+            Panel::new(area, part.range, ranges[row])
+        });
+        let ticks = (if is_whole { 10 } else { 5 }, 5);
+        let frequency = Some("drive frequency η = ω/Ω");
+        let axes = [
+            Axes::new(LETTERS, None, "before-impact velocity X′₋", ticks),
+            Axes::new(LETTERS, frequency, "λ per unit of τ", ticks),
+        ];
+        let [diagram, exponents] = &panels;
+        diagram.ground(&mut pen, &axes[0]);
+        exponents.ground(&mut pen, &axes[1]);
+        curves(&mut pen, part, &panels);
+        if is_whole {
+            for (row, panel) in panels.iter().enumerate() {
+                let curve = branch.iter().map(|at| (at[0], at[1 + row]));
+                let curve: Vec<(f64, f64)> = curve.collect();
+                panel.curve(&mut pen, &curve, Stroke::solid(COLOURS[1], 1.8));
+            }
+            let beyond = "chaos: λ > 0, at the right";
+            let place = (exponents.across(0.965), exponents.height(0.0) - 8.0);
+            pen.words(place, LETTERS - 1, Align::Left, (style::INK, true), beyond);
+        }
+        let zero = [(part.range.0, 0.0), (part.range.1, 0.0)];
+        exponents.curve(&mut pen, &zero, Stroke::solid(style::INK, 1.0));
+        for (name, at) in marks.iter().filter(|_| is_whole) {
+            mark(&mut pen, &panels, name, *at);
+        }
+        diagram.axes(&mut pen, &axes[0]);
+        exponents.axes(&mut pen, &axes[1]);
+    }
+    pen.png_at(SCALE)
 }
 
-/// The diagram and the exponents over a range of eta.
-#[derive(Debug, Clone)]
-pub struct StabilityPart {
-    /// Range of eta.
-    pub range: (f64, f64),
-    /// Least and largest exponent to be seen.
-    pub exponents: (f64, f64),
-    /// The sweeps up and down, in rising order of eta.
-    pub ways: [Vec<StabilityPoint>; 2],
+fn curves(pen: &mut Pen, part: &Part, [diagram, exponents]: &[Panel; 2]) {
+    let classed = classed(part);
+    for way in [1, 2, 0] {
+        let own = classed.iter().filter(|(class, _)| *class == way);
+        let settled = own
+            .map(|(_, point)| point)
+            .filter(|it| it.step.is_settled());
+        let velocities = settled.clone().flat_map(|point| dots(&point.step));
+        diagram.dots(pen, velocities, DOT, COLOURS[way]);
+        let values = settled.map(|point| (point.step.value, point.exponent.0));
+        exponents.dots(pen, values, 1.4 * DOT, COLOURS[way]);
+    }
 }
 
-/// The picture.
-#[derive(Debug, Clone)]
-pub struct StabilityChart<'a> {
-    /// The whole range, and a part of it.
-    pub parts: &'a [StabilityPart],
-    /// z = 1 up to its fold: eta, X'-, exponent.
-    pub branch: &'a [[f64; 3]],
-    /// Points to mark on z = 1 in the whole range: name, eta, X'-, exponent.
-    pub marks: &'a [(String, [f64; 3])],
-    /// How it was made.
-    pub explanation: String,
-}
-
-impl StabilityChart<'_> {
-    /// As PNG.
-    ///
-    /// # Errors
-    /// What the encoder says.
-    pub fn png(&self) -> Result<Vec<u8>, String> {
-        let tops = [112.0, 112.0 + HEIGHTS[0] + 24.0];
-        let mut pen = Pen::new(WIDTH, tops[1] + HEIGHTS[1] + 58.0);
-        let title = "Stability of the motions along ρ = 10: the largest Lyapunov exponent λ";
-        heading(&mut pen, (COLUMNS[0].0, 30.0), title, &self.explanation);
-        legend(&mut pen, 80.0);
-        for (part, (left, right)) in self.parts.iter().zip(COLUMNS) {
-            let area = |row: usize| (left, tops[row], right - left, HEIGHTS[row]);
-            let whole = left == COLUMNS[0].0;
-            let points = part.ways.iter().flatten();
-            let top = points.map(|point| point.step.hardest()).fold(1.0, f64::max);
-            let diagram = Panel::new(area(0), part.range, (-0.04 * top, 1.08 * top));
-            let exponents = Panel::new(area(1), part.range, part.exponents);
-            let ticks = (if whole { 10 } else { 5 }, 5);
-            let upper = axes(None, "before-impact velocity X′₋", ticks);
-            let lower = axes(Some("drive frequency η = ω/Ω"), "λ per unit of τ", ticks);
-            diagram.ground(&mut pen, &upper);
-            exponents.ground(&mut pen, &lower);
-            self.curves(&mut pen, part, &diagram, &exponents);
-            let z_one = Stroke::solid(COLOURS[1], 1.8);
-            let curve = |which: usize| -> Vec<(f64, f64)> {
-                self.branch.iter().map(|at| (at[0], at[which])).collect()
-            };
-            if whole {
-                diagram.curve(&mut pen, &curve(1), z_one);
-                exponents.curve(&mut pen, &curve(2), z_one);
-                let beyond = "chaos: λ > 0, at the right";
-                let place = (exponents.across(0.965), exponents.height(0.0) - 8.0);
-                pen.words(place, LETTERS - 1, Align::Left, (style::INK, true), beyond);
-            }
-            let zero = [(part.range.0, 0.0), (part.range.1, 0.0)];
-            exponents.curve(&mut pen, &zero, Stroke::solid(style::INK, 1.0));
-            if whole {
-                self.marks(&mut pen, &diagram, &exponents);
-            }
-            diagram.axes(&mut pen, &upper);
-            exponents.axes(&mut pen, &lower);
-        }
-        pen.png_at(SCALE)
+fn mark(pen: &mut Pen, panels: &[Panel; 2], name: &str, [eta, values @ ..]: Place) {
+    let [diagram, exponents] = panels;
+    let line = Stroke::dashed(style::ASIDE, 0.9, (3.0, 3.0));
+    let x = diagram.across(eta);
+    pen.line(&[(x, diagram.area.1), (x, exponents.bottom())], line);
+    for (panel, value) in panels.iter().zip(values) {
+        pen.spot((x, panel.height(value)), 4.5);
     }
-
-    fn curves(&self, pen: &mut Pen, part: &StabilityPart, diagram: &Panel, exponents: &Panel) {
-        for way in [1, 2, 0] {
-            let mut points = classed(part);
-            points.retain(|(class, point)| *class == way && point.step.is_settled());
-            let points = points.iter().map(|(_, point)| point);
-            let velocities = points.clone().flat_map(|point| dots(&point.step));
-            diagram.dots(pen, velocities, DOT, COLOURS[way]);
-            let values = points.map(|point| (point.step.value, point.exponent.0));
-            exponents.dots(pen, values, 1.4 * DOT, COLOURS[way]);
-        }
-    }
-
-    fn marks(&self, pen: &mut Pen, diagram: &Panel, exponents: &Panel) {
-        for (name, [eta, velocity, exponent]) in self.marks {
-            let line = Stroke::dashed(style::ASIDE, 0.9, (3.0, 3.0));
-            let x = diagram.across(*eta);
-            pen.line(&[(x, diagram.area.1), (x, exponents.bottom())], line);
-            for (panel, value) in [(diagram, *velocity), (exponents, *exponent)] {
-                pen.spot((x, panel.height(value)), 4.5);
-            }
-            let (shift, align) = if *eta < 1.2 {
-                (-9.0, Align::Right)
-            } else {
-                (9.0, Align::Left)
-            };
-            let place = (x + shift, exponents.height(*exponent) + 20.0);
-            pen.words(place, LETTERS - 1, align, (style::INK, false), name);
-        }
-    }
+    let (shift, align) = match eta < 1.2 {
+        true => (-9.0, Align::Right),
+        false => (9.0, Align::Left),
+    };
+    let place = (x + shift, exponents.height(values[1]) + 20.0);
+    pen.words(place, LETTERS - 1, align, (style::INK, false), name);
 }
 
 /// Points with 0 if they are the same on both ways (shown once), 1 for up, 2 for down.
-fn classed(part: &StabilityPart) -> Vec<(usize, &StabilityPoint)> {
-    let [up, down] = &part.ways;
+fn classed(part: &Part) -> Vec<(usize, &Point)> {
     let mut points = Vec::new();
-    for (a, b) in up.iter().zip(down) {
-        if same(&a.step, &b.step) {
-            points.push((0, a));
-            if a.step.motion.regime().is_none() {
-                points.push((0, b));
-            }
-        } else {
-            points.extend([(1, a), (2, b)]);
+    for (up, down) in part.ways[0].iter().zip(&part.ways[1]) {
+        match (same(&up.step, &down.step), up.step.motion.regime()) {
+            (false, _) => points.extend([(1, up), (2, down)]),
+            (true, None) => points.extend([(0, up), (0, down)]),
+            (true, Some(_)) => points.push((0, up)),
         }
     }
     points
-}
-
-fn axes<'a>(across: Option<&'a str>, upwards: &'a str, ticks: (usize, usize)) -> Axes<'a> {
-    Axes::new(LETTERS, across, upwards, ticks)
 }
 
 fn legend(pen: &mut Pen, y: f64) {
@@ -155,6 +119,6 @@ fn legend(pen: &mut Pen, y: f64) {
     for (color, name) in COLOURS.into_iter().zip(names) {
         pen.tint((x, y - 11.0, 12.0, 12.0), color, 1.0);
         pen.text((x + 18.0, y), LETTERS, Align::Left, name);
-        x += 18.0 + softstop_draw::pen::width(LETTERS, name) + 22.0;
+        x += 18.0 + width(LETTERS, name) + 22.0;
     }
 }

@@ -1,10 +1,11 @@
 //! The boundaries g0, s_SN and s_PD across the clearances.
 
 use anyhow::{Context, Result};
+use nalgebra::Vector2;
 use rayon::prelude::*;
-use softstop::{Ratios, Scene};
+use softstop::{MotionError, Ratios, Scene};
 use softstop_dynamics::continuation::{
-    Along, BranchPoint, Curve, Family, Heading, Parameter, Region, SpecialKind, Test, curve,
+    BranchPoint, CurvePoint, Heading, Region, SpecialKind, Test,
 };
 use softstop_dynamics::internals::highest;
 use softstop_dynamics::orbit::{Orbit, StroboscopicMap, find};
@@ -12,9 +13,7 @@ use softstop_dynamics::zone::{
     ZoneError, free_amplitude, grazing_frequencies, hysteresis, loss_of_stability,
 };
 
-use crate::figure;
-use crate::figure6::chart::Boundaries;
-use softstop_console::interrupt;
+use crate::{curves, figure};
 use softstop_console::progress::Progress;
 
 /// Frequencies within which z = 1 is followed.
@@ -28,42 +27,51 @@ const CURVE_POINTS: usize = 300;
 /// Width to which the best clearance is found.
 const WIDTH: f64 = 1e-3;
 
-/// A special point of z = 1, and its eta, X_m, X'-.
-pub(super) type Critical = (BranchPoint, [f64; 3]);
+/// eta, X_m, X'-.
+type Figures = [f64; 3];
+/// A special point of z = 1.
+type Critical = (BranchPoint, Figures);
 
 /// The ends of z = 1 of one machine.
 pub(super) struct Ends {
     /// rho.
-    pub clearance: f64,
-    /// z = 1 at the upper grazing frequency g0: eta, X_m, X'-.
-    pub grazing: [f64; 3],
+    pub(super) clearance: f64,
+    /// z = 1 at the upper grazing frequency g0.
+    pub(super) grazing: Figures,
     /// Its fold s_SN.
-    pub fold: Option<Critical>,
+    pub(super) fold: Option<Critical>,
     /// Its flip s_PD.
-    pub flip: Option<Critical>,
+    pub(super) flip: Option<Critical>,
+}
+
+/// Boundaries across the clearances.
+pub(super) struct Boundaries {
+    /// Amplitude of the free mass over eta.
+    pub(super) response: Vec<(f64, f64)>,
+    /// z = 1 at the grazing g0 above resonance.
+    pub(super) grazing: Vec<Figures>,
+    /// s_SN in pieces.
+    pub(super) folds: Vec<Vec<Figures>>,
+    /// s_PD in pieces.
+    pub(super) flips: Vec<Vec<Figures>>,
 }
 
 /// The ends of z = 1 at each clearance.
 pub(super) fn ends(machine: &Ratios, clearances: &[f64], progress: &Progress) -> Result<Vec<Ends>> {
-    clearances
-        .par_iter()
-        .map(|clearance| {
-            progress.step()?;
-            let machine = machine.at_clearance(*clearance);
-            ends_of(&machine).with_context(|| format!("rho = {clearance}"))
-        })
-        .collect()
+    let ends = clearances.par_iter().map(|clearance| {
+        progress.step()?;
+        let machine = machine.at_clearance(*clearance);
+        ends_of(&machine).with_context(|| format!("rho = {clearance}"))
+    });
+    ends.collect()
 }
 
 fn ends_of(machine: &Ratios) -> Result<Ends> {
     let scene = machine.scene()?;
     let at_g0 = grazing(&scene)?;
-    let described = |point: Option<BranchPoint>| -> Result<_> {
-        let Some(point) = point else { return Ok(None) };
-        let mut scene = scene.clone();
-        scene.excitation.frequency = point.parameter;
-        let found = describe(&scene, point.parameter, &point)?;
-        Ok(Some((point, found)))
+    let described = |point: BranchPoint| -> Result<Critical, MotionError> {
+        let found = describe(machine, point.parameter, point.state(), &point.impacts)?;
+        Ok((point, found))
     };
     let fold = match hysteresis(&scene) {
         Ok(zone) => Some(zone.fold),
@@ -71,11 +79,12 @@ fn ends_of(machine: &Ratios) -> Result<Ends> {
         Err(error) => return Err(error.into()),
     };
     let flip = loss_of_stability(&at_g0, Heading::Down, Test::Flip)?;
+    let flip = flip.filter(|point| point.parameter > RANGE.0);
     Ok(Ends {
         clearance: machine.clearance,
         grazing: figures(&at_g0),
-        fold: described(fold)?,
-        flip: described(flip.filter(|point| point.parameter > RANGE.0))?,
+        fold: fold.map(described).transpose()?,
+        flip: flip.map(described).transpose()?,
     })
 }
 
@@ -86,22 +95,22 @@ fn grazing(scene: &Scene) -> Result<Orbit> {
     Ok(find(&scene)?)
 }
 
-/// eta, X_m, X'-.
-fn figures(orbit: &Orbit) -> [f64; 3] {
-    [
-        orbit.scene.excitation.frequency,
-        orbit.max_position,
-        orbit.before_impact_velocity(),
-    ]
+/// Those of a motion.
+pub(super) fn figures(orbit: &Orbit) -> Figures {
+    let eta = orbit.scene.excitation.frequency;
+    [eta, orbit.max_position, orbit.before_impact_velocity()]
 }
 
+/// Those of z = 1 at a frequency, by a state and the impacts of it.
 fn describe(
-    scene: &Scene,
+    machine: &Ratios,
     eta: f64,
-    point: &BranchPoint,
-) -> Result<[f64; 3], softstop::MotionError> {
-    let highest = StroboscopicMap::new(scene, 1)?.max_position(point.state())?;
-    Ok([eta, highest, point.before_impact_velocity()])
+    state: Vector2<f64>,
+    impacts: &[f64],
+) -> Result<Figures, MotionError> {
+    let map = StroboscopicMap::new(&machine.at_frequency(eta).scene()?, 1)?;
+    let velocity = impacts.iter().copied().fold(0.0, f64::max);
+    Ok([eta, map.max_position(state)?, velocity])
 }
 
 /// The curves across the clearances, from the points at some of them; `step` as in [`Region`].
@@ -112,9 +121,8 @@ pub(super) fn across(
     progress: &Progress,
 ) -> Result<Boundaries> {
     let follow = |test: Test, pick: fn(&Ends) -> Option<&Critical>| {
-        let found = ends
-            .iter()
-            .filter_map(|end| Some((end.clearance, &pick(end)?.0)));
+        let found = ends.iter();
+        let found = found.filter_map(|end| Some((end.clearance, &pick(end)?.0)));
         let found: Vec<(f64, &BranchPoint)> = found.collect();
         let pieces = (0..found.len()).into_par_iter().map(|index| {
             progress.step()?;
@@ -122,79 +130,31 @@ pub(super) fn across(
             let half_way = |other: &(f64, &BranchPoint)| f64::midpoint(clearance, other.0);
             let before = index.checked_sub(1).map(|before| half_way(&found[before]));
             let after = found.get(index + 1).map(half_way);
-            let range = (
+            let clearances = (
                 before.unwrap_or(CLEARANCES.0),
                 after.unwrap_or(CLEARANCES.1),
             );
-            Ok(piece(machine, clearance, (test, point), range, step))
+            let region = Region {
+                ranges: [RANGE, clearances],
+                points: CURVE_POINTS,
+                step,
+            };
+            let special = (SpecialKind::Critical(test), point);
+            Ok(piece(&machine.at_clearance(clearance), special, &region))
         });
         pieces.collect::<Result<Vec<_>>>()
     };
     let count = ((CLEARANCES.1 - CLEARANCES.0) / SPACING) as usize;
-    let clearances = (0..=count).map(|index| CLEARANCES.0 + SPACING * index as f64);
-    let at_grazing = clearances
-        .collect::<Vec<f64>>()
-        .into_par_iter()
-        .map(|clearance| {
-            let machine = Ratios {
-                clearance,
-                ..*machine
-            };
-            Some(figures(&grazing(&machine.scene().ok()?).ok()?))
-        });
+    let at_grazing = (0..=count).into_par_iter().map(|index| {
+        let machine = machine.at_clearance(CLEARANCES.0 + SPACING * index as f64);
+        Some(figures(&grazing(&machine.scene().ok()?).ok()?))
+    });
     Ok(Boundaries {
-        response: machine.scene().map_or(Vec::new(), |scene| response(&scene)),
+        response: response(&machine.scene()?),
         grazing: at_grazing.flatten().collect(),
         folds: follow(Test::Fold, |ends| ends.fold.as_ref())?,
         flips: follow(Test::Flip, |ends| ends.flip.as_ref())?,
     })
-}
-
-/// The curve through a special point, within a range of clearances.
-fn piece(
-    machine: &Ratios,
-    clearance: f64,
-    (test, point): (Test, &BranchPoint),
-    range: (f64, f64),
-    step: f64,
-) -> Vec<[f64; 3]> {
-    let machine = Ratios {
-        clearance,
-        frequency: point.parameter,
-        ..*machine
-    };
-    let region = Region {
-        ranges: [RANGE, range],
-        points: CURVE_POINTS,
-        step,
-    };
-    let parameters = [Parameter::Frequency, Parameter::Clearance];
-    let family = machine
-        .scene()
-        .and_then(|scene| Along::new(scene, parameters));
-    let Ok(family) = family else {
-        return Vec::new();
-    };
-    let start = (SpecialKind::Critical(test), point);
-    let parameters = [point.parameter, clearance];
-    let found = curve(&family, 1, start, parameters, &region, |_| {
-        interrupt::go_on()
-    });
-    let described = |curve: Curve| {
-        let points = curve.points.iter().filter_map(|at| {
-            let scene = family.scene(at.parameters).ok()?;
-            let point = BranchPoint {
-                parameter: at.parameters[0],
-                position: at.position,
-                velocity: at.velocity,
-                impacts: at.impacts.clone(),
-                monodromy: at.monodromy,
-            };
-            describe(&scene, at.parameters[0], &point).ok()
-        });
-        points.collect()
-    };
-    found.map(described).unwrap_or_default()
 }
 
 /// Amplitude of the free mass over eta.
@@ -203,21 +163,30 @@ fn response(scene: &Scene) -> Vec<(f64, f64)> {
     etas.map(|eta| (eta, free_amplitude(scene, eta))).collect()
 }
 
+/// As much as can be followed of the curve through a special point.
+fn piece(machine: &Ratios, special: (SpecialKind, &BranchPoint), region: &Region) -> Vec<Figures> {
+    let machine = machine.at_frequency(special.1.parameter);
+    let described = |at: &CurvePoint| {
+        let [eta, clearance] = at.parameters;
+        let state = Vector2::new(at.position, at.velocity);
+        describe(&machine.at_clearance(clearance), eta, state, &at.impacts).ok()
+    };
+    let found = curves::critical(&machine, special, region);
+    found.map_or_else(
+        |_| Vec::new(),
+        |curve| curve.points.iter().filter_map(described).collect(),
+    )
+}
+
 /// The clearance of the highest velocity at the fold, and that velocity, by golden section between the
 /// neighbours of the best of those given.
 pub(super) fn optimum(machine: &Ratios, ends: &[Ends]) -> Option<(f64, f64)> {
-    let best = ends
-        .iter()
-        .enumerate()
-        .filter_map(|(index, end)| Some((index, end.fold.as_ref()?.1[2])))
-        .max_by(|a, b| a.1.total_cmp(&b.1))?
-        .0;
+    let folds = ends.iter().enumerate();
+    let folds = folds.filter_map(|(index, end)| Some((index, end.fold.as_ref()?.1[2])));
+    let (best, _) = folds.max_by(|a, b| a.1.total_cmp(&b.1))?;
     let velocity = |clearance: f64| {
-        let machine = machine.at_clearance(clearance);
-        let zone = machine
-            .scene()
-            .ok()
-            .and_then(|scene| hysteresis(&scene).ok());
+        let scene = machine.at_clearance(clearance).scene().ok();
+        let zone = scene.and_then(|scene| hysteresis(&scene).ok());
         zone.map_or(f64::NEG_INFINITY, |zone| zone.velocity_sn)
     };
     let low = ends.get(best.wrapping_sub(1))?.clearance;
@@ -227,19 +196,10 @@ pub(super) fn optimum(machine: &Ratios, ends: &[Ends]) -> Option<(f64, f64)> {
 
 /// The curves as a table.
 pub(super) fn table(boundaries: &Boundaries) -> Result<Vec<u8>> {
+    let named = |name: &'static str| move |point: &Figures| (name, *point);
+    let grazing = boundaries.grazing.iter().map(named("z = 1 at g0"));
+    let folds = boundaries.folds.iter().flatten().map(named("s_SN"));
+    let flips = boundaries.flips.iter().flatten().map(named("s_PD"));
     let columns = "boundary,eta,max_position,before_impact_velocity";
-    let named = |name: &'static str, points: &[[f64; 3]]| {
-        let rows = points
-            .iter()
-            .map(move |[eta, highest, velocity]| (name, *eta, *highest, *velocity));
-        rows.collect::<Vec<_>>()
-    };
-    let mut rows = named("z = 1 at g0", &boundaries.grazing);
-    for piece in &boundaries.folds {
-        rows.extend(named("s_SN", piece));
-    }
-    for piece in &boundaries.flips {
-        rows.extend(named("s_PD", piece));
-    }
-    figure::table(columns, rows)
+    figure::table(columns, grazing.chain(folds).chain(flips))
 }

@@ -1,10 +1,11 @@
 //! The picture of figure 6: diagrams over several clearances, their boundaries, and where the strip is pierced.
 //! Largest positions above, before-impact velocities below, up and down (Peterka 2003).
 
-use softstop_dynamics::sweep::{Chain, Direction, Jump, Step};
+use softstop_dynamics::sweep::{Chain, Jump, Step};
 
-use super::piercing::{self, Ranges};
-use crate::diagram::is_one;
+use super::boundaries::Boundaries;
+use super::{RANGE, piercing};
+use crate::diagram::{is_one, steps};
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Pen, Stroke};
 use softstop_draw::style;
@@ -16,276 +17,218 @@ const COLOURS: [&str; 6] = [
 /// Pixels for each unit of length.
 const SCALE: f32 = 2.0;
 const WIDTH: f64 = 1200.0;
-/// Left and right end of the panels.
+/// Left and right end of the panels, top of the first, height, and room between them.
 const SIDES: (f64, f64) = (84.0, 1176.0);
-/// Height of the panels.
+const TOP: f64 = 74.0;
 const HEIGHT: f64 = 560.0;
+const BETWEEN: f64 = 26.0;
 /// Size of letters, and of the dots.
 const LETTERS: u32 = 15;
 const DOT: f64 = 0.65;
 /// Height of a jump on the page that has an arrow.
 const SEEN: f64 = 16.0;
-/// Largest position and velocity that the panels show.
-const TOP: (f64, f64) = (27.0, 20.0);
+/// The axes of both panels, and the largest position and velocity that they show.
+const PANELS: [(Axes<'static>, f64); 2] = [
+    (
+        Axes::new(LETTERS, None, "largest position Xₘ", (10, 6)),
+        27.0,
+    ),
+    (
+        Axes::new(
+            LETTERS,
+            Some("drive frequency η = ω/Ω"),
+            "before-impact velocity X′₋",
+            (10, 5),
+        ),
+        20.0,
+    ),
+];
 
 /// Lines of the boundaries.
 const RESPONSE: Stroke = Stroke::solid(style::INK, 1.5);
 const FOLD: Stroke = Stroke::dashed(style::INK, 1.7, (8.0, 4.0));
 const FLIP: Stroke = Stroke::dashed(style::INK, 1.7, (2.0, 3.0));
 
-/// The diagram of one clearance.
-#[derive(Debug, Clone)]
-pub struct ClearanceRow {
-    /// rho.
-    pub clearance: f64,
-    /// The sweeps up and down.
-    pub ways: [Chain; 2],
-}
-
-/// Boundaries across the clearances; points are eta, X_m and X'- of z = 1 there.
-#[derive(Debug, Clone, Default)]
-pub struct Boundaries {
-    /// Amplitude of the free mass over eta.
-    pub response: Vec<(f64, f64)>,
-    /// z = 1 at the grazing g0 above resonance.
-    pub grazing: Vec<[f64; 3]>,
-    /// s_SN in pieces.
-    pub folds: Vec<Vec<[f64; 3]>>,
-    /// s_PD in pieces.
-    pub flips: Vec<Vec<[f64; 3]>>,
-}
-
 /// The picture.
-#[derive(Debug, Clone)]
-pub struct ClearanceChart<'a> {
-    /// The diagrams, in rising order of the clearance.
-    pub rows: &'a [ClearanceRow],
-    /// The boundaries.
-    pub boundaries: &'a Boundaries,
-    /// Range of eta.
-    pub range: (f64, f64),
+pub(super) struct Chart<'a> {
+    /// The sweeps up and down of each clearance, in its rising order.
+    pub(super) chains: &'a [Chain],
+    pub(super) boundaries: &'a Boundaries,
     /// The paper's point: its name, eta, X_m, X'-.
-    pub point: (&'static str, [f64; 3]),
-    /// Ranges of eta in which the motion pierces the strip, up and down, for each diagram; none for a machine
-    /// without a strip.
-    pub piercing: Option<Vec<[Ranges; 2]>>,
-    /// What it shows.
-    pub title: String,
+    pub(super) point: (&'static str, [f64; 3]),
+    pub(super) is_loaded: bool,
     /// How it was made.
-    pub explanation: String,
+    pub(super) explanation: String,
 }
 
-impl ClearanceChart<'_> {
-    /// As PNG.
-    ///
-    /// # Errors
-    /// What the encoder says.
-    pub fn png(&self) -> Result<Vec<u8>, String> {
-        let rows = self.piercing.as_deref();
-        let strip = rows.map_or(0.0, |rows| 26.0 + piercing::height(rows.len()));
-        let top = 74.0;
-        let low = top + HEIGHT + 26.0 + strip;
-        let mut pen = Pen::new(WIDTH, low + HEIGHT + 66.0);
-        heading(&mut pen, (SIDES.0, 30.0), &self.title, &self.explanation);
-        let panel = |top, highest| {
-            Panel::new(
-                (SIDES.0, top, SIDES.1 - SIDES.0, HEIGHT),
-                self.range,
-                (0.0, highest),
-            )
+/// Which value of eta, X_m and X'- a panel shows over the first.
+type Which = usize;
+
+impl Chart<'_> {
+    pub(super) fn png(&self) -> Result<Vec<u8>, String> {
+        let strip = piercing::height(self.chains.len());
+        let below = TOP + HEIGHT + BETWEEN;
+        let low = if self.is_loaded {
+            below + BETWEEN + strip
+        } else {
+            below
         };
-        self.positions(&mut pen, &panel(top, TOP.0));
-        if let Some(rows) = rows {
-            let top = top + HEIGHT + 26.0;
-            let height = piercing::height(rows.len());
-            let panel = Panel::new(
-                (SIDES.0, top, SIDES.1 - SIDES.0, height),
-                self.range,
-                (0.0, 1.0),
-            );
-            let lines = rows.iter().zip(self.rows).zip(COLOURS);
-            let lines = lines.map(|((ways, row), color)| (row.clearance, ways, color));
-            piercing::draw(&mut pen, &panel, lines);
+        let mut pen = Pen::new(WIDTH, low + HEIGHT + 66.0);
+        let title = match self.is_loaded {
+            false => "Impact motion without piercing (unloaded machine), ρ = 2, 6, …, 22",
+            true => "Impact motion with piercing (loaded machine), ρ = 2, 6, …, 22",
+        };
+        heading(&mut pen, (SIDES.0, 30.0), title, &self.explanation);
+        let panel = |top, height, highest| {
+            let area = (SIDES.0, top, SIDES.1 - SIDES.0, height);
+            Panel::new(area, RANGE, (0.0, highest))
+        };
+        let upper = panel(TOP, HEIGHT, PANELS[0].1);
+        self.draw(&mut pen, &upper, 1);
+        legend(&mut pen, &upper);
+        if self.is_loaded {
+            let panel = panel(below, strip, 1.0);
+            piercing::draw(&mut pen, &panel, self.chains, &COLOURS);
         }
-        self.velocities(&mut pen, &panel(low, TOP.1));
+        self.draw(&mut pen, &panel(low, HEIGHT, PANELS[1].1), 2);
         pen.png_at(SCALE)
     }
 
-    fn positions(&self, pen: &mut Pen, panel: &Panel) {
-        let axes = Axes::new(LETTERS, None, "largest position Xₘ", (10, 6));
-        panel.ground(pen, &axes);
-        self.diagrams(pen, panel, |step| match step.hardest() {
-            0.0 => Vec::new(),
-            _ => vec![step.max_position],
-        });
-        panel.curve(pen, &self.boundaries.response, RESPONSE);
-        self.critical(pen, panel, 1);
-        for row in self.rows {
-            for (way, jump) in jumps(row) {
-                let (from, to) = (position(row, way, jump.from), position(row, way, jump.to));
-                arrow(pen, panel, (jump.from, from), (jump.to, to));
+    fn draw(&self, pen: &mut Pen, panel: &Panel, which: Which) {
+        let axes = &PANELS[which - 1].0;
+        let boundaries = self.boundaries;
+        panel.ground(pen, axes);
+        for (ways, color) in self.rows() {
+            diagram(pen, panel, ways, color, which);
+        }
+        let response = match which {
+            1 => boundaries.response.clone(),
+            _ => pairs(&boundaries.grazing, which),
+        };
+        panel.curve(pen, &response, RESPONSE);
+        for (pieces, stroke) in [(&boundaries.folds, FOLD), (&boundaries.flips, FLIP)] {
+            for piece in pieces {
+                panel.curve(pen, &pairs(piece, which), stroke);
             }
         }
-        self.names(pen, panel, 1);
-        self.mark(pen, panel, 1);
-        panel.axes(pen, &axes);
-        self.legend(pen, panel);
-    }
-
-    fn velocities(&self, pen: &mut Pen, panel: &Panel) {
-        let axes = Axes::new(
-            LETTERS,
-            Some("drive frequency η = ω/Ω"),
-            "before-impact velocity X′₋",
-            (10, 5),
-        );
-        panel.ground(pen, &axes);
-        self.diagrams(pen, panel, |step| step.velocities.clone());
-        panel.curve(pen, &pairs(&self.boundaries.grazing, 2), RESPONSE);
-        self.critical(pen, panel, 2);
-        for row in self.rows {
-            for (_, jump) in jumps(row) {
-                let (before, after) = jump.velocities;
-                arrow(pen, panel, (jump.from, before), (jump.to, after));
-            }
-        }
-        self.names(pen, panel, 2);
-        self.mark(pen, panel, 2);
-        panel.axes(pen, &axes);
-    }
-
-    /// Dots of all motions, and a line where z = 1 is stable.
-    fn diagrams(&self, pen: &mut Pen, panel: &Panel, show: impl Fn(&Step) -> Vec<f64>) {
-        for (row, color) in self.rows.iter().zip(COLOURS) {
-            let steps = row.ways.iter().flat_map(|chain| &chain.steps);
-            // What has not settled is on its way from one motion to another.
-            let settled = steps.filter(|step| step.is_settled());
-            let points = settled.flat_map(|step| {
-                let value = step.value;
-                show(step).into_iter().map(move |height| (value, height))
-            });
-            panel.dots(pen, points, DOT, color);
-            for chain in &row.ways {
-                let rising = chain.rising();
-                for run in rising.chunk_by(|a, b| is_one(a) && is_one(b)) {
-                    let line: Vec<(f64, f64)> = run
-                        .iter()
-                        .filter(|step| is_one(step))
-                        .flat_map(|step| show(step).into_iter().map(|y| (step.value, y)))
-                        .collect();
-                    panel.curve(pen, &line, Stroke::solid(color, 2.6));
+        for chain in self.chains {
+            for jump in chain.jumps().iter().filter(|jump| is_between(jump)) {
+                let (from, to) = match which {
+                    1 => (position(chain, jump.from), position(chain, jump.to)),
+                    _ => jump.velocities,
+                };
+                let from = panel.place((jump.from, from));
+                let to = panel.place((jump.to, to));
+                if (from.1 - to.1).abs() > SEEN {
+                    pen.arrow(from, to, Stroke::solid(style::ASIDE, 1.2));
                 }
             }
         }
-    }
-
-    fn critical(&self, pen: &mut Pen, panel: &Panel, which: usize) {
-        for piece in &self.boundaries.folds {
-            panel.curve(pen, &pairs(piece, which), FOLD);
+        for (ways, color) in self.rows() {
+            name(pen, panel, ways, color, which);
         }
-        for piece in &self.boundaries.flips {
-            panel.curve(pen, &pairs(piece, which), FLIP);
-        }
-    }
-
-    /// The clearance of each diagram, beside the end of its z = 1 or above its hardest impact.
-    fn names(&self, pen: &mut Pen, panel: &Panel, which: usize) {
-        for (row, color) in self.rows.iter().zip(COLOURS) {
-            let steps = row.ways.iter().flat_map(|chain| &chain.steps);
-            let ones = steps.filter(|step| is_one(step));
-            let height = |step: &&Step| match which {
-                1 => step.value,
-                _ => step.hardest(),
-            };
-            let Some(step) = ones.max_by(|a, b| height(a).total_cmp(&height(b))) else {
-                continue;
-            };
-            let text = format!("ρ = {}", row.clearance);
-            let (height, shift, align) = match which {
-                1 => (step.max_position, (12.0, -4.0), Align::Left),
-                _ => (step.hardest(), (-7.0, -6.0), Align::Right),
-            };
-            let (x, y) = panel.place((step.value, height));
-            let place = (x + shift.0, y + shift.1);
-            pen.words(place, LETTERS, align, (color, which == 1), &text);
-        }
-    }
-
-    fn mark(&self, pen: &mut Pen, panel: &Panel, which: usize) {
         let (name, at) = self.point;
         let (x, y) = panel.place((at[0], at[which]));
         pen.spot((x, y), 5.0);
-        pen.words(
-            (x + 9.0, y + 18.0),
-            LETTERS + 2,
-            Align::Left,
-            (style::INK, true),
-            name,
-        );
+        let (place, ink) = ((x + 9.0, y + 18.0), (style::INK, true));
+        pen.words(place, LETTERS + 2, Align::Left, ink, name);
+        panel.axes(pen, axes);
     }
 
-    fn legend(&self, pen: &mut Pen, panel: &Panel) {
-        let entries = [
-            (
-                RESPONSE,
-                "g₀  amplitude of the free mass: impacts begin where it is ρ",
-            ),
-            (FOLD, "s_SN  fold: z = 1 ends"),
-            (FLIP, "s_PD  flip: the period of z = 1 doubles"),
-            (
-                Stroke::solid(style::ASIDE, 2.6),
-                "z = 1, stable (in the colour of its ρ)",
-            ),
-        ];
-        let left = panel.right() - 500.0;
-        let mut y = panel.area.1 + 24.0;
-        pen.tint((left - 14.0, y - 18.0, 506.0, 126.0), "#ffffff", 0.9);
-        for (stroke, text) in entries {
-            pen.line(&[(left, y - 5.0), (left + 40.0, y - 5.0)], stroke);
-            pen.text((left + 50.0, y), LETTERS - 1, Align::Left, text);
-            y += 20.0;
-            if stroke.width == RESPONSE.width && stroke.dashes.is_none() {
-                let more = "(lower panel: X′₋ of z = 1 there, above resonance)";
-                pen.text((left + 82.0, y), LETTERS - 1, Align::Left, more);
-                y += 20.0;
-            }
+    /// The sweeps of each clearance, and its colour.
+    fn rows(&self) -> impl Iterator<Item = (&[Chain], &'static str)> {
+        self.chains.chunks_exact(2).zip(COLOURS)
+    }
+}
+
+/// Dots of all motions, and a line where z = 1 is stable.
+fn diagram(pen: &mut Pen, panel: &Panel, ways: &[Chain], color: &'static str, which: Which) {
+    let show = |step: &Step| -> Vec<(f64, f64)> {
+        let heights = match which {
+            1 if step.hardest() == 0.0 => &[],
+            1 => std::slice::from_ref(&step.max_position),
+            _ => &step.velocities[..],
+        };
+        heights.iter().map(|height| (step.value, *height)).collect()
+    };
+    // What has not settled is on its way from one motion to another.
+    let settled = steps(ways).filter(|step| step.is_settled());
+    panel.dots(pen, settled.flat_map(show), DOT, color);
+    for chain in ways {
+        let rising = chain.rising();
+        for run in rising.chunk_by(|a, b| is_one(a) && is_one(b)) {
+            let ones = run.iter().filter(|step| is_one(step));
+            let line: Vec<(f64, f64)> = ones.flat_map(|step| show(step)).collect();
+            panel.curve(pen, &line, Stroke::solid(color, 2.6));
         }
     }
 }
 
-fn pairs(points: &[[f64; 3]], which: usize) -> Vec<(f64, f64)> {
+/// The clearance of a diagram, beside the end of its z = 1 or above its hardest impact.
+fn name(pen: &mut Pen, panel: &Panel, ways: &[Chain], color: &'static str, which: Which) {
+    let ones = steps(ways).filter(|step| is_one(step));
+    let last = |step: &&Step| {
+        if which == 1 {
+            step.value
+        } else {
+            step.hardest()
+        }
+    };
+    let Some(step) = ones.max_by(|a, b| last(a).total_cmp(&last(b))) else {
+        return;
+    };
+    let (height, shift, align) = match which {
+        1 => (step.max_position, (12.0, -4.0), Align::Left),
+        _ => (step.hardest(), (-7.0, -6.0), Align::Right),
+    };
+    let (x, y) = panel.place((step.value, height));
+    let place = (x + shift.0, y + shift.1);
+    let text = format!("ρ = {}", ways[0].machine.scene.clearance);
+    pen.words(place, LETTERS, align, (color, which == 1), &text);
+}
+
+fn legend(pen: &mut Pen, panel: &Panel) {
+    let stable = Stroke::solid(style::ASIDE, 2.6);
+    let entries = [
+        (
+            Some(RESPONSE),
+            "g₀  amplitude of the free mass: impacts begin where it is ρ",
+        ),
+        (None, "(lower panel: X′₋ of z = 1 there, above resonance)"),
+        (Some(FOLD), "s_SN  fold: z = 1 ends"),
+        (Some(FLIP), "s_PD  flip: the period of z = 1 doubles"),
+        (Some(stable), "z = 1, stable (in the colour of its ρ)"),
+    ];
+    let (left, mut y) = (panel.right() - 500.0, panel.area.1 + 24.0);
+    pen.tint((left - 14.0, y - 18.0, 506.0, 126.0), "#ffffff", 0.9);
+    for (stroke, text) in entries {
+        if let Some(stroke) = stroke {
+            pen.line(&[(left, y - 5.0), (left + 40.0, y - 5.0)], stroke);
+        }
+        let indent = if stroke.is_some() { 50.0 } else { 82.0 };
+        pen.text((left + indent, y), LETTERS - 1, Align::Left, text);
+        y += 20.0;
+    }
+}
+
+fn pairs(points: &[[f64; 3]], which: Which) -> Vec<(f64, f64)> {
     points.iter().map(|at| (at[0], at[which])).collect()
 }
 
-/// Jumps between rest from impacts and z = 1.
-fn jumps(row: &ClearanceRow) -> Vec<(Direction, Jump)> {
-    let all = row.ways.iter().flat_map(|chain| {
-        let jumps = chain.jumps().into_iter();
-        jumps.map(move |jump| (chain.direction, jump))
-    });
-    let impacts = |jump: &Jump| {
-        let regimes = [jump.before.regime()?, jump.after.regime()?];
-        let one = |impacts| {
-            regimes
-                .iter()
-                .any(|it| (it.impacts, it.periods) == (impacts, 1))
-        };
-        Some(one(0) && one(1))
+/// True of a jump between rest from impacts and z = 1.
+fn is_between(jump: &Jump) -> bool {
+    let of = |motion: &softstop_dynamics::motion::MotionKind| {
+        let regime = motion.regime()?;
+        (regime.periods == 1).then_some(regime.impacts)
     };
-    all.filter(|(_, jump)| impacts(jump) == Some(true))
-        .collect()
+    matches!(
+        (of(&jump.before), of(&jump.after)),
+        (Some(0), Some(1)) | (Some(1), Some(0))
+    )
 }
 
 /// X_m of a step.
-fn position(row: &ClearanceRow, way: Direction, value: f64) -> f64 {
-    let chain = row.ways.iter().find(|chain| chain.direction == way);
-    let step = chain.and_then(|chain| chain.steps.iter().find(|step| step.value == value));
+fn position(chain: &Chain, value: f64) -> f64 {
+    let step = chain.steps.iter().find(|step| step.value == value);
     step.map_or(f64::NAN, |step| step.max_position)
-}
-
-fn arrow(pen: &mut Pen, panel: &Panel, from: (f64, f64), to: (f64, f64)) {
-    let (from, to) = (panel.place(from), panel.place(to));
-    if (from.1 - to.1).abs() > SEEN {
-        pen.arrow(from, to, Stroke::solid(style::ASIDE, 1.2));
-    }
 }

@@ -3,40 +3,46 @@
 use softstop_draw::panel::Panel;
 use softstop_draw::pen::{Align, Pen, Stroke};
 use softstop_draw::style;
-
-/// Ranges of eta.
-pub(super) type Ranges = Vec<(f64, f64)>;
+use softstop_dynamics::sweep::Chain;
 
 /// Height of a couple of lines.
 const ROW: f64 = 19.0;
 const LETTERS: u32 = 15;
 
-/// Height of the panel for so many clearances.
-pub(super) fn height(rows: usize) -> f64 {
-    ROW * rows as f64 + 8.0
+/// Height of the panel for so many sweeps.
+pub(super) fn height(chains: usize) -> f64 {
+    0.5 * ROW * chains as f64 + 8.0
 }
 
-/// A couple of lines for each clearance, which is given with its ranges up and down and its colour.
-pub(super) fn draw<'a>(
-    pen: &mut Pen,
-    panel: &Panel,
-    rows: impl Iterator<Item = (f64, &'a [Ranges; 2], &'static str)>,
-) {
+/// Ranges of eta in which the largest position of a sweep lies behind the strip, if there is one.
+pub(super) fn ranges(chain: &Chain) -> Vec<(f64, f64)> {
+    let scene = &chain.machine.scene;
+    let strip = scene.piercing.map_or(f64::INFINITY, |it| it.thickness);
+    let through = scene.clearance + strip;
+    let rising = chain.rising();
+    let runs = rising.chunk_by(|a, b| (a.max_position > through) == (b.max_position > through));
+    let pierced = runs.filter(|run| run[0].max_position > through && run.len() > 1);
+    let ends = pierced.map(|run| (run[0].value, run[run.len() - 1].value));
+    ends.collect()
+}
+
+/// A couple of lines in its colour for each clearance, whose sweeps are given up and down.
+pub(super) fn draw(pen: &mut Pen, panel: &Panel, chains: &[Chain], colors: &[&'static str]) {
     let (left, top, _, height) = panel.area;
     pen.frame(panel.area);
     let text = "the strip is pierced: Xₘ > ρ + σ";
     let place = (panel.right() - 8.0, panel.bottom() - 9.0);
     pen.words(place, LETTERS - 1, Align::Right, (style::INK, false), text);
-    for (index, (clearance, ways, color)) in rows.enumerate() {
+    for (index, (ways, color)) in chains.chunks_exact(2).zip(colors).enumerate() {
         let middle = top + 4.0 + ROW * (index as f64 + 0.5);
-        for (way, (ranges, shift)) in ways.iter().zip([-3.6, 3.6]).enumerate() {
-            for (from, to) in ranges {
-                let ends = [*from, *to].map(|eta| (panel.across(eta), middle + shift));
+        for (way, (chain, shift)) in ways.iter().zip([-3.6, 3.6]).enumerate() {
+            for (from, to) in ranges(chain) {
+                let ends = [from, to].map(|eta| (panel.across(eta), middle + shift));
                 let [tail, head] = if way == 0 { ends } else { [ends[1], ends[0]] };
                 pen.arrow(tail, head, Stroke::solid(color, 1.8));
             }
         }
-        let name = format!("{clearance}");
+        let name = ways[0].machine.scene.clearance.to_string();
         let place = (left - 9.0, middle + 5.0);
         pen.words(place, LETTERS - 2, Align::Right, (color, false), &name);
     }

@@ -4,36 +4,32 @@ use softstop_draw::panel::Panel;
 use softstop_draw::pen::{Align, Pen, Stroke, width};
 use softstop_draw::style;
 
-const SMALL: u32 = 11;
+pub(super) const SMALL: u32 = 11;
+/// An arrow.
+pub(super) const LINE: Stroke = Stroke::solid(style::INK, 1.1);
 /// The line at a bifurcation.
 const MARK: Stroke = Stroke::dashed("#9a9a9a", 0.9, (3.0, 3.0));
 
 /// A numbered bifurcation.
-#[derive(Debug, Clone)]
-pub struct Bifurcation {
-    /// Its number.
-    pub number: usize,
+pub(super) struct Bifurcation {
+    pub(super) number: usize,
     /// Where it was found.
-    pub eta: f64,
+    pub(super) eta: f64,
     /// By the paper's symbols.
-    pub symbols: String,
+    pub(super) symbols: String,
     /// True if it cannot be reversed.
-    pub hysteresis: bool,
+    pub(super) hysteresis: bool,
     /// True if it is met on rising eta.
-    pub rising: bool,
+    pub(super) rising: bool,
 }
 
 /// Numbers, arrows and symbols above a panel, each with a line to its frequency.
-pub(super) fn band(pen: &mut Pen, panel: &Panel, bifurcations: &[Bifurcation]) {
-    let wanted: Vec<(f64, f64)> = bifurcations
-        .iter()
-        .map(|it| {
-            (
-                panel.across(it.eta),
-                8.0 + (0.9 * width(SMALL, &it.symbols)).max(30.0),
-            )
-        })
-        .collect();
+pub(super) fn band(pen: &mut Pen, panel: &Panel, bifurcations: &[&Bifurcation]) {
+    let wanted = bifurcations.iter().map(|it| {
+        let room = (0.9 * width(SMALL, &it.symbols)).max(30.0);
+        (panel.across(it.eta), 8.0 + room)
+    });
+    let wanted: Vec<(f64, f64)> = wanted.collect();
     let places = spread(&wanted, (panel.area.0 + 20.0, panel.right()));
     let top = panel.area.1;
     for ((it, x), (eta, _)) in bifurcations.iter().zip(places).zip(wanted) {
@@ -46,10 +42,8 @@ pub(super) fn band(pen: &mut Pen, panel: &Panel, bifurcations: &[Bifurcation]) {
         let y = top - 42.0;
         match (it.hysteresis, it.rising) {
             (false, _) => both_ways(pen, (x, y)),
-            (true, true) => pen.arrow((x - 14.0, y), (x + 14.0, y), Stroke::solid(style::INK, 1.1)),
-            (true, false) => {
-                pen.arrow((x + 14.0, y), (x - 14.0, y), Stroke::solid(style::INK, 1.1))
-            }
+            (true, true) => pen.arrow((x - 14.0, y), (x + 14.0, y), LINE),
+            (true, false) => pen.arrow((x + 14.0, y), (x - 14.0, y), LINE),
         }
         let symbols = it.symbols.replace(" -> ", "→");
         pen.text((x, top - 22.0), SMALL, Align::Middle, &symbols);
@@ -57,9 +51,8 @@ pub(super) fn band(pen: &mut Pen, panel: &Panel, bifurcations: &[Bifurcation]) {
 }
 
 pub(super) fn both_ways(pen: &mut Pen, (x, y): (f64, f64)) {
-    let line = Stroke::solid(style::INK, 1.1);
-    pen.arrow((x, y), (x + 15.0, y), line);
-    pen.arrow((x, y), (x - 15.0, y), line);
+    pen.arrow((x, y), (x + 15.0, y), LINE);
+    pen.arrow((x, y), (x - 15.0, y), LINE);
 }
 
 /// Rounds of moving neighbours apart.

@@ -8,9 +8,9 @@ use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::Orbit;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
+use super::Diagram;
 use crate::diagram::{self, Job};
 use crate::figure::Detail;
-use crate::figure8::chart::Diagram;
 use crate::table1::{paper, values};
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
@@ -20,26 +20,20 @@ const REACH: f64 = 0.02;
 /// Fewest steps on which a motion is followed to be one of its own.
 const SHORTEST: usize = 10;
 
-/// An orbit and the frequency at which it was found.
-type Seed = (f64, Orbit);
-
 /// Steps of all isolated motions.
-pub(super) fn find(known: &[&Diagram], detail: Detail) -> Result<Vec<Step>> {
+pub(super) fn find(known: &[Diagram], detail: Detail) -> Result<Vec<Step>> {
     let mut found: Vec<Step> = Vec::new();
     for (eta, orbit) in seeds(known, detail)? {
         if near(&found, eta).is_some_and(|step| shows(step, &orbit)) {
             continue;
         }
-        let mut jobs = [
-            job(eta, &orbit, Direction::Down, detail)?,
-            job(eta, &orbit, Direction::Up, detail)?,
-        ];
-        diagram::sweep(&mut jobs, "steps of isolated motions")?;
-        for (_, chains) in jobs {
-            let steps = chains.into_iter().flat_map(|chain| chain.steps);
-            let apart = steps.take_while(|step| {
+        let job = |way| job(eta, &orbit, way, detail);
+        let jobs = vec![job(Direction::Down)?, job(Direction::Up)?];
+        for chain in diagram::sweep(jobs, "steps of isolated motions")? {
+            let apart = chain.steps.into_iter().take_while(|step| {
                 let wanders = step.motion == MotionKind::Chaos;
-                !wanders && known.iter().all(|diagram| !is_on(diagram, step))
+                let mut others = known.iter().flat_map(|diagram| at(diagram, step.value));
+                !wanders && !others.any(|other| diagram::same(step, other))
             });
             let apart: Vec<Step> = apart.collect();
             if apart.len() >= detail.pick(SHORTEST, 2) {
@@ -52,27 +46,20 @@ pub(super) fn find(known: &[&Diagram], detail: Detail) -> Result<Vec<Step>> {
 }
 
 /// Stable orbits at frequencies inside the paper's intervals that are on no sweep.
-fn seeds(known: &[&Diagram], detail: Detail) -> Result<Vec<Seed>> {
+fn seeds(known: &[Diagram], detail: Detail) -> Result<Vec<(f64, Orbit)>> {
     let options = Options {
         starts: detail.pick(128, 32),
         patience: 20_000,
         ..Options::default()
     };
-    let all = values(&paper::INTERVALS);
-    let some = detail.pick(all.clone(), vec![0.9875]);
-    let progress = Progress::new(
-        some.len() as u64,
-        "frequencies searched for isolated motions",
-    );
-    let mut seeds: Vec<Seed> = Vec::new();
+    let some = detail.pick(values(&paper::INTERVALS), vec![0.9875]);
+    let what = "frequencies searched for isolated motions";
+    let progress = Progress::new(some.len() as u64, what);
+    let mut seeds: Vec<(f64, Orbit)> = Vec::new();
     for eta in some {
-        let machine = Ratios::unloaded().at_frequency(eta);
-        let scene = machine.scene()?;
+        let scene = Ratios::unloaded().at_frequency(eta).scene()?;
         let survey = attractors_watched(&scene, &options, &|_, _| interrupt::go_on())?;
-        for attractor in survey.attractors {
-            let Some(orbit) = attractor.orbit else {
-                continue;
-            };
+        for orbit in survey.attractors.into_iter().filter_map(|it| it.orbit) {
             let mut steps = known.iter().flat_map(|diagram| at(diagram, eta));
             if !steps.any(|step| shows(step, &orbit)) {
                 seeds.push((eta, *orbit));
@@ -107,17 +94,15 @@ fn shows(step: &Step, orbit: &Orbit) -> bool {
 
 /// The steps of both sweeps nearest to a frequency, if the diagram shows it.
 fn at(diagram: &Diagram, eta: f64) -> impl Iterator<Item = &Step> {
-    let inside = (diagram.range.0..=diagram.range.1).contains(&eta);
-    let ways = diagram.ways.iter().filter(move |_| inside);
+    let (low, high) = diagram.part.range;
+    let ways = diagram
+        .ways
+        .iter()
+        .filter(move |_| (low..=high).contains(&eta));
     ways.filter_map(move |chain| near(&chain.steps, eta))
 }
 
 fn near(steps: &[Step], eta: f64) -> Option<&Step> {
     let gap = |step: &&Step| (step.value - eta).abs();
     steps.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)))
-}
-
-/// True if a step is on one of the sweeps of a diagram.
-fn is_on(diagram: &Diagram, step: &Step) -> bool {
-    at(diagram, step.value).any(|other| diagram::same(step, other))
 }

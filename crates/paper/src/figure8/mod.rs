@@ -5,18 +5,16 @@ mod chart;
 mod isolated;
 mod names;
 
-use anyhow::{Error, Result, anyhow};
+use anyhow::{Error, Result};
 use softstop::Ratios;
 use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
 use crate::diagram::{self, Job};
-use crate::figure::{self, Detail, Drawn, Figure, Studio};
-use crate::figure8::band::Bifurcation;
-use crate::figure8::chart::{Diagram, NumberedChart};
-use crate::figure9;
+use crate::figure::{self, Detail, Drawn, Figure, Findings, Studio};
 use crate::table1::matching::{self, Match};
 use crate::table1::{self, paper};
+use band::Bifurcation;
 
 /// Fig. 8.
 pub(crate) const FIGURE: Figure = Figure {
@@ -25,103 +23,113 @@ pub(crate) const FIGURE: Figure = Figure {
     draw,
 };
 
-/// A part of the diagram: its letter, range, number of frequencies and drive periods at each, for print and for
-/// a first look.
+/// A part of the diagram.
 struct Part {
+    /// Its letter, if it has one.
     name: &'static str,
+    /// Range of eta.
     range: (f64, f64),
-    full: (usize, u64),
-    draft: (usize, u64),
+    /// Number of frequencies, and drive periods at each, for print and for a first look.
+    size: [(usize, u64); 2],
 }
 
-const WHOLE: Part = part("", table1::RANGE, (2200, 200), (200, 100));
-/// The paper's sub-intervals; (d) without the stretch in which nothing happens.
-const ZOOMS: [Part; 4] = [
-    part("(a)", (0.952_624, 0.952_67), (700, 800), (40, 200)),
-    part("(b)", (0.9533, 0.9563), (800, 500), (60, 150)),
-    part("(c)", (0.9825, 0.9935), (900, 300), (60, 150)),
-    part("(d)", (1.0, 1.05), (500, 150), (60, 100)),
-];
+const fn part(name: &'static str, range: (f64, f64), size: [(usize, u64); 2]) -> Part {
+    Part { name, range, size }
+}
 
-const fn part(
-    name: &'static str,
-    range: (f64, f64),
-    full: (usize, u64),
-    draft: (usize, u64),
-) -> Part {
-    Part {
-        name,
-        range,
-        full,
-        draft,
+static WHOLE: Part = part("", table1::RANGE, [(2200, 200), (200, 100)]);
+/// The paper's sub-intervals; (d) without the stretch in which nothing happens.
+static ZOOMS: [Part; 4] = [
+    part("(a)", (0.952_624, 0.952_67), [(700, 800), (40, 200)]),
+    part("(b)", (0.9533, 0.9563), [(800, 500), (60, 150)]),
+    part("(c)", (0.9825, 0.9935), [(900, 300), (60, 150)]),
+    part("(d)", (1.0, 1.05), [(500, 150), (60, 100)]),
+];
+/// Chaos below g0 lasts some thousand drive periods: faster sweeps down, side by side, show it while it lasts.
+static FLEETING: Part = part("", (0.952_624, 0.952_656), [(600, 40), (30, 40)]);
+const SIDE_BY_SIDE: usize = 8;
+
+impl Part {
+    fn size(&self, detail: Detail) -> (usize, u64) {
+        detail.pick(self.size[0], self.size[1])
+    }
+
+    fn plan(&self, detail: Detail) -> Result<Plan> {
+        let (steps, periods) = self.size(detail);
+        Ok(Plan::new(Parameter::Frequency, self.range, steps, periods)?)
     }
 }
 
-/// Chaos below g0 lasts some thousand drive periods: faster sweeps down, side by side, show it while it lasts.
-const FLEETING: Part = part("", (0.952_624, 0.952_656), (600, 40), (30, 40));
-const SIDE_BY_SIDE: usize = 8;
+/// A part as it was swept.
+struct Diagram {
+    part: &'static Part,
+    /// The sweep up and the sweep down, over the same values.
+    ways: Vec<Chain>,
+    /// Faster sweeps down that show chaos which does not last.
+    fleeting: Vec<Chain>,
+    /// What motions are called: eta, X'- and the name.
+    names: Vec<(f64, f64, String)>,
+}
+
+impl Diagram {
+    fn new(part: &'static Part, ways: Vec<Chain>) -> Self {
+        Self {
+            part,
+            ways,
+            fleeting: Vec::new(),
+            names: Vec::new(),
+        }
+    }
+}
 
 fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
-    let mut whole = [(
-        plan(&WHOLE, detail)?,
-        diagram::ways(&Ratios::unloaded().scene()?).to_vec(),
-    )];
-    diagram::sweep(&mut whole, "steps of the sweeps")?;
-    let [(_, chains)] = whole;
-    let mut overview = diagram(&WHOLE, chains)?;
-    let (mut zooms, fleeting) = zooms(&overview, detail)?;
-    let known: Vec<&Diagram> = zooms.iter().chain([&overview]).collect();
-    let isolated = isolated::find(&known, detail)?;
-    zooms[0].fleeting = fleeting;
-    for diagram in zooms.iter_mut().chain([&mut overview]) {
+    let ways = diagram::ways(&Ratios::unloaded().scene()?).to_vec();
+    let jobs = vec![(WHOLE.plan(detail)?, ways)];
+    let whole = diagram::sweep(jobs, "steps of the sweeps")?;
+    let mut diagrams = vec![Diagram::new(&WHOLE, whole)];
+    zooms(&mut diagrams, detail)?;
+    let isolated = isolated::find(&diagrams, detail)?;
+    for diagram in &mut diagrams {
         diagram.names = names::of(diagram, &isolated);
     }
     let transitions = studio.transitions()?;
     let rows = paper::ROWS.iter();
     let matches = rows.filter_map(|row| Some((row.number, matching::find(row, transitions)?)));
-    let bifurcations: Vec<Bifurcation> =
-        matches.map(|(number, it)| numbered(number, &it)).collect();
-    let chart = NumberedChart {
-        overview: &overview,
-        zooms: &zooms,
-        isolated: &isolated,
-        bifurcations: &bifurcations,
-        letters: &figure9::letters(),
-        explanation: explanation(detail),
-    };
+    let bifurcations = matches.map(|(number, found)| numbered(number, &found));
+    let bifurcations: Vec<Bifurcation> = bifurcations.collect();
+    let png = chart::png(&diagrams, &isolated, &bifurcations, &explanation(detail));
+    let mut findings = Findings::default();
+    findings.add("bifurcations found", bifurcations.len() as f64);
+    for it in &bifurcations {
+        findings.add(format!("eta of bifurcation {:02}", it.number), it.eta);
+    }
     Ok(Drawn {
         files: vec![
-            chart.png().map_err(Error::msg)?,
-            table(&overview, &zooms, &isolated)?,
+            png.map_err(Error::msg)?,
+            table(&diagrams, &isolated)?,
             rows_table(&bifurcations)?,
         ],
-        findings: findings(&bifurcations),
+        findings,
     })
 }
 
-fn plan(part: &Part, detail: Detail) -> Result<Plan> {
-    let (steps, periods) = detail.pick(part.full, part.draft);
-    Ok(Plan::new(Parameter::Frequency, part.range, steps, periods)?)
-}
-
-/// The zooms, each way going on from where the sweep over all frequencies is at their ends, and the chaos
-/// that does not last.
-fn zooms(overview: &Diagram, detail: Detail) -> Result<(Vec<Diagram>, Vec<Chain>)> {
+/// Adds the zooms, each way going on from where the sweep over all frequencies is at their ends, and to the first the
+/// chaos that does not last.
+fn zooms(diagrams: &mut Vec<Diagram>, detail: Detail) -> Result<()> {
     let mut jobs = Vec::new();
     for zoom in &ZOOMS {
-        let plan = plan(zoom, detail)?;
-        let ways = overview.ways.iter();
+        let plan = zoom.plan(detail)?;
+        let ways = diagrams[0].ways.iter();
         jobs.extend(ways.map(|sweep| diagram::part_of(sweep, &plan)));
     }
     jobs.push(fleeting(detail)?);
-    diagram::sweep(&mut jobs, "steps of the zooms")?;
-    let fleeting = jobs.pop().map_or_else(Vec::new, |job| job.1);
-    let mut chains = jobs.into_iter().flat_map(|job| job.1);
-    let zooms = ZOOMS
-        .iter()
-        .map(|zoom| diagram(zoom, chains.by_ref().take(2).collect()));
-    Ok((zooms.collect::<Result<_>>()?, fleeting))
+    let mut chains = diagram::sweep(jobs, "steps of the zooms")?.into_iter();
+    for zoom in &ZOOMS {
+        diagrams.push(Diagram::new(zoom, chains.by_ref().take(2).collect()));
+    }
+    diagrams[1].fleeting = chains.collect();
+    Ok(())
 }
 
 /// Sweeps down from chaos. Their machines differ by rounding only, so that the motions part.
@@ -132,18 +140,7 @@ fn fleeting(detail: Detail) -> Result<Job> {
         Ok(Chain::new(machine.scene()?, Direction::Down))
     };
     let chains = (0..SIDE_BY_SIDE).map(chain).collect::<Result<_>>()?;
-    Ok((plan(&FLEETING, detail)?, chains))
-}
-
-fn diagram(part: &Part, chains: Vec<Chain>) -> Result<Diagram> {
-    let ways = chains.try_into();
-    Ok(Diagram {
-        name: part.name,
-        range: part.range,
-        ways: ways.map_err(|_| anyhow!("{}: not swept up and down", part.name))?,
-        fleeting: Vec::new(),
-        names: Vec::new(),
-    })
+    Ok((FLEETING.plan(detail)?, chains))
 }
 
 fn numbered(number: usize, found: &Match<'_>) -> Bifurcation {
@@ -158,77 +155,55 @@ fn numbered(number: usize, found: &Match<'_>) -> Bifurcation {
 }
 
 fn explanation(detail: Detail) -> String {
-    let (steps, periods) = detail.pick(WHOLE.full, WHOLE.draft);
-    let zooms: Vec<String> = ZOOMS
-        .iter()
-        .map(|zoom| {
-            let (steps, periods) = detail.pick(zoom.full, zoom.draft);
-            format!("{} {steps} × {periods}", zoom.name)
-        })
-        .collect();
+    let (steps, periods) = WHOLE.size(detail);
+    let zooms = ZOOMS.iter().map(|zoom| {
+        let (steps, periods) = zoom.size(detail);
+        format!("{} {steps} × {periods}", zoom.name)
+    });
     format!(
         "Peterka 2003, Fig. 8 and Table 1. Sweeps up and down: {steps} frequencies × {periods} drive periods; \
          zooms {}",
-        zooms.join(", ")
+        zooms.collect::<Vec<String>>().join(", ")
     )
 }
 
-fn table(overview: &Diagram, zooms: &[Diagram], isolated: &[Step]) -> Result<Vec<u8>> {
-    let columns = "part,direction,eta,z,max_position,before_impact_velocities";
-    let row = |part: &str, way: &str, step: &Step| {
-        (
-            part.to_owned(),
-            way.to_owned(),
-            format!("{:.12}", step.value),
-            diagram::name(&step.motion),
-            format!("{:.6}", step.max_position),
-            diagram::velocities(step),
-        )
-    };
-    let of_diagram = |diagram: &Diagram| {
-        let part = if diagram.name.is_empty() {
-            "overview"
-        } else {
-            diagram.name
+fn table(diagrams: &[Diagram], isolated: &[Step]) -> Result<Vec<u8>> {
+    let columns = format!("part,direction,eta,{}", diagram::FIELDS);
+    let mut rows = Vec::new();
+    let mut add = |part: &'static str, way: &'static str, steps: &[Step]| {
+        let row = |step: &Step| {
+            (
+                part,
+                way,
+                format!("{:.12}", step.value),
+                diagram::fields(step),
+            )
         };
-        let ways = diagram
-            .ways
-            .iter()
-            .map(|chain| (chain.direction.name(), chain));
-        let fleeting = diagram.fleeting.iter().map(|chain| ("down fast", chain));
-        let all = ways.chain(fleeting);
-        let rows = all.flat_map(|(way, chain)| chain.steps.iter().map(move |step| (way, step)));
-        rows.map(|(way, step)| row(part, way, step))
-            .collect::<Vec<_>>()
+        rows.extend(steps.iter().map(row));
     };
-    let diagrams = std::iter::once(overview).chain(zooms).flat_map(of_diagram);
-    let apart = isolated.iter().map(|step| row("isolated", "either", step));
-    figure::table(columns, diagrams.chain(apart))
+    for diagram in diagrams {
+        let name = diagram.part.name;
+        let part = if name.is_empty() { "overview" } else { name };
+        for chain in &diagram.ways {
+            add(part, chain.direction.name(), &chain.steps);
+        }
+        for chain in &diagram.fleeting {
+            add(part, "down fast", &chain.steps);
+        }
+    }
+    add("isolated", "either", isolated);
+    figure::table(&columns, rows)
 }
 
 fn rows_table(bifurcations: &[Bifurcation]) -> Result<Vec<u8>> {
-    let columns = "number,eta,type,hysteresis,direction";
     let rows = bifurcations.iter().map(|it| {
         let direction = match (it.hysteresis, it.rising) {
             (false, _) => "both",
             (true, true) => "up",
             (true, false) => "down",
         };
-        (
-            it.number,
-            format!("{:.10}", it.eta),
-            it.symbols.clone(),
-            it.hysteresis,
-            direction,
-        )
+        let eta = format!("{:.10}", it.eta);
+        (it.number, eta, &it.symbols, it.hysteresis, direction)
     });
-    figure::table(columns, rows)
-}
-
-fn findings(bifurcations: &[Bifurcation]) -> Vec<(String, f64)> {
-    let found = ("bifurcations found".to_owned(), bifurcations.len() as f64);
-    let each = bifurcations
-        .iter()
-        .map(|it| (format!("eta of bifurcation {:02}", it.number), it.eta));
-    std::iter::once(found).chain(each).collect()
+    figure::table("number,eta,type,hysteresis,direction", rows)
 }

@@ -2,22 +2,24 @@
 
 use softstop::Ratios;
 use softstop_dynamics::orbit::Orbit;
-use softstop_dynamics::sweep::Step;
+use softstop_dynamics::sweep::{Chain, Step};
 
-use crate::figure8::chart::Diagram;
+use super::Diagram;
 
 /// Share of the range that a motion has to fill to be named.
 const LEAST: f64 = 0.02;
 
 /// Each motion once: eta, X'- and its name, in the middle of its longest stretch.
 pub(super) fn of(diagram: &Diagram, isolated: &[Step]) -> Vec<(f64, f64, String)> {
-    let inside = |step: &&Step| (diagram.range.0..=diagram.range.1).contains(&step.value);
+    let (low, high) = diagram.part.range;
+    let inside = |step: &&Step| (low..=high).contains(&step.value);
     let apart: Vec<&Step> = isolated.iter().filter(inside).collect();
     let mut names: Vec<(f64, (f64, f64, String))> = Vec::new();
-    for steps in [diagram.ways[0].rising(), diagram.ways[1].rising(), apart] {
-        for run in runs(&steps) {
+    for steps in diagram.ways.iter().map(Chain::rising).chain([apart]) {
+        // Neighbouring steps of one regime.
+        for run in steps.chunk_by(|a, b| a.motion.regime() == b.motion.regime()) {
             let span = run[run.len() - 1].value - run[0].value;
-            if span < LEAST * (diagram.range.1 - diagram.range.0) {
+            if span < LEAST * (high - low) {
                 continue;
             }
             let step = run[run.len() / 2];
@@ -31,11 +33,6 @@ pub(super) fn of(diagram: &Diagram, isolated: &[Step]) -> Vec<(f64, f64, String)
         }
     }
     names.into_iter().map(|entry| entry.1).collect()
-}
-
-/// Neighbouring steps of one regime.
-fn runs<'a>(steps: &'a [&'a Step]) -> impl Iterator<Item = &'a [&'a Step]> {
-    steps.chunk_by(|a, b| a.motion.regime() == b.motion.regime())
 }
 
 /// A periodic motion's name; the two of z = 2/4 differ by the order of their impacts.

@@ -1,13 +1,14 @@
 //! A motion of the figure as it was found.
 
 use serde::Serialize;
-use softstop::{MotionError, Start};
-use softstop_dynamics::attractors::{Attractor, Chaos, Survey};
+use softstop::{MotionError, Ratios};
+use softstop_dynamics::attractors::{Attractor, Survey};
 use softstop_dynamics::orbit::{Orbit, StroboscopicMap};
 
-use super::asked::{Asked, Wanted};
+use super::asked::Asked;
 use super::path::Path;
 use super::section::Section;
+use crate::figure::Findings;
 
 /// Drive periods of the phase trajectory of what does not repeat.
 const WANDERING: u64 = 60;
@@ -16,11 +17,8 @@ const WANDERING: u64 = 60;
 pub(super) struct Found {
     pub(super) asked: Asked,
     attractor: Attractor,
-    /// A state of it at drive angle 0; of transient chaos one from which it lasts.
-    start: Start,
-    /// States at drive angle 0 from there on.
-    pub(super) section: Vec<(f64, f64)>,
-    impacts_per_period: f64,
+    /// Its states; of transient chaos those from a start on from which it lasts.
+    pub(super) section: Section,
 }
 
 /// Columns of the table.
@@ -35,26 +33,24 @@ impl Found {
         survey: &Survey,
         most: u64,
     ) -> Result<Option<Self>, MotionError> {
-        let fits = |attractor: &&Attractor| match (asked.motion, attractor.motion.order()) {
-            (Wanted::Impacts(wanted), Some(order)) => order.to_string() == wanted,
-            (Wanted::Chaos, None) => attractor.motion.is_chaotic(),
+        let fits = |attractor: &&Attractor| match (asked.impacts, attractor.motion.order()) {
+            (Some(wanted), Some(order)) => order.to_string() == wanted,
+            (None, None) => attractor.motion.is_chaotic(),
             _ => false,
         };
         let Some(attractor) = survey.attractors.iter().find(fits).cloned() else {
             return Ok(None);
         };
-        let map = StroboscopicMap::new(&asked.scene()?, 1)?;
-        let start = attractor.state;
-        let (start, section) = match attractor.motion.periods() {
-            Some(periods) => (start, Section::periodic(&map, start, periods)?),
-            None => Section::lasting(&map, start, most)?,
+        let scene = Ratios::unloaded().at_frequency(asked.frequency).scene()?;
+        let map = StroboscopicMap::new(&scene, 1)?;
+        let section = match attractor.motion.periods() {
+            Some(periods) => Section::of(&map, attractor.state, periods, usize::MAX)?,
+            None => Section::lasting(&map, attractor.state, most)?,
         };
         Ok(Some(Self {
             asked,
             attractor,
-            start,
-            impacts_per_period: section.impacts_per_period(),
-            section: section.states,
+            section,
         }))
     }
 
@@ -62,12 +58,8 @@ impl Found {
         self.attractor.orbit.as_deref()
     }
 
-    fn chaos(&self) -> Option<&Chaos> {
-        self.attractor.chaos.as_ref()
-    }
-
     fn lifetime(&self) -> Option<f64> {
-        self.chaos()?.lifetime
+        self.attractor.chaos.as_ref()?.lifetime
     }
 
     pub(super) fn is_chaotic(&self) -> bool {
@@ -79,14 +71,11 @@ impl Found {
         self.orbit().map(|orbit| orbit.periods)
     }
 
-    /// Drive periods of its phase trajectory.
-    pub(super) fn repeats(&self) -> u64 {
-        self.period().unwrap_or(WANDERING)
-    }
-
-    /// The motion over drive periods, with so many points in each.
-    pub(super) fn path(&self, periods: u64, fineness: u32) -> Result<Path, MotionError> {
-        Path::of(&self.asked.scene()?, self.start, periods, fineness)
+    /// The motion over drive periods, with so many points in each; unless said otherwise until it repeats.
+    pub(super) fn path(&self, periods: Option<u64>, fineness: u32) -> Result<Path, MotionError> {
+        let scene = Ratios::unloaded().at_frequency(self.asked.frequency);
+        let periods = periods.or(self.period()).unwrap_or(WANDERING);
+        Path::of(&scene.scene()?, self.section.start, periods, fineness)
     }
 
     fn exponent(&self) -> f64 {
@@ -100,14 +89,10 @@ impl Found {
 
     /// Frequency, regime and how stable it is.
     pub(super) fn title(&self) -> String {
-        let eta = format!("η = {}", self.asked.frequency);
+        let (eta, motion) = (self.asked.frequency, &self.attractor.motion);
         let Some(orbit) = self.orbit() else {
-            return format!(
-                "{eta} · {}, z = {:.3}, λ = {:+.3}/T",
-                self.attractor.motion,
-                self.impacts_per_period,
-                self.exponent()
-            );
+            let (z, exponent) = (self.section.impacts_per_period(), self.exponent());
+            return format!("η = {eta} · {motion}, z = {z:.3}, λ = {exponent:+.3}/T");
         };
         let modulus = self.modulus().unwrap_or(0.0);
         let order = match orbit.periods {
@@ -118,70 +103,57 @@ impl Found {
             0 => "0".to_owned(),
             _ => orbit.regime().to_string(),
         };
-        format!("{eta} · z = {regime}{order}, |μ| = {modulus:.3}")
+        format!("η = {eta} · z = {regime}{order}, |μ| = {modulus:.3}")
     }
 
     /// What else there is to say.
     pub(super) fn remark(&self) -> String {
-        let ours = if self.asked.is_given {
-            ""
-        } else {
-            "η chosen here"
-        };
+        let ours = (!self.asked.is_given).then(|| "η chosen here".to_owned());
         let life = self.lifetime().map(|periods| {
             let hundreds = 100.0 * (periods / 100.0).round();
             format!("mean life {hundreds} T")
         });
-        let parts = [ours, self.asked.remark].map(str::to_owned);
-        let said: Vec<String> = parts
-            .into_iter()
-            .chain(life)
-            .filter(|part| !part.is_empty())
-            .collect();
+        let parts = [ours, Some(self.asked.remark.to_owned()), life];
+        let mut said: Vec<String> = parts.into_iter().flatten().collect();
+        said.retain(|part| !part.is_empty());
         said.join("; ")
     }
 
     /// A row of the table.
     pub(super) fn line(&self) -> impl Serialize {
-        let orbit = self.orbit();
-        let chaos = self.chaos();
-        let hardest = chaos.and_then(|chaos| chaos.velocities).map(|ends| ends[1]);
+        let (asked, orbit) = (self.asked, self.orbit());
+        let velocities = self.attractor.chaos.as_ref().and_then(|it| it.velocities);
+        let order = orbit.map_or_else(String::new, |orbit| orbit.pattern().to_string());
         let velocity = orbit.map(Orbit::before_impact_velocity);
         (
-            self.asked.letter,
-            self.asked.frequency,
-            self.asked.is_given,
+            (asked.letter, asked.frequency, asked.is_given),
             orbit.map(|orbit| orbit.impacts.len()),
             self.period(),
-            self.impacts_per_period,
-            orbit.map_or_else(String::new, |orbit| orbit.pattern().to_string()),
+            self.section.impacts_per_period(),
+            order,
             self.modulus(),
             self.exponent(),
             orbit.map(|orbit| orbit.max_position),
-            velocity.or(hardest),
+            velocity.or(velocities.map(|ends| ends[1])),
             self.lifetime(),
             self.attractor.share,
         )
     }
 
-    pub(super) fn findings(&self) -> Vec<(String, f64)> {
-        let name = |what: &str| format!("({}) {what}", self.asked.letter);
-        let mut findings = vec![
-            (name("eta"), self.asked.frequency),
-            (name("Lyapunov exponent per period"), self.exponent()),
-            (name("share of starts"), self.attractor.share),
-        ];
-        match self.orbit() {
-            Some(orbit) => findings.extend([
-                (name("impacts p"), orbit.impacts.len() as f64),
-                (name("periods n"), orbit.periods as f64),
-            ]),
-            None => findings.push((name("impacts per period"), self.impacts_per_period)),
-        }
-        let modulus = self.modulus();
-        findings.extend(modulus.map(|modulus| (name("largest multiplier, modulus"), modulus)));
-        let lifetime = self.lifetime();
-        findings.extend(lifetime.map(|periods| (name("mean life, periods"), periods)));
-        findings
+    /// What is told of it.
+    pub(super) fn tell(&self, findings: &mut Findings) {
+        let mut add = |what: &str, value: Option<f64>| {
+            findings.add(format!("({}) {what}", self.asked.letter), value);
+        };
+        let orbit = self.orbit();
+        add("eta", Some(self.asked.frequency));
+        add("Lyapunov exponent per period", Some(self.exponent()));
+        add("share of starts", Some(self.attractor.share));
+        add("impacts p", orbit.map(|it| it.impacts.len() as f64));
+        add("periods n", orbit.map(|it| it.periods as f64));
+        let mean = self.section.impacts_per_period();
+        add("impacts per period", self.is_chaotic().then_some(mean));
+        add("largest multiplier, modulus", self.modulus());
+        add("mean life, periods", self.lifetime());
     }
 }

@@ -12,40 +12,30 @@ const APART: f64 = 1e-4;
 
 /// States of a motion, one for each drive period.
 pub(super) struct Section {
+    /// A state of the motion at drive angle 0, from which it is followed.
+    pub(super) start: Start,
     /// Position and velocity.
     pub(super) states: Vec<(f64, f64)>,
     impacts: usize,
 }
 
 impl Section {
-    /// All states of a periodic motion.
-    pub(super) fn periodic(
-        map: &StroboscopicMap,
-        start: Start,
-        periods: u64,
-    ) -> Result<Self, MotionError> {
-        Self::of(map, start, periods, usize::MAX)
-    }
-
-    /// So many states of chaos, and where they begin: at a state of it, or, if it is soon over there, near that
-    /// state. If it is over everywhere, as many as there are.
+    /// So many states of chaos from a state of it on or, if it is soon over there, from near that state. If it is
+    /// over everywhere, as many as there are.
     pub(super) fn lasting(
         map: &StroboscopicMap,
         state: Start,
         most: u64,
-    ) -> Result<(Start, Self), MotionError> {
-        let mut longest = (state, Self::of(map, state, most, OVER)?);
+    ) -> Result<Self, MotionError> {
+        let mut longest = Self::of(map, state, most, OVER)?;
         for step in 1..TRIES {
-            if longest.1.states.len() as u64 == most {
+            if longest.states.len() as u64 == most {
                 break;
             }
-            let start = Start {
-                position: state.position - APART * f64::from(step),
-                ..state
-            };
-            let section = Self::of(map, start, most, OVER)?;
-            if section.states.len() > longest.1.states.len() {
-                longest = (start, section);
+            let position = state.position - APART * f64::from(step);
+            let section = Self::of(map, Start { position, ..state }, most, OVER)?;
+            if section.states.len() > longest.states.len() {
+                longest = section;
             }
         }
         Ok(longest)
@@ -53,32 +43,32 @@ impl Section {
 
     /// States until there have been no impacts for so many drive periods; those in which there are none are
     /// left out then.
-    fn of(
+    pub(super) fn of(
         map: &StroboscopicMap,
         start: Start,
         most: u64,
         over: usize,
     ) -> Result<Self, MotionError> {
         let mut state = start.into();
-        let mut section = Self {
-            states: Vec::new(),
-            impacts: 0,
-        };
-        let mut struck = 0;
+        let (mut states, mut impacts, mut struck) = (Vec::new(), 0, 0);
         for _ in 0..most {
             let passage = map.apply(state)?;
-            section.states.push((state.x, state.y));
+            states.push((state.x, state.y));
             state = passage.end;
-            section.impacts += passage.impacts.len();
+            impacts += passage.impacts.len();
             if !passage.impacts.is_empty() {
-                struck = section.states.len();
+                struck = states.len();
             }
-            if section.states.len() - struck >= over {
-                section.states.truncate(struck);
+            if states.len() - struck >= over {
+                states.truncate(struck);
                 break;
             }
         }
-        Ok(section)
+        Ok(Self {
+            start,
+            states,
+            impacts,
+        })
     }
 
     /// Mean number of impacts per drive period.

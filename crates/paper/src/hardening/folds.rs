@@ -9,7 +9,7 @@ use softstop_dynamics::orbit::{OrbitError, find};
 
 use super::stops::{CLEARANCE, Law, grazing};
 use super::swept::RANGE;
-use crate::hardening::chart::StopFolds;
+use crate::figure::Findings;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
@@ -21,8 +21,31 @@ const LARGEST: f64 = 0.02;
 /// Halvings of the decade of k2 in which folds appear.
 const HALVINGS: u32 = 7;
 
+/// Where the branch of z = 1 bends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Folds {
+    /// k2/k1.
+    pub(super) stiffness: f64,
+    /// η and X'₋ where strong impacts end.
+    pub(super) strong: Option<(f64, f64)>,
+    /// η and X'₋ where weak impacts end.
+    pub(super) weak: Option<(f64, f64)>,
+    /// η of the flip right beyond grazing, below the resonance.
+    pub(super) first_flip: Option<f64>,
+    /// η of the flip from which on z = 1 is stable.
+    pub(super) flip: Option<f64>,
+}
+
+impl Folds {
+    /// The stiffness, and the widths of weak impacts and of hysteresis in η.
+    pub(super) fn widths(&self) -> Option<[f64; 3]> {
+        let (weak, strong) = (self.weak?.0, self.strong?.0);
+        Some([self.stiffness, grazing(CLEARANCE).1 - weak, strong - weak])
+    }
+}
+
 /// Folds and flips for each stiffness k2.
-pub(super) fn folds(stiffnesses: &[f64]) -> Result<Vec<StopFolds>> {
+pub(super) fn folds(stiffnesses: &[f64]) -> Result<Vec<Folds>> {
     let progress = Progress::new(stiffnesses.len() as u64, "branches of z = 1");
     let folds = stiffnesses.par_iter().map(|&stiffness| {
         progress.step()?;
@@ -31,46 +54,38 @@ pub(super) fn folds(stiffnesses: &[f64]) -> Result<Vec<StopFolds>> {
     folds.collect()
 }
 
-/// The stiffness from which on something is true, between one at which it is not and one at which it is.
-fn onset((without, with): (f64, f64), is_true: impl Fn(&StopFolds) -> bool) -> Result<f64> {
-    let (mut low, mut high) = (without.ln(), with.ln());
+/// The stiffnesses from which on z = 1 has folds, and from which on it goes beyond grazing.
+pub(super) fn onsets(findings: &mut Findings, folds: &[Folds]) -> Result<()> {
+    let bends = |fold: &Folds| fold.strong.is_some();
+    let exceeds = |fold: &Folds| fold.strong.is_some_and(|it| it.0 > grazing(CLEARANCE).1);
+    let (first, second) = (onset(folds, bends)?, onset(folds, exceeds)?);
+    findings.add("(1) k2/k1 from which on z = 1 has folds", first);
+    findings.add("(1) k2/k1 from which on s_SN lies beyond g0", second);
+    Ok(())
+}
+
+/// The stiffness from which on something is true, if it is so of some and not of others.
+fn onset(folds: &[Folds], is_true: impl Fn(&Folds) -> bool) -> Result<Option<f64>> {
+    let without = folds.iter().rfind(|fold| !is_true(fold));
+    let with = folds.iter().find(|fold| is_true(fold));
+    let (Some(without), Some(with)) = (without, with) else {
+        return Ok(None);
+    };
+    let (mut low, mut high) = (without.stiffness.ln(), with.stiffness.ln());
     for _ in 0..HALVINGS {
         if interrupt::requested() {
             return Err(Failure::Interrupted.into());
         }
         let middle = f64::midpoint(low, high);
-        if is_true(&of(middle.exp())?) {
-            high = middle;
-        } else {
-            low = middle;
+        match is_true(&of(middle.exp())?) {
+            true => high = middle,
+            false => low = middle,
         }
     }
-    Ok(f64::midpoint(low, high).exp())
+    Ok(Some(f64::midpoint(low, high).exp()))
 }
 
-/// The stiffnesses from which on z = 1 has folds, and from which on it goes beyond grazing, with their names.
-pub(super) fn onsets(folds: &[StopFolds]) -> Result<Vec<(String, f64)>> {
-    let bends = |fold: &StopFolds| fold.strong.is_some();
-    let exceeds = |fold: &StopFolds| {
-        fold.strong
-            .is_some_and(|fold| fold.0 > grazing(CLEARANCE).1)
-    };
-    let mut onsets = Vec::new();
-    let mut add = |name: &str, is_true: &dyn Fn(&StopFolds) -> bool| -> Result<()> {
-        let without = folds.iter().rfind(|fold| !is_true(fold));
-        let with = folds.iter().find(|fold| is_true(fold));
-        if let (Some(without), Some(with)) = (without, with) {
-            let between = (without.stiffness, with.stiffness);
-            onsets.push((name.to_owned(), onset(between, is_true)?));
-        }
-        Ok(())
-    };
-    add("(1) k2/k1 from which on z = 1 has folds", &bends)?;
-    add("(1) k2/k1 from which on s_SN lies beyond g0", &exceeds)?;
-    Ok(onsets)
-}
-
-fn of(stiffness: f64) -> Result<StopFolds, OrbitError> {
+fn of(stiffness: f64) -> Result<Folds, OrbitError> {
     let mut scene = Law::KelvinVoigt(stiffness).scene(FREQUENCY, CLEARANCE);
     // Time 0 where the mass is on its way far from the stop.
     scene.excitation.phase = PI;
@@ -80,20 +95,16 @@ fn of(stiffness: f64) -> Result<StopFolds, OrbitError> {
         range: RANGE,
         points: 2000,
     };
-    let branch =
-        Follower::new(&family, 1)
-            .with_steps(LARGEST)
-            .branch(FREQUENCY, state, &limits, |_| interrupt::go_on())?;
+    let follower = Follower::new(&family, 1).with_steps(LARGEST);
+    let branch = follower.branch(FREQUENCY, state, &limits, |_| interrupt::go_on())?;
     let described = |point: &BranchPoint| (point.parameter, point.before_impact_velocity());
     let folds = || branch.critical(Test::Fold).map(described);
     let strong = folds().reduce(|a, b| if a.1 > b.1 { a } else { b });
     let weak = folds().reduce(|a, b| if a.1 < b.1 { a } else { b });
-    let flips: Vec<f64> = branch
-        .critical(Test::Flip)
-        .map(|point| point.parameter)
-        .collect();
+    let flips = branch.critical(Test::Flip).map(|point| point.parameter);
+    let flips: Vec<f64> = flips.collect();
     let first = flips.iter().copied().reduce(f64::min);
-    Ok(StopFolds {
+    Ok(Folds {
         stiffness,
         strong: strong.filter(|_| strong != weak),
         weak: weak.filter(|_| strong != weak),

@@ -9,16 +9,15 @@ mod subharmonics;
 mod swept;
 
 use anyhow::Result;
-use softstop_dynamics::sweep::Step;
 
-use crate::figure::{self, Drawn, Figure, Studio};
-use crate::hardening::chart::{HardeningChart, StopFolds, StopOrders};
+use crate::figure::{self, Drawn, Figure, Findings, Studio};
+use chart::Chart;
+use folds::Folds;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::output;
-use stops::{CLEARANCE, Law, RESTITUTION, grazing};
-use subharmonics::Subharmonic;
-use swept::{RANGE, Swept, regime, sweep};
+use stops::{CLEARANCE, Law, grazing};
+use swept::{Swept, kind, sweep};
 
 /// From a soft to a rigid stop.
 pub(crate) const FIGURE: Figure = Figure {
@@ -58,14 +57,20 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     let folds = folds::folds(&stiffnesses(detail.pick(21, 6)))?;
     let (frequencies, starts) = detail.pick((72, 64), (18, 32));
     let subharmonics = subharmonics::subharmonics(&SUBHARMONIC, frequencies, starts)?;
-    let mut findings = folds::onsets(&folds)?;
+    let mut findings = Findings::default();
+    folds::onsets(&mut findings, &folds)?;
     // A branch that was cut short would go unnoticed.
     if interrupt::requested() {
         return Err(Failure::Interrupted.into());
     }
-    let chart = chart(&drawn, &map, &folds, &subharmonics);
-    findings.extend(claims::of_stops(&drawn, &folds));
-    findings.extend(claims::of_orders(&subharmonics));
+    claims::of_stops(&mut findings, &drawn, &folds);
+    claims::of_orders(&mut findings, &subharmonics);
+    let chart = Chart {
+        drawn: &drawn,
+        map: &map,
+        folds: &folds,
+        found: &subharmonics,
+    };
     Ok(Drawn {
         files: vec![
             chart.svg().into_bytes(),
@@ -85,97 +90,38 @@ fn stiffnesses(count: usize) -> Vec<f64> {
     (0..count).map(|index| 10f64.powf(power(index))).collect()
 }
 
-fn chart(
-    drawn: &[Swept],
-    map: &[Swept],
-    folds: &[StopFolds],
-    subharmonics: &[Subharmonic],
-) -> HardeningChart {
-    let of = |step: &Step| -> Vec<(f64, f64)> {
-        let velocities = step.velocities.iter();
-        velocities.map(|velocity| (step.value, *velocity)).collect()
-    };
-    let diagram = |swept: &Swept| {
-        let ways = [&swept.up, &swept.down];
-        let ways = ways.map(|steps| steps.iter().flat_map(of).collect());
-        (swept.law.name(), ways)
-    };
-    let row = |swept: &Swept| {
-        let pairs = swept.up.iter().zip(&swept.down);
-        pairs.map(|(up, down)| (regime(up), regime(down))).collect()
-    };
-    HardeningChart {
-        explanation: format!(
-            "clearance ρ = {CLEARANCE}, β₁ = 0.02, contact damping for a restitution of {RESTITUTION}; dashed: \
-             grazing of the impact-less motion, g₀"
-        ),
-        grazing: grazing(CLEARANCE),
-        frequencies: RANGE,
-        diagrams: drawn.iter().map(diagram).collect(),
-        decades: DECADES,
-        map: map.iter().map(row).collect(),
-        folds: folds.to_vec(),
-        orders: orders(subharmonics),
-    }
-}
-
-/// Motions z = 1/n over the frequency.
-fn orders(found: &[Subharmonic]) -> StopOrders {
-    let of = |stiffness: f64| {
-        let own = found
-            .iter()
-            .filter(|motion| motion.stiffness == stiffness && motion.impacts == 1);
-        let points = own.map(|motion| (motion.frequency, motion.periods as f64));
-        (format!("k₂/k₁ = {stiffness}"), points.collect())
-    };
-    StopOrders {
-        title: format!(
-            "Motions z = 1/n found at clearance ρ = {}",
-            subharmonics::NARROW
-        ),
-        frequencies: subharmonics::RANGE,
-        grazing: grazing(subharmonics::NARROW).1,
-        found: SUBHARMONIC.into_iter().map(of).collect(),
-    }
-}
-
 /// A row for each step of each way.
 fn steps(swept: &[Swept]) -> Result<Vec<u8>> {
     let columns = "stop,direction,eta,motion,impacts_per_period,max_position,\
                    largest_before_impact_velocity";
-    let rows = swept.iter().flat_map(|swept| {
+    let mut rows = Vec::new();
+    for swept in swept {
         let stop = match swept.law {
-            Law::KelvinVoigt(stiffness) => format!("{stiffness}"),
+            Law::KelvinVoigt(stiffness) => stiffness.to_string(),
             law => law.name(),
         };
-        let row = move |step: &Step, direction| {
-            (
-                stop.clone(),
-                direction,
-                step.value,
-                regime(step).name(),
-                step.impacts_per_period,
-                step.max_position,
-                step.hardest(),
-            )
-        };
-        let up = swept.up.iter().map(|step| (step, "up"));
-        let all = up.chain(swept.down.iter().map(|step| (step, "down")));
-        all.map(move |(step, direction)| row(step, direction))
-    });
+        for (steps, way) in [(&swept.up, "up"), (&swept.down, "down")] {
+            rows.extend(steps.iter().map(|step| {
+                let figures = [step.impacts_per_period, step.max_position, step.hardest()];
+                (stop.clone(), way, step.value, kind(step).name(), figures)
+            }));
+        }
+    }
     figure::table(columns, rows)
 }
 
 /// A row for each branch of z = 1.
-fn branches(folds: &[StopFolds]) -> Result<Vec<u8>> {
+fn branches(folds: &[Folds]) -> Result<Vec<u8>> {
     let columns = "stiffness,eta_grazing,eta_strong_fold,velocity_strong_fold,eta_weak_fold,\
                    velocity_weak_fold,eta_first_flip,eta_flip";
+    let (_, grazing) = grazing(CLEARANCE);
     let rows = folds.iter().map(|fold| {
+        let (strong, weak) = (fold.strong.unzip(), fold.weak.unzip());
         (
             fold.stiffness,
-            grazing(CLEARANCE).1,
-            fold.strong.unzip(),
-            fold.weak.unzip(),
+            grazing,
+            strong,
+            weak,
             fold.first_flip,
             fold.flip,
         )

@@ -38,13 +38,13 @@ impl Law {
         }
     }
 
-    /// The stiffness k2 that it has or is like; none if rigid.
-    fn stiffness(self) -> Option<f64> {
+    /// The stiffness k2 that it has or is like; 0 if rigid.
+    fn stiffness(self) -> f64 {
         match self {
             Self::KelvinVoigt(stiffness) | Self::TwoSlopes(stiffness) | Self::Hertz(stiffness) => {
-                Some(stiffness)
+                stiffness
             }
-            Self::Rigid => None,
+            Self::Rigid => 0.0,
         }
     }
 
@@ -58,11 +58,9 @@ impl Law {
                 // k d^2/2 = a d^2/2 + (b - a) (d/2)^2/2 with b = 5 a: a = k/2.
                 let first = 0.5 * stiffness;
                 let slope = |from, stiffness| Slope { from, stiffness };
+                let second = slope(0.5 * depth(stiffness), 5.0 * first);
                 Stop::PiecewiseLinear {
-                    loading: vec![
-                        slope(0.0, first),
-                        slope(0.5 * depth(stiffness), 5.0 * first),
-                    ],
+                    loading: vec![slope(0.0, first), second],
                     unloading: Vec::new(),
                 }
             }
@@ -80,9 +78,7 @@ impl Law {
 
     /// The machine with m = k1 = F0 = 1.
     pub(super) fn scene(self, frequency: f64, clearance: f64) -> Scene {
-        let critical = self
-            .stiffness()
-            .map_or(0.0, |stiffness| 2.0 * stiffness.sqrt());
+        let critical = 2.0 * self.stiffness().sqrt();
         Scene {
             mass: 1.0,
             stiffness: 1.0,

@@ -4,6 +4,7 @@ use anyhow::Result;
 use rayon::prelude::*;
 use serde::Serialize;
 use softstop_dynamics::attractors::{Options, attractors_watched};
+use softstop_dynamics::orbit::Orbit;
 
 use super::stops::{Law, grazing};
 use softstop_console::interrupt;
@@ -33,12 +34,10 @@ pub(super) fn subharmonics(
     frequencies: usize,
     starts: usize,
 ) -> Result<Vec<Subharmonic>> {
-    let places: Vec<(f64, f64)> = stiffnesses
-        .iter()
-        .flat_map(|&stiffness| {
-            (0..frequencies).map(move |index| (stiffness, at(index, frequencies)))
-        })
-        .collect();
+    let places = stiffnesses.iter().flat_map(|&stiffness| {
+        (0..frequencies).map(move |index| (stiffness, at(index, frequencies)))
+    });
+    let places: Vec<(f64, f64)> = places.collect();
     let progress = Progress::new(places.len() as u64, "searches for subharmonic motions");
     let found = places.into_par_iter().map(|(stiffness, frequency)| {
         progress.step()?;
@@ -66,26 +65,22 @@ fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmoni
     let orbits = survey
         .attractors
         .iter()
-        .filter_map(|found| found.orbit.as_ref());
+        .filter_map(|it| it.orbit.as_deref());
     let sub = orbits.filter(|orbit| orbit.periods > 1 && !orbit.impacts.is_empty());
-    Ok(sub
-        .map(|orbit| Subharmonic {
-            stiffness,
-            frequency,
-            impacts: orbit.impacts.len() as u64,
-            periods: orbit.periods,
-            beside_rest: frequency < lower || frequency > upper,
-        })
-        .collect())
+    let motion = |orbit: &Orbit| Subharmonic {
+        stiffness,
+        frequency,
+        impacts: orbit.impacts.len() as u64,
+        periods: orbit.periods,
+        beside_rest: frequency < lower || frequency > upper,
+    };
+    Ok(sub.map(motion).collect())
 }
 
-/// Longest period in drive periods of one impact among those beside the impact-less motion, and among the
-/// others; 0 if there is none.
-pub(super) fn longest(found: &[Subharmonic]) -> (u64, u64) {
-    let longest = |beside: bool| {
-        let fits = |motion: &&Subharmonic| motion.impacts == 1 && motion.beside_rest == beside;
-        let periods = found.iter().filter(fits).map(|motion| motion.periods);
-        periods.max().unwrap_or(0)
-    };
-    (longest(true), longest(false))
+/// Longest period in drive periods of one impact among those of a stop that are beside the impact-less motion, or
+/// that are not; 0 if there is none.
+pub(super) fn longest(found: &[Subharmonic], stiffness: f64, is_beside: bool) -> u64 {
+    let own = found.iter().filter(|motion| motion.stiffness == stiffness);
+    let fit = own.filter(|motion| motion.impacts == 1 && motion.beside_rest == is_beside);
+    fit.map(|motion| motion.periods).max().unwrap_or(0)
 }

@@ -3,12 +3,11 @@
 use anyhow::Result;
 use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::orbit::Regime;
 use softstop_dynamics::sweep::{Chain, Plan, Step};
 
 use super::stops::{CLEARANCE, Law};
-use crate::diagram;
-use crate::hardening::chart::StopRegime;
+use crate::diagram::{self, dots};
+use softstop_draw::style;
 
 /// The frequencies eta.
 pub(super) const RANGE: (f64, f64) = (0.6, 1.6);
@@ -24,9 +23,8 @@ pub(super) struct Swept {
 pub(super) fn sweep(laws: &[Law], steps: usize, periods: u64) -> Result<Vec<Swept>> {
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods)?;
     let ways = |law: &Law| diagram::ways(&law.scene(RANGE.0, CLEARANCE));
-    let mut job = [(plan, laws.iter().flat_map(ways).collect())];
-    diagram::sweep(&mut job, "steps of the stops' sweeps")?;
-    let [(_, chains)] = job;
+    let jobs = vec![(plan, laws.iter().flat_map(ways).collect())];
+    let chains = diagram::sweep(jobs, "steps of the stops' sweeps")?;
     let rising = |chain: &Chain| chain.rising().into_iter().cloned().collect();
     let swept = laws.iter().zip(chains.chunks_exact(2));
     let swept = swept.map(|(law, pair)| Swept {
@@ -37,25 +35,76 @@ pub(super) fn sweep(laws: &[Law], steps: usize, periods: u64) -> Result<Vec<Swep
     Ok(swept.collect())
 }
 
-/// The kind of motion of a step.
-pub(super) fn regime(step: &Step) -> StopRegime {
-    if step.velocities.is_empty() {
-        return StopRegime::None;
+/// A kind of motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Without impacts.
+    None,
+    /// z = 1.
+    One,
+    /// z = n/n with n > 1: as many impacts as drive periods.
+    Split,
+    /// z = 1/2.
+    Half,
+    /// Another z = p/n.
+    Other,
+    Chaos,
+    Unsettled,
+}
+
+impl Kind {
+    pub(super) const ALL: [Self; 7] = [
+        Self::None,
+        Self::One,
+        Self::Split,
+        Self::Half,
+        Self::Other,
+        Self::Chaos,
+        Self::Unsettled,
+    ];
+
+    pub(super) const fn name(self) -> &'static str {
+        self.look().0
     }
-    match step.motion.regime() {
-        Some(Regime::ONE) => StopRegime::One,
-        Some(Regime {
-            impacts: 1,
-            periods: 2,
-        }) => StopRegime::Half,
-        Some(regime) if regime.impacts == regime.periods => StopRegime::Split,
-        None if step.motion == MotionKind::Chaos => StopRegime::Chaos,
-        None if step.motion == MotionKind::Unsettled => StopRegime::Unsettled,
-        _ => StopRegime::Other,
+
+    pub(super) const fn color(self) -> &'static str {
+        self.look().1
+    }
+
+    const fn look(self) -> (&'static str, &'static str) {
+        match self {
+            Self::None => ("z = 0", "#ededed"),
+            Self::One => ("z = 1", "#9CCDEC"),
+            Self::Split => ("z = n/n, n > 1", style::DESIGN),
+            Self::Half => ("z = 1/2", "#009E73"),
+            Self::Other => ("other z = p/n", "#F0E442"),
+            Self::Chaos => ("chaos", style::OPTIMUM),
+            Self::Unsettled => ("not settled", "#a8a8a8"),
+        }
+    }
+}
+
+/// The kind of motion of a step.
+pub(super) fn kind(step: &Step) -> Kind {
+    let regime = step.motion.regime().map(|it| (it.impacts, it.periods));
+    match (regime, &step.motion) {
+        _ if step.velocities.is_empty() => Kind::None,
+        (Some((1, 1)), _) => Kind::One,
+        (Some((1, 2)), _) => Kind::Half,
+        (Some((impacts, periods)), _) if impacts == periods => Kind::Split,
+        (None, MotionKind::Chaos) => Kind::Chaos,
+        (None, MotionKind::Unsettled) => Kind::Unsettled,
+        _ => Kind::Other,
     }
 }
 
 impl Swept {
+    /// The before-impact velocities over the frequency on both ways.
+    pub(super) fn points(&self) -> [Vec<(f64, f64)>; 2] {
+        let hits = |step: &&Step| !step.velocities.is_empty();
+        [&self.up, &self.down].map(|steps| steps.iter().filter(hits).flat_map(dots).collect())
+    }
+
     /// Share of the frequencies at which both ways end in the same kind of motion.
     pub(super) fn reversible(&self) -> f64 {
         agreement(self.up.iter().zip(&self.down))
@@ -69,8 +118,8 @@ impl Swept {
 
     /// Share of the frequencies at which the way up ends in a subharmonic motion or chaos.
     pub(super) fn complex(&self) -> f64 {
-        use StopRegime::{Chaos, Half, Other, Split};
-        let complex = |step: &&Step| matches!(regime(step), Split | Half | Other | Chaos);
+        use Kind::{Chaos, Half, Other, Split};
+        let complex = |step: &&Step| matches!(kind(step), Split | Half | Other | Chaos);
         self.up.iter().filter(complex).count() as f64 / self.up.len().max(1) as f64
     }
 
@@ -83,8 +132,8 @@ impl Swept {
 
 /// Share of the pairs that are of the same kind, among those in which both have settled.
 fn agreement<'a>(pairs: impl Iterator<Item = (&'a Step, &'a Step)>) -> f64 {
-    let kinds = pairs.map(|(a, b)| (regime(a), regime(b)));
-    let settled = kinds.filter(|(a, b)| *a != StopRegime::Unsettled && *b != StopRegime::Unsettled);
+    let kinds = pairs.map(|(a, b)| (kind(a), kind(b)));
+    let settled = kinds.filter(|(a, b)| *a != Kind::Unsettled && *b != Kind::Unsettled);
     let (same, all) = settled.fold((0u32, 0u32), |(same, all), (a, b)| {
         (same + u32::from(a == b), all + 1)
     });

@@ -1,15 +1,15 @@
 //! The boundaries of the z = 1 motion: where it grazes first, doubles its period, and turns back.
 
 use anyhow::{Context, Result};
-use softstop::{Ratios, Scene};
+use softstop::Ratios;
 use softstop_dynamics::continuation::{
-    Along, Curve, CurvePoint, Follower, Limits, Parameter, Region, Special, SpecialKind, Test,
-    curve,
+    Along, Curve, CurvePoint, Follower, Limits, Parameter, Region, SpecialKind, Test,
 };
+use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::free_amplitude;
 
 use super::Window;
-use crate::regimes::chart::BoundaryCurve;
+use crate::curves;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 
@@ -35,28 +35,35 @@ pub(super) struct Boundaries {
 impl Boundaries {
     /// Those in a window: g0 in closed form, the others by continuation, located to 1e-10.
     pub fn of(machine: &Ratios, window: &Window) -> Result<Self> {
-        let start = machine.frequency;
         let scene = machine.scene()?;
-        let orbit =
-            softstop_dynamics::orbit::find(&scene).context("no z = 1 motion to start from")?;
+        let orbit = find(&scene).context("no z = 1 motion to start from")?;
         let family = Along::new(scene.clone(), [Parameter::Frequency])?;
         let limits = Limits {
             range: window.eta,
             points: MOST,
         };
-        let branch = Follower::new(&family, 1)
-            .with_steps(STEP)
-            .branch(start, orbit.state(), &limits, |_| interrupt::go_on())
-            .context("the z = 1 motion cannot be followed")?;
+        let branch = Follower::new(&family, 1).with_steps(STEP).branch(
+            machine.frequency,
+            orbit.state(),
+            &limits,
+            |_| interrupt::go_on(),
+        );
+        let branch = branch.context("the z = 1 motion cannot be followed")?;
+        let region = Region {
+            ranges: [window.eta, (window.rho.0.max(LEAST), window.rho.1)],
+            points: MOST,
+            step: STEP,
+        };
         let of = |test| {
             let kind = SpecialKind::Critical(test);
-            let own = branch.specials.iter();
-            let own = own.filter(move |special| special.kind == kind);
-            own.map(|special| follow(machine, window, special))
-                .collect::<Result<Vec<Curve>>>()
+            let points = branch.critical(test);
+            let found = points.map(|point| curves::critical(machine, (kind, point), &region));
+            found.collect::<Result<Vec<Curve>>>()
         };
+        let (from, to) = window.eta;
+        let etas = (0..=POINTS).map(|k| from + k as f64 / POINTS as f64 * (to - from));
         let boundaries = Self {
-            grazing: grazing(&scene, window),
+            grazing: etas.map(|eta| (eta, free_amplitude(&scene, eta))).collect(),
             flips: of(Test::Flip)?,
             folds: of(Test::Fold)?,
         };
@@ -66,23 +73,13 @@ impl Boundaries {
         Ok(boundaries)
     }
 
-    /// As lines of the map.
-    pub fn curves(&self) -> Vec<BoundaryCurve> {
-        let lines = |name: &'static str, curves: &[Curve]| -> Vec<BoundaryCurve> {
-            let line = |curve: &Curve| BoundaryCurve {
-                name,
-                points: points(curve),
-            };
-            curves.iter().map(line).collect()
-        };
-        let grazing = BoundaryCurve {
-            name: "g₀",
-            points: self.grazing.clone(),
-        };
-        let mut all = vec![grazing];
-        all.extend(lines("s_PD", &self.flips));
-        all.extend(lines("s_SN", &self.folds));
-        all
+    /// As lines of the map, with the paper's names.
+    pub fn lines(&self) -> Vec<(&'static str, Vec<(f64, f64)>)> {
+        let points = |curve: &Curve| curve.points.iter().map(|at| at.parameters.into()).collect();
+        let mut lines = vec![("g₀", self.grazing.clone())];
+        lines.extend(self.flips.iter().map(|curve| ("s_PD", points(curve))));
+        lines.extend(self.folds.iter().map(|curve| ("s_SN", points(curve))));
+        lines
     }
 
     /// The point of s_SN with the hardest impact: the optimum clearance of the paper's section 3.
@@ -95,41 +92,4 @@ impl Boundaries {
 /// The largest before-impact velocity of a point.
 pub(super) fn hardest(point: &CurvePoint) -> f64 {
     point.impacts.iter().copied().fold(0.0, f64::max)
-}
-
-fn points(curve: &Curve) -> Vec<(f64, f64)> {
-    curve
-        .points
-        .iter()
-        .map(|point| point.parameters.into())
-        .collect()
-}
-
-fn follow(machine: &Ratios, window: &Window, special: &Special) -> Result<Curve> {
-    let parameters = [Parameter::Frequency, Parameter::Clearance];
-    let family = Along::new(machine.scene()?, parameters)?;
-    let region = Region {
-        ranges: [window.eta, (window.rho.0.max(LEAST), window.rho.1)],
-        points: MOST,
-        step: STEP,
-    };
-    let at = [special.point.parameter, machine.clearance];
-    let found = curve(
-        &family,
-        1,
-        (special.kind, &special.point),
-        at,
-        &region,
-        |_| interrupt::go_on(),
-    );
-    found.with_context(|| format!("no curve of the {}", special.kind.name()))
-}
-
-/// rho = the amplitude of the linear oscillator.
-fn grazing(scene: &Scene, window: &Window) -> Vec<(f64, f64)> {
-    let (from, to) = window.eta;
-    let points = (0..=POINTS).map(|k| from + k as f64 / POINTS as f64 * (to - from));
-    points
-        .map(|eta| (eta, free_amplitude(scene, eta)))
-        .collect()
 }

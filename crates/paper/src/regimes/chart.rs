@@ -2,37 +2,11 @@
 
 use softstop_dynamics::motion::MotionClass;
 
+use super::boundaries::Boundaries;
+use super::{MAPS, is_loaded};
 use softstop_draw::panel::{Axes, Panel};
 use softstop_draw::pen::{Align, Pen};
 use softstop_explore::basin::cells::{RegimeMap, color};
-
-/// A boundary over frequency and clearance.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BoundaryCurve {
-    /// The paper's name.
-    pub name: &'static str,
-    /// Its points.
-    pub points: Vec<(f64, f64)>,
-}
-
-/// One map of the page.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RegimePanel {
-    /// What it shows.
-    pub name: String,
-    /// The map.
-    pub map: RegimeMap,
-    /// The boundaries.
-    pub curves: Vec<BoundaryCurve>,
-    /// A point and its name.
-    pub point: (&'static str, (f64, f64)),
-}
-
-/// The page: two maps in a row, and a table of shares.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RegimePage {
-    panels: Vec<RegimePanel>,
-}
 
 /// Size of a map; room around: left, above the first row, between columns, right, between rows.
 const MAP: (f64, f64) = (600.0, 400.0);
@@ -52,104 +26,94 @@ const AXES: Axes<'static> = Axes::new(LETTERS.2, Some("frequency η"), "clearanc
 const SCALE: f32 = 2.0;
 /// Where on a map's height the names of curves stand, as a share of it.
 const NAMES_AT: f64 = 0.2;
+/// eta and rho of the points A and B.
+const POINT: (f64, f64) = (1.15, 10.0);
 
-impl RegimePage {
-    /// The page of these maps.
-    pub fn new(panels: Vec<RegimePanel>) -> Self {
-        Self { panels }
+/// The maps with their boundaries, and a table of shares, as PNG.
+pub(super) fn png(maps: &[RegimeMap], boundaries: &[Boundaries; 2]) -> Result<Vec<u8>, String> {
+    let classes = MotionClass::ALL.iter().copied();
+    let is_there = |class: &MotionClass| maps.iter().any(|map| map.share(*class) > 0.0);
+    let classes: Vec<MotionClass> = classes.filter(is_there).collect();
+    let bottom = TOP + ROW * maps.len().div_ceil(2) as f64;
+    let width = LEFT + 2.0 * MAP.0 + BETWEEN + RIGHT;
+    let height = bottom + LINE * (classes.len() as f64 + 2.0);
+    let mut pen = Pen::new(width, height);
+    pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
+    let title = "Regimes z = p/n: p impacts in n drive periods";
+    pen.heading((LEFT, 42.0), LETTERS.0, Align::Left, title);
+    for (index, map) in maps.iter().enumerate() {
+        let left = LEFT + (MAP.0 + BETWEEN) * (index % 2) as f64;
+        let top = TOP + ROW * (index / 2) as f64;
+        let lines = boundaries[usize::from(is_loaded(index))].lines();
+        let panel = Panel::new((left, top, MAP.0, MAP.1), map.eta, map.rho);
+        draw(&mut pen, &panel, index, map, &lines);
     }
+    table(&mut pen, bottom, &classes, maps);
+    pen.png_at(SCALE)
+}
 
-    /// As PNG.
-    ///
-    /// # Errors
-    /// Why it cannot be made.
-    pub fn png(&self) -> Result<Vec<u8>, String> {
-        let classes = self.classes();
-        let table = TOP + ROW * self.panels.len().div_ceil(2) as f64;
-        let width = LEFT + 2.0 * MAP.0 + BETWEEN + RIGHT;
-        let height = table + LINE * (classes.len() as f64 + 2.0);
-        let mut pen = Pen::new(width, height);
-        pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
-        let title = "Regimes z = p/n: p impacts in n drive periods";
-        pen.heading((LEFT, 42.0), LETTERS.0, Align::Left, title);
-        for (index, panel) in self.panels.iter().enumerate() {
-            let left = LEFT + (MAP.0 + BETWEEN) * (index % 2) as f64;
-            let top = TOP + ROW * (index / 2) as f64;
-            panel.draw(&mut pen, index, (left, top));
-        }
-        self.table(&mut pen, table, &classes);
-        pen.png_at(SCALE)
+/// Colours, names and shares of each map.
+fn table(pen: &mut Pen, top: f64, classes: &[MotionClass], maps: &[RegimeMap]) {
+    pen.heading((LEFT, top), LETTERS.1, Align::Left, "share of the map in %");
+    let column = |index: usize| LEFT + COLUMNS.0 + COLUMNS.1 * (index as f64 + 0.6);
+    for index in 0..maps.len() {
+        let place = (column(index), top);
+        pen.heading(place, LETTERS.1, Align::Right, &letter(index));
     }
-
-    /// The classes that there are.
-    fn classes(&self) -> Vec<MotionClass> {
-        let is_there = |class: &MotionClass| {
-            let mut panels = self.panels.iter();
-            panels.any(|panel| panel.map.share(*class) > 0.0)
-        };
-        MotionClass::ALL.iter().copied().filter(is_there).collect()
-    }
-
-    /// Colours, names and shares of each map.
-    fn table(&self, pen: &mut Pen, top: f64, classes: &[MotionClass]) {
-        pen.heading((LEFT, top), LETTERS.1, Align::Left, "share of the map in %");
-        let column = |index: usize| LEFT + COLUMNS.0 + COLUMNS.1 * (index as f64 + 0.6);
-        for index in 0..self.panels.len() {
-            let place = (column(index), top);
-            pen.heading(place, LETTERS.1, Align::Right, &letter(index));
-        }
-        for (row, class) in classes.iter().enumerate() {
-            let line = top + LINE * (row as f64 + 1.2);
-            let square = (LEFT, line - 15.0, 30.0, 18.0);
-            pen.fill(&[square], color(*class));
-            pen.frame(square);
-            let place = (LEFT + 42.0, line);
-            pen.text(place, LETTERS.2, Align::Left, class.name());
-            for (index, panel) in self.panels.iter().enumerate() {
-                let share = percent(panel.map.share(*class));
-                let place = (column(index), line);
-                pen.text(place, LETTERS.2, Align::Right, &share);
-            }
+    for (row, class) in classes.iter().enumerate() {
+        let line = top + LINE * (row as f64 + 1.2);
+        let square = (LEFT, line - 15.0, 30.0, 18.0);
+        pen.fill(&[square], color(*class));
+        pen.frame(square);
+        let place = (LEFT + 42.0, line);
+        pen.text(place, LETTERS.2, Align::Left, class.name());
+        for (index, map) in maps.iter().enumerate() {
+            let share = match map.share(*class) {
+                0.0 => "–".to_owned(),
+                share if share < 0.0001 => "< 0.01".to_owned(),
+                share => format!("{:.2}", 100.0 * share),
+            };
+            let place = (column(index), line);
+            pen.text(place, LETTERS.2, Align::Right, &share);
         }
     }
 }
 
-impl RegimePanel {
-    fn draw(&self, pen: &mut Pen, index: usize, (left, top): (f64, f64)) {
-        let panel = Panel::new((left, top, MAP.0, MAP.1), self.map.eta, self.map.rho);
-        let heading = format!("{} {}", letter(index), self.name);
-        pen.heading((left, top - 12.0), LETTERS.1, Align::Left, &heading);
-        let cells = self.map.cells.iter();
-        let colors: Vec<&str> = cells.map(|cell| color(cell.class())).collect();
-        panel.cells(pen, self.map.columns, &colors);
-        for curve in &self.curves {
-            panel.rimmed(pen, &curve.points, dashes(curve.name));
-        }
-        panel.axes(pen, &AXES);
-        self.names(pen, &panel);
-        let (name, point) = self.point;
-        if panel.holds(point) {
-            let place = panel.place(point);
-            pen.spot(place, 6.0);
-            pen.label((place.0 + 18.0, place.1 - 10.0), LETTERS.2, name);
+/// A map with lines, a point, and names of wide regimes and of lines.
+fn draw(
+    pen: &mut Pen,
+    panel: &Panel,
+    index: usize,
+    map: &RegimeMap,
+    lines: &[(&str, Vec<(f64, f64)>)],
+) {
+    let (left, top, ..) = panel.area;
+    let heading = format!("{} {}", letter(index), MAPS[index].page);
+    pen.heading((left, top - 12.0), LETTERS.1, Align::Left, &heading);
+    let colors = map.cells.iter().map(|cell| color(cell.class()));
+    panel.cells(pen, map.columns, &colors.collect::<Vec<_>>());
+    for (name, points) in lines {
+        panel.rimmed(pen, points, dashes(name));
+    }
+    panel.axes(pen, &AXES);
+    for class in [MotionClass::Zero, MotionClass::One, MotionClass::TwoThirds] {
+        if let Some(place) = map.widest(class) {
+            pen.label(panel.place(place), LETTERS.2, class.name());
         }
     }
-
-    /// Names of wide regimes and of curves.
-    fn names(&self, pen: &mut Pen, panel: &Panel) {
-        for class in [MotionClass::Zero, MotionClass::One, MotionClass::TwoThirds] {
-            if let Some(place) = self.map.widest(class) {
-                pen.label(panel.place(place), LETTERS.2, class.name());
+    let rho = panel.y.0 + NAMES_AT * (panel.y.1 - panel.y.0);
+    for (name, points) in lines {
+        for eta in crossings(points, rho) {
+            if panel.holds((eta, rho)) {
+                pen.label(panel.place((eta, rho)), LETTERS.2, name);
             }
         }
-        let rho = panel.y.0 + NAMES_AT * (panel.y.1 - panel.y.0);
-        for curve in &self.curves {
-            for eta in crossings(&curve.points, rho) {
-                if panel.holds((eta, rho)) {
-                    pen.label(panel.place((eta, rho)), LETTERS.2, curve.name);
-                }
-            }
-        }
+    }
+    if panel.holds(POINT) {
+        let (x, y) = panel.place(POINT);
+        pen.spot((x, y), 6.0);
+        let name = if is_loaded(index) { "B" } else { "A" };
+        pen.label((x + 18.0, y - 10.0), LETTERS.2, name);
     }
 }
 
@@ -175,16 +139,5 @@ fn crossings(points: &[(f64, f64)], height: f64) -> Vec<f64> {
 
 /// (a), (b), ...
 fn letter(index: usize) -> String {
-    let letter = char::from_u32('a' as u32 + index as u32).unwrap_or('?');
-    format!("({letter})")
-}
-
-fn percent(share: f64) -> String {
-    if share == 0.0 {
-        "–".to_owned()
-    } else if share < 0.0001 {
-        "< 0.01".to_owned()
-    } else {
-        format!("{:.2}", 100.0 * share)
-    }
+    format!("({})", char::from(b'a' + index as u8))
 }

@@ -1,41 +1,38 @@
 //! Findings on the regimes: shares of the maps, hardest impact on s_SN.
 
 use super::boundaries::Boundaries;
+use super::{MAPS, Named};
+use crate::figure::Findings;
 use softstop_dynamics::motion::{MotionClass, MotionKind};
 use softstop_explore::basin::cells::RegimeMap;
 
 /// Shares of the maps, and what the boundaries say.
-pub(super) fn of(maps: &[RegimeMap; 6], boundaries: &[Boundaries; 2]) -> Vec<(String, f64)> {
-    let [up, down, zoom, hardest, loaded_up, loaded_down] = maps;
-    let mut findings = Vec::new();
-    let named = [
-        ("unloaded, rising", up),
-        ("unloaded, falling", down),
-        ("unloaded, zoom, rising", zoom),
-        ("unloaded, zoom, hardest of several starts", hardest),
-        ("loaded, rising", loaded_up),
-        ("loaded, falling", loaded_down),
-    ];
-    for (name, map) in named {
+pub(super) fn of(maps: &[RegimeMap; 6], boundaries: &[Boundaries; 2]) -> Findings {
+    let [up, down, _, _, loaded_up, loaded_down] = maps;
+    let mut findings = Findings::default();
+    for (
+        Named {
+            machine, finding, ..
+        },
+        map,
+    ) in MAPS.iter().zip(maps)
+    {
         for &class in MotionClass::ALL {
-            let share = map.share(class);
-            if share > 0.0 {
-                findings.push((format!("{name}: share of {}", class.name()), share));
-            }
+            let (name, share) = (class.name(), map.share(class));
+            let name = format!("{machine}, {finding}: share of {name}");
+            findings.add(name, (share > 0.0).then_some(share));
         }
     }
-    for (name, up, down) in [("unloaded", up, down), ("loaded", loaded_up, loaded_down)] {
-        let name = format!("{name}: share of z = 1 or z = 0 by the way");
-        findings.push((name, hysteresis(up, down)));
-    }
-    for (name, own) in ["unloaded", "loaded"].into_iter().zip(boundaries) {
-        if let Some(point) = own.hardest() {
-            let [eta, rho] = point.parameters;
-            let velocity = super::boundaries::hardest(point);
-            findings.push((format!("{name}: largest velocity on s_SN"), velocity));
-            findings.push((format!("{name}: its clearance rho"), rho));
-            findings.push((format!("{name}: its frequency eta"), eta));
-        }
+    let ways = [("unloaded", up, down), ("loaded", loaded_up, loaded_down)];
+    for ((name, up, down), own) in ways.into_iter().zip(boundaries) {
+        let share = hysteresis(up, down);
+        findings.add(format!("{name}: share of z = 1 or z = 0 by the way"), share);
+        let point = own.hardest();
+        let velocity = point.map(super::boundaries::hardest);
+        findings.add(format!("{name}: largest velocity on s_SN"), velocity);
+        let [eta, rho] = [0, 1].map(|index: usize| point.map(|at| at.parameters[index]));
+        findings.add(format!("{name}: its clearance rho"), rho);
+        findings.add(format!("{name}: its frequency eta"), eta);
     }
     findings
 }

@@ -13,7 +13,6 @@ use softstop::Ratios;
 use softstop_dynamics::sweep::Direction;
 
 use crate::figure::{Detail, Drawn, Figure, Studio};
-use crate::regimes::chart::{RegimePage, RegimePanel};
 use boundaries::Boundaries;
 use softstop_console::progress::Progress;
 use softstop_explore::basin::cells::RegimeMap;
@@ -47,6 +46,40 @@ const PERIODS: u64 = 120;
 /// Starts at each cell of the map of hardest motions.
 const STARTS: usize = 12;
 
+/// What a map is called in tables, among the findings and on the page.
+struct Named {
+    machine: &'static str,
+    way: &'static str,
+    finding: &'static str,
+    page: &'static str,
+}
+
+macro_rules! named {
+    ($($machine:literal $way:literal, $finding:literal, $page:literal;)*) => {
+        [$(Named {
+            machine: $machine,
+            way: $way,
+            finding: $finding,
+            page: concat!($machine, $page),
+        }),*]
+    };
+}
+
+const MAPS: [Named; 6] = named! {
+    "unloaded" "up", "rising", ", rising frequency";
+    "unloaded" "down", "falling", ", falling frequency";
+    "unloaded" "up, zoom", "zoom, rising", ", rising frequency: the subharmonic region";
+    "unloaded" "hardest of several starts", "zoom, hardest of several starts",
+        ": the hardest periodic motion of 12 starts each";
+    "loaded" "up", "rising", ", rising frequency";
+    "loaded" "down", "falling", ", falling frequency";
+};
+
+/// Whether a map is of the loaded machine.
+fn is_loaded(map: usize) -> bool {
+    map >= 4
+}
+
 /// A part of the plane of eta and rho.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Window {
@@ -55,14 +88,10 @@ struct Window {
 }
 
 impl Window {
-    /// The middle of a column.
-    fn eta_at(&self, column: usize, columns: usize) -> f64 {
-        middle(self.eta, column, columns)
-    }
-
-    /// The middle of a row.
-    fn rho_at(&self, row: usize, rows: usize) -> f64 {
-        middle(self.rho, row, rows)
+    /// The machine in the middle of a cell.
+    fn machine(&self, machine: &Ratios, cell: (usize, usize), cells: (usize, usize)) -> Ratios {
+        let machine = machine.at_frequency(middle(self.eta, cell.0, cells.0));
+        machine.at_clearance(middle(self.rho, cell.1, cells.1))
     }
 }
 
@@ -74,15 +103,10 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
     let (maps, boundaries) = rayon::join(|| maps(detail), boundaries);
     let (maps, boundaries) = (maps?, boundaries?);
-    let findings = findings::of(&maps, &boundaries);
-    let tables = [table::runs(&maps)?, table::boundaries(&boundaries)?];
-    let png = RegimePage::new(panels(maps, &boundaries))
-        .png()
-        .map_err(Error::msg)?;
-    let [runs, lines] = tables;
+    let png = chart::png(&maps, &boundaries).map_err(Error::msg)?;
     Ok(Drawn {
-        files: vec![png, runs, lines],
-        findings,
+        files: vec![png, table::runs(&maps)?, table::boundaries(&boundaries)?],
+        findings: findings::of(&maps, &boundaries),
     })
 }
 
@@ -117,27 +141,4 @@ fn maps(detail: Detail) -> Result<[RegimeMap; 6]> {
 fn boundaries() -> Result<[Boundaries; 2]> {
     let [free, loaded] = [Ratios::unloaded(), Ratios::loaded()];
     Ok([Boundaries::of(&free, &ALL)?, Boundaries::of(&loaded, &ALL)?])
-}
-
-/// What the panels are called.
-const NAMES: [&str; 6] = [
-    "unloaded, rising frequency",
-    "unloaded, falling frequency",
-    "unloaded, rising frequency: the subharmonic region",
-    "unloaded: the hardest periodic motion of 12 starts each",
-    "loaded, rising frequency",
-    "loaded, falling frequency",
-];
-
-fn panels(maps: [RegimeMap; 6], boundaries: &[Boundaries; 2]) -> Vec<RegimePanel> {
-    let panel = |(index, (map, name)): (usize, (RegimeMap, &str))| {
-        let is_loaded = index >= 4;
-        RegimePanel {
-            name: name.to_owned(),
-            map,
-            curves: boundaries[usize::from(is_loaded)].curves(),
-            point: (if is_loaded { "B" } else { "A" }, (1.15, 10.0)),
-        }
-    };
-    maps.into_iter().zip(NAMES).enumerate().map(panel).collect()
 }

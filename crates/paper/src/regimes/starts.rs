@@ -33,24 +33,17 @@ pub(super) fn hardest(
     progress: &Progress,
 ) -> Result<RegimeMap> {
     let cell = |index: usize| -> Result<MotionKind> {
-        let machine = Ratios {
-            frequency: window.eta_at(index % columns, columns),
-            clearance: window.rho_at(index / columns, rows),
-            ..*machine
-        };
-        let found = of_one(&machine, count)?;
+        let cell = (index % columns, index / columns);
+        let found = of_one(&window.machine(machine, cell, (columns, rows)), count)?;
         progress.steps(count as u64)?;
         Ok(found)
     };
-    let cells = (0..columns * rows)
-        .into_par_iter()
-        .map(cell)
-        .collect::<Result<_, _>>()?;
+    let cells = (0..columns * rows).into_par_iter().map(cell);
     Ok(RegimeMap {
         eta: window.eta,
         rho: window.rho,
         columns,
-        cells,
+        cells: cells.collect::<Result<_>>()?,
     })
 }
 

@@ -7,7 +7,7 @@ use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::Orbit;
 use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
 
-use super::{PERIODS, Window};
+use super::{PERIODS, Window, middle};
 use softstop_console::progress::Progress;
 use softstop_explore::basin::cells::RegimeMap;
 
@@ -29,10 +29,7 @@ impl Sweep {
     /// The regime in each cell.
     pub fn map(&self, progress: &Progress) -> Result<RegimeMap> {
         let (columns, rows) = self.size;
-        let (first, last) = (
-            self.window.eta_at(0, columns),
-            self.window.eta_at(columns - 1, columns),
-        );
+        let [first, last] = [0, columns - 1].map(|column| middle(self.window.eta, column, columns));
         let ahead = AHEAD as f64 * (last - first) / (columns - 1) as f64;
         let range = match self.way {
             Direction::Up => (first - ahead, last),
@@ -40,24 +37,21 @@ impl Sweep {
         };
         let plan = Plan::new(Parameter::Frequency, range, columns + AHEAD, PERIODS)?;
         let rows: Vec<usize> = (0..rows).collect();
-        let found: Vec<Vec<MotionKind>> = rows
-            .par_chunks(TOGETHER)
-            .map(|rows| self.cells(&plan, rows, progress))
-            .collect::<Result<_, _>>()?;
+        let found = rows.par_chunks(TOGETHER);
+        let found = found.map(|rows| self.cells(&plan, rows, progress));
         Ok(RegimeMap {
             eta: self.window.eta,
             rho: self.window.rho,
             columns,
-            cells: found.into_iter().flatten().collect(),
+            cells: found.collect::<Result<Vec<_>>>()?.concat(),
         })
     }
 
     /// The cells of a few rows.
     fn cells(&self, plan: &Plan, rows: &[usize], progress: &Progress) -> Result<Vec<MotionKind>> {
         let chain = |row: &usize| {
-            let clearance = self.window.rho_at(*row, self.size.1);
-            let scene = self.machine.at_clearance(clearance).scene()?;
-            Ok(Chain::new(scene, self.way))
+            let machine = self.window.machine(&self.machine, (0, *row), self.size);
+            Ok(Chain::new(machine.scene()?, self.way))
         };
         let mut chains: Vec<Chain> = rows.iter().map(chain).collect::<Result<_>>()?;
         plan.run(&mut chains, &progress.watcher());
@@ -68,12 +62,9 @@ impl Sweep {
 
 /// The cells of a chain; what it has not come to is lost.
 fn row(plan: &Plan, chain: &Chain) -> Vec<MotionKind> {
-    let mut cells: Vec<MotionKind> = chain
-        .steps
-        .iter()
-        .skip(AHEAD)
-        .map(|step| cell(&chain.machine.scene, step))
-        .collect();
+    let steps = chain.steps.iter().skip(AHEAD);
+    let cells = steps.map(|step| cell(&chain.machine.scene, step));
+    let mut cells: Vec<MotionKind> = cells.collect();
     cells.resize(plan.steps - AHEAD, MotionKind::Lost);
     if chain.direction == Direction::Down {
         cells.reverse();

@@ -3,25 +3,15 @@
 use anyhow::Result;
 
 use super::boundaries::{Boundaries, hardest};
-use super::middle;
+use super::{MAPS, Named, middle};
 use crate::figure;
 use softstop_explore::basin::cells::RegimeMap;
-
-/// What the maps are called, panel by panel: machine, way.
-const MAPS: [[&str; 2]; 6] = [
-    ["unloaded", "up"],
-    ["unloaded", "down"],
-    ["unloaded", "up, zoom"],
-    ["unloaded", "hardest of several starts"],
-    ["loaded", "up"],
-    ["loaded", "down"],
-];
 
 /// A row for each run of cells of the same motion: from the middle of the first cell to that of the last.
 pub(super) fn runs(maps: &[RegimeMap]) -> Result<Vec<u8>> {
     let columns = "machine,way,rho,eta_from,eta_to,motion";
     let mut lines = Vec::new();
-    for (map, [machine, way]) in maps.iter().zip(MAPS) {
+    for (map, Named { machine, way, .. }) in maps.iter().zip(&MAPS) {
         let rows = map.cells.len() / map.columns;
         for (row, cells) in map.cells.chunks(map.columns).enumerate() {
             let rho = middle(map.rho, row, rows);
@@ -46,15 +36,9 @@ pub(super) fn boundaries(boundaries: &[Boundaries; 2]) -> Result<Vec<u8>> {
         lines.extend(grazing.map(|&(eta, rho)| (machine, "g0", 0, [eta, rho], None)));
         for (name, curves) in [("s_PD", &own.flips), ("s_SN", &own.folds)] {
             for (number, curve) in curves.iter().enumerate() {
-                let points = curve.points.iter();
-                lines.extend(points.map(|point| {
-                    (
-                        machine,
-                        name,
-                        number,
-                        point.parameters,
-                        Some(hardest(point)),
-                    )
+                lines.extend(curve.points.iter().map(|point| {
+                    let velocity = Some(hardest(point));
+                    (machine, name, number, point.parameters, velocity)
                 }));
             }
         }

@@ -14,9 +14,9 @@ use rayon::prelude::*;
 use softstop::{Piercing, Ratios};
 use softstop_dynamics::basin::wilson;
 use softstop_dynamics::orbit::{StroboscopicMap, find};
-use softstop_dynamics::zone::{self, Zone};
+use softstop_dynamics::zone;
 
-use crate::figure::{Detail, Drawn, Figure, Studio};
+use crate::figure::{Detail, Drawn, Figure, Findings, Studio};
 use softstop_console::output;
 use softstop_console::progress::Progress;
 
@@ -70,17 +70,13 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     };
     let folds = [zones.loaded, zones.unloaded];
     let svg = chart::svg(&RUNS.map(curve), zones.grazing, folds, clearance);
-    let mut findings = vec![
-        ("eta_SN loaded".to_owned(), zones.loaded),
-        ("eta_SN unloaded".to_owned(), zones.unloaded),
-    ];
+    let mut findings = Findings::default();
+    findings.add("eta_SN loaded", zones.loaded);
+    findings.add("eta_SN unloaded", zones.unloaded);
     for mean in RUNS {
         let first = of_run(&outcomes, mean).find(|it| it.ended > 0);
-        let safe = first.map_or(zones.unloaded, |it| it.eta);
-        findings.push((
-            format!("first eta at which a motion ends, runs of {mean}"),
-            safe,
-        ));
+        let name = format!("first eta at which a motion ends, runs of {mean}");
+        findings.add(name, first.map_or(zones.unloaded, |it| it.eta));
     }
     Ok(Drawn {
         files: vec![svg.into_bytes(), output::csv(&outcomes)?],
@@ -97,11 +93,9 @@ struct Zones {
 }
 
 fn zones(clearance: f64) -> Result<Zones> {
-    let zone = |ratios: Ratios| -> Result<Zone> {
-        let scene = ratios.at_clearance(clearance).scene()?;
-        Ok(zone::hysteresis(&scene)?)
-    };
-    let (unloaded, loaded) = (zone(Ratios::unloaded())?, zone(Ratios::loaded())?);
+    let scene = |ratios: Ratios| ratios.at_clearance(clearance).scene();
+    let unloaded = zone::hysteresis(&scene(Ratios::unloaded())?)?;
+    let loaded = zone::hysteresis(&scene(Ratios::loaded())?)?;
     Ok(Zones {
         grazing: unloaded.frequency_g0,
         loaded: loaded.frequency_sn,
@@ -123,10 +117,10 @@ fn survey(
     detail: Detail,
     progress: &Progress,
 ) -> Result<Vec<Outcome>> {
-    let cases: Vec<(f64, f64)> = RUNS
+    let cases = RUNS
         .iter()
-        .flat_map(|mean| etas.iter().map(move |eta| (*eta, *mean)))
-        .collect();
+        .flat_map(|mean| etas.iter().map(move |eta| (*eta, *mean)));
+    let cases: Vec<(f64, f64)> = cases.collect();
     let (motions, periods) = detail.pick((64, 400), (16, 200));
     let outcome = |&(eta, mean): &(f64, f64)| {
         let press = Press::new(clearance, eta, eta < zones.loaded)?;
@@ -150,16 +144,15 @@ fn survey(
 
 impl Press {
     fn new(clearance: f64, frequency: f64, is_supplied: bool) -> Result<Self> {
-        let ratios = |piercing: Option<Piercing>| Ratios {
-            clearance,
-            frequency,
-            piercing,
-            ..Ratios::unloaded()
+        let scene = |piercing: Option<Piercing>| {
+            let ratios = Ratios {
+                piercing,
+                ..Ratios::unloaded()
+            };
+            let ratios = ratios.at_clearance(clearance);
+            ratios.at_frequency(frequency).scene()
         };
-        let scenes = [
-            ratios(None).scene()?,
-            ratios(Some(Piercing::PAPER)).scene()?,
-        ];
+        let scenes = [scene(None)?, scene(Some(Piercing::PAPER))?];
         let map = |scene| StroboscopicMap::new(scene, 1);
         Ok(Self {
             clearance,

@@ -1,7 +1,7 @@
 //! Table 1 among the figures: its picture and its rows.
 
-use crate::figure::{Drawn, Figure, Studio};
-use crate::table1::report::{RowReport, TableReport};
+use crate::figure::{Drawn, Figure, Findings, Studio};
+use crate::table1::report::TableReport;
 use crate::table1::{paper, picture};
 use anyhow::Result;
 use softstop_console::output;
@@ -15,12 +15,13 @@ pub(crate) const FIGURE: Figure = Figure {
 
 fn draw(studio: &Studio) -> Result<Drawn> {
     let report = TableReport::new(&paper::ROWS, studio.transitions()?, &studio.rules());
-    let finding = |row: &RowReport| Some((format!("row {:02}", row.number), row.eta?));
+    let mut findings = Findings::default();
+    for row in &report.rows {
+        findings.add(format!("row {:02}", row.number), row.eta);
+    }
+    let picture = picture(&report).svg().into_bytes();
     Ok(Drawn {
-        files: vec![
-            picture(&report).svg().into_bytes(),
-            output::csv(&report.rows)?,
-        ],
-        findings: report.rows.iter().filter_map(finding).collect(),
+        files: vec![picture, output::csv(&report.rows)?],
+        findings,
     })
 }

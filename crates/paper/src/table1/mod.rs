@@ -6,7 +6,6 @@ pub mod paper;
 mod picture;
 pub mod report;
 pub mod swept;
-mod text;
 
 use std::path::PathBuf;
 
@@ -22,6 +21,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::output::{self, Folder};
 use softstop_console::progress::Progress;
+use softstop_console::range::within;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -98,7 +98,7 @@ pub fn run(arguments: &TableArguments) -> Result<(), Failure> {
     output::print(&match arguments.format {
         TableFormat::Json => output::json(&report)?,
         TableFormat::Csv => String::from_utf8_lossy(&output::csv(&report.rows)?).into_owned(),
-        TableFormat::Text => text::text(&report),
+        TableFormat::Text => report.text(),
     })
 }
 
@@ -112,16 +112,8 @@ pub fn table(rules: &Rules) -> Result<TableReport> {
 }
 
 fn rules(arguments: &TableArguments) -> Result<Rules, Failure> {
-    let within = |name: &str, value: u64, (least, most): (u64, u64)| {
-        if (least..=most).contains(&value) {
-            return Ok(());
-        }
-        Err(Failure::usage(format!(
-            "{name} = {value}: must be {least} to {most}"
-        )))
-    };
-    within("motions", arguments.motions as u64, (2, 10_000))?;
-    within("lifetime", arguments.lifetime, (100, 10_000_000))?;
+    within("motions", arguments.motions, 2..=10_000)?;
+    within("lifetime", arguments.lifetime, 100..=10_000_000)?;
     Ok(Rules {
         motions: arguments.motions,
         lifetime: arguments.lifetime,

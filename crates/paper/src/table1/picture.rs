@@ -4,6 +4,11 @@ use super::paper::{INTERVALS, PaperRow, ROWS};
 use super::report::{RowReport, TableReport};
 use softstop_draw::table::TablePicture;
 
+const NOTES: [&str; 2] = [
+    "η: where the motion is lost; ends of branches located to 1e-10, chaos by its lifetime.",
+    "G grazing, SN fold or jump, PD flip, ISN and IPD such a jump or a cascade of flips ending in chaos, OCH out of chaos.",
+];
+
 /// The rows with the paper's beside ours.
 pub fn picture(report: &TableReport) -> TablePicture {
     let lines = report.rows.iter().zip(&ROWS);
@@ -20,50 +25,29 @@ pub fn picture(report: &TableReport) -> TablePicture {
             ("as in the paper", 130.0),
         ],
         lines: lines.map(|(row, paper)| line(row, paper)).collect(),
-        notes: vec![
-            "η: where the motion is lost; ends of branches located to 1e-10, chaos by its lifetime."
-                .to_owned(),
-            "G grazing, SN fold or jump, PD flip, ISN and IPD such a jump or a cascade of flips ending in chaos, OCH out of chaos."
-                .to_owned(),
-        ],
+        notes: NOTES.map(str::to_owned).to_vec(),
     }
 }
 
 fn line(row: &RowReport, paper: &PaperRow) -> (Vec<String>, bool) {
     let interval = INTERVALS.iter().position(|it| it.0 == paper.eta);
-    let letter = interval.map_or_else(String::new, |index| {
-        format!("({})", ["a", "b", "c", "d"][index])
-    });
-    let is_same =
-        row.kind.as_deref() == Some(paper.kind) && row.hysteresis == Some(paper.hysteresis);
-    let eta = row
-        .eta
-        .map_or_else(|| "–".to_owned(), |eta| format!("{eta:.10}"));
-    let hysteresis = row
-        .hysteresis
-        .map_or("–", |there| if there { "yes" } else { "no" });
+    let letter = interval.map(|index| ["(a)", "(b)", "(c)", "(d)"][index]);
+    let same = (Some(paper.kind), Some(paper.hysteresis));
+    let is_same = (row.kind.as_deref(), row.hysteresis) == same;
     let cells = vec![
-        letter,
+        letter.unwrap_or_default().to_owned(),
         row.number.to_string(),
-        eta,
+        row.eta.map_or("–".to_owned(), |eta| format!("{eta:.10}")),
         row.paper.to_string(),
-        arrows(row),
-        hysteresis.to_owned(),
+        row.transition(" → ", " ↔ ").replace("->", "→"),
+        match row.hysteresis {
+            Some(true) => "yes",
+            Some(false) => "no",
+            None => "–",
+        }
+        .to_owned(),
         row.kind.clone().unwrap_or_default().replace("->", "→"),
         if is_same { "✓" } else { "–" }.to_owned(),
     ];
     (cells, interval.is_some())
-}
-
-/// From one motion to the other, in both directions where there is no hysteresis.
-fn arrows(row: &RowReport) -> String {
-    let (Some(from), Some(to)) = (&row.from, &row.to) else {
-        return "not found".to_owned();
-    };
-    let arrow = if row.hysteresis == Some(false) {
-        "↔"
-    } else {
-        "→"
-    };
-    format!("{from} {arrow} {}", to.replace("->", "→"))
 }

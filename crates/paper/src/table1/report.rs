@@ -8,6 +8,9 @@ use softstop_dynamics::transitions::{Cause, Rules, Transition};
 use super::matching::{Match, find};
 use super::paper::PaperRow;
 use super::swept::{self, Swept};
+use softstop_console::column::{self, Units};
+use softstop_console::columns;
+use softstop_console::table::heading;
 
 /// The table.
 #[derive(Debug, Serialize)]
@@ -44,53 +47,66 @@ const ROUNDING: f64 = 1e-5;
 impl TableReport {
     /// The rows of the paper that are among some transitions.
     pub fn new(rows: &[PaperRow], transitions: &[Transition], rules: &Rules) -> Self {
-        let report = |row: &PaperRow| match find(row, transitions) {
-            Some(found) => RowReport::new(row, &found, rules),
-            None => RowReport::missing(row),
-        };
+        let report = |row: &PaperRow| RowReport::new(row, find(row, transitions).as_ref(), rules);
         Self {
             rows: rows.iter().map(report).collect(),
         }
     }
+
+    /// For people: the rows one under the other, their remarks below.
+    pub fn text(&self) -> String {
+        let columns = columns! { RowReport, it;
+            "No." [None] Plain, "" => it.number;
+            "eta" [None] Fixed(10), "" => it.eta;
+            "paper" [None] Plain, "" => it.paper;
+            "hyst." [None] Plain, "" => it.hysteresis;
+            "type" [None] Plain, "" => it.kind.clone();
+            "transition" [None] Plain, "" => it.transition(" -> ", " <-> ");
+        };
+        let title = heading("Table 1 of Peterka 2003, found anew (unloaded, rho = 10)");
+        let rows = column::text(&columns, &self.rows, &Units::SI);
+        let remarks = self.rows.iter();
+        let remarks = remarks.map(|row| format!("{:>3}  {}\n", row.number, row.remark));
+        format!("{title}\n{rows}\nRemarks\n{}", remarks.collect::<String>())
+    }
 }
 
 impl RowReport {
-    fn new(row: &PaperRow, found: &Match<'_>, rules: &Rules) -> Self {
-        let transition = found.transition;
-        let names: Vec<String> = std::iter::once(&transition.from)
-            .chain(&transition.path)
-            .map(name)
-            .collect();
-        let (from, to) = if found.is_reversed {
-            (name(transition.to()), name(&transition.from))
-        } else {
-            (names[0].clone(), names[1..].join(" -> "))
-        };
+    fn new(row: &PaperRow, found: Option<&Match<'_>>, rules: &Rules) -> Self {
+        let missing =
+            "not found: no transition between these motions was met near the paper's figure";
+        let transition = found.map(|found| found.transition);
+        let motions = found.map(|found| {
+            let (from, path) = (name(&found.transition.from), &found.transition.path);
+            match found.is_reversed {
+                true => (name(found.transition.to()), from),
+                false => (from, path.iter().map(name).collect::<Vec<_>>().join(" -> ")),
+            }
+        });
+        let (from, to) = motions.unzip();
         Self {
             number: row.number,
             paper: row.eta,
-            eta: Some(found.eta),
-            kind: Some(transition.symbols()),
-            hysteresis: Some(transition.hysteresis),
-            from: Some(from),
-            to: Some(to),
-            remark: remark(row, found, rules),
+            eta: found.map(|found| found.eta),
+            kind: transition.map(Transition::symbols),
+            hysteresis: transition.map(|transition| transition.hysteresis),
+            from,
+            to,
+            remark: found.map_or(missing.to_owned(), |found| remark(row, found, rules)),
         }
     }
 
-    fn missing(row: &PaperRow) -> Self {
-        Self {
-            number: row.number,
-            paper: row.eta,
-            eta: None,
-            kind: None,
-            hysteresis: None,
-            from: None,
-            to: None,
-            remark:
-                "not found: no transition between these motions was met near the paper's figure"
-                    .to_owned(),
-        }
+    /// From one motion to the other by an arrow, or one in both directions where there is no hysteresis.
+    pub(super) fn transition(&self, there: &str, both: &str) -> String {
+        let arrow = if self.hysteresis == Some(false) {
+            both
+        } else {
+            there
+        };
+        let motions = self.from.as_ref().zip(self.to.as_ref());
+        motions.map_or("not found".to_owned(), |(from, to)| {
+            format!("{from}{arrow}{to}")
+        })
     }
 }
 

@@ -33,10 +33,8 @@ impl Swept {
         let step = 10_f64.powf(size.abs().log10().floor());
         let seen = sweep(transition, step, RETURN.0)?;
         let first = seen.iter().position(|it| is(&transition.from, it))?;
-        let lost = first
-            + seen[first..]
-                .iter()
-                .position(|it| !is(&transition.from, it))?;
+        let mut rest = seen[first..].iter();
+        let lost = first + rest.position(|it| !is(&transition.from, it))?;
         let settled = sweep(transition, step, RETURN.1)?;
         let arrived = settled[lost..].windows(2).find(|pair| {
             let mut pair = pair.iter();
@@ -50,41 +48,26 @@ impl Swept {
     }
 }
 
-/// The steps of a sweep over the end of a motion.
+/// The steps of a sweep over the end of a motion, on whole steps, as a run by hand would go.
 fn sweep(transition: &Transition, step: f64, tolerance: f64) -> Option<Vec<Step>> {
-    let scene = Ratios::unloaded().scene().ok()?;
-    let mut chain = Chain::new(scene, direction(transition));
-    let plan = plan(transition, step, tolerance)?;
-    let chains = std::slice::from_mut(&mut chain);
-    plan.run(chains, &unwatched).then_some(chain.steps)
-}
-
-fn direction(transition: &Transition) -> Direction {
-    if transition.rising {
-        Direction::Up
-    } else {
-        Direction::Down
-    }
-}
-
-/// On whole steps, as a run by hand would go.
-fn plan(transition: &Transition, step: f64, tolerance: f64) -> Option<Plan> {
     let (before, after) = AROUND;
-    let nearest = (transition.value / step).round();
-    let (below, above) = match direction(transition) {
-        Direction::Up => (before, after),
-        Direction::Down => (after, before),
+    let (way, below, above) = match transition.rising {
+        true => (Direction::Up, before, after),
+        false => (Direction::Down, after, before),
     };
-    let range = (
-        (nearest - below as f64) * step,
-        (nearest + above as f64) * step,
-    );
+    let nearest = (transition.value / step).round();
+    let from = (nearest - below as f64) * step;
+    let range = (from, (nearest + above as f64) * step);
     let plan = Plan::new(Parameter::Frequency, range, before + after + 1, PERIODS).ok()?;
-    Some(Plan {
+    let plan = Plan {
         start: transition.state?,
         tolerance,
         ..plan
-    })
+    };
+    let mut chain = [Chain::new(Ratios::unloaded().scene().ok()?, way)];
+    let is_done = plan.run(&mut chain, &unwatched);
+    let [chain] = chain;
+    is_done.then_some(chain.steps)
 }
 
 fn is(motion: &MotionKind, step: &Step) -> bool {

@@ -1,119 +1,25 @@
 //! The chart of stops from soft to rigid: diagrams, a map of the motions, and folds.
 
 mod map;
-mod subharmonics;
-mod widths;
 
+use super::folds::Folds;
+use super::stops::{CLEARANCE, RESTITUTION, grazing};
+use super::subharmonics::{self, NARROW, Subharmonic};
+use super::swept::{RANGE, Swept};
+use super::{DECADES, SUBHARMONIC};
 use softstop_draw::panel::{Axes, Panel, heading};
-use softstop_draw::pen::{Align, Area, Pen, Stroke};
+use softstop_draw::pen::{self, Align, Area, Pen, Stroke};
 use softstop_draw::style;
 
-/// A kind of motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StopRegime {
-    /// Without impacts.
-    None,
-    /// z = 1.
-    One,
-    /// z = n/n with n > 1: as many impacts as drive periods.
-    Split,
-    /// z = 1/2.
-    Half,
-    /// Another z = p/n.
-    Other,
-    /// Chaos.
-    Chaos,
-    /// Not settled.
-    Unsettled,
-}
-
-impl StopRegime {
-    const ALL: [Self; 7] = [
-        Self::None,
-        Self::One,
-        Self::Split,
-        Self::Half,
-        Self::Other,
-        Self::Chaos,
-        Self::Unsettled,
-    ];
-
-    /// What it is called.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::None => "z = 0",
-            Self::One => "z = 1",
-            Self::Split => "z = n/n, n > 1",
-            Self::Half => "z = 1/2",
-            Self::Other => "other z = p/n",
-            Self::Chaos => "chaos",
-            Self::Unsettled => "not settled",
-        }
-    }
-
-    const fn color(self) -> &'static str {
-        match self {
-            Self::None => "#ededed",
-            Self::One => "#9CCDEC",
-            Self::Split => style::DESIGN,
-            Self::Half => "#009E73",
-            Self::Other => "#F0E442",
-            Self::Chaos => style::OPTIMUM,
-            Self::Unsettled => "#a8a8a8",
-        }
-    }
-}
-
-/// Where the branch of z = 1 bends.
-#[derive(Debug, Clone, Copy)]
-pub struct StopFolds {
-    /// k2/k1.
-    pub stiffness: f64,
-    /// η and X'₋ where strong impacts end.
-    pub strong: Option<(f64, f64)>,
-    /// η and X'₋ where weak impacts end.
-    pub weak: Option<(f64, f64)>,
-    /// η of the flip right beyond grazing, below the resonance.
-    pub first_flip: Option<f64>,
-    /// η of the flip from which on z = 1 is stable.
-    pub flip: Option<f64>,
-}
-
-/// Motions z = 1/n of stops with a narrow clearance.
-#[derive(Debug, Clone)]
-pub struct StopOrders {
-    /// What is shown.
-    pub title: String,
-    /// Range of η.
-    pub frequencies: (f64, f64),
-    /// η up to which the impact-less motion would hit the stop.
-    pub grazing: f64,
-    /// For each stop its name, and η and n of its motions.
-    pub found: Vec<(String, Vec<(f64, f64)>)>,
-}
-
-/// A stop's name, and η and X'₋ on the way up and on the way down.
-pub type Diagram = (String, [Vec<(f64, f64)>; 2]);
-
-/// The chart.
-#[derive(Debug, Clone)]
-pub struct HardeningChart {
-    /// What holds for all of it.
-    pub explanation: String,
-    /// η at which the impact-less motion grazes.
-    pub grazing: (f64, f64),
-    /// Range of η.
-    pub frequencies: (f64, f64),
-    /// The diagrams.
-    pub diagrams: Vec<Diagram>,
-    /// log10 of the least and the largest k2/k1 of the map.
-    pub decades: (f64, f64),
-    /// For each stiffness, rising, the motions on the way up and on the way down.
-    pub map: Vec<Vec<(StopRegime, StopRegime)>>,
-    /// The folds, by rising stiffness.
-    pub folds: Vec<StopFolds>,
-    /// Motions of higher order.
-    pub orders: StopOrders,
+/// What is drawn.
+pub(super) struct Chart<'a> {
+    /// Sweeps of the stops whose diagrams are shown.
+    pub(super) drawn: &'a [Swept],
+    /// Those of the map, by rising stiffness.
+    pub(super) map: &'a [Swept],
+    /// By rising stiffness.
+    pub(super) folds: &'a [Folds],
+    pub(super) found: &'a [Subharmonic],
 }
 
 const PAGE: (f64, f64) = (1480.0, 1212.0);
@@ -121,81 +27,148 @@ const LETTERS: u32 = 14;
 /// Diagrams in a row.
 const ACROSS: usize = 4;
 /// Left end and top of the first diagram, distance to the next, and size.
-const DIAGRAM: ((f64, f64), (f64, f64), (f64, f64)) =
-    ((78.0, 104.0), (354.0, 272.0), (306.0, 208.0));
+const DIAGRAM: [(f64, f64); 3] = [(78.0, 104.0), (354.0, 272.0), (306.0, 208.0)];
 const MAP: Area = (78.0, 694.0, 760.0, 420.0);
 const WIDTHS: Area = (938.0, 694.0, 508.0, 176.0);
 const ORDERS: Area = (938.0, 956.0, 508.0, 158.0);
 const GRAZING: Stroke = Stroke::dashed(style::INK, 1.2, (5.0, 4.0));
 /// Radius of a dot of the diagrams.
 const DOT: f64 = 1.0;
+/// Room beside the curves of widths in decades.
+const ROOM: f64 = 0.4;
+/// Colours of the stops whose subharmonic motions are shown, and how much lower the dots of each are drawn.
+const STOPS: [(&str, f64); 3] = [
+    ("#009E73", -0.17),
+    (style::DESIGN, 0.0),
+    (style::OPTIMUM, 0.17),
+];
 
-impl HardeningChart {
+impl Chart<'_> {
     /// The picture as an SVG document.
-    pub fn svg(&self) -> String {
+    pub(super) fn svg(&self) -> String {
         let mut pen = Pen::new(PAGE.0, PAGE.1);
         let title = "From a soft to a rigid stop: the stiffness k₂ from 0 to infinity";
-        heading(&mut pen, (28.0, 38.0), title, &self.explanation);
-        legend(&mut pen, (PAGE.0 - 320.0, 60.0));
-        for (row, diagrams) in self.diagrams.chunks(ACROSS).enumerate() {
+        let explanation = format!(
+            "clearance ρ = {CLEARANCE}, β₁ = 0.02, contact damping for a restitution of {RESTITUTION}; dashed: \
+             grazing of the impact-less motion, g₀"
+        );
+        heading(&mut pen, (28.0, 38.0), title, &explanation);
+        // Which way is which colour.
+        let ways = [
+            ("η rising", style::DESIGN),
+            ("η falling only", style::OPTIMUM),
+        ];
+        for ((name, color), x) in ways.into_iter().zip([PAGE.0 - 320.0, PAGE.0 - 190.0]) {
+            pen.dots(&[(x, 55.0)], 5.0, color);
+            pen.text((x + 12.0, 60.0), LETTERS, Align::Left, name);
+        }
+        for (row, diagrams) in self.drawn.chunks(ACROSS).enumerate() {
             // What is linear grows without regard to the clearance.
-            let top = fastest(&diagrams[usize::from(row == 0)..]);
-            for (column, diagram) in diagrams.iter().enumerate() {
-                self.diagram(&mut pen, (column, row), diagram, top);
+            let highest = diagrams[usize::from(row == 0)..].iter();
+            let points = highest.flat_map(|swept| swept.points()).flatten();
+            let top = 1.08 * points.map(|point| point.1).fold(0.0, f64::max);
+            for (column, swept) in diagrams.iter().enumerate() {
+                self.diagram(&mut pen, (column, row), swept, top);
             }
         }
         self.map(&mut pen, MAP);
-        self.widths(&mut pen, WIDTHS);
-        self.orders.draw(&mut pen, ORDERS);
+        self.widths(&mut pen);
+        self.orders(&mut pen);
         pen.svg()
     }
 
-    fn diagram(&self, pen: &mut Pen, at: (usize, usize), (title, [up, down]): &Diagram, top: f64) {
-        let ((left, first), (across, below), (width, height)) = DIAGRAM;
-        let (column, row) = at;
-        let corner = (left + across * column as f64, first + below * row as f64);
-        let panel = Panel::new(
-            (corner.0, corner.1, width, height),
-            self.frequencies,
-            (0.0, top),
-        );
-        let last = row + 1 == self.diagrams.len().div_ceil(ACROSS);
-        let axes = Axes::new(
-            LETTERS,
-            Some(if last { "η" } else { "" }),
-            if column == 0 {
-                "before-impact velocity X′₋"
-            } else {
-                ""
-            },
-            (6, 5),
-        );
+    fn diagram(&self, pen: &mut Pen, (column, row): (usize, usize), swept: &Swept, top: f64) {
+        let [first, next, (width, height)] = DIAGRAM;
+        let left = first.0 + next.0 * column as f64;
+        let above = first.1 + next.1 * row as f64;
+        let panel = Panel::new((left, above, width, height), RANGE, (0.0, top));
+        let last = row + 1 == self.drawn.len().div_ceil(ACROSS);
+        let up = ["before-impact velocity X′₋", ""][usize::from(column > 0)];
+        let across = Some(if last { "η" } else { "" });
+        let axes = Axes::new(LETTERS, across, up, (6, 5));
         panel.ground(pen, &axes);
-        for eta in [self.grazing.0, self.grazing.1] {
-            panel.curve(pen, &[(eta, 0.0), (eta, top)], GRAZING);
-        }
-        panel.dots(pen, down.iter().copied(), DOT, style::OPTIMUM);
-        panel.dots(pen, up.iter().copied(), DOT, style::DESIGN);
+        grazes(pen, &panel);
+        let [up, down] = swept.points();
+        panel.dots(pen, down.into_iter(), DOT, style::OPTIMUM);
+        panel.dots(pen, up.into_iter(), DOT, style::DESIGN);
         panel.axes(pen, &axes);
-        pen.heading((corner.0, corner.1 - 8.0), 15, Align::Left, title);
+        let name = swept.law.name();
+        pen.heading((left, above - 8.0), 15, Align::Left, &name);
+    }
+
+    /// How wide the regions of weak impacts and of hysteresis are, over the stiffness, logarithmic.
+    fn widths(&self, pen: &mut Pen) {
+        let widths = self.folds.iter().filter_map(Folds::widths);
+        let widths: Vec<[f64; 3]> = widths.filter(|it| it[1] > 0.0).collect();
+        let curve = |which: usize| -> Vec<(f64, f64)> {
+            let points = widths.iter();
+            points
+                .map(|it| (it[0].log10(), it[which].log10()))
+                .collect()
+        };
+        let (weak, strong) = (curve(1), curve(2));
+        let lowest = weak.iter().map(|point| point.1).fold(0.0, f64::min);
+        let panel = Panel::new(WIDTHS, (0.0, DECADES.1), (lowest - ROOM, ROOM));
+        let axes = Axes::new(LETTERS, Some("log₁₀ k₂/k₁"), "log₁₀ width in η", (4, 5));
+        panel.ground(pen, &axes);
+        let hysteresis = "hysteresis, from s_SN back to the weak fold";
+        for (points, color, shift, name) in [
+            (strong, style::DESIGN, 24.0, hysteresis),
+            (
+                weak,
+                style::OPTIMUM,
+                -6.0,
+                "weak z = 1, from g₀ to its fold",
+            ),
+        ] {
+            panel.curve(pen, &points, Stroke::solid(color, 2.0));
+            panel.dots(pen, points.iter().copied(), 3.4, color);
+            if let Some(point) = points.get(points.len() / 4) {
+                let (x, y) = panel.place(*point);
+                let place = (x + 12.0, y + shift);
+                pen.words(place, LETTERS, Align::Left, (color, true), name);
+            }
+        }
+        panel.axes(pen, &axes);
+        let place = (WIDTHS.0, WIDTHS.1 - 14.0);
+        pen.heading(place, 15, Align::Left, "Widths above the resonance");
+    }
+
+    /// The frequencies at which there are motions z = 1/n.
+    fn orders(&self, pen: &mut Pen) {
+        let found = self.found.iter().filter(|motion| motion.impacts == 1);
+        let orders = found.clone().map(|motion| motion.periods as f64);
+        let highest = orders.fold(2.0, f64::max);
+        let panel = Panel::new(ORDERS, subharmonics::RANGE, (1.4, highest + 0.6));
+        let axes = Axes::new(LETTERS, Some("η"), "n of z = 1/n", (9, highest as usize));
+        panel.ground(pen, &axes);
+        let (_, eta) = grazing(NARROW);
+        panel.curve(pen, &[(eta, panel.y.0), (eta, panel.y.1)], GRAZING);
+        let mut right = panel.right() - 8.0;
+        for (stiffness, (color, shift)) in SUBHARMONIC.into_iter().zip(STOPS).rev() {
+            let own = found.clone().filter(|motion| motion.stiffness == stiffness);
+            let points = own.map(|motion| (motion.frequency, motion.periods as f64 - shift));
+            panel.dots(pen, points, 3.2, color);
+            let name = format!("k₂/k₁ = {stiffness}");
+            right -= pen::width(13, &name);
+            let place = (right, panel.bottom() - 9.0);
+            pen.words(place, 13, Align::Left, (color, true), &name);
+            right -= 10.0;
+        }
+        let place = (panel.across(eta) + 6.0, ORDERS.1 + 18.0);
+        let name = "g₀: beyond it z = 0 coexists";
+        pen.words(place, LETTERS - 1, Align::Left, (style::INK, true), name);
+        panel.axes(pen, &axes);
+        let title = format!("Motions z = 1/n found at clearance ρ = {NARROW}");
+        let place = (ORDERS.0, ORDERS.1 - 14.0);
+        pen.heading(place, 15, Align::Left, &title);
     }
 }
 
-/// A little more than the highest velocity.
-fn fastest(diagrams: &[Diagram]) -> f64 {
-    let points = diagrams.iter().flat_map(|(_, ways)| ways).flatten();
-    1.08 * points.map(|point| point.1).fold(0.0, f64::max)
-}
-
-/// Which way is which colour.
-fn legend(pen: &mut Pen, (left, y): (f64, f64)) {
-    let ways = [
-        ("η rising", style::DESIGN),
-        ("η falling only", style::OPTIMUM),
-    ];
-    for (index, (name, color)) in ways.into_iter().enumerate() {
-        let x = left + 130.0 * index as f64;
-        pen.dots(&[(x, y - 5.0)], 5.0, color);
-        pen.text((x + 12.0, y), LETTERS, Align::Left, name);
+/// Where the motion without impacts grazes.
+fn grazes(pen: &mut Pen, panel: &Panel) {
+    let (lower, upper) = grazing(CLEARANCE);
+    for eta in [lower, upper] {
+        panel.curve(pen, &[(eta, panel.y.0), (eta, panel.y.1)], GRAZING);
     }
 }

@@ -1,0 +1,24 @@
+//! Curves of bifurcations over frequency and clearance.
+
+use anyhow::{Context, Result};
+use softstop::Ratios;
+use softstop_dynamics::continuation::{
+    Along, BranchPoint, Curve, Parameter, Region, SpecialKind, curve,
+};
+
+use softstop_console::interrupt;
+
+/// The curve through a special point of z = 1 of a machine.
+pub(super) fn critical(
+    machine: &Ratios,
+    special: (SpecialKind, &BranchPoint),
+    region: &Region,
+) -> Result<Curve> {
+    let family = Along::new(
+        machine.scene()?,
+        [Parameter::Frequency, Parameter::Clearance],
+    )?;
+    let at = [special.1.parameter, machine.clearance];
+    let found = curve(&family, 1, special, at, region, |_| interrupt::go_on());
+    found.with_context(|| format!("no curve of the {}", special.0.name()))
+}
