@@ -1,33 +1,19 @@
 //! `softstop continue` as users and scripts meet it: figures of Table 1 and of Fig. 6, files, messages.
 
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
 
 use approx::assert_abs_diff_eq;
 use serde_json::Value;
 use softstop::Ratios;
 use softstop_dynamics::zone::grazing_frequencies;
+use softstop_testing::Program;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-fn command(arguments: &[&str], folder: &Path) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_softstop"));
-    command.arg("continue").args(arguments);
-    command.arg("--output").arg(folder);
-    command
-}
-
-fn run(arguments: &[&str], folder: &Path) -> std::io::Result<Output> {
-    command(arguments, folder).output()
-}
-
-fn followed(arguments: &[&str], folder: &Path) -> Result<Value, Box<dyn std::error::Error>> {
-    let output = run(&[arguments, &["--format", "json"]].concat(), folder)?;
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{arguments:?}: {message}");
-    Ok(serde_json::from_slice(&output.stdout)?)
-}
+const CONTINUE: Program = Program {
+    file: env!("CARGO_BIN_EXE_softstop"),
+    first: &["continue"],
+};
 
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or(f64::NAN)
@@ -52,7 +38,7 @@ fn near(found: f64, expected: f64, width: f64) {
 fn the_z_1_branch_has_the_rows_of_table_1_and_its_files() -> Outcome {
     let folder = tempfile::tempdir()?;
     let arguments = ["--parameter", "eta", "--from", "0.9", "--to", "1.5"];
-    let report = followed(&arguments, folder.path())?;
+    let report = CONTINUE.json_into(folder.path(), &arguments);
     let branch = &report["branches"][0];
     let found = specials(branch);
     let symbols: Vec<&str> = found.iter().map(|special| special.0).collect();
@@ -108,7 +94,7 @@ fn an_isolated_motion_is_followed_to_its_ends() -> Outcome {
     let folder = tempfile::tempdir()?;
     let machine = ["--frequency", "0.9875", "--orbit", "2/3"];
     let way = ["--parameter", "eta", "--from", "0.95", "--to", "1.05"];
-    let report = followed(&[&machine[..], &way[..]].concat(), folder.path())?;
+    let report = CONTINUE.json_into(folder.path(), &[&machine[..], &way[..]].concat());
     let found = specials(&report["branches"][0]);
     assert_eq!(report["branches"][0]["periods"], 3);
     near(found[0].1, 0.986_778_9, 5e-8);
@@ -123,7 +109,7 @@ fn folds_over_clearance_are_those_of_fig_6() -> Outcome {
     let folder = tempfile::tempdir()?;
     let first = ["--parameter", "eta", "--from", "1.1", "--to", "1.8"];
     let second = ["--second", "rho", "--second-from", "2", "--second-to", "18"];
-    let report = followed(&[&first[..], &second[..]].concat(), folder.path())?;
+    let report = CONTINUE.json_into(folder.path(), &[&first[..], &second[..]].concat());
     let curves = report["curves"]["curves"].as_array().ok_or("no curves")?;
     let fold = curves.iter().find(|curve| curve["symbol"] == "SN");
     let fold = fold.ok_or("no fold")?;
@@ -144,7 +130,7 @@ fn a_mass_that_bounces_without_end_is_no_obstacle() -> Outcome {
     let folder = tempfile::tempdir()?;
     let machine = ["--preload", "1", "--clearance", "0", "--double", "1"];
     let way = ["--parameter", "eta", "--from", "0.9", "--to", "1.5"];
-    let report = followed(&[&machine[..], &way[..]].concat(), folder.path())?;
+    let report = CONTINUE.json_into(folder.path(), &[&machine[..], &way[..]].concat());
     assert_eq!(specials(&report["branches"][0])[0].0, "PD");
     Ok(())
 }
@@ -153,7 +139,7 @@ fn a_mass_that_bounces_without_end_is_no_obstacle() -> Outcome {
 fn ranges_end_where_no_machine_is_beyond() -> Outcome {
     let folder = tempfile::tempdir()?;
     let arguments = ["--parameter", "Fp", "--from", "0", "--to", "200"];
-    let report = followed(&arguments, folder.path())?;
+    let report = CONTINUE.json_into(folder.path(), &arguments);
     let branch = &report["branches"][0];
     near(number(&branch["from"]), 0.0, 1e-12);
     near(number(&branch["to"]), 200.0, 1e-12);
@@ -190,32 +176,16 @@ fn values_that_cannot_be_are_refused_by_name_value_and_range() -> Outcome {
             &["1/0", "n from 1 to 64"],
         ),
     ];
-    let folder = tempfile::tempdir()?;
     for (arguments, words) in cases {
-        let output = run(arguments, &folder.path().join("none"))?;
-        let message = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
-        for word in words {
-            assert!(message.contains(word), "{word}: {message}");
-        }
+        CONTINUE.refuses_and_writes_nothing(arguments, words);
     }
-    let absent = [
-        "--orbit",
-        "5/7",
-        "--parameter",
-        "eta",
-        "--from",
-        "1",
-        "--to",
-        "2",
-    ];
-    let output = run(&absent, &folder.path().join("none"))?;
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{message}");
-    assert!(
-        message.contains("no stable z = 5/7 motion")
-            && (message.contains("z = 1,") || message.contains("z = 1."))
-    );
+    let folder = tempfile::tempdir()?;
+    let place = folder.path().join("none");
+    let place = place.to_str().ok_or("path")?;
+    let absent = ["--orbit", "5/7", "--parameter", "eta"];
+    let way = ["--from", "1", "--to", "2", "--output", place];
+    let words = ["no stable z = 5/7 motion", "z = 1"];
+    CONTINUE.ends_with(&[&absent[..], &way].concat(), 1, &words);
     assert!(!folder.path().join("none").exists());
     Ok(())
 }
@@ -229,19 +199,6 @@ fn an_interrupt_leaves_nothing_behind() -> Outcome {
     let scene = format!("{}/../docs/scenes/chatter.toml", env!("CARGO_MANIFEST_DIR"));
     let way = ["--parameter", "w", "--from", "0.1", "--to", "1.8"];
     let arguments = [&[scene.as_str(), "--orbit", "5/7"], &way[..]].concat();
-    let child = command(&arguments, &place)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()?;
-    while !place.exists() {
-        std::thread::sleep(std::time::Duration::from_millis(1));
-    }
-    Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()?;
-    let output = child.wait_with_output()?;
-    assert_eq!(output.status.code(), Some(130));
-    assert!(output.stdout.is_empty());
-    assert!(!place.exists());
+    CONTINUE.leaves_nothing_when_interrupted(&arguments, &place);
     Ok(())
 }

@@ -4,31 +4,21 @@ use approx::assert_abs_diff_eq;
 use softstop_testing::tolerance::DIFFERENCED;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
 use serde_json::Value;
+use softstop_testing::Program;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-fn softstop(arguments: &[&str]) -> std::io::Result<Output> {
-    Command::new(env!("CARGO_BIN_EXE_softstop"))
-        .args(arguments)
-        .output()
-}
+const FIDELITY: Program = Program {
+    file: env!("CARGO_BIN_EXE_softstop"),
+    first: &["fidelity"],
+};
 
 /// Timed once only: the times are not looked at.
-fn fidelity(
-    scene: &str,
-    folder: &Path,
-    more: &[&str],
-) -> Result<Value, Box<dyn std::error::Error>> {
-    let output = folder.to_str().ok_or("path")?;
-    let basic = ["fidelity", scene, "--format", "json", "--output", output];
-    let quick = ["--periods", "50", "--repeats", "1"];
-    let output = softstop(&[&basic[..], &quick[..], more].concat())?;
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{scene}: {message}");
-    Ok(serde_json::from_slice(&output.stdout)?)
+fn fidelity(scene: &str, folder: &Path, more: &[&str]) -> Value {
+    let quick = [scene, "--periods", "50", "--repeats", "1"];
+    FIDELITY.json_into(folder, &[&quick, more].concat())
 }
 
 fn scene(name: &str) -> String {
@@ -45,10 +35,8 @@ fn model<'a>(report: &'a Value, rung: &str, matched: Option<&str>) -> Option<&'a
 #[test]
 fn the_answer_follows_the_tolerance() -> Outcome {
     let folder = tempfile::tempdir()?;
-    let named = |tolerance: &str| -> Result<Value, Box<dyn std::error::Error>> {
-        fidelity("B", folder.path(), &["--tolerance", tolerance])
-    };
-    let strict = named("1e-6")?;
+    let named = |tolerance| fidelity("B", folder.path(), &["--tolerance", tolerance]);
+    let strict = named("1e-6");
     assert_eq!(strict["cheapest"]["rung"], "full");
     assert_eq!(strict["cheapest_is_scene"], true);
     assert_abs_diff_eq!(
@@ -56,11 +44,11 @@ fn the_answer_follows_the_tolerance() -> Outcome {
         8.398_675_591_86,
         epsilon = 1e-9
     );
-    let fair = named("0.02")?;
+    let fair = named("0.02");
     assert_eq!(fair["cheapest"]["rung"], "kelvinVoigt");
     assert_eq!(fair["cheapest"]["matched"], "duration");
     assert_eq!(fair["cheapest_is_scene"], false);
-    assert_eq!(named("0.5")?["cheapest"]["rung"], "rigid");
+    assert_eq!(named("0.5")["cheapest"]["rung"], "rigid");
     let linear = model(&fair, "linear", None).ok_or("linear")?;
     assert_eq!(linear["error"], Value::Null);
     assert_eq!(
@@ -74,7 +62,7 @@ fn the_answer_follows_the_tolerance() -> Outcome {
 fn grazing_needs_no_stop_at_all() -> Outcome {
     let folder = tempfile::tempdir()?;
     let more = ["--quantity", "grazing-frequency", "--tolerance", "0"];
-    let report = fidelity("B", folder.path(), &more)?;
+    let report = fidelity("B", folder.path(), &more);
     assert_eq!(report["cheapest"]["rung"], "linear");
     Ok(())
 }
@@ -86,7 +74,7 @@ fn a_spring_stop_is_a_spring_stop() -> Outcome {
         &scene("kelvin-voigt.toml"),
         folder.path(),
         &["--tolerance", "0"],
-    )?;
+    );
     assert_eq!(report["cheapest"]["rung"], "kelvinVoigt");
     assert_eq!(report["cheapest_is_scene"], true);
     assert!(model(&report, "preloaded", None).is_none());
@@ -101,7 +89,7 @@ fn a_stiff_stop_may_be_taken_as_rigid() -> Outcome {
         &scene("stiff.toml"),
         folder.path(),
         &["--tolerance", "0.01"],
-    )?;
+    );
     assert_eq!(report["cheapest"]["rung"], "rigid");
     let rigid = model(&report, "rigid", None).ok_or("rigid")?;
     let restitution = rigid["machine"]["parameters"]["stop.restitution"]
@@ -116,7 +104,7 @@ fn a_stiff_stop_may_be_taken_as_rigid() -> Outcome {
 #[test]
 fn a_rigid_scene_says_why_it_has_no_soft_models() -> Outcome {
     let folder = tempfile::tempdir()?;
-    let report = fidelity(&scene("rigid.toml"), folder.path(), &[])?;
+    let report = fidelity(&scene("rigid.toml"), folder.path(), &[]);
     let unmatched = report["unmatched"].as_array().ok_or("unmatched")?;
     assert_eq!(unmatched.len(), 4, "two models of two rungs");
     for missing in unmatched {
@@ -130,7 +118,7 @@ fn a_rigid_scene_says_why_it_has_no_soft_models() -> Outcome {
 fn structure_compares_the_regimes() -> Outcome {
     let folder = tempfile::tempdir()?;
     let more = ["--structure", "--points", "7", "--match", "duration"];
-    let report = fidelity("A", folder.path(), &more)?;
+    let report = fidelity("A", folder.path(), &more);
     let tracks = report["structure"].as_array().ok_or("structure")?;
     let track = |rung: &str| tracks.iter().find(|track| track["rung"] == rung);
     let own = track("preloaded").ok_or("preloaded")?;
@@ -159,16 +147,15 @@ fn files_are_whole_and_text_names_the_model() -> Outcome {
     let place = folder.path().join("new");
     let output = place.to_str().ok_or("path")?;
     let line = [
-        "fidelity",
         "B",
         "--tolerance",
         "0.02",
-        "--output",
-        output,
         "--periods",
         "10",
+        "--output",
+        output,
     ];
-    let text = String::from_utf8(softstop(&line)?.stdout)?;
+    let text = FIDELITY.text(&line);
     assert!(
         text.contains("The cheapest model within 0.02: kelvinVoigt (duration)."),
         "{text}"
@@ -189,8 +176,8 @@ fn files_are_whole_and_text_names_the_model() -> Outcome {
 #[test]
 fn predictive_models_know_nothing_of_the_motion() -> Outcome {
     let folder = tempfile::tempdir()?;
-    let informed = fidelity("B", folder.path(), &[])?;
-    let predicted = fidelity("B", folder.path(), &["--predictive"])?;
+    let informed = fidelity("B", folder.path(), &[]);
+    let predicted = fidelity("B", folder.path(), &["--predictive"]);
     let restitution = |report: &Value| {
         let rigid = model(report, "rigid", None).expect("rigid");
         rigid["machine"]["parameters"]["stop.restitution"]
@@ -201,53 +188,37 @@ fn predictive_models_know_nothing_of_the_motion() -> Outcome {
     Ok(())
 }
 
-#[track_caller]
-fn refuses(arguments: &[&str], code: i32, words: &[&str]) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let place = folder.path().join("never");
-    let line = [
-        &["fidelity"],
-        arguments,
-        &["--output", place.to_str().expect("path")],
-    ]
-    .concat();
-    let output = softstop(&line).expect("the program starts");
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
-    assert!(output.stdout.is_empty(), "{arguments:?} wrote to stdout");
-    assert!(!place.exists(), "{arguments:?} left a folder");
-    for word in words {
-        assert!(
-            message.contains(word),
-            "{arguments:?}: {word:?} is not in {message:?}"
-        );
-    }
-}
-
 #[test]
 fn what_cannot_be_is_refused() {
-    refuses(&["C"], 2, &["C: cannot be read"]);
-    refuses(&["A", "--tolerance", "-1"], 2, &["tolerance"]);
+    let refuses = |more: &[&str], words: &[&str]| {
+        FIDELITY.refuses_and_writes_nothing(&[&["A"], more].concat(), words);
+    };
+    FIDELITY.refuses_and_writes_nothing(&["C"], &["C: cannot be read"]);
+    refuses(&["--tolerance", "-1"], &["tolerance"]);
+    refuses(&["--tolerance", "nan"], &["tolerance", "finite and >= 0"]);
     refuses(
-        &["A", "--tolerance", "nan"],
-        2,
-        &["tolerance", "finite and >= 0"],
-    );
-    refuses(
-        &["A", "--quantity", "speed"],
-        2,
+        &["--quantity", "speed"],
         &["quantity", "before_impact_velocity"],
     );
     refuses(
-        &["A", "--structure", "--points", "1"],
-        2,
+        &["--structure", "--points", "1"],
         &["points = 1", "2 to 10000"],
     );
-    refuses(&["A", "--sweep", "2:1", "--structure"], 2, &["LOW < HIGH"]);
-    refuses(&["A", "--repeats", "0"], 2, &["repeats = 0"]);
-    refuses(
-        &[&scene("none.toml")],
-        1,
-        &["before_impact_velocity", "the scene itself has none"],
-    );
+    refuses(&["--sweep", "2:1", "--structure"], &["LOW < HIGH"]);
+    refuses(&["--sweep", "0:1", "--structure"], &["--sweep 0:1", "> 0"]);
+    refuses(&["--repeats", "0"], &["repeats = 0"]);
+}
+
+#[test]
+fn a_scene_without_the_quantity_has_no_models() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = folder.path().join("never");
+    let line = [
+        &scene("none.toml"),
+        "--output",
+        place.to_str().expect("path"),
+    ];
+    let words = ["before_impact_velocity", "the scene itself has none"];
+    FIDELITY.ends_with(&line, 1, &words);
+    assert!(!place.exists(), "a folder is left");
 }

@@ -2,23 +2,21 @@
 
 use approx::assert_abs_diff_eq;
 use softstop_testing::tolerance::{MOTION, printed};
-use std::process::{Command, Output};
 
 use serde_json::Value;
+use softstop_testing::Program;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-fn motions(arguments: &[&str]) -> std::io::Result<Output> {
-    Command::new(env!("CARGO_BIN_EXE_softstop"))
-        .arg("motions")
-        .args(arguments)
-        .output()
-}
+const MOTIONS: Program = Program {
+    file: env!("CARGO_BIN_EXE_softstop"),
+    first: &["motions"],
+};
 
 /// The motions of a machine, few starts each.
 fn found(arguments: &[&str]) -> Result<Vec<Value>, Box<dyn std::error::Error>> {
     let few = ["--starts", "96", "--patience", "300000", "--format", "json"];
-    let output = motions(&[arguments, &few[..]].concat())?;
+    let output = MOTIONS.run(&[arguments, &few[..]].concat());
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{arguments:?}: {message}");
     assert!(
@@ -105,9 +103,8 @@ fn a_seed_gives_other_starts_and_the_same_motions() -> Outcome {
 }
 
 #[test]
-fn the_text_tells_regime_certainty_and_exponents() -> Outcome {
-    let output = motions(&["--frequency", "0.9885", "--starts", "64"])?;
-    let text = String::from_utf8(output.stdout)?;
+fn the_text_tells_regime_certainty_and_exponents() {
+    let text = MOTIONS.text(&["--frequency", "0.9885", "--starts", "64"]);
     for words in [
         "z = 2/4",
         "1-1-0-0",
@@ -117,26 +114,16 @@ fn the_text_tells_regime_certainty_and_exponents() -> Outcome {
     ] {
         assert!(text.contains(words), "{words} is not in {text}");
     }
-    Ok(())
 }
 
 #[test]
-fn values_that_cannot_be_are_refused_by_name_value_and_range() -> Outcome {
-    let cases: [(&[&str], &str); 4] = [
-        (&["--starts", "0"], "starts = 0: must be 1 to 1000000"),
-        (
-            &["--longest", "20000"],
-            "longest = 20000: must be 1 to 10000",
-        ),
-        (&["--transient", "0"], "transient = 0: must be 1 to 1000000"),
-        (&["--frequency", "-1"], "frequency"),
-    ];
-    for (arguments, words) in cases {
-        let output = motions(arguments)?;
-        let message = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
-        assert!(message.contains(words), "{arguments:?}: {message}");
-        assert!(output.stdout.is_empty());
+fn values_that_cannot_be_are_refused_by_name_value_and_range() {
+    for (flag, value, told) in [
+        ("--starts", "0", "starts = 0: must be 1 to 1000000"),
+        ("--longest", "20000", "longest = 20000: must be 1 to 10000"),
+        ("--transient", "0", "transient = 0: must be 1 to 1000000"),
+        ("--frequency", "-1", "frequency"),
+    ] {
+        MOTIONS.refuses(&[flag, value], &[told]);
     }
-    Ok(())
 }

@@ -167,11 +167,6 @@ impl Simulation {
         self.epoch + self.motion.clock().time(instant)
     }
 
-    /// Tells `observer` of the arc that is under way, up to the present time.
-    pub fn tell_arc(&self, observer: &mut impl Observer) {
-        self.motion.tell_arc(observer);
-    }
-
     /// Whether a time can be advanced to at all.
     ///
     /// # Errors

@@ -63,12 +63,15 @@ impl Machine {
                 self.start.velocity = number()?;
                 return Ok(keys::VELOCITY);
             }
-            keys::FREQUENCY_HZ | "frequency_hz" if self.speaks != Language::Ratios => {
+            _ => {}
+        }
+        match keys::stated_otherwise(key) {
+            Some(Parameter::Frequency) if self.speaks != Language::Ratios => {
                 self.speaks = Language::Hertz;
                 self.set(Parameter::Frequency, number()?);
                 return Ok(Parameter::Frequency.name());
             }
-            keys::DEFLECTION | "preload_deflection" => {
+            Some(Parameter::Preload) => {
                 self.known(keys::DEFLECTION)?;
                 self.preload_deflection = Some(0.0);
                 self.set(Parameter::Preload, number()?);

@@ -32,15 +32,12 @@ pub(super) const FURTHER: [&str; 10] = [
     "description",
 ];
 
-/// Parameters that machines in ratios do not state: they are 1.
-const ONES: [Parameter; 3] = [Parameter::Mass, Parameter::Suspension, Parameter::Amplitude];
-
 /// All keys of a file in a language.
 pub(super) fn all(speaks: Language) -> Vec<&'static str> {
     let ratios = speaks == Language::Ratios;
     let numbers = Parameter::ALL
         .into_iter()
-        .filter(|it| !(ratios && ONES.contains(it)));
+        .filter(|it| !(ratios && it.is_unit()));
     let further = FURTHER
         .into_iter()
         .filter(|key| !(ratios && *key == FREQUENCY_HZ));
@@ -90,7 +87,7 @@ pub(super) fn stated_otherwise(key: &str) -> Option<Parameter> {
 /// True if a key is the letter of a ratio of what machines in SI units have.
 fn is_ratio(key: &str, parameter: Parameter) -> bool {
     let about = parameter.about();
-    let is_quotient = about.dimension != Dimension::Angle && !ONES.contains(&parameter);
+    let is_quotient = about.dimension != Dimension::Angle && !parameter.is_unit();
     key == about.letter && key != about.symbol && is_quotient
 }
 

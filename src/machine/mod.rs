@@ -19,6 +19,17 @@ pub enum Language {
     Ratios,
 }
 
+impl Language {
+    /// The sign of its unit; empty for bare numbers.
+    pub const fn unit(self, dimension: Dimension) -> &'static str {
+        match (self, dimension) {
+            (Self::Ratios, _) => "",
+            (Self::Hertz, Dimension::Frequency) => "Hz",
+            _ => dimension.unit(),
+        }
+    }
+}
+
 /// A machine as its user states it: a scene, where it starts, its name, and the units that it speaks.
 ///
 /// The same names stand in TOML files ([`Machine::from_toml`]), on command lines ([`Machine::apply`]), in
@@ -114,11 +125,7 @@ impl Machine {
     pub fn value(&self, parameter: Parameter) -> Option<f64> {
         let value = parameter.get(&self.scene)?;
         match parameter {
-            Parameter::Mass | Parameter::Suspension | Parameter::Amplitude
-                if self.speaks == Language::Ratios =>
-            {
-                None
-            }
+            unit if unit.is_unit() && self.speaks == Language::Ratios => None,
             Parameter::Preload => Some(self.preload_deflection.unwrap_or(value)),
             _ => Some(self.to_own(parameter.about().dimension, value)),
         }
@@ -209,11 +216,7 @@ impl Machine {
 
     /// The sign of its own unit; empty for bare numbers.
     pub const fn unit(&self, dimension: Dimension) -> &'static str {
-        match (self.speaks, dimension) {
-            (Language::Ratios, _) => "",
-            (Language::Hertz, Dimension::Frequency) => "Hz",
-            _ => dimension.unit(),
-        }
+        self.speaks.unit(dimension)
     }
 
     /// The label of an axis or a column: what it is, with its unit in brackets, or with the paper's symbol

@@ -95,6 +95,8 @@ pub enum Dimension {
     Time,
     /// J.
     Energy,
+    /// W.
+    Power,
     /// s/m.
     Slowness,
     /// A bare number.
@@ -115,6 +117,7 @@ impl Dimension {
             Self::Velocity => "m/s",
             Self::Time => "s",
             Self::Energy => "J",
+            Self::Power => "W",
             Self::Slowness => "s/m",
             Self::Number => "",
         }
@@ -281,6 +284,11 @@ impl Parameter {
     pub fn is_called(self, name: &str) -> bool {
         let about = self.about();
         name == about.name || name == about.letter || about.aliases.contains(&name)
+    }
+
+    /// True if ratios are in units of it: machines in ratios do not state it.
+    pub const fn is_unit(self) -> bool {
+        matches!(self, Self::Mass | Self::Suspension | Self::Amplitude)
     }
 
     /// Its value in SI units, if the machine has it.

@@ -46,6 +46,7 @@ impl Units {
             Dimension::Velocity => value * (self.length() * self.frequency()),
             Dimension::Time => value / self.frequency(),
             Dimension::Energy => value * (self.force * self.length()),
+            Dimension::Power => value * (self.force * self.length() * self.frequency()),
             Dimension::Slowness => value / (self.length() * self.frequency()),
             Dimension::Angle | Dimension::Number => value,
         }

@@ -45,9 +45,9 @@ enum Task {
     Wine,
     /// Build the FMU as it is shipped and run all tests: in Rust, with FMPy and with other importers
     Test,
-    /// Build the FMU and run the tests with FMPy only
+    /// Build the FMU of daily work and run the tests with FMPy only
     Fmpy,
-    /// Build the FMU and run the tests with other importers only
+    /// Build the FMU of daily work and run the tests with other importers only
     Importers,
     /// Run the benchmarks
     Bench,

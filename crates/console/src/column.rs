@@ -26,106 +26,21 @@
 
 use std::borrow::Borrow;
 
-use serde::Serialize;
+use crate::record::{Figure, Record, below};
+use crate::table::aligned;
 
+pub use crate::cell::{Cell, Form, Told};
 pub use crate::units::{Unit, Units};
-
-/// What stands in a column of a row.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum Cell {
-    /// Nothing.
-    Empty,
-    /// A word.
-    Text(String),
-    /// A number.
-    Number(f64),
-    /// A count.
-    Count(u64),
-    /// Yes or no.
-    Flag(bool),
-}
-
-impl From<&str> for Cell {
-    fn from(text: &str) -> Self {
-        Self::Text(text.to_owned())
-    }
-}
-
-impl From<String> for Cell {
-    fn from(text: String) -> Self {
-        Self::Text(text)
-    }
-}
-
-impl From<f64> for Cell {
-    fn from(number: f64) -> Self {
-        Self::Number(number)
-    }
-}
-
-impl From<u64> for Cell {
-    fn from(count: u64) -> Self {
-        Self::Count(count)
-    }
-}
-
-impl From<usize> for Cell {
-    fn from(count: usize) -> Self {
-        Self::Count(count as u64)
-    }
-}
-
-impl From<bool> for Cell {
-    fn from(flag: bool) -> Self {
-        Self::Flag(flag)
-    }
-}
-
-impl<T: Into<Cell>> From<Option<T>> for Cell {
-    fn from(value: Option<T>) -> Self {
-        value.map_or(Self::Empty, Into::into)
-    }
-}
-
-/// How numbers are written for people.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Form {
-    /// As they are.
-    Plain,
-    /// With so many decimals.
-    Fixed(usize),
-    /// With so many decimals and a power of ten.
-    Power(usize),
-    /// A share in per cent, with so many decimals.
-    Percent(usize),
-}
-
-impl Form {
-    fn write(self, cell: &Cell) -> String {
-        match (cell, self) {
-            (Cell::Empty, _) => "-".to_owned(),
-            (Cell::Text(text), _) => text.clone(),
-            (Cell::Count(count), _) => count.to_string(),
-            (Cell::Flag(flag), _) => if *flag { "yes" } else { "no" }.to_owned(),
-            (Cell::Number(number), Self::Plain) => number.to_string(),
-            (Cell::Number(number), Self::Fixed(decimals)) => format!("{number:.decimals$}"),
-            (Cell::Number(number), Self::Power(decimals)) => format!("{number:.decimals$e}"),
-            (Cell::Number(number), Self::Percent(decimals)) => {
-                format!("{:.decimals$} %", 100.0 * number)
-            }
-        }
-    }
-}
+pub use softstop::Dimension;
 
 /// A column of a table whose rows are `T`.
 #[derive(Debug, Clone, Copy)]
 pub struct Column<T> {
-    name: &'static str,
-    unit: Unit,
-    meaning: &'static str,
-    cell: fn(&T) -> Cell,
-    form: Option<Form>,
+    pub(crate) name: &'static str,
+    pub(crate) unit: Unit,
+    pub(crate) meaning: &'static str,
+    pub(crate) cell: fn(&T) -> Cell,
+    pub(crate) form: Option<Form>,
 }
 
 /// A column that CSV has: its name, unit and meaning, and where its cells come from.
@@ -147,6 +62,11 @@ pub const fn column<T>(
 /// An array of [`Column`]s, one in each line; see [`column`](crate::column).
 #[macro_export]
 macro_rules! columns {
+    (@unit None) => { $crate::column::Unit::None };
+    (@unit Of($name:expr)) => { $crate::column::Unit::Of($name) };
+    (@unit $dimension:ident) => {
+        $crate::column::Unit::Own($crate::column::Dimension::$dimension)
+    };
     ($row:ty, $it:ident; $(
         $name:literal [$unit:ident $(($of:expr))?] $($form:ident $(($decimals:expr))?)?,
         $meaning:literal => $cell:expr;
@@ -154,7 +74,7 @@ macro_rules! columns {
         [$(
             $crate::column::column(
                 $name,
-                $crate::column::Unit::$unit $(($of))?,
+                $crate::columns!(@unit $unit $(($of))?),
                 $meaning,
                 |$it: &$row| $crate::column::Cell::from($cell),
             )
@@ -174,14 +94,26 @@ impl<T> Column<T> {
     }
 }
 
-/// The names of columns, the first line of a CSV table.
-pub fn names<T>(columns: &[Column<T>]) -> Vec<&'static str> {
-    columns.iter().map(|column| column.name).collect()
-}
+impl Record {
+    /// What a thing has in these columns.
+    #[must_use]
+    pub fn of<T>(columns: &[Column<T>], thing: &T) -> Self {
+        let figures = columns.iter().map(|column| Figure {
+            name: column.name,
+            label: column.meaning.to_owned(),
+            unit: column.unit,
+            form: column.form,
+            cell: (column.cell)(thing),
+        });
+        Self(figures.collect())
+    }
 
-/// What a row has in its columns.
-pub fn cells<T>(columns: &[Column<T>], row: &T) -> Vec<Cell> {
-    columns.iter().map(|column| (column.cell)(row)).collect()
+    /// What things have in these columns.
+    #[must_use]
+    pub fn all<T>(columns: &[Column<T>], things: &[T]) -> Vec<Self> {
+        let things = things.iter();
+        things.map(|thing| Self::of(columns, thing)).collect()
+    }
 }
 
 /// The table for people: words to the left, numbers to the right, under names with units.
@@ -191,61 +123,26 @@ pub fn text<T>(
     rows: impl IntoIterator<Item = impl Borrow<T>>,
     units: &Units,
 ) -> String {
-    let shown = columns
-        .iter()
-        .filter_map(|column| Some((column, column.form?)));
-    let shown: Vec<(&Column<T>, Form)> = shown.collect();
-    let heads = shown.iter().map(|(column, _)| {
-        let name = column.name.replace('_', " ");
-        Cell::Text(units.label(&name, column.unit))
-    });
-    let rows = rows.into_iter().map(|row| {
-        let cells = shown.iter().map(|(column, _)| (column.cell)(row.borrow()));
-        cells.collect::<Vec<Cell>>()
-    });
-    let lines: Vec<Vec<Cell>> = std::iter::once(heads.collect()).chain(rows).collect();
-    let width = |index: usize| {
-        let written = lines.iter().map(|line| shown[index].1.write(&line[index]));
-        written.map(|cell| cell.chars().count()).max().unwrap_or(0)
-    };
-    let is_word = |index: usize| {
-        let words = |line: &Vec<Cell>| matches!(line[index], Cell::Text(_));
-        lines.len() > 1 && lines[1..].iter().any(words)
-    };
-    let layout: Vec<(usize, bool)> = (0..shown.len())
-        .map(|index| (width(index), is_word(index)))
-        .collect();
-    let line = |cells: &Vec<Cell>| {
-        let cells = cells.iter().zip(&shown).zip(&layout);
-        let padded = cells.map(|((cell, (_, form)), (width, is_word))| {
-            let cell = form.write(cell);
-            if *is_word {
-                format!("{cell:<width$}")
-            } else {
-                format!("{cell:>width$}")
-            }
-        });
-        let padded: Vec<String> = padded.collect();
-        padded.join("   ").trim_end().to_owned() + "\n"
-    };
-    lines.iter().map(line).collect()
+    let records = rows
+        .into_iter()
+        .map(|row| Record::of(columns, row.borrow()));
+    below(&records.collect::<Vec<_>>(), units)
 }
 
 /// What the columns of a file mean: a paragraph at the end of `--help`.
 #[must_use]
 pub fn help<T>(file: &str, columns: &[Column<T>]) -> String {
-    let lines: Vec<[&str; 3]> = columns
-        .iter()
-        .map(|column| {
-            let unit = Units::SI.name(column.unit);
-            let unit = if unit.is_empty() { "-" } else { unit };
-            [column.name, unit, column.meaning]
-        })
-        .collect();
-    let width = |index: usize| lines.iter().map(|line| line[index].chars().count()).max();
-    let [name_width, unit_width] = [0, 1].map(|index| width(index).unwrap_or(0));
-    let line = |[name, unit, meaning]: &[&str; 3]| {
-        format!("\n  {name:name_width$}   {unit:unit_width$}   {meaning}")
-    };
-    format!("\n\nColumns of {file}:") + &lines.iter().map(line).collect::<String>()
+    let lines = columns.iter().map(|column| {
+        let unit = match Units::SI.name(column.unit) {
+            "" => "-",
+            unit => unit,
+        };
+        let name = format!("  {}", column.name);
+        vec![name, unit.to_owned(), column.meaning.to_owned()]
+    });
+    let lines: Vec<Vec<String>> = lines.collect();
+    format!(
+        "\n\nColumns of {file}:\n{}",
+        aligned(&lines, |_| true).trim_end()
+    )
 }

@@ -50,9 +50,9 @@ use std::path::Path;
 use anyhow::anyhow;
 use serde::Serialize;
 
-use crate::column::{Column, cells, names};
+use crate::column::Column;
 use crate::failure::Failure;
-use crate::output::{self, Folder, Format};
+use crate::output::{self, Folder, Format, Staged};
 
 /// What a command found: plain data whose field names are the keys of the JSON.
 pub trait Report: Serialize {
@@ -110,6 +110,20 @@ impl Export {
         self.folder.stage(self.name(kind)?, content)
     }
 
+    /// Opens a table as the file of a kind, to be written row by row.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming the file.
+    pub fn open_table<'a, T>(
+        &self,
+        kind: &str,
+        columns: &'a [Column<T>],
+    ) -> Result<Table<'a, T>, Failure> {
+        let mut staged = self.folder.create(self.name(kind)?)?;
+        staged.row(columns.iter().map(|column| column.name))?;
+        Ok(Table { columns, staged })
+    }
+
     /// Writes a table as the file of a kind.
     ///
     /// # Errors
@@ -120,10 +134,9 @@ impl Export {
         columns: &[Column<T>],
         rows: impl IntoIterator<Item = impl Borrow<T>>,
     ) -> Result<(), Failure> {
-        let mut table = self.folder.create(self.name(kind)?)?;
-        table.header(&names(columns))?;
+        let mut table = self.open_table(kind, columns)?;
         for row in rows {
-            table.row(&cells(columns, row.borrow()))?;
+            table.row(row.borrow())?;
         }
         table.close()
     }
@@ -173,5 +186,31 @@ impl Export {
         let file = self.files.iter().find(|(other, _)| other == kind);
         let name = file.map(|(_, name)| name.as_str());
         name.ok_or_else(|| Failure::Run(anyhow!("no file was opened for {kind}")))
+    }
+}
+
+/// A table that is being written.
+#[derive(Debug)]
+pub struct Table<'a, T> {
+    columns: &'a [Column<T>],
+    staged: Staged,
+}
+
+impl<T> Table<'_, T> {
+    /// Adds one row.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming the file.
+    pub fn row(&mut self, row: &T) -> Result<(), Failure> {
+        let cells = self.columns.iter().map(|column| (column.cell)(row));
+        self.staged.row(cells)
+    }
+
+    /// Writes what is left through to the disk.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming the file.
+    pub fn close(self) -> Result<(), Failure> {
+        self.staged.close()
     }
 }

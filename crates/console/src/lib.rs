@@ -1,9 +1,10 @@
 //! What the programs share: the [`machine`] as the user states it, [`scene_file`]s, [`progress`],
-//! [`interrupt`], [`failure`], and one [`export`] of every report: [`mod@column`]s said once, text [`table`]s, [`units`], [`range`]s, and
+//! [`interrupt`], [`failure`], and one [`export`] of every report: [`mod@column`]s and [`record`]s said once, text [`table`]s, [`units`], [`range`]s, and
 //! [`output`] that is there whole or not at all.
 #![forbid(unsafe_code)]
 
 pub mod arguments;
+pub mod cell;
 pub mod column;
 pub mod export;
 pub mod failure;
@@ -13,6 +14,7 @@ pub mod median;
 pub mod output;
 pub mod progress;
 pub mod range;
+pub mod record;
 pub mod report;
 pub mod scene_file;
 pub mod schema;

@@ -178,20 +178,10 @@ impl Staged {
     ///
     /// # Errors
     /// [`Failure::Run`] naming the file.
-    pub fn row(&mut self, row: &impl Serialize) -> Result<(), Failure> {
+    pub fn row(&mut self, cells: impl IntoIterator<Item = impl Serialize>) -> Result<(), Failure> {
+        let cells: Vec<_> = cells.into_iter().collect();
         self.table
-            .serialize(row)
-            .with_context(|| format!("cannot write {}", self.place.display()))?;
-        Ok(())
-    }
-
-    /// Adds the names of the columns.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] naming the file.
-    pub fn header(&mut self, names: &[&str]) -> Result<(), Failure> {
-        self.table
-            .write_record(names)
+            .serialize(cells)
             .with_context(|| format!("cannot write {}", self.place.display()))?;
         Ok(())
     }

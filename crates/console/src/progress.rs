@@ -24,6 +24,7 @@ pub struct Progress {
     begin: Instant,
     bar: ProgressBar,
     what: String,
+    is_terminal: bool,
     /// Lines written, or 1 once the bar is shown.
     shown: AtomicU64,
 }
@@ -57,6 +58,7 @@ impl Progress {
             begin: Instant::now(),
             bar,
             what: what.to_owned(),
+            is_terminal: io::stderr().is_terminal(),
             shown: AtomicU64::new(0),
         }
     }
@@ -64,8 +66,7 @@ impl Progress {
     /// The run is under way; says so once it has taken long.
     pub fn beat(&self) {
         let (elapsed, shown) = (self.begin.elapsed(), self.shown.load(Ordering::Relaxed));
-        let is_terminal = io::stderr().is_terminal();
-        let due = if is_terminal {
+        let due = if self.is_terminal {
             u64::from(elapsed > PATIENCE)
         } else {
             elapsed.as_secs() / PAUSE
@@ -79,7 +80,7 @@ impl Progress {
         {
             return;
         }
-        if is_terminal {
+        if self.is_terminal {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
             self.bar.enable_steady_tick(TICK);
         } else {

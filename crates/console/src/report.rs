@@ -2,36 +2,31 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::Complex;
 use serde::Serialize;
-use serde_json::{Map, Value};
-use softstop::{Dimension, Language, Machine, Parameter, Ratios, Stop};
+use serde_json::{Map, Value, json};
+use softstop::{Language, Machine, Parameter, Ratios, Stop};
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{self, Orbit};
 
+use crate::column::{Cell, Column, Told};
+use crate::columns;
 use crate::machine::Regime;
-use crate::table::{Row, number, row};
+use crate::record::Record;
+use crate::table::number;
 use crate::units;
 
-/// A Floquet multiplier.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct Multiplier {
-    /// Real part.
-    pub re: f64,
-    /// Imaginary part.
-    pub im: f64,
-    /// Absolute value; below 1 for both if the motion is stable.
-    pub modulus: f64,
-}
-
-impl Multiplier {
-    /// This complex number.
-    #[must_use]
-    pub fn new(multiplier: nalgebra::Complex<f64>) -> Self {
-        Self {
-            re: multiplier.re,
-            im: multiplier.im,
-            modulus: multiplier.norm(),
-        }
+/// Floquet multipliers: their parts and moduli, the latter below 1 if the motion is stable.
+#[must_use]
+pub fn multipliers([first, second]: [Complex<f64>; 2]) -> Told {
+    let parts = |it: Complex<f64>| json!({ "re": it.re, "im": it.im, "modulus": it.norm() });
+    let (re, im) = (number(first.re), first.im.abs());
+    Told {
+        value: json!([parts(first), parts(second)]),
+        words: match im {
+            0.0 => format!("{re}, {}", number(second.re)),
+            _ => format!("{re} +- {im:.6} i, modulus {:.6}", first.norm()),
+        },
     }
 }
 
@@ -169,92 +164,60 @@ impl MotionName {
     }
 }
 
-/// A motion, in the units of its machine.
-#[derive(Debug, Clone, Serialize)]
-pub struct MotionReport {
-    /// eta.
-    pub frequency: f64,
-    /// X at drive angle 0.
-    pub position: f64,
-    /// X' at drive angle 0.
-    pub velocity: f64,
-    /// X' when the mass reaches the clearance.
-    pub before_impact_velocity: f64,
-    /// X_m.
-    pub max_position: f64,
-    /// Trace of the monodromy matrix.
-    pub trace: f64,
-    /// Its determinant.
-    pub determinant: f64,
-    /// Its eigenvalues.
-    pub multipliers: [Multiplier; 2],
-}
-
-impl MotionReport {
-    /// The motion of this machine.
-    #[must_use]
-    pub fn of(machine: &Machine, orbit: &Orbit) -> Self {
-        Self {
-            frequency: machine.value(Parameter::Frequency).unwrap_or(f64::NAN),
-            position: orbit.position,
-            velocity: orbit.velocity,
-            before_impact_velocity: orbit.before_impact_velocity(),
-            max_position: orbit.max_position,
-            trace: orbit.trace(),
-            determinant: orbit.determinant(),
-            multipliers: orbit.multipliers().map(Multiplier::new),
-        }
+impl From<MotionName> for Cell {
+    fn from(name: MotionName) -> Self {
+        Self::Told(Told {
+            value: serde_json::to_value(&name).unwrap_or_default(),
+            words: name.text,
+        })
     }
 }
 
-/// The machine as rows of a table.
-#[must_use]
-pub fn machine(machine: &Machine) -> Vec<Row> {
-    let name = row("machine", [machine.name.clone().unwrap_or_default()]);
-    let stop = row("stop", [machine.scene.stop.model().to_owned()]);
-    let values = machine.parameters().map(|parameter| {
-        let value = machine.value(parameter).unwrap_or(f64::NAN);
-        row(&machine.label_of(parameter), [number(value)])
-    });
-    [name, stop].into_iter().chain(values).collect()
+type Found<'a> = (&'a Machine, &'a Orbit);
+
+fn states<'a>() -> [Column<Found<'a>>; 5] {
+    columns! { Found<'a>, it;
+        "frequency" [Frequency], "drive frequency" => it.0.value(Parameter::Frequency);
+        "before_impact_velocity" [Velocity] Six, "before-impact velocity" => it.1.before_impact_velocity();
+        "max_position" [Length] Six, "greatest position" => it.1.max_position;
+        "position" [Length] Six, "position at drive angle 0" => it.1.position;
+        "velocity" [Velocity] Six, "velocity at drive angle 0" => it.1.velocity;
+    }
 }
 
-/// The motion as rows of a table.
+fn stabilities<'a>() -> [Column<Found<'a>>; 3] {
+    columns! { Found<'a>, it;
+        "trace" [None] Six, "trace of the monodromy" => it.1.trace();
+        "determinant" [None] Six, "its determinant" => it.1.determinant();
+        "multipliers" [None] Six, "Floquet multipliers" => multipliers(it.1.multipliers());
+    }
+}
+
+/// Where a z = 1 motion of this machine goes.
 #[must_use]
-pub fn motion(machine: &Machine, report: &MotionReport) -> Vec<Row> {
-    let multipliers = report.multipliers.map(|multiplier| {
-        if multiplier.im == 0.0 {
-            number(multiplier.re)
-        } else {
-            format!("{} {:+.6}i", number(multiplier.re), multiplier.im)
-        }
-    });
-    let [first, second] = multipliers;
-    let length = |what, symbol| machine.label(what, symbol, Dimension::Length);
-    let velocity = |what, symbol| machine.label(what, symbol, Dimension::Velocity);
-    [
-        (
-            velocity("before-impact velocity", "X'-"),
-            number(report.before_impact_velocity),
-        ),
-        (
-            length("greatest position", "X_m"),
-            number(report.max_position),
-        ),
-        (
-            length("position at drive angle 0", "X"),
-            number(report.position),
-        ),
-        (
-            velocity("velocity at drive angle 0", "X'"),
-            number(report.velocity),
-        ),
-        ("trace of the monodromy".to_owned(), number(report.trace)),
-        ("its determinant".to_owned(), number(report.determinant)),
-        ("Floquet multipliers".to_owned(), first),
-        (String::new(), second),
-    ]
-    .into_iter()
-    .map(|(label, cell)| row(&label, [cell]))
-    .collect()
+pub fn state(machine: &Machine, orbit: &Orbit) -> Record {
+    Record::of(&states(), &(machine, orbit))
+}
+
+/// A z = 1 motion of this machine: where it goes, and how stable it is.
+#[must_use]
+pub fn motion(machine: &Machine, orbit: &Orbit) -> Record {
+    let found = (machine, orbit);
+    Record::of(&states(), &found).and(Record::of(&stabilities(), &found))
+}
+
+/// The machine for people: its name, its stop, and its parameters but for some.
+#[must_use]
+pub fn machine(machine: &Machine, but: &[Parameter]) -> Record {
+    let head = Record::default()
+        .with(
+            "machine",
+            "machine",
+            machine.name.clone().unwrap_or_default(),
+        )
+        .with("stop", "stop", machine.scene.stop.model());
+    let parameters = machine.parameters().filter(|it| !but.contains(it));
+    parameters.fold(head, |record, it| {
+        record.with(it.name(), &machine.label_of(it), machine.value(it))
+    })
 }

@@ -104,7 +104,7 @@ fn sections(language: Language) -> Map<String, Value> {
     let mut all: Map<String, Value> = Map::new();
     for parameter in Parameter::ALL {
         match parameter.name().split_once('.') {
-            _ if language == Language::Ratios && is_one(parameter) => {}
+            _ if language == Language::Ratios && parameter.is_unit() => {}
             None => {
                 all.insert(parameter.name().to_owned(), number(parameter, language));
             }
@@ -146,13 +146,6 @@ fn required(sections: &Map<String, Value>) -> Vec<String> {
         .keys()
         .filter(|key| !optional.contains(&key.as_str()));
     keys.cloned().collect()
-}
-
-const fn is_one(parameter: Parameter) -> bool {
-    matches!(
-        parameter,
-        Parameter::Mass | Parameter::Suspension | Parameter::Amplitude
-    )
 }
 
 fn text(what: &str) -> Value {

@@ -1,13 +1,4 @@
-//! Text tables for people.
-
-/// A row: what it is, and a cell for each column.
-pub type Row = (String, Vec<String>);
-
-/// A row with this label.
-#[must_use]
-pub fn row(label: &str, cells: impl IntoIterator<Item = String>) -> Row {
-    (label.to_owned(), cells.into_iter().collect())
-}
+//! Text for people: titles, numbers, and cells under one another.
 
 /// An underlined title.
 #[must_use]
@@ -39,45 +30,37 @@ pub fn figure(value: f64) -> String {
     }
 }
 
-/// Labels to the left, cells to the right, every column as wide as its widest cell.
+/// Lines of cells, every column as wide as its widest cell; words stand to the left, numbers to the right.
 #[must_use]
-pub fn table(rows: &[Row]) -> String {
-    let label_width = rows
-        .iter()
-        .map(|(label, _)| label.chars().count())
-        .max()
-        .unwrap_or(0);
-    let columns = rows.iter().map(|(_, cells)| cells.len()).max().unwrap_or(0);
-    let width = |column: usize| {
-        rows.iter()
-            .filter_map(|(_, cells)| cells.get(column))
-            .map(|cell| cell.chars().count())
-            .max()
-            .unwrap_or(0)
+pub fn aligned(lines: &[Vec<String>], is_word: impl Fn(usize) -> bool) -> String {
+    let columns = lines.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |index: usize| {
+        let cells = lines.iter().filter_map(|line| line.get(index));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
     };
     let widths: Vec<usize> = (0..columns).map(width).collect();
-    let mut text = String::new();
-    for (label, cells) in rows {
-        let mut line = format!("{label:label_width$}");
-        for (cell, width) in cells.iter().zip(&widths) {
-            line += &format!("   {cell:>width$}");
-        }
-        text += line.trim_end();
-        text.push('\n');
-    }
-    text
+    let line = |cells: &Vec<String>| {
+        let cells = cells.iter().zip(&widths).enumerate();
+        let padded = cells.map(|(index, (cell, width))| match is_word(index) {
+            true => format!("{cell:<width$}"),
+            false => format!("{cell:>width$}"),
+        });
+        padded.collect::<Vec<_>>().join("   ").trim_end().to_owned() + "\n"
+    };
+    lines.iter().map(line).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{row, table};
+    use super::aligned;
 
     #[test]
     fn columns_line_up() {
-        let rows = [
-            row("a", ["1.5".to_owned()]),
-            row("long", ["12.25".to_owned(), "x".to_owned()]),
-        ];
-        assert_eq!(table(&rows), "a        1.5\nlong   12.25   x\n");
+        let lines = [vec!["a", "1.5"], vec!["long", "12.25", "x"]];
+        let lines = lines.map(|line| line.into_iter().map(str::to_owned).collect());
+        assert_eq!(
+            aligned(&lines, |index| index == 0),
+            "a        1.5\nlong   12.25   x\n"
+        );
     }
 }

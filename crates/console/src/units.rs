@@ -11,64 +11,31 @@ pub enum Unit {
     None,
     /// The same for all machines.
     Of(&'static str),
-    /// Of a position.
-    Length,
-    /// Of a velocity.
-    Velocity,
-    /// Of the drive's angular frequency.
-    Frequency,
-    /// Of a force.
-    Force,
+    /// The machine's own of what is measured.
+    Own(Dimension),
 }
 
-/// The names of a machine's own units; empty where its numbers are ratios.
+/// The signs of the units that a machine speaks; empty where its numbers are ratios.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Units {
-    length: &'static str,
-    velocity: &'static str,
-    frequency: &'static str,
-    force: &'static str,
-}
+pub struct Units(Language);
 
 impl Units {
     /// Of a machine in SI units.
-    pub const SI: Self = Self {
-        length: "m",
-        velocity: "m/s",
-        frequency: "rad/s",
-        force: "N",
-    };
-    /// Of the paper's ratios.
-    pub const RATIOS: Self = Self {
-        length: "",
-        velocity: "",
-        frequency: "",
-        force: "",
-    };
+    pub const SI: Self = Self(Language::Si);
 
     /// Those that a machine speaks.
     #[must_use]
     pub const fn of(machine: &Machine) -> Self {
-        match machine.speaks {
-            Language::Ratios => Self::RATIOS,
-            Language::Hertz => Self {
-                frequency: "Hz",
-                ..Self::SI
-            },
-            Language::Si => Self::SI,
-        }
+        Self(machine.speaks)
     }
 
-    /// The name of a unit.
+    /// The sign of a unit.
     #[must_use]
     pub const fn name(&self, unit: Unit) -> &'static str {
         match unit {
             Unit::None => "",
             Unit::Of(name) => name,
-            Unit::Length => self.length,
-            Unit::Velocity => self.velocity,
-            Unit::Frequency => self.frequency,
-            Unit::Force => self.force,
+            Unit::Own(dimension) => self.0.unit(dimension),
         }
     }
 
@@ -95,6 +62,7 @@ pub const fn name(machine: &Machine, dimension: Dimension) -> &'static str {
         (Language::Ratios, Dimension::Velocity) => "F0/sqrt(m k1)",
         (Language::Ratios, Dimension::Time) => "sqrt(m/k1)",
         (Language::Ratios, Dimension::Energy) => "F0^2/k1",
+        (Language::Ratios, Dimension::Power) => "F0^2/sqrt(m k1)",
         (Language::Ratios, Dimension::Slowness) => "sqrt(m k1)/F0",
         (Language::Ratios, other) => other.unit(),
         _ => machine.unit(dimension),

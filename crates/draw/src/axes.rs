@@ -1,5 +1,7 @@
 //! How the axes of a panel are written: letters, names, how many numbers.
 
+use crate::scale::{power_of_ten, ticks};
+
 /// How axes are written.
 #[derive(Debug, Clone, Copy)]
 pub struct Axes<'a> {
@@ -11,6 +13,8 @@ pub struct Axes<'a> {
     pub upwards: &'a str,
     /// About how many numbers along each axis.
     pub ticks: (usize, usize),
+    /// Whether the values are powers of ten.
+    pub is_log: bool,
 }
 
 impl<'a> Axes<'a> {
@@ -26,6 +30,19 @@ impl<'a> Axes<'a> {
             across,
             upwards,
             ticks,
+            is_log: false,
         }
+    }
+
+    /// Round values in a range, about so many, and how they are written.
+    pub(crate) fn marks(&self, range: (f64, f64), count: usize) -> Vec<(f64, String)> {
+        let mut marks = ticks(range, count);
+        if self.is_log {
+            marks.retain(|(value, _)| (value - value.round()).abs() < 1e-9);
+            for (value, name) in &mut marks {
+                *name = power_of_ten(value.round() as i32);
+            }
+        }
+        marks
     }
 }

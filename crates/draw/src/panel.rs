@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 pub use crate::axes::Axes;
 use crate::pen::{self, Align, Area, Pen, Stroke};
-use crate::scale::ticks;
 use crate::stroke::Point;
 use crate::style;
 
@@ -60,11 +59,11 @@ impl Panel {
     /// The lines behind what is drawn.
     pub fn ground(&self, pen: &mut Pen, axes: &Axes<'_>) {
         let line = Stroke::solid(GRID, 1.0);
-        for (value, _) in ticks(self.x, axes.ticks.0) {
+        for (value, _) in axes.marks(self.x, axes.ticks.0) {
             let x = self.across(value);
             pen.line(&[(x, self.area.1), (x, self.bottom())], line);
         }
-        for (value, _) in ticks(self.y, axes.ticks.1) {
+        for (value, _) in axes.marks(self.y, axes.ticks.1) {
             let y = self.height(value);
             pen.line(&[(self.area.0, y), (self.right(), y)], line);
         }
@@ -74,7 +73,7 @@ impl Panel {
     pub fn axes(&self, pen: &mut Pen, axes: &Axes<'_>) {
         let (left, top, width, height) = self.area;
         let size = f64::from(axes.letters);
-        for (value, name) in ticks(self.x, axes.ticks.0) {
+        for (value, name) in axes.marks(self.x, axes.ticks.0) {
             let x = self.across(value);
             pen.tick((x, self.bottom()), (x, self.bottom() + TICK));
             if axes.across.is_some() {
@@ -87,7 +86,7 @@ impl Panel {
             pen.text(place, axes.letters + 1, Align::Middle, name);
         }
         let mut widest = 0.0f64;
-        for (value, name) in ticks(self.y, axes.ticks.1) {
+        for (value, name) in axes.marks(self.y, axes.ticks.1) {
             let y = self.height(value);
             pen.tick((left - TICK, y), (left, y));
             pen.text(

@@ -12,7 +12,7 @@ pub use crate::stroke::Stroke;
 /// Mean width of a letter in units of its size, of the letters in use.
 const LETTER: f64 = 0.61;
 
-/// Shapes on a white page; lengths are pixels, y points down.
+/// Shapes on a page; lengths are pixels, y points down.
 pub struct Pen {
     scene: Scene,
 }
@@ -56,6 +56,13 @@ impl Pen {
         let mut scene = Scene::new(width, height);
         scene.font_family = Some(style::FONTS.to_owned());
         Self { scene }
+    }
+
+    /// The same, painted white.
+    pub fn page(width: f64, height: f64) -> Self {
+        let mut pen = Self::new(width, height);
+        pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
+        pen
     }
 
     /// Letters of this size.

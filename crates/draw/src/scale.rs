@@ -23,10 +23,10 @@ pub fn around(values: impl IntoIterator<Item = f64>, room: f64) -> (f64, f64) {
 /// Round values in a range, about so many, and how they are written.
 pub(crate) fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
     let width = high - low;
-    if !width.is_finite() || width <= 0.0 {
+    if !width.is_finite() || width <= 0.0 || count == 0 {
         return Vec::new();
     }
-    let rough = width / count.max(1) as f64;
+    let rough = width / count as f64;
     let power = 10f64.powf(rough.log10().floor());
     let factor = [1.0, 2.0, 5.0, 10.0]
         .into_iter()

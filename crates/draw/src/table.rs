@@ -29,8 +29,7 @@ impl TablePicture {
         let width = 2.0 * MARGIN + self.columns.iter().map(|column| column.1).sum::<f64>();
         let bottom = TOP + LINE * self.lines.len() as f64;
         let height = bottom + 20.0 + 22.0 * self.notes.len() as f64;
-        let mut pen = Pen::new(width, height);
-        pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
+        let mut pen = Pen::page(width, height);
         pen.heading((MARGIN, 36.0), 19, Align::Left, &self.title);
         let names = self.columns.iter().map(|column| column.0);
         for (name, left) in names.zip(self.lefts()) {

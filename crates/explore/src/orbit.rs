@@ -3,14 +3,17 @@
 use anyhow::anyhow;
 use clap::Args;
 use serde::Serialize;
-use softstop_dynamics::orbit::{Orbit, OrbitError};
+use softstop_dynamics::orbit::OrbitError;
 
 use softstop::{Machine, Parameter};
 use softstop_console::arguments::MachineArguments;
+use softstop_console::column::Units;
+use softstop_console::export::{self, Report};
 use softstop_console::failure::Failure;
-use softstop_console::output::{self, Format};
-use softstop_console::report::{self, MotionReport, Stated};
-use softstop_console::table::{heading, table};
+use softstop_console::output::Format;
+use softstop_console::record::Record;
+use softstop_console::report::{self, Stated};
+use softstop_console::table::heading;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -56,38 +59,29 @@ pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
         ),
         other => other.into(),
     })?;
-    let report = OrbitReport::new(&machine, &orbit);
-    output::print(&match arguments.format {
-        Format::Json => output::json(&report)?,
-        Format::Text => text(&machine, &report),
-    })
+    let report = OrbitReport {
+        motion: report::motion(&machine, &orbit),
+        stated: Stated::of(&machine),
+        machine: &machine,
+    };
+    export::print(&report, arguments.format)
 }
 
 /// What `softstop orbit` reports.
-#[derive(Debug, Clone, Serialize)]
-pub struct OrbitReport {
-    /// The motion.
+#[derive(Debug, Serialize)]
+struct OrbitReport<'a> {
     #[serde(flatten)]
-    pub motion: MotionReport,
-    /// Where it was found.
+    motion: Record,
     #[serde(flatten)]
-    pub machine: Stated,
+    stated: Stated,
+    #[serde(skip)]
+    machine: &'a Machine,
 }
 
-impl OrbitReport {
-    /// The orbit of this machine.
-    #[must_use]
-    pub fn new(machine: &Machine, orbit: &Orbit) -> Self {
-        Self {
-            motion: MotionReport::of(machine, orbit),
-            machine: Stated::of(machine),
-        }
+impl Report for OrbitReport<'_> {
+    fn text(&self) -> String {
+        let figures = report::machine(self.machine, &[]).and(self.motion.clone());
+        heading("Stable motion with one impact per drive period (z = 1)")
+            + &figures.text(&Units::of(self.machine))
     }
-}
-
-/// The orbit, one quantity a line.
-fn text(machine: &Machine, report: &OrbitReport) -> String {
-    let mut rows = report::machine(machine);
-    rows.extend(report::motion(machine, &report.motion));
-    heading("Stable motion with one impact per drive period (z = 1)") + &table(&rows)
 }

@@ -6,10 +6,14 @@ use serde::Serialize;
 
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::arguments::{MachineArguments, title};
+use softstop_console::column::{Column, Units};
+use softstop_console::columns;
+use softstop_console::export::{self, Report};
 use softstop_console::failure::Failure;
-use softstop_console::output::{self, Format};
+use softstop_console::output::Format;
+use softstop_console::record::Record;
 use softstop_console::report::{self, Stated};
-use softstop_console::table::{heading, number, row, table};
+use softstop_console::table::heading;
 use softstop_dynamics::zone::{Zone, ZoneError};
 
 const EXAMPLES: &str = "\
@@ -56,55 +60,39 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
             Failure::Run(anyhow!(error.stated(&machine)).context(place))
         }
     })?;
-    let report = ZoneReport::new(&machine, &zone);
-    output::print(&match arguments.format {
-        Format::Json => output::json(&report)?,
-        Format::Text => text(&machine, &report),
-    })
+    let report = ZoneReport {
+        zone: Record::of(&columns(), &(&machine, &zone)),
+        stated: Stated::of(&machine),
+        machine: &machine,
+    };
+    export::print(&report, arguments.format)
 }
 
 /// What `softstop zone` reports.
-#[derive(Debug, Clone, Serialize)]
-pub struct ZoneReport {
-    /// Grazing of the motion without impacts, above resonance.
-    pub frequency_g0: f64,
-    /// The fold of the z = 1 motion.
-    pub frequency_sn: f64,
-    /// Before-impact velocity at the fold.
-    pub velocity_sn: f64,
-    /// The machine.
+#[derive(Debug, Serialize)]
+struct ZoneReport<'a> {
     #[serde(flatten)]
-    pub machine: Stated,
+    zone: Record,
+    #[serde(flatten)]
+    stated: Stated,
+    #[serde(skip)]
+    machine: &'a Machine,
 }
 
-impl ZoneReport {
-    /// The zone of this machine.
-    #[must_use]
-    pub fn new(machine: &Machine, zone: &Zone) -> Self {
-        let own = |frequency| machine.to_own(Dimension::Frequency, frequency);
-        Self {
-            frequency_g0: own(zone.frequency_g0),
-            frequency_sn: own(zone.frequency_sn),
-            velocity_sn: zone.velocity_sn,
-            machine: Stated::of(machine),
-        }
+fn columns<'a>() -> [Column<(&'a Machine, &'a Zone)>; 3] {
+    columns! { (&'a Machine, &'a Zone), it;
+        "frequency_g0" [Frequency] Six, "grazing g0" => it.0.to_own(Dimension::Frequency, it.1.frequency_g0);
+        "frequency_sn" [Frequency] Six, "fold s_SN" => it.0.to_own(Dimension::Frequency, it.1.frequency_sn);
+        "velocity_sn" [Velocity] Six, "before-impact velocity at the fold" => it.1.velocity_sn;
     }
 }
 
-/// The zone, one quantity a line.
-fn text(machine: &Machine, report: &ZoneReport) -> String {
-    let frequency = |what| machine.label(what, "η", Dimension::Frequency);
-    let velocity = machine.label(
-        "before-impact velocity at the fold",
-        "X'-",
-        Dimension::Velocity,
-    );
-    let mut rows = report::machine(machine);
-    rows.retain(|(label, _)| *label != machine.label_of(Parameter::Frequency));
-    rows.extend([
-        row(&frequency("grazing g0"), [number(report.frequency_g0)]),
-        row(&frequency("fold s_SN"), [number(report.frequency_sn)]),
-        row(&velocity, [number(report.velocity_sn)]),
-    ]);
-    heading("Hysteresis zone of the z = 1 motion") + &table(&rows)
+impl Report for ZoneReport<'_> {
+    fn text(&self) -> String {
+        let machine = report::machine(self.machine, &[Parameter::Frequency]);
+        heading("Hysteresis zone of the z = 1 motion")
+            + &machine
+                .and(self.zone.clone())
+                .text(&Units::of(self.machine))
+    }
 }

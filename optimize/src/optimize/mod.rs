@@ -8,6 +8,7 @@ mod progress;
 pub mod reference;
 mod task;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -20,11 +21,10 @@ use softstop_console::output::Format;
 use crate::design::search::{self, SearchError};
 use crate::design::{Design, Problem};
 use crate::fmu::{archive, library};
-use crate::report::{self, DesignReport, OptimizeReport, ReferenceReport, SearchReport};
+use crate::report::{self, OptimizeReport, SearchReport};
 use chart::Chart;
 use named::Named;
 use progress::Best;
-use reference::Reference;
 use task::Job;
 
 const EXAMPLES: &str = "\
@@ -119,7 +119,14 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     export.file("svg", chart.svg().as_bytes())?;
     let start = Start::from(design.orbit.state());
     export.file("fmu", &archive(&library, &named(design), start)?)?;
-    export.finish(&compose(&job, &outcome, &references), job.format)
+    let search = SearchReport {
+        bounds: bounds(&job.problem),
+        seed: job.settings.seed,
+        evaluations: job.settings.evaluations,
+        evaluations_used: outcome.evaluations,
+    };
+    let report = OptimizeReport::new(&job.problem, design, &references, search);
+    export.finish(&report, job.format)
 }
 
 /// The design's machine under the name of a design.
@@ -162,28 +169,11 @@ fn solve(job: &Job) -> Result<Outcome, Failure> {
     })
 }
 
-fn compose(job: &Job, outcome: &Outcome, references: &[Reference]) -> OptimizeReport {
-    let Problem {
-        axes, frequency, ..
-    } = &job.problem;
-    let axes = axes.iter().map(|axis| (axis.parameter, axis.range));
-    let bounds = axes.chain([(Parameter::Frequency, *frequency)]);
-    let velocity = outcome.design.before_impact_velocity();
-    let design = DesignReport::new(&job.problem, &outcome.design);
-    OptimizeReport {
-        text: report::text::optimize(&design, &job.problem, &outcome.design, references),
-        design,
-        reference: references
-            .iter()
-            .map(|reference| (reference.name, ReferenceReport::new(reference, velocity)))
-            .collect(),
-        search: SearchReport {
-            bounds: bounds
-                .map(|(parameter, range)| (report::key(parameter), range.to_string()))
-                .collect(),
-            seed: job.settings.seed,
-            evaluations: job.settings.evaluations,
-            evaluations_used: outcome.evaluations,
-        },
-    }
+/// Values held and ranges searched, by their keys.
+fn bounds(problem: &Problem) -> BTreeMap<String, String> {
+    let axes = problem.axes.iter();
+    let axes = axes.map(|axis| (axis.parameter, axis.range));
+    let bounds = axes.chain([(Parameter::Frequency, problem.frequency)]);
+    let bounds = bounds.map(|(parameter, range)| (report::key(parameter), range.to_string()));
+    bounds.collect()
 }

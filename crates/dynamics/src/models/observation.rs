@@ -69,11 +69,7 @@ impl Observation {
         match orbit {
             Ok(orbit) => {
                 let start = Start::new(orbit.position, orbit.velocity);
-                let regime = Regime {
-                    impacts: 1,
-                    periods: 1,
-                };
-                Self::over(scene, start, Some(regime))
+                Self::over(scene, start, Some(Regime::ONE))
             }
             Err(OrbitError::Motion(error)) => Err(error),
             Err(_) => {

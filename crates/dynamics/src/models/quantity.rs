@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 use super::Observation;
 use crate::orbit::{OrbitError, Regime};
 use crate::zone::Bounds;
-use softstop::Scene;
+use softstop::{Dimension, Scene};
 
 macro_rules! quantities {
-    ($($(#[$what:meta])* $quantity:ident $name:literal $unit:literal;)*) => {
+    ($($(#[$what:meta])* $quantity:ident $name:literal $dimension:ident;)*) => {
         /// A quantity that a model should give.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
         #[serde(rename_all = "snake_case")]
@@ -29,10 +29,10 @@ macro_rules! quantities {
                 }
             }
 
-            /// Its unit.
-            pub const fn unit(self) -> &'static str {
+            /// What it measures.
+            pub const fn dimension(self) -> Dimension {
                 match self {
-                    $(Self::$quantity => $unit),*
+                    $(Self::$quantity => Dimension::$dimension),*
                 }
             }
         }
@@ -41,27 +41,27 @@ macro_rules! quantities {
 
 quantities! {
     /// Mean velocity in m/s at which the clearance is passed.
-    BeforeImpactVelocity "before_impact_velocity" "m/s";
+    BeforeImpactVelocity "before_impact_velocity" Velocity;
     /// Drive angle in rad at impact; its error is a share of the drive period.
-    ImpactPhase "impact_phase" "rad";
+    ImpactPhase "impact_phase" Angle;
     /// Largest position in m.
-    MaxPosition "max_position" "m";
+    MaxPosition "max_position" Length;
     /// Largest contact force in N.
-    PeakForce "peak_force" "N";
+    PeakForce "peak_force" Force;
     /// Time in s in contact per impact.
-    ContactTime "contact_time" "s";
+    ContactTime "contact_time" Time;
     /// Energy in J lost per impact.
-    EnergyPerImpact "energy_per_impact" "J";
+    EnergyPerImpact "energy_per_impact" Energy;
     /// Mean power in W that the drive supplies.
-    MeanPower "mean_power" "W";
+    MeanPower "mean_power" Power;
     /// Impacts per drive period; its error is 0 for the same z = p/n and infinite for another.
-    Regime "regime" "impacts per period";
+    Regime "regime" Number;
     /// Frequency g0 in rad/s at which the motion without impacts grazes.
-    GrazingFrequency "grazing_frequency" "rad/s";
+    GrazingFrequency "grazing_frequency" Frequency;
     /// Frequency s_PD in rad/s at which the z = 1 motion doubles its period.
-    FlipFrequency "flip_frequency" "rad/s";
+    FlipFrequency "flip_frequency" Frequency;
     /// Frequency s_SN in rad/s at which the z = 1 motion ends.
-    FoldFrequency "fold_frequency" "rad/s";
+    FoldFrequency "fold_frequency" Frequency;
 }
 
 /// All that is known of a model's motion.

@@ -91,12 +91,7 @@ impl CertaintyCurve {
 
 impl CertaintyPanel {
     fn draw(&self, pen: &mut Pen, panel: &Panel, across: &str) {
-        let axes = Axes {
-            letters: LETTERS,
-            across: Some(across),
-            upwards: self.up,
-            ticks: (6, 6),
-        };
+        let axes = Axes::new(LETTERS, Some(across), self.up, (6, 6));
         panel.ground(pen, &axes);
         for curve in &self.curves {
             curve.draw(pen, panel);
@@ -132,17 +127,13 @@ impl CertaintyPage {
     pub fn svg(&self) -> String {
         let rows = self.panels.len().div_ceil(2) as f64;
         let right = FIRST.0 + NEXT.0 + AREA.0 + 24.0;
-        let mut pen = page(right + LEGEND, FIRST.1 + rows * NEXT.1 - 60.0);
+        let mut pen = Pen::page(right + LEGEND, FIRST.1 + rows * NEXT.1 - 60.0);
         let title = "How certainly z = 1 establishes itself in its hysteresis zone";
         heading(&mut pen, (FIRST.0, 36.0), title, "bands: 95 % intervals");
         for (index, shown) in self.panels.iter().enumerate() {
             let (column, row) = ((index % 2) as f64, (index / 2) as f64);
             let corner = (FIRST.0 + column * NEXT.0, FIRST.1 + row * NEXT.1);
-            let panel = Panel {
-                area: (corner.0, corner.1, AREA.0, AREA.1),
-                x: (-0.02, 1.02),
-                y: SHARES,
-            };
+            let panel = Panel::new((corner.0, corner.1, AREA.0, AREA.1), (-0.02, 1.02), SHARES);
             let across = "place in the hysteresis zone: 0 at g₀, 1 at s_SN";
             shown.draw(&mut pen, &panel, across);
         }
@@ -177,22 +168,12 @@ pub fn chart(machine: &Machine, places: &[Establishing], title: &str) -> String 
         has_claim: false,
         has_legend: false,
     };
-    let panel = Panel {
-        area: (FIRST.0, 84.0, 780.0, 400.0),
-        x: (low - room, high + room),
-        y: SHARES,
-    };
-    let mut pen = page(900.0, 560.0);
+    let area = (FIRST.0, 84.0, 780.0, 400.0);
+    let panel = Panel::new(area, (low - room, high + room), SHARES);
+    let mut pen = Pen::page(900.0, 560.0);
     let what = "share of initial states that lead to z = 1, with 95 % interval";
     heading(&mut pen, (FIRST.0, 36.0), title, what);
     let frequency = machine.label_of(Parameter::Frequency);
     shown.draw(&mut pen, &panel, &format!("{frequency}, from g₀ to s_SN"));
     pen.svg()
-}
-
-/// A white page.
-fn page(width: f64, height: f64) -> Pen {
-    let mut pen = Pen::new(width, height);
-    pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
-    pen
 }

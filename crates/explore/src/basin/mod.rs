@@ -160,7 +160,7 @@ fn picture(
         .map_err(|error| anyhow!("cannot draw basin.png: {error}"))?;
     export.file("png", &png)?;
     let report = BasinReport::new(machine, &basins, plane::beyond(machine, &grid));
-    export.table("csv", &report::columns(), &report.basins)?;
+    export.table("csv", &report::columns(), report::rows(&basins))?;
     export.finish(&report, arguments.format)
 }
 
@@ -185,6 +185,7 @@ fn along(
     let title = format!("Establishing certainty: {}", title(machine));
     let chart = certainty::chart(machine, &found, &title);
     let report = CertaintyReport::new(machine, &grid, &found);
-    export.sheet(["csv", "svg"], &report::places(), &report.places, &chart)?;
+    let rows = found.iter().map(|place| (machine, place));
+    export.sheet(["csv", "svg"], &report::places(), rows, &chart)?;
     export.finish(&report, arguments.format)
 }

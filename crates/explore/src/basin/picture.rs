@@ -65,8 +65,7 @@ impl<'a> BasinPicture<'a> {
             width + MARGINS.0 + MARGINS.2,
             height.max(200.0) + MARGINS.1 + MARGINS.3,
         );
-        let mut pen = Pen::new(page.0, page.1);
-        pen.fill(&[(0.0, 0.0, page.0, page.1)], "#ffffff");
+        let mut pen = Pen::page(page.0, page.1);
         pen.heading((MARGINS.0, 34.0), 19, Align::Left, self.title);
         self.draw(&mut pen, (MARGINS.0, MARGINS.1, width, height), LETTERS);
         let place = (MARGINS.0 + width + 24.0, MARGINS.1 + 12.0);
@@ -89,11 +88,7 @@ impl<'a> BasinPicture<'a> {
     /// Cells, axes, motions and the largest ball inside the basin of z = 1.
     pub(super) fn draw(&self, pen: &mut Pen, area: Area, letters: u32) {
         let grid = &self.basins.grid;
-        let panel = Panel {
-            area,
-            x: grid.across.range.into(),
-            y: grid.up.range.into(),
-        };
+        let panel = Panel::new(area, grid.across.range.into(), grid.up.range.into());
         let palette = self.colors();
         let cells = self.basins.cells.iter();
         let colors: Vec<&str> = cells.map(|class| palette[usize::from(*class)]).collect();
@@ -103,13 +98,8 @@ impl<'a> BasinPicture<'a> {
             let radius = (0.5 * ball.radius * area.2, 0.5 * ball.radius * area.3);
             pen.ring(center, radius);
         }
-        let axes = Axes {
-            letters,
-            across: Some(&self.name(&grid.across)),
-            upwards: &self.name(&grid.up),
-            ticks: TICKS,
-        };
-        panel.axes(pen, &axes);
+        let (across, up) = (self.name(&grid.across), self.name(&grid.up));
+        panel.axes(pen, &Axes::new(letters, Some(&across), &up, TICKS));
         self.motions(pen, &panel);
     }
 
@@ -231,8 +221,7 @@ impl BasinPage<'_> {
     pub fn png(&self) -> Result<Vec<u8>, String> {
         let rows = self.pictures.len().div_ceil(2) as f64;
         let (width, height) = (2.0 * COLUMN, HEAD + rows * ROW);
-        let mut pen = Pen::new(width, height);
-        pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
+        let mut pen = Pen::page(width, height);
         let title = "Basins of attraction: which start leads to which motion";
         pen.heading((92.0, 42.0), 24, Align::Left, title);
         for (index, picture) in self.pictures.iter().enumerate() {

@@ -118,20 +118,10 @@ struct Page {
 impl Page {
     /// The page with what is drawn on its panel, which gives the legend.
     fn svg(&self, draw: impl FnOnce(&mut Pen, &Panel) -> Vec<(Sign, String)>) -> String {
-        let mut pen = Pen::new(PAGE.0, PAGE.1);
-        pen.fill(&[(0.0, 0.0, PAGE.0, PAGE.1)], "#ffffff");
+        let mut pen = Pen::page(PAGE.0, PAGE.1);
         heading(&mut pen, (AREA.0, 42.0), self.title, "");
-        let panel = Panel {
-            area: AREA,
-            x: self.x,
-            y: self.y,
-        };
-        let axes = Axes {
-            letters: LETTERS,
-            across: Some(&self.across),
-            upwards: &self.upwards,
-            ticks: (7, 7),
-        };
+        let panel = Panel::new(AREA, self.x, self.y);
+        let axes = Axes::new(LETTERS, Some(&self.across), &self.upwards, (7, 7));
         panel.ground(&mut pen, &axes);
         let entries = draw(&mut pen, &panel);
         panel.axes(&mut pen, &axes);

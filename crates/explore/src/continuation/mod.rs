@@ -3,7 +3,7 @@
 mod branches;
 pub mod chart;
 mod curves;
-pub mod report;
+mod report;
 pub mod seed;
 mod tables;
 

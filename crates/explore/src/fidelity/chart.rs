@@ -1,176 +1,125 @@
 //! The chart of models: their error over what they cost.
 
-use kuva::backend::svg::SvgBackend;
-use kuva::plot::ScatterPlot;
-use kuva::plot::scatter::MarkerShape;
-use kuva::render::annotations::{ReferenceLine, TextAnnotation};
-use kuva::render::layout::TickFormat;
-use kuva::render::plots::Plot;
-use kuva::render::render::render_multiple;
-
+use softstop::Machine;
+use softstop_draw::panel::{Axes, Panel, heading};
+use softstop_draw::pen::{self, Align, Pen, Stroke};
+use softstop_draw::scale::around;
+use softstop_draw::shapes::Mark;
 use softstop_draw::style;
 
-/// A model as it is drawn.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Candidate {
-    /// What it is called.
-    pub name: String,
-    /// Evaluations per drive period.
-    pub cost: f64,
-    /// Its error; none if it does not give the quantity.
-    pub error: Option<f64>,
-    /// It is the cheapest within the tolerance.
-    pub is_chosen: bool,
-}
+use super::FidelityArguments;
+use super::study::{Entry, Study};
+use softstop_console::arguments::title;
 
-/// What is drawn.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FidelityPicture {
-    /// The title.
-    pub title: String,
-    /// What the error is one of.
-    pub quantity: String,
-    /// The largest error that is allowed.
-    pub tolerance: f64,
-    /// The models.
-    pub candidates: Vec<Candidate>,
-}
+/// The page, and the panel on it.
+const PAGE: (f64, f64) = (940.0, 640.0);
+const AREA: (f64, f64, f64, f64) = (96.0, 72.0, 800.0, 480.0);
+/// Letters.
+const LETTERS: u32 = 14;
+/// Height of a line of names.
+const LINE: f64 = 17.0;
+/// Half the size of marks.
+const MARK: f64 = 6.0;
 
-/// The chart of a picture.
-#[derive(Debug, Clone)]
-pub struct FidelityChart<'a> {
-    picture: &'a FidelityPicture,
-    x: (f64, f64),
-    y: (f64, f64),
-}
-
-impl<'a> FidelityChart<'a> {
-    /// Both axes are logarithmic: what has no error stands at the lower edge, what has no value at the
-    /// upper one.
-    #[must_use]
-    pub fn new(picture: &'a FidelityPicture) -> Self {
-        let costs = picture.candidates.iter().map(|one| one.cost);
-        let errors = picture
-            .candidates
-            .iter()
-            .filter_map(|one| one.error.filter(|error| error.is_finite()))
-            .chain([picture.tolerance])
-            .filter(|error| *error > 0.0);
-        let range = |values: &mut dyn Iterator<Item = f64>| {
-            values.fold((f64::INFINITY, 0.0f64), |(low, high), value| {
-                (low.min(value), high.max(value))
-            })
-        };
-        let (cheap, dear) = range(&mut costs.clone());
-        let (small, large) = range(&mut errors.clone().chain([1e-3]));
-        Self {
-            picture,
-            x: (decade(0.7 * cheap).min(10.0), 2.5 * dear),
-            y: (0.1 * decade(small), (100.0 * decade(large)).min(1e3)),
-        }
-    }
-
-    /// The chart as an SVG document.
-    #[must_use]
-    pub fn svg(&self) -> String {
-        let mut layout = style::plain(self.x, self.y)
-            .with_log_scale()
-            .with_width(900.0)
-            .with_height(620.0)
-            .with_title(self.picture.title.clone())
-            .with_x_label("evaluations of the law of force per drive period")
-            .with_y_label(format!("model error of the {}", self.picture.quantity))
-            .with_y_tick_format(TickFormat::Sci);
-        if self.picture.tolerance > 0.0 {
-            layout = layout.with_reference_line(
-                ReferenceLine::horizontal(self.picture.tolerance)
-                    .with_color(style::OPTIMUM)
-                    .with_stroke_width(1.5)
-                    .with_dasharray("6 4")
-                    .with_label(format!("tolerance {}", self.picture.tolerance)),
-            );
-        }
-        for (place, name) in self.names() {
-            layout = layout
-                .with_annotation(TextAnnotation::new(name, place.0, place.1).with_font_size(13));
-        }
-        let plots = self.picture.candidates.iter().map(|one| self.mark(one));
-        let scene = render_multiple(plots.collect(), layout);
-        SvgBackend::new().with_pretty(true).render_scene(&scene)
-    }
-
-    fn place(&self, candidate: &Candidate) -> (f64, f64) {
-        let error = match candidate.error {
-            Some(0.0) => 2.0 * self.y.0,
-            Some(error) if error.is_finite() => error,
-            _ => 0.3 * self.y.1,
-        };
-        (candidate.cost, error)
-    }
-
-    fn mark(&self, candidate: &Candidate) -> Plot {
-        let (color, shape, size) = match candidate.error {
-            _ if candidate.is_chosen => (style::OPTIMUM, MarkerShape::Star, 11.0),
-            Some(error) if error <= self.picture.tolerance => {
-                (style::DESIGN, MarkerShape::Circle, 6.0)
-            }
-            Some(error) if error.is_finite() => (style::POINT, MarkerShape::Diamond, 6.0),
-            _ => (style::ASIDE, MarkerShape::Cross, 6.0),
-        };
-        Plot::Scatter(
-            ScatterPlot::new()
-                .with_data([self.place(candidate)])
-                .with_color(color)
-                .with_marker(shape)
-                .with_size(size),
+/// Models with both axes logarithmic, as an SVG document: what has no error stands at the lower edge, what
+/// has no value at the upper one.
+pub(super) fn svg(arguments: &FidelityArguments, machine: &Machine, study: &Study) -> String {
+    let tolerance = arguments.tolerance;
+    let errors = study.entries.iter().filter_map(|entry| entry.error);
+    let errors = errors.chain([tolerance, 1e-3]);
+    let errors = errors.filter(|error| error.is_finite() && *error > 0.0);
+    let (small, large) = around(errors.map(f64::log10), 0.0);
+    let (cheap, dear) = around(study.entries.iter().map(cost), 0.0);
+    let x = ((cheap - 0.15).floor().min(1.0), dear + 0.4);
+    let y = (small.floor() - 1.0, (large.floor() + 2.0).min(3.0));
+    let panel = Panel::new(AREA, x, y);
+    let mut pen = Pen::page(PAGE.0, PAGE.1);
+    let head = "How simple a model may be";
+    heading(&mut pen, (AREA.0, 32.0), head, &title(machine));
+    let upwards = format!(
+        "model error of the {}",
+        arguments.quantity.name().replace('_', " ")
+    );
+    let axes = Axes {
+        is_log: true,
+        ..Axes::new(
+            LETTERS,
+            Some("evaluations of the law of force per drive period"),
+            &upwards,
+            (6, 8),
         )
-    }
-
-    /// Names beside the marks, moved down where they would cover one another.
-    fn names(&self) -> Vec<((f64, f64), String)> {
-        let pixel = (
-            (self.x.1 / self.x.0).powf(1.0 / PLOT.0),
-            (self.y.1 / self.y.0).powf(1.0 / PLOT.1),
+    };
+    panel.ground(&mut pen, &axes);
+    if tolerance > 0.0 {
+        let height = tolerance.log10();
+        let line = [(panel.x.0, height), (panel.x.1, height)];
+        panel.curve(
+            &mut pen,
+            &line,
+            Stroke::dashed(style::OPTIMUM, 1.5, (6.0, 4.0)),
         );
-        let line = pixel.1.powf(LETTER.1);
-        let mut names: Vec<((f64, f64), String)> = Vec::new();
-        let mut candidates: Vec<&Candidate> = self.picture.candidates.iter().collect();
-        candidates.sort_by(|a, b| self.place(b).1.total_cmp(&self.place(a).1));
-        for candidate in candidates {
-            let (cost, error) = self.place(candidate);
-            let note = match candidate.error {
-                Some(0.0) => ": exact",
-                Some(error) if error.is_finite() => "",
-                Some(_) => ": another regime",
-                None => ": no value",
-            };
-            let name = format!("{}{note}", candidate.name);
-            let width = LETTER.0 * name.chars().count() as f64;
-            let away = pixel.0.powf(0.5 * width + LETTER.1);
-            let fits = cost * away * away < self.x.1;
-            let x = if fits { cost * away } else { cost / away };
-            let mut y = error / line.powf(0.3);
-            let near =
-                |other: &(f64, f64)| (other.0 / x).ln().abs() < 24.0 * LETTER.0 * pixel.0.ln();
-            let covers = |y: f64, other: f64| y > other / line && y < other * line;
-            while names
-                .iter()
-                .any(|(other, _)| near(other) && covers(y, other.1))
-            {
-                y /= pixel.1;
-            }
-            names.push(((x, y), name));
-        }
-        names
+        let place = (panel.right() - 6.0, panel.height(height) - 6.0);
+        pen.text(
+            place,
+            LETTERS - 1,
+            Align::Right,
+            &format!("tolerance {tolerance}"),
+        );
     }
+    panel.axes(&mut pen, &axes);
+    let chosen = study.cheapest(tolerance).map(Entry::name);
+    let place = |entry: &Entry| panel.place((cost(entry), height(entry, &panel)));
+    for entry in &study.entries {
+        let (mark, color) = match entry.error {
+            _ if chosen.as_ref() == Some(&entry.name()) => (Mark::Triangle, style::OPTIMUM),
+            Some(error) if error <= tolerance => (Mark::Circle, style::DESIGN),
+            Some(error) if error.is_finite() => (Mark::Diamond, style::POINT),
+            _ => (Mark::Square, style::ASIDE),
+        };
+        pen.mark(place(entry), mark, MARK, color);
+    }
+    let mut entries: Vec<&Entry> = study.entries.iter().collect();
+    entries.sort_by(|a, b| place(a).1.total_cmp(&place(b).1));
+    let mut taken: Vec<(f64, f64, f64)> = Vec::new();
+    for entry in entries {
+        let note = match entry.error {
+            Some(0.0) => ": exact",
+            Some(error) if error.is_finite() => "",
+            Some(_) => ": another regime",
+            None => ": no value",
+        };
+        let name = format!("{}{note}", entry.name());
+        let (x, mut y) = place(entry);
+        let width = pen::width(LETTERS - 1, &name);
+        let fits = x + MARK + 6.0 + width < panel.right();
+        let left = if fits {
+            x + MARK + 6.0
+        } else {
+            x - MARK - 6.0 - width
+        };
+        // Moved down where it would cover another one.
+        y += 5.0;
+        while taken.iter().any(|(other, wide, height)| {
+            left < other + wide && *other < left + width && (y - height).abs() < LINE
+        }) {
+            y += 1.0;
+        }
+        taken.push((left, width, y));
+        pen.text((left, y), LETTERS - 1, Align::Left, &name);
+    }
+    pen.svg()
 }
 
-/// Width and height of the area within the axes, in pixels.
-const PLOT: (f64, f64) = (822.0, 522.0);
-/// Width and height of a letter, in pixels.
-const LETTER: (f64, f64) = (7.3, 15.0);
+/// Evaluations of a drive period, as a power of ten.
+fn cost(entry: &Entry) -> f64 {
+    entry.cost.evaluations_per_period.log10()
+}
 
-/// The power of ten at or below a value.
-fn decade(value: f64) -> f64 {
-    10f64.powf(value.log10().floor())
+/// The error as a power of ten, where it has one.
+fn height(entry: &Entry, panel: &Panel) -> f64 {
+    match entry.error {
+        Some(0.0) => panel.y.0 + 0.3,
+        Some(error) if error.is_finite() => error.log10(),
+        _ => panel.y.1 - 0.5,
+    }
 }

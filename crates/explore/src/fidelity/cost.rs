@@ -3,7 +3,6 @@
 use std::time::Instant;
 
 use anyhow::Context;
-use serde::Serialize;
 use softstop::internals::Evaluations;
 use softstop::{Clock, MotionError, Scene, Start};
 
@@ -12,7 +11,7 @@ use softstop_console::median::median;
 use softstop_console::progress::Progress;
 
 /// What a drive period of a model's settled motion takes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cost {
     /// Evaluations of the law of force: the same on every machine.
     pub(super) evaluations_per_period: f64,

@@ -1,13 +1,12 @@
 //! `softstop fidelity`: how simple a model of a scene may be.
 
-pub mod chart;
+mod chart;
 mod cost;
 mod options;
-pub mod regimes;
+mod regimes;
 mod report;
 mod structure;
 mod study;
-mod text;
 
 use std::path::PathBuf;
 
@@ -15,11 +14,9 @@ use clap::Args;
 use softstop::Allowed;
 use softstop_dynamics::models::{Likeness, Quantity};
 
-use crate::fidelity::chart::FidelityChart;
-use crate::fidelity::regimes::RegimeChart;
 use options::Matched;
 use report::FidelityReport;
-use softstop_console::arguments::MachineArguments;
+use softstop_console::arguments::{MachineArguments, title};
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
@@ -120,6 +117,10 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     } else {
         &FILES[..2]
     };
+    let frequencies = arguments
+        .structure
+        .then(|| structure::frequencies(&machine, arguments));
+    let frequencies = frequencies.transpose()?;
     let export = Export::open(&arguments.output, files)?;
     let task = Task {
         start: machine.start,
@@ -131,23 +132,19 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
         repeats: arguments.repeats,
     };
     let study = Study::new(&machine.scene, &task)?;
-    let structure = arguments.structure;
-    let structure = structure.then(|| Structure::new(&machine, &study, arguments));
+    let structure = frequencies.map(|frequencies| Structure::new(&machine, &study, frequencies));
     let structure = structure.transpose()?;
-    let report = FidelityReport::new(arguments, &machine, &study, structure.as_ref());
-    let chart = FidelityChart::new(&report.picture()).svg();
-    export.sheet(
-        ["fidelity_csv", "fidelity_svg"],
-        &report::columns(),
-        report.rows(),
-        &chart,
-    )?;
+    let chart = chart::svg(arguments, &machine, &study);
+    let rows = report::rows(&machine, &study);
+    let kinds = ["fidelity_csv", "fidelity_svg"];
+    export.sheet(kinds, &report::columns(), rows, &chart)?;
     if let Some(structure) = &structure {
-        let title = format!("Regimes of the models of {}", report.scene());
-        let chart = RegimeChart::new(title, &machine, structure.rows()).svg();
+        let title = format!("Regimes of the models of {}", title(&machine));
+        let chart = regimes::svg(&title, &machine, structure);
         let kinds = ["structure_csv", "structure_svg"];
         export.sheet(kinds, &structure::columns(), structure.table(), &chart)?;
     }
+    let report = FidelityReport::new(arguments, &machine, &study, structure.as_ref());
     export.finish(&report, arguments.format)
 }
 

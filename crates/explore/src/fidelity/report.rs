@@ -1,106 +1,215 @@
-//! The result: plain data whose field names are the keys of the JSON.
+//! The result, in the machine's own units.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use softstop::{Dimension, Language, Machine, Start};
+use serde_json::json;
+use softstop::{Dimension, Machine, Start};
 use softstop_dynamics::models::{Likeness, Quantity, Rung};
 use softstop_dynamics::zone::Bounds;
 
-use super::cost::Cost;
-use super::structure::{Agreement, Origin, Structure, Track};
-use super::study::{Entry, Missing, Study, name};
+use super::structure::{Origin, Structure, Track};
+use super::study::{Entry, Study, name};
 use super::{FidelityArguments, word};
-use crate::fidelity::chart::{Candidate, FidelityPicture};
 use softstop_console::arguments::title;
-use softstop_console::column::{Column, Units};
+use softstop_console::column::{Column, Told, Unit, Units};
 use softstop_console::columns;
+use softstop_console::export::Report;
+use softstop_console::record::{Record, below};
 use softstop_console::report::{MachineReport, MotionName};
+use softstop_console::table::heading;
 use softstop_console::units;
 
 /// A model by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub(super) struct Named {
-    pub(super) rung: Rung,
+struct Named {
+    rung: Rung,
     /// What it has in common with the contact.
-    pub(super) matched: Option<&'static str>,
-    #[serde(skip)]
-    likeness: Option<Likeness>,
+    matched: Option<&'static str>,
 }
 
-/// A quantity of a model.
-#[derive(Debug, Clone, Copy, Serialize)]
-struct Answer {
-    value: Option<f64>,
-    unit: &'static str,
-    error: Option<f64>,
+impl Named {
+    fn of(rung: Rung, likeness: Option<Likeness>) -> Self {
+        Self {
+            rung,
+            matched: likeness.map(word),
+        }
+    }
 }
 
 /// A model.
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct ModelReport {
+#[derive(Debug, Serialize)]
+struct ModelReport {
     #[serde(flatten)]
-    pub(super) named: Named,
-    pub(super) is_scene: bool,
+    named: Named,
+    is_scene: bool,
     /// The machine with this stop.
     machine: MachineReport,
     /// What it settles on.
     #[serde(flatten)]
     motion: MotionName,
     /// Of the quantity that was asked for.
-    pub(super) value: Option<f64>,
-    pub(super) error: Option<f64>,
     #[serde(flatten)]
-    pub(super) cost: Cost,
+    figures: Record,
     /// All quantities.
-    answers: BTreeMap<&'static str, Answer>,
+    answers: BTreeMap<&'static str, Record>,
 }
 
 /// A rung without a model.
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct UnmatchedReport {
+#[derive(Debug, Serialize)]
+struct UnmatchedReport {
     #[serde(flatten)]
-    pub(super) named: Named,
-    pub(super) reason: String,
+    named: Named,
+    reason: String,
 }
 
 /// The regimes of a model over the sweep.
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct TrackReport {
+#[derive(Debug, Serialize)]
+struct TrackReport {
     #[serde(flatten)]
-    pub(super) named: Named,
+    named: Named,
     #[serde(flatten)]
-    pub(super) agreement: Option<Agreement>,
-    pub(super) grazing_frequency: Option<f64>,
-    pub(super) flip_frequency: Option<f64>,
-    pub(super) fold_frequency: Option<f64>,
-    sequence_from_rest: Vec<String>,
-    sequence_flung: Vec<String>,
+    figures: Record,
 }
 
-/// The whole result, in the machine's own units.
-#[derive(Debug, Clone, Serialize)]
+/// The whole result.
+#[derive(Debug, Serialize)]
 pub(super) struct FidelityReport {
     machine: MachineReport,
     /// Where its motion starts.
     start: Start,
-    #[serde(skip)]
-    pub(super) title: String,
-    #[serde(skip)]
-    pub(super) units: Units,
-    pub(super) quantity: Quantity,
-    pub(super) unit: &'static str,
-    pub(super) tolerance: f64,
+    quantity: Quantity,
+    unit: &'static str,
+    tolerance: f64,
     /// The scene's own value.
     value: Option<f64>,
     /// Before-impact velocity of the machine's motion.
-    pub(super) operating_velocity: Option<f64>,
-    pub(super) predictive: bool,
-    pub(super) cheapest: Option<Named>,
-    pub(super) cheapest_is_scene: bool,
-    pub(super) models: Vec<ModelReport>,
-    pub(super) unmatched: Vec<UnmatchedReport>,
-    pub(super) structure: Option<Vec<TrackReport>>,
+    operating_velocity: Option<f64>,
+    predictive: bool,
+    cheapest: Option<Named>,
+    cheapest_is_scene: bool,
+    models: Vec<ModelReport>,
+    unmatched: Vec<UnmatchedReport>,
+    structure: Option<Vec<TrackReport>>,
+    #[serde(skip)]
+    text: String,
+}
+
+/// A row of `fidelity.csv`: a quantity of a model.
+#[derive(Clone, Copy)]
+pub(super) struct Row<'a> {
+    machine: &'a Machine,
+    study: &'a Study,
+    model: &'a Entry,
+    quantity: Quantity,
+}
+
+/// The columns of `fidelity.csv`.
+pub(super) fn columns<'a>() -> [Column<Row<'a>>; 8] {
+    columns! { Row<'a>, it;
+        "rung" [None], "the model's law" => it.model.rung.name();
+        "matched" [None], "what it shares with the contact, if anything" => it.model.likeness.map(word);
+        "quantity" [None], "what is compared" => it.quantity.name();
+        "unit" [None], "of its value" => unit(it.machine, it.quantity);
+        "value" [Of("unit")], "of the model" => own(it.machine, it.quantity, it.quantity.value(&it.model.answers));
+        "error" [None], "relative to the machine's own value" => it.quantity.error(&it.study.truth, &it.model.answers);
+        "evaluations_per_period" [None], "of the law of force" => it.model.cost.evaluations_per_period;
+        "microseconds_per_period" [Of("us")], "median" => it.model.cost.microseconds_per_period;
+    }
+}
+
+/// What an answer is of these columns.
+const ANSWER: std::ops::Range<usize> = 3..6;
+
+/// The rows of `fidelity.csv`: all quantities of all models.
+pub(super) fn rows<'a>(machine: &'a Machine, study: &'a Study) -> impl Iterator<Item = Row<'a>> {
+    study.entries.iter().flat_map(move |model| {
+        Quantity::ALL.into_iter().map(move |quantity| Row {
+            machine,
+            study,
+            model,
+            quantity,
+        })
+    })
+}
+
+/// What is told of a model.
+fn figures<'a>() -> [Column<Row<'a>>; 4] {
+    columns! { Row<'a>, it;
+        "value" [None] Fixed(6), "of the quantity" => own(it.machine, it.quantity, it.quantity.value(&it.model.answers));
+        "error" [None] Plain, "of it" => error(it.model.error);
+        "evaluations_per_period" [None] Fixed(1), "of the law of force" => it.model.cost.evaluations_per_period;
+        "microseconds_per_period" [None] Fixed(2), "median" => it.model.cost.microseconds_per_period;
+    }
+}
+
+fn error(error: Option<f64>) -> Told {
+    Told {
+        value: json!(error),
+        words: match error {
+            None => "no value".to_owned(),
+            Some(0.0) => "0".to_owned(),
+            Some(error) if error.is_finite() => format!("{error:.2e}"),
+            Some(_) => "other".to_owned(),
+        },
+    }
+}
+
+type Tracked<'a> = (&'a Machine, &'a Structure<'a>, &'a Track<'a>);
+
+fn tracks<'a>() -> [Column<Tracked<'a>>; 7] {
+    columns! { Tracked<'a>, it;
+        "same_regime" [None] Percent(1), "share" => it.1.agreement(it.2).map(|it| it.same_regime);
+        "same_kind" [None] Percent(1), "share" => it.1.agreement(it.2).map(|it| it.same_kind);
+        "grazing_frequency" [Frequency] Fixed(6), "g0" => bound(it, |it| it.grazing);
+        "flip_frequency" [Frequency] Fixed(6), "s_PD" => bound(it, |it| it.flip);
+        "fold_frequency" [Frequency] Fixed(6), "s_SN" => bound(it, |it| it.fold);
+        "sequence_from_rest" [None], "regimes in order of frequency" => sequence(it.2, Origin::Rest);
+        "sequence_flung" [None], "the same, flung" => sequence(it.2, Origin::Flung);
+    }
+}
+
+fn bound((machine, _, track): &Tracked, one: fn(&Bounds) -> Option<f64>) -> Option<f64> {
+    let bound = track.entry.answers.bounds.as_ref().and_then(one);
+    own(machine, Quantity::FoldFrequency, bound)
+}
+
+fn sequence(track: &Track, origin: Origin) -> Told {
+    Told {
+        value: track.sequence(origin).into(),
+        words: String::new(),
+    }
+}
+
+/// The unit of a quantity as the machine has it.
+fn unit(machine: &Machine, quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Regime => "impacts per period",
+        _ => units::name(machine, quantity.dimension()),
+    }
+}
+
+/// A value of a quantity in the machine's own units.
+fn own(machine: &Machine, quantity: Quantity, value: Option<f64>) -> Option<f64> {
+    value.map(|value| machine.to_own(quantity.dimension(), value))
+}
+
+fn model(row: Row) -> ModelReport {
+    let entry = row.model;
+    let answer = |quantity: Quantity| Record::of(&columns()[ANSWER], &Row { quantity, ..row });
+    let answers = Quantity::ALL.map(|quantity| (quantity.name(), answer(quantity)));
+    ModelReport {
+        named: Named::of(entry.rung, entry.likeness),
+        is_scene: entry.is_truth,
+        machine: MachineReport::of(&Machine {
+            scene: entry.scene.clone(),
+            preload_deflection: None,
+            ..row.machine.clone()
+        }),
+        motion: MotionName::of_regime(entry.answers.observed.regime),
+        figures: Record::of(&figures(), &row),
+        answers: answers.into(),
+    }
 }
 
 impl FidelityReport {
@@ -112,9 +221,26 @@ impl FidelityReport {
     ) -> Self {
         let quantity = arguments.quantity;
         let cheapest = study.cheapest(arguments.tolerance);
-        Self {
-            title: title(machine),
-            units: Units::of(machine),
+        let models = study.entries.iter().map(|entry| {
+            model(Row {
+                machine,
+                study,
+                model: entry,
+                quantity,
+            })
+        });
+        let unmatched = study.missing.iter().map(|it| UnmatchedReport {
+            named: Named::of(it.rung, it.likeness),
+            reason: it.reason.clone(),
+        });
+        let structure = structure.map(|structure| {
+            let tracks_found = structure.tracks.iter().map(|track| TrackReport {
+                named: Named::of(track.entry.rung, track.entry.likeness),
+                figures: Record::of(&tracks(), &(machine, structure, track)),
+            });
+            tracks_found.collect::<Vec<_>>()
+        });
+        let mut report = Self {
             machine: MachineReport::of(machine),
             start: machine.start,
             quantity,
@@ -123,159 +249,77 @@ impl FidelityReport {
             value: own(machine, quantity, quantity.value(&study.truth)),
             operating_velocity: study.velocity,
             predictive: arguments.predictive,
-            cheapest: cheapest.map(|entry| named(entry.rung, entry.likeness)),
+            cheapest: cheapest.map(|entry| Named::of(entry.rung, entry.likeness)),
             cheapest_is_scene: cheapest.is_some_and(|entry| entry.is_truth),
-            models: study
-                .entries
-                .iter()
-                .map(|entry| model(machine, entry, quantity, study))
-                .collect(),
-            unmatched: study.missing.iter().map(unmatched).collect(),
-            structure: structure.map(|structure| {
-                let tracks = structure.tracks.iter();
-                tracks.map(|one| track(machine, structure, one)).collect()
-            }),
-        }
-    }
-
-    /// What the scene is called.
-    pub(super) fn scene(&self) -> &str {
-        &self.title
-    }
-
-    /// The rows of `fidelity.csv`: all quantities of all models.
-    pub(super) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        self.models.iter().flat_map(|model| {
-            Quantity::ALL.into_iter().map(move |quantity| Row {
-                model,
-                quantity,
-                answer: model.answers[quantity.name()],
-            })
-        })
-    }
-
-    /// What the chart shows.
-    pub(super) fn picture(&self) -> FidelityPicture {
-        let candidate = |model: &ModelReport| Candidate {
-            name: model.named.to_string(),
-            cost: model.cost.evaluations_per_period,
-            error: model.error,
-            is_chosen: Some(model.named) == self.cheapest,
+            models: models.collect(),
+            unmatched: unmatched.collect(),
+            structure,
+            text: String::new(),
         };
-        FidelityPicture {
-            title: format!("How simple a model of {} may be", self.title),
-            quantity: self.quantity.name().replace('_', " "),
-            tolerance: self.tolerance,
-            candidates: self.models.iter().map(candidate).collect(),
+        report.text = report.write(machine, study);
+        report
+    }
+
+    /// For people.
+    fn write(&self, machine: &Machine, study: &Study) -> String {
+        let units = Units::of(machine);
+        let named = |figures: &Record, entry: &Entry| {
+            let scene = if entry.is_truth { " = the scene" } else { "" };
+            let name = format!("{}{scene}", entry.name());
+            Record::default()
+                .with("model", "", name)
+                .and(figures.clone())
+        };
+        let models = self.models.iter().zip(&study.entries);
+        let models: Vec<Record> = models
+            .map(|(it, entry)| named(&it.figures, entry))
+            .collect();
+        let value = units.label(self.quantity.name(), Unit::Of(self.unit));
+        let mut text = heading(&format!("Models of {} for its {value}", title(machine)));
+        text += &format!("{}\n{}", below(&models, &units), self.advice(&units, study));
+        for missing in &study.missing {
+            let name = name(missing.rung, missing.likeness);
+            text += &format!("Without a model: {name}: {}\n", missing.reason);
         }
+        if let Some(tracks) = &self.structure {
+            let tracks = tracks.iter().zip(&study.entries);
+            let tracks: Vec<Record> = tracks
+                .map(|(it, entry)| named(&it.figures, entry))
+                .collect();
+            let title = heading("Regimes over the sweep, from rest and from a flung start");
+            text += &format!("\n{title}{}", below(&tracks, &units));
+        }
+        text
+    }
+
+    /// Which model to take.
+    fn advice(&self, units: &Units, study: &Study) -> String {
+        let matched = match self.operating_velocity {
+            _ if self.predictive => {
+                "Matched at the velocity of each model's own motion.".to_owned()
+            }
+            Some(velocity) => {
+                let unit = units.name(Unit::Own(Dimension::Velocity));
+                let matched = format!("Matched at the machine's own {velocity:.6} {unit}");
+                matched.trim_end().to_owned() + "."
+            }
+            None => "The scene's motion has no impact.".to_owned(),
+        };
+        let tolerance = self.tolerance;
+        let found = match study.cheapest(tolerance) {
+            None => format!("No model is within {tolerance}."),
+            Some(entry) if entry.is_truth => format!(
+                "Within {tolerance} nothing costs less than the scene itself ({}): take it as it is.",
+                entry.name()
+            ),
+            Some(entry) => format!("The cheapest model within {tolerance}: {}.", entry.name()),
+        };
+        format!("{matched} Costs are per drive period.\n{found}\n")
     }
 }
 
-impl std::fmt::Display for Named {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(&name(self.rung, self.likeness))
-    }
-}
-
-/// A row of `fidelity.csv`.
-pub(super) struct Row<'a> {
-    model: &'a ModelReport,
-    quantity: Quantity,
-    answer: Answer,
-}
-
-/// The columns of `fidelity.csv`.
-pub(super) fn columns<'a>() -> [Column<Row<'a>>; 8] {
-    columns! { Row<'a>, row;
-        "rung" [None], "the model's law" => row.model.named.rung.name();
-        "matched" [None], "what it shares with the contact, if anything" => row.model.named.matched;
-        "quantity" [None], "what is compared" => row.quantity.name();
-        "unit" [None], "of its value" => row.answer.unit;
-        "value" [Of("unit")], "of the model" => row.answer.value;
-        "error" [None], "relative to the machine's own value" => row.answer.error;
-        "evaluations_per_period" [None], "of the law of force" => row.model.cost.evaluations_per_period;
-        "microseconds_per_period" [Of("us")], "median" => row.model.cost.microseconds_per_period;
-    }
-}
-
-fn named(rung: Rung, likeness: Option<Likeness>) -> Named {
-    Named {
-        rung,
-        matched: likeness.map(word),
-        likeness,
-    }
-}
-
-/// The unit of a quantity as the machine has it.
-fn unit(machine: &Machine, quantity: Quantity) -> &'static str {
-    let own = |dimension| units::name(machine, dimension);
-    match (quantity.unit(), machine.speaks) {
-        ("rad/s", _) => own(Dimension::Frequency),
-        ("m/s", _) => own(Dimension::Velocity),
-        ("m", _) => own(Dimension::Length),
-        ("N", _) => own(Dimension::Force),
-        ("s", _) => own(Dimension::Time),
-        ("J", _) => own(Dimension::Energy),
-        ("W", Language::Ratios) => "F0^2/sqrt(m k1)",
-        (unit, _) => unit,
-    }
-}
-
-/// A value of a quantity in the machine's own units.
-fn own(machine: &Machine, quantity: Quantity, value: Option<f64>) -> Option<f64> {
-    match quantity.unit() {
-        "rad/s" => value.map(|value| machine.to_own(Dimension::Frequency, value)),
-        _ => value,
-    }
-}
-
-fn model(machine: &Machine, entry: &Entry, quantity: Quantity, study: &Study) -> ModelReport {
-    let answer = |quantity: Quantity| Answer {
-        value: own(machine, quantity, quantity.value(&entry.answers)),
-        unit: unit(machine, quantity),
-        error: quantity.error(&study.truth, &entry.answers),
-    };
-    ModelReport {
-        named: named(entry.rung, entry.likeness),
-        is_scene: entry.is_truth,
-        machine: MachineReport::of(&Machine {
-            scene: entry.scene.clone(),
-            preload_deflection: None,
-            ..machine.clone()
-        }),
-        motion: MotionName::of_regime(entry.answers.observed.regime),
-        value: own(machine, quantity, quantity.value(&entry.answers)),
-        error: entry.error,
-        cost: entry.cost,
-        answers: Quantity::ALL
-            .into_iter()
-            .map(|quantity| (quantity.name(), answer(quantity)))
-            .collect(),
-    }
-}
-
-fn unmatched(missing: &Missing) -> UnmatchedReport {
-    UnmatchedReport {
-        named: named(missing.rung, missing.likeness),
-        reason: missing.reason.clone(),
-    }
-}
-
-fn track(machine: &Machine, structure: &Structure, track: &Track) -> TrackReport {
-    let bound = |one: fn(&Bounds) -> Option<f64>| {
-        own(
-            machine,
-            Quantity::FoldFrequency,
-            track.bounds.as_ref().and_then(one),
-        )
-    };
-    TrackReport {
-        named: named(track.rung, track.likeness),
-        agreement: structure.agreement(track),
-        grazing_frequency: bound(|bounds| bounds.grazing),
-        flip_frequency: bound(|bounds| bounds.flip),
-        fold_frequency: bound(|bounds| bounds.fold),
-        sequence_from_rest: Structure::sequence(track, Origin::Rest),
-        sequence_flung: Structure::sequence(track, Origin::Flung),
+impl Report for FidelityReport {
+    fn text(&self) -> String {
+        self.text.clone()
     }
 }

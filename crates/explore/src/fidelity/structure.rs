@@ -1,15 +1,11 @@
 //! The regimes of all models over a range of drive frequencies, from two starts.
 
 use anyhow::Context;
-use serde::Serialize;
 use softstop::{Dimension, Machine, Scene, Start};
-use softstop_dynamics::models::{Likeness, Rung};
 use softstop_dynamics::orbit::Regime;
-use softstop_dynamics::zone::Bounds;
 
 use super::study::{Entry, Study};
 use super::{FidelityArguments, word};
-use crate::fidelity::regimes::{RegimeRow, Strip};
 use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::failure::Failure;
@@ -43,22 +39,18 @@ impl Origin {
 const ORIGINS: [Origin; 2] = [Origin::Rest, Origin::Flung];
 
 /// The regimes of one model from both starts, at every frequency; none where nothing repeats.
-#[derive(Debug, Clone)]
-pub(super) struct Track {
-    pub(super) rung: Rung,
-    pub(super) likeness: Option<Likeness>,
-    pub(super) is_truth: bool,
-    name: String,
-    pub(super) bounds: Option<Bounds>,
-    regimes: [Vec<Option<Regime>>; 2],
+#[derive(Debug)]
+pub(super) struct Track<'a> {
+    pub(super) entry: &'a Entry,
+    pub(super) regimes: [Vec<Option<Regime>>; 2],
 }
 
 /// The regimes of all models.
-#[derive(Debug, Clone)]
-pub(super) struct Structure {
+#[derive(Debug)]
+pub(super) struct Structure<'a> {
     /// In the machine's own units.
     pub(super) frequencies: Vec<f64>,
-    pub(super) tracks: Vec<Track>,
+    pub(super) tracks: Vec<Track<'a>>,
 }
 
 /// What a regime is, coarsely.
@@ -71,7 +63,7 @@ enum Kind {
 }
 
 /// How much of a model's regimes are those of the scene.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Agreement {
     /// Share of frequencies and starts with the same z = p/n, or without one in both.
     pub(super) same_regime: f64,
@@ -79,60 +71,44 @@ pub(super) struct Agreement {
     pub(super) same_kind: f64,
 }
 
-impl Structure {
-    /// Runs all models of a study from both starts at so many frequencies.
+impl<'a> Structure<'a> {
+    /// Runs all models of a study from both starts at these frequencies.
     ///
     /// # Errors
-    /// [`Failure::Usage`] if the scene has no suspension to measure frequencies by, [`Failure::Run`] if a
-    /// motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
+    /// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
     pub(super) fn new(
         machine: &Machine,
-        study: &Study,
-        arguments: &FidelityArguments,
+        study: &'a Study,
+        frequencies: Vec<f64>,
     ) -> Result<Self, Failure> {
-        let frequencies = frequencies(machine, arguments.sweep, arguments.points)?;
         let count = ORIGINS.len() * frequencies.len() * study.entries.len();
         let progress = Progress::new(count as u64, "motions");
-        let mut track = |entry: &Entry| -> Result<Track, Failure> {
-            let regimes = |origin: Origin| -> Result<Vec<Option<Regime>>, Failure> {
-                let each = frequencies.iter().map(|frequency| {
-                    let regime = regime(
-                        &entry.scene,
-                        machine.to_si(Dimension::Frequency, *frequency),
-                        origin,
-                    )?;
-                    progress.step()?;
-                    Ok(regime)
-                });
-                each.collect()
-            };
+        let regimes = |entry: &Entry, origin| {
+            let each = frequencies.iter().map(|frequency| {
+                let frequency = machine.to_si(Dimension::Frequency, *frequency);
+                let regime = regime(&entry.scene, frequency, origin)?;
+                progress.step()?;
+                Ok(regime)
+            });
+            each.collect::<Result<Vec<_>, Failure>>()
+        };
+        let track = |entry: &'a Entry| {
             Ok(Track {
-                rung: entry.rung,
-                likeness: entry.likeness,
-                is_truth: entry.is_truth,
-                name: entry.name(),
-                bounds: entry.answers.bounds,
-                regimes: [regimes(ORIGINS[0])?, regimes(ORIGINS[1])?],
+                entry,
+                regimes: [regimes(entry, ORIGINS[0])?, regimes(entry, ORIGINS[1])?],
             })
         };
-        let tracks = study
-            .entries
-            .iter()
-            .map(&mut track)
-            .collect::<Result<_, _>>()?;
+        let tracks = study.entries.iter().map(track);
+        let tracks = tracks.collect::<Result<_, Failure>>()?;
         Ok(Self {
             frequencies,
             tracks,
         })
     }
 
-    fn truth(&self) -> Option<&Track> {
-        self.tracks.iter().find(|track| track.is_truth)
-    }
-
     /// How far a model agrees with the scene itself.
     pub(super) fn agreement(&self, model: &Track) -> Option<Agreement> {
-        let truth = self.truth()?;
+        let truth = self.tracks.iter().find(|track| track.entry.is_truth)?;
         let pairs = || {
             let all = |track: &Track| track.regimes.concat();
             all(truth).into_iter().zip(all(model))
@@ -144,16 +120,6 @@ impl Structure {
             same_regime: share(|(a, b)| a == b),
             same_kind: share(|(a, b)| kind(*a) == kind(*b)),
         })
-    }
-
-    /// z or kind of a model's motions in order of frequency, each once where it is the same at neighbours.
-    pub(super) fn sequence(track: &Track, origin: Origin) -> Vec<String> {
-        let mut names: Vec<String> = track.regimes[origin as usize]
-            .iter()
-            .map(|regime| MotionName::of_regime(*regime).word().to_owned())
-            .collect();
-        names.dedup();
-        names
     }
 
     /// The rows of `structure.csv`: all motions.
@@ -170,30 +136,22 @@ impl Structure {
             })
         })
     }
+}
 
-    /// The rows of the chart.
-    pub(super) fn rows(&self) -> Vec<RegimeRow> {
-        let strip = |track: &Track, origin: Origin| Strip {
-            frequencies: self.frequencies.clone(),
-            regimes: track.regimes[origin as usize].clone(),
-        };
-        self.tracks
-            .iter()
-            .map(|track| RegimeRow {
-                name: match track.is_truth {
-                    true => format!("{} = the scene", track.name),
-                    false => track.name.clone(),
-                },
-                from_rest: strip(track, Origin::Rest),
-                flung: strip(track, Origin::Flung),
-            })
-            .collect()
+impl Track<'_> {
+    /// z or kind of its motions in order of frequency, each once where it is the same at neighbours.
+    pub(super) fn sequence(&self, origin: Origin) -> Vec<String> {
+        let regimes = self.regimes[origin as usize].iter();
+        let names = regimes.map(|regime| MotionName::of_regime(*regime).word().to_owned());
+        let mut names: Vec<String> = names.collect();
+        names.dedup();
+        names
     }
 }
 
 /// A row of `structure.csv`.
 pub(super) struct Row<'a> {
-    track: &'a Track,
+    track: &'a Track<'a>,
     start: Origin,
     frequency: f64,
     motion: MotionName,
@@ -202,8 +160,8 @@ pub(super) struct Row<'a> {
 /// The columns of `structure.csv`.
 pub(super) fn columns<'a>() -> [Column<Row<'a>>; 6] {
     columns! { Row<'a>, row;
-        "rung" [None], "the model's law" => row.track.rung.name();
-        "matched" [None], "what it shares with the contact, if anything" => row.track.likeness.map(word);
+        "rung" [None], "the model's law" => row.track.entry.rung.name();
+        "matched" [None], "what it shares with the contact, if anything" => row.track.entry.likeness.map(word);
         "start" [None], "rest, or flung towards the stop" => row.start.name();
         "frequency" [Frequency], "of the drive" => row.frequency;
         "kind" [None], "of the motion: periodic or unsettled" => row.motion.kind;
@@ -215,27 +173,26 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 6] {
 const SWEEP: [f64; 2] = [0.95, 1.4];
 
 /// The frequencies in the machine's own units, both ends included.
-fn frequencies(
+///
+/// # Errors
+/// [`Failure::Usage`] if one is not positive, or the scene has no suspension to measure them by.
+pub(super) fn frequencies(
     machine: &Machine,
-    sweep: Option<[f64; 2]>,
-    points: u64,
+    arguments: &FidelityArguments,
 ) -> Result<Vec<f64>, Failure> {
     let scene = &machine.scene;
     let unit = (scene.stiffness / scene.mass).sqrt();
-    let [low, high] = match sweep {
-        Some(range) => range,
-        None => SWEEP.map(|end| machine.to_own(Dimension::Frequency, end * unit)),
-    };
+    let usual = SWEEP.map(|end| machine.to_own(Dimension::Frequency, end * unit));
+    let [low, high] = arguments.sweep.unwrap_or(usual);
     if unit == 0.0 || low <= 0.0 {
         return Err(Failure::usage(format!(
             "--sweep {low}:{high}, stiffness = {}: must both be > 0",
             scene.stiffness
         )));
     }
-    let share = |point: u64| point as f64 / (points - 1) as f64;
-    Ok((0..points)
-        .map(|point| low + share(point) * (high - low))
-        .collect())
+    let step = (high - low) / (arguments.points - 1) as f64;
+    let points = 0..arguments.points;
+    Ok(points.map(|point| low + point as f64 * step).collect())
 }
 
 fn regime(scene: &Scene, frequency: f64, origin: Origin) -> Result<Option<Regime>, Failure> {

@@ -1,17 +1,17 @@
 //! `softstop motions`: all motions on which a machine settles.
 
 mod report;
-mod text;
 
 use anyhow::Error;
 use clap::Args;
 use softstop_dynamics::attractors::{Options, attractors_watched};
 
-pub use report::{ExponentReport, MotionsReport, SettledReport};
+use report::MotionsReport;
 use softstop_console::arguments::MachineArguments;
+use softstop_console::export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::output::{self, Format};
+use softstop_console::output::Format;
 use softstop_console::progress::Progress;
 use softstop_console::range::within;
 
@@ -83,11 +83,10 @@ pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
     };
     let survey = attractors_watched(&machine.scene, &options, &watcher).map_err(Error::from)?;
     drop(progress);
-    let report = MotionsReport::new(&machine, &options, &survey);
-    output::print(&match arguments.format {
-        Format::Json => output::json(&report)?,
-        Format::Text => text::text(&machine, &report),
-    })
+    export::print(
+        &MotionsReport::new(&machine, &options, &survey),
+        arguments.format,
+    )
 }
 
 fn options(arguments: &MotionsArguments) -> Result<Options, Failure> {

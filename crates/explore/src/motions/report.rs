@@ -1,150 +1,71 @@
 //! What `softstop motions` reports.
 
 use serde::Serialize;
-use softstop::Machine;
+use serde_json::json;
+use softstop::{Dimension, Machine};
 use softstop_dynamics::attractors::{Attractor, Certainty, Chaos, Options, Survey};
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{Exponents, Orbit};
 
 use softstop_console::arguments::title;
-use softstop_console::report::{MachineReport, MotionName, Multiplier};
+use softstop_console::column::{Column, Told, Unit, Units};
+use softstop_console::columns;
+use softstop_console::export::Report;
+use softstop_console::record::Record;
+use softstop_console::report::{MachineReport, MotionName, multipliers};
+use softstop_console::table::heading;
 
 /// All motions of a machine.
-#[derive(Debug, Clone, Serialize)]
-pub struct MotionsReport {
-    /// The machine.
-    pub machine: MachineReport,
-    /// What it is called.
-    #[serde(skip)]
-    pub title: String,
+#[derive(Debug, Serialize)]
+pub(super) struct MotionsReport {
+    machine: MachineReport,
     /// The motions, that with the largest share of starts first.
-    pub motions: Vec<SettledReport>,
+    motions: Vec<SettledReport>,
     /// Starts that the shares count.
-    pub starts: usize,
+    starts: usize,
     /// Starts whose motion could not be carried on.
-    pub lost: usize,
+    lost: usize,
     /// Why not the first of them.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub reason: Option<String>,
-    /// Least and largest position in m of the starts.
-    pub region_position: [f64; 2],
-    /// Least and largest velocity in m/s of the starts.
-    pub region_velocity: [f64; 2],
-    /// Seed of the starts.
-    pub seed: u64,
+    reason: Option<String>,
+    /// Least and largest position of the starts.
+    region_position: [f64; 2],
+    /// Least and largest velocity of the starts.
+    region_velocity: [f64; 2],
+    seed: u64,
     /// Drive periods computed.
-    pub periods_computed: u64,
+    periods_computed: u64,
+    #[serde(skip)]
+    title: String,
+    #[serde(skip)]
+    units: Units,
 }
 
 /// One motion.
-#[derive(Debug, Clone, Serialize)]
-pub struct SettledReport {
+#[derive(Debug, Serialize)]
+struct SettledReport {
     /// Share of the starts that were on it in the end.
-    pub share: f64,
+    share: f64,
     /// How many that were.
-    pub starts: usize,
-    /// What it is.
+    starts: usize,
     #[serde(flatten)]
-    pub name: MotionName,
-    /// If it repeats.
+    name: MotionName,
     #[serde(flatten)]
-    pub periodic: Option<PeriodicReport>,
-    /// If it is chaotic.
-    #[serde(flatten)]
-    pub chaos: Option<ChaosReport>,
-    /// Least and largest position at which motions ended, if it rests.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub positions: Option<[f64; 2]>,
-    /// If it has not settled.
-    #[serde(flatten)]
-    pub unsettled: Option<UnsettledReport>,
-}
-
-/// What did not settle while it was watched.
-#[derive(Debug, Clone, Serialize)]
-pub struct UnsettledReport {
-    /// Position at drive angle phi.
-    pub position: f64,
-    /// Velocity there.
-    pub velocity: f64,
-    /// Its exponents.
-    pub exponents: ExponentReport,
-}
-
-/// A periodic motion.
-#[derive(Debug, Clone, Serialize)]
-pub struct PeriodicReport {
-    /// Impacts p; of complete chatter those before the summed ones.
-    pub impacts: u64,
-    /// Drive periods n.
-    pub periods: u64,
-    /// True for complete chatter.
-    pub chatter: bool,
-    /// Position in m at drive angle phi.
-    pub position: f64,
-    /// Velocity in m/s there.
-    pub velocity: f64,
-    /// Before-impact velocities in m/s, in order of time.
-    pub before_impact_velocities: Vec<f64>,
-    /// Drive angles of the impacts in rad.
-    pub impact_angles: Vec<f64>,
-    /// Largest position in m.
-    pub max_position: f64,
-    /// Floquet multipliers over its period.
-    pub multipliers: [Multiplier; 2],
-    /// Lyapunov exponents.
-    pub exponents: ExponentReport,
-    /// Distance of states one period apart when it was met, in units of its size.
-    pub returned: f64,
-    /// |P(s) - s| after Newton's method, in m and m/s.
-    pub residual: f64,
-}
-
-/// A chaotic motion.
-#[derive(Debug, Clone, Serialize)]
-pub struct ChaosReport {
-    /// Mean number of drive periods that it lasts, if it ends.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub lifetime: Option<f64>,
-    /// Starts that came to it, if it ends.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub entered: Option<usize>,
-    /// Position in m at drive angle phi of a state on it.
-    pub position: f64,
-    /// Velocity in m/s there.
-    pub velocity: f64,
-    /// Mean impacts per drive period.
-    pub impacts_per_period: f64,
-    /// Least before-impact velocity; null without impacts.
-    pub least_before_impact_velocity: Option<f64>,
-    /// The largest one.
-    pub before_impact_velocity: Option<f64>,
-    /// Its exponents.
-    pub exponents: ExponentReport,
-    /// Drive periods for which motions on it were watched, all together.
-    pub watched: u64,
-}
-
-/// Lyapunov exponents; null stands for minus infinity.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct ExponentReport {
-    /// Per drive period, the larger first.
-    pub per_period: [f64; 2],
-    /// Per second.
-    pub per_second: [f64; 2],
-    /// Half-width of the 95 % interval of the larger one per drive period.
-    pub error: f64,
+    figures: Record,
 }
 
 impl MotionsReport {
-    /// The report of a survey.
-    #[must_use]
-    pub fn new(machine: &Machine, options: &Options, survey: &Survey) -> Self {
+    pub(super) fn new(machine: &Machine, options: &Options, survey: &Survey) -> Self {
         let lost = survey.lost.as_ref();
+        let motions = survey.attractors.iter().map(|attractor| SettledReport {
+            share: attractor.share,
+            starts: attractor.starts,
+            name: MotionName::of(&attractor.motion),
+            figures: figures(attractor),
+        });
         Self {
             machine: MachineReport::of(machine),
-            title: title(machine),
-            motions: survey.attractors.iter().map(SettledReport::new).collect(),
+            motions: motions.collect(),
             starts: survey.starts,
             lost: lost.map_or(0, |(count, _)| *count),
             reason: lost.map(|(_, error)| error.to_string()),
@@ -152,73 +73,143 @@ impl MotionsReport {
             region_velocity: survey.region.velocity,
             seed: options.seed,
             periods_computed: survey.periods,
+            title: title(machine),
+            units: Units::of(machine),
         }
     }
 }
 
-impl SettledReport {
-    fn new(attractor: &Attractor) -> Self {
-        let orbit = attractor.orbit.as_ref().zip(attractor.certainty);
-        let is_unsettled = attractor.motion == MotionKind::Unsettled;
-        let exponents = attractor.exponents.filter(|_| is_unsettled);
-        Self {
-            share: attractor.share,
-            starts: attractor.starts,
-            name: MotionName::of(&attractor.motion),
-            periodic: orbit.map(|(orbit, certainty)| PeriodicReport::new(orbit, &certainty)),
-            chaos: attractor.chaos.as_ref().map(ChaosReport::new),
-            positions: attractor.positions,
-            unsettled: exponents.map(|exponents| UnsettledReport {
-                position: attractor.state.position,
-                velocity: attractor.state.velocity,
-                exponents: ExponentReport::new(&exponents),
-            }),
+impl Report for MotionsReport {
+    /// One motion after the other, then where they were looked for.
+    fn text(&self) -> String {
+        let mut text = heading(&format!("All motions of {}", self.title));
+        for motion in &self.motions {
+            let (name, share) = (&motion.name.text, 100.0 * motion.share);
+            let order = motion.name.order.as_ref();
+            let order =
+                order.map_or_else(String::new, |order| format!(", order of impacts {order}"));
+            text += &format!("\n{name}{order} ({share:.1} % of starts)\n");
+            text += &motion.figures.text(&self.units);
         }
+        let range = |name: &str, [low, high]: [f64; 2], dimension| {
+            let sign = self.units.name(Unit::Own(dimension));
+            let told = format!("{low:.4} <= {name} <= {high:.4} {sign}");
+            told.trim_end().to_owned()
+        };
+        text += &format!(
+            "\n{} starts with {} and {}; {} drive periods computed.\n",
+            self.starts,
+            range("x", self.region_position, Dimension::Length),
+            range("x'", self.region_velocity, Dimension::Velocity),
+            self.periods_computed
+        );
+        if let Some(reason) = &self.reason {
+            text += &format!("{} starts were lost: {reason}\n", self.lost);
+        }
+        text
     }
 }
 
-impl PeriodicReport {
-    fn new(orbit: &Orbit, certainty: &Certainty) -> Self {
-        let regime = orbit.regime();
-        Self {
-            impacts: regime.impacts,
-            periods: regime.periods,
-            chatter: orbit.chatters(),
-            position: orbit.position,
-            velocity: orbit.velocity,
-            before_impact_velocities: orbit.before_impact_velocities().collect(),
-            impact_angles: orbit.impact_angles().collect(),
-            max_position: orbit.max_position,
-            multipliers: orbit.multipliers().map(Multiplier::new),
-            exponents: ExponentReport::new(&Exponents::of(orbit)),
-            returned: certainty.returned,
-            residual: certainty.residual,
+/// What is told of a motion, by its kind.
+fn figures(attractor: &Attractor) -> Record {
+    let mut figures = Record::default();
+    if let (Some(orbit), Some(certainty)) = (&attractor.orbit, &attractor.certainty) {
+        figures = figures.and(Record::of(&periodic(), &(orbit, certainty)));
+    }
+    if let Some(chaos) = &attractor.chaos {
+        figures = figures.and(Record::of(&chaotic(), chaos));
+        if chaos.lifetime.is_some() {
+            figures = figures.and(Record::of(&transient(), chaos));
         }
+    }
+    if let Some(positions) = attractor.positions {
+        let resting: [Column<[f64; 2]>; 1] = columns! { [f64; 2], it;
+            "positions" [Length] Fixed(6), "held at, least and largest" => *it;
+        };
+        figures = figures.and(Record::of(&resting, &positions));
+    }
+    if attractor.motion == MotionKind::Unsettled
+        && let Some(exponents) = &attractor.exponents
+    {
+        figures = figures.and(Record::of(&unsettled(), &(attractor, exponents)));
+    }
+    figures
+}
+
+type Periodic<'a> = (&'a Orbit, &'a Certainty);
+
+fn periodic<'a>() -> [Column<Periodic<'a>>; 12] {
+    columns! { Periodic<'a>, it;
+        "impacts" [None], "p; of complete chatter those before the summed ones" => it.0.regime().impacts;
+        "periods" [None], "drive periods n" => it.0.regime().periods;
+        "chatter" [None], "true for complete chatter" => it.0.chatters();
+        "before_impact_velocities" [Velocity] Fixed(6), "before impact" => velocities(it.0);
+        "impact_angles" [Angle], "drive angles of the impacts" => it.0.impact_angles().collect::<Vec<_>>();
+        "position" [Length] Fixed(9), "position at drive angle phi" => it.0.position;
+        "velocity" [Velocity] Fixed(9), "velocity there" => it.0.velocity;
+        "max_position" [Length] Fixed(6), "largest position" => it.0.max_position;
+        "multipliers" [None] Plain, "multipliers" => multipliers(it.0.multipliers());
+        "exponents" [None] Plain, "Lyapunov exponents" => both(&Exponents::of(it.0));
+        "returned" [None] Power(1), "returns to within, when met" => it.1.returned;
+        "residual" [None] Power(1), "and when polished" => it.1.residual;
     }
 }
 
-impl ChaosReport {
-    fn new(chaos: &Chaos) -> Self {
-        Self {
-            lifetime: chaos.lifetime,
-            entered: chaos.lifetime.map(|_| chaos.entered),
-            position: chaos.state.position,
-            velocity: chaos.state.velocity,
-            impacts_per_period: chaos.impacts_per_period,
-            least_before_impact_velocity: chaos.velocities.map(|[least, _]| least),
-            before_impact_velocity: chaos.velocities.map(|[_, largest]| largest),
-            exponents: ExponentReport::new(&chaos.exponents),
-            watched: chaos.watched,
-        }
+fn velocities(orbit: &Orbit) -> Vec<f64> {
+    orbit.before_impact_velocities().collect()
+}
+
+fn chaotic() -> [Column<Chaos>; 7] {
+    columns! { Chaos, it;
+        "exponents" [None] Plain, "Lyapunov exponent" => larger(&it.exponents);
+        "impacts_per_period" [None] Fixed(3), "impacts per drive period" => it.impacts_per_period;
+        "least_before_impact_velocity" [Velocity] Fixed(4), "before impact, least" => it.velocities.map(|it| it[0]);
+        "before_impact_velocity" [Velocity] Fixed(4), "and largest" => it.velocities.map(|it| it[1]);
+        "position" [Length], "position at drive angle phi of a state on it" => it.state.position;
+        "velocity" [Velocity], "velocity there" => it.state.velocity;
+        "watched" [None] Plain, "drive periods watched; a third of them bounds the lifetime (95 %)" => it.watched;
     }
 }
 
-impl ExponentReport {
-    fn new(exponents: &Exponents) -> Self {
-        Self {
-            per_period: exponents.per_period,
-            per_second: exponents.per_second(),
-            error: exponents.error,
-        }
+fn transient() -> [Column<Chaos>; 2] {
+    columns! { Chaos, it;
+        "lifetime" [None] Fixed(0), "lifetime in drive periods, on average" => it.lifetime;
+        "entered" [None] Plain, "starts that came here first" => it.entered;
+    }
+}
+
+fn unsettled<'a>() -> [Column<(&'a Attractor, &'a Exponents)>; 3] {
+    columns! { (&'a Attractor, &'a Exponents), it;
+        "position" [Length], "position at drive angle phi" => it.0.state.position;
+        "velocity" [Velocity], "velocity there" => it.0.state.velocity;
+        "exponents" [None] Plain, "Lyapunov exponent" => larger(it.1);
+    }
+}
+
+/// Exponents with the words for all of them.
+fn both(exponents: &Exponents) -> Told {
+    let [first, second] = exponents.per_period.map(|it| match it.is_finite() {
+        true => format!("{it:.6}"),
+        false => "-infinity".to_owned(),
+    });
+    told(exponents, format!("{first}, {second} per drive period"))
+}
+
+/// Exponents with the words for the larger one.
+fn larger(exponents: &Exponents) -> Told {
+    let ([period, _], [second, _]) = (exponents.per_period, exponents.per_second());
+    let error = exponents.error;
+    let words = format!("{period:.4} +- {error:.4} per drive period, {second:.5} per unit of time");
+    told(exponents, words)
+}
+
+fn told(exponents: &Exponents, words: String) -> Told {
+    Told {
+        value: json!({
+            "per_period": exponents.per_period,
+            "per_second": exponents.per_second(),
+            "error": exponents.error,
+        }),
+        words,
     }
 }

@@ -14,8 +14,10 @@ use softstop::{Allowed, Machine, PhaseKind, Start};
 use crate::simulate::chart::MotionChart;
 use report::SimulateReport;
 use softstop_console::arguments::MachineArguments;
+use softstop_console::column;
+use softstop_console::export::Export;
 use softstop_console::failure::Failure;
-use softstop_console::output::{self, Folder, Format};
+use softstop_console::output::Format;
 use softstop_console::range::within;
 
 const EXAMPLES: &str = "\
@@ -44,13 +46,18 @@ Examples:
           position = 6.9
           velocity = 9.5
 
-Three files are written, whole or not at all: motion.csv (time, position, velocity, contact
-force, phase), crossings.csv (every impact, rebound, reversal, rest and release with the exact
-states on both sides) and motion.svg (the last periods). docs/stops.md explains all stops.";
+Three files are written, whole or not at all: motion.csv, crossings.csv (every impact, rebound,
+reversal, rest and release with the exact states on both sides) and motion.svg (the last
+periods). docs/stops.md explains all stops.";
+
+fn help() -> String {
+    let crossings = column::help("crossings.csv", &record::columns());
+    EXAMPLES.to_owned() + &column::help("motion.csv", &run::columns()) + &crossings
+}
 
 /// Arguments of `softstop simulate`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+#[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct SimulateArguments {
     /// Whole drive periods to run, 1 to 1000000
     #[arg(long, value_name = "N", default_value_t = 100)]
@@ -75,9 +82,11 @@ pub struct SimulateArguments {
     pub machine: MachineArguments,
 }
 
-const MOTION: &str = "motion.csv";
-const CROSSINGS: &str = "crossings.csv";
-const CHART: &str = "motion.svg";
+const FILES: [(&str, &str); 3] = [
+    ("motion_csv", "motion.csv"),
+    ("crossings_csv", "crossings.csv"),
+    ("svg", "motion.svg"),
+];
 /// Rows of motion.csv at most.
 const MOST_ROWS: u64 = 20_000_000;
 
@@ -102,28 +111,27 @@ pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
         arguments.velocity.unwrap_or(start.velocity),
     );
     let motion = scene.motion(start)?;
-    let folder = Folder::open(&arguments.output, &[MOTION, CROSSINGS, CHART])?;
-    let crossings = folder.create(CROSSINGS)?;
-    let samples = folder.create(MOTION)?;
+    let export = Export::open(&arguments.output, &FILES)?;
+    let (samples, crossings) = (run::columns(), record::columns());
     let plan = run::Plan {
         scene,
         periods: arguments.periods,
         samples: arguments.samples_per_period,
     };
-    let outcome = plan.run(motion, samples, crossings)?;
-    let report = SimulateReport::new(arguments, &machine, start, &outcome, &folder);
+    let outcome = plan.run(
+        motion,
+        export.open_table("motion_csv", &samples)?,
+        export.open_table("crossings_csv", &crossings)?,
+    )?;
+    let report = SimulateReport::new(arguments, &machine, start, &outcome);
     let chart = MotionChart {
         drawing: outcome.drawing,
-        title: report.title(),
+        title: report::chart_title(&machine, arguments.periods),
         names: chart::names(&machine),
         faces: run::faces(scene),
     };
-    folder.stage(CHART, chart.svg().as_bytes())?;
-    folder.commit(&[MOTION, CROSSINGS, CHART])?;
-    output::print(&match arguments.format {
-        Format::Json => output::json(&report)?,
-        Format::Text => report.text(&machine),
-    })
+    export.file("svg", chart.svg().as_bytes())?;
+    export.finish(&report, arguments.format)
 }
 
 fn check(arguments: &SimulateArguments) -> Result<(), Failure> {

@@ -6,8 +6,10 @@ use softstop::{Arc, Clock, Crossing, CrossingKind, Drive, Observer, PhaseKind, S
 use super::name;
 use super::tally::{Rest, Tally};
 use crate::simulate::chart::Drawing;
+use softstop_console::column::Column;
+use softstop_console::columns;
+use softstop_console::export::Table;
 use softstop_console::failure::Failure;
-use softstop_console::output::Staged;
 
 /// Points that one period is drawn with, at least.
 const FINENESS: f64 = 250.0;
@@ -16,13 +18,36 @@ const FEWEST: f64 = 8.0;
 /// Points drawn at most.
 const MOST_POINTS: usize = 200_000;
 
+/// A row of crossings.csv.
+pub(super) struct Crossed {
+    time: f64,
+    before: PhaseKind,
+    crossing: Crossing,
+}
+
+/// The columns of crossings.csv.
+pub(super) fn columns() -> [Column<Crossed>; 10] {
+    columns! { Crossed, it;
+        "time" [Time], "when" => it.time;
+        "kind" [None], "of the crossing" => kind(&it.crossing);
+        "phase_before" [None], "phase that it ends" => name(it.before);
+        "position" [Length], "where" => it.crossing.position;
+        "velocity_before" [Velocity], "before it" => it.crossing.velocity;
+        "velocity_after" [Velocity], "after it" => it.crossing.velocity_after;
+        "acceleration_before" [Of("own")], "before it" => it.crossing.acceleration_before;
+        "acceleration_after" [Of("own")], "after it" => it.crossing.acceleration_after;
+        "impact" [None], "1 if it is an impact" => u64::from(it.crossing.impact_velocity().is_some());
+        "pierces" [None], "1 if it pierces the strip" => u64::from(it.crossing.pierces());
+    }
+}
+
 /// Watches a motion.
 pub(super) struct Recorder<'a> {
     scene: &'a Scene,
     clock: Clock,
     /// The law of free flight.
     free: Law,
-    crossings: Staged,
+    crossings: Table<'a, Crossed>,
     /// The first thing that went wrong while writing.
     failure: Option<Failure>,
     /// Phase of the arc that ended last.
@@ -37,22 +62,10 @@ impl<'a> Recorder<'a> {
     pub(super) fn new(
         scene: &'a Scene,
         motion: &Motion,
-        mut crossings: Staged,
+        crossings: Table<'a, Crossed>,
         drawn_from: f64,
-    ) -> Result<Self, Failure> {
-        crossings.header(&[
-            "time",
-            "kind",
-            "phase_before",
-            "position",
-            "velocity_before",
-            "velocity_after",
-            "acceleration_before",
-            "acceleration_after",
-            "impact",
-            "pierces",
-        ])?;
-        Ok(Self {
+    ) -> Self {
+        Self {
             scene,
             clock: *motion.clock(),
             free: motion.phases().phases[0].law,
@@ -62,7 +75,7 @@ impl<'a> Recorder<'a> {
             tally: Tally::default(),
             drawing: Drawing::default(),
             drawn_from,
-        })
+        }
     }
 
     /// Passes on what went wrong while writing.
@@ -134,18 +147,11 @@ impl Observer for Recorder<'_> {
     fn crossing(&mut self, crossing: &Crossing) {
         let time = self.clock.time(crossing.instant);
         self.tally.crossing(crossing, time, self.scene.mass);
-        let line = self.crossings.row(&(
+        let line = self.crossings.row(&Crossed {
             time,
-            kind(crossing),
-            name(self.before),
-            crossing.position,
-            crossing.velocity,
-            crossing.velocity_after,
-            crossing.acceleration_before,
-            crossing.acceleration_after,
-            u8::from(crossing.impact_velocity().is_some()),
-            u8::from(crossing.pierces()),
-        ));
+            before: self.before,
+            crossing: *crossing,
+        });
         if let Err(failure) = line {
             self.failure.get_or_insert(failure);
         }

@@ -1,76 +1,117 @@
-//! The summary of a run: plain data whose field names are the keys of the JSON, and its text.
-
-use std::collections::BTreeMap;
+//! The summary of a run, in the machine's own units.
 
 use serde::Serialize;
-use softstop::{Dimension, Machine, PhaseKind, Start};
+use serde_json::json;
+use softstop::{Machine, Start};
 
 use super::run::{DRAWN, Outcome};
-use super::tally::{Impact, Rest};
-use super::{CHART, CROSSINGS, MOTION, SimulateArguments, name};
+use super::tally::{Impact, Rest, Visit};
+use super::{SimulateArguments, name};
 use softstop_console::arguments::title;
-use softstop_console::output::Folder;
+use softstop_console::column::{Column, Told, Units};
+use softstop_console::columns;
+use softstop_console::export::Report;
+use softstop_console::record::{Record, below};
 use softstop_console::report::MachineReport;
-use softstop_console::table::{Row, figure, heading, row, table};
+use softstop_console::table::{figure, heading};
 
-/// A state.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub(super) struct State {
-    position: f64,
-    velocity: f64,
+/// A run.
+struct Run<'a> {
+    machine: &'a Machine,
+    periods: u64,
+    start: Start,
+    outcome: &'a Outcome,
 }
 
-/// What the impacts were.
-#[derive(Debug, Clone, Serialize)]
-struct ImpactsReport {
-    count: u64,
-    per_period: f64,
-    least_before_impact_velocity: Option<f64>,
-    mean_before_impact_velocity: Option<f64>,
-    /// The largest one.
-    before_impact_velocity: Option<f64>,
-    /// The last ones; all stand in crossings.csv.
-    last: Vec<Impact>,
+fn overview<'a>() -> [Column<Run<'a>>; 7] {
+    columns! { Run<'a>, it;
+        "periods" [None] Plain, "drive periods" => it.periods;
+        "period" [Time], "drive period" => it.machine.scene.period();
+        "duration" [Time] Seven, "time" => it.outcome.duration;
+        "start" [None] Plain, "start: position and velocity" => state(it.start);
+        "end" [None] Plain, "end: position and velocity" => state(it.outcome.end);
+        "pierced" [None] Plain, "strips pierced" => it.outcome.tally.pierced;
+        "rest_count" [None] Plain, "rests" => it.outcome.tally.rest_count;
+    }
 }
 
-/// supplied = dissipated + stored, but for the defect of rounding; in J.
-#[derive(Debug, Clone, Copy, Serialize)]
-struct EnergyReport {
-    supplied: f64,
-    dissipated: f64,
-    stored: f64,
-    defect: f64,
+fn impacts<'a>() -> [Column<Run<'a>>; 5] {
+    columns! { Run<'a>, it;
+        "count" [None] Plain, "impacts" => it.outcome.tally.impacts.count;
+        "per_period" [None] Seven, "impacts per period" => it.outcome.tally.impacts.count as f64 / it.periods as f64;
+        "least_before_impact_velocity" [Velocity] Seven, "lowest before-impact velocity" => it.outcome.tally.impacts.range.map(|it| it.0);
+        "mean_before_impact_velocity" [Velocity] Seven, "mean" => it.outcome.tally.impacts.mean();
+        "before_impact_velocity" [Velocity] Seven, "highest" => it.outcome.tally.impacts.range.map(|it| it.1);
+    }
 }
 
-#[derive(Debug, Clone, Serialize)]
-struct PhaseReport {
-    phase: PhaseKind,
-    visits: u64,
-    /// In s.
-    time: f64,
-    share: f64,
+/// supplied = dissipated + stored, but for the defect of rounding.
+fn energy() -> [Column<Outcome>; 4] {
+    columns! { Outcome, it;
+        "supplied" [Energy] Seven, "energy supplied" => it.tally.work.supplied;
+        "dissipated" [Energy] Seven, "dissipated" => it.tally.work.dissipated;
+        "stored" [Energy] Seven, "stored" => it.stored;
+        "defect" [Energy] Seven, "balance, zero but for rounding" => it.tally.work.supplied - it.tally.work.dissipated - it.stored;
+    }
 }
 
-/// The summary, in the machine's own units.
-#[derive(Debug, Clone, Serialize)]
+fn visits() -> [Column<(Visit, f64)>; 4] {
+    columns! { (Visit, f64), it;
+        "phase" [None] Plain, "which" => name(it.0.kind);
+        "visits" [None] Plain, "how often it was entered" => it.0.visits;
+        "time" [Time] Seven, "spent in it" => it.0.time;
+        "share" [None] Percent(3), "of the run" => it.0.time / it.1;
+    }
+}
+
+fn rests() -> [Column<Rest>; 4] {
+    columns! { Rest, it;
+        "phase" [None] Plain, "what holds the mass" => name(it.phase);
+        "begin" [Time] Seven, "when" => it.begin;
+        "end" [Time] Seven, "none if it lasts" => it.end;
+        "position" [Length] Seven, "where" => it.position;
+    }
+}
+
+fn blows() -> [Column<Impact>; 2] {
+    columns! { Impact, it;
+        "time" [Time] Seven, "when" => it.time;
+        "before_impact_velocity" [Velocity] Seven, "how hard" => it.before_impact_velocity;
+    }
+}
+
+fn state(state: Start) -> Told {
+    Told {
+        value: json!({ "position": state.position, "velocity": state.velocity }),
+        words: format!("{}   {}", figure(state.position), figure(state.velocity)),
+    }
+}
+
+/// The summary.
+#[derive(Debug, Serialize)]
 pub(super) struct SimulateReport {
     machine: MachineReport,
+    #[serde(flatten)]
+    overview: Record,
+    impacts: ImpactsReport,
+    rests: Vec<Record>,
+    energy: Record,
+    phases: Vec<Record>,
     #[serde(skip)]
     title: String,
     #[serde(skip)]
-    stop: &'static str,
-    periods: u64,
-    period: f64,
-    duration: f64,
-    start: State,
-    end: State,
-    impacts: ImpactsReport,
-    pierced: u64,
+    units: Units,
+    /// All rests, also those that are not listed.
+    #[serde(skip)]
     rest_count: u64,
-    rests: Vec<Rest>,
-    energy: EnergyReport,
-    phases: Vec<PhaseReport>,
-    files: BTreeMap<&'static str, String>,
+}
+
+#[derive(Debug, Serialize)]
+struct ImpactsReport {
+    #[serde(flatten)]
+    figures: Record,
+    /// The last ones; all stand in crossings.csv.
+    last: Vec<Record>,
 }
 
 impl SimulateReport {
@@ -79,206 +120,64 @@ impl SimulateReport {
         machine: &Machine,
         start: Start,
         outcome: &Outcome,
-        folder: &Folder,
     ) -> Self {
         let tally = &outcome.tally;
-        let files = [
-            ("motion_csv", MOTION),
-            ("crossings_csv", CROSSINGS),
-            ("svg", CHART),
-        ];
+        let run = Run {
+            machine,
+            periods: arguments.periods,
+            start,
+            outcome,
+        };
+        let seen = tally.phases.iter();
+        let seen: Vec<(Visit, f64)> = seen.map(|visit| (*visit, outcome.duration)).collect();
         Self {
             machine: MachineReport::of(machine),
-            title: title(machine),
-            stop: machine.scene.stop.model(),
-            periods: arguments.periods,
-            period: machine.scene.period(),
-            duration: outcome.duration,
-            start: state(start),
-            end: state(outcome.end),
-            impacts: impacts(outcome, arguments.periods),
-            pierced: tally.pierced,
+            overview: Record::of(&overview(), &run),
+            impacts: ImpactsReport {
+                figures: Record::of(&impacts(), &run),
+                last: Record::all(&blows(), &tally.impacts.recent),
+            },
+            rests: Record::all(&rests(), &tally.rests),
+            energy: Record::of(&energy(), outcome),
+            phases: Record::all(&visits(), &seen),
+            title: format!("{} (stop: {})", title(machine), machine.scene.stop.model()),
+            units: Units::of(machine),
             rest_count: tally.rest_count,
-            rests: tally.rests.clone(),
-            energy: energy(outcome),
-            phases: phases(outcome),
-            files: files
-                .map(|(kind, name)| (kind, folder.place(name).display().to_string()))
-                .into(),
         }
     }
+}
 
-    /// The chart's title.
-    pub(super) fn title(&self) -> String {
-        let drawn = self.periods.min(DRAWN);
-        let file = &self.title;
-        if drawn == self.periods {
-            format!("{file}: {drawn} drive periods")
-        } else {
-            format!("{file}: the last {drawn} of {} drive periods", self.periods)
-        }
-    }
-
-    /// The summary for people.
-    pub(super) fn text(&self, machine: &Machine) -> String {
-        let title = format!("Motion of {} (stop: {})", self.title, self.stop);
-        let mut text = heading(&title);
-        text += &table(&self.overview(machine));
-        text += "\nPhases visited\n";
-        text += &table(&self.visited(machine));
-        text += &self.rests_text(machine);
-        text += &self.last_impacts(machine);
-        text.push('\n');
-        for path in self.files.values() {
-            text += &format!("Written: {path}\n");
-        }
-        text
-    }
-
-    fn overview(&self, machine: &Machine) -> Vec<Row> {
-        let label = |what: &str, dimension| machine.label(what, "", dimension);
-        let state = |when: &str| {
-            let position = label("position", Dimension::Length);
-            format!(
-                "{when}: {position}, {}",
-                label("velocity", Dimension::Velocity)
-            )
-        };
-        let energies = |what: &str| label(what, Dimension::Energy);
-        let impacts = &self.impacts;
-        let or_none = |value: Option<f64>| value.map_or_else(|| "-".into(), figure);
-        let pair = |state: State| [figure(state.position), figure(state.velocity)];
-        let energy = &self.energy;
-        vec![
-            row("drive periods", [self.periods.to_string()]),
-            row(&label("time", Dimension::Time), [figure(self.duration)]),
-            row(&state("start"), pair(self.start)),
-            row(&state("end"), pair(self.end)),
-            row("impacts", [impacts.count.to_string()]),
-            row("  per period", [figure(impacts.per_period)]),
-            row(
-                &label("  lowest before-impact velocity", Dimension::Velocity),
-                [or_none(impacts.least_before_impact_velocity)],
-            ),
-            row(
-                &label("  mean", Dimension::Velocity),
-                [or_none(impacts.mean_before_impact_velocity)],
-            ),
-            row(
-                &label("  highest", Dimension::Velocity),
-                [or_none(impacts.before_impact_velocity)],
-            ),
-            row("strips pierced", [self.pierced.to_string()]),
-            row("rests", [self.rest_count.to_string()]),
-            row(&energies("energy supplied"), [figure(energy.supplied)]),
-            row(&energies("  dissipated"), [figure(energy.dissipated)]),
-            row(&energies("  stored"), [figure(energy.stored)]),
-            row(
-                &energies("  balance, zero but for rounding"),
-                [figure(energy.defect)],
-            ),
-        ]
-    }
-
-    fn visited(&self, machine: &Machine) -> Vec<Row> {
-        let head = row(
-            "  phase",
-            [
-                "visits".to_owned(),
-                machine.label("time", "", Dimension::Time),
-                "share".to_owned(),
-            ],
-        );
-        let rows = self.phases.iter().map(|seen| {
-            let share = format!("{:.3} %", 100.0 * seen.share);
-            let cells = [seen.visits.to_string(), figure(seen.time), share];
-            row(&format!("  {}", name(seen.phase)), cells)
-        });
-        std::iter::once(head).chain(rows).collect()
-    }
-
-    fn rests_text(&self, machine: &Machine) -> String {
-        if self.rests.is_empty() {
-            return String::new();
-        }
-        let head = row(
-            "  held by",
-            [
-                machine.label("begin", "", Dimension::Time),
-                machine.label("end", "", Dimension::Time),
-                machine.label("position", "", Dimension::Length),
-            ],
-        );
-        let rows = self.rests.iter().take(SHOWN).map(|rest| {
-            let end = rest.end.map_or_else(|| "lasts".into(), figure);
-            let cells = [figure(rest.begin), end, figure(rest.position)];
-            row(&format!("  {}", name(rest.phase)), cells)
-        });
-        let rows: Vec<Row> = std::iter::once(head).chain(rows).collect();
-        let more = if self.rest_count > SHOWN as u64 {
-            format!(" (the first {SHOWN} of {})", self.rest_count)
-        } else {
-            String::new()
-        };
-        format!("\nRests{more}\n{}", table(&rows))
-    }
-
-    fn last_impacts(&self, machine: &Machine) -> String {
-        if self.impacts.last.is_empty() {
-            return String::new();
-        }
-        let head = row(
-            &machine.label("  time", "", Dimension::Time),
-            [machine.label("velocity", "", Dimension::Velocity)],
-        );
-        let rows = self.impacts.last.iter().map(|impact| {
-            let velocity = figure(impact.before_impact_velocity);
-            row(&format!("  {}", figure(impact.time)), [velocity])
-        });
-        let rows: Vec<Row> = std::iter::once(head).chain(rows).collect();
-        format!("\nLast impacts\n{}", table(&rows))
+/// The chart's title.
+pub(super) fn chart_title(machine: &Machine, periods: u64) -> String {
+    let (name, drawn) = (title(machine), periods.min(DRAWN));
+    match drawn == periods {
+        true => format!("{name}: {drawn} drive periods"),
+        false => format!("{name}: the last {drawn} of {periods} drive periods"),
     }
 }
 
 /// Rests that the text lists.
 const SHOWN: usize = 10;
 
-const fn state(state: Start) -> State {
-    State {
-        position: state.position,
-        velocity: state.velocity,
+impl Report for SimulateReport {
+    fn text(&self) -> String {
+        let figures = [&self.overview, &self.impacts.figures, &self.energy];
+        let figures = figures.into_iter().cloned();
+        let figures = figures.reduce(Record::and).unwrap_or_default();
+        let shown = &self.rests[..self.rests.len().min(SHOWN)];
+        let mut rests = "Rests".to_owned();
+        if self.rest_count > SHOWN as u64 {
+            rests += &format!(" (the first {SHOWN} of {})", self.rest_count);
+        }
+        let tables = [
+            ("Phases visited", &self.phases[..]),
+            (&rests, shown),
+            ("Last impacts", &self.impacts.last),
+        ];
+        let tables = tables.into_iter().filter(|(_, rows)| !rows.is_empty());
+        let tables = tables.map(|(title, rows)| format!("\n{title}\n{}", below(rows, &self.units)));
+        heading(&format!("Motion of {}", self.title))
+            + &figures.text(&self.units)
+            + &tables.collect::<String>()
     }
-}
-
-fn impacts(outcome: &Outcome, periods: u64) -> ImpactsReport {
-    let impacts = &outcome.tally.impacts;
-    ImpactsReport {
-        count: impacts.count,
-        per_period: impacts.count as f64 / periods as f64,
-        least_before_impact_velocity: impacts.range.map(|range| range.0),
-        mean_before_impact_velocity: impacts.mean(),
-        before_impact_velocity: impacts.range.map(|range| range.1),
-        last: impacts.recent.clone(),
-    }
-}
-
-fn energy(outcome: &Outcome) -> EnergyReport {
-    let work = outcome.tally.work;
-    EnergyReport {
-        supplied: work.supplied,
-        dissipated: work.dissipated,
-        stored: outcome.stored,
-        defect: work.supplied - work.dissipated - outcome.stored,
-    }
-}
-
-fn phases(outcome: &Outcome) -> Vec<PhaseReport> {
-    let seen = outcome.tally.phases.iter();
-    seen.map(|visit| PhaseReport {
-        phase: visit.kind,
-        visits: visit.visits,
-        time: visit.time,
-        share: visit.time / outcome.duration,
-    })
-    .collect()
 }

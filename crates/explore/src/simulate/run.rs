@@ -4,12 +4,14 @@ use softstop::internals::{Law, Motion, mechanical_energy};
 use softstop::{Instant, Scene, Start};
 
 use super::name;
-use super::record::{Recorder, force};
+use super::record::{Crossed, Recorder, force};
 use super::tally::Tally;
 use crate::simulate::chart::Drawing;
+use softstop_console::column::Column;
+use softstop_console::columns;
+use softstop_console::export::Table;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::output::Staged;
 use softstop_console::progress::Progress;
 
 /// Periods that are drawn, the last ones.
@@ -38,14 +40,13 @@ impl Plan<'_> {
     pub(super) fn run(
         &self,
         mut motion: Motion,
-        mut table: Staged,
-        crossings: Staged,
+        mut table: Table<'_, Sample>,
+        crossings: Table<'_, Crossed>,
     ) -> Result<Outcome, Failure> {
         let period = motion.clock().period();
         let drawn_from = self.periods.saturating_sub(DRAWN) as f64 * period;
         let before = mechanical_energy(self.scene, &motion);
-        let mut recorder = Recorder::new(self.scene, &motion, crossings, drawn_from)?;
-        table.header(&["time", "position", "velocity", "contact_force", "phase"])?;
+        let mut recorder = Recorder::new(self.scene, &motion, crossings, drawn_from);
         let progress = Progress::new(self.periods, "periods");
         for sample in 0..=self.periods * self.samples {
             let (cycle, part) = (sample / self.samples, sample % self.samples);
@@ -61,7 +62,7 @@ impl Plan<'_> {
             };
             motion.advance(instant, &mut recorder)?;
             recorder.check()?;
-            self.row(&motion, &mut table)?;
+            table.row(&self.sample(&motion))?;
         }
         drop(progress);
         table.close()?;
@@ -75,16 +76,36 @@ impl Plan<'_> {
         })
     }
 
-    /// One row of motion.csv.
-    fn row(&self, motion: &Motion, table: &mut Staged) -> Result<(), Failure> {
-        let Start { position, velocity } = motion.state();
+    fn sample(&self, motion: &Motion) -> Sample {
+        let state = motion.state();
         let free: &Law = &motion.phases().phases[0].law;
         let drive = motion.clock().drive(motion.now());
-        let state = (position, velocity);
-        let force = force(self.scene, free, motion.phase(), state, drive);
-        let time = motion.clock().time(motion.now());
-        let phase = name(motion.kind());
-        table.row(&(time, position, velocity, force, phase))
+        let place = (state.position, state.velocity);
+        Sample {
+            time: motion.clock().time(motion.now()),
+            state,
+            force: force(self.scene, free, motion.phase(), place, drive),
+            phase: name(motion.kind()),
+        }
+    }
+}
+
+/// A row of motion.csv.
+pub(super) struct Sample {
+    time: f64,
+    state: Start,
+    force: f64,
+    phase: &'static str,
+}
+
+/// The columns of motion.csv.
+pub(super) fn columns() -> [Column<Sample>; 5] {
+    columns! { Sample, it;
+        "time" [Time], "from the start" => it.time;
+        "position" [Length], "of the mass" => it.state.position;
+        "velocity" [Velocity], "of the mass" => it.state.velocity;
+        "contact_force" [Force], "of stop and strip; on a held mass, of what holds it" => it.force;
+        "phase" [None], "of the motion" => it.phase;
     }
 }
 

@@ -1,6 +1,5 @@
 //! What a motion adds up to: impacts, rests, phases, energies.
 
-use serde::Serialize;
 use softstop::{Crossing, CrossingKind, PhaseKind, Work};
 
 /// Impacts kept one by one; all of them stand in crossings.csv.
@@ -9,7 +8,7 @@ const RECENT: usize = 10;
 const MOST_RESTS: usize = 1000;
 
 /// An impact.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impact {
     /// In s.
     pub time: f64,
@@ -49,7 +48,7 @@ impl Impacts {
 }
 
 /// A stretch of time during which the mass is held.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rest {
     /// By what: a face or dry friction.
     pub phase: PhaseKind,

@@ -61,8 +61,7 @@ impl<'a> SweepChart<'a> {
     #[must_use]
     pub fn svg(&self) -> String {
         let (width, height) = (FIRST.0 + PANEL.0 + 24.0, FIRST.1 + 2.0 * NEXT + 44.0);
-        let mut pen = Pen::new(width, height);
-        pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
+        let mut pen = Pen::page(width, height);
         heading(&mut pen, (FIRST.0, 36.0), &self.title(), "");
         let position = self
             .machine
@@ -92,18 +91,10 @@ impl<'a> SweepChart<'a> {
     fn panel(&self, pen: &mut Pen, row: usize, upwards: &str, show: Show) -> Panel {
         let (low, high) = self.plan.range;
         let room = 0.02 * (high - low);
-        let panel = Panel {
-            area: (FIRST.0, FIRST.1 + NEXT * row as f64, PANEL.0, PANEL.1),
-            x: (low - room, high + room),
-            y: self.range(show),
-        };
+        let area = (FIRST.0, FIRST.1 + NEXT * row as f64, PANEL.0, PANEL.1);
+        let panel = Panel::new(area, (low - room, high + room), self.range(show));
         let across = self.machine.label_of(self.plan.parameter);
-        let axes = Axes {
-            letters: LETTERS,
-            across: Some(&across),
-            upwards,
-            ticks: (8, 6),
-        };
+        let axes = Axes::new(LETTERS, Some(&across), upwards, (8, 6));
         panel.ground(pen, &axes);
         let radius = (FILLS * PANEL.0 / self.plan.steps as f64).clamp(DOT.0, DOT.1);
         let points = self.points(&panel, show);

@@ -145,6 +145,9 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let name = arguments.parameter.as_deref();
     let name = name.unwrap_or_else(|| machine.name(Parameter::Frequency));
     let (parameter, unit) = arguments.machine.parameter(&machine, "parameter", name)?;
+    for (flag, value) in [("--from", arguments.from), ("--to", arguments.to)] {
+        require(value.is_finite(), flag, value, "finite")?;
+    }
     let ends = [arguments.from * unit, arguments.to * unit];
     let why = "is not used, for it is swept: --from and --to have its values";
     arguments.machine.refuse(&machine, parameter, why)?;
@@ -184,9 +187,6 @@ fn plan(
     let tolerance = arguments.tolerance;
     let fits = tolerance > 0.0 && tolerance < 1.0;
     require(fits, "tolerance", tolerance, "> 0 and < 1")?;
-    for (flag, value) in [("--from", from), ("--to", to)] {
-        require(value.is_finite(), flag, value, "finite")?;
-    }
     let plan = Plan::new(parameter, (from.min(to), from.max(to)), steps, periods)
         .map_err(|error| Failure::usage(error.to_string()))?;
     Ok(Plan { tolerance, ..plan })
@@ -217,7 +217,7 @@ fn chains(
         machines.push(machine.clone());
     }
     for machine in &machines {
-        check(machine, parameter, [from, to])?;
+        check(arguments, machine, parameter, [from, to])?;
     }
     let falls = from > to;
     let ways = arguments
@@ -239,10 +239,16 @@ fn chains(
     Ok(machines.iter().flat_map(of_machine).collect())
 }
 
-fn check(machine: &Machine, parameter: Parameter, ends: [f64; 2]) -> Result<(), Failure> {
-    for (flag, value) in ["--from", "--to"].into_iter().zip(ends) {
+fn check(
+    arguments: &SweepArguments,
+    machine: &Machine,
+    parameter: Parameter,
+    ends: [f64; 2],
+) -> Result<(), Failure> {
+    let told = [("--from", arguments.from), ("--to", arguments.to)];
+    for ((flag, value), end) in told.into_iter().zip(ends) {
         let mut machine = machine.clone();
-        machine.set(parameter, value);
+        machine.set(parameter, end);
         machine
             .validate()
             .map_err(|error| Failure::usage(format!("{flag} {value}: {error}")))?;

@@ -1,0 +1,114 @@
+//! Records: the figures of one thing, said once for JSON and for people.
+//!
+//! ```
+//! use softstop_console::column::{Column, Units};
+//! use softstop_console::columns;
+//! use softstop_console::record::Record;
+//!
+//! struct Blow { velocity: f64, impacts: u64 }
+//!
+//! let blow: [Column<Blow>; 2] = columns! { Blow, it;
+//!     "before_impact_velocity" [Velocity] Fixed(2), "before-impact velocity" => it.velocity;
+//!     "impacts" [None], "how many" => it.impacts;
+//! };
+//! let record = Record::of(&blow, &Blow { velocity: 6.5, impacts: 1 });
+//! assert_eq!(record.text(&Units::SI), "before-impact velocity (m/s)   6.50\n");
+//! assert_eq!(serde_json::to_string(&record)?, r#"{"before_impact_velocity":6.5,"impacts":1}"#);
+//! # Ok::<(), serde_json::Error>(())
+//! ```
+
+use serde::{Serialize, Serializer};
+
+use crate::cell::{Cell, Form};
+use crate::table::aligned;
+use crate::units::{Unit, Units};
+
+/// Figures in order: in JSON all of them by their names, for people those with a form by their meanings.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Record(pub(crate) Vec<Figure>);
+
+/// A figure.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Figure {
+    pub(crate) name: &'static str,
+    pub(crate) label: String,
+    pub(crate) unit: Unit,
+    pub(crate) form: Option<Form>,
+    pub(crate) cell: Cell,
+}
+
+impl Record {
+    /// The same, and a figure for people under a label of its own.
+    #[must_use]
+    pub fn with(mut self, name: &'static str, label: &str, cell: impl Into<Cell>) -> Self {
+        self.0.push(Figure {
+            name,
+            label: label.to_owned(),
+            unit: Unit::None,
+            form: Some(Form::Six),
+            cell: cell.into(),
+        });
+        self
+    }
+
+    /// The same, and then the figures of another one.
+    #[must_use]
+    pub fn and(mut self, other: Self) -> Self {
+        self.0.extend(other.0);
+        self
+    }
+
+    /// For people: a line for each figure.
+    #[must_use]
+    pub fn text(&self, units: &Units) -> String {
+        beside(std::slice::from_ref(self), units)
+    }
+}
+
+/// Records beside one another, a line for each figure of the first one.
+#[must_use]
+pub fn beside(records: &[Record], units: &Units) -> String {
+    let cell = |record: &Record, name, form: Form| {
+        let cell = record.0.iter().find(|it| it.name == name);
+        cell.map_or_else(String::new, |it| form.write(&it.cell))
+    };
+    let figures = records.first().into_iter().flat_map(|first| &first.0);
+    let line = |figure: &Figure| {
+        let form = figure.form?;
+        let label = units.label(&figure.label, figure.unit);
+        let cells = records.iter().map(|record| cell(record, figure.name, form));
+        Some([label].into_iter().chain(cells).collect())
+    };
+    let lines: Vec<Vec<String>> = figures.filter_map(line).collect();
+    aligned(&lines, |index| index == 0)
+}
+
+/// Records below one another, a line for each, under the names of the first one's figures; nothing if there is
+/// none.
+#[must_use]
+pub fn below(records: &[Record], units: &Units) -> String {
+    let shown = |record: &Record| {
+        let figures = record.0.iter().filter(|it| it.form.is_some());
+        figures.cloned().collect::<Vec<Figure>>()
+    };
+    let rows: Vec<Vec<Figure>> = records.iter().map(shown).collect();
+    let heads = rows.iter().take(1).map(|figures| {
+        let head = |it: &Figure| units.label(&it.name.replace('_', " "), it.unit);
+        figures.iter().map(head).collect()
+    });
+    let line = |figures: &Vec<Figure>| {
+        let cell = |it: &Figure| it.form.unwrap_or(Form::Plain).write(&it.cell);
+        figures.iter().map(cell).collect()
+    };
+    let lines: Vec<Vec<String>> = heads.chain(rows.iter().map(line)).collect();
+    aligned(&lines, |index| {
+        let is_word = |row: &Vec<Figure>| matches!(row[index].cell, Cell::Text(_) | Cell::Told(_));
+        rows.iter().any(is_word)
+    })
+}
+
+impl Serialize for Record {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|it| (it.name, &it.cell)))
+    }
+}

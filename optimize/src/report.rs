@@ -1,0 +1,206 @@
+//! The report of `optimize`: design, references and search.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use softstop::{Dimension, Machine, Parameter};
+use softstop_console::column::{Column, Told, Units};
+use softstop_console::columns;
+use softstop_console::export::Report;
+use softstop_console::record::{Record, beside};
+use softstop_console::report::{Stated, motion, state};
+use softstop_console::table::{heading, number};
+use softstop_dynamics::orbit::Orbit;
+
+use crate::design::{Design, Problem};
+use crate::optimize::reference::Reference;
+
+/// A motion and its machine, in the machine's own units.
+#[derive(Debug, Serialize)]
+struct Found {
+    #[serde(flatten)]
+    machine: Stated,
+    #[serde(flatten)]
+    motion: Record,
+}
+
+/// How the design was searched.
+#[derive(Debug, Serialize)]
+pub struct SearchReport {
+    /// Values held and ranges searched, in words.
+    pub bounds: BTreeMap<String, String>,
+    /// Seed.
+    pub seed: u64,
+    /// Zones computed at most.
+    pub evaluations: u64,
+    /// Zones that were computed.
+    pub evaluations_used: u64,
+}
+
+/// What `softstop optimize` reports and writes.
+#[derive(Debug, Serialize)]
+pub struct OptimizeReport {
+    /// With its place in its zone and the limits that hold it back.
+    design: Found,
+    /// The motions beside it, the paper's points A and B or the machine as it was given, with the gain in velocity.
+    reference: BTreeMap<&'static str, Found>,
+    search: SearchReport,
+    /// The same for people.
+    #[serde(skip)]
+    text: String,
+}
+
+impl OptimizeReport {
+    /// The report on the solution of this problem.
+    #[must_use]
+    pub fn new(
+        problem: &Problem,
+        design: &Design,
+        references: &[Reference],
+        search: SearchReport,
+    ) -> Self {
+        let limits = at_limits(problem, design);
+        let found = |machine: &Machine, orbit: &Orbit, more: Record| Found {
+            machine: Stated::of(machine),
+            motion: motion(machine, orbit).and(more),
+        };
+        let reference = |it: &Reference| (it.name, found(&it.machine, &it.orbit, gain(design, it)));
+        Self {
+            design: found(
+                &design.machine,
+                &design.orbit,
+                Record::of(&place(), &(problem, design, &limits)),
+            ),
+            reference: references.iter().map(reference).collect(),
+            text: text(problem, design, references, &limits),
+            search,
+        }
+    }
+}
+
+impl Report for OptimizeReport {
+    fn text(&self) -> String {
+        self.text.clone()
+    }
+}
+
+type Placed<'a> = (&'a Problem, &'a Design, &'a [String]);
+
+fn place<'a>() -> [Column<Placed<'a>>; 5] {
+    columns! { Placed<'a>, it;
+        "frequency_g0" [Frequency], "lower end of the design's zone" => own(it.1, it.1.zone.frequency_g0);
+        "frequency_sn" [Frequency], "its upper end" => own(it.1, it.1.zone.frequency_sn);
+        "margin" [None], "least distance M from both ends, as a share of the zone" => it.0.margin;
+        "s" [None], "place in the zone, in [M, 1 - M]" => it.1.place;
+        "at_limits" [None], "what holds it back" => Told { value: it.2.into(), words: String::new() };
+    }
+}
+
+/// Before-impact velocity of the design over that of a reference.
+fn gain(design: &Design, reference: &Reference) -> Record {
+    let gain = design.before_impact_velocity() / reference.orbit.before_impact_velocity();
+    Record::default().with("gain", "design over this one", gain)
+}
+
+fn own(design: &Design, frequency: f64) -> f64 {
+    design.machine.to_own(Dimension::Frequency, frequency)
+}
+
+/// The key of a parameter in JSON: the last word of its name, as the paper's ratios are called.
+#[must_use]
+pub fn key(parameter: Parameter) -> String {
+    match parameter {
+        Parameter::StopStiffness => "stiffness".to_owned(),
+        Parameter::Suspension => "suspension_stiffness".to_owned(),
+        Parameter::Frequency => "frequency".to_owned(),
+        other => other.name().replace('.', "_"),
+    }
+}
+
+/// Distance in s within which a design stands at the end of the allowed window.
+const AT_MARGIN: f64 = 1e-9;
+
+fn at_limits(problem: &Problem, design: &Design) -> Vec<String> {
+    let mut limits: Vec<String> = problem
+        .axes
+        .iter()
+        .filter_map(|axis| {
+            let end = axis.range.end(design.machine.value(axis.parameter)?)?;
+            Some(format!("{}: {end} bound", key(axis.parameter)))
+        })
+        .collect();
+    if design.place <= problem.margin + AT_MARGIN {
+        limits.push("margin from g0".to_owned());
+    }
+    if design.place >= 1.0 - problem.margin - AT_MARGIN {
+        limits.push("margin from s_SN".to_owned());
+    } else if let Some(end) = near_end(problem, design.frequency()) {
+        limits.push(format!("frequency: {end} bound"));
+    }
+    limits
+}
+
+/// Frequencies pass through the place in the zone and back, so an end is met to rounding only.
+fn near_end(problem: &Problem, frequency: f64) -> Option<&'static str> {
+    let near = |end: f64| end.is_finite() && (frequency - end).abs() <= 1e-12 * end.abs();
+    let range = &problem.frequency;
+    match (range.is_held(), near(range.low), near(range.high)) {
+        (false, true, _) => Some("lower"),
+        (false, _, true) => Some("upper"),
+        _ => None,
+    }
+}
+
+/// The design beside its references, then what holds it back.
+fn text(
+    problem: &Problem,
+    design: &Design,
+    references: &[Reference],
+    at_limits: &[String],
+) -> String {
+    let name = problem.machine.name.as_deref().unwrap_or("given");
+    let mut text = heading(&format!(
+        "Hardest impact of the {name} machine, margin M = {} from both ends of the zone",
+        problem.margin
+    ));
+    text += &comparison(problem, design, references);
+    text += &format!(
+        "\nZone of the design: g0 = {} to s_SN = {}; the design stands at s = {} of it.\n",
+        number(own(design, design.zone.frequency_g0)),
+        number(own(design, design.zone.frequency_sn)),
+        number(design.place),
+    );
+    if !at_limits.is_empty() {
+        text += &format!("Held back by: {}.\n", at_limits.join(", "));
+    }
+    text
+}
+
+fn comparison(problem: &Problem, design: &Design, references: &[Reference]) -> String {
+    let searched = problem.axes.iter().map(|axis| axis.parameter);
+    let preload = design.machine.value(Parameter::Preload);
+    let preload = preload.map(|_| Parameter::Preload);
+    let shown = searched.chain(preload).chain([Parameter::Frequency]);
+    let shown: Vec<Parameter> = shown.collect();
+    let column = |name: String, machine: &Machine, orbit: &Orbit, gain: Record| {
+        let head = Record::default().with("name", "", name).and(gain);
+        let values = shown.iter().fold(head, |record, it| {
+            record.with(it.name(), &design.machine.label_of(*it), machine.value(*it))
+        });
+        let moduli = orbit.multipliers().map(|it| it.norm());
+        let largest = moduli.into_iter().fold(0.0, f64::max);
+        let motion = values.and(state(machine, orbit));
+        motion.with("largest", "largest multiplier |mu|", largest)
+    };
+    let none = Record::default().with("gain", "design over this one", "");
+    let own = column("design".to_owned(), &design.machine, &design.orbit, none);
+    let others = references.iter().map(|it| {
+        let name = match it.machine.name.as_deref() {
+            Some(name) if name != it.name => format!("{} ({name})", it.name),
+            _ => it.name.to_owned(),
+        };
+        column(name, &it.machine, &it.orbit, gain(design, it))
+    });
+    let all: Vec<Record> = [own].into_iter().chain(others).collect();
+    beside(&all, &Units::of(&design.machine))
+}
