@@ -92,10 +92,9 @@ pub(super) fn svg(arguments: &FidelityArguments, machine: &Machine, study: &Stud
         let (x, mut y) = place(entry);
         let width = pen::width(LETTERS - 1, &name);
         let fits = x + MARK + 6.0 + width < panel.right();
-        let left = if fits {
-            x + MARK + 6.0
-        } else {
-            x - MARK - 6.0 - width
+        let (place, align, left) = match fits {
+            true => (x + MARK + 6.0, Align::Left, x + MARK + 6.0),
+            false => (x - MARK - 6.0, Align::Right, x - MARK - 6.0 - width),
         };
         // Moved down where it would cover another one.
         y += 5.0;
@@ -105,7 +104,7 @@ pub(super) fn svg(arguments: &FidelityArguments, machine: &Machine, study: &Stud
             y += 1.0;
         }
         taken.push((left, width, y));
-        pen.text((left, y), LETTERS - 1, Align::Left, &name);
+        pen.text((place, y), LETTERS - 1, align, &name);
     }
     pen.svg()
 }
