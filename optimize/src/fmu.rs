@@ -72,10 +72,6 @@ pub struct FmuArguments {
 }
 
 /// Packs the machine.
-///
-/// # Errors
-/// [`Failure::Usage`] for values no machine can have, [`Failure::Run`] if the FMU cannot hold the machine or
-/// the file cannot be written.
 pub fn run(arguments: &FmuArguments) -> Result<(), Failure> {
     let machine = arguments.machine.machine()?;
     let name = machine.name.as_deref().unwrap_or("machine");

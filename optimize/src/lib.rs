@@ -97,9 +97,6 @@ pub fn main() -> ExitCode {
 }
 
 /// Carries out one subcommand.
-///
-/// # Errors
-/// [`Failure`] says whether the user's values, the run or an interrupt ended it.
 pub fn run(command: Command) -> Result<(), Failure> {
     match command {
         Command::Orbit(arguments) => orbit::run(&arguments),

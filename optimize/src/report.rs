@@ -52,7 +52,6 @@ pub struct OptimizeReport {
 
 impl OptimizeReport {
     /// The report on the solution of this problem.
-    #[must_use]
     pub fn new(
         problem: &Problem,
         design: &Design,
@@ -107,7 +106,6 @@ fn own(design: &Design, frequency: f64) -> f64 {
 }
 
 /// The key of a parameter in JSON: the last word of its name, as the paper's ratios are called.
-#[must_use]
 pub fn key(parameter: Parameter) -> String {
     match parameter {
         Parameter::StopStiffness => "stiffness".to_owned(),

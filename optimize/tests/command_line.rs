@@ -9,7 +9,7 @@ use std::fs;
 
 use approx::assert_abs_diff_eq;
 use serde_json::Value;
-use softstop_testing::Program;
+use softstop_testing::{Program, words};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -35,17 +35,9 @@ fn near(found: f64, expected: f64, tolerance: f64) {
 
 #[test]
 fn orbit_at_point_a() -> Outcome {
-    let orbit = json(&[
-        "orbit",
-        "--regime",
-        "unloaded",
-        "--frequency",
-        "1.15",
-        "--clearance",
-        "10",
-        "--format",
-        "json",
-    ])?;
+    let orbit = json(&words(
+        "orbit --regime unloaded --frequency 1.15 --clearance 10 --format json",
+    ))?;
     near(number(&orbit, "frequency"), 1.15, 0.0);
     near(number(&orbit, "clearance"), 10.0, 0.0);
     near(number(&orbit, "before_impact_velocity"), 6.494627, 5e-7);
@@ -124,35 +116,12 @@ fn scene_file_stands_below_the_command_line() -> Outcome {
 
 #[test]
 fn shorthands_and_keys_say_the_same() -> Outcome {
-    let short = json(&[
-        "orbit",
-        "--regime",
-        "loaded",
-        "--clearance",
-        "9",
-        "--stiffness",
-        "8",
-        "--thickness",
-        "0.3",
-        "--preload-deflection",
-        "10",
-        "--format",
-        "json",
-    ])?;
-    let keys = json(&[
-        "orbit",
-        "loaded",
-        "--set",
-        "clearance=9",
-        "--set",
-        "stop.stiffness=8",
-        "--set",
-        "sigma=0.3",
-        "--set",
-        "stop.preload_deflection=10",
-        "--format",
-        "json",
-    ])?;
+    let short = json(&words(
+        "orbit --regime loaded --clearance 9 --stiffness 8 --thickness 0.3 --preload-deflection 10 --format json",
+    ))?;
+    let keys = json(&words(
+        "orbit loaded --set clearance=9 --set stop.stiffness=8 --set sigma=0.3 --set stop.preload_deflection=10 --format json",
+    ))?;
     assert_eq!(short, keys);
     Ok(())
 }

@@ -6,7 +6,7 @@ use approx::assert_abs_diff_eq;
 use serde_json::Value;
 use softstop::Ratios;
 use softstop_dynamics::zone::grazing_frequencies;
-use softstop_testing::Program;
+use softstop_testing::{Program, words};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -163,16 +163,7 @@ fn values_that_cannot_be_are_refused_by_name_value_and_range() -> Outcome {
             &["mass", "has no such parameter", "excitation.frequency"],
         ),
         (
-            &[
-                "--parameter",
-                "eta",
-                "--from",
-                "1",
-                "--to",
-                "2",
-                "--orbit",
-                "1/0",
-            ],
+            &words("--parameter eta --from 1 --to 2 --orbit 1/0"),
             &["1/0", "n from 1 to 64"],
         ),
     ];
@@ -184,8 +175,8 @@ fn values_that_cannot_be_are_refused_by_name_value_and_range() -> Outcome {
     let place = place.to_str().ok_or("path")?;
     let absent = ["--orbit", "5/7", "--parameter", "eta"];
     let way = ["--from", "1", "--to", "2", "--output", place];
-    let words = ["no stable z = 5/7 motion", "z = 1"];
-    CONTINUE.ends_with(&[&absent[..], &way].concat(), 1, &words);
+    let told = ["no stable z = 5/7 motion", "z = 1"];
+    CONTINUE.ends_with(&[&absent[..], &way].concat(), 1, &told);
     assert!(!folder.path().join("none").exists());
     Ok(())
 }

@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
-use softstop_testing::Program;
+use softstop_testing::{Program, words};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -61,16 +61,7 @@ fn the_hysteresis_zone_of_clearance_10() -> Outcome {
 fn a_rigid_scene_is_swept_in_si_units() -> Outcome {
     let folder = tempfile::tempdir()?;
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes/rigid.toml");
-    let range = [
-        "--from",
-        "1",
-        "--to",
-        "3",
-        "--steps",
-        "21",
-        "--periods",
-        "50",
-    ];
+    let range = words("--from 1 --to 3 --steps 21 --periods 50");
     let report = SWEEP.json_into(folder.path(), &[&[scene], &range[..]].concat());
     assert_eq!(report["sweeps"].as_array().map(Vec::len), Some(2));
     assert_eq!(report["sweeps"][0]["steps"], 21);
@@ -107,16 +98,7 @@ fn a_machine_is_swept_downwards_along_its_mass() -> Outcome {
     let folder = tempfile::tempdir()?;
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes/rigid.toml");
     let machine = [scene, "--set", "clearance=1", "--parameter", "mass"];
-    let range = [
-        "--from",
-        "2",
-        "--to",
-        "1",
-        "--steps",
-        "5",
-        "--periods",
-        "20",
-    ];
+    let range = words("--from 2 --to 1 --steps 5 --periods 20");
     let report = SWEEP.json_into(folder.path(), &[&machine[..], &range[..]].concat());
     assert_eq!(
         (&report["parameter"], &report["unit"]),
@@ -137,21 +119,12 @@ fn a_machine_is_swept_downwards_along_its_mass() -> Outcome {
 fn an_interrupted_sweep_goes_on_to_the_same_result() -> Outcome {
     let folder = tempfile::tempdir()?;
     let (whole, part) = (folder.path().join("whole"), folder.path().join("part"));
-    let line = [
-        "--from",
-        "0.9",
-        "--to",
-        "1.1",
-        "--steps",
-        "400",
-        "--periods",
-        "2000",
-    ];
+    let line = words("--from 0.9 --to 1.1 --steps 400 --periods 2000");
     let kept = part.join("sweep.part");
     let mut run = Command::new(env!("CARGO_BIN_EXE_softstop"))
         .args(["sweep", "--output"])
         .arg(&part)
-        .args(line)
+        .args(&line)
         .stderr(std::process::Stdio::piped())
         .spawn()?;
     let deadline = Instant::now() + Duration::from_secs(20);

@@ -1,5 +1,6 @@
 //! What stands on the table: plain, validated data.
 
+mod allowed;
 mod parameter;
 mod ratios;
 mod scales;
@@ -7,7 +8,8 @@ mod stop;
 mod units;
 mod validate;
 
-pub use parameter::{About, Allowed, Dimension, Parameter};
+pub use allowed::Allowed;
+pub use parameter::{About, Dimension, Parameter};
 pub use ratios::Ratios;
 pub use scales::Scales;
 pub(crate) use stop::stiffness_from;

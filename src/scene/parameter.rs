@@ -1,6 +1,6 @@
 //! The parameters of a machine: the one list of their names, letters, units, meanings and ranges.
 
-use super::{Scene, Stop};
+use super::{Allowed, Scene, Stop};
 use crate::error::SceneError;
 
 /// A number that makes out a [`Scene`]. [`Parameter::about`] says all about it.
@@ -121,64 +121,6 @@ impl Dimension {
             Self::Slowness => "s/m",
             Self::Number => "",
         }
-    }
-}
-
-/// Where a value may lie; its size is at most [`Allowed::LARGEST`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Allowed {
-    /// > 0 and not too large.
-    Positive,
-    /// >= 0 and not too large.
-    NotNegative,
-    /// Not too large, of either sign.
-    Finite,
-    /// From 0 to 1.
-    Share,
-    /// >= 1 and not too large.
-    AtLeastOne,
-}
-
-impl Allowed {
-    /// A number far above any machine's, below which no intermediate result overflows.
-    pub const LARGEST: f64 = 1e24;
-
-    /// True if the value lies there.
-    pub fn holds(self, value: f64) -> bool {
-        value.abs() <= Self::LARGEST
-            && match self {
-                Self::Positive => value > 0.0,
-                Self::NotNegative => value >= 0.0,
-                Self::Finite => true,
-                Self::Share => (0.0..=1.0).contains(&value),
-                Self::AtLeastOne => value >= 1.0,
-            }
-    }
-
-    /// In words, as after "must be".
-    pub const fn words(self) -> &'static str {
-        match self {
-            Self::Positive => "finite and > 0, at most 1e24",
-            Self::NotNegative => "finite and >= 0, at most 1e24",
-            Self::Finite => "finite, from -1e24 to 1e24",
-            Self::Share => "in [0, 1]",
-            Self::AtLeastOne => "finite and >= 1, at most 1e24",
-        }
-    }
-
-    /// Refuses a value that lies elsewhere.
-    ///
-    /// # Errors
-    /// [`SceneError::OutOfRange`].
-    pub fn check(self, name: &'static str, value: f64) -> Result<(), SceneError> {
-        if self.holds(value) {
-            return Ok(());
-        }
-        Err(SceneError::OutOfRange {
-            name,
-            value,
-            allowed: self.words(),
-        })
     }
 }
 

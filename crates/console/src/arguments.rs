@@ -179,7 +179,6 @@ impl MachineArguments {
     }
 
     /// The keys that the command line states.
-    #[must_use]
     pub fn keys(&self) -> Vec<String> {
         let given = self.ratios.given().into_iter().map(|(name, _)| name);
         let set = self.set.iter().map(|change| change.key.as_str());
@@ -283,7 +282,6 @@ pub fn paper(layers: &[SceneSettings]) -> Result<Machine, Failure> {
 }
 
 /// The machine in a few words: its name, and the paper's ratios if it speaks them.
-#[must_use]
 pub fn title(machine: &Machine) -> String {
     let name = machine.name.as_deref().unwrap_or("machine");
     if machine.speaks != Language::Ratios {

@@ -85,7 +85,6 @@ macro_rules! columns {
 
 impl<T> Column<T> {
     /// The table for people has it, too, its numbers in this form.
-    #[must_use]
     pub const fn shown(self, form: Form) -> Self {
         Self {
             form: Some(form),
@@ -96,7 +95,6 @@ impl<T> Column<T> {
 
 impl Record {
     /// What a thing has in these columns.
-    #[must_use]
     pub fn of<T>(columns: &[Column<T>], thing: &T) -> Self {
         let figures = columns.iter().map(|column| Figure {
             name: column.name,
@@ -109,7 +107,6 @@ impl Record {
     }
 
     /// What things have in these columns.
-    #[must_use]
     pub fn all<T>(columns: &[Column<T>], things: &[T]) -> Vec<Self> {
         let things = things.iter();
         things.map(|thing| Self::of(columns, thing)).collect()
@@ -117,7 +114,6 @@ impl Record {
 }
 
 /// The table for people: words to the left, numbers to the right, under names with units.
-#[must_use]
 pub fn text<T>(
     columns: &[Column<T>],
     rows: impl IntoIterator<Item = impl Borrow<T>>,
@@ -130,7 +126,6 @@ pub fn text<T>(
 }
 
 /// What the columns of a file mean: a paragraph at the end of `--help`.
-#[must_use]
 pub fn help<T>(file: &str, columns: &[Column<T>]) -> String {
     let lines = columns.iter().map(|column| {
         let unit = match Units::SI.name(column.unit) {

@@ -5,7 +5,7 @@
 //! [`Report::text`] what people read, mostly by [`column::text`](crate::column::text) of the columns that
 //! CSV has, too. The rest is here: the paths of the files stand in JSON as `files` (kind -> path) and
 //! after the text. The kind is what the file is, `csv`, `json`, `svg`, `png` or `fmu`; where a command has
-//! several of one, its name stands in front: `curves_csv`.
+//! several of one, its name stands in front: `curves_csv`. What cannot be written is a [`Failure::Run`] that names it.
 //!
 //! ```
 //! use serde::Serialize;
@@ -61,9 +61,6 @@ pub trait Report: Serialize {
 }
 
 /// Prints a report that has no files.
-///
-/// # Errors
-/// [`Failure::Run`] if stdout cannot be written.
 pub fn print(report: &impl Report, format: Format) -> Result<(), Failure> {
     output::print(&match format {
         Format::Json => output::json(report)?,
@@ -88,9 +85,6 @@ pub struct Export {
 
 impl Export {
     /// Makes the folder if need be, and tries whether files of these kinds and names can be written there.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] naming folder or file.
     pub fn open(path: &Path, files: &[(&str, &str)]) -> Result<Self, Failure> {
         let names: Vec<&str> = files.iter().map(|(_, name)| *name).collect();
         Ok(Self {
@@ -103,17 +97,11 @@ impl Export {
     }
 
     /// Writes the file of a kind.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] naming the file.
     pub fn file(&self, kind: &str, content: &[u8]) -> Result<(), Failure> {
         self.folder.stage(self.name(kind)?, content)
     }
 
     /// Opens a table as the file of a kind, to be written row by row.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] naming the file.
     pub fn open_table<'a, T>(
         &self,
         kind: &str,
@@ -125,9 +113,6 @@ impl Export {
     }
 
     /// Writes a table as the file of a kind.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] naming the file.
     pub fn table<T>(
         &self,
         kind: &str,
@@ -142,9 +127,6 @@ impl Export {
     }
 
     /// Writes a table and its chart as the files of two kinds.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] naming the file.
     pub fn sheet<T>(
         &self,
         [table, chart]: [&str; 2],
@@ -157,9 +139,6 @@ impl Export {
     }
 
     /// Writes the JSON into the file whose name says so, if there is one, puts all files in place and prints.
-    ///
-    /// # Errors
-    /// [`Failure::Interrupted`] before the first file, [`Failure::Run`] naming what cannot be written.
     pub fn finish(self, report: &impl Report, format: Format) -> Result<(), Failure> {
         let place = |(kind, name): &(String, String)| {
             (kind.clone(), self.folder.place(name).display().to_string())
@@ -198,18 +177,12 @@ pub struct Table<'a, T> {
 
 impl<T> Table<'_, T> {
     /// Adds one row.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] naming the file.
     pub fn row(&mut self, row: &T) -> Result<(), Failure> {
         let cells = self.columns.iter().map(|column| (column.cell)(row));
         self.staged.row(cells)
     }
 
     /// Writes what is left through to the disk.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] naming the file.
     pub fn close(self) -> Result<(), Failure> {
         self.staged.close()
     }

@@ -27,7 +27,6 @@ impl Failure {
     }
 
     /// 2 for bad usage (as clap does), 1 for a failed run, 130 for an interrupt (128 + SIGINT).
-    #[must_use]
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
             Self::Usage(_) => 2,

@@ -18,7 +18,6 @@ pub enum Regime {
 
 impl Regime {
     /// The paper's machine in this regime, at its point A or B.
-    #[must_use]
     pub const fn ratios(self) -> Ratios {
         match self {
             Self::Unloaded => Ratios::unloaded(),
@@ -27,7 +26,6 @@ impl Regime {
     }
 
     /// The paper's name of its point in this regime (Fig. 7).
-    #[must_use]
     pub const fn point(self) -> &'static str {
         match self {
             Self::Unloaded => "A",
@@ -36,14 +34,12 @@ impl Regime {
     }
 
     /// The one of a machine that is called by the name of its regime or of its point.
-    #[must_use]
     pub fn called(machine: &Path) -> Option<Self> {
         let mut all = Self::value_variants().iter().copied();
         all.find(|it| machine == Path::new(it.name()) || machine == Path::new(it.point()))
     }
 
     /// As on the command line.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Unloaded => "unloaded",
@@ -107,7 +103,6 @@ pub struct SceneSettings {
 
 impl SceneSettings {
     /// The values that are given, by their names.
-    #[must_use]
     pub fn given(&self) -> Vec<(&'static str, f64)> {
         let values = [
             ("frequency", self.frequency),
@@ -125,7 +120,6 @@ impl SceneSettings {
     }
 
     /// True if this is the name of a value of the strip.
-    #[must_use]
     pub fn is_of_strip(&self, name: &str) -> bool {
         self.piercing().iter().any(|(strip, _)| *strip == name)
     }

@@ -1,7 +1,6 @@
 //! The middle one of some values.
 
 /// The middle one, or the mean of the two in the middle; NaN if there is none.
-#[must_use]
 pub fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     match values.len() {

@@ -1,4 +1,5 @@
-//! Output: text to stdout, and files that appear whole or not at all.
+//! Output: text to stdout, and files that appear whole or not at all. What cannot be written is a [`Failure::Run`]
+//! that names it.
 
 use std::fs;
 use std::io::{self, Write};
@@ -24,9 +25,6 @@ pub enum Format {
 }
 
 /// Prints to stdout. A reader that has gone away (`softstop … | head`) is not an error.
-///
-/// # Errors
-/// [`Failure::Run`] if stdout cannot be written.
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     match stdout
@@ -41,9 +39,6 @@ pub fn print(text: &str) -> Result<(), Failure> {
 }
 
 /// The value as indented JSON with a final line feed.
-///
-/// # Errors
-/// [`Failure::Run`] if the value cannot be serialised.
 pub fn json(value: &impl Serialize) -> Result<String, Failure> {
     let mut text = serde_json::to_string_pretty(value).context("cannot write JSON")?;
     text.push('\n');
@@ -51,9 +46,6 @@ pub fn json(value: &impl Serialize) -> Result<String, Failure> {
 }
 
 /// Rows as comma-separated values under a line of their names.
-///
-/// # Errors
-/// [`Failure::Run`] if a row cannot be written.
 pub fn csv(rows: impl IntoIterator<Item = impl Serialize>) -> Result<Vec<u8>, Failure> {
     let mut table = csv::Writer::from_writer(Vec::new());
     for row in rows {
@@ -75,9 +67,6 @@ pub struct Folder {
 impl Folder {
     /// Makes the folder if need be and tries whether it and the files of these names in it
     /// can be written.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] naming the folder or the file.
     pub fn open(path: &Path, names: &[&str]) -> Result<Self, Failure> {
         if let Some(place) = names
             .iter()
@@ -117,15 +106,11 @@ impl Folder {
     }
 
     /// The place of the file of this name after [`Folder::commit`].
-    #[must_use]
     pub fn place(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }
 
     /// Writes one file into the staging folder and through to the disk.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] naming the file.
     pub fn stage(&self, name: &str, content: &[u8]) -> Result<(), Failure> {
         fs::File::create(self.staged(name))
             .and_then(|mut file| file.write_all(content).and_then(|()| file.sync_all()))
@@ -135,9 +120,6 @@ impl Folder {
 
     /// Opens one table in the staging folder, to be written row by row and closed with
     /// [`Staged::close`].
-    ///
-    /// # Errors
-    /// [`Failure::Run`] naming the file.
     pub fn create(&self, name: &str) -> Result<Staged, Failure> {
         let place = self.place(name);
         let file = fs::File::create(self.staged(name))
@@ -149,10 +131,6 @@ impl Folder {
     }
 
     /// Puts the staged files into place, replacing older ones.
-    ///
-    /// # Errors
-    /// [`Failure::Interrupted`] before the first file, [`Failure::Run`] naming the file that
-    /// could not be put in place.
     pub fn commit(mut self, names: &[&str]) -> Result<(), Failure> {
         if interrupt::requested() {
             return Err(Failure::Interrupted);
@@ -175,9 +153,6 @@ pub struct Staged {
 
 impl Staged {
     /// Adds one row.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] naming the file.
     pub fn row(&mut self, cells: impl IntoIterator<Item = impl Serialize>) -> Result<(), Failure> {
         let cells: Vec<_> = cells.into_iter().collect();
         self.table
@@ -187,9 +162,6 @@ impl Staged {
     }
 
     /// Writes what is left through to the disk.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] naming the file.
     pub fn close(mut self) -> Result<(), Failure> {
         self.table
             .flush()

@@ -31,7 +31,6 @@ pub struct Progress {
 
 impl Progress {
     /// A bar for so many things called `what`.
-    #[must_use]
     pub fn new(total: u64, what: &str) -> Self {
         let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
         let style = format!("{{spinner}} {{bar:36}} {{pos}}/{{len}} {what}, {{eta}} left{{msg}}");
@@ -42,7 +41,6 @@ impl Progress {
     }
 
     /// A count of things called `what`, nobody knows how many.
-    #[must_use]
     pub fn open(what: &str) -> Self {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
         if let Ok(style) =

@@ -39,7 +39,6 @@ pub(crate) struct Figure {
 
 impl Record {
     /// The same, and a figure for people under a label of its own.
-    #[must_use]
     pub fn with(mut self, name: &'static str, label: &str, cell: impl Into<Cell>) -> Self {
         self.0.push(Figure {
             name,
@@ -52,21 +51,18 @@ impl Record {
     }
 
     /// The same, and then the figures of another one.
-    #[must_use]
     pub fn and(mut self, other: Self) -> Self {
         self.0.extend(other.0);
         self
     }
 
     /// For people: a line for each figure.
-    #[must_use]
     pub fn text(&self, units: &Units) -> String {
         beside(std::slice::from_ref(self), units)
     }
 }
 
 /// Records beside one another, a line for each figure of the first one.
-#[must_use]
 pub fn beside(records: &[Record], units: &Units) -> String {
     let cell = |record: &Record, name, form: Form| {
         let cell = record.0.iter().find(|it| it.name == name);
@@ -85,7 +81,6 @@ pub fn beside(records: &[Record], units: &Units) -> String {
 
 /// Records below one another, a line for each, under the names of the first one's figures; nothing if there is
 /// none.
-#[must_use]
 pub fn below(records: &[Record], units: &Units) -> String {
     let shown = |record: &Record| {
         let figures = record.0.iter().filter(|it| it.form.is_some());

@@ -17,7 +17,6 @@ use crate::table::number;
 use crate::units;
 
 /// Floquet multipliers: their parts and moduli, the latter below 1 if the motion is stable.
-#[must_use]
 pub fn multipliers([first, second]: [Complex<f64>; 2]) -> Told {
     let parts = |it: Complex<f64>| json!({ "re": it.re, "im": it.im, "modulus": it.norm() });
     let (re, im) = (number(first.re), first.im.abs());
@@ -45,7 +44,6 @@ pub struct MachineReport {
 
 impl MachineReport {
     /// This machine.
-    #[must_use]
     pub fn of(machine: &Machine) -> Self {
         let number = |it| Some((machine.name(it).to_owned(), machine.value(it)?.into()));
         let numbers = machine.parameters().filter_map(number);
@@ -83,7 +81,6 @@ pub struct Stated {
 
 impl Stated {
     /// This machine.
-    #[must_use]
     pub fn of(machine: &Machine) -> Self {
         let ratios = machine.ratios().filter(|ratios| ratios.rigid.is_none());
         Self {
@@ -136,7 +133,6 @@ pub struct MotionName {
 
 impl MotionName {
     /// That of a motion.
-    #[must_use]
     pub fn of(motion: &MotionKind) -> Self {
         Self {
             kind: motion.key(),
@@ -147,7 +143,6 @@ impl MotionName {
     }
 
     /// That of a regime whose order is not known; without one the motion has not settled.
-    #[must_use]
     pub fn of_regime(regime: Option<orbit::Regime>) -> Self {
         Self {
             kind: regime.map_or(MotionKind::Unsettled.key(), |_| "periodic"),
@@ -158,7 +153,6 @@ impl MotionName {
     }
 
     /// In a word: z, or the kind of what does not repeat.
-    #[must_use]
     pub fn word(&self) -> &str {
         self.z.as_deref().unwrap_or(self.kind)
     }
@@ -194,20 +188,17 @@ fn stabilities<'a>() -> [Column<Found<'a>>; 3] {
 }
 
 /// Where a z = 1 motion of this machine goes.
-#[must_use]
 pub fn state(machine: &Machine, orbit: &Orbit) -> Record {
     Record::of(&states(), &(machine, orbit))
 }
 
 /// A z = 1 motion of this machine: where it goes, and how stable it is.
-#[must_use]
 pub fn motion(machine: &Machine, orbit: &Orbit) -> Record {
     let found = (machine, orbit);
     Record::of(&states(), &found).and(Record::of(&stabilities(), &found))
 }
 
 /// The machine for people: its name, its stop, and its parameters but for some.
-#[must_use]
 pub fn machine(machine: &Machine, but: &[Parameter]) -> Record {
     let head = Record::default()
         .with(

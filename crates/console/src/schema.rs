@@ -9,7 +9,6 @@ use softstop::{Allowed, Excitation, Language, Machine, Parameter, Release, Scene
 pub const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 
 /// One of the words of the command line.
-#[must_use]
 pub fn words<T: ValueEnum>() -> Value {
     let words = T::value_variants().iter();
     let words = words.filter_map(|word| Some(word.to_possible_value()?.get_name().to_owned()));
@@ -17,14 +16,12 @@ pub fn words<T: ValueEnum>() -> Value {
 }
 
 /// A table of values by the dotted keys of a machine's file.
-#[must_use]
 pub fn keyed(value: Value) -> Value {
     let inner = json!({ "type": "object", "additionalProperties": value });
     json!({ "type": "object", "additionalProperties": { "anyOf": [value, inner] } })
 }
 
 /// The shorthands of the paper's machines, as the command line has them.
-#[must_use]
 pub fn shorthands() -> Value {
     let flags = SceneSettings::augment_args(Command::new("shorthands"));
     let all = flags.get_arguments().map(|flag| {
@@ -41,7 +38,6 @@ pub fn shorthands() -> Value {
 
 /// The schema of machine files (draft 2020-12). Editors find it by a first line
 /// `#:schema ./machine.schema.json`.
-#[must_use]
 pub fn machine() -> Value {
     let mut si = sections(Language::Si);
     let required = required(&si);

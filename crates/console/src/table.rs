@@ -1,13 +1,11 @@
 //! Text for people: titles, numbers, and cells under one another.
 
 /// An underlined title.
-#[must_use]
 pub fn heading(title: &str) -> String {
     format!("{title}\n{}\n", "-".repeat(title.chars().count()))
 }
 
 /// A number with six places, or in powers of ten where those would not tell it.
-#[must_use]
 pub fn number(value: f64) -> String {
     if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
         format!("{value:.6}")
@@ -17,7 +15,6 @@ pub fn number(value: f64) -> String {
 }
 
 /// A number with seven significant digits.
-#[must_use]
 pub fn figure(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {
@@ -31,7 +28,6 @@ pub fn figure(value: f64) -> String {
 }
 
 /// Lines of cells, every column as wide as its widest cell; words stand to the left, numbers to the right.
-#[must_use]
 pub fn aligned(lines: &[Vec<String>], is_word: impl Fn(usize) -> bool) -> String {
     let columns = lines.iter().map(Vec::len).max().unwrap_or(0);
     let width = |index: usize| {

@@ -24,13 +24,11 @@ impl Units {
     pub const SI: Self = Self(Language::Si);
 
     /// Those that a machine speaks.
-    #[must_use]
     pub const fn of(machine: &Machine) -> Self {
         Self(machine.speaks)
     }
 
     /// The sign of a unit.
-    #[must_use]
     pub const fn name(&self, unit: Unit) -> &'static str {
         match unit {
             Unit::None => "",
@@ -40,7 +38,6 @@ impl Units {
     }
 
     /// What something is called, with its unit: `position (m)`.
-    #[must_use]
     pub fn label(&self, name: &str, unit: Unit) -> String {
         match self.name(unit) {
             "" => name.to_owned(),
@@ -50,7 +47,6 @@ impl Units {
 }
 
 /// The unit of a quantity by its name in JSON: that of a ratio, too.
-#[must_use]
 pub const fn name(machine: &Machine, dimension: Dimension) -> &'static str {
     match (machine.speaks, dimension) {
         (Language::Ratios, Dimension::Mass) => "m",
@@ -70,7 +66,6 @@ pub const fn name(machine: &Machine, dimension: Dimension) -> &'static str {
 }
 
 /// The unit of a parameter by its name in JSON.
-#[must_use]
 pub fn of_parameter(machine: &Machine, parameter: Parameter) -> &'static str {
     let is_power = Parameter::Exponent.get(&machine.scene).is_some();
     match (parameter, machine.speaks) {
@@ -84,7 +79,6 @@ pub fn of_parameter(machine: &Machine, parameter: Parameter) -> &'static str {
 }
 
 /// The units of a machine's parameters and results, by what they measure.
-#[must_use]
 pub fn names(machine: &Machine) -> BTreeMap<&'static str, &'static str> {
     let all = [
         ("length", Dimension::Length),

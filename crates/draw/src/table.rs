@@ -24,7 +24,6 @@ const TOP: f64 = 100.0;
 
 impl TablePicture {
     /// The picture as an SVG document.
-    #[must_use]
     pub fn svg(&self) -> String {
         let width = 2.0 * MARGIN + self.columns.iter().map(|column| column.1).sum::<f64>();
         let bottom = TOP + LINE * self.lines.len() as f64;

@@ -1,5 +1,13 @@
 //! The commands that look at one machine, each with its own picture: [`orbit`], [`zone`], [`simulate`],
 //! [`motions`], [`continuation`], [`sweep`], [`basin`], [`stops`] and [`fidelity`].
+//!
+//! Each `run` fails with [`Failure::Usage`] for values that cannot be, with [`Failure::Run`] if nothing can be
+//! computed or written, and with [`Failure::Interrupted`] or [`Failure::Suspended`] after Ctrl-C.
+//!
+//! [`Failure::Usage`]: softstop_console::failure::Failure::Usage
+//! [`Failure::Run`]: softstop_console::failure::Failure::Run
+//! [`Failure::Interrupted`]: softstop_console::failure::Failure::Interrupted
+//! [`Failure::Suspended`]: softstop_console::failure::Failure::Suspended
 #![forbid(unsafe_code)]
 
 pub mod basin;

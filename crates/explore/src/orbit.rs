@@ -45,9 +45,6 @@ pub struct OrbitArguments {
 }
 
 /// Finds the orbit and prints it.
-///
-/// # Errors
-/// [`Failure::Usage`] for values no machine can have, [`Failure::Run`] if there is no orbit.
 pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
     arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;

@@ -42,9 +42,6 @@ pub struct ZoneArguments {
 }
 
 /// Finds both ends of the zone and prints them.
-///
-/// # Errors
-/// [`Failure::Usage`] for values no machine can have, or none with a zone; [`Failure::Run`] if none is found.
 pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
     arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 pub use machines::{machines, start_below};
 pub use meets::Meets;
-pub use program::Program;
+pub use program::{Program, words};
 pub use random::cases;
 pub use scenes::{loaded, unloaded};
 

@@ -6,6 +6,11 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
+/// The arguments of a line.
+pub fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
 /// A program, and the arguments that each of its calls begins with.
 #[derive(Clone, Copy, Debug)]
 pub struct Program {

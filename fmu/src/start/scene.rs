@@ -1,6 +1,8 @@
 //! Start values and scenes: the one from the other, both ways.
 
-use softstop::{Excitation, Piercing, Release, RigidStop, Scene, SceneError, Slope, Start, Stop};
+use softstop::{
+    Excitation, Parameter, Piercing, Release, RigidStop, Scene, SceneError, Slope, Start, Stop,
+};
 use softstop_fmi::variable::Slot;
 use thiserror::Error;
 
@@ -26,6 +28,29 @@ pub enum NotServed {
     #[error("rigid.travel: there is no stop in front; the FMU has stop.model = rigid for this")]
     NothingInFront,
 }
+
+/// Where the parameters of a scene are held.
+const PARAMETERS: [(Parameter, Slot); 19] = [
+    (Parameter::Mass, slot::MASS),
+    (Parameter::Suspension, slot::STIFFNESS),
+    (Parameter::Damping, slot::DAMPING),
+    (Parameter::Amplitude, slot::AMPLITUDE),
+    (Parameter::Frequency, slot::FREQUENCY),
+    (Parameter::Phase, slot::DRIVE_PHASE),
+    (Parameter::Clearance, slot::CLEARANCE),
+    (Parameter::ContactDamping, slot::CONTACT_DAMPING),
+    (Parameter::StopStiffness, slot::STOP_STIFFNESS),
+    (Parameter::Preload, slot::STOP_PRELOAD),
+    (Parameter::Exponent, slot::STOP_EXPONENT),
+    (Parameter::Dissipation, slot::STOP_DISSIPATION),
+    (Parameter::Restitution, slot::STOP_RESTITUTION),
+    (Parameter::PiercingStiffness, slot::PIERCING_STIFFNESS),
+    (Parameter::PiercingFriction, slot::PIERCING_FRICTION),
+    (Parameter::Thickness, slot::PIERCING_THICKNESS),
+    (Parameter::Travel, slot::PIERCING_TRAVEL),
+    (Parameter::RigidTravel, slot::RIGID_TRAVEL),
+    (Parameter::RigidRestitution, slot::STOP_RESTITUTION),
+];
 
 /// The slots of one list of slopes.
 struct Chain {
@@ -59,32 +84,35 @@ impl StartValues {
     /// If the scene is not valid, or one that the unit has no parameters for.
     pub fn from_scene(scene: &Scene, start: Start) -> Result<Self, NotServed> {
         scene.validate()?;
+        let mut served = scene.clone();
+        match (&scene.stop, scene.rigid) {
+            (Stop::None, Some(_)) => return Err(NotServed::NothingInFront),
+            (Stop::Rigid { .. }, _) => served.rigid = None,
+            _ => {}
+        }
         let mut values = Self::DEFAULT;
-        values.set_machine(scene);
         values.set_stop(&scene.stop)?;
-        values.set_rigid(scene)?;
-        values.set_strip(scene.piercing);
+        let has_rigid = u8::from(served.rigid.is_some());
+        values.set(slot::RIGID_PRESENT, f64::from(has_rigid));
+        if scene.piercing.is_none() {
+            values.set(slot::PIERCING_THICKNESS, 0.0);
+            values.set(slot::PIERCING_TRAVEL, 0.0);
+        }
+        for (parameter, place) in PARAMETERS {
+            if let Some(value) = parameter.get(&served) {
+                values.set(place, value);
+            }
+        }
         values.set(slot::INITIAL_POSITION, start.position);
         values.set(slot::INITIAL_VELOCITY, start.velocity);
         Ok(values)
     }
 
-    fn set_machine(&mut self, scene: &Scene) {
-        self.set(slot::MASS, scene.mass);
-        self.set(slot::STIFFNESS, scene.stiffness);
-        self.set(slot::DAMPING, scene.damping);
-        self.set(slot::AMPLITUDE, scene.excitation.amplitude);
-        self.set(slot::FREQUENCY, scene.excitation.frequency);
-        self.set(slot::DRIVE_PHASE, scene.excitation.phase);
-        self.set(slot::CLEARANCE, scene.clearance);
-        self.set(slot::CONTACT_DAMPING, scene.contact_damping);
-    }
-
+    /// Sets what of a stop is no parameter.
     fn set_stop(&mut self, stop: &Stop) -> Result<(), NotServed> {
         let model = match stop {
             Stop::None => number::NONE,
-            Stop::KelvinVoigt { stiffness, release } => {
-                self.set(slot::STOP_STIFFNESS, *stiffness);
+            Stop::KelvinVoigt { release, .. } => {
                 let release = match release {
                     Release::Clearance => number::CLEARANCE,
                     Release::ZeroForce => number::ZERO_FORCE,
@@ -97,25 +125,9 @@ impl StartValues {
                 self.set_slopes(&UNLOADING, unloading)?;
                 number::PIECEWISE_LINEAR
             }
-            Stop::Hertz {
-                stiffness,
-                exponent,
-                dissipation,
-            } => {
-                self.set(slot::STOP_STIFFNESS, *stiffness);
-                self.set(slot::STOP_EXPONENT, *exponent);
-                self.set(slot::STOP_DISSIPATION, *dissipation);
-                number::HERTZ
-            }
-            Stop::Preloaded { stiffness, preload } => {
-                self.set(slot::STOP_STIFFNESS, *stiffness);
-                self.set(slot::STOP_PRELOAD, *preload);
-                number::PRELOADED
-            }
-            Stop::Rigid { restitution } => {
-                self.set(slot::STOP_RESTITUTION, *restitution);
-                number::RIGID
-            }
+            Stop::Hertz { .. } => number::HERTZ,
+            Stop::Preloaded { .. } => number::PRELOADED,
+            Stop::Rigid { .. } => number::RIGID,
         };
         self.set(slot::STOP_MODEL, f64::from(model));
         Ok(())
@@ -136,67 +148,45 @@ impl StartValues {
         Ok(())
     }
 
-    fn set_rigid(&mut self, scene: &Scene) -> Result<(), NotServed> {
-        let reachable = match (&scene.stop, scene.rigid) {
-            (Stop::None, Some(_)) => return Err(NotServed::NothingInFront),
-            (Stop::Rigid { .. }, _) => None,
-            (_, rigid) => rigid,
-        };
-        self.set(
-            slot::RIGID_PRESENT,
-            f64::from(u8::from(reachable.is_some())),
-        );
-        if let Some(rigid) = reachable {
-            self.set(slot::RIGID_TRAVEL, rigid.travel);
-            self.set(slot::STOP_RESTITUTION, rigid.restitution);
-        }
-        Ok(())
-    }
-
-    fn set_strip(&mut self, strip: Option<Piercing>) {
-        let strip = strip.unwrap_or(Piercing {
-            thickness: 0.0,
-            travel: 0.0,
-            ..self.strip()
-        });
-        self.set(slot::PIERCING_STIFFNESS, strip.stiffness);
-        self.set(slot::PIERCING_FRICTION, strip.friction);
-        self.set(slot::PIERCING_THICKNESS, strip.thickness);
-        self.set(slot::PIERCING_TRAVEL, strip.travel);
-    }
-
     /// The scene that these values describe; it has a strip if thickness or travel is positive.
     pub fn scene(&self) -> Scene {
-        let strip = self.strip();
         let stop = self.stop();
-        Scene {
-            mass: self.get(slot::MASS),
-            stiffness: self.get(slot::STIFFNESS),
-            damping: self.get(slot::DAMPING),
+        let yields = !matches!(stop, Stop::None | Stop::Rigid { .. });
+        let has_rigid = yields && self.get(slot::RIGID_PRESENT) != 0.0;
+        let extent = [slot::PIERCING_THICKNESS, slot::PIERCING_TRAVEL];
+        let has_strip = extent.into_iter().any(|place| self.get(place) > 0.0);
+        let mut scene = Scene {
+            mass: 0.0,
+            stiffness: 0.0,
+            damping: 0.0,
             excitation: Excitation {
-                amplitude: self.get(slot::AMPLITUDE),
-                frequency: self.get(slot::FREQUENCY),
-                phase: self.get(slot::DRIVE_PHASE),
+                amplitude: 0.0,
+                frequency: 0.0,
+                phase: 0.0,
             },
-            clearance: self.get(slot::CLEARANCE),
-            contact_damping: self.get(slot::CONTACT_DAMPING),
-            rigid: self.rigid_behind(&stop),
+            clearance: 0.0,
+            contact_damping: 0.0,
+            rigid: has_rigid.then_some(RigidStop {
+                travel: 0.0,
+                restitution: 0.0,
+            }),
             stop,
-            piercing: (strip.thickness > 0.0 || strip.travel > 0.0).then_some(strip),
+            piercing: has_strip.then_some(Piercing {
+                stiffness: 0.0,
+                friction: 0.0,
+                thickness: 0.0,
+                travel: 0.0,
+            }),
+        };
+        for (parameter, place) in PARAMETERS {
+            parameter.set(&mut scene, self.get(place));
         }
+        scene
     }
 
-    fn strip(&self) -> Piercing {
-        Piercing {
-            stiffness: self.get(slot::PIERCING_STIFFNESS),
-            friction: self.get(slot::PIERCING_FRICTION),
-            thickness: self.get(slot::PIERCING_THICKNESS),
-            travel: self.get(slot::PIERCING_TRAVEL),
-        }
-    }
-
+    /// The law of the stop, without its parameters.
     fn stop(&self) -> Stop {
-        let stiffness = self.get(slot::STOP_STIFFNESS);
+        let (stiffness, preload) = (0.0, 0.0);
         match self.number(slot::STOP_MODEL) {
             number::KELVIN_VOIGT => Stop::KelvinVoigt {
                 stiffness,
@@ -211,16 +201,11 @@ impl StartValues {
             },
             number::HERTZ => Stop::Hertz {
                 stiffness,
-                exponent: self.get(slot::STOP_EXPONENT),
-                dissipation: self.get(slot::STOP_DISSIPATION),
+                exponent: 0.0,
+                dissipation: 0.0,
             },
-            number::PRELOADED => Stop::Preloaded {
-                stiffness,
-                preload: self.get(slot::STOP_PRELOAD),
-            },
-            number::RIGID => Stop::Rigid {
-                restitution: self.get(slot::STOP_RESTITUTION),
-            },
+            number::PRELOADED => Stop::Preloaded { stiffness, preload },
+            number::RIGID => Stop::Rigid { restitution: 0.0 },
             _ => Stop::None,
         }
     }
@@ -232,14 +217,6 @@ impl StartValues {
             stiffness: self.get(chain.stiffness.element(index)),
         };
         (0..count.min(SLOPES)).map(slope).collect()
-    }
-
-    fn rigid_behind(&self, stop: &Stop) -> Option<RigidStop> {
-        let yields = !matches!(stop, Stop::None | Stop::Rigid { .. });
-        (yields && self.get(slot::RIGID_PRESENT) != 0.0).then(|| RigidStop {
-            travel: self.get(slot::RIGID_TRAVEL),
-            restitution: self.get(slot::STOP_RESTITUTION),
-        })
     }
 
     /// The state at the start time.

@@ -46,13 +46,11 @@ pub struct Design {
 
 impl Design {
     /// Velocity in m/s at which the mass reaches the clearance.
-    #[must_use]
     pub fn before_impact_velocity(&self) -> f64 {
         self.orbit.before_impact_velocity()
     }
 
     /// Drive frequency in the machine's own units.
-    #[must_use]
     pub fn frequency(&self) -> f64 {
         let frequency = self.machine.scene.excitation.frequency;
         self.machine.to_own(Dimension::Frequency, frequency)
@@ -70,7 +68,6 @@ pub struct Infeasible {
 
 impl Problem {
     /// The machine with these values of the axes.
-    #[must_use]
     pub fn machine_at(&self, values: &[f64]) -> Machine {
         let mut machine = self.machine.clone();
         for (axis, value) in self.axes.iter().zip(values) {

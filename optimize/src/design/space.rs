@@ -15,7 +15,6 @@ pub struct Interval {
 
 impl Interval {
     /// A single value.
-    #[must_use]
     pub const fn held(value: f64) -> Self {
         Self {
             low: value,
@@ -24,13 +23,11 @@ impl Interval {
     }
 
     /// Whether there is anything to search.
-    #[must_use]
     pub fn is_held(&self) -> bool {
         self.low == self.high
     }
 
     /// The value at `unit` in [0, 1], both ends exact; what lies outside is pulled in.
-    #[must_use]
     pub fn at(&self, unit: f64) -> f64 {
         if unit <= 0.0 || self.is_held() {
             self.low
@@ -42,7 +39,6 @@ impl Interval {
     }
 
     /// Which end a value stands at, if the interval has two.
-    #[must_use]
     pub fn end(&self, value: f64) -> Option<&'static str> {
         if self.is_held() {
             None
@@ -83,13 +79,11 @@ pub struct Space<'a>(pub &'a [Axis]);
 
 impl Space<'_> {
     /// How many coordinates the optimiser has.
-    #[must_use]
     pub fn dimension(&self) -> usize {
         self.0.iter().filter(|axis| !axis.range.is_held()).count()
     }
 
     /// The values of all axes at a point of the unit cube.
-    #[must_use]
     pub fn values(&self, unit: &[f64]) -> Vec<f64> {
         let mut coordinates = unit.iter().copied();
         let value = |axis: &Axis| match axis.range.is_held() {

@@ -1,194 +1,115 @@
 //! The chart of a design: before-impact velocity over drive frequency, in the paper's symbols.
 
-use kuva::backend::svg::SvgBackend;
-use kuva::plot::scatter::MarkerShape;
-use kuva::plot::{LinePlot, LineStyle, ScatterPlot};
-use kuva::render::annotations::{ReferenceLine, ShadedRegion, TextAnnotation};
-use kuva::render::layout::Layout;
-use kuva::render::plots::Plot;
-use kuva::render::render::{collect_legend_entries, render_multiple};
-use softstop_dynamics::zone;
-
 use softstop::{Dimension, Language, Machine, Parameter};
-use softstop_draw::style::{self, Frame};
+use softstop_draw::panel::{Axes, Panel, heading};
+use softstop_draw::pen::{Align, Area, Pen, Stroke};
+use softstop_draw::scale::around;
+use softstop_draw::shapes::{Mark, Sign};
+use softstop_draw::style;
+use softstop_dynamics::zone;
 
 use super::branch::Branch;
 use super::reference::Reference;
 use crate::design::Design;
 
-/// What the chart shows, in the machine's own units.
-#[derive(Debug, Clone)]
-pub struct Chart {
-    machine: Machine,
-    /// The motions of the design's zone.
-    branch: Branch,
-    /// Frequencies that the margin leaves.
-    allowed: (f64, f64),
-    /// Frequency and before-impact velocity of the design.
-    design: (f64, f64),
-    reference: Option<Beside>,
-    /// What the band of allowed frequencies is called.
-    allowance: String,
-    title: String,
+/// The page, and the panel on it.
+const PAGE: (f64, f64) = (920.0, 640.0);
+const AREA: Area = (84.0, 84.0, 800.0, 480.0);
+/// Letters.
+const LETTERS: u32 = 14;
+/// Half the size of marks.
+const MARK: f64 = 7.0;
+/// Lines of the design's motions, of those beside it, and of the ends of the zone.
+const DESIGN: Stroke = Stroke::solid(style::DESIGN, 2.5);
+const BESIDE: Stroke = Stroke::dashed(style::REFERENCE, 2.5, (8.0, 5.0));
+const END: Stroke = Stroke::dashed(style::DESIGN, 1.2, (5.0, 4.0));
+
+/// The chart of a design with margin M, beside a motion, as an SVG document.
+pub(super) fn svg(design: &Design, margin: f64, beside: Option<&Reference>) -> String {
+    let machine = &design.machine;
+    let own = |frequency| machine.to_own(Dimension::Frequency, frequency);
+    let branch = Branch::new(machine, &design.zone, label("design", machine));
+    let optimum = (design.frequency(), design.before_impact_velocity());
+    let beside = beside.map(Beside::new);
+    let others = beside.iter().filter_map(|it| it.branch.as_ref());
+    let drawn: Vec<(&Branch, Stroke)> = others
+        .map(|branch| (branch, BESIDE))
+        .chain([(&branch, DESIGN)])
+        .collect();
+    let curves = drawn
+        .iter()
+        .flat_map(|(branch, _)| branch.pieces.iter().flatten());
+    let points = curves.copied().chain(beside.iter().map(|it| it.point));
+    let points: Vec<(f64, f64)> = points.chain([optimum]).collect();
+    let top = points.iter().map(|point| point.1).fold(0.0, f64::max);
+    let across = around(points.iter().map(|point| point.0), 0.08);
+    let panel = Panel::new(AREA, across, (0.0, 1.2 * top));
+
+    let mut pen = Pen::page(PAGE.0, PAGE.1);
+    let name = machine.name.as_deref().unwrap_or("given");
+    let title = format!("Hardest impact of the {name} machine");
+    let what = "before-impact velocity of the stable z = 1 motion in its hysteresis zone";
+    heading(&mut pen, (AREA.0, 38.0), &title, what);
+    let frequency = machine.label_of(Parameter::Frequency);
+    let velocity = machine.label("before-impact velocity", "X′₋", Dimension::Velocity);
+    let axes = Axes::new(LETTERS, Some(&frequency), &velocity, (8, 6));
+    let [low, high] = [margin, 1.0 - margin].map(|place| own(design.zone.frequency_at(place)));
+    let [left, right] = [low, high].map(|frequency| panel.across(frequency));
+    pen.tint((left, AREA.1, right - left, AREA.3), style::ALLOWED, 0.18);
+    panel.ground(&mut pen, &axes);
+    let allowance = format!("allowed by margin M = {margin}");
+    let place = (0.5 * (left + right), AREA.1 + 0.12 * AREA.3);
+    pen.text(place, LETTERS, Align::Middle, &allowance);
+    for (frequency, name) in [(branch.frequency_g0, "g₀"), (branch.frequency_sn, "s_SN")] {
+        panel.curve(&mut pen, &[(frequency, 0.0), (frequency, panel.y.1)], END);
+        let place = (panel.across(frequency) + 5.0, AREA.1 + 18.0);
+        pen.text(place, LETTERS, Align::Left, name);
+    }
+    let mut entries = Vec::new();
+    for (branch, stroke) in drawn {
+        for piece in &branch.pieces {
+            panel.curve(&mut pen, piece, stroke);
+        }
+        entries.push((Sign::Line(stroke), branch.label.clone()));
+    }
+    let mut mark = |pen: &mut Pen, point, shape, color, name: &str| {
+        pen.mark(panel.place(point), shape, MARK, color);
+        let (x, y) = panel.place(point);
+        pen.text((x + 12.0, y + 20.0), LETTERS, Align::Left, name);
+        entries.push((Sign::Mark(shape, color), legend(machine, name, point)));
+    };
+    mark(&mut pen, optimum, Mark::Triangle, style::OPTIMUM, "optimum");
+    if let Some(beside) = &beside {
+        let name = format!("point {}", beside.name);
+        mark(&mut pen, beside.point, Mark::Circle, style::POINT, &name);
+    }
+    panel.axes(&mut pen, &axes);
+    let place = (
+        panel.across(branch.frequency_sn) - 340.0,
+        panel.bottom() - 96.0,
+    );
+    pen.legend(place, LETTERS, &entries);
+    pen.svg()
+}
+
+fn legend(machine: &Machine, name: &str, (frequency, velocity): (f64, f64)) -> String {
+    match machine.speaks {
+        Language::Ratios => format!("{name}: η = {frequency:.3}, X′₋ = {velocity:.2}"),
+        _ => {
+            let unit = machine.unit(Dimension::Frequency);
+            let (frequency, velocity) = (digits(frequency), digits(velocity));
+            format!("{name}: {frequency} {unit}, {velocity} m/s")
+        }
+    }
 }
 
 /// The motion beside which the design stands.
-#[derive(Debug, Clone)]
 struct Beside {
-    name: String,
+    name: &'static str,
     /// Frequency and before-impact velocity.
     point: (f64, f64),
     /// The motions of its zone.
     branch: Option<Branch>,
-}
-
-const SUBTITLE: &str = "before-impact velocity of the stable z = 1 motion in its hysteresis zone";
-
-impl Chart {
-    /// The chart of a design with margin M, beside a motion.
-    pub(super) fn new(design: &Design, margin: f64, reference: Option<&Reference>) -> Self {
-        let machine = &design.machine;
-        let own = |frequency| machine.to_own(Dimension::Frequency, frequency);
-        let name = machine.name.as_deref().unwrap_or("given");
-        Self {
-            branch: Branch::new(machine, &design.zone, label("design", machine)),
-            allowed: (
-                own(design.zone.frequency_at(margin)),
-                own(design.zone.frequency_at(1.0 - margin)),
-            ),
-            design: (design.frequency(), design.before_impact_velocity()),
-            reference: reference.map(Beside::new),
-            allowance: format!("allowed by margin M = {margin}"),
-            title: format!("Hardest impact of the {name} machine"),
-            machine: machine.clone(),
-        }
-    }
-
-    /// The chart as an SVG document.
-    #[must_use]
-    pub fn svg(&self) -> String {
-        let frame = self.frame();
-        let plots = self.plots();
-        let frequency = self.machine.label_of(Parameter::Frequency);
-        let velocity = self.velocity_label();
-        let layout = style::layout(&frame, &self.title, SUBTITLE)
-            .with_x_label(frequency)
-            .with_y_label(velocity)
-            .with_legend_entries(collect_legend_entries(&plots));
-        let scene = render_multiple(plots, self.annotations(layout, &frame));
-        SvgBackend::new().with_pretty(true).render_scene(&scene)
-    }
-
-    fn velocity_label(&self) -> String {
-        self.machine
-            .label("before-impact velocity", "X′₋", Dimension::Velocity)
-    }
-
-    fn frame(&self) -> Frame {
-        let beside = self
-            .reference
-            .iter()
-            .filter_map(|beside| beside.branch.as_ref());
-        let curves = beside
-            .chain([&self.branch])
-            .flat_map(|branch| branch.pieces.iter().flatten().copied());
-        let points = self.reference.iter().map(|beside| beside.point);
-        Frame::around(
-            &curves
-                .chain(points)
-                .chain([self.design])
-                .collect::<Vec<_>>(),
-        )
-    }
-
-    fn plots(&self) -> Vec<Plot> {
-        let mark = |point: (f64, f64), color: &str, shape, size, name: &str| {
-            ScatterPlot::new()
-                .with_data([point])
-                .with_color(color)
-                .with_marker(shape)
-                .with_size(size)
-                .with_legend(self.legend(name, point))
-        };
-        let optimum = mark(
-            self.design,
-            style::OPTIMUM,
-            MarkerShape::Star,
-            10.0,
-            "optimum",
-        );
-        let mut plots = lines(&self.branch, style::DESIGN, LineStyle::Solid);
-        plots.push(Plot::Scatter(optimum));
-        if let Some(beside) = &self.reference {
-            if let Some(branch) = &beside.branch {
-                plots.extend(lines(branch, style::REFERENCE, LineStyle::Dashed));
-            }
-            let name = format!("point {}", beside.name);
-            plots.push(Plot::Scatter(mark(
-                beside.point,
-                style::POINT,
-                MarkerShape::Circle,
-                6.0,
-                &name,
-            )));
-        }
-        plots
-    }
-
-    fn legend(&self, name: &str, (frequency, velocity): (f64, f64)) -> String {
-        match self.machine.speaks {
-            Language::Ratios => format!("{name}: η = {frequency:.3}, X′₋ = {velocity:.2}"),
-            _ => {
-                let unit = self.machine.unit(Dimension::Frequency);
-                let (frequency, velocity) = (digits(frequency), digits(velocity));
-                format!("{name}: {frequency} {unit}, {velocity} m/s")
-            }
-        }
-    }
-
-    fn annotations(&self, layout: Layout, frame: &Frame) -> Layout {
-        let end = |frequency: f64, name: &str| {
-            ReferenceLine::vertical(frequency)
-                .with_color(style::DESIGN)
-                .with_stroke_width(1.2)
-                .with_dasharray("5 4")
-                .with_label(name)
-        };
-        let (low, high) = self.allowed;
-        let middle = f64::midpoint(low, high);
-        let layout = layout
-            .with_shaded_region(
-                ShadedRegion::vertical(low, high)
-                    .with_color(style::ALLOWED)
-                    .with_opacity(0.18),
-            )
-            .with_reference_line(end(self.branch.frequency_g0, "g₀"))
-            .with_reference_line(end(self.branch.frequency_sn, "s_SN"))
-            .with_annotation(TextAnnotation::new(
-                &self.allowance,
-                middle,
-                frame.near_top(),
-            ));
-        self.reference.iter().fold(layout, |layout, beside| {
-            layout.with_annotation(frame.beside(beside.point, &beside.name))
-        })
-    }
-}
-
-/// The pieces of a branch, the first one named in the legend.
-fn lines(branch: &Branch, color: &str, line: LineStyle) -> Vec<Plot> {
-    let plot = |piece: &Vec<(f64, f64)>| {
-        LinePlot::new()
-            .with_data(piece.clone())
-            .with_color(color)
-            .with_stroke_width(2.5)
-            .with_line_style(line.clone())
-    };
-    let mut pieces = branch.pieces.iter().map(plot);
-    let first = pieces
-        .next()
-        .map(|piece| piece.with_legend(branch.label.clone()));
-    first.into_iter().chain(pieces).map(Plot::Line).collect()
 }
 
 impl Beside {
@@ -200,7 +121,7 @@ impl Beside {
             point => format!("paper's {point}"),
         };
         Self {
-            name: reference.name.to_owned(),
+            name: reference.name,
             point: (
                 machine.value(Parameter::Frequency).unwrap_or(f64::NAN),
                 reference.orbit.before_impact_velocity(),

@@ -25,7 +25,6 @@ macro_rules! task {
 
         impl Task {
             /// The JSON Schema of such files (draft 2020-12).
-            #[must_use]
             pub fn schema() -> serde_json::Value {
                 let mut keys = serde_json::Map::new();
                 $({

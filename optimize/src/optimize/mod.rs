@@ -22,7 +22,6 @@ use crate::design::search::{self, SearchError};
 use crate::design::{Design, Problem};
 use crate::fmu::{archive, library};
 use crate::report::{self, OptimizeReport, SearchReport};
-use chart::Chart;
 use named::Named;
 use progress::Best;
 use task::Job;
@@ -57,7 +56,6 @@ The zone of a machine reaches from g0 to s_SN; the drive frequency is g0 + s (s_
 for FMI 2.0 co-simulation, starting in the design's motion).";
 
 /// The JSON Schema of task files.
-#[must_use]
 pub fn task_schema() -> serde_json::Value {
     configuration::Task::schema()
 }
@@ -98,10 +96,6 @@ pub struct OptimizeArguments {
 }
 
 /// Searches, prints and writes the files.
-///
-/// # Errors
-/// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if no design is found or
-/// the folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let job = Job::new(arguments)?;
     let files = [
@@ -115,8 +109,8 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let design = &outcome.design;
     let references = reference::references(&job.problem.machine)?;
     let beside = reference::nearest(&job.problem.machine, &references);
-    let chart = Chart::new(design, job.problem.margin, beside);
-    export.file("svg", chart.svg().as_bytes())?;
+    let chart = chart::svg(design, job.problem.margin, beside);
+    export.file("svg", chart.as_bytes())?;
     let start = Start::from(design.orbit.state());
     export.file("fmu", &archive(&library, &named(design), start)?)?;
     let search = SearchReport {

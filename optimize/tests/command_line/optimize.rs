@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::{Outcome, SOFTSTOP, json, near, number};
+use super::{Outcome, SOFTSTOP, json, near, number, words};
 
 /// A search that is quick: one quantity, few evaluations.
 const QUICK: [&str; 7] = [
@@ -25,14 +25,7 @@ fn optimize_prints_json_only_and_writes_the_files_it_names() -> Outcome {
     let path = target.to_str().ok_or("path")?;
     let report = json(&[&QUICK[..], &["--format", "json", "--output", path]].concat())?;
     let design = &report["design"];
-    for key in [
-        "clearance",
-        "frequency",
-        "before_impact_velocity",
-        "preload",
-        "position",
-        "velocity",
-    ] {
+    for key in words("clearance frequency before_impact_velocity preload position velocity") {
         assert!(number(design, key).is_finite(), "{key}");
     }
     near(number(design, "stiffness"), 7.0, 0.0);
@@ -85,12 +78,7 @@ fn the_design_is_the_orbit_that_the_program_finds_there() -> Outcome {
         "--format",
         "json",
     ])?;
-    for key in [
-        "position",
-        "velocity",
-        "before_impact_velocity",
-        "max_position",
-    ] {
+    for key in words("position velocity before_impact_velocity max_position") {
         near(number(&orbit, key), number(&report["design"], key), 1e-8);
     }
     Ok(())

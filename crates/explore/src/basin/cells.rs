@@ -7,7 +7,6 @@ use softstop_dynamics::motion::{MotionClass, MotionKind};
 const WIDE: f64 = 0.09;
 
 /// Okabe and Ito's colours, and greys.
-#[must_use]
 pub const fn color(class: MotionClass) -> &'static str {
     match class {
         MotionClass::Zero => "#E4E4E4",
@@ -41,7 +40,6 @@ pub struct RegimeMap {
 
 impl RegimeMap {
     /// Share of the cells that belong to a class.
-    #[must_use]
     pub fn share(&self, class: MotionClass) -> f64 {
         let own = self.cells.iter().filter(|cell| cell.class() == class);
         own.count() as f64 / self.cells.len() as f64

@@ -123,7 +123,6 @@ impl CertaintyPanel {
 
 impl CertaintyPage {
     /// The page as an SVG document.
-    #[must_use]
     pub fn svg(&self) -> String {
         let rows = self.panels.len().div_ceil(2) as f64;
         let right = FIRST.0 + NEXT.0 + AREA.0 + 24.0;
@@ -146,7 +145,6 @@ impl CertaintyPage {
 }
 
 /// The certainty of z = 1 along the hysteresis zone of one machine, as an SVG document.
-#[must_use]
 pub fn chart(machine: &Machine, places: &[Establishing], title: &str) -> String {
     let own = |place: &Establishing| machine.to_own(Dimension::Frequency, place.frequency);
     let [low, high] = [places.first(), places.last()].map(|end| end.map_or(0.0, own));

@@ -108,10 +108,6 @@ fn help() -> String {
 }
 
 /// Finds the basins, draws them and says how large they are.
-///
-/// # Errors
-/// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if there is no zone or the folder cannot be
-/// written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &BasinArguments) -> Result<(), Failure> {
     let options = options(arguments)?;
     arguments.machine.refuse_start()?;

@@ -39,7 +39,6 @@ const DOT: f64 = 0.8;
 
 impl<'a> BasinPicture<'a> {
     /// The picture of a machine's basins.
-    #[must_use]
     pub fn new(machine: &'a Machine, basins: &'a Basins, title: &'a str) -> Self {
         Self {
             basins,
@@ -50,7 +49,6 @@ impl<'a> BasinPicture<'a> {
     }
 
     /// With dots where chaos moves.
-    #[must_use]
     pub fn with_wandering(self, wandering: &'a [(f64, f64)]) -> Self {
         Self { wandering, ..self }
     }

@@ -43,7 +43,6 @@ const LETTERS: u32 = 14;
 const MARK: f64 = 6.0;
 
 /// The before-impact velocities of branches over the parameter, as an SVG document.
-#[must_use]
 pub fn branches(machine: &Machine, parameter: Parameter, branches: &[Branch]) -> String {
     let points = || {
         let points = branches.iter().flat_map(|branch| &branch.points);
@@ -81,7 +80,6 @@ pub fn branches(machine: &Machine, parameter: Parameter, branches: &[Branch]) ->
 }
 
 /// Curves of special points in the plane of two parameters, as an SVG document.
-#[must_use]
 pub fn curves(machine: &Machine, parameters: [Parameter; 2], curves: &[Curve]) -> String {
     let values = |index: usize| {
         let points = curves.iter().flat_map(|curve| &curve.points);

@@ -103,10 +103,6 @@ fn help() -> String {
 }
 
 /// Follows the motion and writes tables and charts.
-///
-/// # Errors
-/// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if there is no orbit to start from,
-/// [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
     arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;

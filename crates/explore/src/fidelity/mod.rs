@@ -1,5 +1,6 @@
 //! `softstop fidelity`: how simple a model of a scene may be.
 
+mod answers;
 mod chart;
 mod cost;
 mod options;
@@ -101,14 +102,10 @@ const FILES: [(&str, &str); 4] = [
 
 fn help() -> String {
     let structure = column::help("structure.csv", &structure::columns());
-    EXAMPLES.to_owned() + &column::help("fidelity.csv", &report::columns()) + &structure
+    EXAMPLES.to_owned() + &column::help("fidelity.csv", &answers::columns()) + &structure
 }
 
 /// Compares the models, writes the files and prints the result.
-///
-/// # Errors
-/// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if the scene has no such quantity or the
-/// folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     check(arguments)?;
     let machine = arguments.machine.machine()?;
@@ -135,9 +132,9 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     let structure = frequencies.map(|frequencies| Structure::new(&machine, &study, frequencies));
     let structure = structure.transpose()?;
     let chart = chart::svg(arguments, &machine, &study);
-    let rows = report::rows(&machine, &study);
+    let rows = answers::rows(&machine, &study);
     let kinds = ["fidelity_csv", "fidelity_svg"];
-    export.sheet(kinds, &report::columns(), rows, &chart)?;
+    export.sheet(kinds, &answers::columns(), rows, &chart)?;
     if let Some(structure) = &structure {
         let title = format!("Regimes of the models of {}", title(&machine));
         let chart = regimes::svg(&title, &machine, structure);

@@ -8,6 +8,7 @@ use softstop::{Dimension, Machine, Start};
 use softstop_dynamics::models::{Likeness, Quantity, Rung};
 use softstop_dynamics::zone::Bounds;
 
+use super::answers::{ANSWER, Row, columns, own, unit};
 use super::structure::{Origin, Structure, Track};
 use super::study::{Entry, Study, name};
 use super::{FidelityArguments, word};
@@ -18,7 +19,6 @@ use softstop_console::export::Report;
 use softstop_console::record::{Record, below};
 use softstop_console::report::{MachineReport, MotionName};
 use softstop_console::table::heading;
-use softstop_console::units;
 
 /// A model by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -95,44 +95,6 @@ pub(super) struct FidelityReport {
     text: String,
 }
 
-/// A row of `fidelity.csv`: a quantity of a model.
-#[derive(Clone, Copy)]
-pub(super) struct Row<'a> {
-    machine: &'a Machine,
-    study: &'a Study,
-    model: &'a Entry,
-    quantity: Quantity,
-}
-
-/// The columns of `fidelity.csv`.
-pub(super) fn columns<'a>() -> [Column<Row<'a>>; 8] {
-    columns! { Row<'a>, it;
-        "rung" [None], "the model's law" => it.model.rung.name();
-        "matched" [None], "what it shares with the contact, if anything" => it.model.likeness.map(word);
-        "quantity" [None], "what is compared" => it.quantity.name();
-        "unit" [None], "of its value" => unit(it.machine, it.quantity);
-        "value" [Of("unit")], "of the model" => own(it.machine, it.quantity, it.quantity.value(&it.model.answers));
-        "error" [None], "relative to the machine's own value" => it.quantity.error(&it.study.truth, &it.model.answers);
-        "evaluations_per_period" [None], "of the law of force" => it.model.cost.evaluations_per_period;
-        "microseconds_per_period" [Of("us")], "median" => it.model.cost.microseconds_per_period;
-    }
-}
-
-/// What an answer is of these columns.
-const ANSWER: std::ops::Range<usize> = 3..6;
-
-/// The rows of `fidelity.csv`: all quantities of all models.
-pub(super) fn rows<'a>(machine: &'a Machine, study: &'a Study) -> impl Iterator<Item = Row<'a>> {
-    study.entries.iter().flat_map(move |model| {
-        Quantity::ALL.into_iter().map(move |quantity| Row {
-            machine,
-            study,
-            model,
-            quantity,
-        })
-    })
-}
-
 /// What is told of a model.
 fn figures<'a>() -> [Column<Row<'a>>; 4] {
     columns! { Row<'a>, it;
@@ -179,19 +141,6 @@ fn sequence(track: &Track, origin: Origin) -> Told {
         value: track.sequence(origin).into(),
         words: String::new(),
     }
-}
-
-/// The unit of a quantity as the machine has it.
-fn unit(machine: &Machine, quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Regime => "impacts per period",
-        _ => units::name(machine, quantity.dimension()),
-    }
-}
-
-/// A value of a quantity in the machine's own units.
-fn own(machine: &Machine, quantity: Quantity, value: Option<f64>) -> Option<f64> {
-    value.map(|value| machine.to_own(quantity.dimension(), value))
 }
 
 fn model(row: Row) -> ModelReport {

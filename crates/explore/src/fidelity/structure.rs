@@ -53,15 +53,6 @@ pub(super) struct Structure<'a> {
     pub(super) tracks: Vec<Track<'a>>,
 }
 
-/// What a regime is, coarsely.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    Impactless,
-    EveryPeriod,
-    Other,
-    Irregular,
-}
-
 /// How much of a model's regimes are those of the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Agreement {
@@ -215,11 +206,12 @@ fn regime(scene: &Scene, frequency: f64, origin: Origin) -> Result<Option<Regime
     Ok(regime)
 }
 
-fn kind(regime: Option<Regime>) -> Kind {
+/// What a regime is, coarsely: no impacts, z = 1, another period, none.
+fn kind(regime: Option<Regime>) -> u8 {
     match regime.map(|regime| (regime.impacts, regime.periods)) {
-        None => Kind::Irregular,
-        Some((0, _)) => Kind::Impactless,
-        Some((1, 1)) => Kind::EveryPeriod,
-        Some(_) => Kind::Other,
+        None => 0,
+        Some((0, _)) => 1,
+        Some((1, 1)) => 2,
+        Some(_) => 3,
     }
 }

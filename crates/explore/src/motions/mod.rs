@@ -68,10 +68,6 @@ pub struct MotionsArguments {
 }
 
 /// Finds the motions and prints them.
-///
-/// # Errors
-/// [`Failure::Usage`] for values no machine can have, [`Failure::Run`] if nothing can be computed,
-/// [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
     let options = options(arguments)?;
     arguments.machine.refuse_start()?;

@@ -1,161 +1,103 @@
 //! The chart of a motion: position, velocity and contact force over time with its phases shaded,
 //! and the phase plane.
 
-use kuva::backend::svg::SvgBackend;
-use kuva::plot::LinePlot;
-use kuva::plot::legend::{LegendEntry, LegendShape};
-use kuva::render::annotations::{ReferenceLine, ShadedRegion};
-use kuva::render::figure::Figure;
-use kuva::render::layout::Layout;
-use kuva::render::plots::Plot;
 use softstop::{Dimension, Machine, PhaseKind};
 
+use softstop_draw::panel::{Axes, Panel, heading};
+use softstop_draw::pen::{Area, Pen, Stroke};
+use softstop_draw::scale::around;
+use softstop_draw::shapes::Sign;
 use softstop_draw::style;
 
 /// A motion as it is drawn.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Drawing {
+pub(super) struct Drawing {
     /// Time in s, position in m, velocity in m/s, contact force in N.
-    pub points: Vec<[f64; 4]>,
+    pub(super) points: Vec<[f64; 4]>,
     /// Phase, begin and end in s, in order of time.
-    pub phases: Vec<(PhaseKind, f64, f64)>,
+    pub(super) phases: Vec<(PhaseKind, f64, f64)>,
 }
 
-/// The chart of a motion.
-#[derive(Debug, Clone)]
-pub struct MotionChart {
-    /// What is drawn.
-    pub drawing: Drawing,
-    /// Its title.
-    pub title: String,
-    /// The names of its quantities.
-    pub names: [String; 4],
-    /// The positions in m at which laws change.
-    pub faces: Vec<f64>,
-}
+/// The line of the motion, and that of positions at which laws change.
+const LINE: Stroke = Stroke::solid(style::POINT, 1.3);
+const FACE: Stroke = Stroke::dashed(style::ASIDE, 1.0, (5.0, 4.0));
+/// Left and top of the first panel, size of a time series, from one to the next, and the phase plane.
+const FIRST: (f64, f64) = (96.0, 64.0);
+const SERIES: (f64, f64) = (620.0, 180.0);
+const NEXT: f64 = 256.0;
+const PLANE: Area = (830.0, 64.0, 560.0, 692.0);
+/// The page.
+const PAGE: (f64, f64) = (1420.0, 880.0);
+/// Letters.
+const LETTERS: u32 = 14;
+/// Room around what is drawn, as a share of it.
+const ROOM: f64 = 0.06;
 
-/// Names of the quantities of [`Drawing::points`] in a machine's units.
-#[must_use]
-pub fn names(machine: &Machine) -> [String; 4] {
-    [
-        machine.label("time t", "", Dimension::Time),
-        machine.label("position x", "", Dimension::Length),
-        machine.label("velocity v", "", Dimension::Velocity),
-        machine.label("contact force F", "", Dimension::Force),
-    ]
-}
-
-impl MotionChart {
-    /// The chart as an SVG document.
-    #[must_use]
-    pub fn svg(&self) -> String {
-        let [position, velocity, force] = [1, 2, 3].map(|row| (self.line(0, row), row));
-        let mut figure = Figure::new(3, 2)
-            .with_structure(vec![vec![0], vec![2], vec![4], vec![1, 3, 5]])
-            .with_plots(vec![
-                vec![position.0],
-                vec![velocity.0],
-                vec![force.0],
-                vec![self.line(1, 2)],
-            ])
-            .with_layouts(vec![
-                self.series(position.1),
-                self.series(velocity.1),
-                self.series(force.1),
-                self.plane(),
-            ])
-            .with_title(self.title.clone())
-            .with_cell_size(560.0, 240.0)
-            .with_col_width(0, 720.0);
-        let legend = self.legend();
-        if !legend.is_empty() {
-            figure = figure
-                .with_shared_legend_bottom()
-                .with_shared_legend_entries(legend);
-        }
-        SvgBackend::new()
-            .with_pretty(true)
-            .render_scene(&figure.render())
-    }
-
-    fn line(&self, across: usize, up: usize) -> Plot {
-        let points = self.drawing.points.iter();
-        Plot::Line(
-            LinePlot::new()
-                .with_data(points.map(|point| (point[across], point[up])))
-                .with_color(style::POINT)
-                .with_stroke_width(1.3),
-        )
-    }
-
-    /// A time series.
-    fn series(&self, row: usize) -> Layout {
-        let (left, right) = self.exact(0);
-        let mut layout = style::plain((left, right), self.padded(row))
-            .with_x_label(self.names[0].clone())
-            .with_y_label(self.names[row].clone())
-            .with_ticks(5);
-        for &(kind, begin, end) in &self.drawing.phases {
-            if let Some(color) = color(kind) {
-                let region = ShadedRegion::vertical(begin.max(left), end.min(right));
-                layout = layout.with_shaded_region(region.with_color(color).with_opacity(1.0));
+impl Drawing {
+    /// The chart as an SVG document; `faces` are the positions in m at which laws change.
+    pub(super) fn svg(&self, machine: &Machine, title: &str, faces: &[f64]) -> String {
+        let names = [
+            ("time t", Dimension::Time),
+            ("position x", Dimension::Length),
+            ("velocity v", Dimension::Velocity),
+            ("contact force F", Dimension::Force),
+        ];
+        let names = names.map(|(what, dimension)| machine.label(what, "", dimension));
+        let mut pen = Pen::page(PAGE.0, PAGE.1);
+        heading(&mut pen, (FIRST.0, 36.0), title, "");
+        for row in 1..4 {
+            let top = FIRST.1 + NEXT * (row - 1) as f64;
+            let area = (FIRST.0, top, SERIES.0, SERIES.1);
+            let panel = Panel::new(area, self.range(0, 0.0), self.range(row, ROOM));
+            for (kind, begin, end) in &self.phases {
+                if let Some(color) = color(*kind) {
+                    let [left, right] =
+                        [begin, end].map(|at| panel.across(at.clamp(panel.x.0, panel.x.1)));
+                    pen.tint((left, top, right - left, SERIES.1), color, 1.0);
+                }
             }
+            if row == 1 {
+                for face in faces {
+                    panel.curve(&mut pen, &[(panel.x.0, *face), (panel.x.1, *face)], FACE);
+                }
+            }
+            self.line(&mut pen, &panel, (0, row));
+            let axes = Axes::new(LETTERS, Some(&names[0]), &names[row], (6, 4));
+            panel.axes(&mut pen, &axes);
         }
-        if row == 1 {
-            layout = self.with_faces(layout, ReferenceLine::horizontal);
+        let panel = Panel::new(PLANE, self.range(1, ROOM), self.range(2, ROOM));
+        let axes = Axes::new(LETTERS, Some(&names[1]), &names[2], (6, 8));
+        panel.ground(&mut pen, &axes);
+        for face in faces {
+            panel.curve(&mut pen, &[(*face, panel.y.0), (*face, panel.y.1)], FACE);
         }
-        layout
+        self.line(&mut pen, &panel, (1, 2));
+        panel.axes(&mut pen, &axes);
+        for (index, (sign, name)) in self.legend().into_iter().enumerate() {
+            let place = (FIRST.0 + 150.0 * index as f64, PAGE.1 - 18.0);
+            pen.legend(place, LETTERS, &[(sign, name)]);
+        }
+        pen.svg()
     }
 
-    fn plane(&self) -> Layout {
-        let layout = style::plain(self.padded(1), self.padded(2))
-            .with_x_label(self.names[1].clone())
-            .with_y_label(self.names[2].clone())
-            .with_ticks(6);
-        self.with_faces(layout, ReferenceLine::vertical)
+    fn line(&self, pen: &mut Pen, panel: &Panel, (across, up): (usize, usize)) {
+        let points = self.points.iter().map(|point| (point[across], point[up]));
+        panel.curve(pen, &points.collect::<Vec<_>>(), LINE);
     }
 
-    fn with_faces(&self, layout: Layout, line: fn(f64) -> ReferenceLine) -> Layout {
-        self.faces.iter().fold(layout, |layout, &face| {
-            layout.with_reference_line(
-                line(face)
-                    .with_color(style::ASIDE)
-                    .with_stroke_width(1.0)
-                    .with_dasharray("5 4"),
-            )
-        })
-    }
-
-    /// Range of a quantity.
-    fn exact(&self, row: usize) -> (f64, f64) {
-        let values = self.drawing.points.iter().map(|point| point[row]);
-        let low = values.clone().fold(f64::INFINITY, f64::min);
-        let high = values.fold(f64::NEG_INFINITY, f64::max);
-        (low, high)
-    }
-
-    fn padded(&self, row: usize) -> (f64, f64) {
-        let (low, high) = self.exact(row);
-        let room = if high > low { 0.06 * (high - low) } else { 1.0 };
-        (low - room, high + room)
+    fn range(&self, quantity: usize, room: f64) -> (f64, f64) {
+        around(self.points.iter().map(|point| point[quantity]), room)
     }
 
     /// The phases that are shaded.
-    fn legend(&self) -> Vec<LegendEntry> {
+    fn legend(&self) -> Vec<(Sign, String)> {
         let mut kinds: Vec<PhaseKind> = Vec::new();
-        for &(kind, _, _) in &self.drawing.phases {
-            if !kinds.contains(&kind) {
-                kinds.push(kind);
+        for (kind, ..) in &self.phases {
+            if !kinds.contains(kind) {
+                kinds.push(*kind);
             }
         }
-        let entry = |kind: PhaseKind| {
-            Some(LegendEntry {
-                label: crate::simulate::name(kind).to_owned(),
-                color: color(kind)?.to_owned(),
-                shape: LegendShape::Rect,
-                dasharray: None,
-            })
-        };
+        let entry = |kind| Some((Sign::Patch(color(kind)?), super::name(kind).to_owned()));
         kinds.into_iter().filter_map(entry).collect()
     }
 }

@@ -11,7 +11,6 @@ use std::path::PathBuf;
 use clap::Args;
 use softstop::{Allowed, Machine, PhaseKind, Start};
 
-use crate::simulate::chart::MotionChart;
 use report::SimulateReport;
 use softstop_console::arguments::MachineArguments;
 use softstop_console::column;
@@ -91,10 +90,6 @@ const FILES: [(&str, &str); 3] = [
 const MOST_ROWS: u64 = 20_000_000;
 
 /// Runs the scene, writes the files and prints the summary.
-///
-/// # Errors
-/// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if the motion cannot be carried
-/// on or the folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
     check(arguments)?;
     let given = [
@@ -124,13 +119,9 @@ pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
         export.open_table("crossings_csv", &crossings)?,
     )?;
     let report = SimulateReport::new(arguments, &machine, start, &outcome);
-    let chart = MotionChart {
-        drawing: outcome.drawing,
-        title: report::chart_title(&machine, arguments.periods),
-        names: chart::names(&machine),
-        faces: run::faces(scene),
-    };
-    export.file("svg", chart.svg().as_bytes())?;
+    let title = report::chart_title(&machine, arguments.periods);
+    let chart = outcome.drawing.svg(&machine, &title, &run::faces(scene));
+    export.file("svg", chart.as_bytes())?;
     export.finish(&report, arguments.format)
 }
 
@@ -145,7 +136,6 @@ fn check(arguments: &SimulateArguments) -> Result<(), Failure> {
 }
 
 /// A phase's name in the tables, as in the library's own JSON.
-#[must_use]
 pub const fn name(kind: PhaseKind) -> &'static str {
     match kind {
         PhaseKind::Free => "free",

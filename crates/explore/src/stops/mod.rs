@@ -10,7 +10,6 @@ use anyhow::Context;
 use clap::Args;
 use serde::Serialize;
 
-use crate::stops::loops::Loops;
 use softstop_console::column::{Column, Units, text};
 use softstop_console::columns;
 use softstop_console::export::{Export, Report};
@@ -68,9 +67,6 @@ impl Report for StopsReport {
 }
 
 /// Draws the zoo.
-///
-/// # Errors
-/// [`Failure::Run`] if the folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &StopsArguments) -> Result<(), Failure> {
     let files = ZOO.map(|it| (format!("{}_svg", it.name), format!("{}.svg", it.name)));
     let files = files.each_ref();
@@ -104,7 +100,7 @@ pub fn picture(exhibit: &Exhibit) -> Result<String, Failure> {
         .map(|law| Ok((law.label, stroke(exhibit, law)?)))
         .collect::<Result<Vec<_>, Failure>>()?;
     let subtitle = format!("full stroke of 1 kg, first touch at {} m/s", exhibit.speed);
-    Ok(Loops::new(exhibit.title, &subtitle, &strokes).svg())
+    Ok(loops::svg(exhibit.title, &subtitle, &strokes))
 }
 
 /// The stroke of one law, with free flight in proportion to its depth.

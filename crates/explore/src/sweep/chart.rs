@@ -48,7 +48,6 @@ type Show = fn(&Step) -> Vec<f64>;
 
 impl<'a> SweepChart<'a> {
     /// The diagram.
-    #[must_use]
     pub fn new(machine: &'a Machine, plan: &'a Plan, chains: &'a [Chain]) -> Self {
         Self {
             machine,
@@ -58,7 +57,6 @@ impl<'a> SweepChart<'a> {
     }
 
     /// The picture as an SVG document.
-    #[must_use]
     pub fn svg(&self) -> String {
         let (width, height) = (FIRST.0 + PANEL.0 + 24.0, FIRST.1 + 2.0 * NEXT + 44.0);
         let mut pen = Pen::page(width, height);

@@ -135,10 +135,6 @@ const FILES: [(&str, &str); 3] = [
 const KEEPING: Duration = Duration::from_secs(10);
 
 /// Sweeps, writes table and chart, and says where the motion jumps.
-///
-/// # Errors
-/// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if the folder cannot be written,
-/// [`Failure::Suspended`] after Ctrl-C.
 pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
