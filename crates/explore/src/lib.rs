@@ -1,7 +1,7 @@
 //! The commands that look at one machine, each with its own picture: [`orbit`], [`zone`], [`simulate`],
 //! [`motions`], [`continuation`], [`sweep`], [`basin`], [`stops`] and [`fidelity`].
 //!
-//! Each `run` fails with [`Failure::Usage`] for values that cannot be, with [`Failure::Run`] if nothing can be
+//! Whatever fails does so with [`Failure::Usage`] for values that cannot be, with [`Failure::Run`] if nothing can be
 //! computed or written, and with [`Failure::Interrupted`] or [`Failure::Suspended`] after Ctrl-C.
 //!
 //! [`Failure::Usage`]: softstop_console::failure::Failure::Usage

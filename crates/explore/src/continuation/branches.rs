@@ -32,9 +32,6 @@ pub(super) fn count(bar: &Progress) -> ControlFlow<()> {
 }
 
 /// The branch of the start, and doubled ones.
-///
-/// # Errors
-/// [`Failure::Run`] if there is no orbit to start from, [`Failure::Interrupted`] after Ctrl-C.
 pub(super) fn branches(
     arguments: &ContinueArguments,
     machine: &Machine,

@@ -11,9 +11,6 @@ use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
 /// Follows the special points of a branch in both parameters.
-///
-/// # Errors
-/// [`Failure::Run`] if one cannot be followed, [`Failure::Interrupted`] after Ctrl-C.
 pub(super) fn curves(
     machine: &Machine,
     arguments: &ContinueArguments,

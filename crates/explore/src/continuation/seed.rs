@@ -47,9 +47,6 @@ pub fn state(text: &str) -> Result<Vector2<f64>, String> {
 }
 
 /// The stable orbit of this regime with the largest share of starts.
-///
-/// # Errors
-/// [`Failure::Run`] naming the motions that there are instead, [`Failure::Interrupted`] after Ctrl-C.
 pub fn find(scene: &Scene, wanted: Regime) -> Result<Orbit, Failure> {
     if wanted == Regime::ONE
         && let Ok(orbit) = softstop_dynamics::orbit::find(scene)

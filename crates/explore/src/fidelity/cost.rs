@@ -21,9 +21,6 @@ pub(super) struct Cost {
 
 /// The costs of motions, timed turn and turn about, so that what else the machine does meanwhile falls on
 /// all of them.
-///
-/// # Errors
-/// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
 pub(super) fn costs(
     motions: &[(Scene, Start)],
     periods: u64,

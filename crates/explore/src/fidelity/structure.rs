@@ -64,9 +64,6 @@ pub(super) struct Agreement {
 
 impl<'a> Structure<'a> {
     /// Runs all models of a study from both starts at these frequencies.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
     pub(super) fn new(
         machine: &Machine,
         study: &'a Study,
@@ -164,9 +161,6 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 6] {
 const SWEEP: [f64; 2] = [0.95, 1.4];
 
 /// The frequencies in the machine's own units, both ends included.
-///
-/// # Errors
-/// [`Failure::Usage`] if one is not positive, or the scene has no suspension to measure them by.
 pub(super) fn frequencies(
     machine: &Machine,
     arguments: &FidelityArguments,

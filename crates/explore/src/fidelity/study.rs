@@ -61,9 +61,6 @@ pub(super) struct Study {
 
 impl Study {
     /// Matches, runs and measures all models.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] if the scene has no such quantity, [`Failure::Interrupted`] after Ctrl-C.
     pub(super) fn new(truth: &Scene, task: &Task) -> Result<Self, Failure> {
         let observed = Observation::settled(truth, None, task.start).map_err(run)?;
         let answers = Answers::of(truth, observed, task.bounded).map_err(run)?;

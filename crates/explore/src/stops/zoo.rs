@@ -95,9 +95,6 @@ pub const ZOO: [Exhibit; 6] = [
 
 impl Specimen {
     /// The scene.
-    ///
-    /// # Errors
-    /// [`Failure::Usage`] if the file in `docs/scenes` does not describe a machine.
     pub fn scene(&self) -> Result<Scene, Failure> {
         let file = scene_file::parse(self.scene)
             .map_err(|error| Failure::usage(format!("{}: {error}", self.label)))?;
