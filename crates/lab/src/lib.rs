@@ -3,7 +3,6 @@
 //! how fast the engines are ([`throughput`]), and the paper, drawn anew (`softstop-paper`).
 #![forbid(unsafe_code)]
 
-pub mod charts;
 pub mod failures;
 pub mod filter;
 pub mod methods;
@@ -47,9 +46,19 @@ pub enum Command {
     /// The paper's figures drawn anew, and what it only describes
     Paper(softstop_paper::PaperArguments),
     /// Chart methods of computing a motion: speed against accuracy
-    Chart(charts::ChartsArguments),
+    #[command(subcommand)]
+    Chart(Chart),
     /// How fast the engines are, and whether the fast one counts the same impacts
     Throughput(throughput::ThroughputArguments),
+}
+
+/// The charts to be had.
+#[derive(Debug, Subcommand)]
+pub enum Chart {
+    /// Speed against accuracy of all methods on one scene
+    Precision(precision::PrecisionArguments),
+    /// Where fixed-step methods fail: over step and stop stiffness
+    Failures(failures::FailuresArguments),
 }
 
 /// Reads the command line, does what it says and turns the outcome into an exit code.
@@ -65,7 +74,8 @@ pub fn run(command: Command) -> Result<(), Failure> {
     match command {
         Command::Table1(arguments) => table1::run(&arguments),
         Command::Paper(arguments) => softstop_paper::run(&arguments),
-        Command::Chart(arguments) => charts::run(&arguments),
+        Command::Chart(Chart::Precision(arguments)) => precision::run(&arguments),
+        Command::Chart(Chart::Failures(arguments)) => failures::run(&arguments),
         Command::Throughput(arguments) => throughput::run(&arguments),
     }
 }

@@ -35,20 +35,12 @@ fn undriven(clearance: f64, stiffness: f64) -> Scene {
 }
 
 fn task(scene: Scene, position: f64, velocity: f64, duration: f64) -> Task {
-    Task {
-        periods: duration / scene.period(),
-        scene,
-        start: Start::new(position, velocity),
-        most_steps: 10_000_000,
-    }
+    let (start, periods) = (Start::new(position, velocity), duration / scene.period());
+    Task::new(scene, start, periods, 10_000_000)
 }
 
 fn fixed(scheme: Scheme, events: Events, step: f64) -> FixedStep {
-    FixedStep {
-        scheme,
-        step,
-        events,
-    }
+    FixedStep::new(scheme, step, events)
 }
 
 fn exact(task: &Task) -> Solution {

@@ -14,12 +14,7 @@ use softstop_testing::tolerance::DIFFERENCED;
 const WIDTH: f64 = 1.0 / (1u64 << 40) as f64;
 
 fn image(scene: &Scene, state: Vector2<f64>) -> Vector2<f64> {
-    let task = Task {
-        scene: scene.clone(),
-        start: state.into(),
-        periods: 1.0,
-        most_steps: u64::MAX,
-    };
+    let task = Task::new(scene.clone(), state.into(), 1.0, u64::MAX);
     let (position, velocity) = solve(&task, &|_| true).expect("a reference").end;
     Vector2::new(position, velocity)
 }

@@ -22,12 +22,7 @@ const COARSEST: f64 = 400.0;
 const LEVELS: i32 = 4;
 
 fn task(scene: &Scene, velocity: f64) -> Task {
-    Task {
-        scene: scene.clone(),
-        start: Start::new(0.0, velocity),
-        periods: PERIODS,
-        most_steps: 1_000_000,
-    }
+    Task::new(scene.clone(), Start::new(0.0, velocity), PERIODS, 1_000_000)
 }
 
 fn error(found: &Solution, exact: &Solution) -> f64 {
@@ -90,11 +85,7 @@ fn assert_orders(name: &str, stop: Stop, contact_damping: f64, left: (f64, f64))
     };
     for scheme in Scheme::ALL {
         for (events, most) in [(Events::Ignored, left.0), (Events::Located, left.1)] {
-            let method = |step| FixedStep {
-                scheme,
-                step,
-                events,
-            };
+            let method = |step| FixedStep::new(scheme, step, events);
             let expected = f64::from(scheme.order()).min(most);
             let observed = observed_order(&scene, &method);
             let (title, events) = (scheme.name(), events.name());
@@ -218,7 +209,7 @@ proptest! {
         velocity in -6.0..6.0f64,
     ) {
         let start = start_below(&scene, depth, velocity);
-        let task = Task { scene, start, periods: 1.5, most_steps: 1_000_000 };
+        let task = Task::new(scene, start, 1.5, 1_000_000);
         prop_assume!(!is_delicate(&task));
         let exact = Exact.integrate(&task).expect("exact");
         for scheme in Scheme::ALL {
@@ -228,7 +219,7 @@ proptest! {
                 _ => (2_000.0, 1e-5),
             };
             let step = task.scene.period() / division;
-            let method = FixedStep { scheme, step, events: Events::Located };
+            let method = FixedStep::new(scheme, step, Events::Located);
             let found = method.integrate(&task).expect("bounded");
             prop_assert_eq!(found.impacts.len(), exact.impacts.len(), "{:?}", scheme);
             prop_assert!(error(&found, &exact) < tolerance, "{:?}", scheme);
@@ -249,7 +240,7 @@ proptest! {
     ) {
         let start = start_below(&scene, depth, velocity);
         let step = scene.period() / division;
-        let task = Task { scene, start, periods: 4.0, most_steps: 100_000 };
+        let task = Task::new(scene, start, 4.0, 100_000);
         for method in FixedStep::all(step) {
             match method.integrate(&task) {
                 Ok(found) => {

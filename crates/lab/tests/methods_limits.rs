@@ -26,11 +26,7 @@ fn free(zeta: f64) -> Scene {
 
 /// A number of steps of a length from (1, 0).
 fn steps(scene: &Scene, scheme: Scheme, step: f64, count: u32) -> Result<Solution, MethodError> {
-    let method = FixedStep {
-        scheme,
-        step,
-        events: Events::Ignored,
-    };
+    let method = FixedStep::new(scheme, step, Events::Ignored);
     method.integrate(&Task {
         scene: scene.clone(),
         start: Start::new(1.0, 0.0),
@@ -40,12 +36,12 @@ fn steps(scene: &Scene, scheme: Scheme, step: f64, count: u32) -> Result<Solutio
 }
 
 fn refusal(method: &dyn Integrator, change: impl Fn(&mut Task)) -> String {
-    let mut task = Task {
-        scene: Ratios::unloaded().scene().expect("valid"),
-        start: Start::new(0.0, 14.0),
-        periods: 1.0,
-        most_steps: 10_000,
-    };
+    let mut task = Task::new(
+        Ratios::unloaded().scene().expect("valid"),
+        Start::new(0.0, 14.0),
+        1.0,
+        10_000,
+    );
     change(&mut task);
     method.integrate(&task).expect_err("refused").to_string()
 }
@@ -53,11 +49,7 @@ fn refusal(method: &dyn Integrator, change: impl Fn(&mut Task)) -> String {
 #[test]
 fn what_makes_no_sense_is_named() {
     for events in Events::ALL {
-        let rk4 = |step| FixedStep {
-            scheme: Scheme::RungeKutta4,
-            step,
-            events,
-        };
+        let rk4 = |step| FixedStep::new(Scheme::RungeKutta4, step, events);
         for step in [0.0, -0.1, f64::NAN, f64::INFINITY] {
             let text = refusal(&rk4(step), |_| ());
             assert_eq!(text, format!("step = {step}: must be finite and > 0"));
@@ -83,11 +75,7 @@ fn what_makes_no_sense_is_named() {
             (Scheme::Newmark { beta, gamma: -0.5 }, "gamma = -0.5"),
             (Scheme::GeneralisedAlpha { rho_inf }, "rhoInf = 1.5"),
         ] {
-            let method = FixedStep {
-                scheme,
-                step: 0.01,
-                events,
-            };
+            let method = FixedStep::new(scheme, 0.01, events);
             let text = refusal(&method, |_| ());
             assert_eq!(text, format!("{name}: must be in [0, 1]"));
         }
@@ -107,11 +95,7 @@ fn what_makes_no_sense_is_named() {
 /// No more steps are made than are allowed, those for location included.
 #[test]
 fn steps_for_location_count() {
-    let method = FixedStep {
-        scheme: Scheme::RungeKutta4,
-        step: 0.01,
-        events: Events::Located,
-    };
+    let method = FixedStep::new(Scheme::RungeKutta4, 0.01, Events::Located);
     let text = refusal(&method, |task| task.most_steps = 547);
     assert!(
         text.contains("after 547 steps: more steps are needed than are allowed"),
@@ -125,18 +109,13 @@ fn the_last_step_ends_with_the_task() {
     let scene = free(0.0);
     for share in [0.9, 1.0, 1.1, 7.3, 1000.0] {
         let duration = 0.37 * scene.period();
-        let method = FixedStep {
-            scheme: Scheme::RungeKutta4,
-            step: share * duration / 50.0,
-            events: Events::Located,
-        };
+        let method = FixedStep::new(
+            Scheme::RungeKutta4,
+            share * duration / 50.0,
+            Events::Located,
+        );
         let found = method
-            .integrate(&Task {
-                scene: scene.clone(),
-                start: Start::new(1.0, 0.0),
-                periods: 0.37,
-                most_steps: 1000,
-            })
+            .integrate(&Task::new(scene.clone(), Start::new(1.0, 0.0), 0.37, 1000))
             .expect("bounded");
         let count = (50.0 / share).ceil();
         assert_eq!(found.work.steps as f64, count);

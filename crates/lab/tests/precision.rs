@@ -24,12 +24,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 fn task(file: &str, periods: f64) -> Result<Task, Box<dyn std::error::Error>> {
     let text = fs::read_to_string(docs("scenes").join(file))?;
     let file = scene_file::parse(&text)?;
-    Ok(Task {
-        scene: file.scene,
-        start: file.start,
-        periods,
-        most_steps: u64::MAX,
-    })
+    Ok(Task::new(file.scene, file.start, periods, u64::MAX))
 }
 
 const LOOK: Look = Look {

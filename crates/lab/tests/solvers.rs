@@ -20,12 +20,12 @@ fn adaptive(relative: f64, absolute: f64) -> [Adaptive; 5] {
 
 /// Point A of Peterka 2003 on its way to the motion with one impact per period.
 fn point_a() -> Result<Task, Box<dyn std::error::Error>> {
-    Ok(Task {
-        scene: Ratios::unloaded().scene()?,
-        start: Start::new(0.0, 14.0),
-        periods: 20.0,
-        most_steps: 1_000_000,
-    })
+    Ok(Task::new(
+        Ratios::unloaded().scene()?,
+        Start::new(0.0, 14.0),
+        20.0,
+        1_000_000,
+    ))
 }
 
 /// An example scene of docs/scenes.

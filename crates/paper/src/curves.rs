@@ -9,7 +9,7 @@ use softstop_dynamics::continuation::{
 use softstop_console::interrupt;
 
 /// The curve through a special point of z = 1 of a machine.
-pub(super) fn critical(
+pub fn critical(
     machine: &Ratios,
     special: (SpecialKind, &BranchPoint),
     region: &Region,

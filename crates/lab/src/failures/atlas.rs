@@ -89,10 +89,8 @@ impl Axes {
 
 fn logarithmic(low: f64, high: f64, points: usize) -> Vec<f64> {
     let last = points.saturating_sub(1).max(1) as f64;
-    let ratio = high / low;
-    (0..points)
-        .map(|index| low * ratio.powf(index as f64 / last))
-        .collect()
+    let value = |index: f64| low * (high / low).powf(index / last);
+    (0..points).map(|index| value(index as f64)).collect()
 }
 
 impl Atlas {
@@ -107,27 +105,24 @@ impl Atlas {
         tolerance: f64,
         progress: &Progress,
     ) -> Result<Self, Failure> {
-        let columns = axes
-            .stiffness
-            .par_iter()
-            .map(|&stiffness| Column::new(&view, stiffness, tolerance, progress))
-            .collect::<Result<Vec<_>, _>>()?;
-        let map = |family: &Family| {
-            let cells = columns
-                .par_iter()
-                .map(|column| column.judge(*family, &axes.step, tolerance, progress))
-                .collect::<Result<_, _>>()?;
-            Ok(Map {
-                family: *family,
-                columns: cells,
-                limit: columns.iter().map(|column| column.limit(*family)).collect(),
-            })
-        };
-        let mut maps = families
-            .iter()
-            .map(map)
-            .collect::<Result<Vec<Map>, Failure>>()?;
-        maps.retain(Map::says_something);
+        let columns = axes.stiffness.par_iter();
+        let columns = columns.map(|&stiffness| Column::new(&view, stiffness, tolerance, progress));
+        let columns = columns.collect::<Result<Vec<_>, _>>()?;
+        let mut maps = Vec::new();
+        for &family in families {
+            let cells = columns.par_iter();
+            let cells = cells.map(|column| column.judge(family, &axes.step, tolerance, progress));
+            let cells = cells.collect::<Result<Vec<_>, _>>()?;
+            // A method that is made for none of the machines has no map.
+            let mut all = cells.iter().flatten();
+            if all.any(|cell| cell.verdict != Verdict::Unsuited) {
+                maps.push(Map {
+                    family,
+                    columns: cells,
+                    limit: columns.iter().map(|column| column.limit(family)).collect(),
+                });
+            }
+        }
         Ok(Self {
             view,
             axes,
@@ -135,14 +130,6 @@ impl Atlas {
             tolerance,
             maps,
         })
-    }
-}
-
-impl Map {
-    /// Whether the method is made for one of the machines at least.
-    fn says_something(&self) -> bool {
-        let mut cells = self.columns.iter().flatten();
-        cells.any(|cell| cell.verdict != Verdict::Unsuited)
     }
 }
 
@@ -170,14 +157,10 @@ impl Column {
         let lost = || format!("no true motion at a stiffness of {stiffness} N/m");
         let own = Exact.integrate(&task).with_context(lost)?;
         let contact = shortest_contact(&task).with_context(lost)?;
-        let (truth, exact) = match in_digits(&task, progress)? {
-            Some(truth) => {
-                let judge = Judge::new(&task, &truth, tolerance);
-                let cell = Cell::new(&judge, Ok(own));
-                (truth, Some(cell))
-            }
-            None => (own, None),
-        };
+        let known = in_digits(&task, progress)?;
+        let judged = |truth| Cell::new(&Judge::new(&task, truth, tolerance), Ok(own.clone()));
+        let exact = known.as_ref().map(judged);
+        let truth = known.unwrap_or(own);
         progress.one();
         Ok(Self {
             contact: contact.map(|contact| contact / task.scene.period()),

@@ -48,11 +48,7 @@ impl Family {
     /// The method with a step in s.
     pub fn method(&self, step: f64) -> Box<dyn Integrator> {
         match *self {
-            Self::FixedStep(scheme, events) => Box::new(FixedStep {
-                scheme,
-                step,
-                events,
-            }),
+            Self::FixedStep(scheme, events) => Box::new(FixedStep::new(scheme, step, events)),
             Self::Moreau => Box::new(Moreau { step, theta: THETA }),
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::methods::Verdict;
 
-use crate::failures::Axes;
+use crate::failures::{Axes, Cell};
 use softstop_draw::pen::{Align, Area, Pen};
 use softstop_draw::scale::power_of_ten;
 
@@ -23,12 +23,8 @@ pub(super) struct Grid<'a> {
     pub(super) cell: (f64, f64),
 }
 
-/// Cells of one verdict that form a rectangle: columns and steps from (inclusive) and to (exclusive).
-struct Block {
-    columns: (usize, usize),
-    steps: (usize, usize),
-    verdict: Verdict,
-}
+/// A verdict, and the columns and steps from (inclusive) and to (exclusive) of a rectangle of cells that have it.
+type Block = (Verdict, [usize; 2], [usize; 2]);
 
 impl Grid<'_> {
     pub(super) fn size(&self) -> (f64, f64) {
@@ -53,22 +49,20 @@ impl Grid<'_> {
     }
 
     /// The verdicts, a column for each stiffness.
-    pub(super) fn verdicts(&self, pen: &mut Pen, columns: &[Vec<Verdict>]) {
+    pub(super) fn verdicts(&self, pen: &mut Pen, columns: &[Vec<Cell>]) {
         let blocks = blocks(columns);
         let bottom = self.corner.1 + self.size().1;
         for verdict in Verdict::ALL {
-            let own = blocks.iter().filter(|block| block.verdict == verdict);
-            let areas: Vec<Area> = own
-                .map(|block| {
-                    let (from, to) = (block.columns, block.steps);
-                    (
-                        self.corner.0 + self.cell.0 * from.0 as f64,
-                        bottom - self.cell.1 * to.1 as f64,
-                        self.cell.0 * (from.1 - from.0) as f64,
-                        self.cell.1 * (to.1 - to.0) as f64,
-                    )
-                })
-                .collect();
+            let own = blocks.iter().filter(|block| block.0 == verdict);
+            let areas = own.map(|(_, [left, right], [low, high])| {
+                (
+                    self.corner.0 + self.cell.0 * *left as f64,
+                    bottom - self.cell.1 * *high as f64,
+                    self.cell.0 * (right - left) as f64,
+                    self.cell.1 * (high - low) as f64,
+                )
+            });
+            let areas: Vec<Area> = areas.collect();
             if !areas.is_empty() {
                 pen.fill(&areas, color(verdict));
             }
@@ -82,9 +76,8 @@ impl Grid<'_> {
             let (x, y) = (self.x(*stiffness), self.y((*step)?));
             (y >= top && y <= top + height).then_some((x, y))
         };
-        let points: Vec<Option<(f64, f64)>> =
-            self.axes.stiffness.iter().zip(steps).map(point).collect();
-        for piece in points.split(Option::is_none) {
+        let points = self.axes.stiffness.iter().zip(steps).map(point);
+        for piece in points.collect::<Vec<_>>().split(Option::is_none) {
             let piece: Vec<(f64, f64)> = piece.iter().copied().flatten().collect();
             if piece.len() > 1 {
                 pen.rimmed(&piece, dashes);
@@ -136,23 +129,18 @@ fn powers(row: &[f64]) -> std::ops::RangeInclusive<i32> {
 }
 
 /// The cells in few rectangles: runs of each column, joined with the same runs of the column before.
-fn blocks(columns: &[Vec<Verdict>]) -> Vec<Block> {
+fn blocks(columns: &[Vec<Cell>]) -> Vec<Block> {
     let mut blocks: Vec<Block> = Vec::new();
-    for (column, verdicts) in columns.iter().enumerate() {
+    for (column, cells) in columns.iter().enumerate() {
         let mut from = 0;
-        for run in verdicts.chunk_by(|a, b| a == b) {
-            let steps = (from, from + run.len());
-            from = steps.1;
-            let before = blocks.iter_mut().rev().find(|block| {
-                block.columns.1 == column && block.steps == steps && block.verdict == run[0]
-            });
-            match before {
-                Some(block) => block.columns.1 = column + 1,
-                None => blocks.push(Block {
-                    columns: (column, column + 1),
-                    steps,
-                    verdict: run[0],
-                }),
+        for run in cells.chunk_by(|a, b| a.verdict == b.verdict) {
+            let (verdict, steps) = (run[0].verdict, [from, from + run.len()]);
+            from = steps[1];
+            let joins =
+                |block: &&mut Block| (block.0, block.1[1], block.2) == (verdict, column, steps);
+            match blocks.iter_mut().rev().find(joins) {
+                Some(block) => block.1[1] = column + 1,
+                None => blocks.push((verdict, [column, column + 1], steps)),
             }
         }
     }

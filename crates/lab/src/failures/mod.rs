@@ -17,8 +17,9 @@ use clap::Args;
 
 use crate::filter::Filter;
 use report::FailuresReport;
+use softstop_console::export::Export;
 use softstop_console::failure::Failure;
-use softstop_console::output::{self, Folder, Format};
+use softstop_console::output::Format;
 use softstop_console::progress::Progress;
 use softstop_console::range::{require, within};
 
@@ -69,9 +70,6 @@ pub struct FailuresArguments {
     pub format: Format,
 }
 
-const TABLE: &str = "failures.csv";
-const MAPS: &str = "failures.json";
-
 /// Runs the atlas, draws it and says what came out.
 ///
 /// # Errors
@@ -81,45 +79,26 @@ pub fn run(arguments: &FailuresArguments) -> Result<(), Failure> {
     check(arguments)?;
     let views = views(arguments)?;
     let families = families(&arguments.method)?;
-    let pages: Vec<String> = views
-        .iter()
-        .map(|view| format!("{}.svg", view.name))
-        .collect();
-    let mut names: Vec<&str> = pages.iter().map(String::as_str).collect();
-    names.extend([TABLE, MAPS]);
-    let folder = Folder::open(&arguments.output, &names)?;
-    let atlases = atlases(arguments, views, &families)?;
-    for (atlas, page) in atlases.iter().zip(&pages) {
-        folder.stage(page, page::page(atlas).as_bytes())?;
-    }
-    folder.stage(TABLE, &report::table(&atlases)?)?;
-    let report = FailuresReport::new(&atlases, &names, &folder);
-    let json = output::json(&report)?;
-    folder.stage(MAPS, json.as_bytes())?;
-    folder.commit(&names)?;
-    output::print(&match arguments.format {
-        Format::Json => json,
-        Format::Text => report.text(),
-    })
-}
-
-/// All pages of the atlas.
-fn atlases(
-    arguments: &FailuresArguments,
-    views: Vec<View>,
-    families: &[Family],
-) -> Result<Vec<Atlas>, Failure> {
+    let pages = views.iter();
+    let pages = pages.map(|view| (format!("{}_svg", view.name), format!("{}.svg", view.name)));
+    let pages: Vec<(String, String)> = pages.collect();
+    let mut files = vec![("csv", "failures.csv"), ("json", "failures.json")];
+    files.extend(pages.iter().map(|(kind, name)| (&kind[..], &name[..])));
+    let export = Export::open(&arguments.output, &files)?;
     let axes = Axes::new(arguments.points);
     let columns = views.len() * axes.stiffness.len();
     let runs = columns * (1 + families.len() * axes.step.len());
     let progress = Progress::new(runs as u64, "runs");
-    views
-        .into_iter()
-        .map(|view| {
-            let axes = axes.clone();
-            Atlas::new(view, axes, families, arguments.tolerance, &progress)
-        })
-        .collect()
+    let mut atlases = Vec::new();
+    for (view, (page, _)) in views.into_iter().zip(&pages) {
+        let axes = axes.clone();
+        let atlas = Atlas::new(view, axes, &families, arguments.tolerance, &progress)?;
+        export.file(page, page::page(&atlas).as_bytes())?;
+        atlases.push(atlas);
+    }
+    drop(progress);
+    export.table("csv", &report::table(), report::runs(&atlases))?;
+    export.finish(&FailuresReport::new(&atlases), arguments.format)
 }
 
 fn check(arguments: &FailuresArguments) -> Result<(), Failure> {
@@ -136,13 +115,11 @@ fn views(arguments: &FailuresArguments) -> Result<Vec<View>, Failure> {
     let mut views = if arguments.scene.is_empty() {
         View::built_in()?
     } else {
-        let find = |place: &String| View::find(place);
-        arguments.scene.iter().map(find).collect::<Result<_, _>>()?
+        let found = arguments.scene.iter().map(|place| View::find(place));
+        found.collect::<Result<Vec<_>, _>>()?
     };
-    if let Some(periods) = arguments.periods {
-        views
-            .iter_mut()
-            .for_each(|view: &mut View| view.periods = periods);
+    for view in &mut views {
+        view.periods = arguments.periods.unwrap_or(view.periods);
     }
     for (index, view) in views.iter().enumerate() {
         if views[..index].iter().any(|other| other.name == view.name) {

@@ -3,78 +3,64 @@
 use crate::methods::Verdict;
 use serde::Serialize;
 
-use super::atlas::{Atlas, Map};
-use softstop_console::failure::Failure;
-use softstop_console::output::{self, Folder};
+use super::atlas::{Atlas, Column, Map};
+use softstop_console::column::{self, Units};
+use softstop_console::columns;
+use softstop_console::export::Report;
 
-/// A row of the table.
-#[derive(Debug, Serialize)]
-struct Row<'a> {
-    scene: &'a str,
-    scheme: &'a str,
-    events: &'a str,
-    #[serde(rename = "stiffness (N/m)")]
-    stiffness: f64,
-    #[serde(rename = "step (drive periods)")]
-    step: f64,
-    verdict: &'a str,
-    error: Option<f64>,
-    impacts: Option<usize>,
-    #[serde(rename = "true impacts")]
-    true_impacts: usize,
-}
+/// A run: its atlas and map, and the numbers of its stiffness and of its step.
+pub(super) type Run<'a> = (&'a Atlas, &'a Map, usize, usize);
 
-/// A row for each run.
-pub(super) fn table(atlases: &[Atlas]) -> Result<Vec<u8>, Failure> {
+/// All runs.
+pub(super) fn runs(atlases: &[Atlas]) -> impl Iterator<Item = Run<'_>> {
     let maps = atlases.iter();
     let maps = maps.flat_map(|atlas| atlas.maps.iter().map(move |map| (atlas, map)));
-    output::csv(maps.flat_map(|(atlas, map)| rows(atlas, map)))
+    maps.flat_map(|(atlas, map)| {
+        let steps = atlas.axes.step.len();
+        let all = 0..steps * atlas.axes.stiffness.len();
+        all.map(move |run| (atlas, map, run / steps, run % steps))
+    })
 }
 
-fn rows<'a>(atlas: &'a Atlas, map: &'a Map) -> Vec<Row<'a>> {
-    let columns = atlas.axes.stiffness.iter().zip(&atlas.columns);
-    let mut rows = Vec::new();
-    for ((stiffness, column), cells) in columns.zip(&map.columns) {
-        rows.extend(atlas.axes.step.iter().zip(cells).map(|(step, cell)| Row {
-            scene: &atlas.view.name,
-            scheme: map.family.title(),
-            events: map.family.row(),
-            stiffness: *stiffness,
-            step: *step,
-            verdict: cell.verdict.name(),
-            error: cell.error,
-            impacts: cell.impacts,
-            true_impacts: column.truth.impacts.len(),
-        }));
+/// The columns of the table.
+pub(super) fn table<'a>() -> [column::Column<Run<'a>>; 9] {
+    columns! { Run<'a>, it;
+        "scene" [None], "" => it.0.view.name.as_str();
+        "scheme" [None], "" => it.1.family.title();
+        "events" [None], "" => it.1.family.row();
+        "stiffness (N/m)" [None], "" => it.0.axes.stiffness[it.2];
+        "step (drive periods)" [None], "" => it.0.axes.step[it.3];
+        "verdict" [None], "" => it.1.columns[it.2][it.3].verdict.name();
+        "error" [None], "" => it.1.columns[it.2][it.3].error;
+        "impacts" [None], "" => it.1.columns[it.2][it.3].impacts;
+        "true impacts" [None], "" => it.0.columns[it.2].truth.impacts.len();
     }
-    rows
 }
 
 /// The atlas for programs.
-#[derive(Debug, Serialize)]
-pub(super) struct FailuresReport {
+#[derive(Serialize)]
+pub(super) struct FailuresReport<'a> {
     /// What the letters in the maps stand for.
     verdicts: Vec<Key>,
-    scenes: Vec<SceneReport>,
-    files: Vec<String>,
+    scenes: Vec<SceneReport<'a>>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Serialize)]
 struct Key {
     letter: char,
     name: &'static str,
 }
 
-#[derive(Debug, Serialize)]
-struct SceneReport {
-    name: String,
-    title: String,
+#[derive(Serialize)]
+struct SceneReport<'a> {
+    name: &'a str,
+    title: &'a str,
     periods: f64,
     tolerance: f64,
     /// In N/m.
-    stiffness: Vec<f64>,
+    stiffness: &'a [f64],
     /// In drive periods.
-    step: Vec<f64>,
+    step: &'a [f64],
     /// For each stiffness.
     true_impacts: Vec<usize>,
     /// For each stiffness, in drive periods.
@@ -82,120 +68,110 @@ struct SceneReport {
     /// For each stiffness a letter; `-` where the true motion is the exact method's own.
     exact: String,
     exact_largest_error: f64,
-    maps: Vec<MapReport>,
+    maps: Vec<MapReport<'a>>,
 }
 
-#[derive(Debug, Serialize)]
-struct MapReport {
+#[derive(Serialize)]
+struct MapReport<'a> {
     scheme: &'static str,
     events: &'static str,
     /// Of all runs, by verdict.
-    shares: Vec<f64>,
+    shares: [f64; 8],
     /// For each stiffness a letter for each step.
     map: Vec<String>,
     /// For each stiffness, in drive periods.
-    longest_stable_step: Vec<Option<f64>>,
+    longest_stable_step: &'a [Option<f64>],
 }
-
-/// Of [`Verdict::ALL`].
-const LETTERS: &[u8; 8] = b"CIWMEBSU";
 
 fn letter(verdict: Verdict) -> char {
-    char::from(LETTERS[verdict as usize])
+    // Of `Verdict::ALL`.
+    char::from(b"CIWMEBSU"[verdict as usize])
 }
 
-impl FailuresReport {
-    pub(super) fn new(atlases: &[Atlas], names: &[&str], folder: &Folder) -> Self {
+impl<'a> FailuresReport<'a> {
+    pub(super) fn new(atlases: &'a [Atlas]) -> Self {
         let key = |verdict: Verdict| Key {
             letter: letter(verdict),
             name: verdict.name(),
         };
-        let place = |name: &&str| folder.place(name).display().to_string();
         Self {
             verdicts: Verdict::ALL.into_iter().map(key).collect(),
             scenes: atlases.iter().map(SceneReport::new).collect(),
-            files: names.iter().map(place).collect(),
         }
-    }
-
-    /// The shares of all classes in per cent, and the files.
-    pub(super) fn text(&self) -> String {
-        let mut text: String = self.scenes.iter().map(SceneReport::text).collect();
-        for file in &self.files {
-            text.push_str(&format!("Written: {file}\n"));
-        }
-        text
     }
 }
 
-impl SceneReport {
-    fn new(atlas: &Atlas) -> Self {
-        let columns = &atlas.columns;
-        let exact = columns.iter().map(|column| column.exact);
+impl Report for FailuresReport<'_> {
+    fn text(&self) -> String {
+        self.scenes.iter().map(SceneReport::text).collect()
+    }
+}
+
+impl<'a> SceneReport<'a> {
+    fn new(atlas: &'a Atlas) -> Self {
+        let columns = atlas.columns.iter();
+        let exact = columns.clone().map(|column| column.exact);
+        let letters = exact.clone();
+        let letters = letters.map(|cell| cell.map_or('-', |cell| letter(cell.verdict)));
+        let impacts = |column: &Column| column.truth.impacts.len();
         Self {
-            name: atlas.view.name.clone(),
-            title: atlas.view.title.clone(),
+            name: &atlas.view.name,
+            title: &atlas.view.title,
             periods: atlas.view.periods,
             tolerance: atlas.tolerance,
-            stiffness: atlas.axes.stiffness.clone(),
-            step: atlas.axes.step.clone(),
-            true_impacts: columns
-                .iter()
-                .map(|column| column.truth.impacts.len())
-                .collect(),
-            shortest_contact: columns.iter().map(|column| column.contact).collect(),
-            exact: exact
-                .clone()
-                .map(|cell| cell.map_or('-', |cell| letter(cell.verdict)))
-                .collect(),
+            stiffness: &atlas.axes.stiffness,
+            step: &atlas.axes.step,
+            true_impacts: columns.clone().map(impacts).collect(),
+            shortest_contact: columns.map(|column| column.contact).collect(),
+            exact: letters.collect(),
             exact_largest_error: exact.filter_map(|cell| cell?.error).fold(0.0, f64::max),
             maps: atlas.maps.iter().map(MapReport::new).collect(),
         }
     }
 
+    /// The shares of all classes in per cent.
     fn text(&self) -> String {
-        let heads = [
-            "conv.", "inacc.", "count", "missed", "gain", "blow-up", "stuck", "unsuited",
-        ];
-        let heads: String = heads.iter().map(|head| format!("{head:>9}")).collect();
-        let mut text = format!("{} ({}): % of all runs\n", self.title, self.name);
-        text.push_str(&format!("  {:<37}{heads}\n", ""));
-        for map in &self.maps {
-            let name = format!("{}, {}", map.scheme, map.events);
-            let share = |share: &f64| format!("{:>9.1}", 100.0 * share);
-            let shares: String = map.shares.iter().map(share).collect();
-            text.push_str(&format!("  {name:<37}{shares}\n"));
-        }
+        let columns = columns! { MapReport<'_>, it;
+            "method" [None] Plain, "" => format!("{}, {}", it.scheme, it.events);
+            "conv." [None] Fixed(1), "" => 100.0 * it.shares[0];
+            "inacc." [None] Fixed(1), "" => 100.0 * it.shares[1];
+            "count" [None] Fixed(1), "" => 100.0 * it.shares[2];
+            "missed" [None] Fixed(1), "" => 100.0 * it.shares[3];
+            "gain" [None] Fixed(1), "" => 100.0 * it.shares[4];
+            "blow-up" [None] Fixed(1), "" => 100.0 * it.shares[5];
+            "stuck" [None] Fixed(1), "" => 100.0 * it.shares[6];
+            "unsuited" [None] Fixed(1), "" => 100.0 * it.shares[7];
+        };
         let count = |letter| self.exact.matches(letter).count();
-        let compared = self.exact.len() - count('-');
-        text.push_str(&format!(
-            "  exact: {} of {compared} converged, largest error {:.1e}",
-            count('C'),
+        let (right, untold) = (count('C'), count('-'));
+        let untold = match untold {
+            0 => String::new(),
+            _ => format!("; {untold} not compared with 67 digits"),
+        };
+        format!(
+            "{} ({}): % of all runs\n{}exact: {right} of {} converged, largest error {:.1e}{untold}\n\n",
+            self.title,
+            self.name,
+            column::text(&columns, &self.maps, &Units::SI),
+            self.exact.len() - count('-'),
             self.exact_largest_error
-        ));
-        if count('-') > 0 {
-            text.push_str(&format!("; {} not compared with 67 digits", count('-')));
-        }
-        text.push_str("\n\n");
-        text
+        )
     }
 }
 
-impl MapReport {
-    fn new(map: &Map) -> Self {
+impl<'a> MapReport<'a> {
+    fn new(map: &'a Map) -> Self {
         let verdicts = || map.columns.iter().flatten().map(|cell| cell.verdict);
         let all = verdicts().count() as f64;
         let share = |verdict| verdicts().filter(|other| *other == verdict).count() as f64 / all;
-        let letters = map
-            .columns
-            .iter()
-            .map(|cells| cells.iter().map(|cell| letter(cell.verdict)).collect());
+        let columns = map.columns.iter();
+        let letters = columns.map(|cells| cells.iter().map(|cell| letter(cell.verdict)).collect());
         Self {
             scheme: map.family.title(),
             events: map.family.row(),
-            shares: Verdict::ALL.into_iter().map(share).collect(),
+            shares: Verdict::ALL.map(share),
             map: letters.collect(),
-            longest_stable_step: map.limit.clone(),
+            longest_stable_step: &map.limit,
         }
     }
 }

@@ -45,7 +45,8 @@ impl View {
     /// # Errors
     /// [`Failure::Usage`] if one of their files does not describe a machine.
     pub fn built_in() -> Result<Vec<Self>, Failure> {
-        BUILT_IN.iter().map(Self::of).collect()
+        let names = BUILT_IN.iter().map(|known| known.name);
+        names.map(Self::find).collect()
     }
 
     /// The one of this name, or of the scene file at this path.
@@ -53,24 +54,11 @@ impl View {
     /// # Errors
     /// [`Failure::Usage`] if there is neither, or nothing to sweep.
     pub fn find(place: &str) -> Result<Self, Failure> {
-        match BUILT_IN.iter().find(|known| known.name == place) {
-            Some(known) => Self::of(known),
-            None => Self::read(place),
-        }
-    }
-
-    fn of(known: &BuiltIn) -> Result<Self, Failure> {
-        Ok(Self {
-            name: known.name.to_owned(),
-            title: known.title.to_owned(),
-            file: known.file()?,
-            settling: known.name == PRESSED,
-            periods: known.periods,
-        })
-    }
-
-    fn read(place: &str) -> Result<Self, Failure> {
-        let (name, file) = scenes::read(place, &BUILT_IN)?;
+        let known = BUILT_IN.iter().find(|known| known.name == place);
+        let (name, file) = match known {
+            Some(known) => (place.to_owned(), known.file()?),
+            None => scenes::read(place, &BUILT_IN)?,
+        };
         if with_stiffness(&file.scene.stop, 1.0).is_none() {
             return Err(Failure::usage(format!(
                 "{place}: stop.model: must have a stiffness to sweep: kelvinVoigt, piecewiseLinear, hertz or \
@@ -78,11 +66,11 @@ impl View {
             )));
         }
         Ok(Self {
-            title: name.clone(),
+            title: known.map_or(name.clone(), |known| known.title.to_owned()),
             name,
             file,
-            settling: false,
-            periods: PERIODS,
+            settling: place == PRESSED,
+            periods: known.map_or(PERIODS, |known| known.periods),
         })
     }
 
@@ -90,15 +78,11 @@ impl View {
     pub fn task(&self, stiffness: f64) -> Task {
         let scene = &self.file.scene;
         let stop = with_stiffness(&scene.stop, stiffness);
-        Task {
-            scene: Scene {
-                stop: stop.unwrap_or_else(|| scene.stop.clone()),
-                ..scene.clone()
-            },
-            start: self.start(stiffness),
-            periods: self.periods,
-            most_steps: u64::MAX,
-        }
+        let scene = Scene {
+            stop: stop.unwrap_or_else(|| scene.stop.clone()),
+            ..scene.clone()
+        };
+        Task::new(scene, self.start(stiffness), self.periods, u64::MAX)
     }
 
     fn start(&self, stiffness: f64) -> Start {
@@ -106,12 +90,8 @@ impl View {
         let scene = &self.file.scene;
         let load = -scene.stiffness * scene.clearance;
         let carried = load / (scene.stiffness + stiffness);
-        let depth = if self.settling {
-            SETTLED * carried
-        } else {
-            0.0
-        };
-        Start::new(position + depth, velocity)
+        let share = if self.settling { SETTLED } else { 0.0 };
+        Start::new(position + share * carried, velocity)
     }
 }
 
@@ -162,14 +142,9 @@ pub fn shortest_contact(task: &Task) -> Result<Option<f64>, MotionError> {
     let arcs = &trajectory.arcs;
     let contacts = arcs.split(|arc| arc.kind == PhaseKind::Free);
     // The first and the last group touch the ends of the run: they may be parts of contacts.
-    let groups: Vec<f64> = contacts
-        .map(|contact| contact.iter().map(|arc| arc.duration).sum())
-        .collect();
+    let groups = contacts.map(|contact| contact.iter().map(|arc| arc.duration).sum());
+    let groups: Vec<f64> = groups.collect();
     let inner = groups.get(1..groups.len().saturating_sub(1));
-    Ok(inner
-        .unwrap_or_default()
-        .iter()
-        .copied()
-        .filter(|duration| *duration > 0.0)
-        .min_by(f64::total_cmp))
+    let inner = inner.unwrap_or_default().iter().copied();
+    Ok(inner.filter(|it| *it > 0.0).min_by(f64::total_cmp))
 }

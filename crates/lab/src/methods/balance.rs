@@ -42,26 +42,20 @@ impl Balance {
                 return Err(MethodError::BlownUp { time: self.time });
             }
             if slope <= 0.0 {
-                return Err(machine.stuck(
-                    self.time,
-                    "the implicit equation does not determine the step",
-                ));
+                let reason = "the implicit equation does not determine the step";
+                return Err(machine.stuck(self.time, reason));
             }
             let next = at - value / slope;
             if value.abs() <= TOLERANCE * size || next == at {
                 return Ok(next);
             }
-            if value > 0.0 {
-                high = at;
-            } else {
-                low = at;
+            match value > 0.0 {
+                true => high = at,
+                false => low = at,
             }
             let middle = 0.5 * (low + high);
-            at = if low < next && next < high {
-                next
-            } else {
-                middle
-            };
+            let is_inside = low < next && next < high;
+            at = if is_inside { next } else { middle };
             if at <= low || at >= high || slope * (high - low) <= TOLERANCE * size {
                 return Ok(middle);
             }

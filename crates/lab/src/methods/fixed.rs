@@ -2,7 +2,7 @@
 
 use super::ignored::{self, Places};
 use super::located::Located;
-use super::machine::{Laws, Machine, State, in_range, prepare};
+use super::machine::{Laws, Machine, State, in_range};
 use super::scheme::Scheme;
 use super::step::Step;
 use super::{Integrator, MethodError, Solution, Task};
@@ -47,23 +47,19 @@ pub struct FixedStep {
 }
 
 impl FixedStep {
-    /// Every scheme of [`Scheme::ALL`], each with events ignored and located.
-    pub fn all(step: f64) -> Vec<Self> {
-        let both = |scheme| {
-            Events::ALL.map(|events| Self {
-                scheme,
-                step,
-                events,
-            })
-        };
-        Scheme::ALL.into_iter().flat_map(both).collect()
+    /// A scheme with steps of a length in s.
+    pub const fn new(scheme: Scheme, step: f64, events: Events) -> Self {
+        Self {
+            scheme,
+            step,
+            events,
+        }
     }
 
-    fn check(&self) -> Result<(), MethodError> {
-        match self.scheme.out_of_range() {
-            Some((name, value)) => in_range(name, value, false, "in [0, 1]"),
-            None => Ok(()),
-        }
+    /// Every scheme of [`Scheme::ALL`], each with events ignored and located.
+    pub fn all(step: f64) -> Vec<Self> {
+        let both = |scheme| Events::ALL.map(|events| Self::new(scheme, step, events));
+        Scheme::ALL.into_iter().flat_map(both).collect()
     }
 }
 
@@ -74,25 +70,22 @@ impl Integrator for FixedStep {
     }
 
     fn integrate(&self, task: &Task) -> Result<Solution, MethodError> {
-        self.check()?;
-        let prepared = prepare(task, self.step)?;
-        let mut machine = Machine::new(task, &prepared.phases);
+        if let Some((name, value)) = self.scheme.out_of_range() {
+            in_range(name, value, false, "in [0, 1]")?;
+        }
+        let mut machine = Machine::new(task, self.step)?;
         let start = Step {
             scheme: self.scheme,
             laws: Laws::All,
             time: 0.0,
-            from: State {
-                position: task.start.position,
-                velocity: task.start.velocity,
-                acceleration: 0.0,
-            },
+            from: State::of(task.start),
         };
         let end = match self.events {
             Events::Ignored => {
                 let places = Places::of(task, &machine);
-                ignored::run(&mut machine, places, prepared.steps, start)?
+                ignored::run(&mut machine, places, start)?
             }
-            Events::Located => Located::new(&mut machine, task, start).run(prepared.steps)?,
+            Events::Located => Located::new(&mut machine, task, start).run()?,
         };
         Ok(machine.finish(end))
     }

@@ -1,6 +1,6 @@
 //! Steps on a fixed grid that take the law as it is where the state is, whatever they step over.
 
-use super::machine::{Machine, State, Steps};
+use super::machine::{Machine, State};
 use super::rise::{Fineness, Probe, rise};
 use super::step::Step;
 use super::{MethodError, Task};
@@ -36,27 +36,28 @@ impl Places {
 pub(super) fn run(
     machine: &mut Machine,
     places: Places,
-    steps: Steps,
     start: Step,
 ) -> Result<State, MethodError> {
-    let mut state = start.restarted(machine);
+    let mut from = start.restarted(machine);
+    let steps = machine.steps;
     for index in 0..steps.count {
         let (time, next) = (steps.time(index), steps.time(index + 1));
         let step = Step {
             time,
-            from: state,
+            from,
             ..start
         };
-        let to = step.taken(machine, next - time)?;
+        let length = next - time;
+        let to = step.taken(machine, length)?;
         let span = Span {
             time,
-            length: next - time,
-            from: state,
+            length,
+            from,
             to,
         };
-        state = span.land(machine, places, &step)?;
+        from = span.land(machine, places, &step);
     }
-    Ok(state)
+    Ok(from)
 }
 
 /// A step that has been made.
@@ -68,42 +69,29 @@ pub(super) struct Span {
 }
 
 impl Span {
-    fn land(
-        &self,
-        machine: &mut Machine,
-        places: Places,
-        step: &Step,
-    ) -> Result<State, MethodError> {
+    fn land(&self, machine: &mut Machine, places: Places, step: &Step) -> State {
         let hit = places.wall.filter(|wall| self.to.position > wall.position);
         if !places.wall_is_clearance() {
             self.note_passing(machine, places);
         }
-        let Some(Wall {
-            position: wall,
-            restitution,
-        }) = hit
-        else {
-            return Ok(self.to);
+        let Some(wall) = hit else {
+            return self.to;
         };
         if places.wall_is_clearance() {
-            machine.impacts.push(self.impact_at(wall));
+            machine.impacts.push(self.impact_at(wall.position));
         }
-        let velocity = self.to.velocity;
-        let landed = State {
-            position: wall,
-            velocity: if velocity > 0.0 {
-                -restitution * velocity
-            } else {
-                velocity
-            },
-            ..self.to
+        let (_, velocity, acceleration) = self.to.parts();
+        let back = if velocity > 0.0 {
+            -wall.restitution
+        } else {
+            1.0
         };
         let restart = Step {
             time: self.time + self.length,
-            from: landed,
+            from: State::new(wall.position, back * velocity, acceleration),
             ..*step
         };
-        Ok(restart.restarted(machine))
+        restart.restarted(machine)
     }
 
     /// Counts an impact if the clearance is passed onwards between both ends.
@@ -118,7 +106,7 @@ impl Span {
     fn impact_at(&self, position: f64) -> Impact {
         let probe = |share: f64| {
             let (x, velocity) = self.cubic(share);
-            (x - position, velocity)
+            Ok::<_, std::convert::Infallible>((x - position, velocity))
         };
         let end = |at: f64, state: &State| Probe {
             at,
@@ -136,9 +124,7 @@ impl Span {
             width: f64::EPSILON,
             value: f64::EPSILON * position.abs(),
         };
-        let tried = rise(low, high, fine, |share| {
-            Ok::<_, std::convert::Infallible>(probe(share))
-        });
+        let tried = rise(low, high, fine, probe);
         let Probe { at, what, .. } = tried.unwrap_or(high);
         Impact {
             time: self.time + at * self.length,

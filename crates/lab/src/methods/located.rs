@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::machine::{Laws, Machine, State, Steps};
+use super::machine::{Laws, Machine, State};
 use super::rise::{Fineness, Probe, rise};
 use super::step::Step;
 use super::{MethodError, Task};
@@ -14,24 +14,20 @@ const HALVINGS: u32 = 60;
 
 /// A motion under way, from crossing to crossing.
 pub(super) struct Located<'a, 'b> {
-    machine: &'a mut Machine<'b>,
+    machine: &'a mut Machine,
     walk: Walk<'b>,
     /// The present step's start.
     at: Step,
 }
 
-/// A guard that has risen, and where.
-#[derive(Clone, Copy)]
-struct Risen {
-    guard: usize,
-    elapsed: f64,
-    state: State,
-}
+/// A guard that has risen, after how long, and the state there.
+type Risen = (usize, f64, State);
 
 impl<'a, 'b> Located<'a, 'b> {
-    pub fn new(machine: &'a mut Machine<'b>, task: &'b Task, start: Step) -> Self {
+    pub fn new(machine: &'a mut Machine, task: &'b Task, start: Step) -> Self {
+        let phases = Cow::Owned(machine.phases.clone());
         let mut motion = Self {
-            walk: Walk::through(&task.scene, task.start, Cow::Borrowed(machine.phases)),
+            walk: Walk::through(&task.scene, task.start, phases),
             machine,
             at: start,
         };
@@ -39,7 +35,8 @@ impl<'a, 'b> Located<'a, 'b> {
         motion
     }
 
-    pub fn run(mut self, steps: Steps) -> Result<State, MethodError> {
+    pub fn run(mut self) -> Result<State, MethodError> {
+        let steps = self.machine.steps;
         for index in 1..=steps.count {
             let until = steps.time(index);
             while self.at.time < until {
@@ -53,15 +50,14 @@ impl<'a, 'b> Located<'a, 'b> {
     /// One step to `until`, or to the first crossing before.
     fn advance(&mut self, until: f64) -> Result<(), MethodError> {
         let span = until - self.at.time;
-        let risen = if self.walk.index().is_some() {
-            let to = self.at.taken(self.machine, span)?;
-            let risen = self.first_rise(span, to)?;
-            if risen.is_none() {
-                self.at.from = to;
+        let risen = match self.walk.index() {
+            Some(_) => {
+                let to = self.at.taken(self.machine, span)?;
+                let risen = self.first_rise(span, to)?;
+                self.at.from = risen.map_or(to, |_| self.at.from);
+                risen
             }
-            risen
-        } else {
-            self.first_release(span)?
+            None => self.first_release(span)?,
         };
         match risen {
             Some(risen) => self.cross(risen),
@@ -77,34 +73,28 @@ impl<'a, 'b> Located<'a, 'b> {
         let mut end = (span, to);
         let mut first = None;
         for (guard, law) in self.walk.guards().iter().enumerate() {
-            let start = value(law, &self.at.from);
-            let noise = if start >= 0.0 {
+            let value = |state: &State| law.value(state.position, state.velocity);
+            let begins_above = value(&self.at.from) >= 0.0;
+            let noise = if begins_above {
                 self.noise(law, &end)
             } else {
                 0.0
             };
-            if value(law, &end.1) <= noise {
+            if value(&end.1) <= noise {
                 continue;
             }
             let at = self.at;
-            let machine = &mut *self.machine;
-            let mut probe = |elapsed: f64| {
-                let state = at.taken(machine, elapsed)?;
-                Ok((value(law, &state), state))
-            };
-            let ends = [(0.0, at.from), end].map(|(at, state)| Probe {
+            let ends = [(0.0, at.from), end].map(|(at, what)| Probe {
                 at,
-                value: value(law, &state),
-                what: state,
+                value: value(&what),
+                what,
             });
-            let rounding = 2.0 * f64::EPSILON * law.level.abs();
-            let found = locate(ends, rounding, &mut probe)?;
+            let found = locate(ends, law, |elapsed| {
+                let state = at.taken(self.machine, elapsed)?;
+                Ok((value(&state), state))
+            })?;
             end = (found.at, found.what);
-            first = Some(Risen {
-                guard,
-                elapsed: found.at,
-                state: found.what,
-            });
+            first = Some((guard, found.at, found.what));
         }
         Ok(first)
     }
@@ -141,34 +131,22 @@ impl<'a, 'b> Located<'a, 'b> {
                 value,
                 what: (),
             });
-            let rounding = 2.0 * f64::EPSILON * law.level.abs();
-            end = locate(ends, rounding, &mut probe)?.at;
-            first = Some(Risen {
-                guard,
-                elapsed: end,
-                state: from,
-            });
+            end = locate(ends, law, probe)?.at;
+            first = Some((guard, end, from));
         }
         Ok(first)
     }
 
-    fn cross(&mut self, risen: Risen) -> Result<(), MethodError> {
-        let State {
-            position,
-            velocity,
-            acceleration,
-        } = risen.state;
-        let time = self.at.time + risen.elapsed;
-        let crossed = self
-            .walk
-            .cross(risen.guard, time, Start::new(position, velocity));
+    fn cross(&mut self, (guard, elapsed, state): Risen) -> Result<(), MethodError> {
+        let (position, velocity, acceleration) = state.parts();
+        let time = self.at.time + elapsed;
+        let before = Start::new(position, velocity);
+        let crossed = self.walk.cross(guard, time, before);
         crossed.map_err(|error| MethodError::from(error).after(self.machine.work.steps))?;
-        let Start { position, velocity } = self.walk.state();
         self.at.time = time;
         self.at.from = State {
-            position,
-            velocity,
             acceleration,
+            ..State::of(self.walk.state())
         };
         self.depart();
         Ok(())
@@ -183,16 +161,12 @@ impl<'a, 'b> Located<'a, 'b> {
     }
 }
 
-fn value(guard: &Guard, state: &State) -> f64 {
-    guard.value(state.position, state.velocity)
-}
-
-/// Where a function rises through zero between two ends, the later one above zero. If it begins on zero, it is
+/// Where a guard rises through zero between two ends, the later one above zero. If it begins on zero, it is
 /// taken to dip below first; if no dip is found, it rises at once.
 fn locate<T: Copy>(
     [mut low, mut high]: [Probe<T>; 2],
-    rounding: f64,
-    probe: &mut impl FnMut(f64) -> Result<(f64, T), MethodError>,
+    law: &Guard,
+    mut probe: impl FnMut(f64) -> Result<(f64, T), MethodError>,
 ) -> Result<Probe<T>, MethodError> {
     let (begin, width) = (low, high.at);
     let mut halvings = 0;
@@ -204,12 +178,12 @@ fn locate<T: Copy>(
         let at = 0.5 * high.at;
         let (value, what) = probe(at)?;
         let tried = Probe { at, value, what };
-        if value < 0.0 {
-            low = tried;
-        } else {
-            high = tried;
+        match value < 0.0 {
+            true => low = tried,
+            false => high = tried,
         }
     }
+    let rounding = 2.0 * f64::EPSILON * law.level.abs();
     let fine = Fineness {
         width: 2.0 * f64::EPSILON * width,
         value: rounding.max(f64::EPSILON * (high.value - low.value)),

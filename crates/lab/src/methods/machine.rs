@@ -2,7 +2,7 @@
 
 use super::{MethodError, Solution, Task, Work};
 use softstop::internals::Phases;
-use softstop::{Impact, MotionError, SceneError};
+use softstop::{Impact, MotionError, SceneError, Start};
 
 /// Which law of force a step goes by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,24 +26,39 @@ pub(super) struct State {
 }
 
 impl State {
-    pub fn is_finite(&self) -> bool {
-        self.position.abs() <= FARTHEST && self.velocity.is_finite()
+    pub const fn new(position: f64, velocity: f64, acceleration: f64) -> Self {
+        Self {
+            position,
+            velocity,
+            acceleration,
+        }
+    }
+
+    pub const fn of(start: Start) -> Self {
+        Self::new(start.position, start.velocity, 0.0)
+    }
+
+    pub const fn parts(self) -> (f64, f64, f64) {
+        (self.position, self.velocity, self.acceleration)
+    }
+
+    /// The same state, unless it left all bounds in a step from this time on.
+    pub fn bounded(self, time: f64) -> Result<Self, MethodError> {
+        match self.position.abs() <= FARTHEST && self.velocity.is_finite() {
+            true => Ok(self),
+            false => Err(MethodError::BlownUp { time }),
+        }
     }
 }
 
-/// Forces, and counts of what was asked.
-pub(super) struct Machine<'a> {
-    pub phases: &'a Phases,
+/// Forces and steps, and counts of what was asked.
+pub(super) struct Machine {
+    pub phases: Phases,
+    pub steps: Steps,
     pub work: Work,
     pub impacts: Vec<Impact>,
     angle: f64,
     most_steps: u64,
-}
-
-/// The first part of a run, before any step.
-pub(super) struct Prepared {
-    pub phases: Phases,
-    pub steps: Steps,
 }
 
 /// A duration divided into equal steps.
@@ -56,20 +71,11 @@ pub(super) struct Steps {
 impl Steps {
     /// The least number of equal steps that are no longer than `longest` but by rounding.
     fn new(task: &Task, longest: f64) -> Result<Self, MethodError> {
-        let duration = task.duration();
-        if !(duration >= 0.0 && duration.is_finite()) {
-            let (until, present) = (duration, 0.0);
-            return Err(MotionError::TimeBackwards { until, present }.into());
-        }
+        let duration = task.until()?;
         let count = (duration / longest * (1.0 - 1e-12)).ceil();
         if count > task.most_steps as f64 {
             let reason = format!("{count} steps are needed, {} are allowed", task.most_steps);
-            let (time, steps) = (0.0, 0);
-            return Err(MethodError::Stuck {
-                time,
-                steps,
-                reason,
-            });
+            return Err(MethodError::stuck(0.0, 0, reason));
         }
         let count = count as u64;
         Ok(Self { duration, count })
@@ -83,22 +89,6 @@ impl Steps {
             self.duration * (index as f64 / self.count as f64)
         }
     }
-}
-
-/// Checks a task and a step, and lowers the scene.
-pub(super) fn prepare(task: &Task, step: f64) -> Result<Prepared, MethodError> {
-    in_range(
-        "step",
-        step,
-        step.is_finite() && step > 0.0,
-        "finite and > 0",
-    )?;
-    // A motion refuses all that is wrong with a scene and a start.
-    task.scene.motion(task.start)?;
-    Ok(Prepared {
-        phases: task.scene.phases(),
-        steps: Steps::new(task, step)?,
-    })
 }
 
 /// Refuses a setting that is not as `allowed`.
@@ -119,15 +109,21 @@ pub(crate) fn in_range(
     Err(MotionError::Scene(error).into())
 }
 
-impl<'a> Machine<'a> {
-    pub fn new(task: &Task, phases: &'a Phases) -> Self {
-        Self {
-            phases,
+impl Machine {
+    /// A task's, whose steps are no longer than this; refuses what makes no sense.
+    pub fn new(task: &Task, step: f64) -> Result<Self, MethodError> {
+        let holds = step.is_finite() && step > 0.0;
+        in_range("step", step, holds, "finite and > 0")?;
+        // A motion refuses all that is wrong with a scene and a start.
+        task.scene.motion(task.start)?;
+        Ok(Self {
+            phases: task.scene.phases(),
+            steps: Steps::new(task, step)?,
             work: Work::default(),
             impacts: Vec::new(),
             angle: task.scene.excitation.phase,
             most_steps: task.most_steps,
-        }
+        })
     }
 
     /// Push of the drive per mass in m/s^2.
@@ -174,11 +170,7 @@ impl<'a> Machine<'a> {
     }
 
     pub fn stuck(&self, time: f64, reason: &str) -> MethodError {
-        MethodError::Stuck {
-            time,
-            steps: self.work.steps,
-            reason: reason.to_owned(),
-        }
+        MethodError::stuck(time, self.work.steps, reason)
     }
 
     pub fn finish(self, end: State) -> Solution {

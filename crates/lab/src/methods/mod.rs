@@ -28,7 +28,6 @@ use thiserror::Error;
 
 use softstop::MotionError;
 pub use softstop::internals::Evaluations as Work;
-use softstop::internals::Walk;
 use softstop::{Impact, Scene, Start};
 
 /// A motion to be computed, from time 0 on.
@@ -45,26 +44,28 @@ pub struct Task {
 }
 
 impl Task {
+    /// A motion from time 0 over drive periods, after so many steps at most.
+    pub const fn new(scene: Scene, start: Start, periods: f64, most_steps: u64) -> Self {
+        Self {
+            scene,
+            start,
+            periods,
+            most_steps,
+        }
+    }
+
     /// Time to cover, in s.
     pub fn duration(&self) -> f64 {
         self.periods * self.scene.period()
     }
 
-    /// The motion, to be walked from phase to phase.
-    ///
-    /// # Errors
-    /// [`MethodError::Task`] if the scene, the start or the duration make no sense.
-    pub fn walk(&self) -> Result<Walk<'_>, MethodError> {
-        let walk = Walk::new(&self.scene, self.start)?;
-        let until = self.duration();
+    /// The same, of a task that makes sense.
+    pub(crate) fn until(&self) -> Result<f64, MethodError> {
+        let (until, present) = (self.duration(), 0.0);
         if until >= 0.0 && until.is_finite() {
-            return Ok(walk);
+            return Ok(until);
         }
-        let present = 0.0;
-        Err(MethodError::Task(MotionError::TimeBackwards {
-            until,
-            present,
-        }))
+        Err(MotionError::TimeBackwards { until, present }.into())
     }
 }
 
@@ -115,25 +116,27 @@ impl From<MotionError> for MethodError {
     fn from(error: MotionError) -> Self {
         match error {
             MotionError::Unbounded { time, .. } => Self::BlownUp { time },
-            MotionError::Stalled { time, .. } => Self::Stuck {
-                time,
-                steps: 0,
-                reason: error.to_string(),
-            },
+            MotionError::Stalled { time, .. } => Self::stuck(time, 0, error.to_string()),
             other => Self::Task(other),
         }
     }
 }
 
 impl MethodError {
+    /// It does not get on from this time, after so many steps.
+    pub(crate) fn stuck(time: f64, steps: u64, reason: impl Into<String>) -> Self {
+        let reason = reason.into();
+        Self::Stuck {
+            time,
+            steps,
+            reason,
+        }
+    }
+
     /// The same, said by a method that had made so many steps.
     pub fn after(self, steps: u64) -> Self {
         match self {
-            Self::Stuck { time, reason, .. } => Self::Stuck {
-                time,
-                steps,
-                reason,
-            },
+            Self::Stuck { time, reason, .. } => Self::stuck(time, steps, reason),
             other => other,
         }
     }

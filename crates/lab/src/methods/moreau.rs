@@ -2,7 +2,7 @@
 
 use super::balance::Balance;
 use super::ignored::{Places, Span};
-use super::machine::{Laws, Machine, State, Steps, in_range, prepare};
+use super::machine::{Laws, Machine, State, in_range};
 use super::{Integrator, MethodError, Solution, Task};
 use softstop::{Impact, Wall};
 
@@ -34,119 +34,73 @@ impl Integrator for Moreau {
     fn integrate(&self, task: &Task) -> Result<Solution, MethodError> {
         let allowed = (0.0..=1.0).contains(&self.theta);
         in_range("theta", self.theta, allowed, "in [0, 1]")?;
-        let prepared = prepare(task, self.step)?;
-        let mut machine = Machine::new(task, &prepared.phases);
+        let mut machine = Machine::new(task, self.step)?;
         let places = Places::of(task, &machine);
         let Some(wall) = places.wall else {
+            let reason =
+                "the scene has no rigid stop, and without one there is no impulse to step over";
             return Err(MethodError::Unsuited {
                 method: self.name(),
-                reason:
-                    "the scene has no rigid stop, and without one there is no impulse to step over"
-                        .to_owned(),
+                reason: reason.to_owned(),
             });
         };
-        let stepping = Stepping {
-            theta: self.theta,
-            places,
-            wall,
-        };
-        let end = stepping.run(&mut machine, prepared.steps, task)?;
-        Ok(machine.finish(end))
-    }
-}
-
-struct Stepping {
-    theta: f64,
-    places: Places,
-    wall: Wall,
-}
-
-impl Stepping {
-    fn run(&self, machine: &mut Machine, steps: Steps, task: &Task) -> Result<State, MethodError> {
-        let (position, velocity) = (task.start.position, task.start.velocity);
-        let mut state = State {
-            position,
-            velocity,
-            acceleration: 0.0,
-        };
-        let mut was_pushed = false;
+        let (mut from, mut was_pushed) = (State::of(task.start), false);
+        let steps = machine.steps;
         for index in 0..steps.count {
             let time = steps.time(index);
-            let h = steps.time(index + 1) - time;
+            let length = steps.time(index + 1) - time;
             machine.count_step(time)?;
-            let (to, is_pushed) = self.step(machine, time, h, &state)?;
-            if !to.is_finite() {
-                return Err(MethodError::BlownUp { time });
-            }
+            let (to, is_pushed) = self.step(&mut machine, wall, time, length, from)?;
             let span = Span {
                 time,
-                length: h,
-                from: state,
-                to,
+                length,
+                from,
+                to: to.bounded(time)?,
             };
-            self.note(machine, &span, is_pushed && !was_pushed);
-            (state, was_pushed) = (to, is_pushed);
+            if !places.wall_is_clearance() {
+                span.note_passing(&mut machine, places);
+            } else if is_pushed && !was_pushed && from.velocity > 0.0 {
+                let ahead = (wall.position - from.position) / from.velocity;
+                machine.impacts.push(Impact {
+                    time: time + ahead.clamp(0.0, length),
+                    velocity: from.velocity,
+                });
+            }
+            (from, was_pushed) = (to, is_pushed);
         }
-        Ok(state)
+        Ok(machine.finish(from))
     }
+}
 
+impl Moreau {
     /// The end of a step, and whether the stop has given an impulse.
     fn step(
         &self,
         machine: &mut Machine,
+        wall: Wall,
         time: f64,
         h: f64,
-        from: &State,
+        from: State,
     ) -> Result<(State, bool), MethodError> {
-        let State {
-            position,
-            velocity,
-            acceleration: guess,
-        } = *from;
+        let (position, velocity, guess) = from.parts();
         let theta = self.theta;
         let before = machine.acceleration(Laws::All, time, position, velocity);
         let gained = (1.0 - theta) * h * before;
+        let along = position + h * (velocity + theta * gained);
         let balance = Balance {
             laws: Laws::All,
             time: time + h,
-            position: (
-                position + h * (velocity + theta * gained),
-                theta * theta * h * h,
-            ),
+            position: (along, theta * theta * h * h),
             velocity: (velocity + gained, theta * h),
             inertia: (0.0, 1.0),
         };
         let acceleration = balance.solve(machine, guess)?;
         let free = velocity + gained + theta * h * acceleration;
-        let Wall {
-            position: wall,
-            restitution,
-        } = self.wall;
-        let touches = position + 0.5 * h * velocity >= wall;
-        let pushed = touches && free > -restitution * velocity;
-        let reached = if pushed {
-            -restitution * velocity
-        } else {
-            free
-        };
-        let to = State {
-            position: position + h * (theta * reached + (1.0 - theta) * velocity),
-            velocity: reached,
-            acceleration,
-        };
-        Ok((to, pushed))
-    }
-
-    fn note(&self, machine: &mut Machine, span: &Span, is_hit: bool) {
-        let from = &span.from;
-        if !self.places.wall_is_clearance() {
-            span.note_passing(machine, self.places);
-        } else if is_hit && from.velocity > 0.0 {
-            let ahead = (self.wall.position - from.position) / from.velocity;
-            machine.impacts.push(Impact {
-                time: span.time + ahead.clamp(0.0, span.length),
-                velocity: from.velocity,
-            });
-        }
+        let back = -wall.restitution * velocity;
+        let touches = position + 0.5 * h * velocity >= wall.position;
+        let pushed = touches && free > back;
+        let reached = if pushed { back } else { free };
+        let moved = position + h * (theta * reached + (1.0 - theta) * velocity);
+        Ok((State::new(moved, reached, acceleration), pushed))
     }
 }

@@ -75,14 +75,8 @@ impl Scheme {
         match self {
             Self::ExplicitEuler | Self::SemiImplicitEuler => 1,
             Self::RungeKutta4 => 4,
-            Self::ImplicitMidpoint | Self::GeneralisedAlpha { .. } => 2,
-            Self::Newmark { gamma, .. } => {
-                if *gamma == 0.5 {
-                    2
-                } else {
-                    1
-                }
-            }
+            Self::Newmark { gamma, .. } if *gamma != 0.5 => 1,
+            Self::ImplicitMidpoint | Self::Newmark { .. } | Self::GeneralisedAlpha { .. } => 2,
         }
     }
 

@@ -128,16 +128,11 @@ impl<'a> Judge<'a> {
         let scene = &self.task.scene;
         let (position, velocity) = solution.end;
         let end = (self.task.duration(), Start::new(position, velocity));
-        let struck = solution.impacts.iter().map(|impact| {
-            let position = scene.clearance;
-            let velocity = impact.velocity;
-            (impact.time, Start::new(position, velocity))
-        });
+        let struck = solution.impacts.iter();
+        let struck = struck.map(|it| (it.time, Start::new(scene.clearance, it.velocity)));
         let rise = scene.excitation.amplitude / scene.mass;
-        struck
-            .chain([end])
-            .map(|(time, state)| ratio(worth(scene, state), self.first_speed + rise * time))
-            .fold(0.0, f64::max)
+        let excess = |(time, state)| ratio(worth(scene, state), self.first_speed + rise * time);
+        struck.chain([end]).map(excess).fold(0.0, f64::max)
     }
 
     /// What is wrong with the impacts, if their times do not pair off with the true ones. Each true impact
@@ -174,10 +169,9 @@ fn norm(scene: &Scene, (position, velocity): (f64, f64)) -> f64 {
 /// if the numbers are not finite.
 fn worth(scene: &Scene, state: Start) -> f64 {
     let wall = scene.wall().map_or(f64::INFINITY, |wall| wall.position);
-    let position = if state.position > wall {
-        wall
-    } else {
-        state.position
+    let position = match state.position > wall {
+        true => wall,
+        false => state.position,
     };
     match scene.motion(Start { position, ..state }) {
         Ok(motion) => (2.0 * mechanical_energy(scene, &motion).max(0.0) / scene.mass).sqrt(),
@@ -193,16 +187,12 @@ fn ratio(part: f64, whole: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::methods::{Exact, Integrator, Work};
+    use crate::methods::{Exact, Integrator};
     use softstop::Ratios;
 
     fn task() -> Task {
-        Task {
-            scene: Ratios::unloaded().scene().expect("the paper's machine"),
-            start: Start::new(0.0, 14.0),
-            periods: 3.0,
-            most_steps: 1_000_000,
-        }
+        let scene = Ratios::unloaded().scene().expect("the paper's machine");
+        Task::new(scene, Start::new(0.0, 14.0), 3.0, 1_000_000)
     }
 
     /// The verdict on the true motion after a change.
@@ -252,19 +242,14 @@ mod tests {
         let task = task();
         let truth = Solution::default();
         let judge = Judge::new(&task, &truth, 0.01);
-        let unsuited = MethodError::Unsuited {
-            method: "a".to_owned(),
-            reason: "b".to_owned(),
-        };
-        let stuck = MethodError::Stuck {
-            time: 0.0,
-            steps: 3,
-            reason: "c".to_owned(),
-        };
-        assert_eq!(judge.verdict(&Err(unsuited)), Verdict::Unsuited);
-        assert_eq!(judge.verdict(&Err(stuck)), Verdict::Stuck);
-        let blown_up = MethodError::BlownUp { time: 1.0 };
-        assert_eq!(judge.verdict(&Err(blown_up)), Verdict::BlownUp);
+        let (method, reason) = ("a".to_owned(), "b".to_owned());
+        for (error, verdict) in [
+            (MethodError::Unsuited { method, reason }, Verdict::Unsuited),
+            (MethodError::stuck(0.0, 3, "c"), Verdict::Stuck),
+            (MethodError::BlownUp { time: 1.0 }, Verdict::BlownUp),
+        ] {
+            assert_eq!(judge.verdict(&Err(error)), verdict);
+        }
     }
 
     #[test]
@@ -272,15 +257,11 @@ mod tests {
         let mut task = task();
         task.scene.excitation.amplitude = 0.0;
         task.start.velocity = 0.0;
-        let truth = Solution {
-            end: (0.0, 0.0),
-            impacts: Vec::new(),
-            work: Work::default(),
-        };
+        let mut found = Solution::default();
+        let truth = found.clone();
         let judge = Judge::new(&task, &truth, 0.01);
-        assert_eq!(judge.verdict(&Ok(truth.clone())), Verdict::Converged);
-        let mut moving = truth.clone();
-        moving.end.1 = 1e-3;
-        assert_eq!(judge.verdict(&Ok(moving)), Verdict::BlownUp);
+        assert_eq!(judge.verdict(&Ok(found.clone())), Verdict::Converged);
+        found.end.1 = 1e-3;
+        assert_eq!(judge.verdict(&Ok(found)), Verdict::BlownUp);
     }
 }

@@ -45,12 +45,7 @@ pub fn cases(scene: &str, periods: Option<f64>) -> Result<Vec<Case>, Failure> {
     let case = |name: &str, title: &str, file: SceneFile, length: f64| Case {
         name: name.to_owned(),
         title: title.to_owned(),
-        task: Task {
-            scene: file.scene,
-            start: file.start,
-            periods: periods.unwrap_or(length),
-            most_steps: u64::MAX,
-        },
+        task: Task::new(file.scene, file.start, periods.unwrap_or(length), u64::MAX),
     };
     if found.is_empty() {
         let (name, file) = scenes::read(scene, &BUILT_IN)?;

@@ -39,40 +39,26 @@ const CEILING: f64 = 1.0;
 /// A quantity of a run, if it has one.
 type Quantity = fn(&Row) -> Option<f64>;
 
-/// What a panel draws over what.
-struct Panel {
-    across: &'static str,
-    error: Quantity,
-    up: &'static str,
-    cost: Quantity,
-}
+/// What a panel draws over what: the name of an error, the error, the name of a cost, the cost.
+type Panel = (&'static str, Quantity, &'static str, Quantity);
 
-const fn panel(across: &'static str, error: Quantity, up: &'static str, cost: Quantity) -> Panel {
-    Panel {
-        across,
-        error,
-        up,
-        cost,
-    }
-}
-
-const TIME: &str = "time (s)";
 const END: &str = "error of the state at the end";
+const SECONDS: Quantity = |row| row.seconds;
 const PANELS: [Panel; 4] = [
-    panel(END, |row| row.end_error, TIME, |row| row.seconds),
-    panel(
+    (END, |row| row.end_error, "time (s)", SECONDS),
+    (
         "error of impact times (drive periods)",
         |row| row.impact_time_error,
-        TIME,
-        |row| row.seconds,
+        "time (s)",
+        SECONDS,
     ),
-    panel(
+    (
         "error of before-impact velocities",
         |row| row.impact_velocity_error,
-        TIME,
-        |row| row.seconds,
+        "time (s)",
+        SECONDS,
     ),
-    panel(
+    (
         END,
         |row| row.end_error,
         "evaluations of the force",
@@ -80,84 +66,57 @@ const PANELS: [Panel; 4] = [
     ),
 ];
 
-/// The work-precision diagram of a scene.
-pub struct PrecisionChart<'a> {
-    report: &'a SceneReport,
-    curves: Vec<Curve<'a>>,
-}
-
 /// The runs of a method.
 struct Curve<'a> {
     rows: &'a [Row],
     look: Look,
 }
 
-impl<'a> PrecisionChart<'a> {
-    /// The diagram of a report; methods look like this, in the report's order.
-    pub fn new(report: &'a SceneReport, looks: Vec<Look>) -> Self {
-        let runs = report.rows.chunk_by(|a, b| a.method == b.method);
-        let curves = runs.zip(looks).map(|(rows, look)| Curve { rows, look });
-        Self {
-            report,
-            curves: curves.collect(),
-        }
-    }
+/// The diagram of a report as an SVG document; methods look like this, in the report's order.
+pub(super) fn svg(report: &SceneReport, looks: impl Iterator<Item = Look>) -> String {
+    let runs = report.rows.chunk_by(|a, b| a.method == b.method);
+    let curves = runs.zip(looks).map(|(rows, look)| Curve { rows, look });
+    let curves: Vec<Curve<'_>> = curves.collect();
+    let plots = PANELS.iter().map(|panel| plots(panel, &curves)).collect();
+    let layouts = PANELS.iter().map(|panel| layout(panel, &curves)).collect();
+    let mut entries: Vec<LegendEntry> = curves.iter().map(Curve::entry).collect();
+    entries.push(LegendEntry {
+        label: "hollow circles: wrong number of impacts".to_owned(),
+        color: "none".to_owned(),
+        shape: LegendShape::Rect,
+        dasharray: None,
+    });
+    let (scene, title, periods) = (&report.scene, &report.title, report.periods);
+    let figure = Figure::new(2, 2)
+        .with_plots(plots)
+        .with_layouts(layouts)
+        .with_title(format!("{scene}: {title}, {periods} drive periods"))
+        .with_cell_size(520.0, 400.0)
+        .with_shared_legend_right_top()
+        .with_shared_legend_entries(entries);
+    SvgBackend::new().render_scene(&figure.render())
+}
 
-    /// The diagram as an SVG document.
-    pub fn svg(&self) -> String {
-        let plots = PANELS.iter().map(|panel| self.plots(panel)).collect();
-        let layouts = PANELS.iter().map(|panel| self.layout(panel)).collect();
-        let title = format!(
-            "{}: {}, {} drive periods",
-            self.report.scene, self.report.title, self.report.periods
-        );
-        let figure = Figure::new(2, 2)
-            .with_plots(plots)
-            .with_layouts(layouts)
-            .with_title(title)
-            .with_cell_size(520.0, 400.0)
-            .with_shared_legend_right_top()
-            .with_shared_legend_entries(self.legend());
-        SvgBackend::new().render_scene(&figure.render())
-    }
+/// Lines below, markers above them, the exact method on top.
+fn plots(panel: &Panel, curves: &[Curve<'_>]) -> Vec<Plot> {
+    let lines = curves.iter().map(|curve| curve.line(panel));
+    let markers = curves.iter().skip(1).chain(curves.first());
+    let markers = markers.flat_map(|curve| curve.markers(panel));
+    lines.chain(markers).collect()
+}
 
-    /// Lines below, markers above them, the exact method on top.
-    fn plots(&self, panel: &Panel) -> Vec<Plot> {
-        let lines = self.curves.iter().map(|curve| curve.line(panel));
-        let others = self.curves.iter().skip(1);
-        let markers = others.chain(self.curves.first());
-        lines
-            .chain(markers.flat_map(|curve| curve.markers(panel)))
-            .collect()
-    }
-
-    fn layout(&self, panel: &Panel) -> Layout {
-        let points: Vec<(f64, f64)> = self
-            .curves
-            .iter()
-            .flat_map(|curve| curve.points(panel, |_| true))
-            .collect();
-        let x = decades(points.iter().map(|point| point.0), (-3.0, 0.0));
-        let y = decades(points.iter().map(|point| point.1), (-3.0, 0.0));
-        style::plain(x, y)
-            .with_x_label(panel.across)
-            .with_y_label(panel.up)
-            .with_x_tick_step(2.0)
-            .with_y_tick_step(1.0)
-            .with_x_tick_format(raised())
-            .with_y_tick_format(raised())
-    }
-
-    fn legend(&self) -> Vec<LegendEntry> {
-        let mut entries: Vec<LegendEntry> = self.curves.iter().map(Curve::entry).collect();
-        entries.push(LegendEntry {
-            label: "hollow circles: wrong number of impacts".to_owned(),
-            color: "none".to_owned(),
-            shape: LegendShape::Rect,
-            dasharray: None,
-        });
-        entries
-    }
+fn layout(panel: &Panel, curves: &[Curve<'_>]) -> Layout {
+    let points = curves
+        .iter()
+        .flat_map(|curve| curve.points(panel, |_| true));
+    let (x, y): (Vec<f64>, Vec<f64>) = points.unzip();
+    style::plain(decades(&x), decades(&y))
+        .with_x_label(panel.0)
+        .with_y_label(panel.2)
+        .with_x_tick_step(2.0)
+        .with_y_tick_step(1.0)
+        .with_x_tick_format(raised())
+        .with_y_tick_format(raised())
 }
 
 impl Curve<'_> {
@@ -165,30 +124,28 @@ impl Curve<'_> {
         LOOKS[self.look.scheme % LOOKS.len()]
     }
 
+    const fn line_style(&self) -> LineStyle {
+        match self.look.blind {
+            true => LineStyle::Dashed,
+            false => LineStyle::Solid,
+        }
+    }
+
     /// Powers of ten of error and cost of the runs that have both.
     fn points(&self, panel: &Panel, which: impl Fn(&Row) -> bool) -> Vec<(f64, f64)> {
         let rows = self.rows.iter().filter(|row| which(row));
-        rows.filter_map(|row| {
-            let (error, cost) = ((panel.error)(row)?, (panel.cost)(row)?);
+        let point = |row: &Row| {
+            let (error, cost) = ((panel.1)(row)?, (panel.3)(row)?);
             let error = error.log10().clamp(FLOOR, CEILING);
             (cost > 0.0).then(|| (error, cost.log10()))
-        })
-        .collect()
+        };
+        rows.filter_map(point).collect()
     }
 
     fn line(&self, panel: &Panel) -> Plot {
-        let line = if self.look.blind {
-            LineStyle::Dashed
-        } else {
-            LineStyle::Solid
-        };
-        Plot::Line(
-            LinePlot::new()
-                .with_data(self.points(panel, |_| true))
-                .with_color(self.style().0)
-                .with_stroke_width(1.3)
-                .with_line_style(line),
-        )
+        let line = LinePlot::new().with_data(self.points(panel, |_| true));
+        let line = line.with_color(self.style().0).with_stroke_width(1.3);
+        Plot::Line(line.with_line_style(self.line_style()))
     }
 
     /// The scheme's own where the number of impacts is right, else hollow circles.
@@ -208,37 +165,32 @@ impl Curve<'_> {
     fn entry(&self) -> LegendEntry {
         let (color, shape) = self.style();
         let name = self.rows.first().map_or("", |row| row.method.as_str());
-        let failed = self
-            .rows
-            .iter()
-            .filter(|row| row.status == "failed")
-            .count();
-        let label = match failed {
+        let all = self.rows.len();
+        let failed = self.rows.iter().filter(|row| row.status == "failed");
+        let label = match failed.count() {
             0 => name.to_owned(),
-            _ => format!("{name} ({failed} of {} failed)", self.rows.len()),
-        };
-        let (shape, dasharray) = if self.look.blind {
-            (LegendShape::Line, LineStyle::Dashed.dasharray())
-        } else {
-            (LegendShape::Marker(shape), None)
+            failed => format!("{name} ({failed} of {all} failed)"),
         };
         LegendEntry {
             label,
             color: color.to_owned(),
-            shape,
-            dasharray,
+            shape: match self.look.blind {
+                true => LegendShape::Line,
+                false => LegendShape::Marker(shape),
+            },
+            dasharray: self.line_style().dasharray(),
         }
     }
 }
 
-/// The whole decades around powers of ten; `empty` if there are none.
-fn decades(powers: impl Iterator<Item = f64> + Clone, empty: (f64, f64)) -> (f64, f64) {
-    let low = powers.clone().fold(f64::INFINITY, f64::min);
-    let high = powers.fold(f64::NEG_INFINITY, f64::max);
-    if low > high {
-        return empty;
+/// The whole decades around powers of ten; three if there are none.
+fn decades(powers: &[f64]) -> (f64, f64) {
+    let low = powers.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = powers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    match low > high {
+        true => (-3.0, 0.0),
+        false => ((low - 0.2).floor(), (high + 0.2).ceil()),
     }
-    ((low - 0.2).floor(), (high + 0.2).ceil())
 }
 
 /// 10 with the tick as a raised exponent.

@@ -28,12 +28,9 @@ impl Scale {
         let period = task.scene.period();
         let (mut position, mut velocity) = (0.0_f64, 0.0_f64);
         for sample in 0..=(task.periods * SAMPLES as f64).ceil() as u64 {
-            let part = (sample % SAMPLES) as f64 / SAMPLES as f64;
-            let instant = Instant {
-                cycles: (sample / SAMPLES) as f64,
-                offset: part * period,
-            };
-            motion.advance(instant, &mut ())?;
+            let cycles = (sample / SAMPLES) as f64;
+            let offset = (sample % SAMPLES) as f64 / SAMPLES as f64 * period;
+            motion.advance(Instant { cycles, offset }, &mut ())?;
             let state = motion.state();
             position = position.max(state.position.abs());
             velocity = velocity.max(state.velocity.abs());
@@ -79,13 +76,15 @@ impl Errors {
         let velocity = (found.end.1 - truth.end.1) / scale.velocity;
         let (ours, true_ones) = (scale.told(&found.impacts), scale.told(&truth.impacts));
         let pairs = matches(&ours, &true_ones);
-        let largest = |of: &dyn Fn(&Impact, &Impact) -> f64| {
-            pairs.iter().map(|(a, b)| of(a, b)).reduce(f64::max)
-        };
+        let times = pairs
+            .iter()
+            .map(|(a, b)| (a.time - b.time).abs() / scale.period);
+        let velocities = pairs.iter();
+        let velocities = velocities.map(|(a, b)| (a.velocity - b.velocity).abs() / scale.velocity);
         Self {
             end: position.hypot(velocity),
-            impact_time: largest(&|a, b| (a.time - b.time).abs() / scale.period),
-            impact_velocity: largest(&|a, b| (a.velocity - b.velocity).abs() / scale.velocity),
+            impact_time: times.reduce(f64::max),
+            impact_velocity: velocities.reduce(f64::max),
             impact_difference: ours.len() as i64 - true_ones.len() as i64,
         }
     }
@@ -135,13 +134,10 @@ mod tests {
     };
 
     fn solution(end: (f64, f64), impacts: &[(f64, f64)]) -> Solution {
-        let impacts = impacts
-            .iter()
-            .map(|&(time, velocity)| Impact { time, velocity })
-            .collect();
+        let impact = |&(time, velocity): &(f64, f64)| Impact { time, velocity };
         Solution {
             end,
-            impacts,
+            impacts: impacts.iter().map(impact).collect(),
             ..Solution::default()
         }
     }
@@ -152,14 +148,11 @@ mod tests {
         let found = solution((1.3, 2.16), &[(0.52, 3.0), (2.5, 2.6)]);
         let errors = Errors::between(&found, &truth, &SCALE);
         assert_abs_diff_eq!(errors.end, 0.05, epsilon = 1e-15);
-        assert_abs_diff_eq!(errors.impact_time.expect("a value"), 0.01, epsilon = 1e-15);
-        assert_abs_diff_eq!(
-            errors.impact_velocity.expect("a value"),
-            0.1,
-            epsilon = 1e-15
-        );
-        assert_eq!(errors.impact_difference, 0);
-        assert_eq!(errors.worst(), errors.impact_velocity.expect("a value"));
+        let [time, velocity] =
+            [errors.impact_time, errors.impact_velocity].map(Option::unwrap_or_default);
+        assert_abs_diff_eq!(time, 0.01, epsilon = 1e-15);
+        assert_abs_diff_eq!(velocity, 0.1, epsilon = 1e-15);
+        assert_eq!((errors.impact_difference, errors.worst()), (0, velocity));
     }
 
     #[test]
@@ -167,10 +160,13 @@ mod tests {
         let truth = solution((0.0, 0.0), &[(0.5, 3.0), (1.5, 3.0), (2.5, 2.0)]);
         let found = solution((0.0, 0.0), &[(0.5, 3.0), (2.5, 2.0)]);
         let errors = Errors::between(&found, &truth, &SCALE);
-        assert_eq!(errors.impact_difference, -1);
-        assert_eq!(errors.impact_time, Some(0.0));
-        assert_eq!(errors.impact_velocity, Some(0.0));
-        assert_eq!(errors.worst(), f64::INFINITY);
+        let expected = Errors {
+            end: 0.0,
+            impact_time: Some(0.0),
+            impact_velocity: Some(0.0),
+            impact_difference: -1,
+        };
+        assert_eq!((errors, errors.worst()), (expected, f64::INFINITY));
     }
 
     #[test]

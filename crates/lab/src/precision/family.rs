@@ -25,13 +25,8 @@ pub struct Look {
     pub blind: bool,
 }
 
-/// A method ready to run.
-pub struct Setting {
-    /// Step in drive periods or tolerance; nothing if the method has no knob.
-    pub knob: Option<f64>,
-    /// The method.
-    pub method: Box<dyn Integrator>,
-}
+/// A method ready to run, and its step in drive periods or tolerance; nothing if the method has no knob.
+pub type Setting = (Option<f64>, Box<dyn Integrator>);
 
 /// Finest step is a drive period over 2 to this.
 const FINEST: i32 = 22;
@@ -97,10 +92,7 @@ impl Family {
         knobs: impl IntoIterator<Item = f64>,
         method: impl Fn(f64) -> Box<dyn Integrator>,
     ) -> Self {
-        let setting = |knob| Setting {
-            knob: Some(knob),
-            method: method(knob),
-        };
+        let setting = |knob| (Some(knob), method(knob));
         Self {
             name: name.to_owned(),
             look,
@@ -118,7 +110,7 @@ impl Family {
         Self {
             name: method.name(),
             look,
-            settings: vec![Setting { knob: None, method }],
+            settings: vec![(None, method)],
         }
     }
 }

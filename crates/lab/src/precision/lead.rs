@@ -78,10 +78,8 @@ type Point = (f64, f64);
 pub fn leads(rows: &[Row], exact: &str) -> Vec<Lead> {
     let both = Quantity::ALL.map(|quantity| {
         let curves = curves(rows, quantity);
-        TARGETS
-            .iter()
-            .filter_map(|&target| lead(&curves, exact, quantity, target))
-            .collect::<Vec<_>>()
+        let leads = TARGETS.map(|target| lead(&curves, exact, quantity, target));
+        leads.into_iter().flatten().collect::<Vec<_>>()
     });
     both.concat()
 }
@@ -118,21 +116,17 @@ fn lead(
 
 /// The points of each method with a finite error, in the order of its knob.
 fn curves(rows: &[Row], quantity: Quantity) -> Vec<(String, Vec<Point>)> {
-    let mut curves: Vec<(String, Vec<Point>)> = Vec::new();
-    for row in rows {
-        let Some((error, seconds)) = quantity.of(row).zip(row.seconds) else {
-            continue;
-        };
-        let point = (error.max(FLOOR), seconds);
-        if !point.0.is_finite() {
-            continue;
-        }
-        match curves.last_mut() {
-            Some((name, points)) if *name == row.method => points.push(point),
-            _ => curves.push((row.method.clone(), vec![point])),
-        }
-    }
-    curves
+    let point = |row: &Row| {
+        let (error, seconds) = quantity.of(row).zip(row.seconds)?;
+        let error = error.max(FLOOR);
+        error.is_finite().then_some((error, seconds))
+    };
+    let runs = rows.chunk_by(|a, b| a.method == b.method);
+    let curves = runs.map(|runs| {
+        let points: Vec<Point> = runs.iter().filter_map(point).collect();
+        (runs[0].method.clone(), points)
+    });
+    curves.filter(|(_, points)| !points.is_empty()).collect()
 }
 
 /// The least time at which a curve is as accurate as this.
@@ -142,10 +136,8 @@ fn time_at(points: &[Point], accuracy: f64) -> Option<f64> {
         let [coarse, fine] = [pair[0], pair[1]];
         (coarse.0 > accuracy && fine.0 <= accuracy).then(|| between(coarse, fine, accuracy))
     });
-    there
-        .map(|point| point.1)
-        .chain(crossings)
-        .min_by(f64::total_cmp)
+    let times = there.map(|point| point.1).chain(crossings);
+    times.min_by(f64::total_cmp)
 }
 
 /// The time on the line through two points in log time over log error.
@@ -188,25 +180,21 @@ mod tests {
         ];
         let leads = leads(&rows, "exact");
         let at = |quantity| {
-            let found = leads
-                .iter()
-                .find(|lead| lead.quantity == quantity && lead.target == 1e-9);
-            found.and_then(|lead| lead.next.clone()).expect("a value")
+            let mut own = leads.iter().filter(|lead| lead.quantity == quantity);
+            let found = own.find(|lead| lead.target == 1e-9);
+            let next = found.and_then(|lead| lead.next.as_ref()).expect("a value");
+            (next.method.as_str(), next.ratio)
         };
-        assert_eq!(at(Quantity::End).method, "lucky");
-        assert_eq!(at(Quantity::End).ratio, 30.0);
-        assert_eq!(at(Quantity::Worst).method, "slow");
-        assert_eq!(at(Quantity::Worst).ratio, 50.0);
+        assert_eq!(at(Quantity::End), ("lucky", 30.0));
+        assert_eq!(at(Quantity::Worst), ("slow", 50.0));
     }
 
     #[test]
     fn a_method_that_does_not_get_there_is_named_as_the_closest() {
         let rows = [row("exact", 1e-15, 1.0, 0), row("coarse", 1e-5, 7.0, 0)];
         let leads = leads(&rows, "exact");
-        let finest = leads
-            .iter()
-            .find(|lead| lead.target == 1e-9)
-            .expect("a value");
+        let finest = leads.iter().find(|lead| lead.target == 1e-9);
+        let finest = finest.expect("a value");
         assert_eq!(finest.next, None);
         assert_eq!(finest.closest.as_ref().expect("a value").error, Some(1e-5));
     }

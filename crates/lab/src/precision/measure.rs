@@ -4,10 +4,10 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use crate::methods::{MethodError, Solution, Task, Work};
+use crate::methods::{Integrator, MethodError, Task, Work};
 
 use super::errors::Scale;
-use super::family::{Family, Setting};
+use super::family::Family;
 use super::truth::Truth;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
@@ -66,19 +66,10 @@ impl Row {
         errors.into_iter().flatten().reduce(f64::max)
     }
 
-    /// The method gave up, or ended with numbers that are none.
-    fn failed(self, reason: String) -> Self {
+    /// The method gave up or ended with numbers that are none (`failed`), or takes too long (`skipped`).
+    fn without(self, status: &'static str, reason: String) -> Self {
         Self {
-            status: "failed",
-            reason: Some(reason),
-            ..self
-        }
-    }
-
-    /// It was not run, or not to its end, since it takes too long.
-    fn skipped(self, reason: String) -> Self {
-        Self {
-            status: "skipped",
+            status,
             reason: Some(reason),
             ..self
         }
@@ -110,29 +101,28 @@ impl Bench<'_> {
     pub fn family(&self, family: &Family, done: &dyn Fn()) -> Result<Vec<Row>, Failure> {
         let mut pace = Pace::default();
         let mut rows = Vec::new();
-        for setting in &family.settings {
+        for (knob, method) in &family.settings {
             if interrupt::requested() {
                 return Err(Failure::Interrupted);
             }
             let row = Row {
                 method: family.name.clone(),
-                knob: setting.knob,
+                knob: *knob,
                 status: "done",
                 ..Row::default()
             };
-            rows.push(self.run(row, setting, &mut pace));
+            rows.push(self.run(row, &**method, &mut pace));
             done();
         }
         Ok(rows)
     }
 
-    fn run(&self, row: Row, setting: &Setting, pace: &mut Pace) -> Row {
+    fn run(&self, row: Row, method: &dyn Integrator, pace: &mut Pace) -> Row {
         let longest = self.effort.longest;
         let foreseen = pace.foreseen();
         if foreseen > longest {
-            return row.skipped(format!(
-                "would take some {foreseen:.1e} s, more than {longest} s"
-            ));
+            let reason = format!("would take some {foreseen:.1e} s, more than {longest} s");
+            return row.without("skipped", reason);
         }
         let most_steps = (2.0 * longest / pace.step.unwrap_or(STEP)) as u64;
         let most_steps = most_steps.max(FEW_STEPS);
@@ -141,41 +131,30 @@ impl Bench<'_> {
             ..self.task.clone()
         };
         let begin = Instant::now();
-        let first = setting.method.integrate(&task);
+        let first = method.integrate(&task);
         let taken = begin.elapsed();
-        match first {
+        let solution = match first {
+            Ok(solution) => solution,
             Err(error) => {
                 pace.failed(taken);
-                match error {
+                return match error {
                     MethodError::Stuck { steps, .. } if steps >= most_steps => {
-                        row.skipped(format!("broken off after {steps} steps: takes too long"))
+                        let reason = format!("broken off after {steps} steps: takes too long");
+                        row.without("skipped", reason)
                     }
-                    _ => row.failed(error.to_string()),
-                }
+                    _ => row.without("failed", error.to_string()),
+                };
             }
-            Ok(solution) => {
-                pace.ran(taken, &solution.work);
-                self.repeated(row, setting, &task, &solution, taken)
-            }
-        }
-    }
-
-    fn repeated(
-        &self,
-        row: Row,
-        setting: &Setting,
-        task: &Task,
-        solution: &Solution,
-        first: Duration,
-    ) -> Row {
-        let errors = self.truth.errors_of(solution, &self.scale);
+        };
+        pace.ran(taken, &solution.work);
+        let errors = self.truth.errors_of(&solution, &self.scale);
         if !errors.end.is_finite() {
-            return row.failed("ends in numbers that are none".into());
+            return row.without("failed", "ends in numbers that are none".to_owned());
         }
-        let mut times = vec![first.as_secs_f64()];
+        let mut times = vec![taken.as_secs_f64()];
         while times.iter().sum::<f64>() < self.effort.repeat && times.len() < self.effort.most {
             let begin = Instant::now();
-            let again = setting.method.integrate(task);
+            let again = method.integrate(&task);
             times.push(begin.elapsed().as_secs_f64());
             std::hint::black_box(&again);
         }

@@ -1,17 +1,16 @@
 //! `softstop-lab chart precision`: what each method's accuracy costs on a scene.
 //!
 //! [`case`] says what is computed, [`truth`] what comes of it in truth, [`family`] by which methods it is
-//! computed; [`measure`] runs them and [`errors`] compares; [`lead`] and [`report`] say what came of it.
+//! computed; [`measure`] runs them and [`errors`] compares; `lead` and `report` say what came of it.
 
 pub mod case;
 mod chart;
-pub mod computer;
+pub(crate) mod computer;
 pub mod errors;
 pub mod family;
-pub mod lead;
+mod lead;
 pub mod measure;
-pub mod report;
-mod text;
+mod report;
 pub mod truth;
 
 use std::path::PathBuf;
@@ -19,13 +18,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::filter::Filter;
-use crate::precision::chart::PrecisionChart;
 use case::Case;
 use computer::Machine;
 use errors::Scale;
 use family::Family;
 use measure::{Bench, Effort, Row};
 use report::{PrecisionReport, SceneReport};
+use softstop_console::export;
 use softstop_console::failure::Failure;
 use softstop_console::output::{self, Folder, Format};
 use softstop_console::progress::Progress;
@@ -88,18 +87,13 @@ pub struct PrecisionArguments {
 pub fn run(arguments: &PrecisionArguments) -> Result<(), Failure> {
     check(arguments)?;
     let cases = case::cases(&arguments.scene, arguments.periods)?;
-    let families: Vec<Vec<Family>> = cases
-        .iter()
-        .map(|case| chosen(case, arguments))
-        .collect::<Result<_, _>>()?;
+    let families = cases.iter().map(|case| chosen(case, arguments));
+    let families: Vec<Vec<Family>> = families.collect::<Result<_, _>>()?;
     let names: Vec<String> = cases.iter().flat_map(|case| files(&case.name)).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let folder = Folder::open(&arguments.output, &names)?;
     let machine = Machine::this();
-    let settings = families
-        .iter()
-        .flatten()
-        .map(|family| family.settings.len());
+    let settings = families.iter().flatten().map(|it| it.settings.len());
     let runs = cases.len() + settings.sum::<usize>();
     let progress = Progress::new(runs as u64, "settings");
     let mut charts = Vec::new();
@@ -111,10 +105,7 @@ pub fn run(arguments: &PrecisionArguments) -> Result<(), Failure> {
     drop(progress);
     folder.commit(&names)?;
     let report = PrecisionReport { machine, charts };
-    output::print(&match arguments.format {
-        Format::Json => output::json(&report)?,
-        Format::Text => text::text(&report),
-    })
+    export::print(&report, arguments.format)
 }
 
 fn check(arguments: &PrecisionArguments) -> Result<(), Failure> {
@@ -140,18 +131,15 @@ fn files(name: &str) -> [String; 3] {
 }
 
 const fn effort(arguments: &PrecisionArguments) -> Effort {
-    if arguments.quick {
-        Effort {
-            longest: 0.1 * arguments.budget,
-            repeat: 0.01,
-            most: 5,
-        }
+    let (share, repeat, most) = if arguments.quick {
+        (0.1, 0.01, 5)
     } else {
-        Effort {
-            longest: arguments.budget,
-            repeat: 0.2,
-            most: 101,
-        }
+        (1.0, 0.2, 101)
+    };
+    Effort {
+        longest: share * arguments.budget,
+        repeat,
+        most,
     }
 }
 
@@ -189,9 +177,8 @@ fn write(report: &mut SceneReport, families: &[Family], folder: &Folder) -> Resu
         let place = folder.place(name).display().to_string();
         report.files.insert(kind, place);
     }
-    let looks = families.iter().map(|family| family.look).collect();
-    let chart = PrecisionChart::new(report, looks);
-    folder.stage(&svg, chart.svg().as_bytes())?;
+    let looks = families.iter().map(|family| family.look);
+    folder.stage(&svg, chart::svg(report, looks).as_bytes())?;
     folder.stage(&csv, &output::csv(&report.rows)?)?;
     folder.stage(&json, output::json(report)?.as_bytes())
 }

@@ -1,15 +1,18 @@
-//! The report of `chart precision`, whose field names are the keys of the JSON.
-
-use std::collections::BTreeMap;
-
-use serde::Serialize;
+//! The report of `chart precision`, whose field names are the keys of the JSON; for people best settings, leads,
+//! failures.
 
 use super::case::Case;
 use super::computer::Machine;
 use super::errors::Scale;
-use super::lead::{self, Lead};
+use super::lead::{self, Lead, Quantity, TARGETS};
 use super::measure::Row;
 use super::truth::Truth;
+use serde::Serialize;
+use softstop_console::column::{self, Column, Units};
+use softstop_console::columns;
+use softstop_console::export::Report;
+use softstop_console::table::heading;
+use std::collections::BTreeMap;
 
 /// All charts of a run.
 #[derive(Debug, Clone, Serialize)]
@@ -99,4 +102,168 @@ impl SceneReport {
             files: BTreeMap::new(),
         }
     }
+}
+
+impl Report for PrecisionReport {
+    fn text(&self) -> String {
+        let charts = self.charts.iter().map(|chart| scene(chart) + "\n");
+        let mut text: String = charts.collect();
+        if self.charts.len() > 1 {
+            text += &summary(self);
+        }
+        text + &format!("Machine: {}\n", self.machine.line())
+    }
+}
+
+fn scene(chart: &SceneReport) -> String {
+    let reference = &chart.reference;
+    let title = heading(&format!(
+        "Precision on {}: {}, {} drive periods, {} impacts",
+        chart.scene, chart.title, chart.periods, reference.impacts
+    ));
+    let runs = chart.rows.chunk_by(|a, b| a.method == b.method);
+    let written = chart.files.iter();
+    let written = written.map(|(kind, path)| format!("Written: {path} ({kind})\n"));
+    format!(
+        "{title}Reference: {}; certain to {} digits\n\n\
+         Most accurate setting of each method; errors relative to the motion\n{}\n\
+         Time of the next best over that of the exact method\n{}{}\n{}",
+        reference.method,
+        reference.digits,
+        column::text(&columns(), runs.map(best), &Units::SI),
+        leads(&chart.lead.at),
+        failures(&chart.rows),
+        written.collect::<String>()
+    )
+}
+
+/// A method and its most accurate setting.
+type Best<'a> = (&'a str, Option<&'a Row>);
+
+fn columns<'a>() -> [Column<Best<'a>>; 8] {
+    columns! { Best<'a>, it;
+        "method" [None] Plain, "" => it.0;
+        "knob" [None] Power(1), "" => it.1.and_then(|row| row.knob);
+        "seconds" [None] Power(1), "" => it.1.and_then(|row| row.seconds);
+        "evaluations" [None] Plain, "" => it.1.and_then(|row| row.evaluations);
+        "end" [None] Power(1), "" => it.1.and_then(|row| row.end_error);
+        "impact_time" [None] Power(1), "" => it.1.and_then(|row| row.impact_time_error);
+        "velocity" [None] Power(1), "" => it.1.and_then(|row| row.impact_velocity_error);
+        "impacts" [None] Plain, "" => it.1.map_or_else(|| "no answer".to_owned(), impacts);
+    }
+}
+
+fn impacts(row: &Row) -> String {
+    match row.impact_difference {
+        Some(0) => "all".to_owned(),
+        difference => difference.map_or_else(dash, |difference| format!("{difference:+}")),
+    }
+}
+
+fn best(runs: &[Row]) -> Best<'_> {
+    let answered = runs.iter().filter_map(|row| Some((row.end_error?, row)));
+    let best = answered.min_by(|a, b| a.0.total_cmp(&b.0));
+    (&runs[0].method, best.map(|(_, row)| row))
+}
+
+fn leads(leads: &[Lead]) -> String {
+    let line = |lead: &Lead| {
+        let what = name(lead.quantity);
+        let (accuracy, ratio, next) = (lead.accuracy, ratio(lead), next(lead));
+        format!("  {what:19}   {accuracy:>5.0e}   {ratio:>7}   {next}\n")
+    };
+    leads.iter().map(line).collect()
+}
+
+/// The lead as a factor.
+fn ratio(lead: &Lead) -> String {
+    let next = lead.next.as_ref();
+    next.map_or_else(dash, |next| format!("{:.1}", next.ratio))
+}
+
+fn next(lead: &Lead) -> String {
+    match (&lead.next, &lead.closest) {
+        (Some(next), _) => next.method.clone(),
+        (None, Some(closest)) => format!(
+            "none gets there; {} has {:.0e} in {:.1} times the time",
+            closest.method,
+            closest.error.unwrap_or(f64::NAN),
+            closest.ratio
+        ),
+        (None, None) => "none has an answer".to_owned(),
+    }
+}
+
+/// Failures, counted by reason, and methods cut short.
+fn failures(rows: &[Row]) -> String {
+    let line = |row: &Row| {
+        let reason = row.reason.as_ref()?;
+        Some(format!("  {} {}: {reason}", row.method, row.status))
+    };
+    let lines: Vec<String> = rows.iter().filter_map(line).collect();
+    let counted = lines.chunk_by(|a, b| a == b).map(|same| match same.len() {
+        1 => format!("{}\n", same[0]),
+        count => format!("{} ({count} settings)\n", same[0]),
+    });
+    match lines.len() {
+        0 => String::new(),
+        _ => format!(
+            "\nSettings without an answer\n{}",
+            counted.collect::<String>()
+        ),
+    }
+}
+
+/// The lead at each scene, as a table in Markdown for docs/accuracy.md.
+fn summary(report: &PrecisionReport) -> String {
+    let accuracies: Vec<String> = TARGETS.map(|target| format!("{target:.0e}")).into();
+    let mut text = format!(
+        "Lead at equal accuracy\n\n| scene | exact: time, worst error | by | {} |\n",
+        accuracies.join(" | ")
+    );
+    text += &format!("|---|---|---|{}\n", "---|".repeat(TARGETS.len()));
+    for chart in &report.charts {
+        for quantity in Quantity::ALL {
+            text += &summary_line(chart, quantity);
+        }
+    }
+    text + "\n"
+}
+
+fn summary_line(chart: &SceneReport, quantity: Quantity) -> String {
+    let own = chart
+        .lead
+        .at
+        .iter()
+        .filter(|lead| lead.quantity == quantity);
+    let cells = own.map(|lead| match &lead.next {
+        Some(next) => format!("{} {}", ratio(lead), next.method),
+        None => "none gets there".to_owned(),
+    });
+    let exact = chart.rows.first();
+    let (time, worst) = exact.map_or((None, None), |row| (row.seconds, row.worst_error()));
+    format!(
+        "| {} | {} s, {} | {} | {} |\n",
+        chart.scene,
+        figure(time),
+        figure(worst),
+        name(quantity),
+        cells.collect::<Vec<_>>().join(" | ")
+    )
+}
+
+const fn name(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::End => "error at the end",
+        Quantity::Worst => "worst of all errors",
+    }
+}
+
+fn dash() -> String {
+    "-".to_owned()
+}
+
+/// Two significant digits.
+fn figure(value: Option<f64>) -> String {
+    value.map_or_else(dash, |value| format!("{value:.1e}"))
 }

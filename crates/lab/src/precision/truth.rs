@@ -43,9 +43,8 @@ impl Truth {
         match reference::solve(task, &go_on) {
             Ok(reference) => Ok(Self::rounded(reference, scale)),
             Err(ReferenceError::PowerLaw { .. }) => Self::agreed(task, scale),
-            Err(ReferenceError::Interrupted) => Err(Failure::Interrupted),
             Err(ReferenceError::Task(error)) => Err(error.into()),
-            Err(error) => Err(Failure::Run(error.into())),
+            Err(error) => Err(anyhow!(error).into()),
         }
     }
 
@@ -78,10 +77,9 @@ impl Truth {
         let other = other.integrate(task).context("no reference")?;
         let doubt = Errors::between(&other, &solution, scale);
         if doubt.impact_difference != 0 {
-            return Err(Failure::Run(anyhow!(
-                "no reference: two methods differ by {} impacts; take fewer periods",
-                doubt.impact_difference.abs()
-            )));
+            let apart = doubt.impact_difference.abs();
+            let what = format!("two methods differ by {apart} impacts; take fewer periods");
+            return Err(anyhow!("no reference: {what}").into());
         }
         Ok(Self {
             solution,
@@ -98,12 +96,9 @@ impl Truth {
     /// What a solution is off by; not less than what can be told, if that is more than rounding.
     pub fn errors_of(&self, found: &Solution, scale: &Scale) -> Errors {
         let errors = Errors::between(found, &self.solution, scale);
-        let told = |error: f64, doubt: f64| {
-            if doubt > ROUNDING {
-                error.max(doubt)
-            } else {
-                error
-            }
+        let told = |error: f64, doubt: f64| match doubt > ROUNDING {
+            true => error.max(doubt),
+            false => error,
         };
         let both = |error: Option<f64>, doubt: Option<f64>| {
             error.map(|error| told(error, doubt.unwrap_or(0.0)))

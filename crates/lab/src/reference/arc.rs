@@ -37,10 +37,8 @@ impl Arc {
 
     /// Position and velocity.
     pub fn at(&self, elapsed: &Real) -> (Real, Real) {
-        (
-            value(&self.position, elapsed),
-            value(&self.velocity, elapsed),
-        )
+        let at = |terms| value(terms, elapsed);
+        (at(&self.position), at(&self.velocity))
     }
 }
 
@@ -60,10 +58,8 @@ impl Drive {
     pub fn series(&self, time: &Real, count: usize) -> Vec<Real> {
         let (sine, cosine) = (&self.frequency * time + &self.phase).sin_cos();
         let square = &self.frequency * &self.frequency;
-        let mut series = vec![
-            &self.amplitude * cosine,
-            -(&self.amplitude * &self.frequency * sine),
-        ];
+        let rate = -(&self.amplitude * &self.frequency * sine);
+        let mut series = vec![&self.amplitude * cosine, rate];
         for n in 2..count {
             let next = -(&series[n - 2] * &square) / Real::from(n * (n - 1));
             series.push(next);
@@ -73,25 +69,23 @@ impl Drive {
     }
 }
 
-/// What an arc of a linear law should know of what lies ahead.
-pub struct Outlook<'a> {
-    /// The forces are in balance: a mass at rest that is let go.
-    pub balanced: bool,
-    /// A surface above.
-    pub above: Option<&'a Real>,
-}
-
-/// The arc of a linear law from a state on.
-pub fn linear(law: &Law, drive: &Drive, from: &State, outlook: &Outlook, digits: Digits) -> Arc {
+/// The arc of a linear law from a state on, below a surface if there is one. `balanced` are the forces on a mass at rest
+/// that is let go.
+pub fn linear(
+    (law, drive): (&Law, &Drive),
+    from: &State,
+    balanced: bool,
+    above: Option<&Real>,
+    digits: Digits,
+) -> Arc {
     let (x, v) = (&from.position, &from.velocity);
     let rate = rate(law, drive);
-    let acceleration = if outlook.balanced {
-        digits.real(0.0)
-    } else {
-        drive.at(&from.time) + &law.force - &law.damping * v - &law.stiffness * x
+    let acceleration = match balanced {
+        true => digits.real(0.0),
+        false => drive.at(&from.time) + &law.force - &law.damping * v - &law.stiffness * x,
     };
     let mut reach = digits.real(REACH) / &rate;
-    if let Some(near) = near(from, &acceleration, outlook.above, digits)
+    if let Some(near) = near(from, &acceleration, above, digits)
         && near < reach
     {
         reach = near;
@@ -110,11 +104,7 @@ pub fn linear(law: &Law, drive: &Drive, from: &State, outlook: &Outlook, digits:
 /// The fastest rate in 1/s of law and drive.
 fn rate(law: &Law, drive: &Drive) -> Real {
     let own = size(&law.stiffness).sqrt() + &law.damping;
-    if own > drive.frequency {
-        own
-    } else {
-        drive.frequency.clone()
-    }
+    own.max(drive.frequency.clone())
 }
 
 /// Several times the time to a turn that is near, or to a surface above: there the arc is to be short, so that

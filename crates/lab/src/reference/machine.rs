@@ -18,20 +18,15 @@ pub struct Law {
     pub force: Real,
 }
 
-/// What holds in a layer besides its two laws.
+/// A stop that presses only while `stiffness` (x - face) + `damping` v > 0; else the law is `free`.
 #[derive(Debug, Clone)]
-pub enum Grip {
-    /// Nothing.
-    Firm,
-    /// The stop presses only while `position` (x - face) + `velocity` v > 0; else the law is `free`.
-    Pressing {
-        /// Stiffness of the stop in N/m.
-        position: Real,
-        /// Damping that contact adds, in N s/m.
-        velocity: Real,
-        /// The law without contact.
-        free: Law,
-    },
+pub struct Grip {
+    /// In N/m.
+    pub stiffness: Real,
+    /// What contact adds, in N s/m.
+    pub damping: Real,
+    /// The law without contact.
+    pub free: Law,
 }
 
 /// A range of positions with one law for the way forward and one for the way back.
@@ -45,11 +40,19 @@ pub struct Layer {
     pub forward: Law,
     /// Law of the way back.
     pub backward: Law,
-    /// What holds besides.
-    pub grip: Grip,
+    /// A stop that may let go.
+    pub grip: Option<Grip>,
 }
 
 impl Layer {
+    /// That of a way.
+    pub fn law(&self, forward: bool) -> &Law {
+        match forward {
+            true => &self.forward,
+            false => &self.backward,
+        }
+    }
+
     /// True if the force jumps where the velocity changes its sign.
     pub fn rubs(&self) -> bool {
         self.forward != self.backward
@@ -104,7 +107,7 @@ impl Machine {
                 to: None,
                 forward: free.clone(),
                 backward: free,
-                grip: Grip::Firm,
+                grip: None,
             }],
         };
         let face = builder.strip(scene);
@@ -118,11 +121,8 @@ impl Machine {
         if let Some((position, _)) = &wall {
             layers.retain(|layer| layer.from.as_ref().is_none_or(|from| from < position));
         }
-        let ends: Vec<_> = layers
-            .iter()
-            .skip(1)
-            .map(|next| next.from.clone())
-            .collect();
+        let ends = layers.iter().skip(1).map(|next| next.from.clone());
+        let ends: Vec<_> = ends.collect();
         let last = wall.as_ref().map(|(position, _)| position.clone());
         for (layer, end) in layers.iter_mut().zip(ends.into_iter().chain([last])) {
             layer.to = end;
@@ -148,7 +148,7 @@ impl Builder {
         self.digits.real(value)
     }
 
-    fn add(&mut self, from: &Real, forward: Law, backward: Law, grip: Grip) {
+    fn add(&mut self, from: &Real, forward: Law, backward: Law, grip: Option<Grip>) {
         self.layers.push(Layer {
             from: Some(from.clone()),
             to: None,
@@ -178,14 +178,14 @@ impl Builder {
         if strip.thickness > 0.0 {
             let forward = self.sprung(&(&forming + &friction), &near, &zero);
             let backward = self.sprung(&(&forming - &friction), &near, &zero);
-            self.add(&near, forward, backward, Grip::Firm);
+            self.add(&near, forward, backward, None);
         }
         let cut = near + &thickness;
         if strip.travel > 0.0 {
             let unit = thickness * (forming + friction) / self.real(40.0);
             let forward = self.sprung(&zero, &zero, &(&unit * self.real(4.0)));
             let backward = self.sprung(&zero, &zero, &(unit * self.real(-2.0)));
-            self.add(&cut, forward, backward, Grip::Firm);
+            self.add(&cut, forward, backward, None);
         }
         cut + self.real(strip.travel)
     }
@@ -202,10 +202,10 @@ impl Builder {
                 return Ok(Some((face.clone(), self.real(*restitution))));
             }
             Stop::None if scene.piercing.is_none() && wall.is_none() => {}
-            Stop::None => self.spring(face, &zero, &zero, Grip::Firm),
+            Stop::None => self.spring(face, &zero, &zero, None),
             Stop::Preloaded { stiffness, preload } => {
                 let (stiffness, preload) = (self.real(*stiffness), self.real(*preload));
-                self.spring(face, &stiffness, &preload, Grip::Firm);
+                self.spring(face, &stiffness, &preload, None);
             }
             Stop::KelvinVoigt { stiffness, release } => {
                 let stiffness = self.real(*stiffness);
@@ -213,48 +213,42 @@ impl Builder {
                 self.spring(face, &stiffness, &zero, grip);
             }
             Stop::PiecewiseLinear { loading, unloading } => {
-                let back = if unloading.is_empty() {
-                    loading
-                } else {
-                    unloading
-                };
-                self.slopes(face, loading, back);
+                let ways = [unloading, loading];
+                self.slopes(face, loading, ways[usize::from(unloading.is_empty())]);
             }
             // A linear spring.
             Stop::Hertz {
                 stiffness,
                 exponent: 1.0,
                 dissipation: 0.0,
-            } => self.spring(face, &self.real(*stiffness), &zero, Grip::Firm),
-            Stop::Hertz {
+            } => self.spring(face, &self.real(*stiffness), &zero, None),
+            &Stop::Hertz {
                 exponent,
                 dissipation,
                 ..
             } => {
                 return Err(ReferenceError::PowerLaw {
-                    exponent: *exponent,
-                    dissipation: *dissipation,
+                    exponent,
+                    dissipation,
                 });
             }
         }
         Ok(wall)
     }
 
-    fn spring(&mut self, face: &Real, stiffness: &Real, force: &Real, grip: Grip) {
+    fn spring(&mut self, face: &Real, stiffness: &Real, force: &Real, grip: Option<Grip>) {
         let law = self.sprung(stiffness, face, force);
         self.add(face, law.clone(), law, grip);
     }
 
     /// A Kelvin-Voigt stop that is let go at zero force never pulls.
-    fn release(&self, scene: &Scene, release: Release, stiffness: &Real) -> Grip {
-        if release == Release::Clearance || scene.contact_damping == scene.damping {
-            return Grip::Firm;
-        }
-        Grip::Pressing {
-            position: stiffness.clone(),
-            velocity: self.real(scene.contact_damping) - self.real(scene.damping),
+    fn release(&self, scene: &Scene, release: Release, stiffness: &Real) -> Option<Grip> {
+        let lets_go = release != Release::Clearance && scene.contact_damping != scene.damping;
+        lets_go.then(|| Grip {
+            stiffness: stiffness.clone(),
+            damping: self.real(scene.contact_damping) - self.real(scene.damping),
             free: self.layers[0].forward.clone(),
-        }
+        })
     }
 
     /// One layer from each deflection on at which a slope of either way begins.
@@ -269,7 +263,7 @@ impl Builder {
                 builder.sprung(&stiffness, &from, &force)
             };
             let (forward, backward) = (law(self, loading), law(self, back));
-            self.add(&from, forward, backward, Grip::Firm);
+            self.add(&from, forward, backward, None);
         }
     }
 

@@ -1,18 +1,18 @@
 //! Reference motions of piecewise linear machines in 48 digits and more, for the charts that measure errors.
 //!
 //! Nothing of the core's flows, events or lowering is used. A scene becomes layers of positions with their laws
-//! ([`machine`]); every arc is the Taylor series of its equation of motion ([`arc`]); the first root of each
+//! (`machine`); every arc is the Taylor series of its equation of motion (`arc`); the first root of each
 //! guard is isolated by bounds of its derivatives over the whole arc and polished by Newton's method to all
-//! digits ([`root`]); what happens there is decided by Filippov's rules ([`rest`], [`walk`]). A motion is computed twice,
+//! digits (`root`); what happens there is decided by Filippov's rules (`rest`, `course`). A motion is computed twice,
 //! with 160 and with 224 binary digits and the series cut accordingly; the second is the answer, and
 //! the difference says how far to trust the first, chaos included.
 
-pub mod arc;
-pub mod machine;
+mod arc;
+mod course;
+mod machine;
 pub mod number;
-mod place;
-pub mod rest;
-pub mod root;
+mod rest;
+mod root;
 pub mod walk;
 
 use crate::methods::Task;
@@ -20,7 +20,7 @@ use softstop::{Impact, MotionError};
 use thiserror::Error;
 
 use number::{Digits, Real, float, size};
-use walk::{Course, Walk};
+use walk::Walk;
 
 /// Binary digits of the two runs: 48 and 67 decimal ones.
 const RUNS: [Digits; 2] = [Digits(160), Digits(224)];
@@ -116,23 +116,20 @@ pub fn solve(task: &Task, go_on: &dyn Fn(f64) -> bool) -> Result<Reference, Refe
         velocity: float(velocity),
     };
     Ok(Reference {
-        end: (float(&best.position), float(&best.velocity)),
+        end: (float(&best.state.position), float(&best.state.velocity)),
         impacts: best.impacts.iter().map(impact).collect(),
         crossings: best.crossings,
         doubt: doubt(&check, &best),
     })
 }
 
-fn doubt(check: &Course, best: &Course) -> Doubt {
+fn doubt(check: &Walk, best: &Walk) -> Doubt {
     let apart = |a: &Real, b: &Real| float(&size(&(a - b)));
-    let position = apart(&check.position, &best.position);
-    let mut doubt = Doubt {
-        end: position.max(apart(&check.velocity, &best.velocity)),
-        ..Doubt::default()
-    };
-    for (a, b) in check.impacts.iter().zip(&best.impacts) {
-        doubt.time = doubt.time.max(apart(&a.0, &b.0));
-        doubt.velocity = doubt.velocity.max(apart(&a.1, &b.1));
+    let position = apart(&check.state.position, &best.state.position);
+    let pairs = || check.impacts.iter().zip(&best.impacts);
+    Doubt {
+        end: position.max(apart(&check.state.velocity, &best.state.velocity)),
+        time: pairs().map(|(a, b)| apart(&a.0, &b.0)).fold(0.0, f64::max),
+        velocity: pairs().map(|(a, b)| apart(&a.1, &b.1)).fold(0.0, f64::max),
     }
-    doubt
 }

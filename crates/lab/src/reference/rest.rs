@@ -1,48 +1,25 @@
 //! A mass without velocity: Filippov's rules for dry friction and for faces where the force jumps.
 
-use super::machine::Law;
 use super::number::{Real, is_negative, size};
-use super::place::Place;
+use super::walk::Walk;
 
 /// What a mass without velocity does.
-pub enum Rest {
+pub(super) enum Rest {
     /// It only turns.
     Free,
-    /// It leaves at once.
-    Leaves {
-        /// Onwards.
-        forward: bool,
-        /// Into this layer.
-        layer: usize,
-    },
-    /// It is held.
-    Held {
-        /// Until this time in s, at which its forces are in balance.
-        until: Real,
-        /// It then leaves onwards.
-        forward: bool,
-        /// Into this layer.
-        layer: usize,
-    },
+    /// It leaves at once, onwards or back, into a layer.
+    Leaves(bool, usize),
+    /// It is held until a time in s at which its forces are in balance, and then leaves so.
+    Held(Real, bool, usize),
 }
 
-/// Where a mass on a surface or under friction may go: the layers ahead and behind, each with the push per mass
-/// that balances it there.
-struct Sides {
-    ahead: Option<(usize, Real)>,
-    behind: (usize, Real),
-    /// There is no jump of the force.
-    smooth: bool,
-}
+/// A layer into which a mass on a surface or under friction may go, and the push per mass that balances it there.
+type Side = (usize, Real);
 
-impl Place {
+impl Walk {
     /// What the mass does from its place without velocity.
     pub(super) fn rest(&self) -> Rest {
-        let Sides {
-            ahead,
-            behind: (below, least),
-            smooth,
-        } = self.sides();
+        let (ahead, (below, least), smooth) = self.sides();
         if smooth {
             return Rest::Free;
         }
@@ -50,39 +27,24 @@ impl Place {
         if let Some((layer, most)) = &ahead
             && push > *most
         {
-            let (forward, layer) = (true, *layer);
-            return Rest::Leaves { forward, layer };
+            return Rest::Leaves(true, *layer);
         }
         if push < least {
-            let (forward, layer) = (false, below);
-            return Rest::Leaves { forward, layer };
+            return Rest::Leaves(false, below);
         }
         self.hold(ahead, (below, least))
     }
 
-    fn hold(&self, ahead: Option<(usize, Real)>, behind: (usize, Real)) -> Rest {
+    fn hold(&self, ahead: Option<Side>, behind: Side) -> Rest {
         let time = &self.state.time;
         let back = self.passes(&behind.1, false);
         let on = ahead.and_then(|(layer, most)| Some((layer, self.passes(&most, true)?)));
-        let until = |wait: Real| time + wait;
         match (on, back) {
             (Some((layer, on)), back) if back.as_ref().is_none_or(|back| on < *back) => {
-                Rest::Held {
-                    until: until(on),
-                    forward: true,
-                    layer,
-                }
+                Rest::Held(time + on, true, layer)
             }
-            (_, Some(back)) => Rest::Held {
-                until: until(back),
-                forward: false,
-                layer: behind.0,
-            },
-            _ => Rest::Held {
-                until: self.end.clone(),
-                forward: true,
-                layer: self.layer,
-            },
+            (_, Some(back)) => Rest::Held(time + back, false, behind.0),
+            _ => Rest::Held(self.end.clone(), true, self.layer),
         }
     }
 
@@ -100,34 +62,28 @@ impl Place {
         Some((ahead - turns * turn) / &drive.frequency)
     }
 
-    fn sides(&self) -> Sides {
+    /// Ahead and behind, and whether there is no jump of the force.
+    fn sides(&self) -> (Option<Side>, Side, bool) {
         let layers = &self.machine.layers;
         let layer = &layers[self.layer];
         let at = |end: &Option<Real>| end.as_ref() == Some(&self.state.position);
         let upper = self.layer + usize::from(at(&layer.to));
         let lower = self.layer - usize::from(at(&layer.from));
         let ahead = (upper < layers.len()).then(|| (upper, self.balance(upper, true)));
-        Sides {
-            ahead,
-            behind: (lower, self.balance(lower, false)),
-            smooth: upper == lower && !layer.rubs(),
-        }
+        let behind = (lower, self.balance(lower, false));
+        (ahead, behind, upper == lower && !layer.rubs())
     }
 
     /// The push per mass that holds the mass at rest in a layer.
     fn balance(&self, index: usize, forward: bool) -> Real {
         let layer = &self.machine.layers[index];
-        let law: &Law = if forward {
-            &layer.forward
-        } else {
-            &layer.backward
-        };
+        let law = layer.law(forward);
         &law.stiffness * &self.state.position - &law.force
     }
 
     /// The least acceleration with which both sides press the mass onto its place; none if one does not.
     pub(super) fn pressed(&self) -> Option<Real> {
-        let Sides { ahead, behind, .. } = self.sides();
+        let (ahead, behind, _) = self.sides();
         let push = self.machine.drive.at(&self.state.time);
         let back = &push - behind.1;
         let on = ahead.map_or_else(|| back.clone(), |(_, most)| most - &push);

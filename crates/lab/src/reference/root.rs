@@ -3,7 +3,7 @@
 //! An interval is passed only if the bounds of the derivatives over the whole stretch show that the
 //! polynomial is positive on it. Doubles decide wherever their rounding cannot matter, all digits else.
 
-use super::number::{Real, derivative, float, is_negative, is_zero, size, value};
+use super::number::{Digits, Real, derivative, float, is_negative, is_zero, size, value};
 
 /// The first s in (0, `reach`] at which a polynomial that is positive just after 0 turns negative. Zero if it
 /// begins below zero by rounding; an error if it begins at zero and falls.
@@ -14,11 +14,7 @@ pub fn first_root(guard: &[Real], reach: &Real) -> Result<Option<Real>, Wrong> {
         return Ok(None);
     };
     if is_negative(first) {
-        return if zeros == 0 {
-            Ok(Some(Real::ZERO))
-        } else {
-            Err(Wrong)
-        };
+        return (zeros == 0).then_some(Some(Real::ZERO)).ok_or(Wrong);
     }
     let scaled = scaled(terms, reach);
     let floats: Vec<f64> = scaled.iter().map(float).collect();
@@ -94,10 +90,9 @@ fn scan(floats: &[f64]) -> Scan {
             if end > margin {
                 continue;
             }
-            return if end < -margin && slope < 0.0 {
-                Scan::Bracket(low, high)
-            } else {
-                Scan::Doubt(low)
+            return match end < -margin && slope < 0.0 {
+                true => Scan::Bracket(low, high),
+                false => Scan::Doubt(low),
             };
         }
         if half < 1e-12 {
@@ -112,18 +107,15 @@ fn scan(floats: &[f64]) -> Scan {
 /// The same in all digits, from an argument on.
 fn search(terms: &[Real], from: f64) -> Option<Real> {
     let slopes = derivative(terms);
-    let precision = terms[0].precision();
-    let start = Real::try_from(from)
-        .expect("finite")
-        .with_precision(precision);
-    let one = Real::ONE.with_precision(precision).value();
+    let digits = Digits(terms[0].precision());
+    let one = digits.real(1.0);
     let (mut first, mut second) = (Real::ZERO, Real::ZERO);
     for (n, slope) in slopes.iter().enumerate() {
         first += size(slope);
         second += size(slope) * Real::from(n);
     }
-    let finest = one.clone() >> (precision / 2) as isize;
-    let mut todo = vec![(start.value(), one)];
+    let finest = one.clone() >> (digits.0 / 2) as isize;
+    let mut todo = vec![(digits.real(from), one)];
     while let Some((low, high)) = todo.pop() {
         let middle = (&low + &high) >> 1isize;
         let half = (&high - &low) >> 1isize;
@@ -133,7 +125,7 @@ fn search(terms: &[Real], from: f64) -> Option<Real> {
         }
         if size(&value(&slopes, &middle)) > &second * &half || half < finest {
             if is_negative(&value(terms, &high)) {
-                return Some(newton(terms, &slopes, low, high, middle));
+                return Some(newton(terms, &slopes, [low, high, middle]));
             }
             continue;
         }
@@ -147,42 +139,34 @@ fn search(terms: &[Real], from: f64) -> Option<Real> {
 
 /// The root of a bracket that doubles have found.
 fn polish(terms: &[Real], low: f64, high: f64) -> Real {
-    let precision = terms[0].precision();
-    let real = |value: f64| {
-        let exact = Real::try_from(value).expect("finite");
-        exact.with_precision(precision).value()
-    };
+    let digits = Digits(terms[0].precision());
     let floats: Vec<f64> = terms.iter().map(float).collect();
     let (mut left, mut right) = (low, high);
     while right - left > 1e-6 * right {
         let middle = 0.5 * (left + right);
-        if both(&floats, middle).0 > 0.0 {
-            left = middle;
-        } else {
-            right = middle;
+        match both(&floats, middle).0 > 0.0 {
+            true => left = middle,
+            false => right = middle,
         }
     }
-    let near = 0.5 * (left + right);
-    newton(terms, &derivative(terms), real(low), real(high), real(near))
+    let ends = [low, high, 0.5 * (left + right)].map(|end| digits.real(end));
+    newton(terms, &derivative(terms), ends)
 }
 
-/// Newton's method inside a bracket.
-fn newton(terms: &[Real], slopes: &[Real], low: Real, high: Real, near: Real) -> Real {
-    let (mut low, mut high, mut at) = (low, high, near);
+/// Newton's method inside a bracket, from a place in it.
+fn newton(terms: &[Real], slopes: &[Real], [mut low, mut high, mut at]: [Real; 3]) -> Real {
     let fine = (terms[0].precision() - 8) as isize;
     let mut last: Option<Real> = None;
     for _ in 0..4 * fine {
         let level = value(terms, &at);
-        if is_negative(&level) {
-            high = at.clone();
-        } else {
-            low = at.clone();
+        match is_negative(&level) {
+            true => high = at.clone(),
+            false => low = at.clone(),
         }
         let slope = value(slopes, &at);
-        let mut next = if is_zero(&slope) {
-            low.clone()
-        } else {
-            &at - level / slope
+        let mut next = match is_zero(&slope) {
+            true => low.clone(),
+            false => &at - level / slope,
         };
         if next < low || next > high {
             next = (&low + &high) >> 1isize;

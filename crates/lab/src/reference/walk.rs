@@ -1,203 +1,173 @@
-//! From event to event through the layers of a machine.
+//! A motion on its way: the layer, the state in it, and the arc from there with what ends it.
 
 use crate::methods::Task;
 
 use super::ReferenceError;
-use super::arc::Arc;
-use super::number::{Digits, Real, float, is_negative, is_zero, size};
-use super::place::{Event, Place};
-use super::rest::Rest;
-use super::root::first_root;
+use super::arc::{Arc, State, linear};
+use super::machine::{Grip, Law, Layer, Machine};
+use super::number::{Digits, Real, float, is_negative, is_zero};
 
-/// Steps after which a reference is given up.
-const MOST_STEPS: u64 = 2_000_000;
-/// Crossings after which it is.
-const MOST_CROSSINGS: u64 = 100_000;
-
-/// What a run has found.
-#[derive(Debug, Clone)]
-pub struct Course {
-    /// Position in m at the end.
-    pub position: Real,
-    /// Velocity in m/s at the end.
-    pub velocity: Real,
-    /// Times in s and before-impact velocities in m/s.
-    pub impacts: Vec<(Real, Real)>,
-    /// Crossings of all kinds.
-    pub crossings: u64,
+/// What ends an arc.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Event {
+    /// The lower end of the layer.
+    Low,
+    /// Its upper end.
+    High,
+    /// The velocity changes its sign under dry friction.
+    Turn,
+    /// The stop begins or ceases to press.
+    Switch,
 }
 
 /// A motion on its way.
 pub struct Walk {
-    place: Place,
-    impacts: Vec<(Real, Real)>,
-    crossings: u64,
-    steps: u64,
+    pub(super) machine: Machine,
+    pub(super) digits: Digits,
+    /// The present state.
+    pub state: State,
+    /// The present layer.
+    pub(super) layer: usize,
+    /// Which of its laws holds.
+    pub(super) forward: bool,
+    /// The stop presses.
+    pub(super) presses: bool,
+    /// The event at the start of the arc.
+    pub(super) last: Option<Event>,
+    /// Time in s at which the motion ends.
+    pub(super) end: Real,
+    /// Times in s and before-impact velocities in m/s.
+    pub impacts: Vec<(Real, Real)>,
+    /// Crossings of all kinds.
+    pub(super) crossings: u64,
 }
 
 impl Walk {
-    /// A motion from a task's start.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] if a law is not linear or the start cannot be decided.
-    pub fn new(task: &Task, digits: Digits) -> Result<Self, ReferenceError> {
-        let mut walk = Self {
-            place: Place::new(task, digits)?,
+    /// Where a task starts.
+    pub(super) fn at(task: &Task, digits: Digits) -> Result<Self, ReferenceError> {
+        let machine = Machine::new(&task.scene, digits)?;
+        let position = digits.real(task.start.position);
+        let below = |layer: &Layer| layer.from.as_ref().is_none_or(|from| *from <= position);
+        Ok(Self {
+            layer: machine.layers.iter().rposition(below).unwrap_or(0),
+            end: digits.real(task.periods) * digits.turn() / &machine.drive.frequency,
+            state: State {
+                time: digits.real(0.0),
+                position,
+                velocity: digits.real(task.start.velocity),
+            },
+            machine,
+            digits,
+            forward: true,
+            presses: true,
+            last: None,
             impacts: Vec::new(),
             crossings: 0,
-            steps: 0,
-        };
-        if walk.place.begins_above() {
-            walk.pass(Event::High)?;
-        } else {
-            walk.place.settle();
-        }
-        Ok(walk)
-    }
-
-    /// Runs to the end.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] if it is interrupted or gets lost.
-    pub fn run(mut self, go_on: &dyn Fn(f64) -> bool) -> Result<Course, ReferenceError> {
-        let end = float(&self.place.end);
-        while self.place.state.time < self.place.end {
-            if !go_on((float(&self.place.state.time) / end).clamp(0.0, 1.0)) {
-                return Err(ReferenceError::Interrupted);
-            }
-            self.step()?;
-            self.steps += 1;
-            if self.steps > MOST_STEPS || self.crossings > MOST_CROSSINGS {
-                return Err(ReferenceError::Endless {
-                    time: float(&self.place.state.time),
-                    steps: self.steps,
-                    crossings: self.crossings,
-                });
-            }
-        }
-        Ok(Course {
-            position: self.place.state.position,
-            velocity: self.place.state.velocity,
-            impacts: self.impacts,
-            crossings: self.crossings,
         })
     }
 
-    fn step(&mut self) -> Result<(), ReferenceError> {
-        let mut balanced = false;
-        if is_zero(&self.place.state.velocity) {
-            match self.place.rest() {
-                Rest::Free => {}
-                Rest::Leaves { forward, layer } => self.place.leave(forward, layer),
-                Rest::Held {
-                    until,
-                    forward,
-                    layer,
-                } => {
-                    if until >= self.place.end {
-                        self.place.state.time = self.place.end.clone();
-                        return Ok(());
-                    }
-                    self.place.state.time = until;
-                    self.place.leave(forward, layer);
-                    balanced = true;
-                }
+    /// True of a start on the upper end of a layer, upwards.
+    pub(super) fn begins_above(&self) -> bool {
+        let (end, state) = (&self.machine.layers[self.layer].to, &self.state);
+        let at_end = end.as_ref().is_some_and(|end| state.position >= *end);
+        at_end && state.velocity > Real::ZERO
+    }
+
+    /// Into the layer that any other start belongs to.
+    pub(super) fn settle(&mut self) {
+        let from = self.machine.layers[self.layer].from.as_ref();
+        let below = from == Some(&self.state.position) && is_negative(&self.state.velocity);
+        self.enter(self.layer - usize::from(below));
+    }
+
+    /// Goes on from rest.
+    pub(super) fn leave(&mut self, forward: bool, layer: usize) {
+        self.last = None;
+        self.forward = forward;
+        self.enter(layer);
+    }
+
+    pub(super) fn undecided(&self) -> ReferenceError {
+        ReferenceError::Undecided {
+            time: float(&self.state.time),
+            digits: self.digits.0,
+        }
+    }
+
+    fn law(&self) -> &Law {
+        let layer = &self.machine.layers[self.layer];
+        match &layer.grip {
+            Some(grip) if !self.presses => &grip.free,
+            _ => layer.law(self.forward),
+        }
+    }
+
+    /// The arc from here; `balanced` if a mass at rest is let go.
+    pub(super) fn arc(&self, balanced: bool) -> Arc {
+        let above = self.machine.layers[self.layer].to.as_ref();
+        let laws = (self.law(), &self.machine.drive);
+        linear(laws, &self.state, balanced, above, self.digits)
+    }
+
+    /// The polynomials whose fall below zero ends an arc.
+    pub(super) fn guards(&self, arc: &Arc) -> Vec<(Event, Vec<Real>)> {
+        let layer = &self.machine.layers[self.layer];
+        let mut guards = Vec::with_capacity(4);
+        if let Some(from) = &layer.from {
+            let mut way = arc.position.clone();
+            way[0] -= from;
+            guards.push((Event::Low, way));
+        }
+        if let Some(to) = &layer.to {
+            let mut way: Vec<Real> = arc.position.iter().map(|term| -term).collect();
+            way[0] += to;
+            guards.push((Event::High, way));
+        }
+        if layer.rubs() {
+            let turn = |term: &Real| if self.forward { term.clone() } else { -term };
+            guards.push((Event::Turn, arc.velocity.iter().map(turn).collect()));
+        }
+        if let Some(mut press) = self.press(arc) {
+            if self.last == Some(Event::Switch) {
+                press[0] = self.digits.real(0.0);
             }
-        }
-        let arc = self.place.arc(balanced);
-        self.follow(&arc)
-    }
-
-    fn follow(&mut self, arc: &Arc) -> Result<(), ReferenceError> {
-        let left = &self.place.end - &self.place.state.time;
-        let (mut span, mut event) = (arc.reach.clone().min(left), None);
-        for (kind, guard) in self.place.guards(arc) {
-            if let Some(root) = first_root(&guard, &span).map_err(|_| self.place.undecided())? {
-                (span, event) = (root, Some(kind));
+            if !self.presses {
+                press.iter_mut().for_each(|term| *term = -&*term);
             }
+            guards.push((Event::Switch, press));
         }
-        let ends = event.is_none() && span < arc.reach;
-        (self.place.state.position, self.place.state.velocity) = arc.at(&span);
-        self.place.state.time = if ends {
-            self.place.end.clone()
-        } else {
-            &self.place.state.time + &span
-        };
-        self.place.last = event;
-        match event {
-            None => Ok(()),
-            Some(event) => self.pass(event),
-        }
+        guards
     }
 
-    fn pass(&mut self, event: Event) -> Result<(), ReferenceError> {
-        self.crossings += 1;
-        match event {
-            Event::Switch => self.place.presses = !self.place.presses,
-            Event::Turn => self.place.state.velocity = self.place.digits.real(0.0),
-            Event::Low => {
-                self.land(false)?;
-                self.cross(self.place.layer - 1);
-            }
-            Event::High => {
-                self.land(true)?;
-                if self.place.layer == 0 {
-                    let hit = (
-                        self.place.state.time.clone(),
-                        self.place.state.velocity.clone(),
-                    );
-                    self.impacts.push(hit);
-                }
-                if self.place.layer + 1 == self.place.machine.layers.len() {
-                    self.rebound();
-                } else {
-                    self.cross(self.place.layer + 1);
-                }
-            }
-        }
-        Ok(())
+    /// What is positive while the stop presses, along an arc.
+    fn press(&self, arc: &Arc) -> Option<Vec<Real>> {
+        let grip = self.machine.layers[self.layer].grip.as_ref()?;
+        let pairs = arc.position.iter().zip(&arc.velocity);
+        let terms = pairs.map(|(x, v)| &grip.stiffness * x + &grip.damping * v);
+        let mut press: Vec<Real> = terms.collect();
+        press[0] = self.pressure(grip);
+        Some(press)
     }
 
-    /// Moves on into a layer, unless that would be a bounce that counts as rest.
-    fn cross(&mut self, layer: usize) {
-        if self.is_faint() {
-            self.place.state.velocity = self.place.digits.real(0.0);
-        } else {
-            self.place.enter(layer);
-        }
+    /// Force in N of spring and damper of a Kelvin-Voigt stop.
+    fn pressure(&self, grip: &Grip) -> Real {
+        let face = self.machine.layers[self.layer].from.as_ref();
+        let depth = face.map_or(Real::ZERO, |face| &self.state.position - face);
+        &grip.stiffness * depth + &grip.damping * &self.state.velocity
     }
 
-    /// Puts the mass on the surface that it has reached.
-    fn land(&mut self, up: bool) -> Result<(), ReferenceError> {
-        let layer = &self.place.machine.layers[self.place.layer];
-        let surface = if up { &layer.to } else { &layer.from };
-        let velocity = &self.place.state.velocity;
-        if is_zero(velocity) || is_negative(velocity) == up {
-            return Err(self.place.undecided());
+    /// Into a layer with the present state.
+    pub(super) fn enter(&mut self, layer: usize) {
+        self.layer = layer;
+        let grip = self.machine.layers[layer].grip.as_ref();
+        self.presses = grip.is_none_or(|grip| {
+            let pressure = self.pressure(grip);
+            let opens = is_zero(&pressure) && is_negative(&self.state.velocity);
+            !is_negative(&pressure) && !opens
+        });
+        let velocity = &self.state.velocity;
+        if !is_zero(velocity) {
+            self.forward = !is_negative(velocity);
         }
-        if let Some(surface) = surface {
-            self.place.state.position = surface.clone();
-        }
-        Ok(())
-    }
-
-    /// Newton's impact law.
-    fn rebound(&mut self) {
-        let restitution = self.place.machine.restitution.as_ref();
-        let back = restitution.map_or(Real::ZERO, |r| r * &self.place.state.velocity);
-        self.place.state.velocity = -back;
-        self.place.forward = false;
-        if self.is_faint() {
-            self.place.state.velocity = self.place.digits.real(0.0);
-        }
-        self.place.enter(self.place.layer);
-    }
-
-    /// True if both sides press the mass onto its surface and the bounce that would follow is too short to matter.
-    fn is_faint(&self) -> bool {
-        let speed = size(&self.place.state.velocity);
-        self.place
-            .pressed()
-            .is_some_and(|least| speed < least * &self.place.briefest())
     }
 }

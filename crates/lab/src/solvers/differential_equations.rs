@@ -3,7 +3,7 @@
 //! Its own events and dense output are not used: in version 0.7.0 the search for an event loses its bracket, and the
 //! interpolants are not those of the schemes' authors.
 
-use crate::methods::{Fineness, Probe, rise};
+use crate::methods::{Fineness, MethodError, Probe, rise};
 use differential_equations::control::ControlFlag;
 use differential_equations::error::Error;
 use differential_equations::interpolate::Interpolation;
@@ -13,20 +13,21 @@ use differential_equations::ode::ODE;
 use differential_equations::solout::Solout;
 use differential_equations::solution::Solution as Points;
 
-use super::leg::{Leg, State};
-use super::span::{Halt, Reached, Span, bounded};
-use super::{Adaptive, AdaptiveScheme};
+use super::Adaptive;
+use super::leg::{Leg, Outcome, Reached, Span, State, bounded};
 
 /// A scheme of the crate with O coefficients of its interpolant, S stages and I with those of the interpolant.
 type Scheme<const O: usize, const S: usize, const I: usize> =
     ExplicitRungeKutta<Ordinary, DormandPrince, f64, State, O, S, I>;
 
-/// Follows a leg by Dormand and Prince's scheme of order 5, or that of order 8.
-pub(super) fn run(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Result<Reached, Halt> {
-    match settings.scheme {
-        AdaptiveScheme::Dopri5 => follow(ExplicitRungeKutta::dopri5, leg, span, settings),
-        _ => follow(ExplicitRungeKutta::dop853, leg, span, settings),
-    }
+/// Follows a leg by Dormand and Prince's scheme of order 5.
+pub(super) fn dopri5(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Outcome {
+    follow(ExplicitRungeKutta::dopri5, leg, span, settings)
+}
+
+/// Follows a leg by that of order 8.
+pub(super) fn dop853(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Outcome {
+    follow(ExplicitRungeKutta::dop853, leg, span, settings)
 }
 
 impl ODE<f64, State> for Leg<'_> {
@@ -41,7 +42,7 @@ fn follow<const O: usize, const S: usize, const I: usize>(
     leg: &Leg<'_>,
     span: &Span,
     settings: &Adaptive,
-) -> Result<Reached, Halt> {
+) -> Outcome {
     let most = usize::try_from(span.most_steps).unwrap_or(usize::MAX);
     let method = || {
         let method = scheme().rtol(settings.relative).atol(settings.absolute);
@@ -55,42 +56,33 @@ fn follow<const O: usize, const S: usize, const I: usize>(
         steps: 0,
         risen: false,
     };
-    let outcome = IVP::ode(leg, span.from, span.until, span.state)
-        .method(method())
-        .solout(&mut watch)
-        .solve();
-    let Watch {
-        before,
-        reached,
-        steps,
-        risen,
-        ..
-    } = watch;
-    let (time, state) = reached;
-    let failed = |error: Error<f64, State>| Halt::new(time, steps, format!("{error:?}"));
+    let problem = IVP::ode(leg, span.from, span.until, span.state).method(method());
+    let outcome = problem.solout(&mut watch).solve();
+    let (before, (time, state), steps) = (watch.before, watch.reached, watch.steps);
+    let failed = |error: Error<f64, State>| MethodError::stuck(time, steps, format!("{error:?}"));
     outcome.map_err(failed)?;
-    bounded(time, steps, state)?;
-    if !risen {
-        return Ok(Reached {
-            time,
-            state,
-            guard: None,
-            steps,
-        });
-    }
-    let found = first_rise(leg, before, reached, |at| {
-        let steps = IVP::ode(leg, before.0, at, before.1)
-            .method(method().h0(at - before.0))
-            .solve()
-            .map_err(failed)?;
-        Ok(steps.y.last().copied().unwrap_or(before.1))
-    })?;
-    Ok(Reached {
-        time: found.at,
-        state: found.what,
-        guard: leg.highest(found.what).map(|(index, _)| index),
+    bounded(time, state)?;
+    let mut reached = Reached {
+        time,
+        state,
+        guard: None,
         steps,
-    })
+    };
+    if watch.risen {
+        let found = first_rise(leg, before, (time, state), |at| {
+            let step = IVP::ode(leg, before.0, at, before.1);
+            let points = step.method(method().h0(at - before.0)).solve();
+            Ok(points
+                .map_err(failed)?
+                .y
+                .last()
+                .copied()
+                .unwrap_or(before.1))
+        })?;
+        (reached.time, reached.state) = (found.at, found.what);
+        reached.guard = leg.highest(found.what).map(|(index, _)| index);
+    }
+    Ok(reached)
 }
 
 /// Watches the steps of a leg.
@@ -124,10 +116,9 @@ impl Solout<f64, State> for &mut Watch<'_> {
         (self.before, self.reached) = ((before, *from), (time, *state));
         self.steps += 1;
         self.risen = self.leg.height(*state) > 0.0;
-        if self.risen || bounded(time, self.steps, *state).is_err() {
-            ControlFlag::Terminate
-        } else {
-            ControlFlag::Continue
+        match self.risen || bounded(time, *state).is_err() {
+            true => ControlFlag::Terminate,
+            false => ControlFlag::Continue,
         }
     }
 }
@@ -139,8 +130,8 @@ fn first_rise(
     leg: &Leg<'_>,
     before: (f64, State),
     after: (f64, State),
-    mut step: impl FnMut(f64) -> Result<State, Halt>,
-) -> Result<Probe<State>, Halt> {
+    mut step: impl FnMut(f64) -> Result<State, MethodError>,
+) -> Result<Probe<State>, MethodError> {
     let probe = |(at, what)| Probe {
         at,
         value: leg.height(what),
@@ -160,10 +151,9 @@ fn first_rise(
             return Ok(begin);
         }
         let tried = probe((at, step(at)?));
-        if tried.value < -fine.value {
-            low = tried;
-        } else {
-            high = tried;
+        match tried.value < -fine.value {
+            true => low = tried,
+            false => high = tried,
         }
     }
     rise(low, high, fine, |at| {

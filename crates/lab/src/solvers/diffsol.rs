@@ -6,24 +6,31 @@ use diffsol::{
     OdeEquationsImplicit, OdeSolverMethod, OdeSolverProblem, OdeSolverStopReason,
 };
 
-use super::leg::{Leg, State};
-use super::span::{Halt, Reached, Span, bounded};
-use super::{Adaptive, AdaptiveScheme};
+use super::Adaptive;
+use super::leg::{Leg, Outcome, Reached, Span, State, bounded, out_of_steps};
+use crate::methods::MethodError;
 
 type Matrix = NalgebraMat<f64>;
 type Direct = NalgebraLU<f64>;
 
-/// Follows a leg by one of the crate's schemes.
-pub(super) fn run(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Result<Reached, Halt> {
-    let refused = |error| halt(span.from, 0, &error);
-    let problem = problem(leg, span, settings).map_err(refused)?;
-    match settings.scheme {
-        AdaptiveScheme::Tsit45 => follow(problem.tsit45().map_err(refused)?, leg, span),
-        AdaptiveScheme::Esdirk34 => {
-            follow(problem.esdirk34::<Direct>().map_err(refused)?, leg, span)
-        }
-        _ => follow(problem.bdf::<Direct>().map_err(refused)?, leg, span),
-    }
+/// Follows a leg by Tsitouras' scheme.
+pub(super) fn tsit45(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Outcome {
+    let problem = problem(leg, span, settings).map_err(refused(span))?;
+    follow(problem.tsit45().map_err(refused(span))?, leg, span)
+}
+
+/// Follows a leg by the diagonally implicit scheme.
+pub(super) fn esdirk34(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Outcome {
+    let problem = problem(leg, span, settings).map_err(refused(span))?;
+    let solver = problem.esdirk34::<Direct>();
+    follow(solver.map_err(refused(span))?, leg, span)
+}
+
+/// Follows a leg by backward differences.
+pub(super) fn bdf(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Outcome {
+    let problem = problem(leg, span, settings).map_err(refused(span))?;
+    let solver = problem.bdf::<Direct>();
+    follow(solver.map_err(refused(span))?, leg, span)
 }
 
 /// The leg as diffsol takes it.
@@ -60,51 +67,43 @@ fn problem<'a>(
 }
 
 /// Steps until a guard rises through zero.
-fn follow<'a, E, S>(mut solver: S, leg: &Leg<'_>, span: &Span) -> Result<Reached, Halt>
+fn follow<'a, E, S>(mut solver: S, leg: &Leg<'_>, span: &Span) -> Outcome
 where
     E: OdeEquations<T = f64, V = NalgebraVec<f64>> + 'a,
     S: OdeSolverMethod<'a, E>,
 {
-    solver
-        .set_stop_time(span.until)
-        .map_err(|error| halt(span.from, 0, &error))?;
+    solver.set_stop_time(span.until).map_err(refused(span))?;
     let guards = |state: State| (0..leg.guard_count()).map(move |index| leg.guard(index, state));
     let mut before: Vec<f64> = guards(span.state).collect();
     let mut steps = 0;
     loop {
-        let reason = solver
-            .step()
-            .map_err(|error| halt(solver.state().t, steps, &error))?;
+        let reason = solver.step();
+        let reason = reason.map_err(|error| halt(solver.state().t, steps, &error))?;
         steps += 1;
         let (time, state) = (solver.state().t, pair(solver.state().y.batch_as_slice(0)));
+        let reached = |time, state, guard| Reached {
+            time,
+            state,
+            guard,
+            steps,
+        };
         match reason {
             // Roots are found on the way down too; a guard counts on its way up.
             OdeSolverStopReason::RootFound(root, index) if before[index] <= 0.0 => {
-                let found = solver
-                    .interpolate(root)
-                    .map_err(|error| halt(root, steps, &error))?;
-                return Ok(Reached {
-                    time: root,
-                    state: pair(found.batch_as_slice(0)),
-                    guard: Some(index),
-                    steps,
-                });
+                let found = solver.interpolate(root);
+                let found = found.map_err(|error| halt(root, steps, &error))?;
+                return Ok(reached(root, pair(found.batch_as_slice(0)), Some(index)));
             }
             OdeSolverStopReason::RootFound(..) | OdeSolverStopReason::InternalTimestep => {
                 within(leg, time, steps, state)?;
             }
             OdeSolverStopReason::TstopReached => {
                 within(leg, time, steps, state)?;
-                return Ok(Reached {
-                    time,
-                    state,
-                    guard: None,
-                    steps,
-                });
+                return Ok(reached(time, state, None));
             }
         }
         if steps >= span.most_steps {
-            return Err(Halt::out_of_steps(time, steps));
+            return Err(out_of_steps(time, steps));
         }
         before.clear();
         before.extend(guards(state));
@@ -112,21 +111,25 @@ where
 }
 
 /// Refuses the end of a step at which no root was reported, if it lies beyond the phase or any bounds.
-fn within(leg: &Leg<'_>, time: f64, steps: u64, state: State) -> Result<(), Halt> {
-    bounded(time, steps, state)?;
-    match leg.highest(state) {
-        Some((_, value)) if value > 0.0 => {
-            let reason = "a step ended beyond its phase, and diffsol reported no root";
-            Err(Halt::new(time, steps, reason))
-        }
-        _ => Ok(()),
+fn within(leg: &Leg<'_>, time: f64, steps: u64, state: State) -> Result<(), MethodError> {
+    bounded(time, state)?;
+    if leg.height(state) > 0.0 {
+        let reason = "a step ended beyond its phase, and diffsol reported no root";
+        return Err(MethodError::stuck(time, steps, reason));
     }
+    Ok(())
 }
 
 fn pair(values: &[f64]) -> State {
     [values[0], values[1]]
 }
 
-fn halt(time: f64, steps: u64, error: &DiffsolError) -> Halt {
-    Halt::new(time, steps, error.to_string())
+fn halt(time: f64, steps: u64, error: &DiffsolError) -> MethodError {
+    MethodError::stuck(time, steps, error.to_string())
+}
+
+/// What was wrong before the first step.
+fn refused(span: &Span) -> impl Fn(DiffsolError) -> MethodError {
+    let from = span.from;
+    move |error| halt(from, 0, &error)
 }

@@ -1,9 +1,10 @@
 //! One stretch of smooth motion as a crate's solver sees it: y' = f(t, y) and the roots that end it.
+//! What it is given and gives back: the leg, followed until a guard ends it.
 
-use std::cell::Cell;
-
+use crate::methods::MethodError;
 use softstop::Scene;
 use softstop::internals::{Guard, Phase};
+use std::cell::Cell;
 
 /// Two numbers that a solver follows: position in m and velocity in m/s or, of a mass that is held, the
 /// drive per mass in m/s^2 and its rate.
@@ -51,19 +52,14 @@ impl<'a> Leg<'a> {
     /// dy/dt.
     pub fn rate(&self, time: f64, [position, velocity]: State) -> State {
         self.count();
-        match self.course {
+        let acceleration = match self.course {
             Course::Moving(phase) => {
                 let (push, _) = drive(self.scene, time);
-                [
-                    velocity,
-                    phase.acceleration(position, velocity, push, self.scene.mass),
-                ]
+                phase.acceleration(position, velocity, push, self.scene.mass)
             }
-            Course::Held => [
-                velocity,
-                -self.scene.excitation.frequency.powi(2) * position,
-            ],
-        }
+            Course::Held => -self.scene.excitation.frequency.powi(2) * position,
+        };
+        [velocity, acceleration]
     }
 
     /// The Jacobian of the rate times a vector.
@@ -91,9 +87,8 @@ impl<'a> Leg<'a> {
 
     /// The guard that stands highest, and its value.
     pub fn highest(&self, state: State) -> Option<(usize, f64)> {
-        (0..self.guards.len())
-            .map(|index| (index, self.guard(index, state)))
-            .max_by(|one, other| one.1.total_cmp(&other.1))
+        let all = (0..self.guards.len()).map(|index| (index, self.guard(index, state)));
+        all.max_by(|one, other| one.1.total_cmp(&other.1))
     }
 
     /// How high the highest guard stands; below zero if there is none.
@@ -118,4 +113,49 @@ pub(super) fn drive(scene: &Scene, time: f64) -> (f64, f64) {
     let (sine, cosine) = (drive.frequency * time + drive.phase).sin_cos();
     let amplitude = drive.amplitude / scene.mass;
     (amplitude * cosine, -amplitude * drive.frequency * sine)
+}
+
+/// Where a leg begins and how far it may go.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Span {
+    /// Time in s at which it begins.
+    pub from: f64,
+    /// The state there.
+    pub state: State,
+    /// Time in s at which the motion ends.
+    pub until: f64,
+    /// Steps that are left.
+    pub most_steps: u64,
+}
+
+/// Where a leg ended.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reached {
+    /// Time in s.
+    pub time: f64,
+    /// The state then.
+    pub state: State,
+    /// The guard that ended it; none at the end of the span.
+    pub guard: Option<usize>,
+    /// Accepted steps.
+    pub steps: u64,
+}
+
+/// What comes of a leg; of a failure the steps of this leg.
+pub(super) type Outcome = Result<Reached, MethodError>;
+
+/// The steps are used up.
+pub(super) fn out_of_steps(time: f64, steps: u64) -> MethodError {
+    MethodError::stuck(time, steps, "the steps allowed are used up")
+}
+
+/// Largest number that counts as bounded.
+const BOUND: f64 = 1e100;
+
+/// Refuses a state that has left all bounds.
+pub(super) fn bounded(time: f64, state: State) -> Result<(), MethodError> {
+    match state.iter().all(|value| value.abs() <= BOUND) {
+        true => Ok(()),
+        false => Err(MethodError::BlownUp { time }),
+    }
 }

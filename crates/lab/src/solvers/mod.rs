@@ -26,14 +26,12 @@
 mod differential_equations;
 mod diffsol;
 mod leg;
-mod span;
 
 use crate::methods::{Integrator, MethodError, Solution, Task, Work, in_range};
 use softstop::Start;
 use softstop::internals::Walk;
 
-use leg::{Leg, drive};
-use span::{Halt, Reached, Span};
+use leg::{Leg, Outcome, Span, drive, out_of_steps};
 
 /// A scheme of a crate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,15 +60,29 @@ impl AdaptiveScheme {
 
     /// The crate and its name for the scheme.
     pub fn name(self) -> &'static str {
+        self.solver().0
+    }
+
+    /// The same, and what follows a leg by it.
+    fn solver(self) -> (&'static str, Follow) {
         match self {
-            Self::Tsit45 => "diffsol tsit45",
-            Self::Esdirk34 => "diffsol esdirk34",
-            Self::Bdf => "diffsol bdf",
-            Self::Dopri5 => "differential-equations dopri5",
-            Self::Dop853 => "differential-equations dop853",
+            Self::Tsit45 => ("diffsol tsit45", diffsol::tsit45),
+            Self::Esdirk34 => ("diffsol esdirk34", diffsol::esdirk34),
+            Self::Bdf => ("diffsol bdf", diffsol::bdf),
+            Self::Dopri5 => (
+                "differential-equations dopri5",
+                differential_equations::dopri5,
+            ),
+            Self::Dop853 => (
+                "differential-equations dop853",
+                differential_equations::dop853,
+            ),
         }
     }
 }
+
+/// Follows a leg.
+type Follow = fn(&Leg<'_>, &Span, &Adaptive) -> Outcome;
 
 /// A crate's solver with its tolerances.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,95 +102,61 @@ impl Integrator for Adaptive {
     }
 
     fn integrate(&self, task: &Task) -> Result<Solution, MethodError> {
-        for (name, value) in [
-            ("relative tolerance", self.relative),
-            ("absolute tolerance", self.absolute),
-        ] {
+        let positive = |name, value: f64| {
             let holds = value > 0.0 && value.is_finite();
-            in_range(name, value, holds, "finite and > 0")?;
-        }
-        let follow = match self.scheme {
-            AdaptiveScheme::Tsit45 | AdaptiveScheme::Esdirk34 | AdaptiveScheme::Bdf => diffsol::run,
-            AdaptiveScheme::Dopri5 | AdaptiveScheme::Dop853 => differential_equations::run,
+            in_range(name, value, holds, "finite and > 0")
         };
-        let journey = Journey {
-            task,
-            walk: task.walk()?,
-            work: Work::default(),
-        };
-        journey.run(|leg, span| follow(leg, span, self))
-    }
-}
-
-/// A task on its way, leg by leg.
-struct Journey<'a> {
-    task: &'a Task,
-    walk: Walk<'a>,
-    work: Work,
-}
-
-impl Journey<'_> {
-    fn run(
-        mut self,
-        follow: impl Fn(&Leg<'_>, &Span) -> Result<Reached, Halt>,
-    ) -> Result<Solution, MethodError> {
-        let until = self.task.duration();
-        let mut end = self.walk.state();
+        positive("relative tolerance", self.relative)?;
+        positive("absolute tolerance", self.absolute)?;
+        let until = task.until()?;
+        let (_, follow) = self.scheme.solver();
+        let mut walk = Walk::new(&task.scene, task.start)?;
+        let mut work = Work::default();
+        let mut end = walk.state();
         // Within rounding of the end no solver can make a step.
-        while until - self.walk.time() > 1e3 * f64::EPSILON * until {
-            let span = self.span(until);
-            let leg = Leg::new(&self.task.scene, self.walk.phase(), self.walk.guards());
-            let outcome = match span.most_steps {
-                0 => Err(Halt::out_of_steps(span.from, 0)),
-                _ => follow(&leg, &span),
+        while until - walk.time() > 1e3 * f64::EPSILON * until {
+            let left = task.most_steps.saturating_sub(work.steps);
+            let span = span(task, &walk, until, left);
+            let leg = Leg::new(&task.scene, walk.phase(), walk.guards());
+            let outcome = match left {
+                0 => Err(out_of_steps(span.from, 0)),
+                _ => follow(&leg, &span, self),
             };
-            self.work.evaluations += leg.evaluations();
-            let reached = outcome.map_err(|halt| self.failure(halt))?;
-            self.work.steps += reached.steps;
-            let moving = self.walk.phase().is_some();
-            let [position, velocity] = reached.state;
-            end = if moving {
-                Start::new(position, velocity)
-            } else {
-                end
-            };
+            work.evaluations += leg.evaluations();
+            let reached = outcome.map_err(|error| match error {
+                MethodError::Stuck { steps, .. } => error.after(work.steps + steps),
+                other => other,
+            })?;
+            work.steps += reached.steps;
+            if walk.phase().is_some() {
+                let [position, velocity] = reached.state;
+                end = Start::new(position, velocity);
+            }
             let Some(guard) = reached.guard else { break };
-            let crossed = self.walk.cross(guard, reached.time, end);
-            crossed.map_err(|error| MethodError::from(error).after(self.work.steps))?;
-            end = self.walk.state();
+            let crossed = walk.cross(guard, reached.time, end);
+            crossed.map_err(|error| MethodError::from(error).after(work.steps))?;
+            end = walk.state();
         }
         Ok(Solution {
             end: (end.position, end.velocity),
-            impacts: self.walk.impacts().to_vec(),
-            work: self.work,
+            impacts: walk.into_impacts(),
+            work,
         })
     }
+}
 
-    fn span(&self, until: f64) -> Span {
-        let (from, start) = (self.walk.time(), self.walk.state());
-        let (push, rate) = drive(&self.task.scene, from);
-        let state = match self.walk.phase() {
-            Some(_) => [start.position, start.velocity],
-            None => [push, rate],
-        };
-        Span {
-            from,
-            state,
-            until,
-            most_steps: self.task.most_steps.saturating_sub(self.work.steps),
-        }
-    }
-
-    fn failure(&self, halt: Halt) -> MethodError {
-        let Halt { time, reason, .. } = halt;
-        if halt.blown_up {
-            return MethodError::BlownUp { time };
-        }
-        let steps = self.work.steps + halt.steps;
-        MethodError::Stuck {
-            time,
-            steps,
-            reason,
-        }
+/// What a solver is given of a walk's next leg.
+fn span(task: &Task, walk: &Walk<'_>, until: f64, most_steps: u64) -> Span {
+    let (from, start) = (walk.time(), walk.state());
+    let (push, rate) = drive(&task.scene, from);
+    let state = match walk.phase() {
+        Some(_) => [start.position, start.velocity],
+        None => [push, rate],
+    };
+    Span {
+        from,
+        state,
+        until,
+        most_steps,
     }
 }

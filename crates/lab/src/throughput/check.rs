@@ -119,15 +119,12 @@ pub fn check(trajectories: u64, seed: u64) -> Result<Check, Failure> {
 }
 
 fn compare(draw: &mut Draw, count: u64) -> Result<Tally, Failure> {
-    let motions: Vec<(Kind, Scene, Start)> = (0..count)
-        .map(|_| draw.machine())
-        .collect::<Result<_, _>>()
-        .context("a random machine")?;
-    let machines: Vec<Machine> = motions
-        .iter()
-        .map(|(_, scene, _)| Machine::new(scene))
-        .collect::<Result<_, _>>()
-        .context("a random machine")?;
+    let motions = (0..count).map(|_| draw.machine());
+    let motions = motions.collect::<Result<Vec<(Kind, Scene, Start)>, _>>();
+    let motions = motions.context("a random machine")?;
+    let machines = motions.iter().map(|(_, scene, _)| Machine::new(scene));
+    let machines = machines.collect::<Result<Vec<_>, _>>();
+    let machines = machines.context("a random machine")?;
     let job = |(machine, (_, _, start)): (usize, &(Kind, Scene, Start))| Job {
         machine,
         start: *start,

@@ -32,7 +32,6 @@ pub const RANGE: Range = Range {
 /// The machines of a range, not yet lowered.
 #[derive(Debug, Clone)]
 pub struct Fleet {
-    range: Range,
     scenes: Vec<Scene>,
     jobs: Vec<Job>,
 }
@@ -56,25 +55,17 @@ impl Range {
         let step = (high - low) / f64::from(self.motions.max(2) - 1);
         let scene = |number| {
             let frequency = low + step * f64::from(number);
-            let ratios = Ratios::unloaded();
-            ratios.at_frequency(frequency).scene()
+            Ratios::unloaded().at_frequency(frequency).scene()
         };
         let scenes: Vec<Scene> = (0..self.motions).map(scene).collect::<Result<_, _>>()?;
+        let start = Start::new(self.start.0, self.start.1);
         let job = |machine| Job {
             machine,
-            start: self.start(),
+            start,
             periods: self.periods,
         };
-        Ok(Fleet {
-            range: self,
-            jobs: (0..scenes.len()).map(job).collect(),
-            scenes,
-        })
-    }
-
-    fn start(&self) -> Start {
-        let (position, velocity) = self.start;
-        Start::new(position, velocity)
+        let jobs = (0..scenes.len()).map(job).collect();
+        Ok(Fleet { scenes, jobs })
     }
 
     /// Drive periods of all motions together.
@@ -100,11 +91,9 @@ impl Fleet {
     /// [`MotionError`] if a motion cannot be computed.
     pub fn safe(&self) -> Result<Count, MotionError> {
         let mut impacts = Impacts::default();
-        let end = Clock::at_cycle(self.range.periods);
-        for scene in &self.scenes {
-            scene
-                .motion(self.range.start())?
-                .advance(end, &mut impacts)?;
+        for (scene, job) in self.scenes.iter().zip(&self.jobs) {
+            let mut motion = scene.motion(job.start)?;
+            motion.advance(Clock::at_cycle(job.periods), &mut impacts)?;
         }
         Ok(Count {
             impacts: impacts.0,
@@ -117,7 +106,8 @@ impl Fleet {
     /// # Errors
     /// As [`Fleet::safe`].
     pub fn batch(&self, instructions: Instructions) -> Result<Count, MotionError> {
-        let machines = self.machines()?;
+        let machines = self.scenes.iter().map(Machine::new);
+        let machines: Vec<Machine> = machines.collect::<Result<_, _>>()?;
         Count::of(&run_with(instructions, &machines, &self.jobs, &mut ()))
     }
 
@@ -126,18 +116,11 @@ impl Fleet {
     /// # Errors
     /// As [`Fleet::safe`].
     pub fn parallel(&self, rounds: usize) -> Result<Count, MotionError> {
-        let machines: Vec<_> = self
-            .scenes
-            .par_iter()
-            .map(Machine::new)
-            .collect::<Result<_, _>>()?;
+        let machines = self.scenes.par_iter().map(Machine::new);
+        let machines: Vec<Machine> = machines.collect::<Result<_, _>>()?;
         let jobs = self.jobs.repeat(rounds);
         let (outcomes, _) = run_parallel(Instructions::Widest, &machines, &jobs, |_| ());
         Count::of(&outcomes)
-    }
-
-    fn machines(&self) -> Result<Vec<Machine>, SceneError> {
-        self.scenes.iter().map(Machine::new).collect()
     }
 }
 

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use anyhow::Context;
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::ThreadPoolBuilder;
 use softstop::MotionError;
 use softstop_lanes::Instructions;
 
@@ -13,31 +13,12 @@ use softstop_console::median::median;
 use softstop_console::progress::Progress;
 
 /// One way through the motions, with its times.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Timing {
     /// Seconds of each round, sorted.
     pub seconds: Vec<f64>,
     /// What it found.
     pub count: Count,
-}
-
-/// What was measured.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Timings {
-    /// The safe engine.
-    pub safe: Timing,
-    /// One motion after the other, in one lane.
-    pub scalar: Timing,
-    /// The lanes with the widest instruction set.
-    pub batch: Timing,
-    /// The same with narrower ones.
-    pub narrower: Vec<(Instructions, Timing)>,
-    /// The lanes on all cores, [`ROUNDS`] times over.
-    pub parallel: Timing,
-    /// The same on one core.
-    pub alone: Timing,
-    /// Threads that they ran on.
-    pub threads: usize,
 }
 
 /// How often all cores together run the motions in one measurement: threads end together but for a
@@ -49,15 +30,6 @@ impl Timing {
     pub fn median(&self) -> f64 {
         median(self.seconds.clone())
     }
-}
-
-/// One way through the motions.
-#[derive(Debug, Clone, Copy)]
-enum Way {
-    Safe,
-    Lanes(Instructions),
-    AllCores,
-    OneCore,
 }
 
 /// The instruction sets narrower than the widest that this processor has.
@@ -75,8 +47,8 @@ pub fn measurements(sets: &[Instructions], repeats: usize) -> u64 {
     ((repeats + 1) * (sets.len() + 5)) as u64
 }
 
-/// Measures so many rounds after one that is not counted: the safe engine, one lane, all lanes, all cores and one
-/// of them, lanes with the narrower sets.
+/// Measures so many rounds after one that is not counted: the safe engine, one lane, all lanes, all cores and one of
+/// them, each [`ROUNDS`] times over, lanes with the narrower sets. Gives the number of threads of all cores, too.
 ///
 /// # Errors
 /// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
@@ -85,64 +57,35 @@ pub fn measure(
     sets: &[Instructions],
     repeats: usize,
     progress: &Progress,
-) -> Result<Timings, Failure> {
+) -> Result<(Vec<Timing>, usize), Failure> {
     let pool = |threads| {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build();
         pool.context("no threads to be had")
     };
     let (all, one) = (pool(0)?, pool(1)?);
-    let sets_ways = sets.iter().map(|set| Way::Lanes(*set));
-    let mut ways = vec![
-        Way::Safe,
-        Way::Lanes(Instructions::OneByOne),
-        Way::Lanes(Instructions::Widest),
-        Way::AllCores,
-        Way::OneCore,
+    type Way<'a> = Box<dyn Fn() -> Result<Count, MotionError> + 'a>;
+    let lanes = |set| -> Way<'_> { Box::new(move || fleet.batch(set)) };
+    let mut ways: Vec<Way<'_>> = vec![
+        Box::new(|| fleet.safe()),
+        lanes(Instructions::OneByOne),
+        lanes(Instructions::Widest),
+        Box::new(|| all.install(|| fleet.parallel(ROUNDS))),
+        Box::new(|| one.install(|| fleet.parallel(ROUNDS))),
     ];
-    ways.extend(sets_ways);
-    let mut rounds = vec![Vec::new(); ways.len()];
+    ways.extend(sets.iter().map(|set| lanes(*set)));
+    let mut timings = vec![Timing::default(); ways.len()];
     for round in 0..=repeats {
-        for (way, times) in ways.iter().zip(&mut rounds) {
-            let took = timed(|| way.go(fleet, &all, &one))?;
-            progress.step()?;
+        for (way, timing) in ways.iter().zip(&mut timings) {
+            let begin = Instant::now();
+            timing.count = way().context("a motion of the measurement")?;
             if round > 0 {
-                times.push(took);
+                timing.seconds.push(begin.elapsed().as_secs_f64());
             }
+            progress.step()?;
         }
     }
-    let mut timings = rounds.into_iter().map(timing);
-    let mut next = || timings.next().context("a measurement is missing");
-    Ok(Timings {
-        safe: next()?,
-        scalar: next()?,
-        batch: next()?,
-        parallel: next()?,
-        alone: next()?,
-        narrower: sets.iter().copied().zip(timings).collect(),
-        threads: all.current_num_threads(),
-    })
-}
-
-impl Way {
-    fn go(self, fleet: &Fleet, all: &ThreadPool, one: &ThreadPool) -> Result<Count, MotionError> {
-        match self {
-            Self::Safe => fleet.safe(),
-            Self::Lanes(set) => fleet.batch(set),
-            Self::AllCores => all.install(|| fleet.parallel(ROUNDS)),
-            Self::OneCore => one.install(|| fleet.parallel(ROUNDS)),
-        }
+    for timing in &mut timings {
+        timing.seconds.sort_by(f64::total_cmp);
     }
-}
-
-fn timed(work: impl FnOnce() -> Result<Count, MotionError>) -> Result<(f64, Count), Failure> {
-    let begin = Instant::now();
-    let count = work().context("a motion of the measurement")?;
-    Ok((begin.elapsed().as_secs_f64(), count))
-}
-
-fn timing(rounds: Vec<(f64, Count)>) -> Timing {
-    let count = rounds.last().map_or(Count::default(), |(_, count)| *count);
-    let mut seconds: Vec<f64> = rounds.into_iter().map(|(seconds, _)| seconds).collect();
-    seconds.sort_by(f64::total_cmp);
-    Timing { seconds, count }
+    Ok((timings, all.current_num_threads()))
 }

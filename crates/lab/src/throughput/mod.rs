@@ -1,14 +1,14 @@
 //! `softstop-lab throughput`: how fast the engines are, and whether the fast one counts the same impacts.
 //!
 //! [`fleet`] says what is run, [`measure`] takes the times; [`random_machines`] makes random machines, [`doubt`] says which
-//! of their motions can be compared, [`check`] compares; [`report`] says what came of it.
+//! of their motions can be compared, [`check`] compares; `report` says what came of it.
 
 pub mod check;
 pub mod doubt;
 pub mod fleet;
 pub mod measure;
 pub mod random_machines;
-pub mod report;
+mod report;
 
 use anyhow::{Context, anyhow};
 use clap::Args;
@@ -67,9 +67,10 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     let fleet = RANGE.fleet().context("the machines of the measurement")?;
     let sets = measure::narrower();
     let progress = Progress::new(measure::measurements(&sets, repeats), "measurements");
-    let timings = measure::measure(&fleet, &sets, repeats, &progress)?;
+    let (timings, threads) = measure::measure(&fleet, &sets, repeats, &progress)?;
     drop(progress);
-    let mut report = ThroughputReport::new(RANGE, repeats, &timings);
+    let report = ThroughputReport::new(RANGE, repeats, (&timings, threads), &sets);
+    let mut report = report.context("a measurement is missing")?;
     if check > 0 {
         report.check = Some(check::check(check, arguments.seed)?);
     }

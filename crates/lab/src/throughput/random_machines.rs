@@ -40,12 +40,8 @@ impl Draw {
             Kind::Loaded => Ratios::loaded(),
             _ => Ratios::unloaded(),
         };
-        let mut scene = Ratios {
-            frequency: self.between(0.5, 2.0),
-            clearance: self.between(0.5, 20.0),
-            ..base
-        }
-        .scene()?;
+        let ratios = base.at_frequency(self.between(0.5, 2.0));
+        let mut scene = ratios.at_clearance(self.between(0.5, 20.0)).scene()?;
         if kind == Kind::Other {
             scene.stop = self.stop();
         }
@@ -57,10 +53,8 @@ impl Draw {
             });
         }
         let wall = scene.wall().map_or(f64::INFINITY, |wall| wall.position);
-        let start = Start::new(
-            self.between(-12.0, wall.min(12.0)),
-            self.between(-15.0, 15.0),
-        );
+        let position = self.between(-12.0, wall.min(12.0));
+        let start = Start::new(position, self.between(-15.0, 15.0));
         Ok((kind, scene, start))
     }
 

@@ -5,7 +5,7 @@ use softstop_lanes::Instructions;
 
 use super::check::Check;
 use super::fleet::Range;
-use super::measure::{ROUNDS, Timing, Timings};
+use super::measure::{ROUNDS, Timing};
 use crate::precision::computer::Machine;
 use softstop_console::column::{Column, Units, text};
 use softstop_console::columns;
@@ -80,32 +80,47 @@ pub struct Cores {
 }
 
 impl ThroughputReport {
-    /// What was measured, without a check.
-    pub fn new(range: Range, repeats: usize, timings: &Timings) -> Self {
-        let work = range.all_periods() as f64;
-        let lanes = |wanted| {
-            let mut all = timings.narrower.iter();
-            let (set, timing) = all.find(|(set, _)| *set == wanted)?;
-            Some(LaneEngine::new(*set, timing, timings, work))
+    /// What was measured, without a check: the timings as [`measure`](super::measure::measure) gives them, and the
+    /// narrower sets.
+    pub fn new(
+        scene: Range,
+        repeats: usize,
+        (timings, threads): (&[Timing], usize),
+        sets: &[Instructions],
+    ) -> Option<Self> {
+        let [safe, scalar, batch, parallel, alone, narrower @ ..] = timings else {
+            return None;
         };
-        let parallel = work * ROUNDS as f64 / timings.parallel.median();
-        let batch = LaneEngine::new(Instructions::Widest, &timings.batch, timings, work);
-        Self {
+        let work = scene.all_periods() as f64;
+        let lanes = |set: Instructions, timing: &Timing| LaneEngine {
+            engine: Engine::new(timing, work),
+            lanes: set.registers().lanes,
+            instructions: set.registers().name,
+            handed_over: timing.count.handed_over,
+            times_scalar: scalar.median() / timing.median(),
+            times_safe: safe.median() / timing.median(),
+        };
+        let narrower = |wanted: Instructions| {
+            let mut all = sets.iter().zip(narrower);
+            let (set, timing) = all.find(|(set, _)| **set == wanted)?;
+            Some(lanes(*set, timing))
+        };
+        Some(Self {
             machine: Machine::this(),
-            scene: range,
+            scene,
             repeats,
-            safe: Engine::new(&timings.safe, work),
-            scalar: LaneEngine::new(Instructions::OneByOne, &timings.scalar, timings, work),
+            safe: Engine::new(safe, work),
+            scalar: lanes(Instructions::OneByOne, scalar),
+            batch: lanes(Instructions::Widest, batch),
+            avx2: narrower(Instructions::Avx2),
+            portable: narrower(Instructions::Portable),
             both_cores: Cores {
-                threads: timings.threads,
-                periods_per_second: parallel,
-                factor: timings.alone.median() / timings.parallel.median(),
+                threads,
+                periods_per_second: work * ROUNDS as f64 / parallel.median(),
+                factor: alone.median() / parallel.median(),
             },
-            batch,
-            avx2: lanes(Instructions::Avx2),
-            portable: lanes(Instructions::Portable),
             check: None,
-        }
+        })
     }
 }
 
@@ -120,36 +135,18 @@ impl Engine {
     }
 }
 
-impl LaneEngine {
-    fn new(set: Instructions, timing: &Timing, all: &Timings, work: f64) -> Self {
-        let registers = set.registers();
-        Self {
-            engine: Engine::new(timing, work),
-            lanes: registers.lanes,
-            instructions: registers.name,
-            handed_over: timing.count.handed_over,
-            times_scalar: all.scalar.median() / timing.median(),
-            times_safe: all.safe.median() / timing.median(),
-        }
-    }
-}
-
-/// A line of the table for people.
-struct Line<'a> {
-    name: String,
-    engine: &'a Engine,
-    lanes: Option<&'a LaneEngine>,
-}
+/// A line of the table for people: the engine's name, the engine, what it has if it is one of lanes.
+type Line<'a> = (String, &'a Engine, Option<&'a LaneEngine>);
 
 /// Its columns.
 fn table<'a>() -> [Column<Line<'a>>; 6] {
     columns! { Line<'a>, it;
-        "engine" [None] Plain, "and instruction set" => it.name.as_str();
-        "median" [None] Fixed(2), "of all rounds" => it.engine.periods_per_second_per_core / 1e6;
-        "slowest" [None] Fixed(2), "round" => it.engine.spread.0 / 1e6;
-        "fastest" [None] Fixed(2), "round" => it.engine.spread.1 / 1e6;
-        "lanes" [None] Plain, "motions in lock-step" => it.lanes.map(|of| of.lanes);
-        "handed_over" [None] Plain, "periods left to the safe engine" => it.lanes.map(|of| of.handed_over);
+        "engine" [None] Plain, "and instruction set" => it.0.as_str();
+        "median" [None] Fixed(2), "of all rounds" => it.1.periods_per_second_per_core / 1e6;
+        "slowest" [None] Fixed(2), "round" => it.1.spread.0 / 1e6;
+        "fastest" [None] Fixed(2), "round" => it.1.spread.1 / 1e6;
+        "lanes" [None] Plain, "motions in lock-step" => it.2.map(|of| of.lanes);
+        "handed_over" [None] Plain, "periods left to the safe engine" => it.2.map(|of| of.handed_over);
     }
 }
 
@@ -157,28 +154,21 @@ impl Report for ThroughputReport {
     fn text(&self) -> String {
         let (scene, cores) = (&self.scene, &self.both_cores);
         let (low, high) = scene.frequencies;
-        let safe = Line {
-            name: "safe".to_owned(),
-            engine: &self.safe,
-            lanes: None,
-        };
         let narrower = [&self.avx2, &self.portable].into_iter().flatten();
         let batches = [&self.batch].into_iter().chain(narrower);
-        let lanes = [("scalar", &self.scalar)]
-            .into_iter()
-            .chain(batches.map(|lanes| ("batch", lanes)));
-        let lines = lanes.map(|(name, lanes)| Line {
-            name: format!("{name}, {}", lanes.instructions),
-            engine: &lanes.engine,
-            lanes: Some(lanes),
-        });
+        let batches = batches.map(|lanes| ("batch", lanes));
+        let mut lines: Vec<Line<'_>> = vec![("safe".to_owned(), &self.safe, None)];
+        for (name, lanes) in [("scalar", &self.scalar)].into_iter().chain(batches) {
+            let name = format!("{name}, {}", lanes.instructions);
+            lines.push((name, &lanes.engine, Some(lanes)));
+        }
         let mut said = heading("Throughput on one core, in millions of forcing periods per second");
         said += &format!(
             "The {} machine at {} frequencies over {low} to {high}, {} periods each from ({}, {});\n\
              medians of {} runs (--repeats)\n\n",
             scene.machine, scene.motions, scene.periods, scene.start.0, scene.start.1, self.repeats
         );
-        said += &text(&table(), [safe].into_iter().chain(lines), &Units::SI);
+        said += &text(&table(), &lines, &Units::SI);
         said += &format!(
             "\nAll lanes are {:.1} times as fast as one, {:.1} times as fast as the safe engine; {} thread(s) {:.2} \
              times as fast as one: {:.2} million\n",

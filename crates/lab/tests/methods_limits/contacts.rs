@@ -7,11 +7,13 @@ use softstop_testing::tolerance::SOLVED;
 
 /// The paper's machine from rest with a velocity at which it just reaches the stop within the first period.
 fn grazing() -> Task {
-    let task = |velocity| Task {
-        scene: Ratios::unloaded().scene().expect("valid"),
-        start: Start::new(0.0, velocity),
-        periods: 0.5,
-        most_steps: 1_000_000,
+    let task = |velocity| {
+        Task::new(
+            Ratios::unloaded().scene().expect("valid"),
+            Start::new(0.0, velocity),
+            0.5,
+            1_000_000,
+        )
     };
     let strikes = |velocity| {
         !Exact
@@ -45,11 +47,7 @@ fn a_graze_is_stepped_over() {
         let found = method.integrate(&task).expect("bounded");
         assert!(found.impacts.is_empty(), "{}", method.name());
     }
-    let fine = FixedStep {
-        scheme: Scheme::RungeKutta4,
-        step: 1e-4,
-        events: Events::Located,
-    };
+    let fine = FixedStep::new(Scheme::RungeKutta4, 1e-4, Events::Located);
     assert_eq!(fine.integrate(&task).expect("bounded").impacts.len(), 1);
 }
 
@@ -69,12 +67,7 @@ fn chatter_is_counted_by_location_only() {
         },
         ..base
     };
-    let task = Task {
-        scene,
-        start: Start::new(-0.6, 1.0),
-        periods: 3.0,
-        most_steps: 1_000_000,
-    };
+    let task = Task::new(scene, Start::new(-0.6, 1.0), 3.0, 1_000_000);
     let exact = Exact.integrate(&task).expect("exact");
     assert_eq!(exact.end, (-0.5, 0.0));
     for method in FixedStep::all(1e-3) {
@@ -99,15 +92,15 @@ fn chatter_is_counted_by_location_only() {
 #[test]
 fn bounces_without_end_are_stuck() {
     let base = Ratios::unloaded().scene().expect("valid");
-    let task = Task {
-        scene: Scene {
+    let task = Task::new(
+        Scene {
             clearance: -2.0,
             ..base
         },
-        start: Start::new(-2.000_001, 0.0),
-        periods: 20.0,
-        most_steps: 20_000,
-    };
+        Start::new(-2.000_001, 0.0),
+        20.0,
+        20_000,
+    );
     Exact.integrate(&task).expect("exact");
     for method in FixedStep::all(1e-2) {
         let found = method.integrate(&task);

@@ -63,17 +63,13 @@ fn a_stiff_stop_sets_the_limit() {
         let limit = scheme.stability_limit(zeta).expect("a limit") / rate;
         let end = |share: f64| {
             let step = share * limit;
-            let method = FixedStep {
-                scheme,
-                step,
-                events: Events::Ignored,
-            };
-            let task = Task {
-                periods: 10_000.0 * step / scene.period(),
-                scene: scene.clone(),
-                start: Start::new(1.001e-6, 0.0),
-                most_steps: 100_000,
-            };
+            let method = FixedStep::new(scheme, step, Events::Ignored);
+            let task = Task::new(
+                scene.clone(),
+                Start::new(1.001e-6, 0.0),
+                10_000.0 * step / scene.period(),
+                100_000,
+            );
             method.integrate(&task).expect("bounded")
         };
         let below = end(0.99);

@@ -1,20 +1,19 @@
-//! One machine and one region of starts along the hysteresis zone.
+//! One machine and one region of starts along the hysteresis zone; the paper's claim, tested.
 
-use std::f64::consts::TAU;
-
+use crate::figure::Findings;
 use anyhow::{Context, Result};
 use rayon::prelude::*;
 use softstop::Ratios;
+use softstop_console::interrupt;
+use softstop_console::progress::Progress;
 use softstop_dynamics::basin::{Axis, Establishing, Grid, Options, establishing};
 use softstop_dynamics::orbit::Regime;
 use softstop_dynamics::zone::{self, Zone};
-
-use softstop_console::interrupt;
-use softstop_console::progress::Progress;
+use std::f64::consts::TAU;
 
 /// Which states are asked.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Starts {
+pub enum Starts {
     /// Anywhere within the clearance on both sides, without velocity, at any drive angle.
     AtRest,
     /// At drive angle 0: positions and velocities up to so many clearances.
@@ -46,25 +45,23 @@ impl Starts {
 }
 
 /// The certainty along a zone.
-pub(super) struct Curve {
+pub struct Curve {
     zone: Zone,
     pub starts: Starts,
-    pub places: Vec<Place>,
+    pub places: Vec<Establishing>,
 }
 
-/// The certainty at one place.
-pub(super) struct Place {
-    /// 0 at g0, 1 at s_SN.
-    pub place: f64,
-    /// eta.
-    pub frequency: f64,
-    pub certainty: f64,
-    /// Wilson's 95 % interval of it.
-    pub interval: [f64; 2],
-    /// Radius of the largest ball inside the basin of z = 1, in units of half of the region; 0 if there is none.
-    pub integrity: f64,
-    /// All motions and their shares.
-    pub motions: String,
+/// Radius of the largest ball inside the basin of z = 1, in units of half of the region; 0 if there is none.
+pub fn integrity(at: &Establishing) -> f64 {
+    let ball = at.basins.largest_ball_of(Regime::ONE);
+    ball.map_or(0.0, |ball| ball.radius)
+}
+
+/// All motions at a place and their shares.
+pub fn motions(at: &Establishing) -> String {
+    let classes = at.basins.classes.iter();
+    let motions = classes.map(|class| format!("{}: {:.6}", class.motion, class.share));
+    motions.collect::<Vec<_>>().join(", ")
 }
 
 impl Curve {
@@ -96,7 +93,7 @@ impl Curve {
         format!("{machine}, rho = {rho}, starts {}", self.starts.label())
     }
 
-    fn at(&self, place: f64, cells: usize, progress: &Progress) -> Result<Place> {
+    fn at(&self, place: f64, cells: usize, progress: &Progress) -> Result<Establishing> {
         let grid = self.starts.grid(self.clearance(), cells);
         let watcher = |_, _| {
             progress.beat();
@@ -104,42 +101,64 @@ impl Curve {
         };
         let found = establishing(&self.zone, &[place], &grid, &Options::default(), &watcher)?;
         progress.steps((cells * cells) as u64)?;
-        let place = found.first().map(Place::new);
-        place.context("no place")
-    }
-}
-
-impl Place {
-    fn new(found: &Establishing) -> Self {
-        let classes = found.basins.classes.iter();
-        let ball = found.basins.largest_ball_of(Regime::ONE);
-        let motions = classes.map(|class| format!("{}: {:.6}", class.motion, class.share));
-        Self {
-            place: found.place,
-            frequency: found.frequency,
-            certainty: found.certainty,
-            interval: found.interval,
-            integrity: ball.map_or(0.0, |ball| ball.radius),
-            motions: motions.collect::<Vec<_>>().join(", "),
-        }
+        found.into_iter().next().context("no place")
     }
 }
 
 /// Fills all curves, places side by side.
-pub(super) fn fill(
-    curves: &mut [Curve],
-    places: &[f64],
-    cells: usize,
-    progress: &Progress,
-) -> Result<()> {
+pub fn fill(curves: &mut [Curve], places: &[f64], cells: usize, progress: &Progress) -> Result<()> {
     let tasks = (0..curves.len()).flat_map(|curve| places.iter().map(move |place| (curve, *place)));
     let tasks: Vec<(usize, f64)> = tasks.collect();
     let found = tasks
         .par_iter()
         .map(|(curve, place)| curves[*curve].at(*place, cells, progress));
-    let found: Vec<Place> = found.collect::<Result<_>>()?;
+    let found: Vec<Establishing> = found.collect::<Result<_>>()?;
     for ((curve, _), place) in tasks.into_iter().zip(found) {
         curves[curve].places.push(place);
     }
     Ok(())
+}
+
+/// Places of which the certainty is told.
+const TOLD: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// Certainties at the ends and in between, and how far the claim is off.
+pub fn findings(curves: &[Curve]) -> Findings {
+    let mut findings = Findings::default();
+    for curve in curves {
+        let name = curve.name();
+        let mut tell = |what: &str, value: Option<f64>| {
+            findings.add(format!("{name}: {what}"), value);
+        };
+        let (first, last) = (curve.places.first(), curve.places.last());
+        let certainty = |at: &Establishing| at.certainty;
+        tell("certainty near g0", first.map(certainty));
+        tell("certainty near s_SN", last.map(certainty));
+        for place in TOLD {
+            let found = nearest(&curve.places, place).map(certainty);
+            tell(&format!("certainty at s = {place}"), found);
+        }
+        let rise = rise(&curve.places);
+        tell("largest rise of the certainty away from g0", Some(rise));
+        tell("integrity near g0", first.map(integrity));
+        tell("integrity near s_SN", last.map(integrity));
+    }
+    findings
+}
+
+fn nearest(places: &[Establishing], place: f64) -> Option<&Establishing> {
+    let gap = |found: &&Establishing| (found.place - place).abs();
+    places.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)))
+}
+
+/// How much larger the certainty is somewhere than at a place nearer to g0, beyond both 95 % intervals: 0 if it
+/// falls all the way, as the paper has it.
+fn rise(places: &[Establishing]) -> f64 {
+    let later = |(index, place): (usize, &Establishing)| {
+        let rest = places[index + 1..].iter();
+        let rises = rest.filter(|other| other.interval[0] > place.interval[1]);
+        let rises = rises.map(|other| other.certainty - place.certainty);
+        rises.fold(0.0, f64::max)
+    };
+    places.iter().enumerate().map(later).fold(0.0, f64::max)
 }

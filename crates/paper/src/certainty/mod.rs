@@ -3,13 +3,13 @@
 //! which states are asked: that dependence is shown beside it.
 
 mod curve;
-mod findings;
 
 use anyhow::Result;
 use softstop::Ratios;
+use softstop_dynamics::basin::Establishing;
 
 use crate::figure::{self, Drawn, Figure, Studio};
-use curve::{Curve, Place, Starts};
+use curve::{Curve, Starts, integrity, motions};
 use softstop_console::progress::Progress;
 use softstop_explore::basin::certainty::{
     CertaintyCurve, CertaintyPage, CertaintyPanel, CertaintyPoint,
@@ -75,23 +75,23 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     .svg();
     Ok(Drawn {
         files: vec![svg.into_bytes(), table(&curves)?],
-        findings: findings::of(&curves),
+        findings: curve::findings(&curves),
     })
 }
 
 /// What is shown of a place, and what that is called.
-type Show = (fn(&Place) -> (f64, Option<[f64; 2]>), &'static str);
+type Show = (fn(&Establishing) -> (f64, Option<[f64; 2]>), &'static str);
 const CERTAINTY: Show = (
     |place| (place.certainty, Some(place.interval)),
     "certainty of z = 1",
 );
 const INTEGRITY: Show = (
-    |place| (place.integrity, None),
+    |place| (integrity(place), None),
     "radius of the largest ball in z = 1",
 );
 
 fn line(curve: &Curve, label: String, color: usize, (show, _): Show) -> CertaintyCurve {
-    let point = |at: &Place| {
+    let point = |at: &Establishing| {
         let (value, interval) = show(at);
         CertaintyPoint {
             place: at.place,
@@ -152,9 +152,9 @@ fn table(curves: &[Curve]) -> Result<Vec<u8>> {
         .flat_map(|curve| curve.places.iter().map(move |at| (curve, at)));
     let rows = places.map(|(curve, at)| {
         let (rho, starts) = (curve.clearance(), curve.starts.label());
-        let shares = (at.certainty, at.interval, at.integrity);
+        let shares = (at.certainty, at.interval, integrity(at));
         let place = (at.place, at.frequency);
-        (curve.machine(), rho, starts, place, shares, &at.motions)
+        (curve.machine(), rho, starts, place, shares, motions(at))
     });
     let columns =
         "machine,rho,starts,place,eta,certainty,certainty_low,certainty_high,integrity,motions";

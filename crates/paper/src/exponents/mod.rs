@@ -69,17 +69,48 @@ fn draw(studio: &Studio) -> Result<Drawn> {
         });
     }
     let branch = branch(detail.pick(400, 80))?;
-    let summary = Summary::new(&parts, &branch)?;
+    let none = "z = 1 was not met";
+    let machine = Ratios::unloaded();
+    let point = of(&find(&machine.scene()?)?);
+    let hardest = branch.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
+    let stable = branch.iter().min_by(|a, b| a[2].total_cmp(&b[2]));
+    let (hardest, stable) = (*hardest.context(none)?, *stable.context(none)?);
+    let points = parts.iter().flat_map(|part| &part.ways).flatten();
+    let places = points.map(|at| [at.step.value, at.step.hardest(), at.exponent.0]);
+    let chaotic = places.filter(|it| it[2] > 0.0);
+    let chaotic = chaotic.max_by(|a, b| a[2].total_cmp(&b[2]));
+    let named = |name: &str, at: Place| {
+        let text = format!("{name}: λ = {:.4}", at[2]);
+        (text.replace('-', "−"), at)
+    };
+    let fold = *branch.last().context(none)?;
+    let marks = [
+        named("A", point),
+        named("lowest", stable),
+        ("λ → 0 at the fold s_SN".to_owned(), fold),
+    ];
+    let mut findings = Findings::default();
+    findings.add("lambda at A", point[2]);
+    findings.add("lambda without impacts", -machine.damping);
+    for (what, at) in [
+        ("least lambda on z = 1", Some(stable)),
+        ("hardest impact on z = 1", Some(hardest)),
+        ("largest lambda", chaotic),
+    ] {
+        for (index, name) in ["eta", "velocity", "lambda"].iter().enumerate() {
+            findings.add(format!("{what}: {name}"), at.map(|at| at[index]));
+        }
+    }
     let [left, right] =
         plans.map(|it| format!("{} frequencies × {} drive periods", it.steps, it.periods));
     let explanation = format!(
         "Left {left}, right {right}. Periodic motion: λ = ln|μ|/(nT); else the mean over {} drive periods",
         32 * batch
     );
-    let png = chart::png(&parts, &branch, &summary.marks(), &explanation);
+    let png = chart::png(&parts, &branch, &marks, &explanation);
     Ok(Drawn {
         files: vec![png.map_err(Error::msg)?, table(&parts)?],
-        findings: summary.findings(),
+        findings,
     })
 }
 
@@ -124,66 +155,6 @@ fn branch(count: u32) -> Result<Vec<Place>> {
         Ok([zone.frequency_at(share), velocity, exponent])
     });
     places.collect()
-}
-
-/// What the figure says about z = 1.
-struct Summary {
-    point: Place,
-    hardest: Place,
-    most_stable: Place,
-    most_chaotic: Option<Place>,
-    /// z = 1 at its fold.
-    fold: Place,
-    /// Exponent of the impact-less motion.
-    rest: f64,
-}
-
-impl Summary {
-    fn new(parts: &[Part], branch: &[Place]) -> Result<Self> {
-        let machine = Ratios::unloaded();
-        let hardest = branch.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
-        let stable = branch.iter().min_by(|a, b| a[2].total_cmp(&b[2]));
-        let points = parts.iter().flat_map(|part| &part.ways).flatten();
-        let places = points.map(|at| [at.step.value, at.step.hardest(), at.exponent.0]);
-        let chaotic = places.filter(|it| it[2] > 0.0);
-        let none = "z = 1 was not met";
-        Ok(Self {
-            point: of(&find(&machine.scene()?)?),
-            hardest: *hardest.context(none)?,
-            most_stable: *stable.context(none)?,
-            most_chaotic: chaotic.max_by(|a, b| a[2].total_cmp(&b[2])),
-            fold: *branch.last().context(none)?,
-            rest: -machine.damping,
-        })
-    }
-
-    fn marks(&self) -> [(String, Place); 3] {
-        let named = |name: &str, at: Place| {
-            let text = format!("{name}: λ = {:.4}", at[2]);
-            (text.replace('-', "−"), at)
-        };
-        [
-            named("A", self.point),
-            named("lowest", self.most_stable),
-            ("λ → 0 at the fold s_SN".to_owned(), self.fold),
-        ]
-    }
-
-    fn findings(&self) -> Findings {
-        let mut findings = Findings::default();
-        findings.add("lambda at A", self.point[2]);
-        findings.add("lambda without impacts", self.rest);
-        for (what, at) in [
-            ("least lambda on z = 1", Some(self.most_stable)),
-            ("hardest impact on z = 1", Some(self.hardest)),
-            ("largest lambda", self.most_chaotic),
-        ] {
-            for (index, name) in ["eta", "velocity", "lambda"].iter().enumerate() {
-                findings.add(format!("{what}: {name}"), at.map(|at| at[index]));
-            }
-        }
-        findings
-    }
 }
 
 fn table(parts: &[Part]) -> Result<Vec<u8>> {

@@ -3,7 +3,7 @@
 use anyhow::{Context, Result};
 use nalgebra::Vector2;
 use rayon::prelude::*;
-use softstop::{MotionError, Ratios, Scene};
+use softstop::{Ratios, Scene};
 use softstop_dynamics::continuation::{
     BranchPoint, CurvePoint, Heading, Region, SpecialKind, Test,
 };
@@ -33,31 +33,31 @@ type Figures = [f64; 3];
 type Critical = (BranchPoint, Figures);
 
 /// The ends of z = 1 of one machine.
-pub(super) struct Ends {
+pub struct Ends {
     /// rho.
-    pub(super) clearance: f64,
+    pub clearance: f64,
     /// z = 1 at the upper grazing frequency g0.
-    pub(super) grazing: Figures,
+    pub grazing: Figures,
     /// Its fold s_SN.
-    pub(super) fold: Option<Critical>,
+    pub fold: Option<Critical>,
     /// Its flip s_PD.
-    pub(super) flip: Option<Critical>,
+    pub flip: Option<Critical>,
 }
 
 /// Boundaries across the clearances.
-pub(super) struct Boundaries {
+pub struct Boundaries {
     /// Amplitude of the free mass over eta.
-    pub(super) response: Vec<(f64, f64)>,
+    pub response: Vec<(f64, f64)>,
     /// z = 1 at the grazing g0 above resonance.
-    pub(super) grazing: Vec<Figures>,
+    pub grazing: Vec<Figures>,
     /// s_SN in pieces.
-    pub(super) folds: Vec<Vec<Figures>>,
+    pub folds: Vec<Vec<Figures>>,
     /// s_PD in pieces.
-    pub(super) flips: Vec<Vec<Figures>>,
+    pub flips: Vec<Vec<Figures>>,
 }
 
 /// The ends of z = 1 at each clearance.
-pub(super) fn ends(machine: &Ratios, clearances: &[f64], progress: &Progress) -> Result<Vec<Ends>> {
+pub fn ends(machine: &Ratios, clearances: &[f64], progress: &Progress) -> Result<Vec<Ends>> {
     let ends = clearances.par_iter().map(|clearance| {
         progress.step()?;
         let machine = machine.at_clearance(*clearance);
@@ -69,7 +69,7 @@ pub(super) fn ends(machine: &Ratios, clearances: &[f64], progress: &Progress) ->
 fn ends_of(machine: &Ratios) -> Result<Ends> {
     let scene = machine.scene()?;
     let at_g0 = grazing(&scene)?;
-    let described = |point: BranchPoint| -> Result<Critical, MotionError> {
+    let described = |point: BranchPoint| -> Result<Critical> {
         let found = describe(machine, point.parameter, point.state(), &point.impacts)?;
         Ok((point, found))
     };
@@ -96,25 +96,20 @@ fn grazing(scene: &Scene) -> Result<Orbit> {
 }
 
 /// Those of a motion.
-pub(super) fn figures(orbit: &Orbit) -> Figures {
+pub fn figures(orbit: &Orbit) -> Figures {
     let eta = orbit.scene.excitation.frequency;
     [eta, orbit.max_position, orbit.before_impact_velocity()]
 }
 
 /// Those of z = 1 at a frequency, by a state and the impacts of it.
-fn describe(
-    machine: &Ratios,
-    eta: f64,
-    state: Vector2<f64>,
-    impacts: &[f64],
-) -> Result<Figures, MotionError> {
+fn describe(machine: &Ratios, eta: f64, state: Vector2<f64>, impacts: &[f64]) -> Result<Figures> {
     let map = StroboscopicMap::new(&machine.at_frequency(eta).scene()?, 1)?;
     let velocity = impacts.iter().copied().fold(0.0, f64::max);
     Ok([eta, map.max_position(state)?, velocity])
 }
 
 /// The curves across the clearances, from the points at some of them; `step` as in [`Region`].
-pub(super) fn across(
+pub fn across(
     machine: &Ratios,
     ends: &[Ends],
     step: f64,
@@ -180,7 +175,7 @@ fn piece(machine: &Ratios, special: (SpecialKind, &BranchPoint), region: &Region
 
 /// The clearance of the highest velocity at the fold, and that velocity, by golden section between the
 /// neighbours of the best of those given.
-pub(super) fn optimum(machine: &Ratios, ends: &[Ends]) -> Option<(f64, f64)> {
+pub fn optimum(machine: &Ratios, ends: &[Ends]) -> Option<(f64, f64)> {
     let folds = ends.iter().enumerate();
     let folds = folds.filter_map(|(index, end)| Some((index, end.fold.as_ref()?.1[2])));
     let (best, _) = folds.max_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -195,7 +190,7 @@ pub(super) fn optimum(machine: &Ratios, ends: &[Ends]) -> Option<(f64, f64)> {
 }
 
 /// The curves as a table.
-pub(super) fn table(boundaries: &Boundaries) -> Result<Vec<u8>> {
+pub fn table(boundaries: &Boundaries) -> Result<Vec<u8>> {
     let named = |name: &'static str| move |point: &Figures| (name, *point);
     let grazing = boundaries.grazing.iter().map(named("z = 1 at g0"));
     let folds = boundaries.folds.iter().flatten().map(named("s_SN"));

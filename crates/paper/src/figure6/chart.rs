@@ -1,14 +1,13 @@
 //! The picture of figure 6: diagrams over several clearances, their boundaries, and where the strip is pierced.
 //! Largest positions above, before-impact velocities below, up and down (Peterka 2003).
 
-use softstop_dynamics::sweep::{Chain, Jump, Step};
-
+use super::RANGE;
 use super::boundaries::Boundaries;
-use super::{RANGE, piercing};
 use crate::diagram::{is_one, steps};
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Pen, Stroke};
 use softstop_draw::style;
+use softstop_dynamics::sweep::{Chain, Jump, Step};
 
 /// A colour for each clearance, in the order of the rainbow, all of Okabe and Ito's.
 const COLOURS: [&str; 6] = [
@@ -25,6 +24,8 @@ const BETWEEN: f64 = 26.0;
 /// Size of letters, and of the dots.
 const LETTERS: u32 = 15;
 const DOT: f64 = 0.65;
+/// Height of a couple of lines where the strip is pierced.
+const ROW: f64 = 19.0;
 /// Height of a jump on the page that has an arrow.
 const SEEN: f64 = 16.0;
 /// The axes of both panels, and the largest position and velocity that they show.
@@ -66,7 +67,7 @@ type Which = usize;
 
 impl Chart<'_> {
     pub(super) fn png(&self) -> Result<Vec<u8>, String> {
-        let strip = piercing::height(self.chains.len());
+        let strip = height_of(self.chains.len());
         let below = TOP + HEIGHT + BETWEEN;
         let low = if self.is_loaded {
             below + BETWEEN + strip
@@ -88,7 +89,7 @@ impl Chart<'_> {
         legend(&mut pen, &upper);
         if self.is_loaded {
             let panel = panel(below, strip, 1.0);
-            piercing::draw(&mut pen, &panel, self.chains, &COLOURS);
+            pierced(&mut pen, &panel, self.chains);
         }
         self.draw(&mut pen, &panel(low, HEIGHT, PANELS[1].1), 2);
         pen.png_at(SCALE)
@@ -231,4 +232,45 @@ fn is_between(jump: &Jump) -> bool {
 fn position(chain: &Chain, value: f64) -> f64 {
     let step = chain.steps.iter().find(|step| step.value == value);
     step.map_or(f64::NAN, |step| step.max_position)
+}
+
+/// Height of the panel for so many sweeps.
+fn height_of(chains: usize) -> f64 {
+    0.5 * ROW * chains as f64 + 8.0
+}
+
+/// Ranges of eta in which the largest position of a sweep lies behind the strip, if there is one.
+pub(super) fn ranges(chain: &Chain) -> Vec<(f64, f64)> {
+    let scene = &chain.machine.scene;
+    let strip = scene.piercing.map_or(f64::INFINITY, |it| it.thickness);
+    let through = scene.clearance + strip;
+    let rising = chain.rising();
+    let runs = rising.chunk_by(|a, b| (a.max_position > through) == (b.max_position > through));
+    let pierced = runs.filter(|run| run[0].max_position > through && run.len() > 1);
+    let ends = pierced.map(|run| (run[0].value, run[run.len() - 1].value));
+    ends.collect()
+}
+
+/// A couple of lines in its colour for each clearance, whose sweeps are given up and down.
+fn pierced(pen: &mut Pen, panel: &Panel, chains: &[Chain]) {
+    let (left, top, _, height) = panel.area;
+    pen.frame(panel.area);
+    let text = "the strip is pierced: Xₘ > ρ + σ";
+    let place = (panel.right() - 8.0, panel.bottom() - 9.0);
+    pen.words(place, LETTERS - 1, Align::Right, (style::INK, false), text);
+    for (index, (ways, color)) in chains.chunks_exact(2).zip(COLOURS).enumerate() {
+        let middle = top + 4.0 + ROW * (index as f64 + 0.5);
+        for (way, (chain, shift)) in ways.iter().zip([-3.6, 3.6]).enumerate() {
+            for (from, to) in ranges(chain) {
+                let ends = [from, to].map(|eta| (panel.across(eta), middle + shift));
+                let [tail, head] = if way == 0 { ends } else { [ends[1], ends[0]] };
+                pen.arrow(tail, head, Stroke::solid(color, 1.8));
+            }
+        }
+        let name = ways[0].machine.scene.clearance.to_string();
+        let place = (left - 9.0, middle + 5.0);
+        pen.words(place, LETTERS - 2, Align::Right, (color, false), &name);
+    }
+    let middle = top + 0.5 * height;
+    pen.text((left - 42.0, middle), LETTERS + 1, Align::Upwards, "ρ");
 }

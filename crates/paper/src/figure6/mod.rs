@@ -2,7 +2,6 @@
 
 mod boundaries;
 mod chart;
-mod piercing;
 
 use anyhow::{Error, Result};
 use softstop::Ratios;
@@ -105,7 +104,7 @@ fn findings(ends: &[Ends], chains: &[Chain], optimum: Option<(f64, f64)>) -> Fin
         add("eta of the hardest impact", hardest.map(|it| it.value));
         add("hysteresis width", fold.map(|it| it[0] - end.grazing[0]));
         for chain in ways {
-            let ranges = piercing::ranges(chain);
+            let ranges = chart::ranges(chain);
             let way = chain.direction.name();
             let begins = format!("eta where piercing begins on the way {way}");
             add(&begins, ranges.first().map(|range| range.0));

@@ -1,6 +1,6 @@
 //! The pictures of figure 9: for each motion its time series, phase trajectory and section (Peterka 2003).
 
-use softstop::MotionError;
+use anyhow::Result;
 
 use super::CLEARANCE;
 use super::found::Found;
@@ -37,11 +37,11 @@ const MANY: usize = 64;
 const DOTS: (f64, f64) = (4.2, 1.0);
 
 /// A motion as it is drawn.
-pub(super) struct Row<'a> {
-    pub(super) motion: &'a Found,
+pub struct Row<'a> {
+    pub motion: &'a Found,
     /// Drive periods of the time series.
     shown: u64,
-    pub(super) path: Path,
+    pub path: Path,
     /// Its phase trajectory, and the part of it near the stop, more finely.
     plane: Vec<(f64, f64)>,
     near: Vec<(f64, f64)>,
@@ -50,7 +50,7 @@ pub(super) struct Row<'a> {
 }
 
 /// A page of motions as an SVG document.
-pub(super) fn svg(rows: &[Row<'_>]) -> String {
+pub fn svg(rows: &[Row<'_>]) -> String {
     let (top, height, foot) = HEIGHTS;
     let mut pen = Pen::new(WIDTH, top + height * rows.len() as f64 + foot);
     let letter = |row: Option<&Row<'_>>| row.map_or(' ', |row| row.motion.asked.letter);
@@ -68,11 +68,7 @@ pub(super) fn svg(rows: &[Row<'_>]) -> String {
 
 impl<'a> Row<'a> {
     /// A motion among all, its time series over so many drive periods.
-    pub(super) fn new(
-        motion: &'a Found,
-        all: &'a [Found],
-        shown: u64,
-    ) -> Result<Self, MotionError> {
+    pub fn new(motion: &'a Found, all: &'a [Found], shown: u64) -> Result<Self> {
         let asked = motion.asked;
         let others = all.iter().filter(|other| {
             other.asked.letter != asked.letter && other.asked.frequency == asked.frequency

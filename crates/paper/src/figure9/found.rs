@@ -1,38 +1,34 @@
 //! A motion of the figure as it was found.
 
+use anyhow::Result;
 use serde::Serialize;
-use softstop::{MotionError, Ratios};
+use softstop::Ratios;
 use softstop_dynamics::attractors::{Attractor, Survey};
 use softstop_dynamics::orbit::{Orbit, StroboscopicMap};
 
 use super::asked::Asked;
-use super::path::Path;
-use super::section::Section;
+use super::path::{Path, Section};
 use crate::figure::Findings;
 
 /// Drive periods of the phase trajectory of what does not repeat.
 const WANDERING: u64 = 60;
 
 /// A motion and what was asked for.
-pub(super) struct Found {
-    pub(super) asked: Asked,
+pub struct Found {
+    pub asked: Asked,
     attractor: Attractor,
     /// Its states; of transient chaos those from a start on from which it lasts.
-    pub(super) section: Section,
+    pub section: Section,
 }
 
 /// Columns of the table.
-pub(super) const COLUMNS: &str = "motion,eta,eta_is_the_papers,impacts,periods,impacts_per_period,\
+pub const COLUMNS: &str = "motion,eta,eta_is_the_papers,impacts,periods,impacts_per_period,\
     order_of_impacts,largest_multiplier_modulus,lyapunov_exponent_per_period,max_position,\
     before_impact_velocity,mean_life_periods,share_of_starts";
 
 impl Found {
     /// The motion that is asked for, if it is among those found, with so many states of what does not repeat.
-    pub(super) fn among(
-        asked: Asked,
-        survey: &Survey,
-        most: u64,
-    ) -> Result<Option<Self>, MotionError> {
+    pub fn among(asked: Asked, survey: &Survey, most: u64) -> Result<Option<Self>> {
         let fits = |attractor: &&Attractor| match (asked.impacts, attractor.motion.order()) {
             (Some(wanted), Some(order)) => order.to_string() == wanted,
             (None, None) => attractor.motion.is_chaotic(),
@@ -62,17 +58,17 @@ impl Found {
         self.attractor.chaos.as_ref()?.lifetime
     }
 
-    pub(super) fn is_chaotic(&self) -> bool {
+    pub fn is_chaotic(&self) -> bool {
         self.orbit().is_none()
     }
 
     /// Drive periods after which it repeats.
-    pub(super) fn period(&self) -> Option<u64> {
+    pub fn period(&self) -> Option<u64> {
         self.orbit().map(|orbit| orbit.periods)
     }
 
     /// The motion over drive periods, with so many points in each; unless said otherwise until it repeats.
-    pub(super) fn path(&self, periods: Option<u64>, fineness: u32) -> Result<Path, MotionError> {
+    pub fn path(&self, periods: Option<u64>, fineness: u32) -> Result<Path> {
         let scene = Ratios::unloaded().at_frequency(self.asked.frequency);
         let periods = periods.or(self.period()).unwrap_or(WANDERING);
         Path::of(&scene.scene()?, self.section.start, periods, fineness)
@@ -88,7 +84,7 @@ impl Found {
     }
 
     /// Frequency, regime and how stable it is.
-    pub(super) fn title(&self) -> String {
+    pub fn title(&self) -> String {
         let (eta, motion) = (self.asked.frequency, &self.attractor.motion);
         let Some(orbit) = self.orbit() else {
             let (z, exponent) = (self.section.impacts_per_period(), self.exponent());
@@ -107,7 +103,7 @@ impl Found {
     }
 
     /// What else there is to say.
-    pub(super) fn remark(&self) -> String {
+    pub fn remark(&self) -> String {
         let ours = (!self.asked.is_given).then(|| "η chosen here".to_owned());
         let life = self.lifetime().map(|periods| {
             let hundreds = 100.0 * (periods / 100.0).round();
@@ -120,7 +116,7 @@ impl Found {
     }
 
     /// A row of the table.
-    pub(super) fn line(&self) -> impl Serialize {
+    pub fn line(&self) -> impl Serialize {
         let (asked, orbit) = (self.asked, self.orbit());
         let velocities = self.attractor.chaos.as_ref().and_then(|it| it.velocities);
         let order = orbit.map_or_else(String::new, |orbit| orbit.pattern().to_string());
@@ -141,7 +137,7 @@ impl Found {
     }
 
     /// What is told of it.
-    pub(super) fn tell(&self, findings: &mut Findings) {
+    pub fn tell(&self, findings: &mut Findings) {
         let mut add = |what: &str, value: Option<f64>| {
             findings.add(format!("({}) {what}", self.asked.letter), value);
         };

@@ -4,7 +4,6 @@ mod asked;
 mod chart;
 mod found;
 mod path;
-mod section;
 
 use anyhow::{Result, anyhow};
 use softstop::Ratios;

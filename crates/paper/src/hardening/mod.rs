@@ -17,7 +17,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::output;
 use stops::{CLEARANCE, Law, grazing};
-use swept::{Swept, kind, sweep};
+use swept::{KINDS, Swept, kind, sweep};
 
 /// From a soft to a rigid stop.
 pub(crate) const FIGURE: Figure = Figure {
@@ -103,7 +103,13 @@ fn steps(swept: &[Swept]) -> Result<Vec<u8>> {
         for (steps, way) in [(&swept.up, "up"), (&swept.down, "down")] {
             rows.extend(steps.iter().map(|step| {
                 let figures = [step.impacts_per_period, step.max_position, step.hardest()];
-                (stop.clone(), way, step.value, kind(step).name(), figures)
+                (
+                    stop.clone(),
+                    way,
+                    step.value,
+                    KINDS[kind(step) as usize].1,
+                    figures,
+                )
             }));
         }
     }

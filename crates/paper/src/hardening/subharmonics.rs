@@ -11,25 +11,25 @@ use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
 /// The frequencies eta.
-pub(super) const RANGE: (f64, f64) = (1.5, 10.0);
+pub const RANGE: (f64, f64) = (1.5, 10.0);
 /// The clearance rho: so small that impacts go on far above the resonance.
-pub(super) const NARROW: f64 = 0.1;
+pub const NARROW: f64 = 0.1;
 
 /// A stable subharmonic motion that was found: a row of the table.
 #[derive(Debug, Clone, Copy, Serialize)]
-pub(super) struct Subharmonic {
-    pub(super) stiffness: f64,
+pub struct Subharmonic {
+    pub stiffness: f64,
     #[serde(rename = "eta")]
-    pub(super) frequency: f64,
-    pub(super) impacts: u64,
-    pub(super) periods: u64,
+    pub frequency: f64,
+    pub impacts: u64,
+    pub periods: u64,
     /// Whether the impact-less motion exists there too.
     #[serde(rename = "beside_impactless_motion")]
-    pub(super) beside_rest: bool,
+    pub beside_rest: bool,
 }
 
 /// All that are found from scratch at so many frequencies, from so many starts each.
-pub(super) fn subharmonics(
+pub fn subharmonics(
     stiffnesses: &[f64],
     frequencies: usize,
     starts: usize,
@@ -79,7 +79,7 @@ fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmoni
 
 /// Longest period in drive periods of one impact among those of a stop that are beside the impact-less motion, or
 /// that are not; 0 if there is none.
-pub(super) fn longest(found: &[Subharmonic], stiffness: f64, is_beside: bool) -> u64 {
+pub fn longest(found: &[Subharmonic], stiffness: f64, is_beside: bool) -> u64 {
     let own = found.iter().filter(|motion| motion.stiffness == stiffness);
     let fit = own.filter(|motion| motion.impacts == 1 && motion.beside_rest == is_beside);
     fit.map(|motion| motion.periods).max().unwrap_or(0)

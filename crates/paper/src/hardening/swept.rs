@@ -52,37 +52,16 @@ pub(super) enum Kind {
     Unsettled,
 }
 
-impl Kind {
-    pub(super) const ALL: [Self; 7] = [
-        Self::None,
-        Self::One,
-        Self::Split,
-        Self::Half,
-        Self::Other,
-        Self::Chaos,
-        Self::Unsettled,
-    ];
-
-    pub(super) const fn name(self) -> &'static str {
-        self.look().0
-    }
-
-    pub(super) const fn color(self) -> &'static str {
-        self.look().1
-    }
-
-    const fn look(self) -> (&'static str, &'static str) {
-        match self {
-            Self::None => ("z = 0", "#ededed"),
-            Self::One => ("z = 1", "#9CCDEC"),
-            Self::Split => ("z = n/n, n > 1", style::DESIGN),
-            Self::Half => ("z = 1/2", "#009E73"),
-            Self::Other => ("other z = p/n", "#F0E442"),
-            Self::Chaos => ("chaos", style::OPTIMUM),
-            Self::Unsettled => ("not settled", "#a8a8a8"),
-        }
-    }
-}
+/// All kinds, their names and colours.
+pub(super) const KINDS: [(Kind, &str, &str); 7] = [
+    (Kind::None, "z = 0", "#ededed"),
+    (Kind::One, "z = 1", "#9CCDEC"),
+    (Kind::Split, "z = n/n, n > 1", style::DESIGN),
+    (Kind::Half, "z = 1/2", "#009E73"),
+    (Kind::Other, "other z = p/n", "#F0E442"),
+    (Kind::Chaos, "chaos", style::OPTIMUM),
+    (Kind::Unsettled, "not settled", "#a8a8a8"),
+];
 
 /// The kind of motion of a step.
 pub(super) fn kind(step: &Step) -> Kind {

@@ -3,10 +3,9 @@
 
 mod boundaries;
 mod chart;
-mod findings;
+mod report;
 mod starts;
 mod swept;
-mod table;
 
 use anyhow::{Error, Result};
 use softstop::Ratios;
@@ -105,8 +104,8 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     let (maps, boundaries) = (maps?, boundaries?);
     let png = chart::png(&maps, &boundaries).map_err(Error::msg)?;
     Ok(Drawn {
-        files: vec![png, table::runs(&maps)?, table::boundaries(&boundaries)?],
-        findings: findings::of(&maps, &boundaries),
+        files: vec![png, report::runs(&maps)?, report::boundaries(&boundaries)?],
+        findings: report::findings(&maps, &boundaries),
     })
 }
 

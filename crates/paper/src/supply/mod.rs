@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use softstop::{Piercing, Ratios};
 use softstop_dynamics::basin::wilson;
 use softstop_dynamics::orbit::{StroboscopicMap, find};
-use softstop_dynamics::zone;
+use softstop_dynamics::zone::hysteresis;
 
 use crate::figure::{Detail, Drawn, Figure, Findings, Studio};
 use softstop_console::output;
@@ -63,20 +63,20 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     let count = detail.pick(55, 12);
     let etas = etas(zones, count);
     let progress = Progress::new((etas.len() * RUNS.len()) as u64, "frequencies");
-    let outcomes = survey(clearance, zones, &etas, detail, &progress)?;
+    let outcomes = survey(clearance, zones[1], &etas, detail, &progress)?;
     let curve = |mean: f64| {
         let points = of_run(&outcomes, mean).map(point);
         (format!("runs of {mean} periods"), points.collect())
     };
-    let folds = [zones.loaded, zones.unloaded];
-    let svg = chart::svg(&RUNS.map(curve), zones.grazing, folds, clearance);
+    let [grazing, loaded, unloaded] = zones;
+    let svg = chart::svg(&RUNS.map(curve), grazing, [loaded, unloaded], clearance);
     let mut findings = Findings::default();
-    findings.add("eta_SN loaded", zones.loaded);
-    findings.add("eta_SN unloaded", zones.unloaded);
+    findings.add("eta_SN loaded", loaded);
+    findings.add("eta_SN unloaded", unloaded);
     for mean in RUNS {
         let first = of_run(&outcomes, mean).find(|it| it.ended > 0);
         let name = format!("first eta at which a motion ends, runs of {mean}");
-        findings.add(name, first.map_or(zones.unloaded, |it| it.eta));
+        findings.add(name, first.map_or(unloaded, |it| it.eta));
     }
     Ok(Drawn {
         files: vec![svg.into_bytes(), output::csv(&outcomes)?],
@@ -84,35 +84,24 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     })
 }
 
-/// The frequencies between which z = 1 is.
-#[derive(Debug, Clone, Copy)]
-struct Zones {
-    grazing: f64,
-    loaded: f64,
-    unloaded: f64,
-}
-
-fn zones(clearance: f64) -> Result<Zones> {
+/// The frequencies between which z = 1 is: g0, s_SN with strips, s_SN without.
+fn zones(clearance: f64) -> Result<[f64; 3]> {
     let scene = |ratios: Ratios| ratios.at_clearance(clearance).scene();
-    let unloaded = zone::hysteresis(&scene(Ratios::unloaded())?)?;
-    let loaded = zone::hysteresis(&scene(Ratios::loaded())?)?;
-    Ok(Zones {
-        grazing: unloaded.frequency_g0,
-        loaded: loaded.frequency_sn,
-        unloaded: unloaded.frequency_sn,
-    })
+    let unloaded = hysteresis(&scene(Ratios::unloaded())?)?;
+    let loaded = hysteresis(&scene(Ratios::loaded())?)?.frequency_sn;
+    Ok([unloaded.frequency_g0, loaded, unloaded.frequency_sn])
 }
 
-fn etas(zones: Zones, count: usize) -> Vec<f64> {
-    let at = |share: f64| zones.grazing + share * (zones.loaded - zones.grazing);
-    let (low, high) = (at(SHARES.0), at(SHARES.1).min(zones.unloaded));
+fn etas([grazing, loaded, unloaded]: [f64; 3], count: usize) -> Vec<f64> {
+    let at = |share: f64| grazing + share * (loaded - grazing);
+    let (low, high) = (at(SHARES.0), at(SHARES.1).min(unloaded));
     let step = (high - low) / (count - 1) as f64;
     (0..count).map(|index| low + step * index as f64).collect()
 }
 
 fn survey(
     clearance: f64,
-    zones: Zones,
+    loaded: f64,
     etas: &[f64],
     detail: Detail,
     progress: &Progress,
@@ -123,7 +112,7 @@ fn survey(
     let cases: Vec<(f64, f64)> = cases.collect();
     let (motions, periods) = detail.pick((64, 400), (16, 200));
     let outcome = |&(eta, mean): &(f64, f64)| {
-        let press = Press::new(clearance, eta, eta < zones.loaded)?;
+        let press = Press::new(clearance, eta, eta < loaded)?;
         let mut outcome = Outcome {
             eta,
             mean_run: mean,

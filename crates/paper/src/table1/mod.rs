@@ -5,7 +5,7 @@ pub(crate) mod matching;
 pub mod paper;
 mod picture;
 pub mod report;
-pub mod swept;
+mod swept;
 
 use std::path::PathBuf;
 

@@ -1,11 +1,9 @@
 //! The chart of stops from soft to rigid: diagrams, a map of the motions, and folds.
 
-mod map;
-
 use super::folds::Folds;
 use super::stops::{CLEARANCE, RESTITUTION, grazing};
 use super::subharmonics::{self, NARROW, Subharmonic};
-use super::swept::{RANGE, Swept};
+use super::swept::{KINDS, Kind, RANGE, Swept, kind};
 use super::{DECADES, SUBHARMONIC};
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{self, Align, Area, Pen, Stroke};
@@ -42,6 +40,8 @@ const STOPS: [(&str, f64); 3] = [
     (style::DESIGN, 0.0),
     (style::OPTIMUM, 0.17),
 ];
+
+const FOLD: Stroke = Stroke::solid(style::INK, 2.0);
 
 impl Chart<'_> {
     /// The picture as an SVG document.
@@ -94,6 +94,72 @@ impl Chart<'_> {
         panel.axes(pen, &axes);
         let name = swept.law.name();
         pen.heading((left, above - 8.0), 15, Align::Left, &name);
+    }
+
+    /// On the way up; a dot where the way down ends in another motion.
+    pub(super) fn map(&self, pen: &mut Pen, area: Area) {
+        let panel = Panel::new(area, RANGE, DECADES);
+        let cells = self.cells(&panel);
+        for (own, _, color) in KINDS {
+            let cells = cells.iter().filter(|(up, ..)| *up == own);
+            let areas: Vec<Area> = cells.map(|cell| cell.2).collect();
+            if !areas.is_empty() {
+                pen.fill(&areas, color);
+            }
+        }
+        let differs = cells.iter().filter(|(up, down, _)| up != down);
+        let dots = differs.map(|(.., (x, y, width, height))| (x + 0.5 * width, y + 0.5 * height));
+        pen.dots(&dots.collect::<Vec<_>>(), 0.9, style::INK);
+        grazes(pen, &panel);
+        let lines = [
+            |fold: &Folds| Some(fold.strong?.0),
+            |fold: &Folds| fold.flip,
+        ];
+        for eta in lines {
+            let points = self.folds.iter();
+            let points = points.filter_map(|fold| Some((eta(fold)?, fold.stiffness.log10())));
+            panel.curve(pen, &points.collect::<Vec<_>>(), FOLD);
+        }
+        let axes = Axes::new(LETTERS, Some("η"), "log₁₀ k₂/k₁", (12, 5));
+        panel.axes(pen, &axes);
+        if let Some(last) = self.folds.iter().rfind(|fold| fold.strong.is_some()) {
+            let mut name = |eta: f64, shift: f64, y: f64, name: &str| {
+                let (place, ink) = ((panel.across(eta) + shift, y), (style::INK, true));
+                pen.words(place, LETTERS, Align::Left, ink, name);
+            };
+            for (eta, text) in lines.map(|eta| eta(last)).into_iter().zip(["s_SN", "s_PD"]) {
+                if let Some(eta) = eta {
+                    name(eta, 8.0, area.1 + 24.0, text);
+                }
+            }
+            name(grazing(CLEARANCE).1, 6.0, panel.bottom() - 12.0, "g₀");
+        }
+        let occurs = |(kind, ..): &(Kind, &str, &str)| cells.iter().any(|(up, ..)| up == kind);
+        let (mut x, y) = (area.0, area.1 - 14.0);
+        for (_, name, color) in KINDS.into_iter().filter(occurs) {
+            let area = (x, y - 11.0, 16.0, 12.0);
+            pen.fill(&[area], color);
+            pen.frame(area);
+            pen.text((x + 21.0, y), 13, Align::Left, name);
+            x += 21.0 + pen::width(13, name) + 8.0;
+        }
+        pen.dots(&[(x + 4.0, y - 5.0)], 1.6, style::INK);
+        pen.text((x + 12.0, y), 13, Align::Left, "falling η differs");
+    }
+
+    /// The cells with the motions on the way up and on the way down.
+    fn cells(&self, panel: &Panel) -> Vec<(Kind, Kind, Area)> {
+        let height = panel.area.3 / self.map.len().max(1) as f64;
+        let mut cells = Vec::new();
+        for (index, swept) in self.map.iter().enumerate() {
+            let top = panel.bottom() - height * (index + 1) as f64;
+            let width = panel.area.2 / swept.up.len().max(1) as f64;
+            for (column, (up, down)) in swept.up.iter().zip(&swept.down).enumerate() {
+                let left = panel.area.0 + width * column as f64;
+                cells.push((kind(up), kind(down), (left, top, width, height)));
+            }
+        }
+        cells
     }
 
     /// How wide the regions of weak impacts and of hysteresis are, over the stiffness, logarithmic.

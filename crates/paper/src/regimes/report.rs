@@ -1,0 +1,90 @@
+//! What the maps and their boundaries say: tables and findings.
+
+use anyhow::Result;
+
+use super::boundaries::{Boundaries, hardest};
+use super::{MAPS, Named, middle};
+use crate::figure::{self, Findings};
+use softstop_dynamics::motion::{MotionClass, MotionKind};
+use softstop_explore::basin::cells::RegimeMap;
+
+/// A row for each run of cells of the same motion: from the middle of the first cell to that of the last.
+pub(super) fn runs(maps: &[RegimeMap]) -> Result<Vec<u8>> {
+    let columns = "machine,way,rho,eta_from,eta_to,motion";
+    let mut lines = Vec::new();
+    for (map, Named { machine, way, .. }) in maps.iter().zip(&MAPS) {
+        let rows = map.cells.len() / map.columns;
+        for (row, cells) in map.cells.chunks(map.columns).enumerate() {
+            let rho = middle(map.rho, row, rows);
+            let mut from = 0;
+            for run in cells.chunk_by(|a, b| a == b) {
+                let to = from + run.len() - 1;
+                let ends = [from, to].map(|column| middle(map.eta, column, map.columns));
+                from = to + 1;
+                lines.push((machine, way, rho, ends, run[0].to_string()));
+            }
+        }
+    }
+    figure::table(columns, lines)
+}
+
+/// A row for each point of a boundary.
+pub(super) fn boundaries(boundaries: &[Boundaries; 2]) -> Result<Vec<u8>> {
+    let columns = "machine,boundary,curve,eta,rho,before_impact_velocity";
+    let mut lines = Vec::new();
+    for (machine, own) in ["unloaded", "loaded"].into_iter().zip(boundaries) {
+        let grazing = own.grazing.iter();
+        lines.extend(grazing.map(|&(eta, rho)| (machine, "g0", 0, [eta, rho], None)));
+        for (name, curves) in [("s_PD", &own.flips), ("s_SN", &own.folds)] {
+            for (number, curve) in curves.iter().enumerate() {
+                lines.extend(curve.points.iter().map(|point| {
+                    let velocity = Some(hardest(point));
+                    (machine, name, number, point.parameters, velocity)
+                }));
+            }
+        }
+    }
+    figure::table(columns, lines)
+}
+
+/// Shares of the maps, and what the boundaries say.
+pub(super) fn findings(maps: &[RegimeMap; 6], boundaries: &[Boundaries; 2]) -> Findings {
+    let [up, down, _, _, loaded_up, loaded_down] = maps;
+    let mut findings = Findings::default();
+    for (
+        Named {
+            machine, finding, ..
+        },
+        map,
+    ) in MAPS.iter().zip(maps)
+    {
+        for &class in MotionClass::ALL {
+            let (name, share) = (class.name(), map.share(class));
+            let name = format!("{machine}, {finding}: share of {name}");
+            findings.add(name, (share > 0.0).then_some(share));
+        }
+    }
+    let ways = [("unloaded", up, down), ("loaded", loaded_up, loaded_down)];
+    for ((name, up, down), own) in ways.into_iter().zip(boundaries) {
+        let share = hysteresis(up, down);
+        findings.add(format!("{name}: share of z = 1 or z = 0 by the way"), share);
+        let point = own.hardest();
+        let velocity = point.map(hardest);
+        findings.add(format!("{name}: largest velocity on s_SN"), velocity);
+        let [eta, rho] = [0, 1].map(|index: usize| point.map(|at| at.parameters[index]));
+        findings.add(format!("{name}: its clearance rho"), rho);
+        findings.add(format!("{name}: its frequency eta"), eta);
+    }
+    findings
+}
+
+/// Share of the cells in which one way leads to z = 0 and the other to z = 1.
+fn hysteresis(up: &RegimeMap, down: &RegimeMap) -> f64 {
+    let is = |cell: &MotionKind, class| cell.class() == class;
+    let differ = |(a, b): &(&MotionKind, &MotionKind)| {
+        let (zero, one) = (MotionClass::Zero, MotionClass::One);
+        (is(a, zero) && is(b, one)) || (is(a, one) && is(b, zero))
+    };
+    let count = up.cells.iter().zip(&down.cells).filter(differ).count();
+    count as f64 / up.cells.len() as f64
+}
