@@ -7,10 +7,11 @@ use softstop::{Dimension, Machine, Parameter};
 use softstop_console::column::{Column, Told, Units};
 use softstop_console::columns;
 use softstop_console::export::Report;
-use softstop_console::record::{Record, beside};
+use softstop_console::record::{Record, below, beside};
 use softstop_console::report::{Stated, motion, state};
 use softstop_console::table::{heading, number};
 use softstop_dynamics::orbit::Orbit;
+use softstop_dynamics::zone::{Stretch, stretches};
 
 use crate::design::{Design, Problem};
 use crate::optimize::reference::Reference;
@@ -44,6 +45,8 @@ pub struct OptimizeReport {
     design: Found,
     /// The motions beside it, the paper's points A and B or the machine as it was given, with the gain in velocity.
     reference: BTreeMap<&'static str, Found>,
+    /// Stretches of stable z = 1 of the same machine outside its zone: the search leaves them out.
+    left_out: Vec<Record>,
     search: SearchReport,
     /// The same for people.
     #[serde(skip)]
@@ -63,6 +66,7 @@ impl OptimizeReport {
             machine: Stated::of(machine),
             motion: motion(machine, orbit).and(more),
         };
+        let left_out = left_out(design);
         let reference = |it: &Reference| (it.name, found(&it.machine, &it.orbit, gain(design, it)));
         Self {
             design: found(
@@ -71,7 +75,8 @@ impl OptimizeReport {
                 Record::of(&place(), &(problem, design, &limits)),
             ),
             reference: references.iter().map(reference).collect(),
-            text: text(problem, design, references, &limits),
+            text: text(problem, design, references, &limits) + &told(&left_out, design),
+            left_out,
             search,
         }
     }
@@ -93,6 +98,31 @@ fn place<'a>() -> [Column<Placed<'a>>; 5] {
         "s" [None], "place in the zone, in [M, 1 - M]" => it.1.place;
         "at_limits" [None], "what holds it back" => Told { value: it.2.into(), words: String::new() };
     }
+}
+
+/// The stretches of the design's machine that are no part of its zone.
+fn left_out(design: &Design) -> Vec<Record> {
+    let all = stretches(&design.machine.scene).unwrap_or_default();
+    let others = all.iter().filter(|one| !one.is_part_of(&design.zone));
+    others
+        .map(|one| Record::of(&stretch(), &(design, one)))
+        .collect()
+}
+
+fn stretch<'a>() -> [Column<(&'a Design, &'a Stretch)>; 3] {
+    columns! { (&'a Design, &'a Stretch), it;
+        "from" [Frequency] Six, "lower end" => own(it.0, it.1.low.frequency);
+        "to" [Frequency] Six, "upper end" => own(it.0, it.1.high.frequency);
+        "hardest" [Velocity] Six, "highest before-impact velocity" => it.1.hardest.before_impact_velocity();
+    }
+}
+
+fn told(left_out: &[Record], design: &Design) -> String {
+    if left_out.is_empty() {
+        return String::new();
+    }
+    let table = below(left_out, &Units::of(&design.machine));
+    format!("Left out, for they are no part of the zone: stable z = 1\n{table}")
 }
 
 /// Before-impact velocity of the design over that of a reference.

@@ -92,6 +92,61 @@ fn zone_of_the_paper() -> Outcome {
 }
 
 #[test]
+fn zone_lists_all_stretches() -> Outcome {
+    let zone = json(&["zone", "--clearance", "10", "--format", "json"])?;
+    let stretches = zone["stretches"].as_array().ok_or("stretches")?;
+    let own: Vec<_> = stretches
+        .iter()
+        .filter(|one| one["in_zone"] == true)
+        .collect();
+    let [own] = own[..] else {
+        return Err(format!("{stretches:?}").into());
+    };
+    near(number(own, "from"), 0.988907, 5e-7);
+    near(number(own, "to"), 1.369036, 5e-7);
+    assert_eq!([&own["from_by"], &own["to_by"]], ["flip", "fold"]);
+    Ok(())
+}
+
+/// No motion at g0 leads to its z = 1.
+#[test]
+fn an_isola_is_no_zone_and_is_listed() -> Outcome {
+    let flags = "zone --regime loaded --clearance 4.966953067590672 --stiffness 1.4398692936028583 \
+                 --preload 262.9190348246658 --damping 0.005802743231567894 --contact-damping 0.002011340630926028 \
+                 --piercing-stiffness 2.2530448386935893 --piercing-friction 23.91485155268388 \
+                 --thickness 0.8282795600642743 --travel 0.7915560771078273 --format json";
+    let flags: Vec<&str> = flags.split_whitespace().collect();
+    let zone = json(&flags)?;
+    assert!(zone["frequency_sn"].is_null());
+    assert!(
+        zone["no_zone"]
+            .as_str()
+            .is_some_and(|why| why.contains("no stable z = 1 motion"))
+    );
+    let stretches = zone["stretches"].as_array().ok_or("stretches")?;
+    let last = stretches.last().ok_or("a stretch")?;
+    near(number(last, "to"), 1.6786, 5e-5);
+    Ok(())
+}
+
+#[test]
+fn without_damping_motions_are_neutral() -> Outcome {
+    let orbit = json(&[
+        "orbit",
+        "--damping",
+        "0",
+        "--contact-damping",
+        "0",
+        "--format",
+        "json",
+    ])?;
+    assert_eq!(orbit["stability"], "neutral");
+    let orbit = json(&["orbit", "--format", "json"])?;
+    assert_eq!(orbit["stability"], "stable");
+    Ok(())
+}
+
+#[test]
 fn scene_file_stands_below_the_command_line() -> Outcome {
     let folder = tempfile::tempdir()?;
     let file = folder.path().join("machine.toml");

@@ -13,6 +13,7 @@ mod limits;
 mod machine_reference;
 mod stop_invariants;
 mod sweep;
+mod zone_judge;
 mod zone_light;
 mod zone_reference;
 mod zone_units;

@@ -3,7 +3,9 @@
 use approx::assert_abs_diff_eq;
 use softstop::{Piercing, Ratios, Scene};
 use softstop_dynamics::orbit::find;
-use softstop_dynamics::zone::{Zone, hysteresis};
+use softstop_dynamics::zone::{
+    Loss, Stretch, Zone, ZoneError, grazing_frequencies, hysteresis, stretches,
+};
 use softstop_testing::tolerance::printed;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -94,5 +96,76 @@ fn a_motion_with_a_small_basin() -> Outcome {
     let zone = hysteresis(&scene)?;
     assert_abs_diff_eq!(zone.frequency_g0, 1.2712202506698, epsilon = printed(13));
     assert_folds(&zone, &[1.703048], 6);
+    Ok(())
+}
+
+/// The stretches between folds alone, and which of them belong to a zone.
+fn between_folds(found: &[Stretch], zone: Option<&Zone>) -> Vec<(f64, f64, bool)> {
+    let ends_fold = |stretch: &&Stretch| stretch.high.loss == Loss::Fold;
+    let ends = |stretch: &Stretch| {
+        let in_zone = zone.is_some_and(|zone| stretch.is_part_of(zone));
+        (stretch.low.frequency, stretch.high.frequency, in_zone)
+    };
+    found.iter().filter(ends_fold).map(ends).collect()
+}
+
+#[test]
+fn stretches_between_several_folds() -> Outcome {
+    let ratios = Ratios {
+        clearance: 5.067,
+        stiffness: 1.191,
+        preload: 42.24,
+        damping: 0.007599,
+        contact_damping: 0.007592,
+        ..Ratios::unloaded()
+    };
+    let scene = ratios.scene()?;
+    let found = stretches(&scene)?;
+    let zone = hysteresis(&scene)?;
+    let [(_, first, true), (low, high, true)] = between_folds(&found, Some(&zone))[..] else {
+        panic!("{found:?}");
+    };
+    for (found, expected) in [(first, 1.408618), (low, 1.306632), (high, 1.461022)] {
+        assert_abs_diff_eq!(found, expected, epsilon = printed(6));
+    }
+    assert!(found.iter().any(|one| one.low.loss == Loss::Flip));
+    assert!(found.iter().any(|one| one.high.loss == Loss::AnotherImpact));
+    Ok(())
+}
+
+/// All of it lies above g0, where there is no z = 1.
+#[test]
+fn an_isola() -> Outcome {
+    let strip = Piercing {
+        stiffness: 2.2530448386935893,
+        friction: 23.91485155268388,
+        thickness: 0.8282795600642743,
+        travel: 0.7915560771078273,
+    };
+    let ratios = Ratios {
+        clearance: 4.966953067590672,
+        stiffness: 1.4398692936028583,
+        preload: 262.9190348246658,
+        damping: 0.005802743231567894,
+        contact_damping: 0.002011340630926028,
+        piercing: Some(strip),
+        ..Ratios::unloaded()
+    };
+    let scene = ratios.scene()?;
+    let none = hysteresis(&scene);
+    assert!(matches!(none, Err(ZoneError::NoOrbit { .. })), "{none:?}");
+    let (_, g0) = grazing_frequencies(&scene)?;
+    let found = stretches(&scene)?;
+    let isola: Vec<_> = found.iter().filter(|one| one.low.frequency > g0).collect();
+    let [first, second] = isola[..] else {
+        panic!("{isola:?}");
+    };
+    assert_abs_diff_eq!(g0, 1.0959, epsilon = printed(4));
+    assert_abs_diff_eq!(first.low.frequency, 1.1630, epsilon = printed(4));
+    assert_abs_diff_eq!(second.high.frequency, 1.6786, epsilon = printed(4));
+    assert!(second.low.frequency < first.high.frequency);
+    for end in [&first.low, &first.high, &second.low, &second.high] {
+        assert_eq!(end.loss, Loss::Fold);
+    }
     Ok(())
 }

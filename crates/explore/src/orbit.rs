@@ -30,7 +30,8 @@ Examples:
           contact_damping = 0.1
 
 Position and velocity are those at drive angle 0 (a multiple of the drive's period). The
-motion is stable if both Floquet multipliers lie inside the unit circle.";
+motion is stable if both Floquet multipliers lie inside the unit circle, and neutral if they lie on it,
+as they do without any damping.";
 
 /// Arguments of `softstop orbit`.
 #[derive(Debug, Args)]
@@ -57,6 +58,11 @@ pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
         other => other.into(),
     })?;
     let report = OrbitReport {
+        stability: if orbit.is_neutral() {
+            "neutral"
+        } else {
+            "stable"
+        },
         motion: report::motion(&machine, &orbit),
         stated: Stated::of(&machine),
         machine: &machine,
@@ -67,6 +73,7 @@ pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
 /// What `softstop orbit` reports.
 #[derive(Debug, Serialize)]
 struct OrbitReport<'a> {
+    stability: &'static str,
     #[serde(flatten)]
     motion: Record,
     #[serde(flatten)]
@@ -78,7 +85,11 @@ struct OrbitReport<'a> {
 impl Report for OrbitReport<'_> {
     fn text(&self) -> String {
         let figures = report::machine(self.machine, &[]).and(self.motion.clone());
-        heading("Stable motion with one impact per drive period (z = 1)")
+        let title = match self.stability {
+            "neutral" => "Neutral motion",
+            _ => "Stable motion",
+        };
+        heading(&format!("{title} with one impact per drive period (z = 1)"))
             + &figures.text(&Units::of(self.machine))
     }
 }

@@ -1,9 +1,10 @@
-//! `softstop zone`: the hysteresis zone between grazing and fold.
+//! `softstop zone`: the hysteresis zone between grazing and fold, and all stretches of stable z = 1.
 
 use anyhow::anyhow;
 use clap::Args;
 use serde::Serialize;
 
+use crate::continuation::met;
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::arguments::{MachineArguments, title};
 use softstop_console::column::{Column, Units};
@@ -11,10 +12,13 @@ use softstop_console::columns;
 use softstop_console::export::{self, Report};
 use softstop_console::failure::Failure;
 use softstop_console::output::Format;
-use softstop_console::record::Record;
+use softstop_console::record::{Record, below};
 use softstop_console::report::{self, Stated};
 use softstop_console::table::heading;
-use softstop_dynamics::zone::{Zone, ZoneError};
+use softstop_dynamics::continuation::Face;
+use softstop_dynamics::zone::{
+    Loss, Stretch, Zone, ZoneError, grazing_frequencies, hysteresis, stretches,
+};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,7 +31,10 @@ Examples:
 
 Between g0, where the motion without impacts just reaches the clearance (above resonance),
 and the fold s_SN, where the z = 1 motion ends, both motions exist; the start decides which
-one is seen. The drive frequency plays no part here.";
+one is seen. The drive frequency plays no part here.
+
+Besides, all stretches of frequency with a stable z = 1 motion are listed, those below g0 and isolas among
+them: where each begins and ends, by what, and its hardest impact. A zone with several folds has several.";
 
 /// Arguments of `softstop zone`.
 #[derive(Debug, Args)]
@@ -49,20 +56,18 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
     arguments
         .machine
         .refuse(&machine, Parameter::Frequency, why)?;
-    let zone = softstop_dynamics::zone::hysteresis(&machine.scene);
-    let zone = zone.map_err(|error| match error {
-        ZoneError::NoGrazing { .. } => Failure::usage(error.to_string()),
-        error => {
-            let place = format!("no hysteresis zone found of {}", title(&machine));
-            Failure::Run(anyhow!(error.stated(&machine)).context(place))
-        }
-    })?;
-    let report = ZoneReport {
-        zone: Record::of(&columns(), &(&machine, &zone)),
-        stated: Stated::of(&machine),
-        machine: &machine,
+    let zone = match hysteresis(&machine.scene) {
+        Err(error @ ZoneError::NoGrazing { .. }) => return Err(Failure::usage(error.to_string())),
+        zone => zone.map_err(|error| error.stated(&machine)),
     };
-    export::print(&report, arguments.format)
+    let all = stretches(&machine.scene).map_err(|error| anyhow!(error))?;
+    match zone {
+        Err(error) if all.is_empty() => {
+            let place = format!("no hysteresis zone found of {}", title(&machine));
+            Err(Failure::Run(anyhow!(error).context(place)))
+        }
+        zone => export::print(&ZoneReport::new(&machine, &zone, &all), arguments.format),
+    }
 }
 
 /// What `softstop zone` reports.
@@ -70,26 +75,94 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
 struct ZoneReport<'a> {
     #[serde(flatten)]
     zone: Record,
+    /// Why there is no hysteresis zone, if there is none.
+    no_zone: Option<String>,
+    stretches: Vec<Record>,
     #[serde(flatten)]
     stated: Stated,
     #[serde(skip)]
     machine: &'a Machine,
 }
 
-fn columns<'a>() -> [Column<(&'a Machine, &'a Zone)>; 3] {
-    columns! { (&'a Machine, &'a Zone), it;
-        "frequency_g0" [Frequency] Six, "grazing g0" => it.0.to_own(Dimension::Frequency, it.1.frequency_g0);
-        "frequency_sn" [Frequency] Six, "fold s_SN" => it.0.to_own(Dimension::Frequency, it.1.frequency_sn);
-        "velocity_sn" [Velocity] Six, "before-impact velocity at the fold" => it.1.velocity_sn;
+/// A machine with its zone, if it has one.
+type Zoned<'a> = (&'a Machine, Option<&'a Zone>);
+/// A machine, a stretch of it, and whether that is a part of its zone.
+type Stretched<'a> = (&'a Machine, &'a Stretch, bool);
+
+impl<'a> ZoneReport<'a> {
+    fn new(machine: &'a Machine, zone: &Result<Zone, ZoneError>, all: &[Stretch]) -> Self {
+        let found = zone.as_ref().ok();
+        let in_zone = |one: &Stretch| found.is_some_and(|zone| one.is_part_of(zone));
+        let stretch = |one| Record::of(&stretch_columns(), &(machine, one, in_zone(one)));
+        Self {
+            zone: Record::of(&columns(), &(machine, found)),
+            no_zone: zone.as_ref().err().map(ToString::to_string),
+            stretches: all.iter().map(stretch).collect(),
+            stated: Stated::of(machine),
+            machine,
+        }
     }
+}
+
+fn own(machine: &Machine, frequency: f64) -> f64 {
+    machine.to_own(Dimension::Frequency, frequency)
+}
+
+fn grazing(machine: &Machine) -> Option<f64> {
+    let (_, above) = grazing_frequencies(&machine.scene).ok()?;
+    Some(own(machine, above))
+}
+
+fn columns<'a>() -> [Column<Zoned<'a>>; 3] {
+    columns! { Zoned<'a>, it;
+        "frequency_g0" [Frequency] Six, "grazing g0" => grazing(it.0);
+        "frequency_sn" [Frequency] Six, "fold s_SN" => it.1.map(|zone| own(it.0, zone.frequency_sn));
+        "velocity_sn" [Velocity] Six, "before-impact velocity at the fold" => it.1.map(|zone| zone.velocity_sn);
+    }
+}
+
+fn stretch_columns<'a>() -> [Column<Stretched<'a>>; 7] {
+    columns! { Stretched<'a>, it;
+        "from" [Frequency] Six, "lower end" => own(it.0, it.1.low.frequency);
+        "from_by" [None] Plain, "what ends it there" => by(&it.1.low.loss);
+        "to" [Frequency] Six, "upper end" => own(it.0, it.1.high.frequency);
+        "to_by" [None] Plain, "what ends it there" => by(&it.1.high.loss);
+        "hardest" [Velocity] Six, "highest before-impact velocity" => it.1.hardest.before_impact_velocity();
+        "hardest_at" [Frequency] Six, "where, to the nearest point of the branch" => own(it.0, it.1.hardest.parameter);
+        "in_zone" [None] Plain, "part of the hysteresis zone" => it.2;
+    }
+}
+
+/// What ends a stretch, in words.
+fn by(loss: &Loss) -> String {
+    let word = match loss {
+        Loss::Fold => "fold",
+        Loss::Flip => "flip",
+        Loss::NeimarkSacker => "Neimark-Sacker",
+        Loss::Grazing => "grazing: its impact dies",
+        Loss::AnotherImpact => "grazing: another impact comes up",
+        Loss::Inner(Face::Pierced) => "grazing where the strip is pierced",
+        Loss::Inner(Face::Wall) => "grazing of the rigid stop",
+        Loss::Inner(_) => "grazing of the stop",
+        Loss::Border(border) => return format!("border collision: {}", met(*border)),
+        Loss::Range => "not followed farther",
+        Loss::Budget => "too many points",
+        Loss::Lost(error) => return error.to_string(),
+        _ => "something else",
+    };
+    word.to_owned()
 }
 
 impl Report for ZoneReport<'_> {
     fn text(&self) -> String {
+        let units = &Units::of(self.machine);
         let machine = report::machine(self.machine, &[Parameter::Frequency]);
+        let why = self.no_zone.iter().map(|why| format!("No zone: {why}\n"));
         heading("Hysteresis zone of the z = 1 motion")
-            + &machine
-                .and(self.zone.clone())
-                .text(&Units::of(self.machine))
+            + &machine.and(self.zone.clone()).text(units)
+            + &why.collect::<String>()
+            + "\n"
+            + &heading("Stretches of stable z = 1")
+            + &below(&self.stretches, units)
     }
 }

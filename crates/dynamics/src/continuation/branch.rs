@@ -197,9 +197,7 @@ impl<'a, F: Family> Follower<'a, F> {
                     if turned.is_some() {
                         return Ok(turned);
                     }
-                    if !self.is_gentle(&walker.node)
-                        && way.grazes(self.graze_ahead(&walker, &approach))
-                    {
+                    if way.grazes(self.graze_ahead(&walker, &approach)) {
                         return Ok(None);
                     }
                     if !walker.shorten() {

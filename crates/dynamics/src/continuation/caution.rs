@@ -1,14 +1,14 @@
 //! What keeps a step along a branch from missing anything, and what ends a branch that no step can follow.
 
 use super::Family;
-use super::arclength::{Node, Stride, Walker};
+use super::arclength::{Equations, Stride, Walker};
 use super::follower::Follower;
 use super::graze::Approach;
-use super::point::Special;
-use super::round::{Round, grazes_gently};
+use super::point::{Special, SpecialKind};
+use super::round::Round;
 use super::shooting::Shooting;
 use super::test::Test;
-use super::way::{End, Limits, Way};
+use super::way::{Border, End, Limits, Way};
 use crate::orbit::OrbitError;
 
 /// Largest change of a test function per step.
@@ -22,6 +22,8 @@ const CLOSE: f64 = 1e-3;
 /// Scaled distance within which a branch that cannot be followed is taken to end in the grazing ahead: multipliers grow
 /// as the reciprocal of the distance, and no step is short enough for them.
 const AHEAD: f64 = 1e-2;
+/// Scaled distances at which something is looked for that a branch without a grazing ends in.
+const JUST_AHEAD: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 /// Length of the steps from which on all changes are taken.
 pub(super) const SHORT: f64 = 1e-5;
 
@@ -49,7 +51,20 @@ impl<F: Family> Follower<'_, F> {
             };
             return;
         }
-        way.end = End::Lost(error);
+        way.end = match self.border_ahead(walker) {
+            Some(border) => End::Border(border),
+            None => End::Lost(error),
+        };
+    }
+
+    /// What the orbits just ahead of a node meet, and it does not.
+    fn border_ahead(&self, walker: &Walker<'_, Shooting<'_, F, 1>>) -> Option<Border> {
+        let node = &walker.node;
+        JUST_AHEAD.into_iter().find_map(|reach| {
+            let there = &node.at + reach * &walker.direction;
+            let beyond = self.shooting.evaluate(&there).ok()?;
+            node.here.point.sequence.border(&beyond.point.sequence)
+        })
     }
 
     /// True if nothing can be missed on a step.
@@ -60,22 +75,17 @@ impl<F: Family> Follower<'_, F> {
         (now, ahead): (&Approach, &Approach),
     ) -> bool {
         let (from, to) = (&walker.node.here.point, &stride.node.here.point);
-        let same = from.sequence == to.sequence;
+        let same = from.sequence.agrees(&to.sequence);
         if walker.step < SHORT {
             return same;
         }
-        let gentle = self.is_gentle(&stride.node);
         let change = |test: Test| (test.value(&from.monodromy) - test.value(&to.monodromy)).abs();
         Test::ALL.iter().all(|test| change(*test) < LARGEST_CHANGE)
-            && (gentle || (same && ahead.leaves(now, SHARE_LEFT, NEAR)))
+            && same
+            && ahead.leaves(now, SHARE_LEFT, NEAR)
     }
 
-    pub(super) fn is_gentle(&self, node: &Node<Round>) -> bool {
-        let scene = self.shooting.scene(&node.at);
-        scene.is_ok_and(|scene| grazes_gently(&scene))
-    }
-
-    /// The grazing within the next step, if there is one.
+    /// The grazing within the next step that leads no further, if there is one.
     pub(super) fn graze_ahead(
         &self,
         walker: &Walker<'_, Shooting<'_, F, 1>>,
@@ -84,7 +94,12 @@ impl<F: Family> Follower<'_, F> {
         if walker.step > CLOSE {
             return None;
         }
+        let ends = |special: &Special| match special.kind {
+            SpecialKind::Grazing(graze) => !approach.is_gentle(graze.face),
+            SpecialKind::Critical(_) => false,
+        };
         self.graze_within(2.0 * walker.step, walker, approach)
+            .filter(ends)
     }
 
     /// The grazing ahead within a scaled distance, if there is one.

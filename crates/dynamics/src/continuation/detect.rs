@@ -45,7 +45,8 @@ impl<F: Family> Follower<'_, F> {
         };
         let bound = [low, high].into_iter().find(reached)?;
         let found = self.start(bound, state).ok()?;
-        (found.here.point.sequence == node.here.point.sequence).then_some(found)
+        let events = |node: &Node<Round>| node.here.point.sequence.events();
+        (events(&found) == events(node)).then_some(found)
     }
 
     /// The special points of a step, in their order.
@@ -65,7 +66,7 @@ impl<F: Family> Follower<'_, F> {
                 found.push((share, Special { kind, point }));
             }
         }
-        if a.sequence != b.sequence {
+        if a.sequence.crossings() != b.sequence.crossings() {
             found.extend(self.graze_between(from, to)?);
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,6 +1,6 @@
 //! The surfaces that an orbit may graze.
 
-use softstop::Scene;
+use softstop::{Scene, Stop};
 
 /// A surface at which a scene's law of force changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,6 +28,24 @@ impl Face {
                 .map(|strip| scene.clearance + strip.thickness),
             Self::Stop => scene.piercing.map(|_| scene.stop_position()),
             Self::Wall => scene.wall().map(|wall| wall.position),
+        }
+    }
+
+    /// True if an orbit can graze it without losing its derivative: the force does not jump there.
+    pub(crate) fn is_gentle(self, scene: &Scene) -> bool {
+        match (self, scene.piercing) {
+            (Self::Clearance, Some(strip)) => strip.thickness > 0.0,
+            (Self::Clearance, None) => match &scene.stop {
+                Stop::None
+                | Stop::KelvinVoigt { .. }
+                | Stop::PiecewiseLinear { .. }
+                | Stop::Hertz { .. } => scene
+                    .wall()
+                    .is_none_or(|wall| wall.position > scene.clearance),
+                Stop::Preloaded { preload, .. } => *preload == 0.0,
+                Stop::Rigid { .. } => false,
+            },
+            _ => false,
         }
     }
 

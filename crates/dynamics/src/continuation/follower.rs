@@ -149,7 +149,7 @@ impl<'a, F: Family> Follower<'a, F> {
         let mut walker = Walker::new(&self.shooting, node, along, self.largest)?.quick();
         while points.len() < limit {
             match walker.attempt() {
-                Ok(stride) if stride.node.here.point.sequence == sequence => {
+                Ok(stride) if stride.node.here.point.sequence.goes_on(&sequence) => {
                     walker.take(stride);
                     let point = self.point_at(&walker.node)?;
                     let ends = watch(&point).is_break();

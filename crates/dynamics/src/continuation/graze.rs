@@ -6,14 +6,14 @@ use nalgebra::DVector;
 
 use super::Family;
 use super::arclength::{Node, correct};
-use super::face::Touch;
-use super::near::nearest_turn;
+use super::face::{Face, Touch};
+use super::near::nearby;
 use super::point::{BranchPoint, Graze, Special, SpecialKind};
 use super::round::Round;
 use super::shooting::Shooting;
 use super::touching::{Contact, Touching};
 use crate::orbit::OrbitError;
-use softstop::{MotionError, Stop};
+use softstop::MotionError;
 
 /// An orbit's slowest crossing and its nearest turning point.
 #[derive(Debug, Clone)]
@@ -22,6 +22,8 @@ pub(crate) struct Approach {
     rising: Option<Touch>,
     /// Crossings of the orbit, and those that a dying impact takes along.
     crossings: (usize, usize),
+    /// Which faces an orbit can graze smoothly.
+    gentle: [bool; 4],
     parameter: f64,
     /// Drive angle at the section and frequency.
     drive: (f64, f64),
@@ -38,12 +40,14 @@ impl Approach {
     ) -> Result<Self, MotionError> {
         let scene = shooting.scene(&node.at)?;
         let round = &node.here.point;
-        let total = round.sequence.surfaces + round.sequence.reversals;
-        let bounces = matches!(scene.stop, Stop::Rigid { .. });
+        let total = round.sequence.crossings();
+        let nearby = nearby(&scene, shooting.periods, shooting.state(&node.at))?;
+        let taken = round.slowest.map_or(0, |touch| nearby.taken(touch.time));
         Ok(Self {
             dying: round.slowest,
-            rising: nearest_turn(&scene, shooting.periods, shooting.state(&node.at))?,
-            crossings: (total, if bounces { 1 } else { 2 }),
+            gentle: Face::ALL.map(|face| face.is_gentle(&scene)),
+            rising: nearby.turn,
+            crossings: (total, taken),
             parameter: shooting.parameters(&node.at)[0],
             drive: (scene.excitation.phase, scene.excitation.frequency),
             turned: TAU * shooting.turn,
@@ -51,16 +55,22 @@ impl Approach {
         })
     }
 
-    /// True if neither distance to grazing has shrunk below `share` of what it was, or both are still
-    /// more than `near`.
+    /// True if neither distance to a grazing that is not smooth has shrunk below `share` of what it was, or both are
+    /// still more than `near`.
     pub fn leaves(&self, before: &Self, share: f64, near: f64) -> bool {
         let leaves = |now: Option<Touch>, then: Option<Touch>| match (now, then) {
-            (Some(now), Some(then)) => {
+            (Some(now), Some(then)) if !self.is_gentle(now.face) => {
                 now.amount >= share * then.amount || now.amount < near * self.speed
             }
             _ => true,
         };
         leaves(self.dying, before.dying) && leaves(self.rising, before.rising)
+    }
+
+    /// True if an orbit can graze a face smoothly.
+    pub fn is_gentle(&self, face: Face) -> bool {
+        let mut faces = Face::ALL.into_iter().zip(self.gentle);
+        faces.any(|(one, gentle)| one == face && gentle)
     }
 
     /// The grazing orbits that Newton's method reaches from here.

@@ -52,7 +52,7 @@ pub use face::Face;
 pub use follower::{Follower, Heading};
 pub use point::{BranchPoint, Graze, Special, SpecialKind};
 pub use test::Test;
-pub use way::{End, Limits};
+pub use way::{Border, End, Limits};
 
 pub use softstop::Parameter;
 

@@ -7,12 +7,47 @@ use super::round::carry_on;
 use crate::orbit::turn::turns;
 use softstop::{Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene};
 
-/// The turning point that comes nearest to the surface ahead of it, if any turns before one.
-pub(crate) fn nearest_turn(
+/// An orbit seen from close by.
+pub(crate) struct Nearby {
+    /// The turning point that comes nearest to the surface ahead of it, if any turns before one.
+    pub turn: Option<Touch>,
+    /// Times in s, positions and kinds of all crossings, in order.
+    crossings: Vec<(f64, f64, CrossingKind)>,
+}
+
+impl Nearby {
+    /// How many crossings go with one, at a time, if it dies: a rebound with the rest right after it, all up to the way
+    /// back through a surface otherwise.
+    pub fn taken(&self, time: f64) -> usize {
+        let at = |one: &(f64, f64, CrossingKind)| one.0 == time;
+        let Some(index) = self.crossings.iter().position(at) else {
+            return 0;
+        };
+        let (_, position, kind) = self.crossings[index];
+        if matches!(kind, CrossingKind::Rebound { .. }) {
+            let rests = |kind| matches!(kind, CrossingKind::Rest | CrossingKind::Release);
+            let after = self.crossings[index + 1..].iter();
+            return 1 + after.take_while(|one| rests(one.2)).count();
+        }
+        let same = |one: &(f64, f64, CrossingKind)| one.1 == position;
+        let (before, after) = (&self.crossings[..index], &self.crossings[index + 1..]);
+        let ways = [
+            after.iter().position(same),
+            before.iter().rev().position(same),
+        ];
+        ways.into_iter()
+            .flatten()
+            .min()
+            .map_or(1, |between| between + 2)
+    }
+}
+
+/// How an orbit comes near to surfaces.
+pub(crate) fn nearby(
     scene: &Scene,
     periods: u64,
     state: Vector2<f64>,
-) -> Result<Option<Touch>, MotionError> {
+) -> Result<Nearby, MotionError> {
     let mut motion = scene.motion(state.into())?;
     let mut turns = Turns {
         clock: *motion.clock(),
@@ -21,18 +56,23 @@ pub(crate) fn nearest_turn(
             .filter_map(|face| Some((face, face.position(scene)?)))
             .collect(),
         nearest: None,
+        crossings: Vec::new(),
     };
     for period in 1..=periods {
         carry_on(&mut motion, Clock::at_cycle(period), &mut turns)?;
     }
     motion.tell_arc(&mut turns);
-    Ok(turns.nearest)
+    Ok(Nearby {
+        turn: turns.nearest,
+        crossings: turns.crossings,
+    })
 }
 
 struct Turns {
     clock: Clock,
     faces: Vec<(Face, f64)>,
     nearest: Option<Touch>,
+    crossings: Vec<(f64, f64, CrossingKind)>,
 }
 
 impl Observer for Turns {
@@ -45,9 +85,11 @@ impl Observer for Turns {
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
+        let time = self.clock.time(crossing.instant);
+        self.crossings
+            .push((time, crossing.position, crossing.kind));
         if crossing.kind == CrossingKind::Reversal {
             let back = crossing.acceleration_before < 0.0;
-            let time = self.clock.time(crossing.instant);
             self.turn(back, time, crossing.position, true);
         }
     }

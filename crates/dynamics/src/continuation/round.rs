@@ -3,9 +3,10 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::face::{Face, Touch};
+use super::way::Border;
 use softstop::internals::Motion;
 use softstop::{
-    Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Scene, Start, Stop,
+    Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Scene, Start,
     Tangent,
 };
 
@@ -20,6 +21,53 @@ pub(crate) struct Sequence {
     pub reversals: usize,
     /// Rows of bounces that end in rest.
     pub rests: usize,
+    /// Crossings of other kinds: ends of rest, contacts that cease or begin to press.
+    pub others: usize,
+    /// How often the mass is held, by dry friction or at a face.
+    pub holds: usize,
+    /// Crossings of surfaces and turns at which the force does not jump: an orbit gains and loses them smoothly.
+    pub gentle: [usize; 2],
+}
+
+impl Sequence {
+    /// True if no crossing with a jump of the force makes the difference.
+    pub fn agrees(&self, other: &Self) -> bool {
+        self.hard() == other.hard() && self.rests == other.rests
+    }
+
+    /// The same, with as many impacts.
+    pub fn goes_on(&self, other: &Self) -> bool {
+        self.impacts == other.impacts && self.agrees(other)
+    }
+
+    /// What comes in between two orbits.
+    pub fn border(&self, other: &Self) -> Option<Border> {
+        let ([surfaces, turns], [others, other_turns]) = (self.hard(), other.hard());
+        if (self.holds, self.rests) != (other.holds, other.rests) {
+            Some(Border::Rest)
+        } else if surfaces != others {
+            Some(Border::Surface)
+        } else {
+            (turns != other_turns).then_some(Border::Turn)
+        }
+    }
+
+    fn hard(&self) -> [usize; 2] {
+        [
+            self.surfaces - self.gentle[0],
+            self.reversals - self.gentle[1],
+        ]
+    }
+
+    /// What happens how often, whether the force jumps there or not: at the end of a range a jump may vanish.
+    pub fn events(&self) -> [usize; 4] {
+        [self.impacts, self.surfaces, self.reversals, self.rests]
+    }
+
+    /// Crossings of all kinds.
+    pub fn crossings(&self) -> usize {
+        self.surfaces + self.reversals + self.others
+    }
 }
 
 /// What happens from time 0 over a number of drive periods.
@@ -52,6 +100,8 @@ impl Round {
             slowest: None,
             margin: f64::INFINITY,
             periods: periods as f64,
+            is_held: false,
+            touched: None,
         };
         let mut ends = Vec::with_capacity(periods as usize);
         for period in 1..=periods {
@@ -77,9 +127,9 @@ impl Round {
     }
 }
 
-/// Work that an orbit may cost per drive period, in scan windows: 260,000 crossings. A mass that bounces more
+/// Work that an orbit may cost per drive period, in scan windows: 32,000 crossings. A mass that bounces more
 /// often is on its way to rest, and its motion is no orbit that could be followed.
-const MOST_WORK: u64 = 1 << 22;
+const MOST_WORK: u64 = 1 << 19;
 
 /// Carries a motion on by a drive period at most.
 pub(crate) fn carry_on(
@@ -109,14 +159,20 @@ struct Watch<'a> {
     slowest: Option<Touch>,
     margin: f64,
     periods: f64,
+    is_held: bool,
+    /// The position at which a surface without a jump of the force was passed forward last, and whether the mass has
+    /// turned since.
+    touched: Option<(f64, bool)>,
 }
 
 impl Observer for Watch<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         self.tangent.arc(arc, elapsed);
-        if arc.course.is_held() && arc.start == Clock::at_cycle(0) {
+        let was_held = std::mem::replace(&mut self.is_held, arc.course.is_held());
+        if self.is_held && arc.start == Clock::at_cycle(0) {
             self.margin = 0.0;
         }
+        self.sequence.holds += usize::from(self.is_held && !was_held);
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
@@ -127,19 +183,40 @@ impl Observer for Watch<'_> {
         self.impacts.extend(crossing.impact_velocity());
         match crossing.kind {
             CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } => self.passes(crossing),
-            CrossingKind::Reversal => self.sequence.reversals += 1,
+            CrossingKind::Reversal => self.turns(),
             CrossingKind::Rest => self.rests(),
-            CrossingKind::Switch | CrossingKind::Release => {}
+            CrossingKind::Switch | CrossingKind::Release => self.sequence.others += 1,
         }
     }
 }
 
 impl Watch<'_> {
+    fn turns(&mut self) {
+        self.sequence.reversals += 1;
+        if let Some((_, turned)) = &mut self.touched {
+            *turned = true;
+        }
+    }
+
     fn passes(&mut self, crossing: &Crossing) {
         self.sequence.surfaces += 1;
         let amount = crossing.velocity.abs();
+        let face = Face::at(self.scene, crossing.position);
+        let gentle = face.is_none_or(|face| face.is_gentle(self.scene));
+        let touched = self.touched.take();
+        if gentle {
+            self.sequence.gentle[0] += 1;
+            // Turning back in between comes and goes with the touch.
+            match touched {
+                Some((position, true)) if position == crossing.position => {
+                    self.sequence.gentle[1] += 1;
+                }
+                _ if crossing.velocity > 0.0 => self.touched = Some((crossing.position, false)),
+                _ => {}
+            }
+        }
         if self.slowest.is_none_or(|known| amount < known.amount)
-            && let Some(face) = Face::at(self.scene, crossing.position)
+            && let Some(face) = face
         {
             self.slowest = Some(Touch {
                 time: self.clock.time(crossing.instant),
@@ -162,18 +239,4 @@ impl Watch<'_> {
         }
         self.slowest = None;
     }
-}
-
-/// True if an orbit can graze the scene's stop without losing its derivative: the force does not jump
-/// there.
-pub(crate) fn grazes_gently(scene: &Scene) -> bool {
-    let continuous = match &scene.stop {
-        Stop::None
-        | Stop::KelvinVoigt { .. }
-        | Stop::PiecewiseLinear { .. }
-        | Stop::Hertz { .. } => true,
-        Stop::Preloaded { preload, .. } => *preload == 0.0,
-        Stop::Rigid { .. } => false,
-    };
-    continuous && scene.piercing.is_none() && scene.rigid.is_none()
 }

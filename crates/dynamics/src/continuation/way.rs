@@ -27,8 +27,21 @@ pub enum End {
     Merged,
     /// The watcher asked for it.
     Stopped,
+    /// Just beyond the last point the orbit would meet something where the force jumps.
+    Border(Border),
     /// It cannot be followed even with the smallest step.
     Lost(OrbitError),
+}
+
+/// What an orbit meets where its branch ends in a border collision that is no grazing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Border {
+    /// The mass comes to rest, by dry friction or at a face, or ceases to.
+    Rest,
+    /// It turns once more, or once less, under dry friction.
+    Turn,
+    /// It crosses another number of surfaces.
+    Surface,
 }
 
 /// One direction of a branch, its start left out.

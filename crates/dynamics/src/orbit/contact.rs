@@ -1,14 +1,17 @@
 //! One contact on its own: from the clearance to the clearance, with its tangent.
 
+use std::ops::ControlFlow;
 use std::sync::Arc as Shared;
 
 use nalgebra::{Matrix2, Vector2};
 
 use softstop::internals::{Beyond, Course, Mode, Motion, Phases, Surface, saltation};
 use softstop::{
-    Arc, Clock, Crossing, CrossingKind, Instant, MotionError, Observer, Start, Tangent,
+    Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Start, Tangent,
 };
 
+/// Work that a contact may cost, in scan windows: a mass that bounces longer within it does not come back.
+const MOST_WORK: u64 = 1 << 16;
 /// Parts of a drive period in which the end of a contact is looked for.
 const PARTS: f64 = 16.0;
 
@@ -152,12 +155,15 @@ impl Face {
             position: self.position(),
             tangent: Tangent::default(),
             found: None,
+            effort: Effort::windows(MOST_WORK),
         };
         let part = self.clock.period() / PARTS;
         let mut until = at;
         while exit.found.is_none() && self.clock.elapsed(at, until) < longest {
             until = self.clock.after(until, part);
-            motion.advance(until, &mut exit)?;
+            if motion.watch(until, &mut exit)?.is_break() {
+                break;
+            }
         }
         let found = exit.found.filter(|(_, velocity)| *velocity < 0.0);
         Ok(found.map(|(instant, velocity)| (exit.tangent, instant, velocity)))
@@ -169,6 +175,7 @@ struct Exit {
     position: f64,
     tangent: Tangent,
     found: Option<(Instant, f64)>,
+    effort: Effort,
 }
 
 impl Observer for Exit {
@@ -191,5 +198,12 @@ impl Observer for Exit {
         if leaves && crossing.position == self.position {
             self.found = Some((crossing.instant, crossing.velocity_after));
         }
+    }
+
+    fn progress(&mut self, windows: u64) -> ControlFlow<()> {
+        if self.found.is_some() {
+            return ControlFlow::Break(());
+        }
+        self.effort.progress(windows)
     }
 }

@@ -21,6 +21,7 @@ pub use newton::fixed_point;
 pub use pattern::{Count, ImpactPattern};
 pub use periodic::Orbit;
 pub use regime::Regime;
+pub(crate) use scan::all_single;
 pub use search::find;
 pub(crate) use search::find_soon;
 
@@ -91,8 +92,13 @@ fn roots(trace: f64, determinant: f64) -> [Complex<f64>; 2] {
     [Complex::new(large, 0.0), Complex::new(small, 0.0)]
 }
 
-/// Jury's conditions: 1 - tr + det > 0 (no fold), 1 + tr + det > 0 (no flip), det < 1.
+/// What rounding may leave of 1 in a determinant.
+const NEUTRAL: f64 = 1e-12;
+
+/// Jury's conditions: 1 - tr + det > 0 (no fold), 1 + tr + det > 0 (no flip), det < 1; or det = 1 to rounding, as
+/// without any damping: neutral.
 pub fn is_stable(matrix: &Matrix2<f64>) -> bool {
     let (trace, determinant) = (matrix.trace(), matrix.determinant());
-    1.0 - trace + determinant > 0.0 && 1.0 + trace + determinant > 0.0 && determinant < 1.0
+    let spirals_in = determinant < 1.0 + NEUTRAL;
+    1.0 - trace + determinant > 0.0 && 1.0 + trace + determinant > 0.0 && spirals_in
 }

@@ -4,7 +4,9 @@ use nalgebra::{Complex, Matrix2, Vector2};
 
 use super::guess::guesses;
 use super::newton::fixed_point;
-use super::{ImpactPattern, OrbitError, Passage, Regime, StroboscopicMap, is_stable, roots};
+use super::{
+    ImpactPattern, NEUTRAL, OrbitError, Passage, Regime, StroboscopicMap, is_stable, roots,
+};
 use softstop::{Instant, MotionError, Scene, Touch};
 
 /// Distance in units of 1 + |state| within which a state that has returned after n periods has also
@@ -254,7 +256,13 @@ impl Orbit {
         roots(self.trace(), self.determinant)
     }
 
-    /// True if both multipliers lie inside the unit circle.
+    /// True if neighbouring motions neither come nearer nor go away: both multipliers lie on the unit circle, as a
+    /// stable motion's do without any damping.
+    pub fn is_neutral(&self) -> bool {
+        self.is_stable() && (self.determinant() - 1.0).abs() < NEUTRAL
+    }
+
+    /// True if both multipliers lie inside the unit circle, or on it where it is neutral.
     pub fn is_stable(&self) -> bool {
         is_stable(&self.monodromy)
     }

@@ -10,10 +10,10 @@ use super::{Orbit, OrbitError};
 use softstop::Scene;
 
 /// Times in a drive period, and velocities, each so many times the one before.
-const TIMES: usize = 24;
-const RATIO: f64 = 1.2;
+const TIMES: usize = 20;
+const RATIO: f64 = 1.25;
 /// The slowest impact that is looked for, in units of the motion's speed.
-const SLOWEST: f64 = 0.02;
+const SLOWEST: f64 = 0.005;
 /// Below that, in the same units, an impact is no more than rounding about grazing.
 const FAINTEST: f64 = 1e-6;
 /// The fastest, in units of the speed at which free damping takes all that the drive gives to a harmonic motion.

@@ -1,16 +1,20 @@
 //! Where z = 1 begins and ends over the drive's frequency: the grazing of the motion without impacts
 //! (g0, in closed form), the hysteresis zone from there to the fold s_SN, the flip s_PD (Peterka 2003,
-//! section 3). In the scene's own units, with any stop.
+//! section 3); and all stretches of stable z = 1, wherever they are. In the scene's own units, with any stop.
 
 mod bounds;
 mod grazing;
 mod hysteresis;
 mod loss;
+mod stretch;
+mod stretches;
 
 pub use bounds::Bounds;
 pub use grazing::{free_amplitude, grazing_frequencies};
 pub use hysteresis::{Zone, hysteresis, hysteresis_soon};
 pub use loss::loss_of_stability;
+pub use stretch::{Loss, Stretch, StretchEnd};
+pub use stretches::stretches;
 
 use std::fmt::{self, Display, Formatter};
 

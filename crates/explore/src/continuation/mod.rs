@@ -16,6 +16,7 @@ use softstop_dynamics::continuation::Along;
 use softstop_dynamics::orbit::Regime;
 
 use report::ContinuationReport;
+pub(crate) use report::met;
 use softstop_console::arguments::MachineArguments;
 use softstop_console::column;
 use softstop_console::export::Export;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use softstop::{Machine, MotionError, Parameter};
-use softstop_dynamics::continuation::{Branch, Curve, CurveEnd, End, Special, SpecialKind};
+use softstop_dynamics::continuation::{Border, Branch, Curve, CurveEnd, End, Special, SpecialKind};
 use softstop_dynamics::orbit::OrbitError;
 
 use softstop_console::column::{Column, Told, Unit, Units};
@@ -111,7 +111,17 @@ fn end(end: &End, points: usize) -> String {
         End::Grazing => "the orbit grazes".to_owned(),
         End::Merged => "it merges into the orbit of half its period".to_owned(),
         End::Stopped => "stopped".to_owned(),
+        End::Border(border) => format!("border collision: {}", met(*border)),
         End::Lost(error) => lost(error),
+    }
+}
+
+/// What an orbit meets at a border collision.
+pub fn met(border: Border) -> &'static str {
+    match border {
+        Border::Rest => "beyond, the mass is held once more or once less",
+        Border::Turn => "beyond, the mass turns once more or once less",
+        Border::Surface => "beyond, the mass crosses another number of surfaces",
     }
 }
 

@@ -1,0 +1,276 @@
+//! A stretch of frequencies with a stable z = 1 motion, and what ends it.
+
+use nalgebra::Vector4;
+
+use super::{Frequencies, Zone};
+use crate::continuation::{
+    Border, Branch, BranchPoint, End, Face, Family, Follower, Special, SpecialKind, Test,
+};
+use crate::orbit::OrbitError;
+use softstop::Scene;
+
+/// Distance of an orbit from the chord between two points of a branch, as a share of the chord, within which it lies
+/// on that branch.
+const ASIDE: f64 = 0.2;
+/// Share by which rounding may change a before-impact velocity or a state.
+const SAME: f64 = 1e-6;
+
+/// Why a stretch ends.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Loss {
+    /// The motion meets an unstable one and vanishes.
+    Fold,
+    /// It doubles its period.
+    Flip,
+    /// Its multipliers leave the unit circle as a complex pair.
+    NeimarkSacker,
+    /// Its impact dies: it grazes the clearance.
+    Grazing,
+    /// Another impact comes up: a turning point reaches the clearance.
+    AnotherImpact,
+    /// It grazes a surface beyond the clearance, where the force jumps: a border collision.
+    Inner(Face),
+    /// Another border collision.
+    Border(Border),
+    /// It is followed no farther than here.
+    Range,
+    /// The branch has more points than are followed.
+    Budget,
+    /// No step is short enough to follow it.
+    Lost(OrbitError),
+}
+
+/// One end of a stretch.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct StretchEnd {
+    /// Frequency in rad/s.
+    pub frequency: f64,
+    /// Before-impact velocity in m/s there.
+    pub velocity: f64,
+    /// Why the stretch ends there.
+    pub loss: Loss,
+}
+
+/// A range of frequencies with a stable z = 1 motion that changes continuously.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Stretch {
+    /// Its lower end.
+    pub low: StretchEnd,
+    /// Its upper end.
+    pub high: StretchEnd,
+    /// The hardest of its points.
+    pub hardest: BranchPoint,
+    /// Its points, in rising order of frequency.
+    points: Vec<BranchPoint>,
+}
+
+impl Stretch {
+    /// The motion at a frequency in rad/s; none outside the stretch.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if it is lost.
+    pub fn point_at(
+        &self,
+        scene: &Scene,
+        frequency: f64,
+    ) -> Result<Option<BranchPoint>, OrbitError> {
+        let family = Frequencies(scene);
+        let after = self
+            .points
+            .partition_point(|point| point.parameter < frequency);
+        match (after.checked_sub(1), self.points.get(after)) {
+            (_, Some(point)) if point.parameter == frequency => Ok(Some(point.clone())),
+            (Some(before), Some(to)) => {
+                let follower = Follower::new(&family, 1);
+                follower
+                    .between(&self.points[before], to, frequency)
+                    .map(Some)
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// True if another one has the same ends.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let near = |a: f64, b: f64| (a - b).abs() < SAME * a.abs();
+        let same = |a: &StretchEnd, b: &StretchEnd| {
+            near(a.frequency, b.frequency) && near(a.velocity, b.velocity)
+        };
+        same(&self.low, &other.low) && same(&self.high, &other.high)
+    }
+
+    /// True if a point lies on it.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if the stretch is lost.
+    pub fn contains(&self, scene: &Scene, point: &BranchPoint) -> Result<bool, OrbitError> {
+        let own = self.point_at(scene, point.parameter)?;
+        let size = point.state().norm().max(scene.scales().length);
+        Ok(own.is_some_and(|own| (own.state() - point.state()).norm() < SAME * size))
+    }
+
+    /// True if it is a part of a hysteresis zone.
+    pub fn is_part_of(&self, zone: &Zone) -> bool {
+        let sizes = sizes(&zone.scene);
+        let inside = |point: &BranchPoint| {
+            let mut pairs = self.points.windows(2);
+            point.is_stable() && pairs.any(|pair| lies_between(pair, point, sizes))
+        };
+        zone.branch.iter().any(inside)
+    }
+}
+
+/// Units of positions, velocities and frequencies.
+pub(super) fn sizes(scene: &Scene) -> [f64; 3] {
+    let family = Frequencies(scene);
+    let ([length, speed], [rate]) = (family.state_scales(), family.parameter_scales());
+    [length, speed, rate]
+}
+
+/// True if a point lies on the chord between two neighbours, or as near to it as their curve may.
+pub(super) fn lies_between(
+    pair: &[BranchPoint],
+    point: &BranchPoint,
+    [length, speed, rate]: [f64; 3],
+) -> bool {
+    let place = |point: &BranchPoint| {
+        let (state, velocity) = (point.state(), point.before_impact_velocity());
+        Vector4::new(
+            state.x / length,
+            state.y / speed,
+            point.parameter / rate,
+            velocity / speed,
+        )
+    };
+    let (from, way) = (place(&pair[0]), place(&pair[1]) - place(&pair[0]));
+    let gone = place(point) - from;
+    let share = gone.dot(&way) / way.norm_squared();
+    let off = (gone - share * way).norm();
+    (-ASIDE..=1.0 + ASIDE).contains(&share) && off <= ASIDE * way.norm() + SAME
+}
+
+/// The stable stretches of a branch.
+pub(super) fn stable(branch: &Branch) -> Vec<Stretch> {
+    let mut found = Vec::new();
+    let mut specials = branch.specials.iter().cycle().peekable();
+    let mut part = Part::new(Loss::of(&branch.ends.0));
+    for point in in_order(branch) {
+        let special = specials.next_if(|special| is_at(special, point));
+        let loss = special.map(|special| Loss::at(&special.kind));
+        if let Some(loss) = loss.or_else(|| part.differs(point)) {
+            part.points.push(point.clone());
+            found.extend(std::mem::replace(&mut part, Part::new(loss.clone())).ended(loss));
+        }
+        part.points.push(point.clone());
+    }
+    found.extend(part.ended(Loss::of(&branch.ends.1)));
+    found
+}
+
+/// Its points; those of a closed branch from its first special point around to it again.
+fn in_order(branch: &Branch) -> Vec<&BranchPoint> {
+    let points = branch.points.iter();
+    let (End::Closed, Some(first)) = (&branch.ends.1, branch.specials.first()) else {
+        return points.collect();
+    };
+    // The last point lies beyond the start.
+    let mut points: Vec<&BranchPoint> = points.take(branch.points.len() - 1).collect();
+    let is_first = |point: &&BranchPoint| is_at(first, point);
+    let start = points.iter().position(is_first).unwrap_or(0);
+    points.rotate_left(start);
+    points.push(&first.point);
+    points
+}
+
+fn is_at(special: &Special, point: &BranchPoint) -> bool {
+    special.point.parameter == point.parameter && special.point.state() == point.state()
+}
+
+/// Points between two special ones.
+struct Part {
+    begins: Loss,
+    points: Vec<BranchPoint>,
+}
+
+impl Part {
+    fn new(begins: Loss) -> Self {
+        Self {
+            begins,
+            points: Vec::new(),
+        }
+    }
+
+    /// Where the number of impacts changes otherwise than at a special point: smoothly, in a grazing that is not located.
+    fn differs(&self, point: &BranchPoint) -> Option<Loss> {
+        let last = self.points.get(1..)?.last()?;
+        match (last.impacts.len(), point.impacts.len()) {
+            (1, 0) | (0, 1) => Some(Loss::Grazing),
+            (a, b) => (a != b).then_some(Loss::AnotherImpact),
+        }
+    }
+
+    /// The stretch, if the motions between its ends are stable and have one impact.
+    fn ended(self, ends: Loss) -> Option<Stretch> {
+        let Self { begins, mut points } = self;
+        let inner = points.get(1..points.len().saturating_sub(1))?;
+        let is_single = |point: &BranchPoint| point.impacts.len() == 1 && point.is_stable();
+        if inner.is_empty() || !inner.iter().all(is_single) {
+            return None;
+        }
+        let mut losses = [begins, ends];
+        if points[0].parameter > points[points.len() - 1].parameter {
+            points.reverse();
+            losses.reverse();
+        }
+        let [below, above] = losses;
+        let harder = |a: &&BranchPoint, b: &&BranchPoint| {
+            let [a, b] = [a, b].map(|point| point.before_impact_velocity());
+            a.total_cmp(&b)
+        };
+        Some(Stretch {
+            low: StretchEnd::new(&points[0], below),
+            high: StretchEnd::new(&points[points.len() - 1], above),
+            hardest: points.iter().max_by(harder)?.clone(),
+            points,
+        })
+    }
+}
+
+impl StretchEnd {
+    fn new(point: &BranchPoint, loss: Loss) -> Self {
+        Self {
+            frequency: point.parameter,
+            velocity: point.before_impact_velocity(),
+            loss,
+        }
+    }
+}
+
+impl Loss {
+    /// At a special point.
+    fn at(kind: &SpecialKind) -> Self {
+        match kind {
+            SpecialKind::Critical(Test::Fold) => Self::Fold,
+            SpecialKind::Critical(Test::Flip) => Self::Flip,
+            SpecialKind::Critical(Test::NeimarkSacker) => Self::NeimarkSacker,
+            SpecialKind::Grazing(graze) => match graze.face {
+                Face::Clearance if graze.impacts == 0 => Self::Grazing,
+                Face::Clearance => Self::AnotherImpact,
+                face => Self::Inner(face),
+            },
+        }
+    }
+
+    /// Where a branch ends otherwise; at a grazing its special point says which.
+    fn of(end: &End) -> Self {
+        match end {
+            End::Points => Self::Budget,
+            End::Border(border) => Self::Border(*border),
+            End::Lost(error) => Self::Lost(error.clone()),
+            _ => Self::Range,
+        }
+    }
+}

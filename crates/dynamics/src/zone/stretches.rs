@@ -1,0 +1,105 @@
+//! All stable z = 1 motions of a machine, as stretches of the drive's frequency.
+
+use std::ops::ControlFlow;
+
+use super::stretch::{Stretch, lies_between, sizes, stable};
+use super::{Frequencies, ZoneError, at, grazing_frequencies};
+use crate::continuation::{Branch, BranchPoint, End, Follower, Limits};
+use crate::orbit::all_single;
+use softstop::Scene;
+
+/// Frequencies in units of the natural one between which motions are looked for, and how many of them in a row.
+const LOOKED_AT: (f64, f64, usize) = (0.25, 4.0, 36);
+/// Frequencies in the same units up to which they are followed.
+const FOLLOWED: (f64, f64) = (0.1, 8.0);
+/// Points of a branch in each direction.
+const POINTS: usize = 5_000;
+
+/// Share of a frequency by which motions are looked for beside one at which the regime changes.
+const BESIDE: f64 = 2e-3;
+/// Most frequencies at which motions are looked for.
+const MOST: usize = 160;
+
+/// All stretches of a scene, in rising order of frequency; the frequency of its drive plays no part.
+///
+/// At each of a row of frequencies all z = 1 motions are found; those that lie on no branch known so far are followed
+/// both ways, through folds. So branches that no motion at g0 leads to, isolas among them, come to light. Where a branch
+/// ends in a border collision, motions are looked for on both sides of it: what goes on there is another branch.
+///
+/// # Errors
+/// [`ZoneError::Orbit`] for a scene that is none.
+pub fn stretches(scene: &Scene) -> Result<Vec<Stretch>, ZoneError> {
+    scene.validate()?;
+    let family = Frequencies(scene);
+    let follower = Follower::new(&family, 1);
+    let limits = limits(scene);
+    let sizes = sizes(scene);
+    let mut branches: Vec<Branch> = Vec::new();
+    let mut frequencies = frequencies(scene);
+    let mut next = 0;
+    while let Some(&frequency) = frequencies.get(next).filter(|_| next < MOST) {
+        next += 1;
+        for orbit in all_single(&at(scene, frequency))? {
+            let point = BranchPoint {
+                parameter: frequency,
+                position: orbit.position,
+                velocity: orbit.velocity,
+                impacts: orbit.before_impact_velocities().collect(),
+                monodromy: orbit.monodromy,
+            };
+            let is_known = branches.iter().any(|branch| {
+                let mut pairs = branch.points.windows(2);
+                pairs.any(|pair| lies_between(pair, &point, sizes))
+            });
+            if is_known {
+                continue;
+            }
+            let go_on = |_: &BranchPoint| ControlFlow::Continue(());
+            if let Ok(branch) = follower.branch(frequency, orbit.state(), &limits, go_on) {
+                frequencies.extend(borders(&branch).into_iter().flat_map(beside));
+                branches.push(branch);
+            }
+        }
+    }
+    let mut found: Vec<Stretch> = branches.iter().flat_map(stable).collect();
+    found.sort_by(|a, b| a.low.frequency.total_cmp(&b.low.frequency));
+    found.dedup_by(|a, b| a.is_same(b));
+    Ok(found)
+}
+
+fn limits(scene: &Scene) -> Limits {
+    let natural = scene.scales().rate;
+    Limits {
+        range: (FOLLOWED.0 * natural, FOLLOWED.1 * natural),
+        points: POINTS,
+    }
+}
+
+/// g0 and what lies beside both grazing frequencies, and the row.
+fn frequencies(scene: &Scene) -> Vec<f64> {
+    let (low, high, count) = LOOKED_AT;
+    let natural = scene.scales().rate;
+    let ratio = (high / low).powf(1.0 / (count - 1) as f64);
+    let row = (0..count).map(|index| natural * low * ratio.powi(index as i32));
+    let (below, above) =
+        grazing_frequencies(scene).map_or((None, None), |(below, above)| (below, Some(above)));
+    let grazing = below.into_iter().chain(above).flat_map(beside);
+    above.into_iter().chain(grazing).chain(row).collect()
+}
+
+/// Frequencies at which a branch ends but does not leave the range.
+fn borders(branch: &Branch) -> Vec<f64> {
+    let ends = [
+        (&branch.ends.0, branch.points.first()),
+        (&branch.ends.1, branch.points.last()),
+    ];
+    let border = |(end, point): (&End, Option<&BranchPoint>)| match end {
+        End::Grazing | End::Border(_) | End::Lost(_) => Some(point?.parameter),
+        _ => None,
+    };
+    ends.into_iter().filter_map(border).collect()
+}
+
+fn beside(frequency: f64) -> [f64; 2] {
+    [frequency * (1.0 - BESIDE), frequency * (1.0 + BESIDE)]
+}
