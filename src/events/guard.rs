@@ -89,6 +89,11 @@ impl Guard {
         }
     }
 
+    /// True if neither velocity nor push matters.
+    pub(super) fn asks_for_position(&self) -> bool {
+        self.velocity == 0.0 && self.push == 0.0
+    }
+
     /// g at a state, for a guard that does not ask for the push.
     pub fn value(&self, position: f64, velocity: f64) -> f64 {
         self.position * position + self.velocity * velocity - self.level

@@ -19,17 +19,22 @@ pub(super) struct Candidate<'a> {
 
 /// Value and first derivative at one point.
 #[derive(Debug, Clone, Copy)]
-struct Point {
-    at: f64,
-    value: f64,
-    rate: f64,
+pub(super) struct Point {
+    pub at: f64,
+    pub value: f64,
+    pub rate: f64,
 }
 
 /// What is proven about an interval.
-enum Verdict {
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Verdict {
     NoRise,
-    /// g is <= 0 at the first and > 0 at the second, and rises through zero once between them.
-    Rise(Point, Point),
+    /// g is <= 0 at the left and > 0 at the right, and rises through zero once between them.
+    Rise,
+    /// g falls to a bottom and rises from there on: once through zero if it is <= 0 there.
+    RiseFromBottom,
+    /// g rises to a top and falls from there on: once through zero if it is > 0 there.
+    RiseToTop,
     Unknown,
 }
 
@@ -39,107 +44,30 @@ const DEEPEST: u32 = 60;
 impl Candidate<'_> {
     /// The first s in [from, to] at which g rises from <= 0 to > 0.
     pub fn first_rise_between(&self, from: f64, to: f64) -> Option<f64> {
-        let (low, high) = self.isolate(self.point(from), self.point(to), 0)?;
-        Some(self.polish(low, high))
+        self.first_rise(self.point(from), self.point(to))
     }
 
-    /// The same on [0, span], where `ends` are (g, g') at its ends.
-    pub fn first_rise(&self, span: f64, ends: ((f64, f64), (f64, f64))) -> Option<f64> {
-        let (left, right) = ends;
-        let left = Point {
-            at: 0.0,
-            value: left.0,
-            rate: left.1,
-        };
-        let right = Point {
-            at: span,
-            value: right.0,
-            rate: right.1,
-        };
+    /// The same between two points.
+    pub fn first_rise(&self, left: Point, right: Point) -> Option<f64> {
         let (low, high) = self.isolate(left, right, 0)?;
         Some(self.polish(low, high))
     }
 
     fn isolate(&self, left: Point, right: Point, depth: u32) -> Option<(Point, Point)> {
-        match self.judge(left, right) {
+        match judge(left, right, self.bound, self.rounding) {
             Verdict::NoRise => None,
-            Verdict::Rise(low, high) => Some((low, high)),
+            Verdict::Rise => Some((left, right)),
+            Verdict::RiseFromBottom => through_zero(self.extremum(left, right), right),
+            Verdict::RiseToTop => through_zero(left, self.extremum(left, right)),
             Verdict::Unknown => {
                 let middle = 0.5 * (left.at + right.at);
                 if depth == DEEPEST || middle <= left.at || middle >= right.at {
-                    return (left.value <= 0.0 && right.value > 0.0).then_some((left, right));
+                    return through_zero(left, right);
                 }
                 let middle = self.point(middle);
                 self.isolate(left, middle, depth + 1)
                     .or_else(|| self.isolate(middle, right, depth + 1))
             }
-        }
-    }
-
-    fn judge(&self, left: Point, right: Point) -> Verdict {
-        let span = right.at - left.at;
-        let third = span / 3.0;
-        let bernstein = [
-            left.value,
-            left.value + third * left.rate,
-            right.value - third * right.rate,
-            right.value,
-        ];
-        let (low, high) = extremes(&bernstein);
-        let slack = self.bound * span.powi(4) / 384.0;
-        if high + slack < 0.0 || low - slack > 0.0 {
-            return Verdict::NoRise;
-        }
-        let flat = high.max(-low) + slack <= self.rounding;
-        if flat && left.value <= 0.0 && right.value <= 0.0 {
-            return Verdict::NoRise;
-        }
-        if !slack.is_finite() {
-            // The motion is about to leave the range of numbers; halving cannot help.
-            return rise_if(left, right);
-        }
-        // Bernstein coefficients of the interpolant's derivative, and its largest error
-        // sqrt(3)/216 bound span^3 (Birkhoff and Priver 1967).
-        let slopes = [left.rate, (bernstein[2] - bernstein[1]) / third, right.rate];
-        let slack = 0.00802 * self.bound * span.powi(3);
-        let (low, high) = extremes(&slopes);
-        if low - slack > 0.0 {
-            return rise_if(left, right);
-        }
-        if high + slack < 0.0 {
-            return Verdict::NoRise;
-        }
-        self.judge_curvature(left, right, slopes, self.bound * span * span / 12.0)
-    }
-
-    fn judge_curvature(&self, left: Point, right: Point, slopes: [f64; 3], slack: f64) -> Verdict {
-        let half = 0.5 * (right.at - left.at);
-        let curvatures = [
-            (slopes[1] - slopes[0]) / half,
-            (slopes[2] - slopes[1]) / half,
-        ];
-        let (low, high) = extremes(&curvatures);
-        let turns = left.rate * right.rate < 0.0;
-        if low - slack > 0.0 {
-            // Convex: beyond the bottom there is at most one zero, and g rises through it.
-            let rises = right.rate > 0.0 && right.value > 0.0;
-            let from_below = left.value <= 0.0 || turns;
-            if !(rises && from_below) {
-                Verdict::NoRise
-            } else if left.value <= 0.0 {
-                Verdict::Rise(left, right)
-            } else {
-                rise_if(self.extremum(left, right), right)
-            }
-        } else if high + slack < 0.0 {
-            // Concave: g rises before the top only.
-            if right.value > 0.0 || !turns {
-                rise_if(left, right)
-            } else {
-                rise_if(left, self.extremum(left, right))
-            }
-        } else {
-            Verdict::Unknown
         }
     }
 
@@ -161,11 +89,7 @@ impl Candidate<'_> {
 
     /// The zero through which g rises between two points.
     fn polish(&self, low: Point, high: Point) -> f64 {
-        let guess = if low.rate > 0.0 {
-            inverse_hermite(low, high)
-        } else {
-            parabola(low, high)
-        };
+        let guess = guess(low, high);
         bracketed_newton((low.at, low.value), (high.at, high.value), guess, |s| {
             evaluate(self.coefficients, s)
         })
@@ -185,6 +109,83 @@ impl Candidate<'_> {
     }
 }
 
+/// What is proven of g between two points, with |g''''| <= `bound`.
+pub(super) fn judge(left: Point, right: Point, bound: f64, rounding: f64) -> Verdict {
+    let span = right.at - left.at;
+    let third = span / 3.0;
+    let square = span * span;
+    let bernstein = [
+        left.value,
+        left.value + third * left.rate,
+        right.value - third * right.rate,
+        right.value,
+    ];
+    let (low, high) = extremes(&bernstein);
+    let slack = bound * square * square / 384.0;
+    if high + slack < 0.0 || low - slack > 0.0 {
+        return Verdict::NoRise;
+    }
+    let flat = high.max(-low) + slack <= rounding;
+    if flat && left.value <= 0.0 && right.value <= 0.0 {
+        return Verdict::NoRise;
+    }
+    if !slack.is_finite() {
+        // The motion is about to leave the range of numbers; halving cannot help.
+        return rise_if(left, right);
+    }
+    // Bernstein coefficients of the interpolant's derivative, and its largest error
+    // sqrt(3)/216 bound span^3 (Birkhoff and Priver 1967).
+    let slopes = [left.rate, (bernstein[2] - bernstein[1]) / third, right.rate];
+    let slack = 0.00802 * bound * square * span;
+    let (low, high) = extremes(&slopes);
+    if low - slack > 0.0 {
+        return rise_if(left, right);
+    }
+    if high + slack < 0.0 {
+        return Verdict::NoRise;
+    }
+    judge_curvature(left, right, slopes, bound * square / 12.0)
+}
+
+fn judge_curvature(left: Point, right: Point, slopes: [f64; 3], slack: f64) -> Verdict {
+    let half = 0.5 * (right.at - left.at);
+    let curvatures = [
+        (slopes[1] - slopes[0]) / half,
+        (slopes[2] - slopes[1]) / half,
+    ];
+    let (low, high) = extremes(&curvatures);
+    let turns = left.rate * right.rate < 0.0;
+    if low - slack > 0.0 {
+        // Convex: beyond the bottom there is at most one zero, and g rises through it.
+        let rises = right.rate > 0.0 && right.value > 0.0;
+        if rises && left.value <= 0.0 {
+            Verdict::Rise
+        } else if rises && turns {
+            Verdict::RiseFromBottom
+        } else {
+            Verdict::NoRise
+        }
+    } else if high + slack < 0.0 {
+        // Concave: g rises before the top only.
+        if right.value > 0.0 || !turns {
+            rise_if(left, right)
+        } else {
+            Verdict::RiseToTop
+        }
+    } else {
+        Verdict::Unknown
+    }
+}
+
+/// About where g rises through zero between two points, if they tell.
+pub(super) fn guess(low: Point, high: Point) -> Option<f64> {
+    if low.rate > 0.0 {
+        inverse_hermite(low, high)
+    } else {
+        parabola(low, high)
+    }
+}
+
 /// Where the cubic through both ends, taken as position over value, passes zero.
 fn inverse_hermite(low: Point, high: Point) -> Option<f64> {
     let rise = high.value - low.value;
@@ -198,11 +199,15 @@ fn inverse_hermite(low: Point, high: Point) -> Option<f64> {
 }
 
 fn rise_if(left: Point, right: Point) -> Verdict {
-    if left.value <= 0.0 && right.value > 0.0 {
-        Verdict::Rise(left, right)
+    if through_zero(left, right).is_some() {
+        Verdict::Rise
     } else {
         Verdict::NoRise
     }
+}
+
+fn through_zero(left: Point, right: Point) -> Option<(Point, Point)> {
+    (left.value <= 0.0 && right.value > 0.0).then_some((left, right))
 }
 
 fn extremes(values: &[f64]) -> (f64, f64) {

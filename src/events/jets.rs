@@ -1,6 +1,7 @@
 //! Derivatives at a scan node and the bounds that follow from them over the next window.
 
 use super::guard::Guard;
+use super::isolate::Point;
 use crate::flow::{Course, Flow, Node};
 
 /// Derivatives of position (0..=6) and push (0..=4) at a node.
@@ -13,6 +14,8 @@ pub(super) struct Jets {
     drive: f64,
 }
 
+const INVERSE_FACTORIALS: [f64; 6] = [1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0];
+
 /// Value and first derivative of a guard function at both ends of a window.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ends {
@@ -21,7 +24,7 @@ pub(super) struct Ends {
 }
 
 impl Jets {
-    #[inline]
+    #[inline(always)]
     pub fn new(course: &Course, node: Node) -> Self {
         let flow = &course.flow;
         let (constant, ramp) = course.push_at(node.elapsed);
@@ -36,28 +39,42 @@ impl Jets {
             square * square * cos,
         ];
         let mut position = [node.position, node.velocity, 0.0, 0.0, 0.0, 0.0, 0.0];
-        if !course.is_held() {
+        let held = course.is_held();
+        if !held {
             let (twice_decay, b) = (2.0 * flow.modes.decay, flow.modes.stiffness);
-            // From rest the arc starts with the acceleration that its phase was chosen by.
-            let chosen = course
-                .departure
-                .acceleration
-                .filter(|_| node.elapsed == 0.0);
             for n in 0..5 {
-                let derivative = push[n] - twice_decay * position[n + 1] - b * position[n];
-                position[n + 2] = match chosen {
-                    Some(acceleration) if n == 0 => acceleration,
-                    _ => derivative,
-                };
+                let pull = b * position[n];
+                position[n + 2] = (push[n] - pull) - twice_decay * position[n + 1];
+                // From rest the arc starts with the acceleration that its phase was chosen by.
+                if n == 0
+                    && let Some(chosen) = course.departure.acceleration
+                    && node.elapsed == 0.0
+                {
+                    position[2] = chosen;
+                }
             }
         }
-        let drive = if course.is_held() { 0.0 } else { a };
         Self {
             node,
             position,
             push,
-            drive,
+            drive: if held { 0.0 } else { a },
         }
+    }
+
+    /// Taylor coefficients of the position in m/s^n.
+    pub fn position_series(&self) -> [f64; 6] {
+        std::array::from_fn(|n| self.position[n] * INVERSE_FACTORIALS[n])
+    }
+
+    /// Taylor coefficients of g, for a guard that does not ask for the push.
+    pub fn guard_series(&self, guard: &Guard) -> [f64; 6] {
+        let x = &self.position;
+        let mut series: [f64; 6] = std::array::from_fn(|n| {
+            (guard.position * x[n] + guard.velocity * x[n + 1]) * INVERSE_FACTORIALS[n]
+        });
+        series[0] -= guard.level;
+        series
     }
 
     /// The rounding that g may carry at this node.
@@ -73,7 +90,7 @@ impl Jets {
     }
 
     /// g and g' at this node.
-    #[inline]
+    #[inline(always)]
     pub fn guard(&self, guard: &Guard) -> (f64, f64) {
         let (x, q) = (&self.position, &self.push);
         (
@@ -100,7 +117,7 @@ impl Jets {
     /// The fourth derivative of the position obeys the phase's own equation under the fourth
     /// derivative of the push, which is at most A w^4: variation of constants with the bounds on
     /// the fundamental solutions gives |x''''| <= |x4| C + |x5| S + A w^4 span S.
-    #[inline]
+    #[inline(always)]
     pub fn bound(&self, flow: &Flow, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
         let x = &self.position;
         let square = flow.frequency * flow.frequency;
@@ -117,6 +134,20 @@ impl Jets {
 }
 
 impl Ends {
+    #[inline(always)]
+    pub fn new(guard: &Guard, left: &Jets, right: &Jets) -> Self {
+        Self {
+            left: left.guard(guard),
+            right: right.guard(guard),
+        }
+    }
+
+    /// The ends of a window of length `span`.
+    pub fn points(&self, span: f64) -> (Point, Point) {
+        let at = |at, (value, rate)| Point { at, value, rate };
+        (at(0.0, self.left), at(span, self.right))
+    }
+
     /// True if g < 0 throughout a window of length `span` with |g''| <= `bound`: the chord is off by
     /// at most bound span^2 / 8.
     pub fn stay_below_chord(&self, span: f64, bound: f64) -> bool {
@@ -134,7 +165,7 @@ impl Ends {
     ///
     /// The cubic Hermite interpolant is off by at most bound span^4 / 384, and lies below its
     /// largest Bernstein coefficient.
-    #[inline]
+    #[inline(always)]
     pub fn stay_below(&self, span: f64, bound: f64) -> bool {
         let (g0, d0) = self.left;
         let (g1, d1) = self.right;

@@ -8,15 +8,17 @@
 mod guard;
 mod isolate;
 mod jets;
+mod pinpoint;
 mod step;
 
 pub use guard::Guard;
 
 use serde::{Deserialize, Serialize};
 
-use crate::flow::{Course, Node};
-use isolate::Candidate;
+use crate::flow::{Course, Node, Window};
+use isolate::{Candidate, Verdict, judge};
 use jets::{Ends, Jets};
+use pinpoint::pinpoint;
 
 /// A crossing found on a course.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -62,35 +64,42 @@ pub fn first_crossing(course: &Course, guards: &[Guard], node: Node, until: f64)
         return Outlook::Ends(chatter.duration);
     }
     let scan = Scan { course, guards };
-    let mut left = Jets::new(course, node);
-    let mut windows = 0;
-    while left.node.elapsed < until {
-        if windows == WINDOWS_PER_LOOK && scan.is_out_of_reach(&left.node) {
-            return Outlook::Never;
+    let window = course.flow.window;
+    let watches_position = guards.iter().all(Guard::asks_for_position);
+    let mut node = node;
+    let mut looked = node.elapsed;
+    while node.elapsed < until {
+        if node.elapsed > looked + f64::from(WINDOWS_PER_LOOK) * window {
+            if scan.is_out_of_reach(&node) {
+                return Outlook::Never;
+            }
+            looked = node.elapsed;
         }
-        windows = if windows == WINDOWS_PER_LOOK {
-            1
-        } else {
-            windows + 1
-        };
+        if watches_position {
+            node = course.coast(node, until, |window| scan.stays_short(window));
+            if node.elapsed >= until {
+                break;
+            }
+        }
+        let left = Jets::new(course, node);
         let right = Jets::new(course, course.next(&left.node));
         if !(right.node.position.is_finite() && right.node.velocity.is_finite()) {
             return Outlook::Unbounded(left.node);
         }
         let span = right.node.elapsed - left.node.elapsed;
-        let bounds = if span < 2.0 * course.flow.window {
+        let bounds = if span < 2.0 * window {
             course.flow.window_bounds
         } else {
             course.flow.modes.bounds(span)
         };
-        if !scan.is_clear(&left, &right, bounds)
-            && let Some(found) = scan.search(&left, &right)
+        if !scan.stays_below(&left, &right, bounds)
+            && let Some(found) = scan.search(&left, &right, bounds)
         {
             return Outlook::Crossing(found);
         }
-        left = right;
+        node = right.node;
     }
-    Outlook::ClearUntil(left.node)
+    Outlook::ClearUntil(node)
 }
 
 struct Scan<'a> {
@@ -105,22 +114,41 @@ impl Scan<'_> {
             .all(|guard| guard.is_out_of_reach(self.course, node))
     }
 
-    /// True if no guard can rise through zero between two nodes.
-    #[inline]
-    fn is_clear(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> bool {
-        self.guards
-            .iter()
-            .all(|guard| self.cannot_rise(guard, left, right, bounds))
+    /// True if all guards, which ask for nothing but the position, stay below zero over a window.
+    #[inline(always)]
+    fn stays_short(&self, window: &Window) -> bool {
+        for guard in self.guards {
+            let weight = guard.position;
+            let end = |(x, v)| (weight * x - guard.level, weight * v);
+            let ends = Ends {
+                left: end(window.left),
+                right: end(window.right),
+            };
+            if !ends.stay_below(window.span, weight.abs() * window.bound) {
+                return false;
+            }
+        }
+        true
     }
 
-    #[inline]
+    /// True if all guards are below zero between two nodes, by the bound that settles most windows.
+    #[inline(always)]
+    fn stays_below(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> bool {
+        let span = right.node.elapsed - left.node.elapsed;
+        for guard in self.guards {
+            let bound = left.bound(&self.course.flow, guard, span, bounds);
+            if !Ends::new(guard, left, right).stay_below(span, bound) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// True if the guard cannot rise through zero between two nodes.
     fn cannot_rise(&self, guard: &Guard, left: &Jets, right: &Jets, bounds: (f64, f64)) -> bool {
         let flow = &self.course.flow;
         let span = right.node.elapsed - left.node.elapsed;
-        let ends = Ends {
-            left: left.guard(guard),
-            right: right.guard(guard),
-        };
+        let ends = Ends::new(guard, left, right);
         ends.stay_below(span, left.bound(flow, guard, span, bounds)) || {
             let bound = left.low_bound(flow, guard, span, bounds);
             ends.stay_below_chord(span, bound)
@@ -129,25 +157,62 @@ impl Scan<'_> {
     }
 
     /// The first crossing between two nodes, by halving down to the reach of a Taylor polynomial.
-    fn search(&self, left: &Jets, right: &Jets) -> Option<Found> {
+    #[inline(never)]
+    fn search(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> Option<Found> {
         let span = right.node.elapsed - left.node.elapsed;
-        let bounds = self.course.flow.modes.bounds(span);
-        if self.is_clear(left, right, bounds) {
+        let half = left.node.elapsed + 0.5 * span;
+        let halves = half > left.node.elapsed && half < right.node.elapsed;
+        if span <= self.course.flow.reach * 1.000001 || !halves {
+            return self.search_window(left, right, bounds);
+        }
+        let can_rise = |guard: &Guard| !self.cannot_rise(guard, left, right, bounds);
+        if !self.guards.iter().any(can_rise) {
             return None;
         }
-        if span <= self.course.flow.reach * 1.000001 {
-            return self.search_polynomial(left, right, bounds);
-        }
-        let half = left.node.elapsed + 0.5 * span;
-        if half <= left.node.elapsed || half >= right.node.elapsed {
-            return self.search_polynomial(left, right, bounds);
-        }
-        let middle = self.course.node(half);
-        let middle = Jets::new(self.course, middle);
-        self.search(left, &middle)
-            .or_else(|| self.search(&middle, right))
+        let middle = Jets::new(self.course, self.course.node(half));
+        let bounds = self.course.flow.modes.bounds(0.5 * span);
+        self.search(left, &middle, bounds)
+            .or_else(|| self.search(&middle, right, bounds))
     }
 
+    /// The same within the reach of a Taylor polynomial. A single rise, as the nodes prove it, needs none.
+    fn search_window(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> Option<Found> {
+        let can_rise = |(_, guard): &(usize, &Guard)| !self.cannot_rise(guard, left, right, bounds);
+        let alone = match self.guards {
+            [guard] => Some((0, guard)),
+            guards => {
+                let mut open = guards.iter().enumerate().filter(can_rise);
+                let first = open.next()?;
+                open.next().is_none().then_some(first)
+            }
+        };
+        if let Some((index, guard)) = alone
+            && guard.push == 0.0
+            && self.course.is_quick()
+        {
+            let span = right.node.elapsed - left.node.elapsed;
+            let ends = Ends::new(guard, left, right).points(span);
+            let bound = left.bound(&self.course.flow, guard, span, bounds);
+            let verdict = judge(ends.0, ends.1, bound, left.rounding(guard));
+            if verdict == Verdict::NoRise {
+                return None;
+            }
+            if verdict != Verdict::Unknown
+                && let Some((elapsed, position, velocity)) =
+                    pinpoint(self.course, guard, (left, right), ends)
+            {
+                return Some(Found {
+                    elapsed,
+                    guard: index,
+                    position,
+                    velocity,
+                });
+            }
+        }
+        self.search_polynomial(left, right, bounds)
+    }
+
+    #[inline(never)]
     fn search_polynomial(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> Option<Found> {
         let span = right.node.elapsed - left.node.elapsed;
         let node = left.node;
@@ -161,7 +226,8 @@ impl Scan<'_> {
                 bound: left.bound(&self.course.flow, guard, span, bounds),
                 rounding: left.rounding(guard),
             };
-            candidate.first_rise(span, (left.guard(guard), right.guard(guard)))
+            let (left, right) = Ends::new(guard, left, right).points(span);
+            candidate.first_rise(left, right)
         };
         earliest(self.guards, rise).map(|(guard, after)| {
             let (position, velocity) = taylor.state(after);

@@ -7,6 +7,7 @@ use nalgebra::Vector2;
 use super::particular::Particular;
 use super::place::Node;
 use super::response::Responses;
+use super::soon::soon;
 use super::{Chatter, Departure, Drive, Flow, Hertz, LARGEST_LOSS, Segment, Taylor};
 
 /// The exact motion that follows from a departure.
@@ -130,6 +131,11 @@ impl Course {
         }
     }
 
+    /// True if a state anywhere costs no more than a few elementary functions.
+    pub(crate) fn is_quick(&self) -> bool {
+        matches!(self.form, Form::Particular { .. })
+    }
+
     /// True if nothing moves.
     pub fn is_held(&self) -> bool {
         match &self.form {
@@ -155,7 +161,11 @@ impl Course {
             Form::Particular { .. } | Form::Responses => {}
         }
         if elapsed <= 0.5 * self.flow.reach {
-            return self.expand(&self.start()).state(elapsed);
+            let (way, rise) = soon(&self.flow, &self.departure, elapsed);
+            return (
+                self.departure.position + way,
+                self.departure.velocity + rise,
+            );
         }
         match self.form {
             Form::Particular {

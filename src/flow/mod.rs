@@ -26,6 +26,7 @@ mod response;
 mod rungs;
 mod segment;
 mod series;
+mod soon;
 mod taylor;
 
 pub(crate) use change::Change;
@@ -33,6 +34,7 @@ pub(crate) use chatter::{Chatter, Pressing};
 pub use course::Course;
 pub use hertz::Hertz;
 pub use modes::Modes;
+pub(crate) use node::Window;
 pub use place::{Departure, Drive, Node};
 pub use polynomial::{HIGHEST_ORDER, Polynomial};
 pub(crate) use segment::{Finer, Segment};

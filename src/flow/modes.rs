@@ -109,7 +109,6 @@ impl Modes {
     /// For b >= 0 the energy b x^2 + v^2 never grows, hence |C| <= 1, |S| <= t and |S| <= 1/sqrt(b);
     /// for real roots S <= exp(slow t) / spread as well. For b < 0, C <= exp(slow t) and
     /// S <= t exp(slow t).
-    #[inline]
     pub fn bounds(&self, span: f64) -> (f64, f64) {
         match self.kind {
             Kind::Oscillating { .. } => (1.0, span.min(1.0 / self.stiffness.sqrt())),

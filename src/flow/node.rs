@@ -1,7 +1,20 @@
 //! From node to node: a course is scanned window by window.
 
 use super::course::{Course, Form};
+use super::particular::Particular;
 use super::place::{Drive, Node};
+use super::soon::soon;
+
+/// What is known of a scan window of `span` seconds.
+pub(crate) struct Window {
+    /// Position and velocity at its beginning.
+    pub left: (f64, f64),
+    /// The same at its end.
+    pub right: (f64, f64),
+    pub span: f64,
+    /// Bound on the fourth derivative of the position, in m/s^4.
+    pub bound: f64,
+}
 
 /// Windows counted from one origin.
 const MOST_WINDOWS: u32 = 1 << 31;
@@ -33,9 +46,30 @@ impl Course {
 
     /// The node at `elapsed`, evaluated afresh.
     pub fn node(&self, elapsed: f64) -> Node {
+        let drive = self.drive_at(elapsed);
+        self.placed(elapsed, drive, self.at(elapsed, drive))
+    }
+
+    /// The same of a linear law within half a reach, with what position and velocity have changed by.
+    pub(crate) fn node_soon(&self, elapsed: f64) -> Option<(Node, (f64, f64))> {
+        if elapsed > 0.5 * self.flow.reach || !self.is_quick() {
+            return None;
+        }
+        let (way, rise) = soon(&self.flow, &self.departure, elapsed);
+        let state = (
+            self.departure.position + way,
+            self.departure.velocity + rise,
+        );
+        let node = self.placed(elapsed, self.drive_at(elapsed), state);
+        Some((node, (way, rise)))
+    }
+
+    fn drive_at(&self, elapsed: f64) -> Drive {
         let turn = Drive::at(self.flow.frequency * elapsed);
-        let drive = self.departure.drive.turned(turn);
-        let (position, velocity) = self.at(elapsed, drive);
+        self.departure.drive.turned(turn)
+    }
+
+    fn placed(&self, elapsed: f64, drive: Drive, (position, velocity): (f64, f64)) -> Node {
         let deviation = match self.form {
             Form::Particular { particular, .. } => {
                 let (x, v) = particular.at(elapsed, drive);
@@ -74,6 +108,14 @@ impl Course {
                 };
             }
         };
+        self.rotated(&particular, node)
+    }
+
+    /// The node one scan window on.
+    #[inline(always)]
+    fn rotated(&self, particular: &Particular, node: &Node) -> Node {
+        let (origin, windows) = (node.origin, node.windows + 1);
+        let elapsed = origin + f64::from(windows) * self.flow.window;
         let (free, (y, rate)) = (&self.flow.window_modes, node.deviation);
         let deviation = (
             free.m11 * y + free.m12 * rate,
@@ -90,6 +132,53 @@ impl Course {
             origin,
             windows,
         }
+    }
+
+    /// Passes the scan windows that are reached by rotation and `is_clear` of something, up to `until`.
+    #[inline(never)]
+    pub(crate) fn coast(
+        &self,
+        mut node: Node,
+        until: f64,
+        is_clear: impl Fn(&Window) -> bool,
+    ) -> Node {
+        let flow = &self.flow;
+        let Form::Particular { particular, .. } = self.form else {
+            return node;
+        };
+        if flow.long_window > LONG * flow.window {
+            return node;
+        }
+        let (damping, stiffness) = (2.0 * flow.modes.decay, flow.modes.stiffness);
+        // Of the free motion, y'' = -damping y' - stiffness y and so on.
+        let after = |(y, rate): (f64, f64)| (-stiffness * rate, y - damping * rate);
+        let fourth = after(after(after((0.0, 1.0))));
+        let fifth = after(fourth);
+        let square = flow.frequency * flow.frequency;
+        let (cosine, sine) = (
+            square * square * particular.cosine,
+            square * square * particular.sine,
+        );
+        let (most, rest) = flow.window_bounds;
+        let driven = flow.amplitude * square * square * flow.window * rest;
+        while node.elapsed < until && (node.windows + 1) % ROTATIONS != 0 {
+            let next = self.rotated(&particular, &node);
+            let ((y, rate), Drive { cos, sin }) = (node.deviation, node.drive);
+            let x4 = cosine * cos + sine * sin + (fourth.0 * y + fourth.1 * rate);
+            let x5 = flow.frequency * (sine * cos - cosine * sin) + (fifth.0 * y + fifth.1 * rate);
+            let window = Window {
+                left: (node.position, node.velocity),
+                right: (next.position, next.velocity),
+                span: next.elapsed - node.elapsed,
+                bound: x4.abs() * most + x5.abs() * rest + driven,
+            };
+            let bounded = window.bound < f64::INFINITY;
+            if !(bounded && is_clear(&window)) {
+                break;
+            }
+            node = next;
+        }
+        node
     }
 
     /// True if nothing is left of the free motion.

@@ -74,9 +74,11 @@ impl Polynomial {
 
     /// The polynomial for one unit of `mass`, a constant `law` added to it before.
     pub(crate) fn per_mass(&self, law: f64, mass: f64) -> Self {
-        let mut derivatives = self.derivatives;
-        derivatives[0] += law;
-        Self::new(derivatives.map(|derivative| derivative / mass))
+        let value = (self.value() + law) / mass;
+        if self.is_linear() {
+            return Self::linear(value, self.rate() / mass);
+        }
+        Self::new(self.derivatives.map(|derivative| derivative / mass)).with(0, value)
     }
 
     /// A bound on the first derivative from 0 to `t`.

@@ -1,0 +1,121 @@
+//! A rise through zero that is known to be the only one between two nodes, located without a long polynomial.
+//!
+//! The jets of the nearer node tell about where it is; a state evaluated there lies so close to it that a
+//! short Taylor polynomial is exact.
+
+use super::Guard;
+use super::isolate::{Point, guess};
+use super::jets::Jets;
+use crate::flow::Course;
+
+/// Share of the reach of a Taylor polynomial of degree 19 over which one of degree 5 is exact: the sixth power is
+/// 720 roundings small.
+const CLOSE: f64 = 1.0 / 512.0;
+/// Looks for a state that is so close.
+const LOOKS: usize = 4;
+
+/// Time since departure, position and velocity where `guard`, which does not ask for the push, rises through zero
+/// between `left` and `right`, where it rises once at most; none if it takes more to tell.
+pub(super) fn pinpoint(
+    course: &Course,
+    guard: &Guard,
+    (left, right): (&Jets, &Jets),
+    (low, high): (Point, Point),
+) -> Option<(f64, f64, f64)> {
+    let within = |at: f64| at > low.at && at < high.at;
+    let start = left.node.elapsed;
+    let reach = course.flow.reach;
+    let outer = if low.rate > 0.0 { low.at } else { high.at };
+    let first = guess(low, high).unwrap_or(outer);
+    let nearer_right = first > 0.5 * (low.at + high.at);
+    let (origin, jets) = if nearer_right {
+        (high.at, right)
+    } else {
+        (low.at, left)
+    };
+    let series = jets.guard_series(guard);
+    let mut at = origin + newton(&series, first - origin, CLOSE * reach)?;
+    for _ in 0..LOOKS {
+        if !within(at) {
+            return None;
+        }
+        let (near, series) = look(course, guard, start, at);
+        let rest = match reverted(&series) {
+            Some(rest) => rest,
+            None => newton(&series, 0.0, 0.25 * f64::EPSILON * near.node.elapsed)?,
+        };
+        if rest.abs() <= CLOSE * reach {
+            let (position, velocity) = evaluate(&near.position_series(), rest);
+            let elapsed = near.node.elapsed + rest;
+            return within(elapsed - start).then_some((elapsed, position, velocity));
+        }
+        at += rest;
+    }
+    None
+}
+
+/// The jets `at` seconds after a start, and the guard's series there: soon after the departure from what has
+/// changed since, so that what is small against the position keeps its digits.
+fn look(course: &Course, guard: &Guard, start: f64, at: f64) -> (Jets, [f64; 6]) {
+    if start == 0.0
+        && let Some((node, (way, rise))) = course.node_soon(at)
+    {
+        let near = Jets::new(course, node);
+        let mut series = near.guard_series(guard);
+        let from = &course.departure;
+        let begin = guard.value(from.position, from.velocity);
+        series[0] = begin + (guard.position * way + guard.velocity * rise);
+        return (near, series);
+    }
+    let near = Jets::new(course, course.node(start + at));
+    let series = near.guard_series(guard);
+    (near, series)
+}
+
+/// The zero next to 0 through which the series rises, by reverting it, where that is exact.
+fn reverted(c: &[f64; 6]) -> Option<f64> {
+    let inverse = 1.0 / c[1];
+    let [a, b, d] = [c[2], c[3], c[4]].map(|c| c * inverse);
+    let s = -c[0] * inverse;
+    let (second, third) = (2.0 * a * a - b, 5.0 * a * (b - a * a) - d);
+    let size = (a * s)
+        .abs()
+        .max((b * s * s).abs().max((d * s * s * s).abs()));
+    let exact = c[1] > 0.0 && size <= SMALL;
+    exact.then_some(s - s * s * (a - s * (second + s * third)))
+}
+
+/// Relative size of the terms of a series whose fourth power is below rounding.
+const SMALL: f64 = 1.0 / (1u64 << 14) as f64;
+
+/// Newton's method from `at` to a zero through which the series rises, until a next step, foreseen from the
+/// last two as for quadratic convergence, would be below `grain`.
+fn newton(series: &[f64; 6], mut at: f64, grain: f64) -> Option<f64> {
+    let mut last = f64::INFINITY;
+    for _ in 0..MOST_STEPS {
+        let (value, rate) = evaluate(series, at);
+        let step = value / rate;
+        at -= step;
+        if !(rate > 0.0 && step.abs() < last) {
+            return (step == 0.0).then_some(at);
+        }
+        let foreseen = step.abs() * (step / last) * (step / last);
+        if last.is_finite() && foreseen <= grain {
+            return Some(at);
+        }
+        last = step.abs();
+    }
+    None
+}
+
+const MOST_STEPS: usize = 8;
+
+/// Value and first derivative.
+#[inline]
+fn evaluate(c: &[f64; 6], s: f64) -> (f64, f64) {
+    let square = s * s;
+    let value = (c[0] + c[1] * s) + square * ((c[2] + c[3] * s) + square * (c[4] + c[5] * s));
+    let rate =
+        (c[1] + 2.0 * c[2] * s) + square * ((3.0 * c[3] + 4.0 * c[4] * s) + square * (5.0 * c[5]));
+    (value, rate)
+}

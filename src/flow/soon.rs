@@ -1,0 +1,67 @@
+//! Ways soon after a departure, by the Taylor series about it, no further than it counts.
+//!
+//! Each term obeys the law itself: with T_n = c_n t^n and Q_n = q_n t^n of position and push,
+//! (n + 1)(n + 2) T_(n+2) = t^2 Q_n - 2 a t (n + 1) T_(n+1) - b t^2 T_n.
+
+use super::{Departure, Flow};
+
+/// Shares of the reach of a flow, each with the terms beyond which all others together are below 1/20!.
+const TERMS: [(f64, usize); 4] = [
+    (1.0 / 256.0, 6),
+    (1.0 / 32.0, 9),
+    (1.0 / 8.0, 12),
+    (1.0 / 4.0, 14),
+];
+/// The same up to half of it.
+const MOST_TERMS: usize = 17;
+
+/// 1/((n + 1)(n + 2)), 1/(n + 2) and n + 2.
+const FACTORS: [[f64; 3]; MOST_TERMS - 2] = {
+    let mut table = [[0.0; 3]; MOST_TERMS - 2];
+    let mut n = 0;
+    while n < table.len() {
+        let (first, second) = ((n + 1) as f64, (n + 2) as f64);
+        table[n] = [1.0 / (first * second), 1.0 / second, second];
+        n += 1;
+    }
+    table
+};
+
+/// What position and velocity have changed by under a linear push, up to half a reach after the departure.
+pub(super) fn soon(flow: &Flow, from: &Departure, elapsed: f64) -> (f64, f64) {
+    if elapsed == 0.0 {
+        return (0.0, 0.0);
+    }
+    let share = elapsed / flow.reach;
+    let needed = TERMS.iter().find(|(most, _)| share <= *most);
+    let terms = needed.map_or(MOST_TERMS, |(_, terms)| *terms);
+    let (angle, square) = (flow.frequency * elapsed, elapsed * elapsed);
+    let damping = 2.0 * flow.modes.decay * elapsed;
+    let stiffness = flow.modes.stiffness * square;
+    // Of order n and n + 1, times t^2.
+    let amplitude = square * flow.amplitude;
+    let mut drive = [
+        amplitude * from.drive.cos,
+        -amplitude * from.drive.sin * angle,
+    ];
+    let mut steady = [
+        square * from.push.value(),
+        square * elapsed * from.push.rate(),
+    ];
+    let mut term = [from.position, from.velocity * elapsed];
+    let mut chosen = from.acceleration;
+    let (mut way, mut rise) = (0.0, 0.0);
+    for [both, second, order] in &FACTORS[..terms - 2] {
+        let load = (drive[0] + steady[0]) - stiffness * term[0];
+        let next = match chosen.take() {
+            Some(acceleration) => 0.5 * square * acceleration,
+            None => load * both - damping * second * term[1],
+        };
+        way += next;
+        rise += order * next;
+        term = [term[1], next];
+        drive = [drive[1], -angle * angle * drive[0] * both];
+        steady = [steady[1], 0.0];
+    }
+    (from.velocity * elapsed + way, rise / elapsed)
+}
