@@ -8,18 +8,18 @@ use crate::flow::{DEGREE, Node, Segment, evaluate};
 /// the coefficients of the polynomial, which is the motion to round-off.
 pub(super) fn first_crossing(segment: &Segment, guards: &[Guard], node: Node) -> Outlook {
     let (from, to) = (segment.parameter_at(node.elapsed), segment.reach());
-    let (position, velocity) = segment.state_at(to);
-    let push = segment.push_at(to);
-    if !(to > 0.0
-        && [position, velocity, push]
-            .iter()
-            .all(|number| number.is_finite()))
-    {
+    let (position, velocity) = segment.last_state();
+    let finite = position.is_finite() && velocity.is_finite();
+    let held = segment.is_still() && !segment.push_at(to).is_finite();
+    if !(to > 0.0 && finite) || held {
         return Outlook::Unbounded(node);
     }
     let rise = |guard: &Guard| {
         let coefficients =
             segment.combination(guard.position, guard.velocity, guard.push, guard.level);
+        if stays_below(&coefficients, to) {
+            return None;
+        }
         let candidate = Candidate {
             coefficients: &coefficients,
             bound: fourth_derivative(&coefficients, to),
@@ -39,6 +39,17 @@ pub(super) fn first_crossing(segment: &Segment, guards: &[Guard], node: Node) ->
             })
         }
     }
+}
+
+/// True if g < 0 throughout [0, span], as its tangent and the sizes of all other terms show.
+fn stays_below(coefficients: &[f64; DEGREE + 1], span: f64) -> bool {
+    let mut others = *coefficients;
+    for coefficient in &mut others {
+        *coefficient = coefficient.abs();
+    }
+    (others[0], others[1]) = (0.0, 0.0);
+    let tangent = coefficients[0] + (coefficients[1] * span).max(0.0);
+    tangent + evaluate(&others, span).0 < 0.0
 }
 
 /// Bound on |g''''| over [0, span].

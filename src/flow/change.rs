@@ -82,7 +82,8 @@ impl Course {
             moved.velocity += width * by.velocity;
             moved.push = from.push.with(0, from.push.value() + width * by.push);
             moved.acceleration = None;
-            Self::new(self.flow, moved).power(elapsed, law).supplied
+            let course = Self::new(self.flow, moved);
+            course.power(&course.node(elapsed), law).supplied
         };
         (work(width) - work(-width)) / (2.0 * width)
     }
@@ -116,7 +117,7 @@ impl Segment {
                 std::array::from_fn(|k| start * creep.memory[k] + by.push * creep.answer[k]);
             return (position, derivative(&position));
         }
-        let rate = derivative(&self.time);
+        let rate = self.rate();
         let damping = product(&rate, &self.damping());
         let stiffness = product(&rate, &self.stiffness());
         let (mut y, mut u) = (ZERO, ZERO);
@@ -132,11 +133,11 @@ impl Segment {
 
     fn changed_supply(&self, elapsed: f64, by: Change, law: f64) -> f64 {
         let (_, changed) = self.changed(by);
-        let rate = derivative(&self.time);
+        let rate = self.rate();
         let mut push = self.push;
         push[0] -= law;
         let to = self.parameter_at(elapsed);
-        let travel = integral_of_product(&rate, &self.velocity, to);
+        let travel = integral_of_product(&rate, &self.velocity(), to);
         integral_of_product(&product(&rate, &push), &changed, to) + by.push * travel
     }
 }

@@ -3,9 +3,9 @@
 use super::creep::Equation;
 use super::hertz::Hertz;
 use super::rungs::Rungs;
-use super::segment::Segment;
-use super::series::{Power, Series, ZERO, convolve, derivative, majorant, power, value};
-use super::taylor::{DEGREE, push_series};
+use super::segment::{Segment, Stretch};
+use super::series::{Power, Series, ZERO, convolve, majorant, value};
+use super::taylor::{DEGREE, RECIPROCALS, evaluate, push_series};
 use super::{Departure, Flow};
 
 /// What the last coefficients may amount to, relative to the first: well below rounding.
@@ -20,23 +20,19 @@ const LONGER: f64 = 20.0;
 impl Segment {
     /// The step from a departure that lies `deflection` m beyond the face.
     pub fn new(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
-        let root = deflection.max(0.0).sqrt();
-        let mut segment = if root == 0.0 && from.velocity == 0.0 {
+        let raised = deflection.max(0.0).powf(hertz.exponent);
+        let mut segment = if deflection <= 0.0 && from.velocity == 0.0 {
             Self::from_rest(flow, hertz, from)
+        } else if is_off_face(hertz, (deflection, raised), from.velocity) {
+            Self::pressed(flow, hertz, from, (deflection, raised))
         } else {
             Self::from_root(flow, hertz, from, deflection)
         };
-        segment.reach = segment.convergence(from);
-        if segment.power == ZERO && hertz.stiffness > 0.0 {
-            segment.reach = segment.shell(segment.reach);
+        if let Some(creeping) = Self::creeping(flow, hertz, from, deflection, segment.end) {
+            segment = creeping;
         }
-        segment.contact = segment.last_contact();
-        segment.end = value(&segment.time, segment.contact);
-        let creeping = Self::creeping(flow, hertz, from, deflection, segment.end);
-        Self {
-            departed: deflection,
-            ..creeping.unwrap_or(segment)
-        }
+        segment.departed = deflection;
+        segment
     }
 
     /// A step of slow motion, where one is possible and much longer than `usual`.
@@ -69,34 +65,12 @@ impl Segment {
         let creep = equation.slow_motion((deflection, from.velocity), span)?;
         let mut segment = Self::blank(flow, hertz);
         segment.depth = creep.depth;
-        segment.velocity = derivative(&creep.depth);
-        segment.time[1] = 1.0;
         segment.push = push;
-        segment.power = power(&creep.depth, hertz.exponent);
+        segment.is_pressed = true;
         segment.creep = Some(Box::new(creep));
-        let holds = converges(&segment.depth).min(converges(&segment.velocity));
-        segment.reach = holds.min(span);
-        (segment.contact, segment.end) = (segment.reach, segment.reach);
+        let holds = converges(&segment.depth).min(converges(&segment.velocity()));
+        segment.ends_at(holds.min(span));
         (segment.end > LONGER * usual).then_some(segment)
-    }
-
-    pub(super) fn blank(flow: &Flow, hertz: &Hertz) -> Self {
-        Self {
-            departed: 0.0,
-            root: ZERO,
-            depth: ZERO,
-            low: 0.0,
-            velocity: ZERO,
-            time: ZERO,
-            push: ZERO,
-            power: ZERO,
-            reach: 0.0,
-            contact: 0.0,
-            end: 0.0,
-            hertz: *hertz,
-            flow: *flow,
-            creep: None,
-        }
     }
 
     /// The linear law's motion from rest at the face, in time itself.
@@ -104,69 +78,110 @@ impl Segment {
         let start = (hertz.origin, 0.0);
         let mut segment = Self::in_time(flow, hertz, from, start);
         segment.depth[0] = 0.0;
+        let bounds = [segment.depth, segment.velocity()].map(|series| majorant(&series));
+        let reach = segment.reach_in_time(flow, from);
+        segment.ends_at(if hertz.stiffness > 0.0 {
+            shell(hertz, reach, |span| {
+                (value(&bounds[0], span), value(&bounds[1], span), span)
+            })
+        } else {
+            reach
+        });
         segment
     }
 
     /// The series in sigma.
     fn from_root(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
-        let root = deflection.max(0.0).sqrt();
-        let (twice_decay, b, w) = (2.0 * flow.modes.decay, flow.modes.stiffness, flow.frequency);
+        let index = hertz.root_index().unwrap_or(2.0);
+        let root = deflection.max(0.0).powf(1.0 / index);
+        let (twice_decay, b, w) = (flow.damping(), flow.modes.stiffness, flow.frequency);
         let (kappa, lambda) = (hertz.rate(), hertz.dissipation);
         let mut segment = Self::blank(flow, hertz);
-        let (s, v, t) = (&mut segment.root, &mut segment.velocity, &mut segment.time);
+        let mut stretch = Box::new(Stretch {
+            index,
+            root: ZERO,
+            velocity: ZERO,
+            time: ZERO,
+            power: ZERO,
+        });
+        let Stretch {
+            root: s,
+            velocity: v,
+            time: t,
+            power,
+            ..
+        } = &mut *stretch;
         (s[0], v[0]) = (root, from.velocity);
         let (mut cos, mut sin, mut acceleration) = (ZERO, ZERO, ZERO);
         (cos[0], sin[0]) = (from.drive.cos, from.drive.sin);
-        let mut power = Power::new(2.0 * hertz.exponent, root);
+        let mut rate = ZERO;
+        let mut rates = Power::new(index - 1.0, root);
+        let mut steepness = ZERO;
+        let mut steepnesses = Power::new(index * (hertz.exponent - 1.0), root);
         let mut rungs = Rungs::new(&from.push);
         for k in 0..=DEGREE {
-            // The deflection itself, not the square of its rounded root: a surface may stand there.
+            rate[k] = rates.coefficient(s, k);
+            // The deflection itself, not the power of its rounded root: a surface may stand there.
             segment.depth[k] = if k == 0 {
                 deflection
             } else {
-                convolve(s, s, k)
+                convolve(s, &rate, k)
             };
-            segment.power[k] = power.coefficient(s, k);
+            steepness[k] = steepnesses.coefficient(s, k);
+            power[k] = convolve(&segment.depth, &steepness, k);
             segment.push[k] = flow.amplitude * cos[k] + from.push.rate() * t[k];
             if let Some(rungs) = &mut rungs {
-                segment.push[k] += rungs.coefficient(s, k);
+                segment.push[k] += rungs.coefficient(&rate, k);
             }
             let mut pull = b * segment.depth[k];
             if k == 0 {
                 segment.push[0] += from.push.value();
                 pull += b * hertz.origin;
             }
-            let mut press = segment.power[k];
+            let mut press = power[k];
             if lambda > 0.0 {
-                press += lambda * convolve(&segment.power, v, k);
+                press += lambda * convolve(power, v, k);
             }
             acceleration[k] = segment.push[k] - twice_decay * v[k] - pull - kappa * press;
             if k == DEGREE {
                 break;
             }
-            let next = 1.0 / (k + 1) as f64;
-            s[k + 1] = 0.5 * next * v[k];
-            v[k + 1] = next * convolve(s, &acceleration, k);
-            t[k + 1] = next * s[k];
-            cos[k + 1] = -w * next * convolve(s, &sin, k);
-            sin[k + 1] = w * next * convolve(s, &cos, k);
+            let next = RECIPROCALS[k + 1];
+            s[k + 1] = next * v[k] / index;
+            v[k + 1] = next * convolve(&rate, &acceleration, k);
+            t[k + 1] = next * rate[k];
+            cos[k + 1] = -w * next * convolve(&rate, &sin, k);
+            sin[k + 1] = w * next * convolve(&rate, &cos, k);
         }
+        segment.is_pressed = *power != ZERO;
+        segment.reach = stretch.reach(flow.reach, from.push.is_linear());
+        if !segment.is_pressed && hertz.stiffness > 0.0 {
+            let bounds = [segment.depth, stretch.velocity, stretch.time].map(|s| majorant(&s));
+            segment.reach = shell(hertz, segment.reach, |span| {
+                let [depth, speed, time] = [0, 1, 2].map(|index| value(&bounds[index], span));
+                (depth, speed, time)
+            });
+        }
+        segment.contact = stretch.last_contact(segment.reach);
+        segment.end = value(&stretch.time, segment.contact);
+        segment.stretch = Some(stretch);
+        segment.last = segment.moved_at(segment.contact);
         segment
     }
+}
 
+impl Stretch {
     /// Sigma up to which the last coefficients stay below rounding (Jorba and Zou 2005), and time
-    /// within the reach of the linear law's own series.
-    fn convergence(&self, from: &Departure) -> f64 {
-        if self.is_in_time() {
-            return self.reach_in_time(from);
-        }
-        let limit = self.flow.reach;
-        // t = s sigma + v sigma^2 / 4 + ...
-        let within = (limit / self.root[0]).min(2.0 * (limit / self.velocity[0].abs()).sqrt());
+    /// within `limit`.
+    fn reach(&self, limit: f64, is_linear: bool) -> f64 {
+        // With s = s0 + v sigma / m, t is the integral of s^(m - 1).
+        let m = self.index;
+        let speed = (self.velocity[0].abs() / m).powf(m - 1.0);
+        let within = (limit / self.time[1]).min((m * limit / speed).powf(1.0 / m));
         let holds = converges(&self.root)
             .min(converges(&self.velocity))
             .min(within);
-        if from.push.is_linear() {
+        if is_linear {
             return holds;
         }
         holds
@@ -174,52 +189,83 @@ impl Segment {
             .min(outgrown(&self.velocity))
     }
 
-    /// Sigma within which the power law's part of the motion, at most kappa d^n (1 + lambda v) t^2 / 2,
-    /// stays below rounding.
-    fn shell(&self, reach: f64) -> f64 {
-        let bounds = [&self.depth, &self.velocity, &self.time].map(majorant);
-        let mut span = reach;
-        // Halving a finite number this often leaves nothing.
-        for _ in 0..2200 {
-            let [depth, speed, time] = [0, 1, 2].map(|index| value(&bounds[index], span));
-            let grip = 1.0 + self.hertz.dissipation * speed;
-            let press = self.hertz.rate() * depth.powf(self.hertz.exponent - 1.0) * grip;
-            if press * time * time <= SMALLEST {
-                break;
-            }
-            span *= 0.5;
-        }
-        span
-    }
-
     /// The last sigma within reach at which the root is not negative. Within one step it passes zero
     /// once.
-    fn last_contact(&self) -> f64 {
-        let (mut low, mut high) = (0.0, self.reach);
-        if value(&self.root, high) >= 0.0 {
-            return high;
-        }
+    fn last_contact(&self, reach: f64) -> f64 {
+        let (mut low, mut high) = (0.0, reach);
+        let mut at = reach;
         loop {
+            let (root, rate) = evaluate(&self.root, at);
+            if root < 0.0 {
+                high = at;
+            } else if at == reach {
+                return reach;
+            } else {
+                low = at;
+            }
+            let newton = at - root / rate;
             let middle = 0.5 * (low + high);
             if middle <= low || middle >= high {
                 return low;
             }
-            if value(&self.root, middle) < 0.0 {
-                high = middle;
+            // Where Newton's method has settled, the next number on either side tells.
+            at = if newton > low && newton < high {
+                newton
+            } else if newton == low {
+                low.next_up()
+            } else if newton == high {
+                high.next_down()
             } else {
-                low = middle;
-            }
+                middle
+            };
         }
     }
 }
+
+/// Sigma within which the power law's part of the motion, at most kappa d^n (1 + lambda v) t^2 / 2,
+/// stays below rounding; `bounds` are those on depth, speed and time.
+fn shell(hertz: &Hertz, reach: f64, bounds: impl Fn(f64) -> (f64, f64, f64)) -> f64 {
+    let mut span = reach;
+    // Halving a finite number this often leaves nothing.
+    for _ in 0..2200 {
+        let (depth, speed, time) = bounds(span);
+        let grip = 1.0 + hertz.dissipation * speed;
+        let press = hertz.rate() * depth.powf(hertz.exponent - 1.0) * grip;
+        if press * time * time <= SMALLEST {
+            break;
+        }
+        span *= 0.5;
+    }
+    span
+}
+
+/// True where a step in time is worth more than one from the root: where the power law takes a good part of the
+/// energy on the way to the face, or the root's own law is not regular there.
+fn is_off_face(hertz: &Hertz, (deflection, raised): (f64, f64), velocity: f64) -> bool {
+    if deflection <= 0.0 {
+        return false;
+    }
+    let share = hertz.root_index().map_or(0.0, |_| NEAR_FACE);
+    hertz.rate() * raised * deflection > share * velocity * velocity
+}
+
+/// Share of the energy that makes the difference.
+const NEAR_FACE: f64 = 1e-3;
 
 /// Where a series is below rounding of its first coefficients from its last one on, if the whole upper
 /// half falls as a geometric series does. All of that half is looked at, since by symmetry many
 /// coefficients may vanish.
 fn converges(series: &Series) -> f64 {
-    falls_off(series, DEGREE.div_ceil(2), |j| {
-        TRUNCATION / (DEGREE - j) as f64
-    })
+    falls_below_rounding(series, DEGREE.div_ceil(2))
+}
+
+/// The same, where no more than every other coefficient may vanish.
+pub(super) fn converges_densely(series: &Series) -> f64 {
+    falls_below_rounding(series, DEGREE - 5)
+}
+
+fn falls_below_rounding(series: &Series, lower: usize) -> f64 {
+    falls_off(series, lower, |j| TRUNCATION * RECIPROCALS[DEGREE - j])
 }
 
 /// Where one of the higher coefficients' terms outgrows all of the first ones.
@@ -241,17 +287,30 @@ fn leading(series: &Series) -> usize {
 /// power `margin`(j) for each further order.
 fn falls_off(series: &Series, lower: usize, margin: impl Fn(usize) -> f64) -> f64 {
     let leading = leading(series);
+    let lower = lower.max(leading + FIRST);
+    if lower > DEGREE {
+        return f64::INFINITY;
+    }
     let first = [0, 1, 2].map(|offset| {
         let j = leading + offset;
-        (j, series.get(j).map_or(f64::NAN, |c| c.abs().log2()))
+        (j, size(series[j]), margin(j))
     });
     let mut reach = f64::INFINITY;
-    for (last, coefficient) in series.iter().enumerate().skip(lower.max(leading + FIRST)) {
-        let size = coefficient.abs().log2();
-        // Comparisons pass over what is not a number: zero against zero.
-        let against = |(j, first): (usize, f64)| (first - size) / (last - j) as f64 + margin(j);
-        let within = first.map(against).into_iter().fold(f64::NAN, f64::max);
-        reach = reach.min(within);
+    for (last, coefficient) in (lower..).zip(&series[lower..]) {
+        let size = size(*coefficient);
+        let mut within = f64::NEG_INFINITY;
+        for (j, first, margin) in first {
+            let against = (first - size) * RECIPROCALS[last - j] + margin;
+            within = if against > within { against } else { within };
+        }
+        reach = if within < reach { within } else { reach };
     }
     reach.exp2()
+}
+
+/// The binary logarithm of a coefficient's size, at most a tenth too small; far below all others for zero.
+fn size(coefficient: f64) -> f64 {
+    const ONE: i64 = 1.0f64.to_bits() as i64;
+    let bits = coefficient.abs().to_bits() as i64;
+    (bits - ONE) as f64 * (1.0 / (1u64 << 52) as f64)
 }

@@ -9,6 +9,13 @@ const GAUSS: [(f64, f64); 4] = [
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
 ];
 
+/// The same of the five-point rule, beside the middle: as exact over a quarter of a reach.
+const SHORT: [(f64, f64); 2] = [
+    (0.538_469_310_105_683, 0.478_628_670_499_366_5),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+];
+const MIDDLE: f64 = 128.0 / 225.0;
+
 /// The rule's nodes and weights on [0, `span`].
 pub(super) fn gauss_nodes(span: f64) -> [(f64, f64); 8] {
     let half = 0.5 * span;
@@ -17,4 +24,18 @@ pub(super) fn gauss_nodes(span: f64) -> [(f64, f64); 8] {
         let place = if index % 2 == 0 { 1.0 - x } else { 1.0 + x };
         (half * place, half * weight)
     })
+}
+
+/// Those of the five-point rule.
+pub(super) fn few_gauss_nodes(span: f64) -> [(f64, f64); 5] {
+    let half = 0.5 * span;
+    let [(inner, wide), (outer, narrow)] = SHORT;
+    [
+        (1.0 - outer, narrow),
+        (1.0 - inner, wide),
+        (1.0, MIDDLE),
+        (1.0 + inner, wide),
+        (1.0 + outer, narrow),
+    ]
+    .map(|(place, weight)| (half * place, half * weight))
 }

@@ -61,6 +61,12 @@ impl Hertz {
         (stiffness, coupling)
     }
 
+    /// The least m >= 2 for which the power of the m-th root is whole: the root's law is then regular at the face.
+    pub(super) fn root_index(&self) -> Option<f64> {
+        let is_whole = |m: &f64| (m * self.exponent).fract() == 0.0;
+        [2.0, 3.0, 4.0, 5.0].into_iter().find(is_whole)
+    }
+
     /// Force per mass and per d^n (1 + lambda v).
     pub(super) fn rate(&self) -> f64 {
         self.stiffness / self.mass

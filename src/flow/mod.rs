@@ -21,6 +21,7 @@ mod particular;
 mod place;
 mod polynomial;
 mod power;
+mod pressed;
 mod pushed;
 mod response;
 mod rungs;

@@ -3,15 +3,20 @@
 use nalgebra::Complex;
 
 use super::course::{Course, Form};
-use super::gauss::gauss_nodes;
+use super::gauss::{few_gauss_nodes, gauss_nodes};
 use super::particular::Particular;
 use super::place::{Drive, Node};
 use super::segment::Power;
+use super::soon::soon;
+
+/// Share of a flow's reach over which the five-point rule is exact.
+const SHORT: f64 = 0.25;
 
 impl Course {
-    /// Work from departure to `elapsed`; `law` is the part of the constant push that is the
-    /// phase's own force.
-    pub(crate) fn power(&self, elapsed: f64, law: f64) -> Power {
+    /// Work from departure to a node; `law` is the part of the constant push that is the phase's own
+    /// force.
+    pub(crate) fn power(&self, to: &Node, law: f64) -> Power {
+        let elapsed = to.elapsed;
         match &self.form {
             Form::Held | Form::Chatter(_) => Power::default(),
             Form::Segment(segment) => segment.work(elapsed, law),
@@ -20,9 +25,28 @@ impl Course {
                 deviation,
             } if elapsed > self.flow.reach => {
                 let start = (deviation.x, deviation.y);
-                self.power_in_closed_form(&particular, start, elapsed, law)
+                self.power_in_closed_form(&particular, start, to, law)
             }
+            _ if elapsed <= SHORT * self.flow.reach => self.power_soon(elapsed, law),
             _ => self.power_by_quadrature(elapsed, law),
+        }
+    }
+
+    /// One short panel.
+    fn power_soon(&self, elapsed: f64, law: f64) -> Power {
+        let (flow, from) = (&self.flow, &self.departure);
+        let (constant, ramp) = self.push_at(0.0);
+        let (mut supplied, mut square) = (0.0, 0.0);
+        for (s, weight) in few_gauss_nodes(elapsed) {
+            let velocity = from.velocity + soon(flow, from, s).1;
+            let drive = from.drive.turned(Drive::at(flow.frequency * s));
+            let push = constant - law + ramp * s + flow.amplitude * drive.cos;
+            supplied += weight * push * velocity;
+            square += weight * velocity * velocity;
+        }
+        Power {
+            supplied,
+            lost: flow.damping() * square,
         }
     }
 
@@ -75,19 +99,19 @@ impl Course {
         &self,
         particular: &Particular,
         start: (f64, f64),
-        elapsed: f64,
+        to: &Node,
         law: f64,
     ) -> Power {
-        let (from, to) = (self.start(), self.node(elapsed));
+        let (from, elapsed) = (self.start(), to.elapsed);
         let end = to.deviation;
         let cross = self.deviation_against_drive((start, from.drive), (end, to.drive));
-        let waves = Waves::between(self.flow.frequency, &from, &to);
+        let waves = Waves::between(self.flow.frequency, &from, to);
         let (a, b) = (self.flow.modes.decay, self.flow.modes.stiffness);
         let (w, slope) = (self.flow.frequency, particular.slope);
         let (cosine, sine) = (w * particular.sine, -w * particular.cosine);
         // u = slope + cosine cos + sine sin
         let drive_u = slope * waves.cos + cosine * waves.cos_cos + sine * waves.cos_sin;
-        let steady = self.push_on_the_way(&from, &to, law);
+        let steady = self.push_on_the_way(&from, to, law);
         let energy = |(y, rate): (f64, f64)| 0.5 * (rate * rate + b * y * y);
         let mixed = slope * (end.0 - start.0) + cosine * cross.re + sine * cross.im;
         let square_u = slope * (slope * elapsed + 2.0 * (cosine * waves.cos + sine * waves.sin))

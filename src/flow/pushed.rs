@@ -9,7 +9,7 @@
 use super::expansion::{TRUNCATION, outgrown};
 use super::hertz::Hertz;
 use super::segment::Segment;
-use super::series::{Series, ZERO, derivative};
+use super::series::{Series, ZERO};
 use super::taylor::{DEGREE, Taylor, push_series};
 use super::{Departure, Flow};
 
@@ -18,7 +18,7 @@ impl Segment {
     pub fn pushed(flow: &Flow, from: &Departure, low: f64) -> Self {
         let mut segment = Self::in_time(flow, &Hertz::ABSENT, from, (from.position, from.velocity));
         segment.low = low;
-        segment.ends_at(segment.reach_in_time(from));
+        segment.ends_at(segment.reach_in_time(flow, from));
         segment
     }
 
@@ -26,14 +26,9 @@ impl Segment {
     pub fn held(flow: &Flow, from: &Departure) -> Self {
         let mut segment = Self::blank(flow, &Hertz::ABSENT);
         segment.depth[0] = from.position;
-        segment.time[1] = 1.0;
         segment.push = push_series(flow, from);
         segment.ends_at(flow.reach.min(outgrown(&segment.push)));
         segment
-    }
-
-    fn ends_at(&mut self, reach: f64) {
-        (self.reach, self.contact, self.end) = (reach, reach, reach);
     }
 
     /// The linear law's motion from `start`, in time itself.
@@ -45,8 +40,6 @@ impl Segment {
         };
         let mut segment = Self::blank(flow, hertz);
         segment.depth = taylor.position;
-        segment.velocity = derivative(&taylor.position);
-        segment.time[1] = 1.0;
         segment.push = taylor.push;
         segment
     }
@@ -54,13 +47,13 @@ impl Segment {
     /// Time in s over which series in time hold to rounding, and over which no power of the force
     /// outgrows what the motion begins with: a crossing early in a step would drown in the rounding of
     /// its end.
-    pub(super) fn reach_in_time(&self, from: &Departure) -> f64 {
-        let reach = self.flow.reach;
+    pub(super) fn reach_in_time(&self, flow: &Flow, from: &Departure) -> f64 {
+        let reach = flow.reach;
         if from.push.is_linear() {
             return reach;
         }
-        let (depth, velocity) = (&self.depth, &self.velocity);
-        let left_out = left_out(&self.flow, from);
+        let (depth, velocity) = (&self.depth, &self.velocity());
+        let left_out = left_out(flow, from);
         let order = (DEGREE + 1) as i32;
         reach
             .min(outgrown(depth))

@@ -1,18 +1,17 @@
 //! One Taylor step.
 //!
-//! The deflection d from the face obeys d'' + 2 a d' + b (d + x0) + kappa d^n (1 + lambda d') = push. At
-//! the face d^n has a branch point. For every n that is a multiple of 1/2 it goes away if the root
-//! s = sqrt(d) is the unknown and a stretched time sigma, dt = s dsigma, the variable (as Levi-Civita
-//! did for collisions, 1920):
+//! The deflection d from the face obeys d'' + 2 a d' + b (d + x0) + kappa d^n (1 + lambda d') = push. Away from
+//! the face it is followed in time itself ([`super::pressed`]). At the face d^n has a branch point. If n is a
+//! multiple of 1/m it goes away where the m-th root s of d is the unknown and a stretched time sigma,
+//! dt = s^(m-1) dsigma, the variable (as Levi-Civita did for collisions, 1920):
 //!
 //! ```text
-//! ds/dsigma = v/2    dv/dsigma = s (push - 2 a v - b (x0 + s^2) - kappa s^(2n) (1 + lambda v))    dt/dsigma = s
+//! ds/dsigma = v/m    dv/dsigma = s^(m-1) (push - 2 a v - b (x0 + s^m) - kappa s^(m n) (1 + lambda v))
 //! ```
 //!
 //! All are power series in sigma whose coefficients follow one from the other (Moore 1966). For
-//! other n the steps grow and shrink with the distance from the face; right at the face, while the
-//! power law's part of the motion is below rounding, it is left out. So it is on a start from rest at
-//! the face, where sigma is time itself; and so it is in slow motion under heavy damping
+//! other n, while the power law's part of the motion is below rounding, it is left out right at the face. So it is
+//! on a start from rest at the face, where sigma is time itself; and so it is in slow motion under heavy damping
 //! ([`super::creep`]) and where there is no power law ([`super::pushed`]).
 
 use serde::{Deserialize, Serialize};
@@ -22,37 +21,64 @@ use super::creep::Creep;
 use super::gauss::gauss_nodes;
 use super::hertz::Hertz;
 use super::series::{Series, ZERO, derivative, integral_of_product, power, product, value};
-use super::taylor::evaluate;
+use super::taylor::{evaluate, evaluate_from};
 
 /// The motion of one step, as series in sigma.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Segment {
     /// Deflection in m at departure.
     pub(super) departed: f64,
-    /// Root of the deflection in sqrt(m); zero where sigma is time itself.
-    pub(super) root: Series,
     /// Deflection in m: of a linear law, from position zero.
     pub(super) depth: Series,
     /// What rounding took from the deflection at the start, in m: a linear law's alone carries it.
     pub(super) low: f64,
-    /// Velocity in m/s.
-    pub(super) velocity: Series,
-    /// Time since departure in s.
-    pub(super) time: Series,
     /// Push per mass in m/s^2.
     pub(super) push: Series,
-    /// d^n.
-    pub(super) power: Series,
+    /// What more there is where sigma is not time itself.
+    pub(super) stretch: Option<Box<Stretch>>,
+    /// The power law acts.
+    pub(super) is_pressed: bool,
     /// How far the series hold, in sigma.
     pub(super) reach: f64,
     /// How far the mass stays beyond the face, in sigma: further on time would run back.
     pub(super) contact: f64,
     /// The same in time, in s.
     pub end: f64,
+    /// Where the step ends.
+    pub(super) last: Moved,
     pub(super) hertz: Hertz,
-    pub(super) flow: Flow,
+    /// Damping over mass in 1/s, the power law's left out.
+    pub(super) damping: f64,
+    /// Stiffness over mass in 1/s^2, the power law's left out.
+    pub(super) stiffness: f64,
     /// What a slow motion remembers of its start.
     pub(super) creep: Option<Box<Creep>>,
+}
+
+/// Series of a stretched time.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Stretch {
+    /// Which root: m >= 2.
+    pub index: f64,
+    /// m-th root of the deflection in m^(1/m).
+    pub root: Series,
+    /// Velocity in m/s.
+    pub velocity: Series,
+    /// Time since departure in s.
+    pub time: Series,
+    /// d^n.
+    pub power: Series,
+}
+
+/// A place along a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Moved {
+    /// Deflection in m.
+    deflection: f64,
+    /// What rounding took from it, in m.
+    low: f64,
+    /// Velocity in m/s.
+    velocity: f64,
 }
 
 /// A position more sharply than by its rounded value: where it counts from a nonlinear face, by the
@@ -75,14 +101,65 @@ pub(crate) struct Power {
 }
 
 impl Segment {
-    /// True if sigma is time itself.
-    pub(super) fn is_in_time(&self) -> bool {
-        self.time[1] == 1.0 && self.root == ZERO
+    /// One without a motion yet.
+    pub(super) fn blank(flow: &Flow, hertz: &Hertz) -> Self {
+        Self {
+            departed: 0.0,
+            depth: ZERO,
+            low: 0.0,
+            push: ZERO,
+            stretch: None,
+            is_pressed: false,
+            reach: 0.0,
+            contact: 0.0,
+            end: 0.0,
+            last: Moved::default(),
+            hertz: *hertz,
+            damping: flow.damping(),
+            stiffness: flow.modes.stiffness,
+            creep: None,
+        }
+    }
+
+    /// Lets a step in time end there, or a millionth sooner: a length of few digits is added to a time without
+    /// rounding, so that equal steps do not drift.
+    pub(super) fn ends_at(&mut self, reach: f64) {
+        let reach = f64::from_bits(reach.to_bits() & (u64::MAX << 32));
+        (self.reach, self.contact, self.end) = (reach, reach, reach);
+        self.last = self.moved_at(reach);
     }
 
     /// True if nothing moves.
     pub fn is_still(&self) -> bool {
-        self.velocity == ZERO
+        self.stretch.is_none() && self.depth[1..] == ZERO[1..]
+    }
+
+    pub(super) fn velocity(&self) -> Series {
+        match &self.stretch {
+            Some(stretch) => stretch.velocity,
+            None => derivative(&self.depth),
+        }
+    }
+
+    /// d(time)/d(sigma).
+    pub(super) fn rate(&self) -> Series {
+        match &self.stretch {
+            Some(stretch) => derivative(&stretch.time),
+            None => {
+                let mut one = ZERO;
+                one[0] = 1.0;
+                one
+            }
+        }
+    }
+
+    /// d^n, where the power law acts.
+    fn power(&self) -> Series {
+        match &self.stretch {
+            _ if !self.is_pressed => ZERO,
+            Some(stretch) => stretch.power,
+            None => power(&self.depth, self.hertz.exponent),
+        }
     }
 
     /// Sigma at a time: Newton's method on a function that grows, kept inside its bracket.
@@ -90,13 +167,13 @@ impl Segment {
         if elapsed >= self.end {
             return self.contact;
         }
-        if self.is_in_time() {
+        let Some(stretch) = &self.stretch else {
             return elapsed;
-        }
+        };
         let (mut low, mut high) = (0.0, self.contact);
         let mut at = self.contact * (elapsed / self.end);
         for _ in 0..100 {
-            let (time, rate) = evaluate(&self.time, at);
+            let (time, rate) = evaluate(&stretch.time, at);
             if time > elapsed {
                 high = at;
             } else {
@@ -119,34 +196,49 @@ impl Segment {
 
     /// Position in m and velocity in m/s.
     pub fn state(&self, elapsed: f64) -> (f64, f64) {
-        self.state_at(self.parameter_at(elapsed))
+        self.state_of(&self.moved(elapsed))
     }
 
     /// The same at sigma.
     pub fn state_at(&self, sigma: f64) -> (f64, f64) {
-        let depth = self.depth_at(sigma);
-        (self.hertz.origin + depth, value(&self.velocity, sigma))
+        self.state_of(&self.moved_at(sigma))
     }
 
-    fn depth_at(&self, sigma: f64) -> f64 {
-        if self.is_in_time() {
-            self.split_at(sigma).0
+    /// The same where the mass leaves contact, or else where the step ends.
+    pub fn last_state(&self) -> (f64, f64) {
+        self.state_of(&self.last)
+    }
+
+    fn state_of(&self, moved: &Moved) -> (f64, f64) {
+        (self.hertz.origin + moved.deflection, moved.velocity)
+    }
+
+    fn moved(&self, elapsed: f64) -> Moved {
+        if elapsed >= self.end {
+            self.last
         } else {
-            let root = value(&self.root, sigma);
-            root * root
+            self.moved_at(self.parameter_at(elapsed))
         }
     }
 
-    /// The deflection in time, rounded, and what rounding took from it.
-    fn split_at(&self, sigma: f64) -> (f64, f64) {
+    pub(super) fn moved_at(&self, sigma: f64) -> Moved {
+        if let Some(stretch) = &self.stretch {
+            return Moved {
+                deflection: value(&stretch.root, sigma).powi(stretch.index as i32),
+                low: 0.0,
+                velocity: value(&stretch.velocity, sigma),
+            };
+        }
         let start = self.depth[0];
-        let mut way = self.depth;
-        way[0] = self.low;
-        let way = value(&way, sigma);
+        let (way, velocity) = evaluate_from(self.low, &self.depth, sigma);
         // The sum without error of Knuth (1969, 4.2.2, theorem B).
         let sum = start + way;
         let taken = sum - start;
-        (sum, (start - (sum - taken)) + (way - taken))
+        Moved {
+            deflection: sum,
+            low: (start - (sum - taken)) + (way - taken),
+            velocity,
+        }
     }
 
     /// What it was told of its start beyond the rounded position.
@@ -159,11 +251,10 @@ impl Segment {
 
     /// What the step knows of its end beyond the rounded position.
     pub fn finer(&self, elapsed: f64) -> Finer {
-        let sigma = self.parameter_at(elapsed);
-        Finer {
-            deflection: self.depth_at(sigma),
-            low: self.split_at(sigma).1,
-        }
+        let Moved {
+            deflection, low, ..
+        } = self.moved(elapsed);
+        Finer { deflection, low }
     }
 
     /// Push per mass in m/s^2 at sigma.
@@ -173,7 +264,10 @@ impl Segment {
 
     /// Time since departure at sigma, in s.
     pub fn time_at(&self, sigma: f64) -> f64 {
-        value(&self.time, sigma)
+        match &self.stretch {
+            Some(stretch) => value(&stretch.time, sigma),
+            None => sigma,
+        }
     }
 
     /// How far the series hold, in sigma.
@@ -187,14 +281,20 @@ impl Segment {
         // Seen from the face, a surface at the face is at zero exactly.
         let level = level - position * self.hertz.origin;
         let at_face = level == 0.0 && velocity == 0.0 && push == 0.0;
-        let moved = if at_face && !self.is_in_time() {
-            &self.root
-        } else {
-            &self.depth
+        let mut sum = match &self.stretch {
+            Some(stretch) if at_face => stretch.root,
+            _ => self.depth,
         };
-        let mut sum: Series = std::array::from_fn(|k| {
-            position * moved[k] + velocity * self.velocity[k] + push * self.push[k]
-        });
+        for term in &mut sum {
+            *term *= position;
+        }
+        if velocity != 0.0 {
+            let rates = self.velocity();
+            sum = std::array::from_fn(|k| sum[k] + velocity * rates[k]);
+        }
+        if push != 0.0 {
+            sum = std::array::from_fn(|k| sum[k] + push * self.push[k]);
+        }
         sum[0] -= level;
         sum[0] += position * self.low;
         sum
@@ -202,17 +302,19 @@ impl Segment {
 
     /// Work up to `elapsed`; `law` is the part of the constant push that is the phase's own force.
     pub fn work(&self, elapsed: f64, law: f64) -> Power {
-        if self.is_in_time() && self.power == ZERO {
+        if self.stretch.is_none() && !self.is_pressed {
             return self.work_in_time(elapsed, law);
         }
         let kappa = self.hertz.rate() * self.hertz.dissipation;
+        let (velocities, rate) = (self.velocity(), self.rate());
+        let power = if kappa > 0.0 { self.power() } else { ZERO };
         let (mut supplied, mut lost) = (0.0, 0.0);
         for (sigma, weight) in gauss_nodes(self.parameter_at(elapsed)) {
-            let velocity = value(&self.velocity, sigma);
-            let travel = weight * evaluate(&self.time, sigma).1 * velocity;
-            let mut damping = 2.0 * self.flow.modes.decay;
+            let velocity = value(&velocities, sigma);
+            let travel = weight * value(&rate, sigma) * velocity;
+            let mut damping = self.damping;
             if kappa > 0.0 {
-                damping += kappa * value(&self.power, sigma);
+                damping += kappa * value(&power, sigma);
             }
             supplied += travel * (value(&self.push, sigma) - law);
             lost += travel * damping * velocity;
@@ -224,23 +326,23 @@ impl Segment {
     fn work_in_time(&self, elapsed: f64, law: f64) -> Power {
         let mut force = self.push;
         force[0] -= law;
-        let supplied = integral_of_product(&force, &self.velocity, elapsed);
-        let square = integral_of_product(&self.velocity, &self.velocity, elapsed);
-        let lost = 2.0 * self.flow.modes.decay * square;
+        let velocity = self.velocity();
+        let supplied = integral_of_product(&force, &velocity, elapsed);
+        let lost = self.damping * integral_of_product(&velocity, &velocity, elapsed);
         Power { supplied, lost }
     }
 
     /// 2 a + kappa lambda d^n.
     pub fn damping(&self) -> Series {
         let factor = self.hertz.rate() * self.hertz.dissipation;
-        let mut damping = self.power.map(|w| factor * w);
-        damping[0] += 2.0 * self.flow.modes.decay;
+        let mut damping = self.power().map(|w| factor * w);
+        damping[0] += self.damping;
         damping
     }
 
     /// Its integral over time.
     pub(super) fn damping_integral(&self, sigma: f64) -> f64 {
-        product(&derivative(&self.time), &self.damping())
+        product(&self.rate(), &self.damping())
             .iter()
             .enumerate()
             .rev()
@@ -250,15 +352,19 @@ impl Segment {
     /// b + kappa n d^(n-1) (1 + lambda v).
     pub(super) fn stiffness(&self) -> Series {
         let mut sum = ZERO;
-        if self.power != ZERO {
-            let factor = self.hertz.rate() * self.hertz.exponent;
-            let steepness = power(&self.root, 2.0 * self.hertz.exponent - 2.0);
-            let damped = product(&steepness, &self.velocity);
+        if self.is_pressed {
+            let n = self.hertz.exponent;
+            let factor = self.hertz.rate() * n;
+            let steepness = match &self.stretch {
+                Some(stretch) => power(&stretch.root, stretch.index * (n - 1.0)),
+                None => power(&self.depth, n - 1.0),
+            };
+            let damped = product(&steepness, &self.velocity());
             sum = std::array::from_fn(|k| {
                 factor * (steepness[k] + self.hertz.dissipation * damped[k])
             });
         }
-        sum[0] += self.flow.modes.stiffness;
+        sum[0] += self.stiffness;
         sum
     }
 }

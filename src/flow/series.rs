@@ -8,11 +8,26 @@ pub(super) type Series = [f64; DEGREE + 1];
 /// The series that vanishes.
 pub(super) const ZERO: Series = [0.0; DEGREE + 1];
 
-/// The k-th coefficient of a product.
+/// The k-th coefficient of a product: several sums side by side, and last what was computed last.
 #[inline]
 pub(super) fn convolve(a: &Series, b: &Series, k: usize) -> f64 {
-    let pairs = a[..=k].iter().zip(b[..=k].iter().rev());
-    pairs.map(|(a, b)| a * b).sum()
+    if k == 0 {
+        return a[0] * b[0];
+    }
+    let (forward, backward) = (a[1..k].chunks_exact(4), b[1..k].rchunks_exact(4));
+    let ends = forward
+        .remainder()
+        .iter()
+        .zip(backward.remainder().iter().rev());
+    let rest: f64 = ends.map(|(a, b)| a * b).sum();
+    let mut sums = [0.0; 4];
+    for (a, b) in forward.zip(backward) {
+        for lane in 0..4 {
+            sums[lane] += a[lane] * b[3 - lane];
+        }
+    }
+    let inner = (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest;
+    inner + (a[0] * b[k] + a[k] * b[0])
 }
 
 /// The sum of a series at `at`.

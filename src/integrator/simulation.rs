@@ -139,15 +139,15 @@ impl Simulation {
             self.now = until;
             return Ok(ControlFlow::Continue(()));
         }
-        let origin = Origin {
+        let origin = Box::new(Origin {
             motion: self.motion.clone(),
             counts: self.tallies.counts,
             now: self.now,
-        };
+        });
         let mut observers = (&mut self.tallies, observer);
         match self.motion.watch(instant, &mut observers) {
             Ok(flow) => {
-                self.mark = Mark::Before(Box::new(origin));
+                self.mark = Mark::Before(origin);
                 self.now = if flow.is_continue() {
                     until
                 } else {
@@ -172,18 +172,18 @@ impl Simulation {
     /// # Errors
     /// [`MotionError::TimeBackwards`] and [`MotionError::TooFar`].
     pub fn check_reach(&self, until: f64) -> Result<(), MotionError> {
-        self.instant_of(until).map(drop)
-    }
-
-    /// Where an absolute time lies on the clock, unless it is out of range.
-    fn instant_of(&self, until: f64) -> Result<Instant, MotionError> {
         if !(until.is_finite() && until >= self.now) {
             return Err(MotionError::TimeBackwards {
                 until,
                 present: self.now,
             });
         }
-        within_reach(self.motion.clock(), until, self.epoch)?;
+        within_reach(self.motion.clock(), until, self.epoch)
+    }
+
+    /// Where an absolute time lies on the clock, unless it is out of range.
+    fn instant_of(&self, until: f64) -> Result<Instant, MotionError> {
+        self.check_reach(until)?;
         Ok(self.motion.clock().instant(until - self.epoch))
     }
 

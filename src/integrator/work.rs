@@ -36,9 +36,9 @@ pub fn work(arc: &Arc<'_>, mass: f64, free: &Law, elapsed: f64) -> Work {
     let Some(phase) = arc.phase else {
         return Work::default();
     };
-    let power = arc.course.power(elapsed, phase.law.force / mass);
-    let low = arc.course.departure.position;
-    let high = arc.course.node(elapsed).position;
+    let end = arc.course.node(elapsed);
+    let power = arc.course.power(&end, phase.law.force / mass);
+    let (low, high) = (arc.course.departure.position, end.position);
     let stored = phase.store.energy_at(high) - phase.store.energy_at(low);
     Work {
         supplied: mass * power.supplied,

@@ -99,7 +99,7 @@ impl<U: Unit> Instance<U> {
             ));
         }
         self.experiment = Some(Experiment { start, stop });
-        self.start_signals(start);
+        start_signals(&mut self.signals, start);
         self.unit = None;
         Ok(())
     }
@@ -155,44 +155,42 @@ impl<U: Unit> Instance<U> {
         }
     }
 
-    /// The unit, with all that was set taken over.
+    /// The unit, with all that was set taken over; at the start time if it has not begun.
     pub(crate) fn settle(&mut self) -> Result<&mut U, Fault> {
-        let mut unit = match self.unit.take() {
-            Some(unit) => unit,
-            None => self.begin()?,
-        };
-        let taken_over = self.take_over(&mut unit);
-        let unit = self.unit.insert(unit);
-        taken_over.map(|()| unit)
-    }
-
-    /// The unit at the start time.
-    fn begin(&mut self) -> Result<U, Fault> {
         let start = self.time();
-        let unit = U::begin(&self.values, start)?;
-        self.start_signals(start);
-        self.tuned = false;
-        Ok(unit)
-    }
-
-    /// Counts the time of all signals from the start.
-    fn start_signals(&mut self, start: f64) {
-        for signal in &mut self.signals {
-            *signal = Signal::new(signal.derivatives, start);
+        let Self {
+            unit,
+            values,
+            signals,
+            tuned,
+            ..
+        } = self;
+        let unit = match unit {
+            Some(unit) => unit,
+            none => {
+                let unit = none.insert(U::begin(values, start)?);
+                start_signals(signals, start);
+                *tuned = false;
+                unit
+            }
+        };
+        if *tuned {
+            unit.tune(values)?;
+            *tuned = false;
         }
-    }
-
-    fn take_over(&mut self, unit: &mut U) -> Result<(), Fault> {
-        if self.tuned {
-            unit.tune(&self.values)?;
-            self.tuned = false;
-        }
-        for (number, signal) in self.signals.iter_mut().enumerate() {
+        for (number, signal) in signals.iter_mut().enumerate() {
             if signal.pending {
                 unit.drive(number, &signal.derivatives)?;
                 signal.pending = false;
             }
         }
-        Ok(())
+        Ok(unit)
+    }
+}
+
+/// Counts the time of all signals from the start.
+fn start_signals(signals: &mut [Signal], start: f64) {
+    for signal in signals {
+        *signal = Signal::new(signal.derivatives, start);
     }
 }
