@@ -39,13 +39,23 @@ pub(super) fn pinpoint(
         if !within(at) {
             return None;
         }
-        let (near, series) = look(course, guard, start, at);
+        let Look {
+            near,
+            series,
+            from,
+            change,
+        } = Look::new(course, guard, start, at);
         let rest = match reverted(&series) {
             Some(rest) => rest,
             None => newton(&series, 0.0, 0.25 * f64::EPSILON * near.node.elapsed)?,
         };
-        if rest.abs() <= CLOSE * reach {
-            let (position, velocity) = evaluate(&near.position_series(), rest);
+        if rest.abs() <= CLOSE * reach.min(8.0 * at) {
+            let mut further = near.position_series();
+            let rate = std::mem::take(&mut further[1]);
+            further[0] = 0.0;
+            let (way, rise) = evaluate(&further, rest);
+            let position = from.0 + (change.0 + (rate * rest + way));
+            let velocity = from.1 + (change.1 + rise);
             let elapsed = near.node.elapsed + rest;
             return within(elapsed - start).then_some((elapsed, position, velocity));
         }
@@ -54,22 +64,44 @@ pub(super) fn pinpoint(
     None
 }
 
-/// The jets `at` seconds after a start, and the guard's series there: soon after the departure from what has
-/// changed since, so that what is small against the position keeps its digits.
-fn look(course: &Course, guard: &Guard, start: f64, at: f64) -> (Jets, [f64; 6]) {
-    if start == 0.0
-        && let Some((node, (way, rise))) = course.node_soon(at)
-    {
-        let near = Jets::new(course, node);
-        let mut series = near.guard_series(guard);
-        let from = &course.departure;
-        let begin = guard.value(from.position, from.velocity);
-        series[0] = begin + (guard.position * way + guard.velocity * rise);
-        return (near, series);
+/// A state beside the rise: soon after the departure as what has changed since, so that what is small against
+/// the position keeps its digits.
+struct Look {
+    near: Jets,
+    /// The guard there.
+    series: [f64; 6],
+    /// Position and velocity from which it is told.
+    from: (f64, f64),
+    /// What they have changed by.
+    change: (f64, f64),
+}
+
+impl Look {
+    /// `at` seconds after a start.
+    fn new(course: &Course, guard: &Guard, start: f64, at: f64) -> Self {
+        if start == 0.0
+            && let Some((node, change)) = course.node_soon(at)
+        {
+            let near = Jets::new(course, node);
+            let mut series = near.guard_series(guard);
+            let from = (course.departure.position, course.departure.velocity);
+            let begin = guard.value(from.0, from.1);
+            series[0] = begin + (guard.position * change.0 + guard.velocity * change.1);
+            return Self {
+                near,
+                series,
+                from,
+                change,
+            };
+        }
+        let near = Jets::new(course, course.node(start + at));
+        Self {
+            series: near.guard_series(guard),
+            from: (near.node.position, near.node.velocity),
+            change: (0.0, 0.0),
+            near,
+        }
     }
-    let near = Jets::new(course, course.node(start + at));
-    let series = near.guard_series(guard);
-    (near, series)
 }
 
 /// The zero next to 0 through which the series rises, by reverting it, where that is exact.

@@ -4,7 +4,7 @@ use super::creep::Equation;
 use super::hertz::Hertz;
 use super::rungs::Rungs;
 use super::segment::{Segment, Stretch};
-use super::series::{Power, Series, ZERO, convolve, majorant, value};
+use super::series::{Power, Series, Turned, ZERO, convolve, majorant, value};
 use super::taylor::{DEGREE, RECIPROCALS, evaluate, push_series};
 use super::{Departure, Flow};
 
@@ -114,44 +114,43 @@ impl Segment {
         (s[0], v[0]) = (root, from.velocity);
         let (mut cos, mut sin, mut acceleration) = (ZERO, ZERO, ZERO);
         (cos[0], sin[0]) = (from.drive.cos, from.drive.sin);
-        let mut rate = ZERO;
+        let (mut rate, mut roots, mut steepness) = (Turned::ZERO, Turned::ZERO, Turned::ZERO);
         let mut rates = Power::new(index - 1.0, root);
-        let mut steepness = ZERO;
         let mut steepnesses = Power::new(index * (hertz.exponent - 1.0), root);
         let mut rungs = Rungs::new(&from.push);
+        let share = 1.0 / index;
         for k in 0..=DEGREE {
-            rate[k] = rates.coefficient(s, k);
+            roots.set(k, s[k]);
+            let stretch = rates.coefficient(s, &roots, k);
+            rate.set(k, stretch);
+            steepness.set(k, steepnesses.coefficient(s, &roots, k));
             // The deflection itself, not the power of its rounded root: a surface may stand there.
-            segment.depth[k] = if k == 0 {
-                deflection
-            } else {
-                convolve(s, &rate, k)
-            };
-            steepness[k] = steepnesses.coefficient(s, k);
-            power[k] = convolve(&segment.depth, &steepness, k);
-            segment.push[k] = flow.amplitude * cos[k] + from.push.rate() * t[k];
+            segment.depth[k] = if k == 0 { deflection } else { rate.times(s, k) };
+            power[k] = steepness.times(&segment.depth, k);
+            let mut push = flow.amplitude * cos[k] + from.push.rate() * t[k];
             if let Some(rungs) = &mut rungs {
-                segment.push[k] += rungs.coefficient(&rate, k);
+                push += rungs.coefficient(&rate, k);
             }
             let mut pull = b * segment.depth[k];
             if k == 0 {
-                segment.push[0] += from.push.value();
+                push += from.push.value();
                 pull += b * hertz.origin;
             }
+            segment.push[k] = push;
             let mut press = power[k];
             if lambda > 0.0 {
                 press += lambda * convolve(power, v, k);
             }
-            acceleration[k] = segment.push[k] - twice_decay * v[k] - pull - kappa * press;
+            acceleration[k] = push - twice_decay * v[k] - pull - kappa * press;
             if k == DEGREE {
                 break;
             }
             let next = RECIPROCALS[k + 1];
-            s[k + 1] = next * v[k] / index;
-            v[k + 1] = next * convolve(&rate, &acceleration, k);
-            t[k + 1] = next * rate[k];
-            cos[k + 1] = -w * next * convolve(&rate, &sin, k);
-            sin[k + 1] = w * next * convolve(&rate, &cos, k);
+            s[k + 1] = share * next * v[k];
+            v[k + 1] = next * rate.times(&acceleration, k);
+            t[k + 1] = next * stretch;
+            cos[k + 1] = -w * next * rate.times(&sin, k);
+            sin[k + 1] = w * next * rate.times(&cos, k);
         }
         segment.is_pressed = *power != ZERO;
         segment.reach = stretch.reach(flow.reach, from.push.is_linear());

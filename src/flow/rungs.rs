@@ -2,10 +2,10 @@
 
 use super::Polynomial;
 use super::polynomial::HIGHEST_ORDER;
-use super::series::{Series, ZERO, convolve};
+use super::series::{Series, Turned, ZERO};
 
-/// The part of a force beyond its ramp, and its derivatives, as series in sigma with dt = s dsigma: from
-/// rung to rung, d p^(j) / dsigma = s p^(j+1).
+/// The part of a force beyond its ramp, and its derivatives, as series in sigma: from rung to rung,
+/// d p^(j) / dsigma = p^(j+1) dt/dsigma.
 pub(super) struct Rungs([Series; HIGHEST_ORDER + 1]);
 
 impl Rungs {
@@ -21,11 +21,11 @@ impl Rungs {
         })
     }
 
-    /// The force's k-th coefficient, from those of s before the k-th. To be asked for in order.
-    pub fn coefficient(&mut self, s: &Series, k: usize) -> f64 {
+    /// The force's k-th coefficient, from those of dt/dsigma before the k-th. To be asked for in order.
+    pub fn coefficient(&mut self, rate: &Turned, k: usize) -> f64 {
         if let Some(before) = k.checked_sub(1) {
             for j in 0..HIGHEST_ORDER {
-                self.0[j][k] = convolve(s, &self.0[j + 1], before) / k as f64;
+                self.0[j][k] = rate.times(&self.0[j + 1], before) / k as f64;
             }
         }
         self.0[0][k]

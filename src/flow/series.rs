@@ -8,26 +8,57 @@ pub(super) type Series = [f64; DEGREE + 1];
 /// The series that vanishes.
 pub(super) const ZERO: Series = [0.0; DEGREE + 1];
 
-/// The k-th coefficient of a product: several sums side by side, and last what was computed last.
-#[inline]
-pub(super) fn convolve(a: &Series, b: &Series, k: usize) -> f64 {
-    if k == 0 {
-        return a[0] * b[0];
+/// A series from its last coefficient to its first: products with others then run along both.
+#[derive(Debug, Clone)]
+pub(super) struct Turned(Series);
+
+impl Turned {
+    /// The series that vanishes.
+    pub const ZERO: Self = Self(ZERO);
+
+    /// All of a series.
+    pub fn of(series: &Series) -> Self {
+        let mut turned = *series;
+        turned.reverse();
+        Self(turned)
     }
-    let (forward, backward) = (a[1..k].chunks_exact(4), b[1..k].rchunks_exact(4));
-    let ends = forward
-        .remainder()
-        .iter()
-        .zip(backward.remainder().iter().rev());
-    let rest: f64 = ends.map(|(a, b)| a * b).sum();
+
+    /// Sets the k-th coefficient.
+    #[inline(always)]
+    pub fn set(&mut self, k: usize, coefficient: f64) {
+        self.0[DEGREE - k] = coefficient;
+    }
+
+    /// The k-th coefficient of the product with another series. What both had last is added last.
+    #[inline(always)]
+    pub fn times(&self, other: &Series, k: usize) -> f64 {
+        let (a, b) = (&other[..=k], &self.0[DEGREE - k..]);
+        if k == 0 {
+            return a[0] * b[0];
+        }
+        inner_sum(&a[1..k], &b[1..k]) + (a[0] * b[0] + a[k] * b[k])
+    }
+}
+
+/// A sum of products, several of them side by side.
+#[inline(always)]
+fn inner_sum(a: &[f64], b: &[f64]) -> f64 {
+    let (rows_a, rows_b) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest = rows_a.remainder().iter().zip(rows_b.remainder());
+    let rest: f64 = rest.map(|(a, b)| a * b).sum();
     let mut sums = [0.0; 4];
-    for (a, b) in forward.zip(backward) {
+    for (a, b) in rows_a.zip(rows_b) {
         for lane in 0..4 {
-            sums[lane] += a[lane] * b[3 - lane];
+            sums[lane] += a[lane] * b[lane];
         }
     }
-    let inner = (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest;
-    inner + (a[0] * b[k] + a[k] * b[0])
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+/// The k-th coefficient of a product.
+pub(super) fn convolve(a: &Series, b: &Series, k: usize) -> f64 {
+    let pairs = a[..=k].iter().zip(b[..=k].iter().rev());
+    pairs.map(|(a, b)| a * b).sum()
 }
 
 /// The sum of a series at `at`.
@@ -43,7 +74,9 @@ pub(super) fn majorant(series: &Series) -> Series {
 /// A power of a series that is known coefficient by coefficient.
 #[derive(Debug, Clone)]
 pub(super) enum Power {
-    /// A whole number m: the powers 2 to m.
+    /// The zeroth.
+    One,
+    /// A whole number m > 0: the powers 2 to m.
     Whole(Vec<Series>),
     /// Any exponent of a series that does not begin with zero.
     Any { exponent: f64, series: Series },
@@ -58,9 +91,10 @@ impl Power {
     /// The power of a series that begins with `first` >= 0.
     pub fn new(exponent: f64, first: f64) -> Self {
         let start = first.powf(exponent);
-        if exponent.fract() == 0.0 && exponent <= MOST_PRODUCTS {
-            let products = (exponent as usize).saturating_sub(1);
-            Self::Whole(vec![ZERO; products])
+        if exponent == 0.0 {
+            Self::One
+        } else if exponent.fract() == 0.0 && exponent <= MOST_PRODUCTS {
+            Self::Whole(vec![ZERO; exponent as usize - 1])
         } else if start > f64::MIN_POSITIVE {
             let mut series = ZERO;
             series[0] = start;
@@ -70,13 +104,15 @@ impl Power {
         }
     }
 
-    /// The k-th coefficient, from those of `base` up to the k-th. To be asked for in order.
-    pub fn coefficient(&mut self, base: &Series, k: usize) -> f64 {
+    /// The k-th coefficient, from those of `base`, also turned, up to the k-th. To be asked for in order.
+    #[inline]
+    pub fn coefficient(&mut self, base: &Series, turned: &Turned, k: usize) -> f64 {
         match self {
+            Self::One if k == 0 => 1.0,
             Self::Whole(powers) => {
                 for m in 0..powers.len() {
                     let (lower, upper) = powers.split_at_mut(m);
-                    upper[0][k] = convolve(lower.last().unwrap_or(base), base, k);
+                    upper[0][k] = turned.times(lower.last().unwrap_or(base), k);
                 }
                 powers.last().unwrap_or(base)[k]
             }
@@ -89,20 +125,16 @@ impl Power {
                 series[k] = sum / (k as f64 * base[0]);
                 series[k]
             }
-            Self::LeftOut => 0.0,
+            Self::One | Self::LeftOut => 0.0,
         }
     }
 }
 
 /// All coefficients of a power.
 pub(super) fn power(base: &Series, exponent: f64) -> Series {
-    if exponent == 0.0 {
-        let mut one = ZERO;
-        one[0] = 1.0;
-        return one;
-    }
     let mut power = Power::new(exponent, base[0]);
-    std::array::from_fn(|k| power.coefficient(base, k))
+    let turned = Turned::of(base);
+    std::array::from_fn(|k| power.coefficient(base, &turned, k))
 }
 
 /// The product of two series.

@@ -5,24 +5,24 @@
 
 use super::{Departure, Flow};
 
-/// Shares of the reach of a flow, each with the terms beyond which all others together are below 1/20!.
+/// Shares of the reach of a flow, each with the terms beyond which all others are below rounding of the third.
 const TERMS: [(f64, usize); 4] = [
-    (1.0 / 256.0, 6),
-    (1.0 / 32.0, 9),
+    (1.0 / 256.0, 8),
+    (1.0 / 32.0, 10),
     (1.0 / 8.0, 12),
     (1.0 / 4.0, 14),
 ];
 /// The same up to half of it.
 const MOST_TERMS: usize = 17;
 
-/// 1/((n + 1)(n + 2)), 1/(n + 2) and n + 2.
-const FACTORS: [[f64; 3]; MOST_TERMS - 2] = {
-    let mut table = [[0.0; 3]; MOST_TERMS - 2];
-    let mut n = 0;
-    while n < table.len() {
-        let (first, second) = ((n + 1) as f64, (n + 2) as f64);
-        table[n] = [1.0 / (first * second), 1.0 / second, second];
-        n += 1;
+/// 1/((n + 1)(n + 2)), 1/(n + 2) and n + 2, from n = 1 on.
+const FACTORS: [[f64; 3]; MOST_TERMS - 3] = {
+    let mut table = [[0.0; 3]; MOST_TERMS - 3];
+    let mut index = 0;
+    while index < table.len() {
+        let (first, second) = ((index + 2) as f64, (index + 3) as f64);
+        table[index] = [1.0 / (first * second), 1.0 / second, second];
+        index += 1;
     }
     table
 };
@@ -36,32 +36,33 @@ pub(super) fn soon(flow: &Flow, from: &Departure, elapsed: f64) -> (f64, f64) {
     let needed = TERMS.iter().find(|(most, _)| share <= *most);
     let terms = needed.map_or(MOST_TERMS, |(_, terms)| *terms);
     let (angle, square) = (flow.frequency * elapsed, elapsed * elapsed);
-    let damping = 2.0 * flow.modes.decay * elapsed;
+    let damping = flow.damping() * elapsed;
     let stiffness = flow.modes.stiffness * square;
+    let push = from.push.value() + flow.amplitude * from.drive.cos;
+    let start = from
+        .acceleration
+        .unwrap_or_else(|| flow.acceleration(from.position, from.velocity, push));
     // Of order n and n + 1, times t^2.
     let amplitude = square * flow.amplitude;
     let mut drive = [
-        amplitude * from.drive.cos,
         -amplitude * from.drive.sin * angle,
+        -0.5 * angle * angle * amplitude * from.drive.cos,
     ];
-    let mut steady = [
-        square * from.push.value(),
-        square * elapsed * from.push.rate(),
-    ];
-    let mut term = [from.position, from.velocity * elapsed];
-    let mut chosen = from.acceleration;
+    let mut ramp = square * elapsed * from.push.rate();
+    let mut term = [from.velocity * elapsed, 0.5 * start * square];
     let (mut way, mut rise) = (0.0, 0.0);
-    for [both, second, order] in &FACTORS[..terms - 2] {
-        let load = (drive[0] + steady[0]) - stiffness * term[0];
-        let next = match chosen.take() {
-            Some(acceleration) => 0.5 * square * acceleration,
-            None => load * both - damping * second * term[1],
-        };
+    for [both, second, order] in &FACTORS[..terms - 3] {
+        let load = (drive[0] + ramp) - stiffness * term[0];
+        let next = load * both - damping * second * term[1];
         way += next;
         rise += order * next;
         term = [term[1], next];
         drive = [drive[1], -angle * angle * drive[0] * both];
-        steady = [steady[1], 0.0];
+        ramp = 0.0;
     }
-    (from.velocity * elapsed + way, rise / elapsed)
+    let way = 0.5 * start * elapsed * elapsed + way;
+    (
+        from.velocity * elapsed + way,
+        start * elapsed + rise / elapsed,
+    )
 }
