@@ -8,8 +8,7 @@ use super::isolate::{Point, guess};
 use super::jets::Jets;
 use crate::flow::Course;
 
-/// Share of the reach of a Taylor polynomial of degree 19 over which one of degree 5 is exact: the sixth power is
-/// 720 roundings small.
+/// Share of a flow's reach over which a polynomial of degree 5 is exact.
 const CLOSE: f64 = 1.0 / 512.0;
 /// Looks for a state that is so close.
 const LOOKS: usize = 4;

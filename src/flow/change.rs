@@ -6,7 +6,9 @@ use super::course::{Course, Form};
 use super::place::Drive;
 use super::response::Responses;
 use super::segment::Segment;
-use super::series::{Series, ZERO, convolve, derivative, integral_of_product, product, value};
+use super::series::{
+    Series, ZERO, convolve, derivative, integral_of_product, power, product, value,
+};
 use super::taylor::DEGREE;
 
 /// A small change of a motion: of position and velocity at departure, and of the constant push per
@@ -139,5 +141,41 @@ impl Segment {
         let to = self.parameter_at(elapsed);
         let travel = integral_of_product(&rate, &self.velocity(), to);
         integral_of_product(&product(&rate, &push), &changed, to) + by.push * travel
+    }
+
+    /// 2 a + kappa lambda d^n.
+    pub fn damping(&self) -> Series {
+        let factor = self.hertz.rate() * self.hertz.dissipation;
+        let mut damping = self.power().map(|w| factor * w);
+        damping[0] += self.damping;
+        damping
+    }
+
+    /// Its integral over time.
+    pub(super) fn damping_integral(&self, sigma: f64) -> f64 {
+        product(&self.rate(), &self.damping())
+            .iter()
+            .enumerate()
+            .rev()
+            .fold(0.0, |sum, (k, c)| sigma * (c / (k + 1) as f64 + sum))
+    }
+
+    /// b + kappa n d^(n-1) (1 + lambda v).
+    pub(super) fn stiffness(&self) -> Series {
+        let mut sum = ZERO;
+        if self.is_pressed {
+            let n = self.hertz.exponent;
+            let factor = self.hertz.rate() * n;
+            let steepness = match &self.stretch {
+                Some(stretch) => power(&stretch.root, stretch.index * (n - 1.0)),
+                None => power(&self.depth, n - 1.0),
+            };
+            let damped = product(&steepness, &self.velocity());
+            sum = std::array::from_fn(|k| {
+                factor * (steepness[k] + self.hertz.dissipation * damped[k])
+            });
+        }
+        sum[0] += self.stiffness;
+        sum
     }
 }

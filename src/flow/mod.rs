@@ -28,6 +28,7 @@ mod rungs;
 mod segment;
 mod series;
 mod soon;
+mod stretch;
 mod taylor;
 
 pub(crate) use change::Change;

@@ -161,7 +161,7 @@ impl Course {
         );
         let (most, rest) = flow.window_bounds;
         let driven = flow.amplitude * square * square * flow.window * rest;
-        while node.elapsed < until && (node.windows + 1) % ROTATIONS != 0 {
+        while node.elapsed < until && !(node.windows + 1).is_multiple_of(ROTATIONS) {
             let next = self.rotated(&particular, &node);
             let ((y, rate), Drive { cos, sin }) = (node.deviation, node.drive);
             let x4 = cosine * cos + sine * sin + (fourth.0 * y + fourth.1 * rate);

@@ -6,11 +6,21 @@ use super::course::{Course, Form};
 use super::gauss::{few_gauss_nodes, gauss_nodes};
 use super::particular::Particular;
 use super::place::{Drive, Node};
-use super::segment::Power;
+use super::segment::Segment;
+use super::series::{ZERO, integral_of_product, value};
 use super::soon::soon;
 
 /// Share of a flow's reach over which the five-point rule is exact.
 const SHORT: f64 = 0.25;
+
+/// Integrals along a course, per unit of mass, in m^2/s^2.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Power {
+    /// Work of the push, without the law's own constant force.
+    pub supplied: f64,
+    /// Work lost in the phase's damper, the integral of 2 a v^2.
+    pub lost: f64,
+}
 
 impl Course {
     /// Work from departure to a node; `law` is the part of the constant push that is the phase's own
@@ -162,6 +172,40 @@ impl Course {
             + 2.0 * self.flow.modes.decay * (to.position - from.position);
         let area = (push - change) / self.flow.modes.stiffness;
         moved + ramp * (elapsed * to.position - area)
+    }
+}
+
+impl Segment {
+    /// Work up to `elapsed`; `law` is the part of the constant push that is the phase's own force.
+    pub fn work(&self, elapsed: f64, law: f64) -> Power {
+        if self.stretch.is_none() && !self.is_pressed {
+            return self.work_in_time(elapsed, law);
+        }
+        let kappa = self.hertz.rate() * self.hertz.dissipation;
+        let (velocities, rate) = (self.velocity(), self.rate());
+        let power = if kappa > 0.0 { self.power() } else { ZERO };
+        let (mut supplied, mut lost) = (0.0, 0.0);
+        for (sigma, weight) in gauss_nodes(self.parameter_at(elapsed)) {
+            let velocity = value(&velocities, sigma);
+            let travel = weight * value(&rate, sigma) * velocity;
+            let mut damping = self.damping;
+            if kappa > 0.0 {
+                damping += kappa * value(&power, sigma);
+            }
+            supplied += travel * (value(&self.push, sigma) - law);
+            lost += travel * damping * velocity;
+        }
+        Power { supplied, lost }
+    }
+
+    /// The same of a linear law: the integrals of the very polynomials, whatever their degree.
+    fn work_in_time(&self, elapsed: f64, law: f64) -> Power {
+        let mut force = self.push;
+        force[0] -= law;
+        let velocity = self.velocity();
+        let supplied = integral_of_product(&force, &velocity, elapsed);
+        let lost = self.damping * integral_of_product(&velocity, &velocity, elapsed);
+        Power { supplied, lost }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Taylor steps in time itself: those of a linear law under a force that is not linear in time.
 //!
 //! With |r| <= rho for both roots of the law, t^k / k! is answered from rest by coefficients of at most
-//! (n - k - 1) rho^(n-k-2) / n! for t^n. So the first one that a polynomial of degree 19 leaves out is
+//! (n - k - 1) rho^(n-k-2) / n! for t^n. So the first one that the polynomial leaves out is
 //! known beforehand, and the step can be made so short that it is lost in the rounding of the
 //! others. What the drive and the free motion leave out is so over one reach of the flow (see
 //! [`Taylor`]).

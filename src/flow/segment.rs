@@ -18,9 +18,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Flow;
 use super::creep::Creep;
-use super::gauss::gauss_nodes;
 use super::hertz::Hertz;
-use super::series::{Series, ZERO, derivative, integral_of_product, power, product, value};
+use super::series::{Series, ZERO, derivative, power, value};
 use super::taylor::{evaluate, evaluate_from};
 
 /// The motion of one step, as series in sigma.
@@ -91,15 +90,6 @@ pub(crate) struct Finer {
     pub low: f64,
 }
 
-/// Integrals along a course, per unit of mass, in m^2/s^2.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Power {
-    /// Work of the push, without the law's own constant force.
-    pub supplied: f64,
-    /// Work lost in the phase's damper, the integral of 2 a v^2.
-    pub lost: f64,
-}
-
 impl Segment {
     /// One without a motion yet.
     pub(super) fn blank(flow: &Flow, hertz: &Hertz) -> Self {
@@ -154,7 +144,7 @@ impl Segment {
     }
 
     /// d^n, where the power law acts.
-    fn power(&self) -> Series {
+    pub(super) fn power(&self) -> Series {
         match &self.stretch {
             _ if !self.is_pressed => ZERO,
             Some(stretch) => stretch.power,
@@ -297,74 +287,6 @@ impl Segment {
         }
         sum[0] -= level;
         sum[0] += position * self.low;
-        sum
-    }
-
-    /// Work up to `elapsed`; `law` is the part of the constant push that is the phase's own force.
-    pub fn work(&self, elapsed: f64, law: f64) -> Power {
-        if self.stretch.is_none() && !self.is_pressed {
-            return self.work_in_time(elapsed, law);
-        }
-        let kappa = self.hertz.rate() * self.hertz.dissipation;
-        let (velocities, rate) = (self.velocity(), self.rate());
-        let power = if kappa > 0.0 { self.power() } else { ZERO };
-        let (mut supplied, mut lost) = (0.0, 0.0);
-        for (sigma, weight) in gauss_nodes(self.parameter_at(elapsed)) {
-            let velocity = value(&velocities, sigma);
-            let travel = weight * value(&rate, sigma) * velocity;
-            let mut damping = self.damping;
-            if kappa > 0.0 {
-                damping += kappa * value(&power, sigma);
-            }
-            supplied += travel * (value(&self.push, sigma) - law);
-            lost += travel * damping * velocity;
-        }
-        Power { supplied, lost }
-    }
-
-    /// The same of a linear law: the integrals of the very polynomials, whatever their degree.
-    fn work_in_time(&self, elapsed: f64, law: f64) -> Power {
-        let mut force = self.push;
-        force[0] -= law;
-        let velocity = self.velocity();
-        let supplied = integral_of_product(&force, &velocity, elapsed);
-        let lost = self.damping * integral_of_product(&velocity, &velocity, elapsed);
-        Power { supplied, lost }
-    }
-
-    /// 2 a + kappa lambda d^n.
-    pub fn damping(&self) -> Series {
-        let factor = self.hertz.rate() * self.hertz.dissipation;
-        let mut damping = self.power().map(|w| factor * w);
-        damping[0] += self.damping;
-        damping
-    }
-
-    /// Its integral over time.
-    pub(super) fn damping_integral(&self, sigma: f64) -> f64 {
-        product(&self.rate(), &self.damping())
-            .iter()
-            .enumerate()
-            .rev()
-            .fold(0.0, |sum, (k, c)| sigma * (c / (k + 1) as f64 + sum))
-    }
-
-    /// b + kappa n d^(n-1) (1 + lambda v).
-    pub(super) fn stiffness(&self) -> Series {
-        let mut sum = ZERO;
-        if self.is_pressed {
-            let n = self.hertz.exponent;
-            let factor = self.hertz.rate() * n;
-            let steepness = match &self.stretch {
-                Some(stretch) => power(&stretch.root, stretch.index * (n - 1.0)),
-                None => power(&self.depth, n - 1.0),
-            };
-            let damped = product(&steepness, &self.velocity());
-            sum = std::array::from_fn(|k| {
-                factor * (steepness[k] + self.hertz.dissipation * damped[k])
-            });
-        }
-        sum[0] += self.stiffness;
         sum
     }
 }

@@ -2,7 +2,8 @@
 
 use super::{Departure, Drive, Flow};
 
-/// Degree of the polynomials (odd): over one [`reach`](Flow::reach) the remainder is below 1/20!.
+/// Degree of the polynomials (odd): over one [`reach`](Flow::reach) the remainder is far below rounding, and a contact
+/// under a power law costs least.
 pub(crate) const DEGREE: usize = 25;
 
 /// Coefficients of position and drive about one instant, x(s) = sum c_n s^n.

@@ -1,0 +1,141 @@
+//! Taylor steps along a stretched time, at the face of a power law.
+
+use super::expansion::{converges, outgrown, shell};
+use super::hertz::Hertz;
+use super::rungs::Rungs;
+use super::segment::{Segment, Stretch};
+use super::series::{Power, Turned, ZERO, convolve, majorant, value};
+use super::taylor::{DEGREE, RECIPROCALS, evaluate};
+use super::{Departure, Flow};
+
+impl Segment {
+    /// The series in sigma.
+    pub(super) fn from_root(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
+        let index = hertz.root_index().unwrap_or(2.0);
+        let root = deflection.max(0.0).powf(1.0 / index);
+        let (twice_decay, b, w) = (flow.damping(), flow.modes.stiffness, flow.frequency);
+        let (kappa, lambda) = (hertz.rate(), hertz.dissipation);
+        let mut segment = Self::blank(flow, hertz);
+        let mut stretch = Box::new(Stretch {
+            index,
+            root: ZERO,
+            velocity: ZERO,
+            time: ZERO,
+            power: ZERO,
+        });
+        let Stretch {
+            root: s,
+            velocity: v,
+            time: t,
+            power,
+            ..
+        } = &mut *stretch;
+        (s[0], v[0]) = (root, from.velocity);
+        let (mut cos, mut sin, mut acceleration) = (ZERO, ZERO, ZERO);
+        (cos[0], sin[0]) = (from.drive.cos, from.drive.sin);
+        let (mut rate, mut roots, mut steepness) = (Turned::ZERO, Turned::ZERO, Turned::ZERO);
+        let mut rates = Power::new(index - 1.0, root);
+        let mut steepnesses = Power::new(index * (hertz.exponent - 1.0), root);
+        let mut rungs = Rungs::new(&from.push);
+        let share = 1.0 / index;
+        for k in 0..=DEGREE {
+            roots.set(k, s[k]);
+            let stretch = rates.coefficient(s, &roots, k);
+            rate.set(k, stretch);
+            steepness.set(k, steepnesses.coefficient(s, &roots, k));
+            // The deflection itself, not the power of its rounded root: a surface may stand there.
+            segment.depth[k] = if k == 0 { deflection } else { rate.times(s, k) };
+            power[k] = steepness.times(&segment.depth, k);
+            let mut push = flow.amplitude * cos[k] + from.push.rate() * t[k];
+            if let Some(rungs) = &mut rungs {
+                push += rungs.coefficient(&rate, k);
+            }
+            let mut pull = b * segment.depth[k];
+            if k == 0 {
+                push += from.push.value();
+                pull += b * hertz.origin;
+            }
+            segment.push[k] = push;
+            let mut press = power[k];
+            if lambda > 0.0 {
+                press += lambda * convolve(power, v, k);
+            }
+            acceleration[k] = push - twice_decay * v[k] - pull - kappa * press;
+            if k == DEGREE {
+                break;
+            }
+            let next = RECIPROCALS[k + 1];
+            s[k + 1] = share * next * v[k];
+            v[k + 1] = next * rate.times(&acceleration, k);
+            t[k + 1] = next * stretch;
+            cos[k + 1] = -w * next * rate.times(&sin, k);
+            sin[k + 1] = w * next * rate.times(&cos, k);
+        }
+        segment.is_pressed = *power != ZERO;
+        segment.reach = stretch.reach(flow.reach, from.push.is_linear());
+        if !segment.is_pressed && hertz.stiffness > 0.0 {
+            let bounds = [segment.depth, stretch.velocity, stretch.time].map(|s| majorant(&s));
+            segment.reach = shell(hertz, segment.reach, |span| {
+                let [depth, speed, time] = [0, 1, 2].map(|index| value(&bounds[index], span));
+                (depth, speed, time)
+            });
+        }
+        segment.contact = stretch.last_contact(segment.reach);
+        segment.end = value(&stretch.time, segment.contact);
+        segment.stretch = Some(stretch);
+        segment.last = segment.moved_at(segment.contact);
+        segment
+    }
+}
+
+impl Stretch {
+    /// Sigma up to which the last coefficients stay below rounding (Jorba and Zou 2005), and time
+    /// within `limit`.
+    fn reach(&self, limit: f64, is_linear: bool) -> f64 {
+        // With s = s0 + v sigma / m, t is the integral of s^(m - 1).
+        let m = self.index;
+        let speed = (self.velocity[0].abs() / m).powf(m - 1.0);
+        let within = (limit / self.time[1]).min((m * limit / speed).powf(1.0 / m));
+        let holds = converges(&self.root)
+            .min(converges(&self.velocity))
+            .min(within);
+        if is_linear {
+            return holds;
+        }
+        holds
+            .min(outgrown(&self.root))
+            .min(outgrown(&self.velocity))
+    }
+
+    /// The last sigma within reach at which the root is not negative. Within one step it passes zero
+    /// once.
+    fn last_contact(&self, reach: f64) -> f64 {
+        let (mut low, mut high) = (0.0, reach);
+        let mut at = reach;
+        loop {
+            let (root, rate) = evaluate(&self.root, at);
+            if root < 0.0 {
+                high = at;
+            } else if at == reach {
+                return reach;
+            } else {
+                low = at;
+            }
+            let newton = at - root / rate;
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                return low;
+            }
+            // Where Newton's method has settled, the next number on either side tells.
+            at = if newton > low && newton < high {
+                newton
+            } else if newton == low {
+                low.next_up()
+            } else if newton == high {
+                high.next_down()
+            } else {
+                middle
+            };
+        }
+    }
+}
