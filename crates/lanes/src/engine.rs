@@ -13,6 +13,8 @@ use softstop::Start;
 
 /// Registers that go side by side.
 pub(super) const ABREAST: usize = 2;
+/// Rounds after which the drive angle is taken anew from the time.
+const RENEWAL: usize = 16;
 
 /// Follows all jobs with the instruction set asked for, or the widest below it.
 pub(super) fn run<'a>(
@@ -33,15 +35,21 @@ pub(super) fn run<'a>(
     };
     match (plain, instructions) {
         (true, Instructions::OneByOne) => alone(task),
-        (true, _) => dispatch(Plain::<ABREAST>(task), instructions),
+        (true, _) => vectorize(Plain::<ABREAST>(task), instructions)
+            .unwrap_or_else(|Plain(task)| dispatch(Guarded(task), Instructions::Portable)),
         (false, _) => dispatch(Guarded(task), instructions),
     }
 }
 
 /// Does a task with an instruction set, or the widest below it that the processor has. Each is the whole engine
 /// once more, so none is compiled twice.
-#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 pub(super) fn dispatch<T: WithSimd>(task: T, instructions: Instructions) -> T::Output {
+    vectorize(task, instructions).unwrap_or_else(|task| Simd::vectorize(pulp::Scalar, task))
+}
+
+/// The same, or the task back where only the portable instructions are left.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+fn vectorize<T: WithSimd>(task: T, instructions: Instructions) -> Result<T::Output, T> {
     use pulp::x86::{V3, V4};
 
     let wide = match instructions {
@@ -53,17 +61,17 @@ pub(super) fn dispatch<T: WithSimd>(task: T, instructions: Instructions) -> T::O
         _ => V3::try_new(),
     };
     match (wide, narrow) {
-        (Some(simd), _) => Simd::vectorize(simd, task),
-        (None, Some(simd)) => Simd::vectorize(simd, task),
-        (None, None) => Simd::vectorize(pulp::Scalar, task),
+        (Some(simd), _) => Ok(Simd::vectorize(simd, task)),
+        (None, Some(simd)) => Ok(Simd::vectorize(simd, task)),
+        (None, None) => Err(task),
     }
 }
 
 #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-pub(super) fn dispatch<T: WithSimd>(task: T, instructions: Instructions) -> T::Output {
+fn vectorize<T: WithSimd>(task: T, instructions: Instructions) -> Result<T::Output, T> {
     match instructions {
-        Instructions::Widest => pulp::Arch::new().dispatch(task),
-        _ => Simd::vectorize(pulp::Scalar, task),
+        Instructions::Widest => Ok(pulp::Arch::new().dispatch(task)),
+        _ => Err(task),
     }
 }
 
@@ -73,7 +81,7 @@ fn alone(task: Task) -> Vec<Outcome> {
     if let Some(simd) = pulp::x86::V3::try_new() {
         return Simd::vectorize(simd, Plain::<1>(task));
     }
-    dispatch(Plain::<ABREAST>(task), Instructions::Portable)
+    dispatch(Guarded(task), Instructions::Portable)
 }
 
 pub(super) struct Task<'a> {
@@ -110,7 +118,7 @@ impl WithSimd for Guarded<'_> {
 /// All lanes and what they work at. `GUARDED`: phases may end by more than one position.
 pub(super) struct Engine<'a, S: Simd, const GUARDED: bool, const N: usize> {
     pub task: Task<'a>,
-    laws: Vec<Law<S, N>>,
+    pub laws: Vec<Law<S, N>>,
     pub state: State<S, N>,
     /// The job of each lane.
     lanes: Vec<Option<usize>>,
@@ -144,13 +152,18 @@ impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N>
         for lane in 0..Lanes::<S, N>::COUNT.min(self.task.at_once) {
             self.take_next(lane);
         }
+        let mut steps = 0;
         while self.lanes.iter().any(Option::is_some) {
-            let law = self.law();
-            let due = self.due();
-            let reached = self.scan(&law, (due * law.per_window).floor());
-            let (ended, doubtful) = self.look(&law, &reached, due);
-            if (ended | doubtful).any() {
-                self.serve(ended, doubtful);
+            for phase in 0..self.laws.len() {
+                let here = self.state.phase.equals(self.state.phase.like(phase as f64));
+                let active = self.state.busy() & here;
+                if active.any() {
+                    self.step(phase, active);
+                }
+            }
+            steps += 1;
+            if steps % RENEWAL == 0 {
+                self.state.set_angle();
             }
         }
         self.outcomes
@@ -183,15 +196,16 @@ impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N>
         periods.mul_add(drive.period, -offset)
     }
 
-    /// The law of each lane's phase.
+    /// Moves the lanes that are in a phase to the end of it, or as far as they come in a few windows.
     #[inline(always)]
-    pub fn law(&self) -> Law<S, N> {
-        let mut law = self.laws[0];
-        for (index, other) in self.laws.iter().enumerate().skip(1) {
-            let here = self.state.phase.equals(self.state.phase.like(index as f64));
-            law = Law::choose(here, other, &law);
+    fn step(&mut self, phase: usize, active: Mask<S, N>) {
+        let law = &self.laws[phase];
+        let due = self.due();
+        let reached = self.scan(law, active, (due * law.per_window).floor());
+        let (ended, doubtful) = self.look(phase, active, &reached, due);
+        if (ended | doubtful).any() {
+            self.serve(ended, doubtful);
         }
-        law
     }
 
     /// The job of a lane and how many of its periods are complete.

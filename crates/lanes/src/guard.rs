@@ -2,28 +2,34 @@
 
 use pulp::Simd;
 
+use super::cubic::Cubic;
 use super::judge::Stretch;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
+use super::local;
 use super::parts::{Hull, Parts};
-use super::root::{Bracket, Zero, guess};
-use super::state::State;
-use super::taylor::{Series, derivative, evaluate, expand, shifted};
+use super::root::guess;
+use super::taylor::MOMENT;
 
-/// The motion of all lanes over the stretch that they look at: x, or the guard itself where it is the only one.
+/// Instants that are tried for a crossing or a summit before the lane is given up.
+const MOST_TRIES: usize = 6;
+
+/// A window, or the part of it that is looked at.
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Ahead<S: Simd, const N: usize> {
-    x: Series<S, N>,
-    v: Series<S, N>,
+    pub frequency: Lanes<S, N>,
+    /// The motion now, at the end of what is looked at, and a window from now.
+    pub here: Parts<S, N>,
+    pub there: Parts<S, N>,
+    pub next: Parts<S, N>,
     pub span: Lanes<S, N>,
-    /// Its value, rate and second derivative at its end.
-    end: (Lanes<S, N>, Lanes<S, N>, Lanes<S, N>),
 }
 
 /// The guard that each lane has to look at: g = position x + velocity v - level.
 pub(super) struct Guard<S: Simd, const N: usize> {
-    position: Lanes<S, N>,
-    velocity: Lanes<S, N>,
-    level: Lanes<S, N>,
+    pub position: Lanes<S, N>,
+    pub velocity: Lanes<S, N>,
+    pub level: Lanes<S, N>,
     grain: Lanes<S, N>,
     pub slow: Lanes<S, N>,
     slack: Lanes<S, N>,
@@ -41,50 +47,43 @@ pub(super) struct Found<S: Simd, const N: usize> {
     pub hits: Mask<S, N>,
     /// Lanes that the safe engine has to decide.
     pub doubtful: Mask<S, N>,
-    /// Time to the crossing, and the guard's rate there.
+    /// Time to the crossing, or to where the lane may go.
     pub time: Lanes<S, N>,
-    slope: Lanes<S, N>,
+    /// The motion there, its free part not quite, and the guard's rate.
+    pub parts: Parts<S, N>,
+    pub rate: Lanes<S, N>,
+    /// Position and velocity at the crossing; the position where it is not that of a surface.
+    pub position: Lanes<S, N>,
+    pub velocity: Lanes<S, N>,
 }
 
 impl<S: Simd, const N: usize> Ahead<S, N> {
+    /// The motion at a time within the window.
     #[inline(always)]
-    pub fn of<const GUARDED: bool>(
-        law: &Law<S, N>,
-        state: &State<S, N>,
-        parts: &Parts<S, N>,
-        span: Lanes<S, N>,
-    ) -> Self {
-        let mut x = expand(law, state.drive.frequency, parts);
-        x[0] = x[0] - law.edge;
-        let (position, velocity) = evaluate(&x, span);
-        let mut v = x;
-        let mut acceleration = velocity;
-        if GUARDED {
-            v = derivative(&x);
-            acceleration = evaluate(&v, span).1;
-        }
-        Self {
-            x,
-            v,
-            span,
-            end: (position, velocity, acceleration),
-        }
+    fn at(&self, law: &Law<S, N>, time: Lanes<S, N>) -> Parts<S, N> {
+        self.here.at(law, self.frequency, &self.next, time)
+    }
+
+    /// Position from the edge, velocity and acceleration.
+    #[inline(always)]
+    fn state(&self, law: &Law<S, N>, parts: &Parts<S, N>) -> [Lanes<S, N>; 3] {
+        [
+            parts.y + (parts.p - law.edge),
+            parts.u + parts.q,
+            law.acceleration(self.frequency, parts),
+        ]
     }
 }
 
 impl<S: Simd, const N: usize> Guard<S, N> {
     #[inline(always)]
-    pub fn of<const GUARDED: bool>(
-        law: &Law<S, N>,
-        parts: &Parts<S, N>,
-        ahead: &Ahead<S, N>,
-    ) -> Self {
+    pub fn of<const GUARDED: bool>(law: &Law<S, N>, ahead: &Ahead<S, N>) -> Self {
         let share = ahead.span * law.per_window;
         let square = share * share;
         let scale = square * square;
-        let slack = law.slack(parts) * scale;
+        let slack = law.slack(&ahead.here) * scale;
         if GUARDED {
-            Self::of_several(law, parts, ahead, slack, scale)
+            Self::of_several(law, ahead, slack, scale)
         } else {
             Self::of_one(law, slack)
         }
@@ -113,16 +112,15 @@ impl<S: Simd, const N: usize> Guard<S, N> {
     #[inline(always)]
     fn of_several(
         law: &Law<S, N>,
-        parts: &Parts<S, N>,
         ahead: &Ahead<S, N>,
         slack: Lanes<S, N>,
         scale: Lanes<S, N>,
     ) -> Self {
         let one = slack.like(1.0);
         let third = ahead.span * one.like(1.0 / 3.0);
-        let (x, v, acceleration) = ahead.end;
-        let here = (ahead.x[0], ahead.x[1]);
-        let hull = Hull::of(here, (x, v), third, slack);
+        let [x0, v0, a0] = ahead.state(law, &ahead.here);
+        let [x1, v1, a1] = ahead.state(law, &ahead.there);
+        let hull = Hull::of((x0, v0), (x1, v1), third, slack);
         let is_low = law.low.below(hull.low).not();
         let is_high = hull.high.below(law.high).not();
         let mut guard = Self {
@@ -133,34 +131,11 @@ impl<S: Simd, const N: usize> Guard<S, N> {
             several: is_low & is_high,
             ..Self::of_one(law, slack)
         };
-        let rate_slack = law.rate_slack(parts) * scale;
-        let before = (ahead.v[0], ahead.v[1]);
-        let rates = Hull::of(before, (v, acceleration), third, rate_slack);
+        let rate_slack = law.rate_slack(&ahead.here) * scale;
+        let rates = Hull::of((v0, a0), (v1, a1), third, rate_slack);
         let further = law.guard_top(&hull, &rates).below(law.level).not();
         guard.turn_to_further(law, further, rate_slack);
         guard
-    }
-
-    /// Position, velocity and rate of the guard at a crossing; position and velocity at the end of the stretch
-    /// in the lanes without one.
-    #[inline(always)]
-    pub fn crossing<const GUARDED: bool>(
-        &self,
-        law: &Law<S, N>,
-        ahead: &Ahead<S, N>,
-        found: &Found<S, N>,
-    ) -> (Lanes<S, N>, Lanes<S, N>, Lanes<S, N>) {
-        if GUARDED {
-            let time = found.hits.choose(found.time, ahead.span);
-            let (x, v) = evaluate(&ahead.x, time);
-            let acceleration = evaluate(&ahead.v, time).1;
-            let rate = self.velocity.mul_add(acceleration, self.position * v);
-            return (x, v, rate);
-        }
-        let (g, rate, _) = ahead.end;
-        let x = law.side.mul_add(g + law.edge, law.offset);
-        let rate = found.hits.choose(found.slope, rate);
-        (x, law.side * rate, rate)
     }
 
     /// Looks at the further guard in the lanes `at` instead.
@@ -179,118 +154,171 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         self.slow = at.choose(self.slow * law.guard_scale, self.slow);
     }
 
-    /// g as a series.
+    /// Value and rate.
     #[inline(always)]
-    fn series<const GUARDED: bool>(&self, ahead: &Ahead<S, N>) -> Series<S, N> {
-        let mut g = ahead.x;
-        if GUARDED {
-            for (g, rate) in g.iter_mut().zip(&ahead.v) {
-                *g = self.velocity.mul_add(*rate, *g * self.position);
-            }
-            g[0] = g[0] - self.level;
+    fn of_parts<const GUARDED: bool>(
+        &self,
+        law: &Law<S, N>,
+        ahead: &Ahead<S, N>,
+        parts: &Parts<S, N>,
+    ) -> (Lanes<S, N>, Lanes<S, N>) {
+        if !GUARDED {
+            return (parts.y + (parts.p - law.edge), parts.u + parts.q);
         }
-        g
+        let [x, v, a] = ahead.state(law, parts);
+        let by_position = self.position.mul_add(x, -self.level);
+        (
+            self.velocity.mul_add(v, by_position),
+            self.velocity.mul_add(a, self.position * v),
+        )
     }
 
     #[inline(always)]
     pub fn search<const GUARDED: bool>(
         &self,
+        law: &Law<S, N>,
         ahead: &Ahead<S, N>,
         pending: Mask<S, N>,
     ) -> Found<S, N> {
-        let g = self.series::<GUARDED>(ahead);
-        let (x, v, acceleration) = ahead.end;
-        let mut right = (x, v);
-        if GUARDED {
-            let by_position = self.position.mul_add(x, -self.level);
-            right.0 = self.velocity.mul_add(v, by_position);
-            right.1 = self.velocity.mul_add(acceleration, self.position * v);
-        }
-        let stretch = Stretch {
-            left: (g[0], g[1]),
-            right,
-            span: ahead.span,
-            slack: self.slack,
+        let left = self.of_parts::<GUARDED>(law, ahead, &ahead.here);
+        let right = self.of_parts::<GUARDED>(law, ahead, &ahead.there);
+        let single = if GUARDED {
+            pending.and_not(self.several | self.none)
+        } else {
+            pending
         };
-        let verdict = stretch.judge(self.grain, self.slow);
-        let single = pending.and_not(self.several | self.none);
-        let mut clear = (single & verdict.clear) | (pending & self.none);
-        let mut rises = single & verdict.rises;
-        let mut doubtful = single & verdict.touches.and_not(verdict.leaves);
-        let (mut end, mut top) = (ahead.span, right);
-        let hump = single & verdict.hump;
-        if hump.any() {
-            let (at, value, sure) = summit(&g, ahead.span, hump);
-            let over = sure & self.grain.below(value);
-            let under = sure & value.below(-self.grain);
-            clear = clear | under;
-            doubtful = doubtful | hump.and_not(over | under);
-            rises = rises | over;
-            end = over.choose(at, end);
-            top = (over.choose(value, top.0), over.choose(end.like(0.0), top.1));
+        let cubic = Cubic::new(left, right, ahead.span);
+        let touches = (-self.grain).below(left.0);
+        let leaves = touches & left.1.below(-self.slow) & left.0.at_most(self.grain);
+        let root = guess(&cubic, leaves);
+        let sound = single.and_not(touches) | (single & leaves);
+        let mut goal = Goal {
+            clear: if GUARDED {
+                pending & self.none
+            } else {
+                pending.and_not(pending)
+            },
+            rises: sound & cubic.rises(self.slack, root, leaves),
+            humps: pending.and_not(pending),
+            doubtful: single & touches.and_not(leaves),
+            end: ahead.span,
+            at: ahead.span * root,
+        };
+        let open = single.and_not(goal.rises | goal.doubtful);
+        if open.any() {
+            let stretch = Stretch {
+                left,
+                right,
+                span: ahead.span,
+                slack: self.slack,
+            };
+            let verdict = stretch.judge(touches, leaves);
+            goal.clear = goal.clear | (open & verdict.clear);
+            goal.rises = goal.rises | (open & verdict.rises);
+            goal.humps = open & verdict.hump;
+            let top = ahead.span * left.1 / (left.1 - right.1);
+            goal.at = goal.humps.choose(top, goal.at);
         }
         // A crossing within rounding of the end: before it or after?
-        let ends_there = (-self.grain).below(right.0) & g[0].like(0.0).below(right.1);
-        doubtful = doubtful | (clear & single & ends_there);
-        rises = rises.and_not(doubtful);
-        let Zero { at, slope, sure } = first_rise(g, verdict.leaves, end, top, rises);
-        Found {
-            clear: clear.and_not(doubtful),
-            hits: rises & sure,
-            doubtful: doubtful | rises.and_not(sure),
-            time: at,
-            slope,
+        let ends_there = (-self.grain).below(right.0) & left.0.like(0.0).below(right.1);
+        goal.doubtful = goal.doubtful | (goal.clear & single & ends_there);
+        goal.rises = goal.rises.and_not(goal.doubtful);
+        goal.clear = goal.clear.and_not(goal.doubtful);
+        let still = goal.clear.choose(ahead.span, root.like(0.0));
+        goal.at = (goal.rises | goal.humps).choose(goal.at, still);
+        self.reach::<GUARDED>(law, ahead, left, goal)
+    }
+
+    /// Where the lanes come to: those that rise to their crossing, after those with a maximum have found how high
+    /// it is; the others just go there.
+    #[inline(always)]
+    fn reach<const GUARDED: bool>(
+        &self,
+        law: &Law<S, N>,
+        ahead: &Ahead<S, N>,
+        left: (Lanes<S, N>, Lanes<S, N>),
+        mut goal: Goal<S, N>,
+    ) -> Found<S, N> {
+        let zero = ahead.span.like(0.0);
+        let mut tries = 0;
+        loop {
+            let parts = ahead.at(law, goal.at);
+            let derivatives = local::derivatives(law, ahead.frequency, &parts);
+            let weights = (self.position, self.velocity, self.level);
+            let local = local::guard::<S, N, GUARDED>(&derivatives, weights);
+            let mut sought = local;
+            if goal.humps.any() {
+                for (sought, falling) in sought.iter_mut().zip(local::falling(&local)) {
+                    *sought = goal.humps.choose(falling, *sought);
+                }
+            }
+            let zeros = local::zero(&sought, law.window, goal.rises | goal.humps);
+            let hits = goal.rises & zeros.sure;
+            let open = (goal.rises | goal.humps).and_not(hits);
+            tries += 1;
+            if !open.any() || tries > MOST_TRIES {
+                let moment = hits.choose(zeros.time, zero);
+                let (position, velocity) = if GUARDED {
+                    local::state(&derivatives, moment)
+                } else {
+                    (zero, zeros.slope)
+                };
+                return Found {
+                    clear: goal.clear,
+                    hits,
+                    doubtful: goal.doubtful | open,
+                    time: goal.at + moment,
+                    parts: parts.turned::<MOMENT>(ahead.frequency, moment),
+                    rate: zeros.slope,
+                    position,
+                    velocity,
+                };
+            }
+            let next = (goal.at + zeros.time).max(zero).min(goal.end);
+            goal.at = open.choose(next, goal.at);
+            let tops = goal.humps & zeros.sure;
+            if tops.any() {
+                let height = local::value(&local, zeros.time);
+                self.decide(left, tops, height, ahead.span, &mut goal);
+            }
         }
+    }
+
+    /// What becomes of lanes whose maximum is found: below zero, above it, or too close to tell.
+    #[inline(always)]
+    fn decide(
+        &self,
+        left: (Lanes<S, N>, Lanes<S, N>),
+        tops: Mask<S, N>,
+        height: Lanes<S, N>,
+        span: Lanes<S, N>,
+        goal: &mut Goal<S, N>,
+    ) {
+        let over = tops & self.grain.below(height);
+        let under = tops & height.below(-self.grain);
+        let none = height.like(0.0);
+        goal.humps = goal.humps.and_not(tops);
+        goal.clear = goal.clear | under;
+        goal.doubtful = goal.doubtful | tops.and_not(over | under);
+        goal.rises = goal.rises | over;
+        goal.end = over.choose(goal.at, goal.end);
+        let risen = Cubic::new(left, (height, none), goal.end);
+        let root = goal.end * guess(&risen, over.and_not(over));
+        goal.at = over.choose(root, under.choose(span, goal.at));
     }
 }
 
-/// The maximum of g in lanes that have one: where, how high, and whether it was found.
-#[inline(always)]
-fn summit<S: Simd, const N: usize>(
-    g: &Series<S, N>,
-    span: Lanes<S, N>,
-    of: Mask<S, N>,
-) -> (Lanes<S, N>, Lanes<S, N>, Mask<S, N>) {
-    let falls = derivative(g).map(|rate| -rate);
-    let guess = span * span.like(0.5);
-    let bracket = Bracket {
-        series: &falls,
-        span,
-        guess,
-    };
-    let Zero { at, sure, .. } = bracket.solve(of);
-    (at, evaluate(g, at).0, sure)
-}
-
-/// Where g rises through zero in the lanes `of`, between 0 and `end`, where it and its rate are `top`. In the
-/// lanes that leave zero at 0 the rise is that of g(t)/t.
-#[inline(always)]
-fn first_rise<S: Simd, const N: usize>(
-    mut g: Series<S, N>,
-    leaves: Mask<S, N>,
+/// What the lanes look for.
+struct Goal<S: Simd, const N: usize> {
+    /// Lanes that meet nothing.
+    clear: Mask<S, N>,
+    /// Lanes that look for the crossing.
+    rises: Mask<S, N>,
+    /// Lanes that look for the maximum.
+    humps: Mask<S, N>,
+    doubtful: Mask<S, N>,
+    /// Time before which the crossing is.
     end: Lanes<S, N>,
-    top: (Lanes<S, N>, Lanes<S, N>),
-    of: Mask<S, N>,
-) -> Zero<S, N> {
-    let mut right = top;
-    let divided = leaves & of;
-    if divided.any() {
-        let quotient = shifted(&g);
-        for (to, from) in g.iter_mut().zip(quotient) {
-            *to = divided.choose(from, *to);
-        }
-        let mean = top.0 / end;
-        right.0 = divided.choose(mean, top.0);
-        right.1 = divided.choose((top.1 - mean) / end, top.1);
-    }
-    let bracket = Bracket {
-        series: &g,
-        span: end,
-        guess: guess((g[0], g[1]), right, end),
-    };
-    let zero = bracket.solve(of);
-    Zero {
-        slope: divided.choose(zero.slope * zero.at, zero.slope),
-        ..zero
-    }
+    /// Where they look, or go.
+    at: Lanes<S, N>,
 }

@@ -25,17 +25,12 @@ pub(super) struct Verdict<S: Simd, const N: usize> {
     pub rises: Mask<S, N>,
     /// g has one maximum inside and is not above zero at the ends.
     pub hump: Mask<S, N>,
-    /// g begins within the grain of zero.
-    pub touches: Mask<S, N>,
-    /// g begins there and falls.
-    pub leaves: Mask<S, N>,
 }
 
 impl<S: Simd, const N: usize> Stretch<S, N> {
-    /// Judges all lanes. A guard within `grain` of zero at the beginning has to fall there faster
-    /// than `slow`.
+    /// Judges all lanes. `touches`: the guard begins within rounding of zero; `leaves`: and it falls there.
     #[inline(always)]
-    pub fn judge(&self, grain: Lanes<S, N>, slow: Lanes<S, N>) -> Verdict<S, N> {
+    pub fn judge(&self, touches: Mask<S, N>, leaves: Mask<S, N>) -> Verdict<S, N> {
         let ((g0, d0), (g1, d1)) = (self.left, self.right);
         let zero = g0.like(0.0);
         let third = self.span * g0.like(1.0 / 3.0);
@@ -53,9 +48,7 @@ impl<S: Simd, const N: usize> Stretch<S, N> {
         let convex = zero.below(curvatures[0].min(curvatures[1]) - slack);
         let concave = (curvatures[0].max(curvatures[1]) + slack).below(zero);
 
-        let touches = (-grain).below(g0);
         let apart = touches.not();
-        let leaves = touches & d0.below(-slow) & g0.at_most(grain);
         let sound = apart | leaves;
         let above = zero.below(g1);
         let turns = zero.below(d0) & d1.below(zero);
@@ -67,8 +60,6 @@ impl<S: Simd, const N: usize> Stretch<S, N> {
             clear,
             rises,
             hump: hump.and_not(clear),
-            touches,
-            leaves,
         }
     }
 }

@@ -11,8 +11,9 @@ pub(super) struct Lanes<S: Simd, const N: usize> {
     registers: [S::f64s; N],
 }
 
-/// One truth value per lane.
+/// One truth value per lane. Smaller ones would travel packed in one integer, and be unpacked for each use.
 #[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
 pub(super) struct Mask<S: Simd, const N: usize> {
     simd: S,
     registers: [S::m64s; N],
@@ -137,6 +138,12 @@ impl<S: Simd, const N: usize> Mask<S, N> {
             *yes = self.simd.select_f64s(*mask, *yes, no);
         }
         Lanes { registers, ..yes }
+    }
+
+    /// `yes` where true, `no` elsewhere.
+    #[inline(always)]
+    pub fn choose_mask(self, yes: Self, no: Self) -> Self {
+        (self & yes) | no.and_not(self)
     }
 
     /// True where this one is and the other is not.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use pulp::Simd;
 
-use super::lanes::{Lanes, Mask};
+use super::lanes::Lanes;
 use softstop::internals::{Beyond, Exit, Modes, Phase, Phases};
 
 macro_rules! law {
@@ -13,30 +13,31 @@ macro_rules! law {
         #[derive(Debug, Clone, Copy, Default, PartialEq)]
         pub(super) struct Constants {
             $($(#[$doc])* pub $field: f64,)*
+            /// The free motion from (0, 1): position over window as a polynomial of time over window, from its
+            /// linear term on.
+            pub response: [f64; TERMS],
         }
 
         /// The same in all lanes.
         #[derive(Debug, Clone, Copy)]
         pub(super) struct Law<S: Simd, const N: usize> {
             $(pub $field: Lanes<S, N>,)*
+            pub response: [Lanes<S, N>; TERMS],
         }
 
         impl<S: Simd, const N: usize> Law<S, N> {
             #[inline(always)]
             pub fn new(simd: S) -> Self {
                 let none = Lanes::splat(simd, 0.0);
-                Self { $($field: none,)* }
+                Self { $($field: none,)* response: [none; TERMS] }
             }
 
             #[inline(always)]
             pub fn set(&mut self, lane: usize, constants: &Constants) {
                 $(self.$field.set(lane, constants.$field);)*
-            }
-
-            /// `yes` where true, `no` elsewhere.
-            #[inline(always)]
-            pub fn choose(mask: Mask<S, N>, yes: &Self, no: &Self) -> Self {
-                Self { $($field: mask.choose(yes.$field, no.$field),)* }
+                for (lanes, term) in self.response.iter_mut().zip(constants.response) {
+                    lanes.set(lane, term);
+                }
             }
         }
     };
@@ -47,12 +48,17 @@ law! {
     damping,
     /// - b.
     stiffness,
-    /// Particular solution: offset + cosine cos + sine sin; its velocity: cosine_rate cos + sine_rate sin.
+    /// Particular solution: offset + side (cosine cos + sine sin); its velocity: side (cosine_rate cos + sine_rate sin).
     offset,
     cosine,
     sine,
     cosine_rate,
     sine_rate,
+    /// cos and sin of the drive angle from position and velocity of that solution.
+    cosine_of_position,
+    cosine_of_velocity,
+    sine_of_position,
+    sine_of_velocity,
     /// Free motion over one window, and the drive's turn.
     xx,
     xv,
@@ -97,13 +103,21 @@ law! {
     bounce,
     /// 1 where passing high is an impact.
     impact,
+    /// The same of the one end of a phase that only one position ends: where it is, what lies beyond, and how
+    /// velocity and count of impacts change there.
+    end,
+    beyond_end,
+    end_bounce,
+    end_impact,
     /// Positions closer than this to a guard are not decided here, nor velocities below `slow`.
     grain,
     slow,
 }
 
 /// Largest product of window and fastest rate.
-pub(super) const SPAN: f64 = 0.6;
+pub(super) const SPAN: f64 = 1.2;
+/// Terms of the free motion's polynomial: for times of up to half a window, 0.6^16 / 16! < 2e-17.
+pub(super) const TERMS: usize = 15;
 /// Most windows per drive period.
 const FINEST: f64 = 65_536.0;
 /// Least stiffness per mass, in units of the drive's w^2, with which a constant force is described by a static
@@ -155,7 +169,7 @@ impl Constants {
         constants.set_side();
         constants.set_grain(flow.frequency.max(flow.modes.fastest_rate()));
         constants.set_bounds(&flow.modes, flow.frequency);
-        Some(constants)
+        Some(constants.turned(constants.side))
     }
 
     /// True if one position and nothing else ends the phase, and its free motion never grows.
@@ -169,6 +183,21 @@ impl Constants {
         Self {
             side: 1.0,
             edge: -self.offset,
+            ..self.turned(self.side)
+        }
+    }
+
+    /// The steady motion seen from the guard's side.
+    fn turned(&self, side: f64) -> Self {
+        Self {
+            cosine: side * self.cosine,
+            sine: side * self.sine,
+            cosine_rate: side * self.cosine_rate,
+            sine_rate: side * self.sine_rate,
+            cosine_of_position: side * self.cosine_of_position,
+            cosine_of_velocity: side * self.cosine_of_velocity,
+            sine_of_position: side * self.sine_of_position,
+            sine_of_velocity: side * self.sine_of_velocity,
             ..*self
         }
     }
@@ -199,6 +228,7 @@ impl Constants {
         let [[xx, vx], [xv, vv]] = flow.modes.at(window).data.0;
         let (sin, cos) = (w * window).sin_cos();
         let force = phase.law.force / phases.mass;
+        let square = (cosine * cosine + sine * sine).max(f64::MIN_POSITIVE);
         Some(Self {
             damping: -2.0 * flow.modes.decay,
             stiffness: -flow.modes.stiffness,
@@ -211,6 +241,11 @@ impl Constants {
             xv,
             vx,
             vv,
+            response: response(&flow.modes, window),
+            cosine_of_position: cosine / square,
+            cosine_of_velocity: sine / (w * square),
+            sine_of_position: sine / square,
+            sine_of_velocity: -cosine / (w * square),
             turn: cos,
             turn_by_velocity: sin / w,
             turn_by_position: -w * sin,
@@ -224,11 +259,15 @@ impl Constants {
     /// Chooses the one end of a phase.
     fn set_side(&mut self) {
         let is_low = self.high == f64::INFINITY && self.low > f64::NEG_INFINITY;
-        (self.side, self.edge) = if is_low {
-            (-1.0, self.offset - self.low)
+        if is_low {
+            (self.side, self.edge) = (-1.0, self.offset - self.low);
+            (self.end, self.beyond_end, self.end_bounce) = (self.low, self.beyond_low, 1.0);
         } else {
-            (1.0, self.high - self.offset)
-        };
+            (self.side, self.edge) = (1.0, self.high - self.offset);
+            (self.end, self.beyond_end, self.end_bounce) =
+                (self.high, self.beyond_high, self.bounce);
+            self.end_impact = self.impact;
+        }
     }
 
     /// |x''''| <= |y''''| C + |y'''''| S for the free part y, with the bounds C and S on the fundamental
@@ -266,4 +305,19 @@ impl Constants {
         self.slow = SLOW * size * fastest;
         self.guard_scale = self.by_position.abs() + self.by_velocity.abs() * fastest;
     }
+}
+
+/// The free motion's polynomial: x'' + 2 a x' + b x = 0, term by term.
+fn response(modes: &Modes, window: f64) -> [f64; TERMS] {
+    let (damping, stiffness) = (
+        2.0 * modes.decay * window,
+        modes.stiffness * window * window,
+    );
+    let mut terms = [1.0; TERMS];
+    for n in 1..TERMS {
+        let before = if n > 1 { terms[n - 2] } else { 0.0 };
+        let (n, term) = (n as f64, terms[n - 1]);
+        terms[n as usize] = -(damping * n * term + stiffness * before) / (n * (n + 1.0));
+    }
+    terms
 }

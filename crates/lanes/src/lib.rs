@@ -9,12 +9,14 @@
 //! A lane keeps the time since the beginning of its drive period, and takes cos and sin of the drive angle from
 //! it anew before each scan: the drive never drifts. Nothing in the loop calls the mathematical library.
 
+mod cubic;
 mod engine;
 mod guard;
 mod job;
 mod judge;
 mod lanes;
 mod law;
+mod local;
 mod look;
 mod machine;
 mod parts;

@@ -14,91 +14,143 @@ const LEAST: f64 = 1e-12;
 /// Share of a window that is looked at last before the safe engine decides.
 const SHORTEST: f64 = 1.0 / 256.0;
 
+/// Where a lane comes to, and if it crosses there, the phase beyond and the impacts that it makes.
+struct End<S: Simd, const N: usize> {
+    x: Lanes<S, N>,
+    v: Lanes<S, N>,
+    beyond: Lanes<S, N>,
+    impact: Lanes<S, N>,
+}
+
 impl<S: Simd, const GUARDED: bool, const N: usize> Engine<'_, S, GUARDED, N> {
-    /// Looks at what lies ahead of the lanes that the scan has stopped, and moves all on; those that came to
-    /// the end of their job, and those that the safe engine has to take. `due`: time to where each has to
+    /// Looks at what lies ahead of the lanes that the scan has stopped, and moves all `active` ones on; those that
+    /// came to the end of their job, and those that the safe engine has to take. `due`: time to where each has to
     /// stop.
     #[inline(always)]
     pub fn look(
         &mut self,
-        law: &Law<S, N>,
+        phase: usize,
+        active: Mask<S, N>,
         reached: &Reached<S, N>,
         due: Lanes<S, N>,
     ) -> (Mask<S, N>, Mask<S, N>) {
-        let pending = self.state.busy().and_not(reached.go);
+        let law = &self.laws[phase];
+        let pending = active.and_not(reached.go);
         let scanned = reached.count * law.window;
         let remaining = due - scanned;
         let least = law.window * due.like(LEAST);
         let span = (self.state.share * law.window).min(remaining).max(least);
-        let ahead = Ahead::of::<GUARDED>(law, &self.state, &reached.parts, span);
-        let guard = Guard::of::<GUARDED>(law, &reached.parts, &ahead);
-        let found = guard.search::<GUARDED>(&ahead, pending);
-        self.place(law, reached);
-        let (hits, doubtful) = self.move_on(law, &ahead, &guard, &found, scanned);
+        let ahead = self.ahead(law, reached, pending, span);
+        let guard = Guard::of::<GUARDED>(law, &ahead);
+        let found = guard.search::<GUARDED>(law, &ahead, pending);
+        let (hits, doubtful) = self.move_on(phase, active, &guard, &found, scanned);
         let arrived = found.clear & remaining.at_most(span);
-        self.state.share = self.shares(pending, hits | found.clear);
+        self.state.share = self.shares(active, pending.and_not(hits | found.clear));
         let doubtful = doubtful | self.state.share.below(due.like(SHORTEST));
         (self.arrive(arrived), doubtful)
     }
 
-    /// Puts the lanes that have moved where the scan has brought them.
+    /// The next window of all lanes, looked at for a time `span` in the lanes `pending`.
     #[inline(always)]
-    fn place(&mut self, law: &Law<S, N>, reached: &Reached<S, N>) {
-        let Parts { y, u, p, q } = reached.parts;
-        let state = &mut self.state;
-        let moved = y.like(0.0).below(reached.count);
-        state.x = moved.choose(law.side.mul_add(y + p, law.offset), state.x);
-        state.v = moved.choose(law.side * (u + q), state.v);
+    fn ahead(
+        &self,
+        law: &Law<S, N>,
+        reached: &Reached<S, N>,
+        pending: Mask<S, N>,
+        span: Lanes<S, N>,
+    ) -> Ahead<S, N> {
+        let frequency = self.state.drive.frequency;
+        let here = reached.parts;
+        let next = here.next(law);
+        let mut there = next;
+        let part = pending & span.below(law.window);
+        if part.any() {
+            let at = here.at(law, frequency, &next, part.choose(span, law.window));
+            there = Parts::choose(part, &at, &next);
+        }
+        Ahead {
+            frequency,
+            here,
+            there,
+            next,
+            span,
+        }
     }
 
-    /// Moves the lanes that meet nothing to the end of their stretch, and those that cross to the crossing; the
-    /// latter, and those that the safe engine has to take.
+    /// Moves the active lanes to where they may go or to their crossing; those that cross, and those that the
+    /// safe engine has to take.
     #[inline(always)]
     fn move_on(
         &mut self,
-        law: &Law<S, N>,
-        ahead: &Ahead<S, N>,
+        phase: usize,
+        active: Mask<S, N>,
         guard: &Guard<S, N>,
         found: &Found<S, N>,
         scanned: Lanes<S, N>,
     ) -> (Mask<S, N>, Mask<S, N>) {
+        let law = &self.laws[phase];
         let zero = scanned.like(0.0);
-        let (x, v, rate) = guard.crossing::<GUARDED>(law, ahead, found);
-        let hits = found.hits & guard.slow.below(rate);
-        let moves = hits | found.clear;
-        let is_high = guard.is_low.not().and_not(guard.is_further);
-        let at_high = hits & is_high;
-        let at_low = hits & guard.is_low;
-        let at_further = hits & guard.is_further;
+        let hits = found.hits & guard.slow.below(found.rate);
+        let doubtful = found.doubtful | found.hits.and_not(hits);
+        let time = scanned + found.time;
+        let moved = active.and_not(doubtful) & zero.below(time);
+        let parts = &found.parts;
+        let (x, v) = (
+            law.side.mul_add(parts.y + parts.p, law.offset),
+            law.side * hits.choose(found.velocity, parts.u + parts.q),
+        );
         let state = &mut self.state;
-        let x = at_high.choose(law.high, at_low.choose(law.low, x));
-        let turned = if GUARDED {
+        let (end, is_impact) = if GUARDED {
+            let is_high = guard.is_low.not().and_not(guard.is_further);
+            let at_high = hits & is_high;
+            let at_further = hits & guard.is_further;
             let turns = at_further & law.by_position.equals(zero);
-            turns.choose(zero, v)
+            let turned = turns.choose(zero, v);
+            let x = at_further.choose(found.position, x);
+            let beyond = is_high.choose(law.beyond_high, law.beyond_low);
+            (
+                End {
+                    x: at_high.choose(law.high, (hits & guard.is_low).choose(law.low, x)),
+                    v: at_high.choose(v * law.bounce, turned),
+                    beyond: guard.is_further.choose(law.beyond_guard, beyond),
+                    impact: at_high.choose(law.impact, zero),
+                },
+                at_high & zero.below(law.impact),
+            )
         } else {
-            v
+            (
+                End {
+                    x: hits.choose(law.end, x),
+                    v: hits.choose(v * law.end_bounce, v),
+                    beyond: law.beyond_end,
+                    impact: law.end_impact,
+                },
+                hits & zero.below(law.end_impact),
+            )
         };
-        state.x = moves.choose(x, state.x);
-        state.v = moves.choose(at_high.choose(v * law.bounce, turned), state.v);
-        let time = hits.choose(found.time, ahead.span);
-        state.pass(scanned + moves.choose(time, zero), !self.task.watch.periods);
-        state.impacts = at_high.choose(state.impacts + law.impact, state.impacts);
-        let beyond = at_high.choose(law.beyond_high, law.beyond_low);
-        let beyond = at_further.choose(law.beyond_guard, beyond);
-        state.phase = hits.choose(beyond, state.phase);
-        if self.task.watch.impacts {
-            self.tell_impacts(at_high & zero.below(law.impact), v);
+        state.x = moved.choose(end.x, state.x);
+        state.v = moved.choose(end.v, state.v);
+        state.phase = hits.choose(end.beyond, state.phase);
+        state.impacts = hits.choose(state.impacts + end.impact, state.impacts);
+        let (cos, sin) = law.angle(parts);
+        state.angle.0 = moved.choose(cos, state.angle.0);
+        state.angle.1 = moved.choose(sin, state.angle.1);
+        state.offset = moved.choose(state.offset + time, state.offset);
+        if !self.task.watch.periods {
+            state.wrap();
         }
-        (hits, found.doubtful | found.hits.and_not(hits))
+        if self.task.watch.impacts {
+            self.tell_impacts(is_impact, v);
+        }
+        (hits, doubtful)
     }
 
-    /// Shares of a window that are looked at next: half of that which could not be decided.
+    /// Shares of a window that the active lanes look at next: half of that which could not be decided.
     #[inline(always)]
-    fn shares(&self, pending: Mask<S, N>, moves: Mask<S, N>) -> Lanes<S, N> {
+    fn shares(&self, active: Mask<S, N>, undecided: Mask<S, N>) -> Lanes<S, N> {
         let share = self.state.share;
-        let one = share.like(1.0);
         let halved = share * share.like(0.5);
-        pending.and_not(moves).choose(halved, one)
+        undecided.choose(halved, active.choose(share.like(1.0), share))
     }
 
     /// Lets the lanes that have come to the end of a period or their job begin the next one; those that have
@@ -118,6 +170,8 @@ impl<S: Simd, const GUARDED: bool, const N: usize> Engine<'_, S, GUARDED, N> {
         };
         state.left = arrived.choose(left, state.left);
         state.offset = arrived.choose(zero, state.offset);
+        state.angle.0 = arrived.choose(state.drive.begin.0, state.angle.0);
+        state.angle.1 = arrived.choose(state.drive.begin.1, state.angle.1);
         if periods {
             self.tell_periods(arrived);
         }

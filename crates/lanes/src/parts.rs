@@ -4,6 +4,7 @@ use pulp::Simd;
 
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
+use super::taylor::{HALF_WINDOW, cos_sinc};
 
 /// A motion as the sum of a free one (y, u) and the steady one (p, q): positions and velocities.
 #[derive(Debug, Clone, Copy)]
@@ -52,6 +53,58 @@ impl<S: Simd, const N: usize> Parts<S, N> {
         }
     }
 
+    /// The parts after `time` of at most a window, `next` being those at its end.
+    #[inline(always)]
+    pub fn at(
+        &self,
+        law: &Law<S, N>,
+        frequency: Lanes<S, N>,
+        next: &Self,
+        time: Lanes<S, N>,
+    ) -> Self {
+        let late = (law.window * time.like(0.5)).below(time);
+        let base = Self::choose(late, next, self);
+        base.after(law, frequency, late.choose(time - law.window, time))
+    }
+
+    /// The parts after `time` of at most half a window either way.
+    #[inline(always)]
+    fn after(&self, law: &Law<S, N>, frequency: Lanes<S, N>, time: Lanes<S, N>) -> Self {
+        let Self { y, u, p, q } = *self;
+        let share = time * law.per_window;
+        let mut position = law.response[law.response.len() - 1];
+        let mut vv = position.like(0.0);
+        for term in law.response[..law.response.len() - 1].iter().rev() {
+            vv = vv.mul_add(share, position);
+            position = position.mul_add(share, *term);
+        }
+        vv = vv.mul_add(share, position);
+        let xv = position * time;
+        let xx = vv - law.damping * xv;
+        let vx = law.stiffness * xv;
+        Self {
+            y: xx.mul_add(y, xv * u),
+            u: vx.mul_add(y, vv * u),
+            p,
+            q,
+        }
+        .turned::<HALF_WINDOW>(frequency, time)
+    }
+
+    /// The same with the drive turned on for a `time` that this many terms are enough for.
+    #[inline(always)]
+    pub fn turned<const TERMS: usize>(&self, frequency: Lanes<S, N>, time: Lanes<S, N>) -> Self {
+        let angle = frequency * time;
+        let (cos, sinc) = cos_sinc::<S, N, TERMS>(angle * angle);
+        let by_velocity = sinc * time;
+        let by_position = -(sinc * angle * frequency);
+        Self {
+            p: cos.mul_add(self.p, by_velocity * self.q),
+            q: cos.mul_add(self.q, by_position * self.p),
+            ..*self
+        }
+    }
+
     #[inline(always)]
     pub fn choose(mask: Mask<S, N>, yes: &Self, no: &Self) -> Self {
         Self {
@@ -81,6 +134,26 @@ impl<S: Simd, const N: usize> Law<S, N> {
         let fifth = self.rate_fifth_x.mul_add(y, self.rate_fifth_v * u).abs();
         let sixth = self.rate_sixth_x.mul_add(y, self.rate_sixth_v * u).abs();
         self.rate_steady + fifth + sixth
+    }
+
+    /// cos and sin of the drive angle.
+    #[inline(always)]
+    pub fn angle(&self, parts: &Parts<S, N>) -> (Lanes<S, N>, Lanes<S, N>) {
+        let Parts { p, q, .. } = *parts;
+        (
+            self.cosine_of_position
+                .mul_add(p, self.cosine_of_velocity * q),
+            self.sine_of_position.mul_add(p, self.sine_of_velocity * q),
+        )
+    }
+
+    /// The next two derivatives of a free motion.
+    #[inline(always)]
+    pub fn next_derivative(
+        &self,
+        (free, rate): (Lanes<S, N>, Lanes<S, N>),
+    ) -> (Lanes<S, N>, Lanes<S, N>) {
+        (rate, self.stiffness.mul_add(free, self.damping * rate))
     }
 
     /// x'' of the two parts together.

@@ -2,6 +2,7 @@
 
 use pulp::Simd;
 
+use super::cubic::Cubic;
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
@@ -28,26 +29,26 @@ impl<S: Simd, const GUARDED: bool, const N: usize> Engine<'_, S, GUARDED, N> {
     /// The motion of all lanes in units of their guard: g = side (x - offset) - edge.
     #[inline(always)]
     pub fn parts(&self, law: &Law<S, N>) -> Parts<S, N> {
-        let (cos, sin) = self.state.angle();
+        let (cos, sin) = self.state.angle;
         let p = law.cosine.mul_add(cos, law.sine * sin);
         let q = law.cosine_rate.mul_add(cos, law.sine_rate * sin);
         let side = law.side;
         Parts {
-            y: side * (self.state.x - law.offset - p),
-            u: side * (self.state.v - q),
-            p: side * p,
-            q: side * q,
+            y: side.mul_add(self.state.x - law.offset, -p),
+            u: side.mul_add(self.state.v, -q),
+            p,
+            q,
         }
     }
 
     /// Moves the lanes on for a while, or until each stands before a window in which something may happen, or
     /// that is its last. `cap`: windows before that one.
     #[inline(always)]
-    pub fn scan(&self, law: &Law<S, N>, cap: Lanes<S, N>) -> Reached<S, N> {
+    pub fn scan(&self, law: &Law<S, N>, active: Mask<S, N>, cap: Lanes<S, N>) -> Reached<S, N> {
         let reached = Reached {
             parts: self.parts(law),
             count: cap.like(0.0),
-            go: self.state.busy() & self.state.share.equals(cap.like(1.0)),
+            go: active & self.state.share.equals(cap.like(1.0)),
         };
         if GUARDED {
             self.scan_between(law, cap, reached)
@@ -99,7 +100,7 @@ fn scan_below<S: Simd, const N: usize>(
     let mut parts = reached.parts;
     let slack = law.slack(&parts);
     let (x, v) = (parts.y + parts.p, parts.u + parts.q);
-    let apart = (law.edge - law.grain).below(x).not();
+    let mut apart = (law.edge - law.grain).below(x).not();
     let leaves = v.below(-law.slow);
     reached.go = reached.go & (apart | leaves);
     let limit = law.edge - slack;
@@ -107,12 +108,22 @@ fn scan_below<S: Simd, const N: usize>(
     // On the edge the first two Bernstein coefficients need no proof.
     top = apart.choose(top.max(x), one.like(f64::NEG_INFINITY));
     let mut below = apart.choose(limit, one.like(-LEAVING).mul_add(slack, law.edge));
-    for _ in 0..MOST_WINDOWS {
+    for window in 0..MOST_WINDOWS {
         let next = parts.next(law);
         let (x, v) = (next.y + next.p, next.u + next.q);
         let reach = law.third * v;
-        let clear = top.max(x.max(x - reach)).below(below);
-        reached.go = reached.go & clear & reached.count.below(cap);
+        let mut clear = top.max(x.max(x - reach)).below(below);
+        let blocked = reached.go.and_not(clear);
+        if blocked.any() {
+            let suspect = blocked & apart & x.below(limit);
+            if suspect.any() {
+                let left = (parts.y + parts.p, parts.u + parts.q);
+                let top = Cubic::new(left, (x, v), law.window).top();
+                clear = clear | (suspect & top.below(limit));
+            }
+        }
+        apart = one.at_most(one);
+        reached.go = reached.go & clear & one.like(window as f64).below(cap);
         if !reached.go.any() {
             break;
         }

@@ -12,6 +12,8 @@ use softstop::Start;
 pub(super) struct State<S: Simd, const N: usize> {
     pub x: Lanes<S, N>,
     pub v: Lanes<S, N>,
+    /// cos and sin of the drive angle.
+    pub angle: (Lanes<S, N>, Lanes<S, N>),
     /// Seconds since the beginning of the drive period.
     pub offset: Lanes<S, N>,
     /// Drive periods left, the present one included; none in a lane without a job.
@@ -44,6 +46,7 @@ impl<S: Simd, const N: usize> State<S, N> {
         Self {
             x: none,
             v: none,
+            angle: (one, none),
             offset: none,
             left: none,
             phase: none,
@@ -74,6 +77,8 @@ impl<S: Simd, const N: usize> State<S, N> {
     pub fn resume(&mut self, lane: usize, state: Start, phase: usize, left: u64) {
         self.x.set(lane, state.position);
         self.v.set(lane, state.velocity);
+        self.angle.0.set(lane, self.drive.begin.0.get(lane));
+        self.angle.1.set(lane, self.drive.begin.1.get(lane));
         self.offset.set(lane, 0.0);
         self.left.set(lane, left as f64);
         self.phase.set(lane, phase as f64);
@@ -109,24 +114,25 @@ impl<S: Simd, const N: usize> State<S, N> {
         impacts
     }
 
-    /// cos and sin of the drive angle.
+    /// Takes the drive angle anew from the time.
     #[inline(always)]
-    pub fn angle(&self) -> (Lanes<S, N>, Lanes<S, N>) {
+    pub fn set_angle(&mut self) {
         let (c, s) = cos_sin(self.offset * self.drive.per_period);
         let (c0, s0) = self.drive.begin;
-        (c0 * c - s0 * s, s0 * c + c0 * s)
+        self.angle = (c0 * c - s0 * s, s0 * c + c0 * s);
     }
 
-    /// Lets time pass; `wraps`: across the ends of periods.
+    /// Counts the ends of periods that have passed.
     #[inline(always)]
-    pub fn pass(&mut self, time: Lanes<S, N>, wraps: bool) {
-        self.offset = self.offset + time;
-        if wraps {
-            let (zero, one) = (time.like(0.0), time.like(1.0));
-            let periods = (self.offset * self.drive.per_period).floor();
-            let periods = periods.min(self.left - one).max(zero);
-            self.left = self.left - periods;
-            self.offset = (self.offset - periods * self.drive.period).max(zero);
+    pub fn wrap(&mut self) {
+        let one = self.left.like(1.0);
+        loop {
+            let wraps = self.drive.period.at_most(self.offset) & one.below(self.left);
+            if !wraps.any() {
+                break;
+            }
+            self.left = wraps.choose(self.left - one, self.left);
+            self.offset = wraps.choose(self.offset - self.drive.period, self.offset);
         }
     }
 }

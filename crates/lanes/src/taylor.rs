@@ -1,27 +1,16 @@
-//! The motion of all lanes about one instant each.
+//! Sines and cosines without the mathematical library.
 
 use std::f64::consts::TAU;
 
 use pulp::Simd;
 
 use super::lanes::Lanes;
-use super::law::Law;
-use super::parts::Parts;
 
-/// Degree of the polynomials: over one window, (rate t)^16 / 16! < 2e-17.
-const DEGREE: usize = 15;
-/// Coefficients of x(t), constant first.
-pub(super) type Series<S, const N: usize> = [Lanes<S, N>; DEGREE + 1];
-
-const INVERSE_FACTORIALS: [f64; DEGREE + 1] = {
-    let mut table = [1.0; DEGREE + 1];
-    let mut n = 2;
-    while n <= DEGREE {
-        table[n] = table[n - 1] / n as f64;
-        n += 1;
-    }
-    table
-};
+/// Terms of the sums: for half a window, 0.6^16 / 16! < 2e-17, for an eighth of a turn, and for a moment,
+/// 0.02^8 / 8! < 1e-18.
+pub(super) const HALF_WINDOW: usize = 7;
+const EIGHTH: usize = 8;
+pub(super) const MOMENT: usize = 3;
 
 /// cos and sin of `turns` full turns, of 0 to 1.
 #[inline(always)]
@@ -30,11 +19,9 @@ pub(super) fn cos_sin<S: Simd, const N: usize>(turns: Lanes<S, N>) -> (Lanes<S, 
     let quarter = turns.mul_add(turns.like(4.0), turns.like(0.5)).floor();
     let rest = quarter.mul_add(turns.like(-0.25), turns);
     let angle = rest * turns.like(TAU);
-    let square = -(angle * angle);
-    let (c, s) = (
-        alternating::<S, N, 0>(square),
-        angle * alternating::<S, N, 1>(square),
-    );
+    let square = angle * angle;
+    let c = alternating::<S, N, EIGHTH>(square, 0);
+    let s = angle * alternating::<S, N, EIGHTH>(square, 1);
     let second = one + one;
     let odd = (quarter - second).abs().equals(one);
     let (even_c, even_s) = (odd.choose(-s, c), odd.choose(c, s));
@@ -46,86 +33,40 @@ pub(super) fn cos_sin<S: Simd, const N: usize>(turns: Lanes<S, N>) -> (Lanes<S, 
     )
 }
 
-/// 1 + q / ((k+1)(k+2)) (1 + q / ((k+3)(k+4)) (...)) from k = `ODD` on: the cosine for q = -a^2, or the sine
-/// over a.
+/// The cosine of a small angle, and the sine over the angle, from its square.
 #[inline(always)]
-fn alternating<S: Simd, const N: usize, const ODD: usize>(square: Lanes<S, N>) -> Lanes<S, N> {
-    let one = square.like(1.0);
-    let mut sum = one;
-    for n in (0..8).rev() {
-        let k = (2 * n + ODD) as f64;
-        sum = (square * square.like(1.0 / ((k + 1.0) * (k + 2.0)))).mul_add(sum, one);
+pub(super) fn cos_sinc<S: Simd, const N: usize, const TERMS: usize>(
+    square: Lanes<S, N>,
+) -> (Lanes<S, N>, Lanes<S, N>) {
+    (
+        alternating::<S, N, TERMS>(square, 0),
+        alternating::<S, N, TERMS>(square, 1),
+    )
+}
+
+/// 1 - q odd!/(odd + 2)! + q^2 odd!/(odd + 4)! - ..., q = angle^2: the cosine for `odd` = 0, the sine over the
+/// angle for 1.
+#[inline(always)]
+fn alternating<S: Simd, const N: usize, const TERMS: usize>(
+    square: Lanes<S, N>,
+    odd: usize,
+) -> Lanes<S, N> {
+    let mut sum = square.like(ALTERNATING[odd][TERMS]);
+    for n in (0..TERMS).rev() {
+        sum = sum.mul_add(square, square.like(ALTERNATING[odd][n]));
     }
     sum
 }
 
-/// Series of the sum of a free motion and a steady one.
-#[inline(always)]
-pub(super) fn expand<S: Simd, const N: usize>(
-    law: &Law<S, N>,
-    frequency: Lanes<S, N>,
-    parts: &Parts<S, N>,
-) -> Series<S, N> {
-    let turn = -(frequency * frequency);
-    let mut series = [parts.y + parts.p; DEGREE + 1];
-    series[1] = parts.u + parts.q;
-    let (mut free, mut rate) = (parts.y, parts.u);
-    let mut steady = [parts.p, parts.q];
-    for n in 2..=DEGREE {
-        let next = law.stiffness.mul_add(free, law.damping * rate);
-        (free, rate) = (rate, next);
-        steady[n % 2] = steady[n % 2] * turn;
-        series[n] = (rate + steady[n % 2]) * turn.like(INVERSE_FACTORIALS[n]);
-    }
-    series
-}
+const ALTERNATING: [[f64; EIGHTH + 1]; 2] = [factorials(0), factorials(1)];
 
-/// Value and slope of a series.
-#[inline(always)]
-pub(super) fn evaluate<S: Simd, const N: usize>(
-    series: &Series<S, N>,
-    t: Lanes<S, N>,
-) -> (Lanes<S, N>, Lanes<S, N>) {
-    let mut value = series[DEGREE];
-    let mut slope = value.like(0.0);
-    for coefficient in series[..DEGREE].iter().rev() {
-        slope = slope.mul_add(t, value);
-        value = value.mul_add(t, *coefficient);
+const fn factorials(odd: usize) -> [f64; EIGHTH + 1] {
+    let mut table = [1.0; EIGHTH + 1];
+    let mut n = 1;
+    while n <= EIGHTH {
+        let k = 2 * n + odd;
+        table[n] = -table[n - 1] / (k * (k - 1)) as f64;
+        n += 1;
     }
-    (value, slope)
-}
-
-/// Value, slope and half the curvature.
-#[inline(always)]
-pub(super) fn evaluate_twice<S: Simd, const N: usize>(
-    series: &Series<S, N>,
-    t: Lanes<S, N>,
-) -> (Lanes<S, N>, Lanes<S, N>, Lanes<S, N>) {
-    let mut value = series[DEGREE];
-    let mut slope = value.like(0.0);
-    let mut bend = slope;
-    for coefficient in series[..DEGREE].iter().rev() {
-        bend = bend.mul_add(t, slope);
-        slope = slope.mul_add(t, value);
-        value = value.mul_add(t, *coefficient);
-    }
-    (value, slope, bend)
-}
-
-/// The series of the velocity.
-#[inline(always)]
-pub(super) fn derivative<S: Simd, const N: usize>(series: &Series<S, N>) -> Series<S, N> {
-    let mut rates = [series[0].like(0.0); DEGREE + 1];
-    for n in 1..=DEGREE {
-        rates[n - 1] = series[n] * series[n].like(n as f64);
-    }
-    rates
-}
-
-/// The series divided by t, where it begins with zero.
-#[inline(always)]
-pub(super) fn shifted<S: Simd, const N: usize>(series: &Series<S, N>) -> Series<S, N> {
-    let mut next = [series[0].like(0.0); DEGREE + 1];
-    next[..DEGREE].copy_from_slice(&series[1..]);
-    next
+    table
 }

@@ -1,0 +1,108 @@
+//! The cubic with given values and slopes at the ends of a stretch.
+
+use pulp::Simd;
+
+use super::lanes::{Lanes, Mask};
+
+/// In units of the stretch: c(t) = value + t (slope + t (bend + (t - 1) twist)).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cubic<S: Simd, const N: usize> {
+    pub value: Lanes<S, N>,
+    pub slope: Lanes<S, N>,
+    pub bend: Lanes<S, N>,
+    pub twist: Lanes<S, N>,
+    end: Lanes<S, N>,
+    last_slope: Lanes<S, N>,
+}
+
+impl<S: Simd, const N: usize> Cubic<S, N> {
+    #[inline(always)]
+    pub fn new(
+        left: (Lanes<S, N>, Lanes<S, N>),
+        right: (Lanes<S, N>, Lanes<S, N>),
+        span: Lanes<S, N>,
+    ) -> Self {
+        let (slope, last_slope) = (span * left.1, span * right.1);
+        let rise = right.0 - left.0;
+        Self {
+            value: left.0,
+            slope,
+            bend: rise - slope,
+            twist: slope + last_slope - (rise + rise),
+            end: right.0,
+            last_slope,
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, t: Lanes<S, N>) -> Lanes<S, N> {
+        let one = t.like(1.0);
+        let bend = (t - one).mul_add(self.twist, self.bend);
+        t.mul_add(t.mul_add(bend, self.slope), self.value)
+    }
+
+    /// Its largest value on the stretch.
+    #[inline(always)]
+    pub fn top(&self) -> Lanes<S, N> {
+        let Self {
+            slope,
+            bend,
+            twist,
+            last_slope,
+            ..
+        } = *self;
+        // The slope is slope (1 - t)^2 + 2 middle t (1 - t) + last_slope t^2; it turns from up to down at a fraction
+        // whose digits do not cancel.
+        let middle = (bend - twist) + slope;
+        let half = slope - middle;
+        let root = middle.mul_add(middle, -(slope * last_slope)).square_root();
+        let (zero, one) = (slope.like(0.0), slope.like(1.0));
+        let up = zero.at_most(half);
+        let over = up.choose(slope, half - root);
+        let under = up.choose(half + root, half + (last_slope - middle));
+        let t = over / under;
+        let inside = zero.below(t) & t.below(one);
+        inside
+            .choose(self.at(t), self.value)
+            .max(self.value.max(self.end))
+    }
+
+    /// Where the cubic rises from below to above zero near `root`, true if every function does that is nowhere
+    /// further from it than `slack`, and with its slope than 3.08 slack (Birkhoff and Priver 1967: 384 * 0.00802),
+    /// and if none of them rises through zero before. Those that leave zero at the left end fall there.
+    #[inline(always)]
+    pub fn rises(&self, slack: Lanes<S, N>, root: Lanes<S, N>, leaves: Mask<S, N>) -> Mask<S, N> {
+        let (zero, one) = (root.like(0.0), root.like(1.0));
+        let middle = (self.bend - self.twist) + self.slope;
+        let curve = self.last_slope - middle;
+        let first = middle - self.slope;
+        let convex = (slack * one.like(16.0)).below(first.min(curve)) & zero.below(self.end);
+        // Up, down and up again?
+        let winds = zero.below(self.slope) & middle.below(zero);
+        let near = self.at(root).abs().below(slack * one.like(NEAR));
+        let slope = self.slope_at(root);
+        let curvature = first.abs().max(curve.abs());
+        let least = slope.mul_add(one.like(SLOPE), curvature * one.like(BAND));
+        let steep = (slack * least).below(slope * slope) & zero.below(slope);
+        let behind = (slack * one.like(2.2)).below(slope * (one - root));
+        let apart = self.value.below(-slack) & near & steep & behind;
+        leaves.choose_mask(convex, apart.and_not(winds))
+    }
+
+    /// Its slope.
+    #[inline(always)]
+    pub fn slope_at(&self, t: Lanes<S, N>) -> Lanes<S, N> {
+        let two = t.like(2.0);
+        let behind = t - t.like(1.0);
+        let curve = (t * self.twist).mul_add(behind.mul_add(two, t), (two * t) * self.bend);
+        curve + self.slope
+    }
+}
+
+/// About the zero the function may vanish where the cubic is within its slack, at most 2 slack / slope away: there
+/// its slope is at least slope - 2 curvature slack / slope - 3.08 slack, positive with these factors (the curvature
+/// is twice the difference of two slopes).
+const SLOPE: f64 = 3.3;
+const BAND: f64 = 4.6;
+/// What the cubic may be at its root, in slacks.
+const NEAR: f64 = 0.02;
