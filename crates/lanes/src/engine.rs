@@ -4,7 +4,7 @@ use pulp::{Simd, WithSimd};
 
 use super::job::{Instructions, Job, Outcome};
 use super::lanes::{Lanes, Mask};
-use super::law::Law;
+use super::law::{Constants, Law};
 use super::machine::Machine;
 use super::safe::{self, Place, Resumed};
 use super::state::State;
@@ -23,7 +23,6 @@ pub(super) fn run<'a>(
     watch: Listener<'a>,
     instructions: Instructions,
 ) -> Vec<Outcome> {
-    let plain = machines.iter().all(Machine::is_plain);
     let task = Task {
         machines,
         jobs,
@@ -33,11 +32,9 @@ pub(super) fn run<'a>(
             _ => usize::MAX,
         },
     };
-    match (plain, instructions) {
-        (true, Instructions::OneByOne) => alone(task),
-        (true, _) => vectorize(Plain::<ABREAST>(task), instructions)
-            .unwrap_or_else(|Plain(task)| dispatch(Guarded(task), Instructions::Portable)),
-        (false, _) => dispatch(Guarded(task), instructions),
+    match instructions {
+        Instructions::OneByOne => alone(task),
+        _ => dispatch(Batch::<ABREAST>(task), instructions),
     }
 }
 
@@ -79,9 +76,9 @@ fn vectorize<T: WithSimd>(task: T, instructions: Instructions) -> Result<T::Outp
 fn alone(task: Task) -> Vec<Outcome> {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     if let Some(simd) = pulp::x86::V3::try_new() {
-        return Simd::vectorize(simd, Plain::<1>(task));
+        return Simd::vectorize(simd, Batch::<1>(task));
     }
-    dispatch(Guarded(task), Instructions::Portable)
+    dispatch(Batch::<ABREAST>(task), Instructions::Portable)
 }
 
 pub(super) struct Task<'a> {
@@ -92,33 +89,24 @@ pub(super) struct Task<'a> {
     at_once: usize,
 }
 
-/// One position ends a phase.
-struct Plain<'a, const N: usize>(Task<'a>);
-/// Phases may end by two positions and a further guard.
-struct Guarded<'a>(Task<'a>);
+/// A task in N registers abreast.
+struct Batch<'a, const N: usize>(Task<'a>);
 
-impl<const N: usize> WithSimd for Plain<'_, N> {
+impl<const N: usize> WithSimd for Batch<'_, N> {
     type Output = Vec<Outcome>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        Engine::<S, false, N>::new(simd, self.0).run()
+        Engine::<S, N>::new(simd, self.0).run()
     }
 }
 
-impl WithSimd for Guarded<'_> {
-    type Output = Vec<Outcome>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        Engine::<S, true, ABREAST>::new(simd, self.0).run()
-    }
-}
-
-/// All lanes and what they work at. `GUARDED`: phases may end by more than one position.
-pub(super) struct Engine<'a, S: Simd, const GUARDED: bool, const N: usize> {
+/// All lanes and what they work at.
+pub(super) struct Engine<'a, S: Simd, const N: usize> {
     pub task: Task<'a>,
     pub laws: Vec<Law<S, N>>,
+    /// Phases that in all machines end at one position alone.
+    plain: Vec<bool>,
     pub state: State<S, N>,
     /// The job of each lane.
     lanes: Vec<Option<usize>>,
@@ -126,11 +114,15 @@ pub(super) struct Engine<'a, S: Simd, const GUARDED: bool, const N: usize> {
     outcomes: Vec<Outcome>,
 }
 
-impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N> {
+impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     #[inline(always)]
     fn new(simd: S, task: Task<'a>) -> Self {
-        let laws = task.machines.iter().flat_map(|machine| &machine.laws);
-        let most = laws.map(Vec::len).max().unwrap_or(1);
+        let laws = || task.machines.iter().flat_map(|machine| &machine.laws);
+        let most = laws().map(Vec::len).max().unwrap_or(1);
+        let is_plain = |phase: usize| {
+            let mut constants = laws().filter_map(|laws| laws.get(phase));
+            constants.all(Constants::is_plain)
+        };
         let outcomes = task.jobs.iter().map(|job| Outcome {
             end: job.start,
             impacts: 0,
@@ -139,6 +131,7 @@ impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N>
         });
         Self {
             laws: vec![Law::new(simd); most],
+            plain: (0..most).map(is_plain).collect(),
             state: State::idle(simd),
             lanes: vec![None; Lanes::<S, N>::COUNT],
             next: 0,
@@ -157,8 +150,11 @@ impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N>
             for phase in 0..self.laws.len() {
                 let here = self.state.phase.equals(self.state.phase.like(phase as f64));
                 let active = self.state.busy() & here;
-                if active.any() {
-                    self.step(phase, active);
+                if !active.any() {
+                } else if self.plain[phase] {
+                    self.step::<false>(phase, active);
+                } else {
+                    self.step::<true>(phase, active);
                 }
             }
             steps += 1;
@@ -196,13 +192,18 @@ impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N>
         periods.mul_add(drive.period, -offset)
     }
 
-    /// Moves the lanes that are in a phase to the end of it, or as far as they come in a few windows.
+    /// Moves the lanes that are in a phase to the end of it, or as far as they come in a few windows. `GUARDED`: it
+    /// may end by more than one position.
     #[inline(always)]
-    fn step(&mut self, phase: usize, active: Mask<S, N>) {
+    fn step<const GUARDED: bool>(&mut self, phase: usize, active: Mask<S, N>) {
         let law = &self.laws[phase];
         let due = self.due();
-        let reached = self.scan(law, active, (due * law.per_window).floor());
-        let (ended, doubtful) = self.look(phase, active, &reached, due);
+        let reached = if GUARDED {
+            self.stand(law, active)
+        } else {
+            self.scan(law, active, (due * law.per_window).floor())
+        };
+        let (ended, doubtful) = self.look::<GUARDED>(phase, active, &reached, due);
         if (ended | doubtful).any() {
             self.serve(ended, doubtful);
         }
@@ -256,12 +257,12 @@ impl<'a, S: Simd, const GUARDED: bool, const N: usize> Engine<'a, S, GUARDED, N>
     /// Gives a lane the laws of a job's machine.
     fn install(&mut self, lane: usize, job: usize) {
         let machine = &self.task.machines[self.task.jobs[job].machine];
-        let constants = machine.laws.iter().flatten();
-        for (law, constants) in self.laws.iter_mut().zip(constants) {
-            if GUARDED {
-                law.set(lane, &constants.of_position());
-            } else {
+        let constants = machine.laws.iter().flatten().zip(&self.plain);
+        for (law, (constants, plain)) in self.laws.iter_mut().zip(constants) {
+            if *plain {
                 law.set(lane, constants);
+            } else {
+                law.set(lane, &constants.of_position());
             }
         }
         self.state.install(lane, machine);

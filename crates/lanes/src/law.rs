@@ -114,7 +114,8 @@ law! {
     slow,
 }
 
-/// Largest product of window and fastest rate.
+/// Largest product of window and fastest rate; half of it where a phase has several ends, which are not to be met
+/// in one window.
 pub(super) const SPAN: f64 = 1.2;
 /// Terms of the free motion's polynomial: for times of up to half a window, 0.6^16 / 16! < 2e-17.
 pub(super) const TERMS: usize = 15;
@@ -132,7 +133,9 @@ impl Constants {
     /// The constants of a phase, unless it is one that only the safe engine follows.
     pub fn of(phases: &Phases, index: usize) -> Option<Self> {
         let phase = &phases.phases[index];
-        let mut constants = Self::of_flow(phases, phase)?;
+        let one_end = matches!(phase.exits[..], [Exit::Forward(_) | Exit::Backward(_)]);
+        let span = if one_end { SPAN } else { 0.5 * SPAN };
+        let mut constants = Self::of_flow(phases, phase, span)?;
         let mut guarded = false;
         (constants.low, constants.high) = (f64::NEG_INFINITY, f64::INFINITY);
         for (guard, exit) in phase.guards.iter().zip(&phase.exits) {
@@ -212,7 +215,7 @@ impl Constants {
         };
     }
 
-    fn of_flow(phases: &Phases, phase: &Phase) -> Option<Self> {
+    fn of_flow(phases: &Phases, phase: &Phase, span: f64) -> Option<Self> {
         let flow = &phase.flow;
         let (cosine, sine) = flow.steady()?;
         if phase.hertz.is_some() {
@@ -220,7 +223,7 @@ impl Constants {
         }
         let w = flow.frequency;
         let fastest = w.max(flow.modes.fastest_rate());
-        let window = SPAN / fastest;
+        let window = span / fastest;
         let soft = flow.modes.stiffness.abs() < SOFTEST * w * w;
         if TAU / w > FINEST * window || (soft && phase.law.force != 0.0) {
             return None;

@@ -22,12 +22,12 @@ struct End<S: Simd, const N: usize> {
     impact: Lanes<S, N>,
 }
 
-impl<S: Simd, const GUARDED: bool, const N: usize> Engine<'_, S, GUARDED, N> {
+impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Looks at what lies ahead of the lanes that the scan has stopped, and moves all `active` ones on; those that
     /// came to the end of their job, and those that the safe engine has to take. `due`: time to where each has to
     /// stop.
     #[inline(always)]
-    pub fn look(
+    pub fn look<const GUARDED: bool>(
         &mut self,
         phase: usize,
         active: Mask<S, N>,
@@ -43,7 +43,7 @@ impl<S: Simd, const GUARDED: bool, const N: usize> Engine<'_, S, GUARDED, N> {
         let ahead = self.ahead(law, reached, pending, span);
         let guard = Guard::of::<GUARDED>(law, &ahead);
         let found = guard.search::<GUARDED>(law, &ahead, pending);
-        let (hits, doubtful) = self.move_on(phase, active, &guard, &found, scanned);
+        let (hits, doubtful) = self.move_on::<GUARDED>(phase, active, &guard, &found, scanned);
         let arrived = found.clear & remaining.at_most(span);
         self.state.share = self.shares(active, pending.and_not(hits | found.clear));
         let doubtful = doubtful | self.state.share.below(due.like(SHORTEST));
@@ -80,7 +80,7 @@ impl<S: Simd, const GUARDED: bool, const N: usize> Engine<'_, S, GUARDED, N> {
     /// Moves the active lanes to where they may go or to their crossing; those that cross, and those that the
     /// safe engine has to take.
     #[inline(always)]
-    fn move_on(
+    fn move_on<const GUARDED: bool>(
         &mut self,
         phase: usize,
         active: Mask<S, N>,

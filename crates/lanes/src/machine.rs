@@ -54,11 +54,6 @@ impl Machine {
         self.phases.clone()
     }
 
-    /// True if each phase is ended by one position alone.
-    pub(super) fn is_plain(&self) -> bool {
-        self.laws.iter().flatten().all(Constants::is_plain)
-    }
-
     /// A drive period in s.
     pub(super) fn period(&self) -> f64 {
         TAU / self.frequency

@@ -6,7 +6,7 @@ use super::cubic::Cubic;
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
-use super::parts::{Hull, Parts};
+use super::parts::Parts;
 
 /// Windows that are scanned at most before the lanes that wait are looked at: about a drive period.
 pub(super) const MOST_WINDOWS: usize = 12;
@@ -25,7 +25,7 @@ pub(super) struct Reached<S: Simd, const N: usize> {
     pub go: Mask<S, N>,
 }
 
-impl<S: Simd, const GUARDED: bool, const N: usize> Engine<'_, S, GUARDED, N> {
+impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// The motion of all lanes in units of their guard: g = side (x - offset) - edge.
     #[inline(always)]
     pub fn parts(&self, law: &Law<S, N>) -> Parts<S, N> {
@@ -41,8 +41,18 @@ impl<S: Simd, const GUARDED: bool, const N: usize> Engine<'_, S, GUARDED, N> {
         }
     }
 
-    /// Moves the lanes on for a while, or until each stands before a window in which something may happen, or
-    /// that is its last. `cap`: windows before that one.
+    /// Lets the lanes look at their next window at once.
+    #[inline(always)]
+    pub fn stand(&self, law: &Law<S, N>, active: Mask<S, N>) -> Reached<S, N> {
+        Reached {
+            parts: self.parts(law),
+            count: self.state.share.like(0.0),
+            go: active.and_not(active),
+        }
+    }
+
+    /// Moves the lanes on for a while, on one side of one position, or until each stands before a window in which
+    /// something may happen, or that is its last. `cap`: windows before that one.
     #[inline(always)]
     pub fn scan(&self, law: &Law<S, N>, active: Mask<S, N>, cap: Lanes<S, N>) -> Reached<S, N> {
         let reached = Reached {
@@ -50,46 +60,10 @@ impl<S: Simd, const GUARDED: bool, const N: usize> Engine<'_, S, GUARDED, N> {
             count: cap.like(0.0),
             go: active & self.state.share.equals(cap.like(1.0)),
         };
-        if GUARDED {
-            self.scan_between(law, cap, reached)
-        } else {
-            scan_below(law, cap, reached)
-        }
-    }
-
-    /// Between two positions and below a further guard.
-    #[inline(always)]
-    fn scan_between(
-        &self,
-        law: &Law<S, N>,
-        cap: Lanes<S, N>,
-        mut reached: Reached<S, N>,
-    ) -> Reached<S, N> {
-        let one = cap.like(1.0);
-        let frequency = self.state.drive.frequency;
-        for _ in 0..MOST_WINDOWS {
-            let here = reached.parts;
-            let next = here.next(law);
-            let left = (here.y + here.p + law.offset, here.u + here.q);
-            let right = (next.y + next.p + law.offset, next.u + next.q);
-            let hull = Hull::of(left, right, law.third, law.slack(&here));
-            let mut clear = hull.high.below(law.high) & law.low.below(hull.low);
-            let before = (left.1, law.acceleration(frequency, &here));
-            let after = (right.1, law.acceleration(frequency, &next));
-            let rates = Hull::of(before, after, law.third, law.rate_slack(&here));
-            clear = clear & law.guard_top(&hull, &rates).below(law.level);
-            reached.go = reached.go & clear & reached.count.below(cap);
-            if !reached.go.any() {
-                break;
-            }
-            reached.parts = Parts::choose(reached.go, &next, &here);
-            reached.count = reached.go.choose(reached.count + one, reached.count);
-        }
-        reached
+        scan_below(law, cap, reached)
     }
 }
 
-/// On one side of one position.
 #[inline(always)]
 fn scan_below<S: Simd, const N: usize>(
     law: &Law<S, N>,
