@@ -54,6 +54,14 @@ impl Machine {
         self.phases.clone()
     }
 
+    /// True if a position lies clearly in the free phase, the first, and lanes can follow the machine.
+    pub(super) fn is_free_at(&self, position: f64) -> bool {
+        let free = self.laws.iter().flatten().next();
+        free.is_some_and(|free| {
+            free.low + free.grain < position && position < free.high - free.grain
+        })
+    }
+
     /// A drive period in s.
     pub(super) fn period(&self) -> f64 {
         TAU / self.frequency

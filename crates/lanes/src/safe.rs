@@ -31,6 +31,9 @@ pub(super) struct Resumed {
 /// [`MotionError`] if it cannot start there.
 pub(super) fn begin(machine: &Machine, start: Start) -> Result<Option<usize>, MotionError> {
     start.validate()?;
+    if machine.is_free_at(start.position) {
+        return Ok(Some(0));
+    }
     let at = Clock::at_cycle(0);
     let motion = Motion::new(machine.phases.clone(), machine.clock, at, start)?;
     Ok(lane_phase(machine, &motion))
