@@ -1,15 +1,19 @@
 //! Many motions at once, one per lane of the processor's vector registers.
 //!
-//! The lanes go in lock-step through the same work, from crossing to crossing: they scan windows of time, counted
-//! from the last crossing, until each has met one that may hold the next; then all expand their motion about the
-//! instant before it, decide, and find the crossing. What a lane concludes it concludes by the certificates of the
-//! safe engine, [`Motion`](softstop::internals::Motion); what lies within rounding of two answers, or is not a plain crossing (rest, sticking, chatter),
-//! is handed to the safe engine up to the end of the drive period. Machines with power laws go there altogether.
+//! The lanes go in lock-step through the same work, phase after phase: those that are in a phase scan windows of time
+//! until each stands before one that may hold the phase's end; then all decide about that window, guess the crossing
+//! from the cubic through its ends, take the exact flow to the guess and a step of Newton's method from there. What a
+//! lane concludes it concludes by certificates as the safe engine does, [`Motion`](softstop::internals::Motion); what
+//! lies within rounding of two answers, or is not a plain crossing (rest, sticking, chatter), is handed to the safe
+//! engine up to the end of the drive period. Machines with power laws go there altogether.
 //!
-//! A lane keeps the time since the beginning of its drive period, and takes cos and sin of the drive angle from
-//! it anew before each scan: the drive never drifts. Nothing in the loop calls the mathematical library.
+//! A lane turns cos and sin of the drive angle on with the motion, and takes them anew from the time since the
+//! beginning of its drive period every few rounds: the drive never drifts. Nothing in the loop calls the mathematical
+//! library, and no closure stands in it: one that is not inlined would lose the instruction set.
 
+mod constants;
 mod cubic;
+mod dispatch;
 mod engine;
 mod guard;
 mod job;
@@ -25,7 +29,9 @@ mod root;
 mod run;
 mod safe;
 mod scan;
+mod search;
 mod state;
+mod task;
 mod taylor;
 mod watch;
 

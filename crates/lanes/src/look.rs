@@ -3,11 +3,12 @@
 use pulp::Simd;
 
 use super::engine::Engine;
-use super::guard::{Ahead, Found, Guard};
+use super::guard::{Ahead, Guard};
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::parts::Parts;
 use super::scan::Reached;
+use super::search::Found;
 
 /// Shortest stretch, in windows, that is looked at.
 const LEAST: f64 = 1e-12;

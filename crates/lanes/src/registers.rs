@@ -2,7 +2,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::engine::{ABREAST, dispatch};
+use super::dispatch::{ABREAST, dispatch};
 use super::job::Instructions;
 use super::lanes::Lanes;
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::engine;
+use super::dispatch;
 use super::job::{Instructions, Job, Outcome};
 use super::machine::Machine;
 use super::watch::{Listener, Watch};
@@ -29,7 +29,7 @@ pub fn run_with(
     jobs: &[Job],
     watch: &mut impl Watch,
 ) -> Vec<Outcome> {
-    engine::run(machines, jobs, Listener::of(watch), instructions)
+    dispatch::run(machines, jobs, Listener::of(watch), instructions)
 }
 
 /// Follows all jobs on the threads of rayon's pool, part by part, with the same result for any number of

@@ -1,0 +1,212 @@
+//! The constants of a phase, once for all motions of a machine.
+
+use std::f64::consts::TAU;
+
+use super::law::{Constants, SPAN, TERMS};
+use softstop::internals::{Beyond, Exit, Modes, Phase, Phases};
+
+/// Most windows per drive period.
+const FINEST: f64 = 65_536.0;
+/// Least stiffness per mass, in units of the drive's w^2, with which a constant force is described by a static
+/// deflection: a larger one would cost the motion its digits.
+const SOFTEST: f64 = 1e-2;
+/// Where the safe engine has to decide, relative to the size of the motion.
+const GRAIN: f64 = 1e-10;
+/// Relative to the size of the velocity.
+const SLOW: f64 = 1e-5;
+
+impl Constants {
+    /// The constants of a phase, unless it is one that only the safe engine follows.
+    pub fn of(phases: &Phases, index: usize) -> Option<Self> {
+        let phase = &phases.phases[index];
+        let one_end = matches!(phase.exits[..], [Exit::Forward(_) | Exit::Backward(_)]);
+        let span = if one_end { SPAN } else { 0.5 * SPAN };
+        let mut constants = Self::of_flow(phases, phase, span)?;
+        let mut guarded = false;
+        (constants.low, constants.high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for (guard, exit) in phase.guards.iter().zip(&phase.exits) {
+            match *exit {
+                Exit::Forward(surface) => constants.end_above(phases, surface),
+                Exit::Backward(surface) => {
+                    let surface = &phases.surfaces[surface];
+                    constants.low = surface.position;
+                    constants.beyond_low = surface.below as f64;
+                }
+                Exit::Reversal { .. } | Exit::Switch(_) if guarded || guard.push != 0.0 => {
+                    return None;
+                }
+                Exit::Reversal { forward, backward } => {
+                    let to = if guard.velocity < 0.0 {
+                        backward
+                    } else {
+                        forward
+                    };
+                    (guarded, constants.beyond_guard) = (true, to as f64);
+                }
+                Exit::Switch(to) => (guarded, constants.beyond_guard) = (true, to as f64),
+            }
+            if matches!(exit, Exit::Reversal { .. } | Exit::Switch(_)) {
+                constants.by_position = guard.position;
+                constants.by_velocity = guard.velocity;
+                constants.level = guard.level;
+            }
+        }
+        if !guarded {
+            constants.level = f64::INFINITY;
+        }
+        let flow = &phase.flow;
+        constants.set_side();
+        constants.set_grain(flow.frequency.max(flow.modes.fastest_rate()));
+        constants.set_bounds(&flow.modes, flow.frequency);
+        Some(constants.turned(constants.side))
+    }
+
+    /// True if one position and nothing else ends the phase, and its free motion never grows.
+    pub fn is_plain(&self) -> bool {
+        let one_sided = self.low.is_finite() != self.high.is_finite();
+        one_sided && self.level == f64::INFINITY && self.stiffness < 0.0
+    }
+
+    /// The same with x itself in the place of the guard.
+    pub fn of_position(&self) -> Self {
+        Self {
+            side: 1.0,
+            edge: -self.offset,
+            ..self.turned(self.side)
+        }
+    }
+
+    /// The steady motion seen from the guard's side.
+    fn turned(&self, side: f64) -> Self {
+        Self {
+            cosine: side * self.cosine,
+            sine: side * self.sine,
+            cosine_rate: side * self.cosine_rate,
+            sine_rate: side * self.sine_rate,
+            cosine_of_position: side * self.cosine_of_position,
+            cosine_of_velocity: side * self.cosine_of_velocity,
+            sine_of_position: side * self.sine_of_position,
+            sine_of_velocity: side * self.sine_of_velocity,
+            ..*self
+        }
+    }
+
+    fn end_above(&mut self, phases: &Phases, surface: usize) {
+        let at = &phases.surfaces[surface];
+        self.high = at.position;
+        self.impact = f64::from(u8::from(at.is_clearance));
+        (self.beyond_high, self.bounce) = match phases.beyond(at, true) {
+            Beyond::Phase(above) => (above as f64, 1.0),
+            Beyond::Wall { restitution } => (at.below as f64, -restitution),
+        };
+    }
+
+    fn of_flow(phases: &Phases, phase: &Phase, span: f64) -> Option<Self> {
+        let flow = &phase.flow;
+        let (cosine, sine) = flow.steady()?;
+        if phase.hertz.is_some() {
+            return None;
+        }
+        let w = flow.frequency;
+        let fastest = w.max(flow.modes.fastest_rate());
+        let window = span / fastest;
+        let soft = flow.modes.stiffness.abs() < SOFTEST * w * w;
+        if TAU / w > FINEST * window || (soft && phase.law.force != 0.0) {
+            return None;
+        }
+        let [[xx, vx], [xv, vv]] = flow.modes.at(window).data.0;
+        let (sin, cos) = (w * window).sin_cos();
+        let force = phase.law.force / phases.mass;
+        let square = (cosine * cosine + sine * sine).max(f64::MIN_POSITIVE);
+        Some(Self {
+            damping: -2.0 * flow.modes.decay,
+            stiffness: -flow.modes.stiffness,
+            offset: force / flow.modes.stiffness,
+            cosine,
+            sine,
+            cosine_rate: w * sine,
+            sine_rate: -w * cosine,
+            xx,
+            xv,
+            vx,
+            vv,
+            response: response(&flow.modes, window),
+            cosine_of_position: cosine / square,
+            cosine_of_velocity: sine / (w * square),
+            sine_of_position: sine / square,
+            sine_of_velocity: -cosine / (w * square),
+            turn: cos,
+            turn_by_velocity: sin / w,
+            turn_by_position: -w * sin,
+            window,
+            third: window / 3.0,
+            per_window: 1.0 / window,
+            ..Self::default()
+        })
+    }
+
+    /// Chooses the one end of a phase.
+    fn set_side(&mut self) {
+        let is_low = self.high == f64::INFINITY && self.low > f64::NEG_INFINITY;
+        if is_low {
+            (self.side, self.edge) = (-1.0, self.offset - self.low);
+            (self.end, self.beyond_end, self.end_bounce) = (self.low, self.beyond_low, 1.0);
+        } else {
+            (self.side, self.edge) = (1.0, self.high - self.offset);
+            (self.end, self.beyond_end, self.end_bounce) =
+                (self.high, self.beyond_high, self.bounce);
+            self.end_impact = self.impact;
+        }
+    }
+
+    /// |x''''| <= |y''''| C + |y'''''| S for the free part y, with the bounds C and S on the fundamental
+    /// solutions over one window, or over all time in a plain phase, plus w^4 times the steady amplitude; |v''''| likewise.
+    fn set_bounds(&mut self, modes: &Modes, w: f64) {
+        let scale = self.window.powi(4) / 384.0;
+        let reach = if self.is_plain() {
+            f64::INFINITY
+        } else {
+            self.window
+        };
+        let (c, s) = modes.bounds(reach);
+        let amplitude = self.cosine.hypot(self.sine) * scale;
+        // Rows of derivatives: y^(n) = row.0 y + row.1 y'.
+        let next = |(x, v): (f64, f64)| (self.stiffness * v, x + self.damping * v);
+        let fourth = next(next(next((0.0, 1.0))));
+        let fifth = next(fourth);
+        let sixth = next(fifth);
+        self.steady = amplitude * w.powi(4);
+        self.rate_steady = self.steady * w;
+        (self.fourth_x, self.fourth_v) = (scale * c * fourth.0, scale * c * fourth.1);
+        (self.fifth_x, self.fifth_v) = (scale * s * fifth.0, scale * s * fifth.1);
+        (self.rate_fifth_x, self.rate_fifth_v) = (scale * c * fifth.0, scale * c * fifth.1);
+        (self.rate_sixth_x, self.rate_sixth_v) = (scale * s * sixth.0, scale * s * sixth.1);
+    }
+
+    /// Sets below what the safe engine has to decide: differences that rounding may have made.
+    fn set_grain(&mut self, fastest: f64) {
+        let finite = |level: f64| if level.is_finite() { level.abs() } else { 0.0 };
+        let steady = self.cosine.hypot(self.sine);
+        let size = finite(self.low)
+            .max(finite(self.high))
+            .max(steady + self.offset.abs());
+        self.grain = GRAIN * size;
+        self.slow = SLOW * size * fastest;
+        self.guard_scale = self.by_position.abs() + self.by_velocity.abs() * fastest;
+    }
+}
+
+/// The free motion's polynomial: x'' + 2 a x' + b x = 0, term by term.
+fn response(modes: &Modes, window: f64) -> [f64; TERMS] {
+    let (damping, stiffness) = (
+        2.0 * modes.decay * window,
+        modes.stiffness * window * window,
+    );
+    let mut terms = [1.0; TERMS];
+    for n in 1..TERMS {
+        let before = if n > 1 { terms[n - 2] } else { 0.0 };
+        let (n, term) = (n as f64, terms[n - 1]);
+        terms[n as usize] = -(damping * n * term + stiffness * before) / (n * (n + 1.0));
+    }
+    terms
+}

@@ -1,0 +1,89 @@
+//! The engine with the instructions of this processor.
+
+use pulp::{Simd, WithSimd};
+
+use super::engine::Engine;
+use super::job::{Instructions, Job, Outcome};
+use super::machine::Machine;
+use super::task::Task;
+use super::watch::Listener;
+
+/// Registers that go side by side.
+pub(super) const ABREAST: usize = 2;
+
+/// Follows all jobs with the instruction set asked for, or the widest below it.
+pub(super) fn run<'a>(
+    machines: &'a [Machine],
+    jobs: &'a [Job],
+    watch: Listener<'a>,
+    instructions: Instructions,
+) -> Vec<Outcome> {
+    let task = Task {
+        machines,
+        jobs,
+        watch,
+        at_once: match instructions {
+            Instructions::OneByOne => 1,
+            _ => usize::MAX,
+        },
+    };
+    match instructions {
+        Instructions::OneByOne => alone(task),
+        _ => dispatch(Batch::<ABREAST>(task), instructions),
+    }
+}
+
+/// Does a task with an instruction set, or the widest below it that the processor has. Each is the whole engine
+/// once more, so none is compiled twice.
+pub(super) fn dispatch<T: WithSimd>(task: T, instructions: Instructions) -> T::Output {
+    vectorize(task, instructions).unwrap_or_else(|task| Simd::vectorize(pulp::Scalar, task))
+}
+
+/// The same, or the task back where only the portable instructions are left.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+fn vectorize<T: WithSimd>(task: T, instructions: Instructions) -> Result<T::Output, T> {
+    use pulp::x86::{V3, V4};
+
+    let wide = match instructions {
+        Instructions::Widest => V4::try_new(),
+        _ => None,
+    };
+    let narrow = match instructions {
+        Instructions::Portable => None,
+        _ => V3::try_new(),
+    };
+    match (wide, narrow) {
+        (Some(simd), _) => Ok(Simd::vectorize(simd, task)),
+        (None, Some(simd)) => Ok(Simd::vectorize(simd, task)),
+        (None, None) => Err(task),
+    }
+}
+
+#[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+fn vectorize<T: WithSimd>(task: T, instructions: Instructions) -> Result<T::Output, T> {
+    match instructions {
+        Instructions::Widest => Ok(pulp::Arch::new().dispatch(task)),
+        _ => Err(task),
+    }
+}
+
+/// Does a task in one register alone where registers are wide.
+fn alone(task: Task) -> Vec<Outcome> {
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    if let Some(simd) = pulp::x86::V3::try_new() {
+        return Simd::vectorize(simd, Batch::<1>(task));
+    }
+    dispatch(Batch::<ABREAST>(task), Instructions::Portable)
+}
+
+/// A task in N registers abreast.
+struct Batch<'a, const N: usize>(Task<'a>);
+
+impl<const N: usize> WithSimd for Batch<'_, N> {
+    type Output = Vec<Outcome>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        Engine::<S, N>::new(simd, self.0).run()
+    }
+}

@@ -1,0 +1,184 @@
+//! Where the guard rises through zero.
+
+use pulp::Simd;
+
+use super::cubic::Cubic;
+use super::guard::{Ahead, Guard};
+use super::judge::Stretch;
+use super::lanes::{Lanes, Mask};
+use super::law::Law;
+use super::local;
+use super::parts::Parts;
+use super::root::guess;
+use super::taylor::MOMENT;
+
+/// Instants that are tried for a crossing or a summit before the lane is given up.
+const MOST_TRIES: usize = 6;
+
+/// What was found.
+pub(super) struct Found<S: Simd, const N: usize> {
+    pub clear: Mask<S, N>,
+    pub hits: Mask<S, N>,
+    /// Lanes that the safe engine has to decide.
+    pub doubtful: Mask<S, N>,
+    /// Time to the crossing, or to where the lane may go.
+    pub time: Lanes<S, N>,
+    /// The motion there, its free part not quite, and the guard's rate.
+    pub parts: Parts<S, N>,
+    pub rate: Lanes<S, N>,
+    /// Position and velocity at the crossing; the position where it is not that of a surface.
+    pub position: Lanes<S, N>,
+    pub velocity: Lanes<S, N>,
+}
+
+/// What the lanes look for.
+struct Goal<S: Simd, const N: usize> {
+    /// Lanes that meet nothing.
+    clear: Mask<S, N>,
+    /// Lanes that look for the crossing.
+    rises: Mask<S, N>,
+    /// Lanes that look for the maximum.
+    humps: Mask<S, N>,
+    doubtful: Mask<S, N>,
+    /// Time before which the crossing is.
+    end: Lanes<S, N>,
+    /// Where they look, or go.
+    at: Lanes<S, N>,
+}
+
+impl<S: Simd, const N: usize> Guard<S, N> {
+    /// Looks for the guard's zero in the lanes `pending`, and where the others may go.
+    #[inline(always)]
+    pub fn search<const GUARDED: bool>(
+        &self,
+        law: &Law<S, N>,
+        ahead: &Ahead<S, N>,
+        pending: Mask<S, N>,
+    ) -> Found<S, N> {
+        let left = self.of_parts::<GUARDED>(law, ahead, &ahead.here);
+        let right = self.of_parts::<GUARDED>(law, ahead, &ahead.there);
+        let single = if GUARDED {
+            pending.and_not(self.several | self.none)
+        } else {
+            pending
+        };
+        let cubic = Cubic::new(left, right, ahead.span);
+        let touches = (-self.grain).below(left.0);
+        let leaves = touches & left.1.below(-self.slow) & left.0.at_most(self.grain);
+        let root = guess(&cubic, leaves);
+        let sound = single.and_not(touches) | (single & leaves);
+        let mut goal = Goal {
+            clear: if GUARDED {
+                pending & self.none
+            } else {
+                pending.and_not(pending)
+            },
+            rises: sound & cubic.rises(self.slack, root, leaves),
+            humps: pending.and_not(pending),
+            doubtful: single & touches.and_not(leaves),
+            end: ahead.span,
+            at: ahead.span * root,
+        };
+        let open = single.and_not(goal.rises | goal.doubtful);
+        if open.any() {
+            let stretch = Stretch {
+                left,
+                right,
+                span: ahead.span,
+                slack: self.slack,
+            };
+            let verdict = stretch.judge(touches, leaves);
+            goal.clear = goal.clear | (open & verdict.clear);
+            goal.rises = goal.rises | (open & verdict.rises);
+            goal.humps = open & verdict.hump;
+            let top = ahead.span * left.1 / (left.1 - right.1);
+            goal.at = goal.humps.choose(top, goal.at);
+        }
+        // A crossing within rounding of the end: before it or after?
+        let ends_there = (-self.grain).below(right.0) & left.0.like(0.0).below(right.1);
+        goal.doubtful = goal.doubtful | (goal.clear & single & ends_there);
+        goal.rises = goal.rises.and_not(goal.doubtful);
+        goal.clear = goal.clear.and_not(goal.doubtful);
+        let still = goal.clear.choose(ahead.span, root.like(0.0));
+        goal.at = (goal.rises | goal.humps).choose(goal.at, still);
+        self.reach::<GUARDED>(law, ahead, left, goal)
+    }
+
+    /// Where the lanes come to: those that rise to their crossing, after those with a maximum have found how high
+    /// it is; the others just go there.
+    #[inline(always)]
+    fn reach<const GUARDED: bool>(
+        &self,
+        law: &Law<S, N>,
+        ahead: &Ahead<S, N>,
+        left: (Lanes<S, N>, Lanes<S, N>),
+        mut goal: Goal<S, N>,
+    ) -> Found<S, N> {
+        let zero = ahead.span.like(0.0);
+        let mut tries = 0;
+        loop {
+            let parts = ahead.at(law, goal.at);
+            let derivatives = local::derivatives(law, ahead.frequency, &parts);
+            let weights = (self.position, self.velocity, self.level);
+            let local = local::guard::<S, N, GUARDED>(&derivatives, weights);
+            let mut sought = local;
+            if goal.humps.any() {
+                for (sought, falling) in sought.iter_mut().zip(local::falling(&local)) {
+                    *sought = goal.humps.choose(falling, *sought);
+                }
+            }
+            let zeros = local::zero(&sought, law.window, goal.rises | goal.humps);
+            let hits = goal.rises & zeros.sure;
+            let open = (goal.rises | goal.humps).and_not(hits);
+            tries += 1;
+            if !open.any() || tries > MOST_TRIES {
+                let moment = hits.choose(zeros.time, zero);
+                let (position, velocity) = if GUARDED {
+                    local::state(&derivatives, moment)
+                } else {
+                    (zero, zeros.slope)
+                };
+                return Found {
+                    clear: goal.clear,
+                    hits,
+                    doubtful: goal.doubtful | open,
+                    time: goal.at + moment,
+                    parts: parts.turned::<MOMENT>(ahead.frequency, moment),
+                    rate: zeros.slope,
+                    position,
+                    velocity,
+                };
+            }
+            let next = (goal.at + zeros.time).max(zero).min(goal.end);
+            goal.at = open.choose(next, goal.at);
+            let tops = goal.humps & zeros.sure;
+            if tops.any() {
+                let height = local::value(&local, zeros.time);
+                self.decide(left, tops, height, ahead.span, &mut goal);
+            }
+        }
+    }
+
+    /// What becomes of lanes whose maximum is found: below zero, above it, or too close to tell.
+    #[inline(always)]
+    fn decide(
+        &self,
+        left: (Lanes<S, N>, Lanes<S, N>),
+        tops: Mask<S, N>,
+        height: Lanes<S, N>,
+        span: Lanes<S, N>,
+        goal: &mut Goal<S, N>,
+    ) {
+        let over = tops & self.grain.below(height);
+        let under = tops & height.below(-self.grain);
+        let none = height.like(0.0);
+        goal.humps = goal.humps.and_not(tops);
+        goal.clear = goal.clear | under;
+        goal.doubtful = goal.doubtful | tops.and_not(over | under);
+        goal.rises = goal.rises | over;
+        goal.end = over.choose(goal.at, goal.end);
+        let risen = Cubic::new(left, (height, none), goal.end);
+        let root = goal.end * guess(&risen, over.and_not(over));
+        goal.at = over.choose(root, under.choose(span, goal.at));
+    }
+}
