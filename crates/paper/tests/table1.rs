@@ -11,7 +11,7 @@ use softstop_testing::tolerance::GROWN;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-/// Few motions, watched for a short time.
+/// Few motions, watched for a short time; the lifetimes of 8 would scatter more than the rows of chaos allow.
 fn quick() -> Rules {
     Rules {
         survey: Options {
@@ -19,7 +19,7 @@ fn quick() -> Rules {
             patience: 20_000,
             ..Options::default()
         },
-        motions: 8,
+        motions: 32,
         patience: 1000,
         ..Rules::default()
     }
