@@ -4,6 +4,22 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 use pulp::Simd;
 
+/// Does something for each register of one or two. Not a loop: thousands of them, though unrolled, would take the
+/// compiler minutes.
+macro_rules! abreast {
+    ($register:ident => $work:expr) => {
+        const { assert!(N == 1 || N == 2) };
+        {
+            let $register = 0;
+            $work;
+        }
+        if N > 1 {
+            let $register = 1;
+            $work;
+        }
+    };
+}
+
 /// One number per lane, in N registers that go side by side, so that one waits less for the other.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lanes<S: Simd, const N: usize> {
@@ -42,27 +58,21 @@ impl<S: Simd, const N: usize> Lanes<S, N> {
     #[inline(always)]
     fn map(self, f: impl Fn(S, S::f64s) -> S::f64s) -> Self {
         let mut registers = self.registers;
-        for register in &mut registers {
-            *register = f(self.simd, *register);
-        }
+        abreast!(i => registers[i] = f(self.simd, registers[i]));
         Self { registers, ..self }
     }
 
     #[inline(always)]
     fn zip(self, other: Self, f: impl Fn(S, S::f64s, S::f64s) -> S::f64s) -> Self {
         let mut registers = self.registers;
-        for (a, b) in registers.iter_mut().zip(other.registers) {
-            *a = f(self.simd, *a, b);
-        }
+        abreast!(i => registers[i] = f(self.simd, registers[i], other.registers[i]));
         Self { registers, ..self }
     }
 
     #[inline(always)]
     fn compare(self, other: Self, f: impl Fn(S, S::f64s, S::f64s) -> S::m64s) -> Mask<S, N> {
         let mut registers = [f(self.simd, self.registers[0], other.registers[0]); N];
-        for (i, register) in registers.iter_mut().enumerate().skip(1) {
-            *register = f(self.simd, self.registers[i], other.registers[i]);
-        }
+        abreast!(i => registers[i] = f(self.simd, self.registers[i], other.registers[i]));
         Mask {
             simd: self.simd,
             registers,
@@ -79,9 +89,9 @@ impl<S: Simd, const N: usize> Lanes<S, N> {
     #[inline(always)]
     pub fn mul_add(self, b: Self, c: Self) -> Self {
         let mut registers = self.registers;
-        for ((a, b), c) in registers.iter_mut().zip(b.registers).zip(c.registers) {
-            *a = self.simd.mul_add_e_f64s(*a, b, c);
-        }
+        abreast!(i => {
+            registers[i] = self.simd.mul_add_e_f64s(registers[i], b.registers[i], c.registers[i])
+        });
         Self { registers, ..self }
     }
 
@@ -134,9 +144,9 @@ impl<S: Simd, const N: usize> Mask<S, N> {
     #[inline(always)]
     pub fn choose(self, yes: Lanes<S, N>, no: Lanes<S, N>) -> Lanes<S, N> {
         let mut registers = yes.registers;
-        for ((mask, yes), no) in self.registers.iter().zip(&mut registers).zip(no.registers) {
-            *yes = self.simd.select_f64s(*mask, *yes, no);
-        }
+        abreast!(i => {
+            registers[i] = self.simd.select_f64s(self.registers[i], registers[i], no.registers[i])
+        });
         Lanes { registers, ..yes }
     }
 
@@ -155,18 +165,14 @@ impl<S: Simd, const N: usize> Mask<S, N> {
     #[inline(always)]
     pub fn not(self) -> Self {
         let mut registers = self.registers;
-        for register in &mut registers {
-            *register = self.simd.not_m64s(*register);
-        }
+        abreast!(i => registers[i] = self.simd.not_m64s(registers[i]));
         Self { registers, ..self }
     }
 
     #[inline(always)]
     pub fn any(self) -> bool {
         let mut any = self.registers[0];
-        for register in &self.registers[1..] {
-            any = self.simd.or_m64s(any, *register);
-        }
+        abreast!(i => any = self.simd.or_m64s(any, self.registers[i]));
         self.simd.first_true_m64s(any) < S::F64_LANES
     }
 
@@ -211,9 +217,7 @@ impl<S: Simd, const N: usize> BitAnd for Mask<S, N> {
     #[inline(always)]
     fn bitand(self, other: Self) -> Self {
         let mut registers = self.registers;
-        for (a, b) in registers.iter_mut().zip(other.registers) {
-            *a = self.simd.and_m64s(*a, b);
-        }
+        abreast!(i => registers[i] = self.simd.and_m64s(registers[i], other.registers[i]));
         Self { registers, ..self }
     }
 }
@@ -224,9 +228,7 @@ impl<S: Simd, const N: usize> BitOr for Mask<S, N> {
     #[inline(always)]
     fn bitor(self, other: Self) -> Self {
         let mut registers = self.registers;
-        for (a, b) in registers.iter_mut().zip(other.registers) {
-            *a = self.simd.or_m64s(*a, b);
-        }
+        abreast!(i => registers[i] = self.simd.or_m64s(registers[i], other.registers[i]));
         Self { registers, ..self }
     }
 }
