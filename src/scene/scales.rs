@@ -69,6 +69,6 @@ impl Scales {
     /// What rounding alone may leave of P(s) - s in these units: that of the state, as the map
     /// stretches it.
     pub fn rounding(&self, state: &Vector2<f64>, jacobian: &Matrix2<f64>) -> f64 {
-        4e-13 * (1.0 + self.state(state).norm()) * (1.0 + self.jacobian(jacobian).norm())
+        1e-13 * (1.0 + self.state(state).norm()) * (1.0 + self.jacobian(jacobian).norm())
     }
 }

@@ -36,8 +36,10 @@ pub(crate) struct Node<P> {
     pub here: Evaluation<P>,
 }
 
-/// Newton steps of one correction.
+/// Newton steps of one correction, and the most where each goes on to halve the residual: differences across a
+/// corner of the motion make it fall by a share only.
 const CORRECTIONS: usize = 12;
+const MOST_CORRECTIONS: usize = 48;
 /// A step with kept slopes that leaves more than this share of the residual is the last with them.
 const STALE: f64 = 0.02;
 /// Scaled half-width of the central differences.
@@ -89,12 +91,16 @@ pub(super) fn correct_with<E: Equations>(
 ) -> Result<Node<E::Point>, OrbitError> {
     let mut at = guess.clone();
     let mut last = f64::INFINITY;
-    for _ in 0..CORRECTIONS {
+    for round in 0..=MOST_CORRECTIONS {
         let here = equations.evaluate(&at)?;
         let size = here.residual.norm();
+        let (fits, late) = (size <= here.tolerance, round >= CORRECTIONS);
         let enough = care == Care::Quick && size <= WITHIN * here.tolerance;
-        if enough || (size <= here.tolerance && size >= 0.1 * last) {
+        if enough || (fits && (late || size >= 0.1 * last)) {
             return Ok(Node { at, here });
+        }
+        if late && size > 0.5 * last {
+            break;
         }
         let kept = slopes
             .take()
@@ -112,12 +118,7 @@ pub(super) fn correct_with<E: Equations>(
             _ => return Err(OrbitError::Diverged { residual: size }),
         }
     }
-    let here = equations.evaluate(&at)?;
-    let residual = here.residual.norm();
-    if residual <= here.tolerance {
-        return Ok(Node { at, here });
-    }
-    Err(OrbitError::Diverged { residual })
+    Err(OrbitError::Diverged { residual: last })
 }
 
 fn bordered(matrix: DMatrix<f64>, normal: &DVector<f64>) -> DMatrix<f64> {
