@@ -176,11 +176,16 @@ impl<S: Simd, const N: usize> Mask<S, N> {
         self.simd.first_true_m64s(any) < S::F64_LANES
     }
 
-    /// Truth of one lane.
+    /// Truth of one lane, read from memory: it is asked for where the instruction set is not at hand.
     #[inline(always)]
-    pub fn get(self, lane: usize) -> bool {
-        let (one, zero) = (Lanes::splat(self.simd, 1.0), Lanes::splat(self.simd, 0.0));
-        self.choose(one, zero).get(lane) != 0.0
+    pub fn get(&self, lane: usize) -> bool {
+        let (register, lane) = (lane / S::F64_LANES, lane % S::F64_LANES);
+        let bytes = pulp::bytemuck::bytes_of(&self.registers[register]);
+        if bytes.len() < S::F64_LANES {
+            bytes[0] >> lane & 1 != 0
+        } else {
+            bytes[lane * (bytes.len() / S::F64_LANES)] != 0
+        }
     }
 }
 
