@@ -3,6 +3,7 @@
 use softstop::Ratios;
 use softstop_dynamics::basin::{Axis, Grid, Options, basins};
 use softstop_dynamics::orbit::Regime;
+use softstop_dynamics::watch::unwatched;
 
 /// Runs the example.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -12,7 +13,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
         Axis::velocity(-20.0, 20.0, 24),
         0.0,
     );
-    let basins = basins(&scene, &grid, &Options::default())?;
+    let basins = basins(&scene, &grid, &Options::default(), &unwatched)?;
     for class in &basins.classes {
         println!("{}: {:.1} %", class.motion, 100.0 * class.share);
     }

@@ -7,6 +7,7 @@
 pub mod attractors;
 pub mod basin;
 pub mod continuation;
+mod extremes;
 pub mod models;
 pub mod motion;
 pub mod orbit;

@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use rayon::ThreadPoolBuilder;
 use softstop::{Clock, Ratios, Scene, Start};
 use softstop_dynamics::attractors::SurveyError;
-use softstop_dynamics::basin::{Axis, Basins, Grid, Options, basins, basins_watched, establishing};
+use softstop_dynamics::basin::{Axis, Basins, Grid, Options, basins, establishing};
 use softstop_dynamics::orbit::{Orbit, Regime, StroboscopicMap};
 use softstop_dynamics::watch::{stop_if, unwatched};
 use softstop_dynamics::zone;
@@ -30,7 +30,7 @@ fn states(size: usize) -> Grid {
 }
 
 fn on(scene: &Scene, grid: &Grid) -> Basins {
-    let found = basins(scene, grid, &Options::default()).expect("there is one");
+    let found = basins(scene, grid, &Options::default(), &unwatched).expect("there is one");
     assert_eq!(found.cells.len(), grid.cells());
     let cells: usize = found.classes.iter().map(|class| class.cells).sum();
     assert_eq!(cells, grid.cells());
@@ -196,7 +196,7 @@ fn the_certainty_falls_along_the_zone() {
 
 #[test]
 fn it_stops_when_told() {
-    let stopped = basins_watched(
+    let stopped = basins(
         &unloaded(1.15),
         &states(80),
         &Options::default(),

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use anyhow::{Error, Result};
 use softstop::{Ratios, Scene, Start};
-use softstop_dynamics::basin::{Axis, Basins, Grid, Options, basins_watched};
+use softstop_dynamics::basin::{Axis, Basins, Grid, Options, basins};
 use softstop_dynamics::motion::MotionKind;
 use softstop_lanes::{Job, Machine, Watch};
 
@@ -77,7 +77,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
         let machine = softstop::Machine::of_ratios(&ratios)?;
         let [across, up] = axes.map(|axis| Axis { cells, ..axis });
         let (scene, grid) = (&machine.scene, Grid::states(across, up, 0.0));
-        let basins = basins_watched(scene, &grid, &Options::default(), &watcher)?;
+        let basins = basins(scene, &grid, &Options::default(), &watcher)?;
         let wandering = wandering(scene, &basins)?;
         found.push((machine, basins, wandering, title));
     }

@@ -2,6 +2,7 @@
 
 use super::SurveyError;
 use super::fleet::Fleet;
+use crate::extremes::extremes;
 use crate::orbit::{Exponents, StroboscopicMap};
 use softstop::{Scene, Start};
 
@@ -41,15 +42,13 @@ impl Chaos {
         let map = StroboscopicMap::new(scene, counted)?;
         let passage = map.apply(begin.into())?;
         fleet.note(counted)?;
-        let ends = |fold: fn(f64, f64) -> f64| passage.impacts.iter().copied().reduce(fold);
-        let velocities = ends(f64::min).zip(ends(f64::max));
         Ok(Self {
             state,
             exponents,
             lifetime: None,
             entered: 0,
             impacts_per_period: passage.impacts.len() as f64 / counted as f64,
-            velocities: velocities.map(|(least, largest)| [least, largest]),
+            velocities: extremes(passage.impacts),
             watched: 0,
         })
     }

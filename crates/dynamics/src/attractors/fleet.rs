@@ -40,10 +40,10 @@ impl Voyage {
 
 /// The machine they share, and how much work has been done.
 pub(crate) struct Fleet<'a> {
-    machine: [Machine; 1],
+    pub machine: [Machine; 1],
     watcher: Watcher<'a>,
     done: AtomicU64,
-    /// Drive periods that will be done at most.
+    /// Work that will be done at most, in drive periods unless its owner counts otherwise.
     pub planned: u64,
 }
 

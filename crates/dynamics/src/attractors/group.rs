@@ -6,6 +6,7 @@
 //! periodic for long (intermittency), each log is a few slow strands, and neighbours are those next on the strand:
 //! there the strands of one motion share the cells of a grid. Either is enough.
 
+use crate::extremes::extremes;
 use softstop::Start;
 
 /// Share of the states of two logs whose nearest neighbours lie in the other log, from which on the logs belong
@@ -53,11 +54,10 @@ pub(super) fn groups(logs: &[&[Start]]) -> Vec<usize> {
 
 /// Size of the plane that all states need.
 fn units(logs: &[&[Start]]) -> [f64; 2] {
-    let states = || logs.iter().flat_map(|log| log.iter());
-    let range = |value: fn(&Start) -> f64| {
-        let low = states().map(value).fold(f64::INFINITY, f64::min);
-        let high = states().map(value).fold(f64::NEG_INFINITY, f64::max);
-        if high > low { high - low } else { 1.0 }
+    let range = |value: fn(&Start) -> f64| match extremes(logs.iter().copied().flatten().map(value))
+    {
+        Some([low, high]) if high > low => high - low,
+        _ => 1.0,
     };
     [range(|state| state.position), range(|state| state.velocity)]
 }

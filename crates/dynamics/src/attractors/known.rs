@@ -45,6 +45,16 @@ pub(crate) enum Standing {
     Wandering,
 }
 
+impl Standing {
+    /// The orbit at which it has arrived, or will.
+    pub(crate) fn orbit(self) -> Option<usize> {
+        match self {
+            Self::Arrived(orbit) | Self::Approaching(orbit) => Some(orbit),
+            Self::AtRest | Self::Wandering => None,
+        }
+    }
+}
+
 impl<'a> Book<'a> {
     pub(crate) fn new(scene: &'a Scene) -> Self {
         Self {
@@ -100,15 +110,11 @@ impl<'a> Book<'a> {
         let orbit = self.enter(orbit, found.distance)?;
         let known = &self.orbits[orbit];
         let gap = self.gap(known, last);
-        Ok(
-            if self.reached(log).is_some()
-                || (found.distance <= ARRIVED && gap <= NEAR * known.size)
-            {
-                Standing::Arrived(orbit)
-            } else {
-                Standing::Approaching(orbit)
-            },
-        )
+        let is_near = found.distance <= ARRIVED && gap <= NEAR * known.size;
+        Ok(match is_near || self.reached(log).is_some() {
+            true => Standing::Arrived(orbit),
+            false => Standing::Approaching(orbit),
+        })
     }
 
     /// True if a mass is held where it is for all of a drive period, or creeps there ever more slowly: not one

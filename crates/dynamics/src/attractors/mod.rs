@@ -16,14 +16,14 @@ mod search;
 mod starts;
 
 pub use chaos::Chaos;
+pub use search::{attractors, classify, settle};
 pub use starts::Region;
 
 use thiserror::Error;
 
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit};
-use crate::watch::{Watcher, unwatched};
-use softstop::{MotionError, Scene, SceneError, Start};
+use softstop::{MotionError, SceneError, Start};
 
 /// How certain a periodic motion is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -126,46 +126,6 @@ impl From<SceneError> for SurveyError {
     }
 }
 
-/// All motions on which a scene settles. The result depends on scene and options alone, not on the number of
-/// threads.
-///
-/// ```
-/// use softstop::Ratios;
-/// use softstop_dynamics::attractors::{Options, attractors};
-///
-/// let options = Options { starts: 64, ..Options::default() };
-/// let survey = attractors(&Ratios::unloaded().scene()?, &options)?;
-/// // Point A: with impacts and without, by turns of the start.
-/// assert_eq!(survey.attractors.len(), 2);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Errors
-/// [`SurveyError::Motion`] if the scene is invalid.
-pub fn attractors(scene: &Scene, options: &Options) -> Result<Survey, SurveyError> {
-    attractors_watched(scene, options, &unwatched)
-}
-
-/// The same, told of the drive periods; stopped when the watcher says so.
-///
-/// # Errors
-/// As [`attractors`]; [`SurveyError::Stopped`].
-pub fn attractors_watched(
-    scene: &Scene,
-    options: &Options,
-    watcher: Watcher<'_>,
-) -> Result<Survey, SurveyError> {
-    search::survey(scene, options, watcher)
-}
-
-/// What the motion from one start settles on.
-///
-/// # Errors
-/// [`SurveyError::Motion`] if the scene is invalid or the motion cannot be computed.
-pub fn classify(scene: &Scene, start: Start, options: &Options) -> Result<Attractor, SurveyError> {
-    search::classify(scene, start, options)
-}
-
 /// Where a motion is after the transient.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -174,19 +134,4 @@ pub struct Arrival {
     pub state: Start,
     /// The stable orbit to which it returns; none if it wanders (or rests).
     pub orbit: Option<Orbit>,
-}
-
-/// Where motions from several starts are after the transient, in their order: cheaper than
-/// [`classify`], as a motion that has not settled then is not looked at any farther.
-///
-/// # Errors
-/// [`SurveyError::Motion`] if the scene is invalid or a motion cannot be computed;
-/// [`SurveyError::Stopped`].
-pub fn settle(
-    scene: &Scene,
-    starts: &[Start],
-    options: &Options,
-    watcher: Watcher<'_>,
-) -> Result<Vec<Arrival>, SurveyError> {
-    search::settle(scene, starts, options, watcher)
 }

@@ -1,5 +1,6 @@
 //! Where starts lie.
 
+use crate::extremes::extremes;
 use softstop::internals::Scales;
 use softstop::{Scene, Start, Wall};
 
@@ -37,17 +38,10 @@ impl Region {
     /// About all these states; none if there is none.
     pub(super) fn about<'a>(
         scene: &Scene,
-        states: impl IntoIterator<Item = &'a Start>,
+        states: impl Iterator<Item = &'a Start> + Clone,
     ) -> Option<Self> {
-        let nothing = [f64::INFINITY, f64::NEG_INFINITY];
-        let (mut position, mut velocity) = (nothing, nothing);
-        let include = |range: &mut [f64; 2], value: f64| {
-            *range = [range[0].min(value), range[1].max(value)];
-        };
-        for state in states {
-            include(&mut position, state.position);
-            include(&mut velocity, state.velocity);
-        }
+        let position = extremes(states.clone().map(|state| state.position))?;
+        let velocity = extremes(states.map(|state| state.velocity))?;
         let Scales { length, rate } = scene.motion_scales();
         let widen = |[low, high]: [f64; 2], least: f64| {
             let margin = (MARGIN * (high - low)).max(least);

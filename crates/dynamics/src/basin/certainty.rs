@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::{Basins, Grid, Options, basins_watched};
+use super::{Basins, Grid, Options, basins};
 use crate::attractors::SurveyError;
 use crate::orbit::Regime;
 use crate::watch::Watcher;
@@ -58,7 +58,7 @@ pub fn establishing(
         let before = each * index as u64;
         let all = each * places.len() as u64;
         let scene = zone.scene_at(*place);
-        let basins = basins_watched(&scene, grid, options, &|done, _| {
+        let basins = basins(&scene, grid, options, &|done, _| {
             watcher(before + done, all)
         })?;
         let (certainty, interval) = basins.share(Regime::ONE);

@@ -17,13 +17,8 @@ impl Survey<'_> {
             classes: Vec::new(),
             cells: vec![0; self.fates.len()],
         };
-        let mut orbits: Vec<(usize, &Orbit)> = self
-            .book
-            .orbits
-            .iter()
-            .map(|known| &known.orbit)
-            .enumerate()
-            .collect();
+        let orbits = self.book.orbits.iter().map(|known| &known.orbit);
+        let mut orbits: Vec<(usize, &Orbit)> = orbits.enumerate().collect();
         let key = |orbit: &Orbit| (orbit.periods, orbit.impacts.len());
         orbits.sort_by(|(_, a), (_, b)| {
             let hardest = [a, b].map(|orbit| orbit.before_impact_velocity());
@@ -50,8 +45,8 @@ impl Survey<'_> {
 
     /// What the cells are that have not returned.
     fn wandering(&self) -> Result<Option<Class>, SurveyError> {
-        let first = self.fates.iter().position(|fate| *fate == Fate::Wandering);
-        let Some(cell) = first else {
+        let mut fates = self.fates.iter();
+        let Some(cell) = fates.position(|fate| *fate == Fate::Wandering) else {
             return Ok(None);
         };
         let (exponents, _) = Exponents::along(self.scene, self.states[cell].into(), BATCH)?;

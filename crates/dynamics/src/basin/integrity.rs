@@ -24,17 +24,12 @@ pub fn clearing(grid: &Grid, inside: impl Fn(usize) -> bool) -> Option<Clearing>
     };
     let mut squares: Vec<Vec<f64>> = (0..rows)
         .map(|row| {
-            let start = |column| {
-                if outside(row, column) {
-                    0.0
-                } else {
-                    f64::INFINITY
-                }
+            let start = |column| match outside(row, column) {
+                true => 0.0,
+                false => f64::INFINITY,
             };
-            transform(
-                &(0..columns).map(start).collect::<Vec<_>>(),
-                grid.across.spacing(),
-            )
+            let along: Vec<f64> = (0..columns).map(start).collect();
+            transform(&along, grid.across.spacing())
         })
         .collect();
     for column in 0..columns {
@@ -45,15 +40,12 @@ pub fn clearing(grid: &Grid, inside: impl Fn(usize) -> bool) -> Option<Clearing>
     }
     let places = (1..rows - 1).flat_map(|row| (1..columns - 1).map(move |column| (row, column)));
     // The first of equals.
-    let best = places.fold((0.0, (0, 0)), |best, (row, column)| {
-        let square = squares[row][column];
-        if square > best.0 {
-            (square, (row, column))
-        } else {
-            best
-        }
-    });
-    let (square, (row, column)) = best;
+    let squares = places.map(|(row, column)| (squares[row][column], row, column));
+    let larger = |best: (f64, usize, usize), it: (f64, usize, usize)| match it.0 > best.0 {
+        true => it,
+        false => best,
+    };
+    let (square, row, column) = squares.fold((0.0, 0, 0), larger);
     (square > 0.0).then(|| Clearing {
         centre: [grid.across.value(column - 1), grid.up.value(row - 1)],
         radius: square.sqrt(),

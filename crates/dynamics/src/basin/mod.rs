@@ -13,10 +13,11 @@
 //! ```
 //! use softstop::Ratios;
 //! use softstop_dynamics::basin::{Axis, Grid, Options, basins};
+//! use softstop_dynamics::watch::unwatched;
 //!
 //! let scene = Ratios::unloaded().scene()?;
 //! let grid = Grid::states(Axis::position(-20.0, 10.0, 30), Axis::velocity(-25.0, 25.0, 30), 0.0);
-//! let basins = basins(&scene, &grid, &Options::default())?;
+//! let basins = basins(&scene, &grid, &Options::default(), &unwatched)?;
 //! // Point A: without impacts, and z = 1.
 //! let names: Vec<String> = basins.classes.iter().map(|class| class.motion.to_string()).collect();
 //! assert_eq!(names, ["z = 0", "z = 1"]);
@@ -35,12 +36,11 @@ pub use certainty::{CertaintyError, Establishing, establishing};
 pub use grid::{Axis, Grid, Quantity};
 pub use integrity::{Clearing, clearing};
 pub use share::wilson;
+pub use survey::basins;
 
-use crate::attractors::SurveyError;
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit, Regime};
-use crate::watch::{Watcher, unwatched};
-use softstop::{MotionError, Scene};
+use softstop::MotionError;
 
 /// One basin.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,25 +118,4 @@ impl Default for Options {
             longest: 64,
         }
     }
-}
-
-/// The basins of a scene on a grid.
-///
-/// # Errors
-/// [`SurveyError::Motion`] if the scene is invalid.
-pub fn basins(scene: &Scene, grid: &Grid, options: &Options) -> Result<Basins, SurveyError> {
-    basins_watched(scene, grid, options, &unwatched)
-}
-
-/// The same, told of the cells done and of all cells; stopped when the watcher says so.
-///
-/// # Errors
-/// As [`basins`]; [`SurveyError::Stopped`].
-pub fn basins_watched(
-    scene: &Scene,
-    grid: &Grid,
-    options: &Options,
-    watcher: Watcher<'_>,
-) -> Result<Basins, SurveyError> {
-    survey::run(scene, grid, options, watcher)
 }

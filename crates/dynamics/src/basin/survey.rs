@@ -1,8 +1,6 @@
 //! Following the motions of all cells.
 
 use std::f64::consts::TAU;
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
@@ -14,7 +12,7 @@ use crate::attractors::known::{Book, Standing};
 use crate::watch::{Watcher, stop_if};
 use softstop::internals::Motion;
 use softstop::{Clock, MotionError, Scene, Start};
-use softstop_lanes::{Job, Machine};
+use softstop_lanes::Job;
 
 /// Cells that go together: enough for all lanes to be busy. The tiles may not depend on how many threads
 /// there are.
@@ -41,7 +39,8 @@ pub(super) struct Survey<'a> {
     pub scene: &'a Scene,
     pub grid: &'a Grid,
     options: Options,
-    machine: [Machine; 1],
+    /// Counts cells.
+    fleet: Fleet<'a>,
     pub book: Book<'a>,
     /// Balls of the orbits in the book.
     balls: Vec<(usize, Ball)>,
@@ -49,32 +48,33 @@ pub(super) struct Survey<'a> {
     pub fates: Vec<Fate>,
     /// Why the first lost cell is lost.
     pub lost: Option<(usize, MotionError)>,
-    watcher: Watcher<'a>,
-    done: AtomicUsize,
 }
 
 /// A cell that was followed: its number, its fate, its state.
 type Followed = (usize, Fate, Start, Option<MotionError>);
 
-pub(super) fn run(
+/// The basins of a scene on a grid. The watcher is told of the cells done and of all cells.
+///
+/// # Errors
+/// [`SurveyError::Motion`] if the scene is invalid; [`SurveyError::Stopped`].
+pub fn basins(
     scene: &Scene,
     grid: &Grid,
     options: &Options,
     watcher: Watcher<'_>,
 ) -> Result<Basins, SurveyError> {
-    let machine = [Machine::new(scene)?];
+    let mut fleet = Fleet::new(scene, watcher)?;
+    fleet.planned = grid.cells() as u64;
     let mut survey = Survey {
         scene,
         grid,
         options: *options,
-        machine,
+        fleet,
         book: Book::new(scene),
         balls: Vec::new(),
         states: Vec::new(),
         fates: Vec::new(),
         lost: None,
-        watcher,
-        done: AtomicUsize::new(0),
     };
     survey.bring()?;
     survey.scout()?;
@@ -90,7 +90,7 @@ impl Survey<'_> {
             .into_par_iter()
             .map(|cell| {
                 if cell % TILE == 0 {
-                    self.note(0)?;
+                    self.fleet.note(0)?;
                 }
                 Ok(self.at_section(cell))
             })
@@ -119,7 +119,7 @@ impl Survey<'_> {
             return Ok(start);
         }
         let clock = Clock::new(drive.frequency, angle);
-        let phases = self.machine[0].shared_phases();
+        let phases = self.fleet.machine[0].shared_phases();
         let mut motion = Motion::new(phases, clock, Clock::at_cycle(0), start)?;
         motion.advance(clock.instant(turn / drive.frequency), &mut ())?;
         Ok(motion.state())
@@ -169,10 +169,8 @@ impl Survey<'_> {
 
     fn follow(&self, tile: &[usize]) -> Result<Vec<Followed>, SurveyError> {
         let mut followed = Vec::with_capacity(tile.len());
-        let mut left: Vec<(usize, Start)> = tile
-            .iter()
-            .map(|cell| (*cell, self.states[*cell]))
-            .collect();
+        let left = tile.iter().map(|cell| (*cell, self.states[*cell]));
+        let mut left: Vec<(usize, Start)> = left.collect();
         let mut periods = 0;
         while periods < self.options.transient && !left.is_empty() {
             let stretch = STRETCH.min(self.options.transient - periods);
@@ -183,7 +181,7 @@ impl Survey<'_> {
                 periods: stretch,
             };
             let jobs: Vec<Job> = left.iter().map(job).collect();
-            let outcomes = softstop_lanes::run(&self.machine, &jobs, &mut ());
+            let outcomes = softstop_lanes::run(&self.fleet.machine, &jobs, &mut ());
             let before = left.len();
             let ends = std::mem::take(&mut left).into_iter().zip(outcomes);
             for ((cell, _), outcome) in ends {
@@ -195,12 +193,10 @@ impl Survey<'_> {
                     left.push((cell, outcome.end));
                 }
             }
-            self.note(before - left.len())?;
+            self.fleet.note((before - left.len()) as u64)?;
         }
-        followed.extend(
-            left.into_iter()
-                .map(|(cell, end)| (cell, Fate::Afloat, end, None)),
-        );
+        let left = left.into_iter();
+        followed.extend(left.map(|(cell, end)| (cell, Fate::Afloat, end, None)));
         Ok(followed)
     }
 
@@ -208,15 +204,6 @@ impl Survey<'_> {
     fn caught(&self, state: Start) -> Option<usize> {
         let ball = self.balls.iter().find(|(_, ball)| ball.holds(state));
         ball.map(|(orbit, _)| *orbit)
-    }
-
-    /// Counts cells.
-    fn note(&self, cells: usize) -> Result<(), SurveyError> {
-        let done = self.done.fetch_add(cells, Ordering::Relaxed) + cells;
-        match (self.watcher)(done as u64, self.grid.cells() as u64) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(SurveyError::Stopped),
-        }
     }
 
     /// Looks at all cells that no ball has caught.
@@ -233,7 +220,7 @@ impl Survey<'_> {
         let logged = 2 * self.options.longest + 1;
         let states = cells.iter().map(|cell| Voyage::new(self.states[*cell]));
         let mut voyages: Vec<Voyage> = states.collect();
-        let go_on = |_, _| stop_if(self.note(0).is_err());
+        let go_on = |_, _| stop_if(self.fleet.note(0).is_err());
         let fleet = Fleet::new(self.scene, &go_on)?;
         let mut all: Vec<&mut Voyage> = voyages.iter_mut().collect();
         fleet.sail(&mut all, periods + logged as u64, logged)?;
@@ -244,7 +231,7 @@ impl Survey<'_> {
                 None => self.judge(&voyage.log)?,
             };
             self.set(*cell, fate, voyage.error);
-            self.note(1)?;
+            self.fleet.note(1)?;
         }
         Ok(())
     }
@@ -254,13 +241,13 @@ impl Survey<'_> {
         let standing = self.book.judge(log)?;
         for (index, entry) in self.book.orbits.iter().enumerate().skip(known) {
             let balls = Ball::all(&entry.orbit)?;
-            self.balls
-                .extend(balls.into_iter().map(|ball| (index, ball)));
+            let balls = balls.into_iter().map(|ball| (index, ball));
+            self.balls.extend(balls);
         }
-        Ok(match standing {
-            Standing::Arrived(orbit) | Standing::Approaching(orbit) => Fate::Orbit(orbit),
-            Standing::AtRest => Fate::AtRest,
-            Standing::Wandering => Fate::Wandering,
+        Ok(match standing.orbit() {
+            Some(orbit) => Fate::Orbit(orbit),
+            None if standing == Standing::AtRest => Fate::AtRest,
+            None => Fate::Wandering,
         })
     }
 }

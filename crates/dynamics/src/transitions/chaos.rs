@@ -1,7 +1,7 @@
 //! Where chaos ends: by its lifetime.
 
 use super::TransitionError;
-use super::stage::{Gathering, Stage, most};
+use super::stage::{Explorer, Gathering, most};
 use crate::attractors::Arrival;
 use crate::continuation::Family;
 use crate::motion::MotionKind;
@@ -21,24 +21,21 @@ pub(super) struct ChaosEnd {
     pub after: f64,
 }
 
-impl<F: Family + Sync> Stage<'_, F> {
+impl<F: Family + Sync> Explorer<'_, F> {
     /// Motions that still wander at a value after the time given; none if half of them do not.
-    pub fn lasting(
+    pub(super) fn lasting(
         &self,
         value: f64,
         states: &[Start],
     ) -> Result<Option<Vec<Start>>, TransitionError> {
         let arrivals = self.hold(value, &self.fill(states), self.rules.lifetime)?;
-        let wandering: Vec<Start> = arrivals
-            .iter()
-            .filter(|it| it.orbit.is_none())
-            .map(|it| it.state)
-            .collect();
+        let wandering = arrivals.iter().filter(|it| it.orbit.is_none());
+        let wandering: Vec<Start> = wandering.map(|it| it.state).collect();
         Ok((2 * wandering.len() >= arrivals.len()).then_some(wandering))
     }
 
     /// Follows chaos from a value on until it ends, or the range does.
-    pub fn end_of_chaos(
+    pub(super) fn end_of_chaos(
         &self,
         value: f64,
         states: &[Start],
@@ -83,9 +80,7 @@ impl<F: Family + Sync> Stage<'_, F> {
 impl ChaosEnd {
     /// The orbit on which most settle.
     pub fn target(&self) -> Option<(&MotionKind, &Orbit)> {
-        self.gathering
-            .motion
-            .as_ref()
-            .zip(self.gathering.orbit.as_ref())
+        let Gathering { motion, orbit, .. } = &self.gathering;
+        motion.as_ref().zip(orbit.as_ref())
     }
 }

@@ -1,16 +1,13 @@
 //! What follows beyond the end of a window, and whether the way back leads into it again.
 
-use nalgebra::Vector2;
-
 use super::cause::Course;
-use super::stage::{Gathering, Stage};
+use super::stage::{Explorer, Gathering};
 use super::way::Way;
 use super::window::{EndKind, Window, WindowEnd};
 use super::{Transition, TransitionError};
 use crate::continuation::{Family, Follower, Limits};
 use crate::motion::MotionKind;
 use crate::watch::stop_if;
-use softstop::Start;
 
 /// Share of a window within which the way back is tried.
 const INSIDE: f64 = 0.25;
@@ -25,9 +22,9 @@ pub(super) struct Departure {
     pub gathering: Gathering,
 }
 
-impl<F: Family + Sync> Stage<'_, F> {
+impl<F: Family + Sync> Explorer<'_, F> {
     /// What follows beyond an end of a window: held at ever larger distances from it.
-    pub fn depart(
+    pub(super) fn depart(
         &self,
         window: &Window,
         upper: bool,
@@ -37,7 +34,10 @@ impl<F: Family + Sync> Stage<'_, F> {
             return Ok(None);
         }
         let sign = if upper { 1.0 } else { -1.0 };
-        let mut way = Way::new(self.side_by_side(end.point.state()), window);
+        let mut way = Way {
+            states: self.fill(&[end.point.state().into()]),
+            ..Way::default()
+        };
         for distance in self.distances(end.point.parameter) {
             let value = end.point.parameter + sign * distance;
             let mut gathering = self.gather(value, &self.fill(&way.states))?;
@@ -47,7 +47,7 @@ impl<F: Family + Sync> Stage<'_, F> {
             {
                 gathering.motion = Some(MotionKind::Chaos);
             }
-            if way.meet(gathering, distance, end.kind) {
+            if way.meet(gathering, distance, (&window.motion, end.kind)) {
                 break;
             }
         }
@@ -114,11 +114,6 @@ impl<F: Family + Sync> Stage<'_, F> {
         let unit = value.abs();
         std::iter::successors(Some(first * unit), |distance| Some(2.0 * distance))
             .take_while(move |distance| *distance <= largest * unit)
-    }
-
-    /// As many motions as the rules ask for about a state.
-    fn side_by_side(&self, state: Vector2<f64>) -> Vec<Start> {
-        self.fill(&[state.into()])
     }
 
     /// How the last doubled motion on the way ends.

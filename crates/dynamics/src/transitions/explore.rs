@@ -4,21 +4,15 @@ use rayon::prelude::*;
 
 use super::cause::Cause;
 use super::departure::Departure;
-use super::stage::Stage;
+use super::stage::Explorer;
 use super::way::is_doubled;
 use super::window::Window;
-use super::{Rules, Transition, TransitionError};
-use crate::attractors::attractors_watched;
+use super::{Transition, TransitionError};
+use crate::attractors::attractors;
 use crate::continuation::Family;
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
-use crate::watch::Watcher;
 use softstop::Start;
-
-/// Finds transitions of a family's motions.
-pub struct Explorer<'a, F> {
-    stage: Stage<'a, F>,
-}
 
 /// A periodic motion to follow: where it was met, and its orbit.
 type Met = (f64, Orbit);
@@ -39,19 +33,7 @@ const ROUNDS: usize = 6;
 /// Distance of an end of chaos from that of a window, as a share of the parameter, at which they are one.
 const SAME: f64 = 1e-4;
 
-impl<'a, F: Family + Sync> Explorer<'a, F> {
-    /// A search in a range of the parameter. The watcher is told of the drive periods of one look at
-    /// motions after the other.
-    pub fn new(family: &'a F, range: (f64, f64), rules: Rules, watcher: Watcher<'a>) -> Self {
-        let stage = Stage {
-            family,
-            range,
-            rules,
-            watcher,
-        };
-        Self { stage }
-    }
-
+impl<F: Family + Sync> Explorer<'_, F> {
     /// All transitions of the motions found at `values`, and of those to which they lead, in rising order
     /// of the parameter.
     ///
@@ -80,10 +62,9 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
                 self.follow_chaos(&mut atlas, &seed, &mut met)?;
             }
         }
-        atlas
-            .transitions
-            .sort_by(|a, b| a.value.total_cmp(&b.value));
-        Ok(atlas.transitions)
+        let mut transitions = atlas.transitions;
+        transitions.sort_by(|a, b| a.value.total_cmp(&b.value));
+        Ok(transitions)
     }
 
     /// The motions at one value.
@@ -93,8 +74,8 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
         met: &mut Vec<Met>,
         seeds: &mut Vec<Seed>,
     ) -> Result<(), TransitionError> {
-        let scene = self.stage.family.scene([value])?;
-        let survey = attractors_watched(&scene, &self.stage.rules.survey, self.stage.watcher)?;
+        let scene = self.family.scene([value])?;
+        let survey = attractors(&scene, &self.rules.survey, self.watcher)?;
         for attractor in survey.attractors {
             if attractor.motion.is_chaotic() {
                 seeds.push((value, vec![attractor.state]));
@@ -113,23 +94,18 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
             if atlas.windows.iter().chain(&fresh).any(known) {
                 continue;
             }
-            let stage = &self.stage;
             // An orbit so near an end of its window that it cannot be followed is met again elsewhere.
-            if let Ok(window) = Window::of(stage.family, value, &orbit, stage.range, &stage.rules) {
+            if let Ok(window) = Window::of(self.family, value, &orbit, self.range, &self.rules) {
                 fresh.push(window);
             }
         }
-        let ends: Vec<(&Window, bool)> = fresh
-            .iter()
-            .flat_map(|window| [(window, false), (window, true)])
-            .collect();
-        let departures: Result<Vec<Option<Departure>>, TransitionError> = ends
-            .into_par_iter()
-            .map(|(window, upper)| self.stage.depart(window, upper))
-            .collect();
-        let departures = departures?.into_iter().flatten().collect();
+        let ends = fresh
+            .par_iter()
+            .flat_map_iter(|window| [(window, false), (window, true)]);
+        let departures = ends.filter_map(|(window, upper)| self.depart(window, upper).transpose());
+        let departures = departures.collect::<Result<_, _>>();
         atlas.windows.extend(fresh);
-        Ok(departures)
+        departures
     }
 
     /// Follows chaos both ways.
@@ -139,27 +115,23 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
         (value, states): &Seed,
         met: &mut Vec<Met>,
     ) -> Result<(), TransitionError> {
-        if atlas
-            .chaos
-            .iter()
-            .any(|(low, high)| (*low..=*high).contains(value))
-        {
+        let mut followed = atlas.chaos.iter();
+        if followed.any(|(low, high)| (*low..=*high).contains(value)) {
             return Ok(());
         }
-        let Some(states) = self.stage.lasting(*value, states)? else {
+        let Some(states) = self.lasting(*value, states)? else {
             return Ok(());
         };
         let mut ends = [*value; 2];
         for rising in [false, true] {
-            let (last, end) = self.stage.end_of_chaos(*value, &states, rising)?;
+            let (last, end) = self.end_of_chaos(*value, &states, rising)?;
             ends[usize::from(rising)] = last;
             let Some(end) = end else { continue };
             let Some((target, orbit)) = end.target() else {
                 continue;
             };
             met.push((end.after, orbit.clone()));
-            let stage = &self.stage;
-            let window = Window::of(stage.family, end.after, orbit, stage.range, &stage.rules);
+            let window = Window::of(self.family, end.after, orbit, self.range, &self.rules);
             let before = end.value + (end.value - end.after) * 4.0;
             let hysteresis = window.is_ok_and(|window| window.contains(before));
             if !atlas.has_reverse(target, end.value) {

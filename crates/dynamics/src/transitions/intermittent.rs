@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use super::TransitionError;
-use super::stage::Stage;
+use super::stage::Explorer;
 use crate::continuation::Family;
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit, StroboscopicMap};
@@ -18,10 +18,10 @@ const NEAR: f64 = 1e-9;
 /// Periods of the old motion in a row that tell it from chance.
 const CALM: u64 = 5;
 
-impl<F: Family + Sync> Stage<'_, F> {
+impl<F: Family + Sync> Explorer<'_, F> {
     /// True if a motion near an orbit that has lost stability leaves it, is thrown back to it and leaves it
     /// again, several times over: Pomeau and Manneville's intermittency (1980), which the paper's ISN names.
-    pub fn is_intermittent(
+    pub(super) fn is_intermittent(
         &self,
         value: f64,
         states: &[Start],
@@ -38,7 +38,10 @@ impl<F: Family + Sync> Stage<'_, F> {
             return Ok(false);
         }
         let map = StroboscopicMap::new(&scene, 1)?;
-        let mut calm = Calm::new(periods as usize);
+        let mut calm = Calm {
+            periods: periods as usize,
+            ..Calm::default()
+        };
         for _ in 0..ENDURANCE {
             let passage = map.apply(state)?;
             state = passage.end;
@@ -57,14 +60,14 @@ impl<F: Family + Sync> Stage<'_, F> {
 /// Drive periods that a difference takes to grow to the size of the motion, from [`NEAR`] of it.
 fn leaving(orbit: &Orbit) -> f64 {
     let growth = Exponents::of(orbit).per_period[0];
-    if growth > 0.0 {
-        -NEAR.ln() / growth
-    } else {
-        f64::INFINITY
+    match growth > 0.0 {
+        true => -NEAR.ln() / growth,
+        false => f64::INFINITY,
     }
 }
 
 /// Counts how often the order of impacts ceases to be that of the first period.
+#[derive(Default)]
 struct Calm {
     /// Impacts in each of the last drive periods.
     last: VecDeque<usize>,
@@ -84,19 +87,6 @@ struct Calm {
 }
 
 impl Calm {
-    fn new(periods: usize) -> Self {
-        Self {
-            last: VecDeque::with_capacity(periods + 1),
-            periods,
-            pattern: Vec::new(),
-            length: 0,
-            longest: 0,
-            since: 0,
-            bursts: 0,
-            is_elsewhere: false,
-        }
-    }
-
     fn enter(&mut self, impacts: usize) {
         self.last.push_back(impacts);
         if self.last.len() < self.periods {
@@ -124,10 +114,8 @@ impl Calm {
 
     /// True if the last periods show the motion's order of impacts, from wherever it begins.
     fn is_old(&self) -> bool {
-        let twice = self.pattern.iter().chain(&self.pattern);
-        let twice: Vec<usize> = twice.copied().collect();
-        twice
-            .windows(self.periods)
-            .any(|order| self.last.iter().eq(order))
+        let orders = [&self.pattern[..]; 2].concat();
+        let mut orders = orders.windows(self.periods);
+        orders.any(|order| self.last.iter().eq(order))
     }
 }

@@ -32,7 +32,7 @@ mod way;
 mod window;
 
 pub use cause::Cause;
-pub use explore::Explorer;
+pub use stage::Explorer;
 pub use window::{EndKind, Window, WindowEnd};
 
 use thiserror::Error;

@@ -1,4 +1,4 @@
-//! What all parts of the search share: several motions side by side, and what most of them do.
+//! Several motions side by side, and what most of them do.
 
 use super::{Rules, TransitionError};
 use crate::attractors::{Arrival, Options, settle};
@@ -6,22 +6,23 @@ use crate::continuation::Family;
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit};
 use crate::watch::Watcher;
-use softstop::{Scene, Start};
+use softstop::Start;
 
 /// Relative differences between motions started side by side.
 const SPREAD: f64 = 1e-9;
 /// Drive periods in each batch of an exponent.
 const BATCH: u64 = 1600;
-/// What all parts of the search share.
-pub(super) struct Stage<'a, F> {
-    pub family: &'a F,
-    pub range: (f64, f64),
-    pub rules: Rules,
-    pub watcher: Watcher<'a>,
+
+/// Finds transitions of a family's motions.
+pub struct Explorer<'a, F> {
+    pub(super) family: &'a F,
+    pub(super) range: (f64, f64),
+    pub(super) rules: Rules,
+    pub(super) watcher: Watcher<'a>,
 }
 
 /// Where most of several motions are.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Gathering {
     /// What they do; none if that cannot be said yet.
     pub motion: Option<MotionKind>,
@@ -31,9 +32,20 @@ pub(super) struct Gathering {
     pub states: Vec<Start>,
 }
 
-impl<F: Family + Sync> Stage<'_, F> {
+impl<'a, F: Family + Sync> Explorer<'a, F> {
+    /// A search in a range of the parameter. The watcher is told of the drive periods of one look at
+    /// motions after the other.
+    pub fn new(family: &'a F, range: (f64, f64), rules: Rules, watcher: Watcher<'a>) -> Self {
+        Self {
+            family,
+            range,
+            rules,
+            watcher,
+        }
+    }
+
     /// Holds the parameter and lets motions settle.
-    pub fn hold(
+    pub(super) fn hold(
         &self,
         value: f64,
         starts: &[Start],
@@ -48,16 +60,20 @@ impl<F: Family + Sync> Stage<'_, F> {
     }
 
     /// What most of them do then.
-    pub fn gather(&self, value: f64, starts: &[Start]) -> Result<Gathering, TransitionError> {
+    pub(super) fn gather(
+        &self,
+        value: f64,
+        starts: &[Start],
+    ) -> Result<Gathering, TransitionError> {
         let arrivals = self.hold(value, starts, self.rules.patience)?;
         let (settled, wandering): (Vec<Arrival>, Vec<Arrival>) =
             arrivals.into_iter().partition(|it| it.orbit.is_some());
         if wandering.len() > settled.len() {
             let states: Vec<Start> = wandering.into_iter().map(|it| it.state).collect();
             let scene = self.family.scene([value])?;
-            let motion = is_chaotic(&scene, states[0])?.then_some(MotionKind::Chaos);
+            let (exponents, _) = Exponents::along(&scene, states[0].into(), BATCH)?;
             return Ok(Gathering {
-                motion,
+                motion: exponents.is_positive().then_some(MotionKind::Chaos),
                 orbit: None,
                 states,
             });
@@ -66,7 +82,7 @@ impl<F: Family + Sync> Stage<'_, F> {
     }
 
     /// As many motions as the rules ask for: the given ones, and others beside them.
-    pub fn fill(&self, states: &[Start]) -> Vec<Start> {
+    pub(super) fn fill(&self, states: &[Start]) -> Vec<Start> {
         let beside = |(index, state): (usize, &Start)| {
             let round = (index / states.len()) as f64;
             Start::new(
@@ -74,13 +90,8 @@ impl<F: Family + Sync> Stage<'_, F> {
                 state.velocity * (1.0 + SPREAD * round),
             )
         };
-        states
-            .iter()
-            .cycle()
-            .take(self.rules.motions)
-            .enumerate()
-            .map(beside)
-            .collect()
+        let all = states.iter().cycle().take(self.rules.motions);
+        all.enumerate().map(beside).collect()
     }
 }
 
@@ -96,21 +107,10 @@ pub(super) fn most(settled: Vec<Arrival>) -> Gathering {
         }
     }
     let most = kinds.into_iter().max_by_key(|kind| kind.2.len());
-    match most {
-        Some((motion, orbit, states)) => Gathering {
-            motion: Some(motion),
-            orbit: Some(orbit),
-            states,
-        },
-        None => Gathering {
-            motion: None,
-            orbit: None,
-            states: Vec::new(),
-        },
-    }
-}
-
-fn is_chaotic(scene: &Scene, state: Start) -> Result<bool, TransitionError> {
-    let (exponents, _) = Exponents::along(scene, state.into(), BATCH)?;
-    Ok(exponents.is_positive())
+    let gathering = most.map(|(motion, orbit, states)| Gathering {
+        motion: Some(motion),
+        orbit: Some(orbit),
+        states,
+    });
+    gathering.unwrap_or_default()
 }

@@ -1,14 +1,14 @@
 //! What a motion meets beyond the end of its window.
 
 use super::stage::Gathering;
-use super::window::{EndKind, Window};
+use super::window::EndKind;
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
 use softstop::Start;
 
 /// What a motion has met beyond the end of its window.
+#[derive(Default)]
 pub(super) struct Way {
-    pub from: MotionKind,
     pub states: Vec<Start>,
     pub path: Vec<MotionKind>,
     /// The last doubled motion and its distance.
@@ -25,29 +25,20 @@ pub(super) struct Way {
 }
 
 impl Way {
-    pub fn new(states: Vec<Start>, window: &Window) -> Self {
-        Self {
-            from: window.motion.clone(),
-            states,
-            path: Vec::new(),
-            doubled: None,
-            last: None,
-            tentative: None,
-            first: None,
-            before: None,
-            last_seen: None,
-        }
-    }
-
-    /// Enters what is met at a distance; true if that is where it settles.
-    pub fn meet(&mut self, gathering: Gathering, distance: f64, end: EndKind) -> bool {
+    /// Enters what is met at a distance beyond an end of a window; true if that is where it settles.
+    pub fn meet(
+        &mut self,
+        gathering: Gathering,
+        distance: f64,
+        (from, end): (&MotionKind, EndKind),
+    ) -> bool {
         if !gathering.states.is_empty() {
             self.states.clone_from(&gathering.states);
         }
         let Some(motion) = gathering.motion.clone() else {
             return false;
         };
-        if motion == self.from {
+        if motion == *from {
             return false;
         }
         if self.first.as_ref().is_none_or(|(_, last)| *last != motion) {
@@ -55,7 +46,7 @@ impl Way {
             self.first = Some((distance, motion.clone()));
         }
         self.last_seen = Some((distance, self.states.clone()));
-        let doubles = is_doubled(&self.from, &motion);
+        let doubles = is_doubled(from, &motion);
         let settles = match (end, &motion) {
             (EndKind::Flip, MotionKind::Chaos) => false,
             (EndKind::Flip, _) if doubles => false,

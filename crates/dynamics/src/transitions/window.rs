@@ -106,36 +106,26 @@ fn nearest(branch: &Branch, value: f64, orbit: &Orbit) -> usize {
 
 /// The end of stability on one side of a point of a branch.
 fn end(branch: &Branch, start: usize, backwards: bool) -> WindowEnd {
-    let last = branch.points.len() - 1;
-    let mut at = start;
-    loop {
-        let point = &branch.points[at];
-        if at != start
-            && let Some(kind) = special(branch, point)
-        {
-            return WindowEnd {
-                kind,
-                point: point.clone(),
-            };
-        }
-        let is_last = at == if backwards { 0 } else { last };
-        if is_last {
-            let why = if backwards {
-                &branch.ends.0
-            } else {
-                &branch.ends.1
-            };
-            let kind = match why {
-                End::Range => EndKind::Range,
-                End::Merged => EndKind::Merging,
-                _ => EndKind::Lost,
-            };
-            return WindowEnd {
-                kind,
-                point: point.clone(),
-            };
-        }
-        at = if backwards { at - 1 } else { at + 1 };
+    let (points, why): (Vec<&BranchPoint>, &End) = match backwards {
+        true => (
+            branch.points[..=start].iter().rev().collect(),
+            &branch.ends.0,
+        ),
+        false => (branch.points[start..].iter().collect(), &branch.ends.1),
+    };
+    let mut beyond = points.iter().skip(1);
+    let special = beyond.find_map(|point| Some((special(branch, point)?, *point)));
+    let (kind, point) = special.unwrap_or_else(|| {
+        let kind = match why {
+            End::Range => EndKind::Range,
+            End::Merged => EndKind::Merging,
+            _ => EndKind::Lost,
+        };
+        (kind, points[points.len() - 1])
+    });
+    WindowEnd {
+        kind,
+        point: point.clone(),
     }
 }
 

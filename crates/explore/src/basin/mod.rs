@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Error, anyhow};
 use clap::Args;
 use softstop::{Machine, Parameter};
-use softstop_dynamics::basin::{Options, basins_watched, establishing};
+use softstop_dynamics::basin::{Options, basins, establishing};
 use softstop_dynamics::zone;
 
 use crate::basin::picture::BasinPicture;
@@ -148,7 +148,7 @@ fn picture(
     let grid = plane::grid(arguments, scene)?;
     let export = Export::open(&arguments.output, &PICTURE)?;
     let progress = Progress::new(grid.cells() as u64, "cells");
-    let basins = basins_watched(scene, &grid, options, &progress.watcher()).map_err(Error::from)?;
+    let basins = basins(scene, &grid, options, &progress.watcher()).map_err(Error::from)?;
     drop(progress);
     let shown = format!("Basins: {}", title(machine));
     let png = BasinPicture::new(machine, &basins, &shown)

@@ -3,7 +3,7 @@
 use anyhow::{Error, anyhow};
 use nalgebra::Vector2;
 use softstop::Scene;
-use softstop_dynamics::attractors::{Options, attractors_watched};
+use softstop_dynamics::attractors::{Options, attractors};
 use softstop_dynamics::orbit::{Orbit, Regime};
 
 use softstop_console::failure::Failure;
@@ -59,7 +59,7 @@ pub fn find(scene: &Scene, wanted: Regime) -> Result<Orbit, Failure> {
         ..Options::default()
     };
     let bar = Progress::new(1, "drive periods at most, in search of the orbit");
-    let survey = attractors_watched(scene, &options, &|done, planned| {
+    let survey = attractors(scene, &options, &|done, planned| {
         bar.at_of(done, planned);
         interrupt::go_on()
     });

@@ -4,7 +4,7 @@ mod report;
 
 use anyhow::Error;
 use clap::Args;
-use softstop_dynamics::attractors::{Options, attractors_watched};
+use softstop_dynamics::attractors::{Options, attractors};
 
 use report::MotionsReport;
 use softstop_console::arguments::MachineArguments;
@@ -77,7 +77,7 @@ pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
         progress.at_of(done, planned);
         interrupt::go_on()
     };
-    let survey = attractors_watched(&machine.scene, &options, &watcher).map_err(Error::from)?;
+    let survey = attractors(&machine.scene, &options, &watcher).map_err(Error::from)?;
     drop(progress);
     export::print(
         &MotionsReport::new(&machine, &options, &survey),

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use softstop::{Ratios, Start};
-use softstop_dynamics::attractors::{Options, attractors_watched};
+use softstop_dynamics::attractors::{Options, attractors};
 use softstop_dynamics::continuation::Parameter;
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::Orbit;
@@ -58,7 +58,7 @@ fn seeds(known: &[Diagram], detail: Detail) -> Result<Vec<(f64, Orbit)>> {
     let mut seeds: Vec<(f64, Orbit)> = Vec::new();
     for eta in some {
         let scene = Ratios::unloaded().at_frequency(eta).scene()?;
-        let survey = attractors_watched(&scene, &options, &|_, _| interrupt::go_on())?;
+        let survey = attractors(&scene, &options, &|_, _| interrupt::go_on())?;
         for orbit in survey.attractors.into_iter().filter_map(|it| it.orbit) {
             let mut steps = known.iter().flat_map(|diagram| at(diagram, eta));
             if !steps.any(|step| shows(step, &orbit)) {

@@ -7,7 +7,7 @@ mod path;
 
 use anyhow::{Result, anyhow};
 use softstop::Ratios;
-use softstop_dynamics::attractors::{Options, Survey, attractors_watched};
+use softstop_dynamics::attractors::{Options, Survey, attractors};
 
 use crate::figure::{self, Detail, Drawn, Figure, Findings, Studio};
 use asked::MOTIONS;
@@ -89,5 +89,5 @@ fn survey(frequency: f64, detail: Detail, progress: &Progress) -> Result<Survey>
         progress.beat();
         interrupt::go_on()
     };
-    Ok(attractors_watched(&scene, &options, &watcher)?)
+    Ok(attractors(&scene, &options, &watcher)?)
 }

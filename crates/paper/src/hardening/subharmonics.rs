@@ -3,7 +3,7 @@
 use anyhow::Result;
 use rayon::prelude::*;
 use serde::Serialize;
-use softstop_dynamics::attractors::{Options, attractors_watched};
+use softstop_dynamics::attractors::{Options, attractors};
 use softstop_dynamics::orbit::Orbit;
 
 use super::stops::{Law, grazing};
@@ -61,7 +61,7 @@ fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmoni
         ..Options::default()
     };
     let scene = Law::KelvinVoigt(stiffness).scene(frequency, NARROW);
-    let survey = attractors_watched(&scene, &options, &|_, _| interrupt::go_on())?;
+    let survey = attractors(&scene, &options, &|_, _| interrupt::go_on())?;
     let orbits = survey
         .attractors
         .iter()

@@ -35,6 +35,7 @@ struct Member {
 }
 
 /// Motions that wander over the same places.
+#[derive(Default)]
 struct Group {
     exponents: Option<Exponents>,
     chaos: Option<Chaos>,
@@ -53,7 +54,24 @@ struct Search<'a> {
     groups: BTreeMap<usize, Group>,
 }
 
-pub(super) fn survey(
+/// All motions on which a scene settles. The result depends on scene and options alone, not on the number of
+/// threads. The watcher is told of the drive periods.
+///
+/// ```
+/// use softstop::Ratios;
+/// use softstop_dynamics::attractors::{Options, attractors};
+/// use softstop_dynamics::watch::unwatched;
+///
+/// let options = Options { starts: 64, ..Options::default() };
+/// let survey = attractors(&Ratios::unloaded().scene()?, &options, &unwatched)?;
+/// // Point A: with impacts and without, by turns of the start.
+/// assert_eq!(survey.attractors.len(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`SurveyError::Motion`] if the scene is invalid; [`SurveyError::Stopped`].
+pub fn attractors(
     scene: &Scene,
     options: &Options,
     watcher: Watcher<'_>,
@@ -70,11 +88,11 @@ pub(super) fn survey(
     search.report(region)
 }
 
-pub(super) fn classify(
-    scene: &Scene,
-    start: Start,
-    options: &Options,
-) -> Result<Attractor, SurveyError> {
+/// What the motion from one start settles on.
+///
+/// # Errors
+/// [`SurveyError::Motion`] if the scene is invalid or the motion cannot be computed.
+pub fn classify(scene: &Scene, start: Start, options: &Options) -> Result<Attractor, SurveyError> {
     let mut search = Search::new(scene, options, &unwatched)?;
     start.validate()?;
     search.launch(vec![start], true)?;
@@ -82,14 +100,17 @@ pub(super) fn classify(
         return Err(error.clone().into());
     }
     search.watch()?;
-    let region = Region::far(scene);
-    let mut found = search.report(region)?.attractors;
-    found.sort_by_key(|attractor| std::cmp::Reverse(attractor.starts));
+    let found = search.report(Region::far(scene))?.attractors;
     found.into_iter().next().ok_or(SurveyError::Stopped)
 }
 
-/// Where motions from several starts are after the transient: see [`super::settle`].
-pub(super) fn settle(
+/// Where motions from several starts are after the transient, in their order: cheaper than
+/// [`classify`], as a motion that has not settled then is not looked at any farther.
+///
+/// # Errors
+/// [`SurveyError::Motion`] if the scene is invalid or a motion cannot be computed;
+/// [`SurveyError::Stopped`].
+pub fn settle(
     scene: &Scene,
     starts: &[Start],
     options: &Options,
@@ -98,15 +119,12 @@ pub(super) fn settle(
     let mut search = Search::new(scene, options, watcher)?;
     search.launch(starts.to_vec(), true)?;
     let Search { members, book, .. } = search;
-    let arrival = |member: Member| match (member.voyage.error, member.standing) {
-        (Some(error), _) => Err(error.into()),
-        (None, Standing::Arrived(at) | Standing::Approaching(at)) => Ok(Arrival {
+    let orbit = |at: usize| book.orbits[at].orbit.clone();
+    let arrival = |member: Member| match member.voyage.error {
+        Some(error) => Err(error.into()),
+        None => Ok(Arrival {
             state: member.voyage.state,
-            orbit: Some(book.orbits[at].orbit.clone()),
-        }),
-        (None, Standing::AtRest | Standing::Wandering) => Ok(Arrival {
-            state: member.voyage.state,
-            orbit: None,
+            orbit: member.standing.orbit().map(orbit),
         }),
     };
     members.into_iter().map(arrival).collect()
@@ -163,12 +181,10 @@ impl<'a> Search<'a> {
         periods: u64,
     ) -> Result<(), SurveyError> {
         let logged = self.logged();
-        let mut afloat: Vec<&mut Member> = self.members[which]
-            .iter_mut()
-            .filter(|member| member.is_afloat())
-            .collect();
-        let mut voyages: Vec<&mut Voyage> =
-            afloat.iter_mut().map(|member| &mut member.voyage).collect();
+        let members = self.members[which].iter_mut();
+        let mut afloat: Vec<&mut Member> = members.filter(|member| member.is_afloat()).collect();
+        let voyages = afloat.iter_mut().map(|member| &mut member.voyage);
+        let mut voyages: Vec<&mut Voyage> = voyages.collect();
         self.fleet.sail(&mut voyages, periods, logged)?;
         for member in afloat {
             if member.voyage.error.is_none() {

@@ -4,6 +4,7 @@ use super::super::chaos::Chaos;
 use super::super::known::{Known, Standing};
 use super::super::{Attractor, Region, Survey, SurveyError};
 use super::{Group, Member, Search};
+use crate::extremes::extremes;
 use crate::motion::MotionKind;
 use crate::orbit::Exponents;
 use softstop::{MotionError, Start};
@@ -32,21 +33,14 @@ impl Search<'_> {
     fn periodic(&self, counted: usize) -> Vec<Attractor> {
         let known = self.book.orbits.iter().enumerate();
         let attractor = |(index, known): (usize, &Known)| {
-            let here = |member: &&Member| match member.standing {
-                Standing::Arrived(at) | Standing::Approaching(at) => member.counts && at == index,
-                Standing::AtRest | Standing::Wandering => false,
-            };
+            let here = |member: &&Member| member.counts && member.standing.orbit() == Some(index);
             let starts = self.members.iter().filter(here).count();
-            let orbit = known.orbit.clone();
+            let (orbit, motion) = (&known.orbit, MotionKind::of(&known.orbit));
             Attractor {
                 certainty: Some(known.certainty),
-                exponents: Some(Exponents::of(&orbit)),
-                orbit: Some(Box::new(orbit)),
-                ..Attractor::new(
-                    MotionKind::of(&known.orbit),
-                    known.orbit.state().into(),
-                    (starts, counted),
-                )
+                exponents: Some(Exponents::of(orbit)),
+                orbit: Some(Box::new(orbit.clone())),
+                ..Attractor::new(motion, orbit.state().into(), (starts, counted))
             }
         };
         known.map(attractor).collect()
@@ -58,24 +52,24 @@ impl Search<'_> {
             let wanders = |member: &&Member| member.group == Some(*number) && member.wanders();
             let left: Vec<&Member> = self.members.iter().filter(wanders).collect();
             let starts = left.iter().filter(|member| member.counts).count();
-            let shares = (starts, counted);
-            if let Some(chaos) = group.chaos() {
-                let ends = chaos.lifetime.is_some();
-                let motion = if ends {
-                    MotionKind::TransientChaos
-                } else {
-                    MotionKind::Chaos
-                };
-                return Some(Attractor {
-                    exponents: Some(chaos.exponents),
-                    chaos: Some(chaos),
-                    ..Attractor::new(motion, chaos.state, shares)
-                });
-            }
-            let state = left.first()?.voyage.state;
+            let chaos = group.chaos();
+            let (motion, state, exponents) = match chaos {
+                Some(chaos) => {
+                    let motion = match chaos.lifetime {
+                        Some(_) => MotionKind::TransientChaos,
+                        None => MotionKind::Chaos,
+                    };
+                    (motion, chaos.state, chaos.exponents)
+                }
+                None => {
+                    let state = left.first()?.voyage.state;
+                    (MotionKind::Unsettled, state, group.exponents?)
+                }
+            };
             Some(Attractor {
-                exponents: Some(group.exponents?),
-                ..Attractor::new(MotionKind::Unsettled, state, shares)
+                exponents: Some(exponents),
+                chaos,
+                ..Attractor::new(motion, state, (starts, counted))
             })
         };
         self.groups.iter().filter_map(attractor).collect()
@@ -85,8 +79,8 @@ impl Search<'_> {
     fn resting(&self, counted: usize) -> Option<Attractor> {
         let rests = |member: &&Member| member.standing == Standing::AtRest;
         let members: Vec<&Member> = self.members.iter().filter(rests).collect();
-        let positions = || members.iter().map(|member| member.voyage.state.position);
-        let positions = [positions().reduce(f64::min)?, positions().reduce(f64::max)?];
+        let positions = members.iter().map(|member| member.voyage.state.position);
+        let positions = extremes(positions)?;
         let starts = members.iter().filter(|member| member.counts).count();
         Some(Attractor {
             positions: Some(positions),

@@ -7,7 +7,6 @@ use super::super::chaos::Chaos;
 use super::super::fleet::Voyage;
 use super::super::group::groups;
 use super::super::known::Standing;
-use super::super::lifetime::Looks;
 use super::{GROWTH, Group, Search};
 use crate::orbit::Exponents;
 use softstop::Start;
@@ -48,14 +47,10 @@ impl Search<'_> {
     /// The exponents of a group: of the first of its motions with a positive one that does not settle
     /// meanwhile.
     fn measure(&mut self, indices: &[usize]) -> Result<Group, SurveyError> {
+        let counts = |index: &&usize| self.members[**index].counts;
         let mut group = Group {
-            exponents: None,
-            chaos: None,
-            looks: Looks::default(),
-            entered: indices
-                .iter()
-                .filter(|index| self.members[**index].counts)
-                .count(),
+            entered: indices.iter().filter(counts).count(),
+            ..Group::default()
         };
         for &index in indices.iter().take(TRIES) {
             let state = self.members[index].voyage.state;
