@@ -1,12 +1,14 @@
 //! The loop: from crossing to crossing, up to a time.
 
+use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
 use super::clock::Instant;
 use super::effort;
-use super::motion::{Motion, Start};
+use super::motion::Motion;
 use super::observer::{Crossing, CrossingKind, Observer};
+use super::start::Start;
 use crate::error::MotionError;
 use crate::events::{Found, Guard, Outlook, first_crossing};
 use crate::flow::{Chatter, Drive, Finer, Node};
@@ -151,34 +153,19 @@ impl Motion {
     }
 
     fn search(&self, node: Node, horizon: f64) -> Outlook {
+        first_crossing(&self.course, &self.guards(), node, horizon)
+    }
+
+    /// The guards that watch the present arc.
+    pub(super) fn guards(&self) -> Cow<'_, [Guard]> {
         match self.mode {
-            Mode::Moving(phase) => first_crossing(
-                &self.course,
-                &self.phases.phases[phase].guards,
-                node,
-                horizon,
-            ),
+            Mode::Moving(phase) => Cow::Borrowed(&self.phases[phase].guards),
             Mode::Held(hold) => {
-                let (guards, count) = self.release_guards(hold);
-                first_crossing(&self.course, &guards[..count], node, horizon)
+                let since = &self.course.departure;
+                let push = since.push.value() + self.phases.held.amplitude * since.drive.cos;
+                Cow::Owned(self.phases.releases(hold, since.position, push))
             }
-            Mode::Chattering(_) => first_crossing(&self.course, &[], node, horizon),
-        }
-    }
-
-    fn release_guards(&self, hold: Hold) -> ([Guard; 2], usize) {
-        let since = &self.course.departure;
-        let push = since.push.value() + self.phases.held.amplitude * since.drive.cos;
-        let (guards, _, count) = self.phases.releases(hold, since.position, push);
-        (guards, count)
-    }
-
-    /// How many guards watch the present arc.
-    pub(super) fn guard_count(&self) -> usize {
-        match self.mode {
-            Mode::Moving(phase) => self.phases.phases[phase].guards.len(),
-            Mode::Held(hold) => self.release_guards(hold).1,
-            Mode::Chattering(_) => 0,
+            Mode::Chattering(_) => Cow::Borrowed(&[]),
         }
     }
 

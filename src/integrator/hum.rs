@@ -2,13 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::phases::Threshold;
+use crate::phases::{SurfaceId, Threshold};
 
 /// A row of bounces: crossings of one and the same surface, reversals left out, none of them twice as fast
 /// as one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Hum {
-    surface: usize,
+    surface: SurfaceId,
     crossings: u32,
     /// Highest and lowest speed in the row, in m/s.
     fastest: f64,
@@ -18,7 +18,7 @@ pub(crate) struct Hum {
 impl Default for Hum {
     fn default() -> Self {
         Self {
-            surface: 0,
+            surface: SurfaceId::default(),
             crossings: 0,
             fastest: 0.0,
             slowest: f64::INFINITY,
@@ -37,7 +37,7 @@ const FAINT: f64 = 1e-11;
 
 impl Hum {
     /// Counts a crossing.
-    pub fn count(&mut self, surface: usize, velocity: f64) {
+    pub fn count(&mut self, surface: SurfaceId, velocity: f64) {
         let speed = velocity.abs();
         if surface != self.surface || speed > 2.0 * self.slowest {
             *self = Self {

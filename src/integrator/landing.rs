@@ -1,10 +1,11 @@
 //! What a crossing leads to: state, mode and kind right after it.
 
-use super::motion::{Motion, Start};
+use super::motion::Motion;
 use super::observer::CrossingKind;
-use crate::events::{Found, Guard};
+use super::start::Start;
+use crate::events::Found;
 use crate::flow::{Chatter, Drive, Polynomial, Pressing};
-use crate::phases::{Beyond, Exit, Hold, Mode, Phase, Phases, Surface, Threshold};
+use crate::phases::{Beyond, Exit, Hold, Mode, PhaseId, Phases, Surface, SurfaceId, Threshold};
 
 /// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
 /// to no end in finite time, as those on a preloaded face.
@@ -32,12 +33,12 @@ impl Landing {
 
 impl Phases {
     /// The surface that a guard of a phase watches, if bounces on it may go on for ever.
-    pub(crate) fn endless_surface(&self, phase: usize, guard: usize) -> Option<usize> {
-        let surface = match self.phases[phase].exits[guard] {
+    pub(crate) fn endless_surface(&self, phase: PhaseId, guard: usize) -> Option<SurfaceId> {
+        let surface = match self[phase].exits[guard] {
             Exit::Forward(surface) | Exit::Backward(surface) => surface,
             Exit::Reversal { .. } | Exit::Switch(_) => return None,
         };
-        let endless = match self.surfaces[surface].above {
+        let endless = match self[surface].above {
             Beyond::Phase(_) => true,
             Beyond::Wall { restitution } => restitution > ENDLESS,
         };
@@ -47,13 +48,12 @@ impl Phases {
 
 impl Motion {
     /// The surface that a guard watches, if bounces on it may go on for ever.
-    pub(super) fn surface_of(&self, guard: usize) -> Option<usize> {
+    pub(super) fn surface_of(&self, guard: usize) -> Option<SurfaceId> {
         self.phases.endless_surface(self.mode.phase()?, guard)
     }
 
     /// State and mode right after a crossing.
     pub(super) fn land(&self, found: &Found, push: f64) -> Landing {
-        let position = found.position;
         match self.mode {
             Mode::Moving(phase) => {
                 // A mass that leaves rest and is back at once has not moved.
@@ -62,9 +62,8 @@ impl Motion {
                 self.ground().leave(phase, found, push, moved)
             }
             Mode::Held(hold) | Mode::Chattering(hold) => {
-                let (_, phases, _) = self.phases.releases(hold, position, push);
-                let mode = Mode::Moving(phases[found.guard]);
-                Landing::new(position, 0.0, mode, CrossingKind::Release)
+                let mode = hold.released(found.guard);
+                Landing::new(found.position, 0.0, mode, CrossingKind::Release)
             }
         }
     }
@@ -93,9 +92,10 @@ impl Motion {
     /// mode was chosen.
     pub(super) fn acceleration_at_rest(&self, position: f64, drive: Drive, mode: Mode) -> f64 {
         match (self.mode, mode) {
-            (Mode::Moving(_) | Mode::Chattering(_), Mode::Moving(phase)) => self.phases.phases
-                [phase]
-                .acceleration_from_rest(position, self.push(drive), self.phases.mass),
+            (Mode::Moving(_) | Mode::Chattering(_), Mode::Moving(phase)) => {
+                let push = self.push(drive);
+                self.phases.acceleration(phase, position, 0.0, push)
+            }
             // A held mass is let go in balance.
             _ => 0.0,
         }
@@ -108,9 +108,9 @@ impl Motion {
 
     /// Acceleration in m/s^2 in a mode.
     pub fn acceleration(&self, mode: Mode, position: f64, velocity: f64, push: f64) -> f64 {
-        mode.phase().map_or(0.0, |phase| {
-            self.phases.phases[phase].acceleration(position, velocity, push, self.phases.mass)
-        })
+        let phases = &self.phases;
+        let moving = |phase| phases.acceleration(phase, position, velocity, push);
+        mode.phase().map_or(0.0, moving)
     }
 }
 
@@ -132,9 +132,10 @@ pub(crate) struct Ground<'a> {
 impl Ground<'_> {
     /// State and mode right after a crossing out of a phase; `moved` is false for a mass that is back at
     /// once where it left rest.
-    pub(crate) fn leave(&self, phase: usize, found: &Found, push: f64, moved: bool) -> Landing {
-        let position = self.phases.phases[phase].confine(found.position);
-        match self.phases.phases[phase].exits[found.guard] {
+    pub(crate) fn leave(&self, phase: PhaseId, found: &Found, push: f64, moved: bool) -> Landing {
+        let phase = &self.phases[phase];
+        let position = phase.confine(found.position);
+        match phase.exits[found.guard] {
             Exit::Reversal { forward, backward } => {
                 let hold = Hold::between(forward, backward);
                 let mode = self.phases.turn(hold, position, push);
@@ -145,7 +146,7 @@ impl Ground<'_> {
                 Landing::new(position, found.velocity, mode, CrossingKind::Switch)
             }
             Exit::Forward(surface) => {
-                let at = &self.phases.surfaces[surface];
+                let at = &self.phases[surface];
                 let velocity = if moved { found.velocity.max(0.0) } else { 0.0 };
                 match self.phases.beyond(at, self.fed) {
                     Beyond::Wall { restitution } => self.rebound(at, velocity, push, restitution),
@@ -153,7 +154,7 @@ impl Ground<'_> {
                 }
             }
             Exit::Backward(surface) => {
-                let at = &self.phases.surfaces[surface];
+                let at = &self.phases[surface];
                 self.pass(at, found.velocity.min(0.0), push, false)
             }
         }
@@ -193,7 +194,7 @@ impl Ground<'_> {
         let chatter = self.chatter(at, speed, push, restitution);
         let mode = match chatter {
             Some(_) => Mode::Chattering(hold),
-            None => self.phases.moving(at.below, position, -speed),
+            None => Mode::Moving(self.phases.pressing(at.below, position, -speed)),
         };
         Landing {
             chatter,
@@ -204,14 +205,12 @@ impl Ground<'_> {
     /// The bounces that follow a rebound, where they can be summed.
     fn chatter(&self, at: &Surface, speed: f64, push: f64, restitution: f64) -> Option<Chatter> {
         let phases = self.phases;
-        let out = &phases.phases[at.below];
-        let back = &phases.phases[phases.forward_of(at.below)];
-        let rest = |phase: &Phase| phase.acceleration_from_rest(at.position, push, phases.mass);
-        let slopes = [out, back].map(|phase| phase.slopes(at.position, 0.0));
+        let (out, back) = (at.below, phases.forward_of(at.below));
+        let rest = |phase| phases.acceleration(phase, at.position, 0.0, push);
+        let slopes = [out, back].map(|phase| phases[phase].slopes(at.position, 0.0));
         let largest = |values: [f64; 2]| values[0].abs().max(values[1].abs()) / phases.mass;
         let drive = phases.held.amplitude * phases.held.frequency;
-        let lets_go = |(_, pulls): (usize, Guard)| pulls.value(at.position, -speed) > 0.0;
-        let two_laws = phases.forward_of(at.below) != at.below || out.released.is_some_and(lets_go);
+        let two_laws = back != out || phases.pressing(out, at.position, -speed) != out;
         let pressing = Pressing {
             accelerations: (rest(out), rest(back)),
             drive_rate: drive,

@@ -2,61 +2,15 @@
 
 use std::sync::Arc as Shared;
 
-use nalgebra::Vector2;
-use serde::{Deserialize, Serialize};
-
 use super::clock::{Clock, Instant};
 use super::force::Force;
 use super::hum::Hum;
 use super::observer::Arc;
+use super::start::Start;
 use crate::error::MotionError;
 use crate::events::Outlook;
 use crate::flow::{Chatter, Course, Departure, Drive, Finer, Polynomial};
-use crate::phases::{Hold, Mode, Phase, PhaseKind, Phases, Store};
-
-/// A state to start from.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Start {
-    /// Position in m.
-    pub position: f64,
-    /// Velocity in m/s.
-    pub velocity: f64,
-}
-
-impl From<Vector2<f64>> for Start {
-    fn from(state: Vector2<f64>) -> Self {
-        Self::new(state.x, state.y)
-    }
-}
-
-impl From<Start> for Vector2<f64> {
-    fn from(start: Start) -> Self {
-        Self::new(start.position, start.velocity)
-    }
-}
-
-impl Start {
-    /// At rest at position 0.
-    pub const REST: Self = Self::new(0.0, 0.0);
-
-    /// The state at this position in m with this velocity in m/s.
-    pub const fn new(position: f64, velocity: f64) -> Self {
-        Self { position, velocity }
-    }
-
-    /// Refuses a state that is not finite.
-    ///
-    /// # Errors
-    /// [`MotionError::NotFinite`] naming the component.
-    pub fn validate(&self) -> Result<(), MotionError> {
-        for (name, value) in [("position", self.position), ("velocity", self.velocity)] {
-            if !value.is_finite() {
-                return Err(MotionError::NotFinite { name, value });
-            }
-        }
-        Ok(())
-    }
-}
+use crate::phases::{Hold, Mode, Phase, PhaseId, PhaseKind, Phases, Store};
 
 /// The exact motion of a scene, arc by arc.
 ///
@@ -165,7 +119,7 @@ impl Motion {
 
     /// The phase whose law holds now; none while the mass is held.
     pub fn phase(&self) -> Option<&Phase> {
-        self.mode.phase().map(|phase| &self.phases.phases[phase])
+        self.mode.phase().map(|phase| &self.phases[phase])
     }
 
     /// What the stop stores now.
@@ -177,18 +131,13 @@ impl Motion {
         | Mode::Chattering(Hold {
             backward: phase, ..
         })) = self.mode;
-        &self.phases.phases[phase].store
+        &self.phases[phase].store
     }
 
     /// External force in N from now on.
     pub fn force(&self) -> Polynomial {
         let elapsed = self.clock.elapsed(self.start, self.now);
         self.force.seen_from(&self.clock, self.now, elapsed)
-    }
-
-    /// Whether a strip will be met at the next crossing of the clearance.
-    pub fn is_fed(&self) -> bool {
-        self.fed
     }
 
     /// Position and velocity now.
@@ -203,11 +152,11 @@ impl Motion {
 
     /// The arc that is under way.
     pub fn arc(&self) -> Arc<'_> {
-        let law = self.phase();
         Arc {
             start: self.start,
+            clock: &self.clock,
             course: &self.course,
-            phase: law,
+            phase: self.phase(),
             kind: self.kind(),
         }
     }
@@ -215,7 +164,7 @@ impl Motion {
     /// Whether the strip's phases hold now, or would at the next crossing of the clearance.
     pub(super) fn is_latched(&self) -> bool {
         match self.mode {
-            Mode::Moving(0) => self.fed,
+            Mode::Moving(PhaseId::FREE) => self.fed,
             Mode::Moving(phase) => self.phases.belongs_to_strip(phase),
             Mode::Held(hold) | Mode::Chattering(hold) => {
                 let phase = hold.forward.unwrap_or(hold.backward);
@@ -244,8 +193,9 @@ impl Motion {
         mode: Mode,
         acceleration: Option<f64>,
     ) -> Departure {
-        let phase = mode.phase().map(|phase| &self.phases.phases[phase]);
-        let law = phase.map_or(0.0, |phase| phase.law.force);
+        let law = mode
+            .phase()
+            .map_or(0.0, |phase| self.phases[phase].law.force);
         Departure {
             position: state.position,
             velocity: state.velocity,
@@ -267,7 +217,7 @@ impl Motion {
         let held = self.phases.held;
         self.course = match (mode, chatter) {
             (Mode::Moving(phase), _) => {
-                let phase = &self.phases.phases[phase];
+                let phase = &self.phases[phase];
                 match (&phase.hertz, finer) {
                     (Some(hertz), finer) => {
                         let rounded = departure.position - hertz.origin;

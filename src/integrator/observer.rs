@@ -2,8 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use super::clock::Instant;
-use crate::flow::Course;
+use super::clock::{Clock, Instant};
+use super::start::Start;
+use crate::flow::{Course, Drive};
 use crate::phases::{Phase, PhaseKind};
 
 /// A stretch of motion in one phase.
@@ -12,6 +13,8 @@ use crate::phases::{Phase, PhaseKind};
 pub struct Arc<'a> {
     /// When it began.
     pub start: Instant,
+    /// The clock of its instants.
+    pub clock: &'a Clock,
     /// Its exact motion.
     #[doc(hidden)]
     pub course: &'a Course,
@@ -20,6 +23,24 @@ pub struct Arc<'a> {
     pub phase: Option<&'a Phase>,
     /// What the mass does on it.
     pub kind: PhaseKind,
+}
+
+impl Arc<'_> {
+    /// When it began, in s since the clock's time 0.
+    pub fn begin(&self) -> f64 {
+        self.clock.time(self.start)
+    }
+
+    /// Where the drive stands `elapsed` seconds after the start.
+    pub fn drive(&self, elapsed: f64) -> Drive {
+        self.clock.drive(self.clock.after(self.start, elapsed))
+    }
+
+    /// The state `elapsed` seconds after the start.
+    pub fn at(&self, elapsed: f64) -> Start {
+        let (position, velocity) = self.course.at(elapsed, self.drive(elapsed));
+        Start::new(position, velocity)
+    }
 }
 
 /// What happens at a crossing.

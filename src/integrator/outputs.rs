@@ -1,8 +1,8 @@
 //! What a running machine shows.
 
 use super::mechanical_energy;
-use super::motion::Start;
 use super::simulation::Simulation;
+use super::start::Start;
 use crate::flow::Drive;
 use crate::phases::PhaseKind;
 
@@ -26,7 +26,7 @@ pub struct Sample {
 }
 
 /// An impact at absolute time.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Impact {
     /// Time in s.
     pub time: f64,
@@ -54,7 +54,7 @@ impl Simulation {
         let (contact_force, acceleration, jerk) = match self.motion.phase() {
             None => (push - self.scene.stiffness * position, 0.0, 0.0),
             Some(phase) => {
-                let contact = phase.contact_force(&self.motion.phases().free, position, velocity);
+                let contact = phase.contact_force(position, velocity);
                 let free = self.scene.damping * velocity + self.scene.stiffness * position;
                 let acceleration = (push - free - contact) / self.scene.mass;
                 let (stiffness, damping) = phase.slopes(position, velocity);

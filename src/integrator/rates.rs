@@ -1,8 +1,8 @@
 //! Rates of the outputs: how they go on from the present time.
 
-use super::motion::Start;
 use super::outputs::Sample;
 use super::simulation::Simulation;
+use super::start::Start;
 
 /// First and second time derivative of an output.
 pub type Rate = (f64, f64);

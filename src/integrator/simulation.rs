@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use super::clock::{Clock, Instant};
 use super::force::polynomial;
 use super::mark::{Mark, Origin};
-use super::motion::{Motion, Start};
+use super::motion::Motion;
+use super::start::Start;
 use super::tallies::{Counts, Tallies};
 use super::{Observer, mechanical_energy};
 use crate::error::MotionError;
@@ -83,14 +84,12 @@ impl Simulation {
         }
         let clock = scene.clock();
         within_reach(&clock, time, 0.0)?;
-        let phases = scene.phases();
         let tallies = Tallies {
             mass: scene.mass,
-            free: phases.free,
             counts: Counts::default(),
         };
         let at = clock.instant(time);
-        let motion = Motion::with(phases, clock, at, start, Polynomial::default(), fed)?;
+        let motion = Motion::with(scene.phases(), clock, at, start, Polynomial::default(), fed)?;
         Ok(Self {
             scene: scene.clone(),
             motion,
@@ -248,7 +247,6 @@ impl Simulation {
         (self.motion, self.scene) = (motion, scene.clone());
         self.mark = Mark::OnArc(self.motion.now());
         self.tallies.mass = scene.mass;
-        self.tallies.free = self.motion.phases().free;
         let mechanical = mechanical_energy(scene, &self.motion);
         self.tallies.counts.work.supplied += mechanical - before;
         Ok(())

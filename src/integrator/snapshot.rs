@@ -11,8 +11,9 @@ use super::clock::{Clock, Instant};
 use super::force::Force;
 use super::hum::Hum;
 use super::mark::{Mark, Origin};
-use super::motion::{Motion, Start};
+use super::motion::Motion;
 use super::simulation::Simulation;
+use super::start::Start;
 use super::tallies::{Counts, Tallies};
 use crate::error::MotionError;
 use crate::events::Outlook;
@@ -99,7 +100,7 @@ impl Moving {
         };
         motion.begin(self.departure, self.mode, self.finer, self.chatter);
         motion.outlook = self.outlook;
-        let guards = motion.guard_count();
+        let guards = motion.guards().len();
         if matches!(self.outlook, Outlook::Crossing(found) if found.guard >= guards) {
             return Err(broken("a crossing of a surface that does not exist"));
         }
@@ -109,7 +110,7 @@ impl Moving {
     fn validate(&self, phases: &Phases) -> Result<(), MotionError> {
         let held = self.mode.hold().into_iter().flat_map(Hold::phases);
         let mut named = self.mode.phase().into_iter().chain(held);
-        if named.any(|phase| phase >= phases.phases.len()) {
+        if named.any(|phase| phase.index() >= phases.phases.len()) {
             return Err(broken("a phase that does not exist"));
         }
         let Departure {
@@ -182,7 +183,6 @@ impl Simulation {
             now: snapshot.now,
             tallies: Tallies {
                 mass: scene.mass,
-                free: phases.free,
                 counts: snapshot.counts,
             },
             begin: snapshot.begin,

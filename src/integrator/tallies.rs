@@ -6,13 +6,11 @@ use super::clock::Instant;
 use super::motion::Motion;
 use super::observer::{Arc, Crossing, Observer};
 use super::{Work, work};
-use crate::phases::Law;
 
 /// Impacts, pierced strips and energies since the start.
 #[derive(Debug, Clone)]
 pub(super) struct Tallies {
     pub mass: f64,
-    pub free: Law,
     pub counts: Counts,
 }
 
@@ -28,7 +26,7 @@ pub(super) struct Counts {
 
 impl Observer for Tallies {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.counts.work += work(arc, self.mass, &self.free, elapsed);
+        self.counts.work += work(arc, self.mass, elapsed);
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
@@ -46,6 +44,6 @@ impl Tallies {
     pub fn work_under_way(&self, motion: &Motion) -> Work {
         let arc = motion.arc();
         let elapsed = motion.clock().elapsed(arc.start, motion.now());
-        work(&arc, self.mass, &self.free, elapsed)
+        work(&arc, self.mass, elapsed)
     }
 }

@@ -8,7 +8,7 @@ use super::{Impact, Start};
 use crate::error::MotionError;
 use crate::events::{Found, Guard};
 use crate::flow::Polynomial;
-use crate::phases::{Mode, Phase, Phases};
+use crate::phases::{Mode, Phase, PhaseId, Phases};
 use crate::scene::Scene;
 
 /// Crossings within one instant after which a method does not get on.
@@ -48,7 +48,7 @@ impl<'a> Walk<'a> {
         let mut walk = Self {
             scene,
             phases,
-            mode: Mode::Moving(0),
+            mode: Mode::Moving(PhaseId::FREE),
             releases: Vec::new(),
             time: 0.0,
             state: start,
@@ -74,11 +74,11 @@ impl<'a> Walk<'a> {
 
     /// The phase whose law holds from there on; none while the mass is held.
     pub fn phase(&self) -> Option<&Phase> {
-        self.index().map(|phase| &self.phases.phases[phase])
+        self.index().map(|phase| &self.phases[phase])
     }
 
     /// Which of the scene's phases it is.
-    pub fn index(&self) -> Option<usize> {
+    pub fn index(&self) -> Option<PhaseId> {
         self.mode.phase()
     }
 
@@ -116,17 +116,14 @@ impl<'a> Walk<'a> {
                 };
                 self.leave(phase, &found, push)
             }
-            Mode::Held(hold) | Mode::Chattering(hold) => {
-                let (_, phases, _) = self.phases.releases(hold, self.state.position, push);
-                (self.state, Mode::Moving(phases[guard]))
-            }
+            Mode::Held(hold) | Mode::Chattering(hold) => (self.state, hold.released(guard)),
         };
         self.state = state;
         self.enter(mode, push);
         Ok(())
     }
 
-    fn leave(&mut self, phase: usize, found: &Found, push: f64) -> (Start, Mode) {
+    fn leave(&mut self, phase: PhaseId, found: &Found, push: f64) -> (Start, Mode) {
         if let Some(surface) = self.phases.endless_surface(phase, found.guard) {
             self.hum.count(surface, found.velocity);
         }
@@ -156,12 +153,9 @@ impl<'a> Walk<'a> {
     }
 
     fn enter(&mut self, mode: Mode, push: f64) {
+        let releases = |hold| self.phases.releases(hold, self.state.position, push);
+        self.releases = mode.hold().map(releases).unwrap_or_default();
         self.mode = mode;
-        self.releases.clear();
-        if let Some(hold) = mode.hold() {
-            let (guards, _, count) = self.phases.releases(hold, self.state.position, push);
-            self.releases.extend_from_slice(&guards[..count]);
-        }
     }
 
     /// Push of the drive per mass in m/s^2 at the last crossing.

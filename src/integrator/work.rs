@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::Arc;
-use crate::phases::Law;
 
 /// Energies in J that crossed the machine's boundary.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -22,9 +21,8 @@ impl std::ops::AddAssign for Work {
     }
 }
 
-/// Work from the start of an arc to `elapsed` seconds later, for a machine with mass `mass` and
-/// suspension `free`.
-pub fn work(arc: &Arc<'_>, mass: f64, free: &Law, elapsed: f64) -> Work {
+/// Work from the start of an arc to `elapsed` seconds later, for a machine with mass `mass`.
+pub fn work(arc: &Arc<'_>, mass: f64, elapsed: f64) -> Work {
     if let Some(chatter) = arc.course.chatter() {
         let (_, velocity) = chatter.at(elapsed);
         let lost = (chatter.speed - velocity) * (chatter.speed + velocity);
@@ -42,6 +40,6 @@ pub fn work(arc: &Arc<'_>, mass: f64, free: &Law, elapsed: f64) -> Work {
     let stored = phase.store.energy_at(high) - phase.store.energy_at(low);
     Work {
         supplied: mass * power.supplied,
-        dissipated: mass * power.lost + phase.elastic_work(free, low, high) - stored,
+        dissipated: mass * power.lost + phase.elastic_work(low, high) - stored,
     }
 }

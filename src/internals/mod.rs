@@ -6,7 +6,7 @@ pub use crate::error::plain;
 pub use crate::events::{Guard, Outlook, first_crossing};
 pub use crate::flow::{Course, Departure, Flow, Modes, Polynomial};
 pub use crate::integrator::{Evaluations, Motion, Walk, mechanical_energy, work};
-pub use crate::phases::{Beyond, Exit, Law, Mode, Phase, Phases, Surface};
+pub use crate::phases::{Beyond, Exit, Mode, Phase, PhaseId, Phases, Surface, SurfaceId};
 pub use crate::root::narrow;
 pub use crate::scene::{Scales, force_of};
 pub use crate::tangent::saltation;

@@ -1,7 +1,9 @@
 //! Lowering: from the scene's data to phases, layer by layer.
 
 use super::plan::{Plan, layers};
-use super::{Beyond, Exit, Law, Layer, Phase, PhaseKind, Phases, Stack, Store, Surface};
+use super::{
+    Beyond, Exit, Law, Layer, Phase, PhaseId, PhaseKind, Phases, Stack, Store, Surface, SurfaceId,
+};
 use crate::events::Guard;
 use crate::flow::{Flow, Hertz};
 use crate::scene::Scene;
@@ -12,7 +14,7 @@ pub(super) fn lower(scene: &Scene) -> Phases {
         stiffness: scene.stiffness,
         force: 0.0,
     };
-    let (drive, mass) = (scene.excitation, scene.mass);
+    let drive = scene.excitation;
     let mut builder = Builder {
         scene,
         phases: Vec::with_capacity(8),
@@ -20,18 +22,16 @@ pub(super) fn lower(scene: &Scene) -> Phases {
     };
     builder.add_phase(PhaseKind::Free, free, None, Store::default());
     let unfed = builder.stack(&layers(scene, free, false));
-    let fed = if scene.piercing.is_some() {
-        builder.stack(&layers(scene, free, true))
-    } else {
-        unfed.clone()
+    let fed = match scene.piercing {
+        Some(_) => builder.stack(&layers(scene, free, true)),
+        None => unfed.clone(),
     };
     builder.join_to_free(&fed, &unfed);
     Phases {
         phases: builder.phases,
         surfaces: builder.surfaces,
-        held: Flow::new(mass, 0.0, 0.0, drive.amplitude, drive.frequency),
-        mass,
-        free,
+        held: Flow::new(scene.mass, 0.0, 0.0, drive.amplitude, drive.frequency),
+        mass: scene.mass,
         fed,
         unfed,
     }
@@ -50,13 +50,19 @@ impl Builder<'_> {
         law: Law,
         hertz: Option<Hertz>,
         store: Store,
-    ) -> usize {
-        let drive = self.scene.excitation;
+    ) -> PhaseId {
+        let (scene, drive) = (self.scene, self.scene.excitation);
+        let id = PhaseId(self.phases.len());
         self.phases.push(Phase {
             kind,
             law,
+            contact: Law {
+                damping: law.damping - scene.damping,
+                stiffness: law.stiffness - scene.stiffness,
+                force: law.force,
+            },
             flow: Flow::new(
-                self.scene.mass,
+                scene.mass,
                 law.damping,
                 law.stiffness,
                 drive.amplitude,
@@ -68,12 +74,13 @@ impl Builder<'_> {
             store,
             released: None,
         });
-        self.phases.len() - 1
+        id
     }
 
-    fn add_exit(&mut self, phase: usize, guard: Guard, exit: Exit) {
-        self.phases[phase].guards.push(guard);
-        self.phases[phase].exits.push(exit);
+    fn add_exit(&mut self, phase: PhaseId, guard: Guard, exit: Exit) {
+        let phase = &mut self.phases[phase.0];
+        phase.guards.push(guard);
+        phase.exits.push(exit);
     }
 
     /// Adds the layers of one stack, from the clearance on, and the wall that ends it.
@@ -123,7 +130,7 @@ impl Builder<'_> {
             self.add_exit(released, falling, Exit::Backward(surface));
             self.add_exit(released, pulls.reversed(), Exit::Switch(forward));
             self.add_exit(forward, pulls, Exit::Switch(released));
-            self.phases[forward].released = Some((released, pulls));
+            self.phases[forward.0].released = Some((released, pulls));
         }
         Layer {
             from: plan.from,
@@ -140,18 +147,18 @@ impl Builder<'_> {
         below: Option<Layer>,
         above: Beyond,
         is_far_side: bool,
-    ) -> usize {
-        let surface = self.surfaces.len();
+    ) -> SurfaceId {
+        let surface = SurfaceId(self.surfaces.len());
         self.surfaces.push(Surface {
             position,
-            below: below.map_or(0, |layer| layer.backward),
+            below: below.map_or(PhaseId::FREE, |layer| layer.backward),
             above,
             above_unfed: None,
             is_clearance: below.is_none(),
             is_far_side,
         });
         if let Some(below) = below {
-            let released = self.phases[below.forward].released;
+            let released = self.phases[below.forward.0].released;
             let guard = Guard::rising_to(position);
             self.add_exit(below.forward, guard, Exit::Forward(surface));
             if let Some((released, _)) = released {
@@ -167,16 +174,16 @@ impl Builder<'_> {
             return;
         };
         if first != empty {
-            self.surfaces[first].above_unfed = Some(self.surfaces[empty].above);
+            self.surfaces[first.0].above_unfed = Some(self.surfaces[empty.0].above);
         }
-        let guard = Guard::rising_to(self.surfaces[first].position);
-        self.add_exit(0, guard, Exit::Forward(first));
+        let guard = Guard::rising_to(self.surfaces[first.0].position);
+        self.add_exit(PhaseId::FREE, guard, Exit::Forward(first));
     }
 }
 
 impl Stack {
     /// The surface at which it begins.
-    fn first(&self) -> Option<usize> {
+    fn first(&self) -> Option<SurfaceId> {
         self.layers.first().map(|layer| layer.surface).or(self.wall)
     }
 }

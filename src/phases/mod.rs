@@ -13,10 +13,13 @@ pub(crate) use settle::Threshold;
 pub use settle::{Hold, Mode};
 pub use store::{Spring, Store};
 
+use std::ops::Index;
+
+use serde::{Deserialize, Serialize};
+
 use crate::events::Guard;
 use crate::flow::{Flow, Hertz};
 use crate::scene::Scene;
-use serde::{Deserialize, Serialize};
 
 /// What a phase is in the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -43,6 +46,24 @@ pub enum PhaseKind {
     Resting,
 }
 
+/// One of a scene's phases.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PhaseId(usize);
+
+impl PhaseId {
+    /// The free phase.
+    pub const FREE: Self = Self(0);
+
+    /// Its place among [`Phases::phases`].
+    pub const fn index(self) -> usize {
+        self.0
+    }
+}
+
+/// One of the surfaces between a scene's phases.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct SurfaceId(usize);
+
 /// m x'' + `damping` x' + `stiffness` x = `force` + F0 cos(w t + phi) + f(t).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Law {
@@ -61,6 +82,8 @@ pub struct Phase {
     pub kind: PhaseKind,
     /// Its law, or the linear part of it.
     pub law: Law,
+    /// What stop and strip add to the suspension's law.
+    pub(crate) contact: Law,
     /// The exact flow of the linear law.
     pub flow: Flow,
     /// The nonlinear part of the law.
@@ -72,32 +95,32 @@ pub struct Phase {
     /// What the stop stores.
     pub store: Store,
     /// The phase that holds instead while this guard is above zero: contact does not pull.
-    pub(crate) released: Option<(usize, Guard)>,
+    pub(crate) released: Option<(PhaseId, Guard)>,
 }
 
 /// What a guard leads to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
     /// The mass moves on through a surface, or hits it.
-    Forward(usize),
+    Forward(SurfaceId),
     /// The mass moves back through a surface.
-    Backward(usize),
+    Backward(SurfaceId),
     /// The velocity changes its sign under dry friction.
     Reversal {
         /// The phase of the way forward.
-        forward: usize,
+        forward: PhaseId,
         /// The phase of the way back.
-        backward: usize,
+        backward: PhaseId,
     },
     /// Another phase takes over where its law gives the same force.
-    Switch(usize),
+    Switch(PhaseId),
 }
 
 /// What lies beyond a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Beyond {
     /// A phase, entered on the way forward.
-    Phase(usize),
+    Phase(PhaseId),
     /// Nothing that gives way: v+ = -restitution v-.
     Wall {
         /// Newton's coefficient of restitution.
@@ -111,7 +134,7 @@ pub struct Surface {
     /// Where it is, in m.
     pub position: f64,
     /// The phase below it, on the way back.
-    pub below: usize,
+    pub below: PhaseId,
     /// What lies above it.
     pub above: Beyond,
     /// What lies above it when no strip is fed, if that differs.
@@ -133,8 +156,6 @@ pub struct Phases {
     pub held: Flow,
     /// The mass in kg.
     pub mass: f64,
-    /// The suspension and its damping alone.
-    pub free: Law,
     fed: Stack,
     unfed: Stack,
 }
@@ -144,17 +165,17 @@ pub struct Phases {
 struct Stack {
     layers: Vec<Layer>,
     /// Its surface.
-    wall: Option<usize>,
+    wall: Option<SurfaceId>,
 }
 
 /// A range of positions with its phases on the way forward and back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Layer {
     from: f64,
-    forward: usize,
-    backward: usize,
+    forward: PhaseId,
+    backward: PhaseId,
     /// The surface at `from`.
-    surface: usize,
+    surface: SurfaceId,
 }
 
 impl Scene {
@@ -165,11 +186,29 @@ impl Scene {
     }
 }
 
+impl Index<PhaseId> for Phases {
+    type Output = Phase;
+
+    #[inline]
+    fn index(&self, phase: PhaseId) -> &Phase {
+        &self.phases[phase.0]
+    }
+}
+
+impl Index<SurfaceId> for Phases {
+    type Output = Surface;
+
+    #[inline]
+    fn index(&self, surface: SurfaceId) -> &Surface {
+        &self.surfaces[surface.0]
+    }
+}
+
 impl Phases {
     /// True if a phase is one of those with a strip.
-    pub(crate) fn belongs_to_strip(&self, phase: usize) -> bool {
+    pub(crate) fn belongs_to_strip(&self, phase: PhaseId) -> bool {
         let is_of = |layer: &Layer| {
-            let released = self.phases[layer.forward].released;
+            let released = self[layer.forward].released;
             layer.forward == phase
                 || layer.backward == phase
                 || released.is_some_and(|(released, _)| released == phase)
@@ -178,35 +217,47 @@ impl Phases {
     }
 
     /// The phase of the way forward in the layer of a phase of the way back.
-    pub(crate) fn forward_of(&self, backward: usize) -> usize {
+    pub(crate) fn forward_of(&self, backward: PhaseId) -> PhaseId {
         let reversal = |exit: &Exit| match exit {
             Exit::Reversal { forward, .. } => Some(*forward),
             _ => None,
         };
-        let exits = &self.phases[backward].exits;
-        exits.iter().find_map(reversal).unwrap_or(backward)
+        self[backward]
+            .exits
+            .iter()
+            .find_map(reversal)
+            .unwrap_or(backward)
     }
 
     /// Where the mass can go no further, in m.
     pub(crate) fn wall(&self) -> Option<f64> {
-        let wall = self.fed.wall?;
-        Some(self.surfaces[wall].position)
+        self.fed.wall.map(|wall| self[wall].position)
+    }
+
+    /// [`Phase::acceleration`] of a phase.
+    pub fn acceleration(&self, phase: PhaseId, position: f64, velocity: f64, push: f64) -> f64 {
+        self[phase].acceleration(position, velocity, push, self.mass)
     }
 }
 
 impl Phase {
     /// Force of stop and strip on the mass in N, F in m x'' + b1 x' + k1 x + F = F0 cos(w t):
     /// positive where it presses the mass back.
-    pub fn contact_force(&self, free: &Law, position: f64, velocity: f64) -> f64 {
-        (self.law.damping - free.damping) * velocity
-            + (self.law.stiffness - free.stiffness) * position
-            - self.law.force
+    pub fn contact_force(&self, position: f64, velocity: f64) -> f64 {
+        self.contact.damping * velocity + self.contact.stiffness * position - self.contact.force
             + self.hertz_force(position, velocity)
     }
 
     fn hertz_force(&self, position: f64, velocity: f64) -> f64 {
         self.hertz
             .map_or(0.0, |hertz| hertz.force(position, velocity))
+    }
+
+    /// Acceleration in m/s^2 of any state under the external force `push` per mass.
+    pub fn acceleration(&self, position: f64, velocity: f64, push: f64, mass: f64) -> f64 {
+        let force = self.law.force - self.hertz_force(position, velocity);
+        self.flow
+            .acceleration(position, velocity, push + force / mass)
     }
 
     /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m of spring, damper and stop
@@ -216,13 +267,6 @@ impl Phase {
             .hertz
             .map_or((0.0, 0.0), |hertz| hertz.slopes(position, velocity));
         (self.law.stiffness + stiffness, self.law.damping + damping)
-    }
-
-    /// Acceleration in m/s^2 of any state under the external force `push` per mass.
-    pub fn acceleration(&self, position: f64, velocity: f64, push: f64, mass: f64) -> f64 {
-        let force = self.law.force - self.hertz_force(position, velocity);
-        self.flow
-            .acceleration(position, velocity, push + force / mass)
     }
 
     /// The position without the rounding that would put it beyond a surface that ends the phase.
@@ -240,18 +284,12 @@ impl Phase {
     }
 
     /// Energy in J that the mass has lost to this phase's springs on the way from one position to
-    /// another, the suspension `free` left out.
-    pub(crate) fn elastic_work(&self, free: &Law, low: f64, high: f64) -> f64 {
-        let force = 0.5 * (self.law.stiffness - free.stiffness) * (high + low) - self.law.force;
+    /// another, the suspension left out.
+    pub(crate) fn elastic_work(&self, low: f64, high: f64) -> f64 {
+        let force = 0.5 * self.contact.stiffness * (high + low) - self.contact.force;
         let hertz = self
             .hertz
             .map_or(0.0, |hertz| hertz.energy(high) - hertz.energy(low));
         force * (high - low) + hertz
-    }
-
-    /// Acceleration in m/s^2 of a mass at rest under the external force `push` per mass.
-    pub(crate) fn acceleration_from_rest(&self, position: f64, push: f64, mass: f64) -> f64 {
-        let force = self.law.force - self.hertz_force(position, 0.0);
-        push + force / mass - self.flow.modes.stiffness * position
     }
 }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::events::Guard;
 
-use super::{Beyond, Layer, PhaseKind, Phases, Surface};
+use super::{Beyond, Layer, PhaseId, PhaseKind, Phases, Stack, Surface};
 
 /// What counts as a bounce.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,7 +32,7 @@ impl Threshold {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Mode {
     /// It moves in this phase.
-    Moving(usize),
+    Moving(PhaseId),
     /// It is held.
     Held(Hold),
     /// It bounces on a rigid stop until it rests there.
@@ -43,14 +43,14 @@ pub enum Mode {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Hold {
     /// Phase of the way forward; none before a rigid stop.
-    pub forward: Option<usize>,
+    pub forward: Option<PhaseId>,
     /// Phase of the way back.
-    pub backward: usize,
+    pub backward: PhaseId,
 }
 
 impl Hold {
     /// Between two laws that give way.
-    pub(crate) const fn between(forward: usize, backward: usize) -> Self {
+    pub(crate) const fn between(forward: PhaseId, backward: PhaseId) -> Self {
         Self {
             forward: Some(forward),
             backward,
@@ -58,14 +58,19 @@ impl Hold {
     }
 
     /// Both.
-    pub(crate) fn phases(self) -> impl Iterator<Item = usize> {
+    pub(crate) fn phases(self) -> impl Iterator<Item = PhaseId> {
         self.forward.into_iter().chain([self.backward])
+    }
+
+    /// What follows when one of the guards of [`Phases::releases`] lets the mass go.
+    pub(crate) fn released(self, guard: usize) -> Mode {
+        Mode::Moving(self.phases().nth(guard).unwrap_or(self.backward))
     }
 }
 
 impl Mode {
     /// The phase in which it moves.
-    pub fn phase(self) -> Option<usize> {
+    pub fn phase(self) -> Option<PhaseId> {
         match self {
             Self::Moving(phase) => Some(phase),
             Self::Held(_) | Self::Chattering(_) => None,
@@ -99,48 +104,35 @@ impl Phases {
     /// The mode at any state. `push` is the external force per mass in m/s^2, `fed` says whether a
     /// strip lies beyond the clearance.
     pub fn locate(&self, position: f64, velocity: f64, push: f64, fed: bool) -> Mode {
-        let stack = if fed { &self.fed } else { &self.unfed };
-        if let Some(wall) = stack.wall.map(|wall| self.surfaces[wall])
+        if let Some(wall) = self.stack(fed).wall.map(|wall| &self[wall])
             && position >= wall.position
             && velocity == 0.0
         {
             return self.leave(wall.hold(wall.above), position, push);
         }
-        let Some(layer) = stack
-            .layers
-            .iter()
-            .rev()
-            .find(|layer| position >= layer.from)
-        else {
-            return Mode::Moving(0);
-        };
-        if position == layer.from {
-            let surface = self.surfaces[layer.surface];
-            return self.at_surface(&surface, velocity, push, fed, Threshold::ROUNDING);
+        match self.stack(fed).layer_at(position) {
+            Some(layer) if position == layer.from => {
+                let rounding = Threshold::ROUNDING;
+                self.at_surface(&self[layer.surface], velocity, push, fed, rounding)
+            }
+            _ => match self.laws_at(position, velocity, fed) {
+                [forward, backward] if forward == backward => Mode::Moving(forward),
+                [forward, backward] => self.leave(Hold::between(forward, backward), position, push),
+            },
         }
-        self.inside(layer, position, velocity, push)
     }
 
-    fn inside(&self, layer: &Layer, position: f64, velocity: f64, push: f64) -> Mode {
-        if layer.forward == layer.backward || velocity > 0.0 {
-            self.moving(layer.forward, position, velocity)
-        } else if velocity < 0.0 {
-            self.moving(layer.backward, position, velocity)
-        } else {
-            let hold = Hold::between(layer.forward, layer.backward);
-            self.leave(hold, position, push)
-        }
+    fn stack(&self, fed: bool) -> &Stack {
+        if fed { &self.fed } else { &self.unfed }
     }
 
     /// The phases whose laws hold at a state, wherever it is: of the way forward and of the way back under
     /// dry friction at rest, twice the same one else.
-    pub fn laws_at(&self, position: f64, velocity: f64, fed: bool) -> [usize; 2] {
-        let stack = if fed { &self.fed } else { &self.unfed };
-        let mut below = stack.layers.iter().rev();
-        let Some(layer) = below.find(|layer| position >= layer.from) else {
-            return [0; 2];
+    pub fn laws_at(&self, position: f64, velocity: f64, fed: bool) -> [PhaseId; 2] {
+        let Some(layer) = self.stack(fed).layer_at(position) else {
+            return [PhaseId::FREE; 2];
         };
-        let pressing = |phase: usize| self.pressing(phase, position, velocity);
+        let pressing = |phase| self.pressing(phase, position, velocity);
         if layer.forward == layer.backward || velocity > 0.0 {
             [pressing(layer.forward); 2]
         } else if velocity < 0.0 {
@@ -150,13 +142,9 @@ impl Phases {
         }
     }
 
-    /// The mode of a mass that moves in a phase, or in the one that holds where contact would pull.
-    pub(crate) fn moving(&self, phase: usize, position: f64, velocity: f64) -> Mode {
-        Mode::Moving(self.pressing(phase, position, velocity))
-    }
-
-    fn pressing(&self, phase: usize, position: f64, velocity: f64) -> usize {
-        match self.phases[phase].released {
+    /// A phase, or the one that holds instead where contact would pull.
+    pub(crate) fn pressing(&self, phase: PhaseId, position: f64, velocity: f64) -> PhaseId {
+        match self[phase].released {
             Some((released, pulls)) if pulls.value(position, velocity) > 0.0 => released,
             _ => phase,
         }
@@ -192,9 +180,9 @@ impl Phases {
         if velocity == 0.0 || (rests && faint()) {
             held
         } else if velocity < 0.0 {
-            self.moving(at.below, at.position, velocity)
+            Mode::Moving(self.pressing(at.below, at.position, velocity))
         } else if let Beyond::Phase(above) = above {
-            self.moving(above, at.position, velocity)
+            Mode::Moving(self.pressing(above, at.position, velocity))
         } else {
             held
         }
@@ -202,8 +190,7 @@ impl Phases {
 
     /// The mode of a mass at rest between two laws.
     pub(crate) fn leave(&self, hold: Hold, position: f64, push: f64) -> Mode {
-        let acceleration =
-            |phase: usize| self.phases[phase].acceleration_from_rest(position, push, self.mass);
+        let acceleration = |phase| self.acceleration(phase, position, 0.0, push);
         match hold.forward {
             Some(phase) if acceleration(phase) > 0.0 => Mode::Moving(phase),
             _ if acceleration(hold.backward) < 0.0 => Mode::Moving(hold.backward),
@@ -214,12 +201,11 @@ impl Phases {
     /// The mode of a mass that has come to rest under dry friction. Within rounding of a balance it is
     /// held: a creep that ends there would else turn back and forth for ever.
     pub(crate) fn turn(&self, hold: Hold, position: f64, push: f64) -> Mode {
-        let balanced = |phase: usize| {
-            let law = &self.phases[phase];
-            let pull = law.flow.modes.stiffness * position;
-            let size = push.abs() + (law.law.force / self.mass).abs() + pull.abs();
-            let acceleration = law.acceleration_from_rest(position, push, self.mass);
-            acceleration.abs() <= 4.0 * f64::EPSILON * size
+        let balanced = |id: PhaseId| {
+            let phase = &self[id];
+            let pull = phase.flow.modes.stiffness * position;
+            let size = push.abs() + (phase.law.force / self.mass).abs() + pull.abs();
+            self.acceleration(id, position, 0.0, push).abs() <= 4.0 * f64::EPSILON * size
         };
         if hold.phases().any(balanced) {
             return Mode::Held(hold);
@@ -227,27 +213,13 @@ impl Phases {
         self.leave(hold, position, push)
     }
 
-    /// The guards that let a mass go that is held since the push was `push`, each with the phase that it
-    /// leads to.
-    pub(crate) fn releases(
-        &self,
-        Hold { forward, backward }: Hold,
-        position: f64,
-        push: f64,
-    ) -> ([Guard; 2], [usize; 2], usize) {
-        let balance = |phase: usize| {
-            let phase = &self.phases[phase];
-            -phase.acceleration_from_rest(position, 0.0, self.mass)
-        };
+    /// The guards that let a mass go that is held since the push was `push`; [`Hold::released`] says where.
+    pub(crate) fn releases(&self, hold: Hold, position: f64, push: f64) -> Vec<Guard> {
+        let balance = |phase| -self.acceleration(phase, position, 0.0, 0.0);
         // A hold may begin within rounding of a balance; the guard then begins at zero.
-        let back = Guard::push_below(balance(backward).min(push));
-        match forward {
-            Some(forward) => {
-                let on = Guard::push_above(balance(forward).max(push));
-                ([on, back], [forward, backward], 2)
-            }
-            None => ([back, back], [backward, backward], 1),
-        }
+        let on = |phase| Guard::push_above(balance(phase).max(push));
+        let back = Guard::push_below(balance(hold.backward).min(push));
+        hold.forward.map(on).into_iter().chain([back]).collect()
     }
 
     /// True if a bounce cannot be told from none: lower than four units in the last place of the
@@ -264,11 +236,7 @@ impl Phases {
 
     /// Height v^2 / (2 a) in m of the bounce that would follow, on its higher side.
     fn bounce(&self, at: &Surface, above: Beyond, velocity: f64, push: f64) -> f64 {
-        let acceleration = |phase: usize| {
-            self.phases[phase]
-                .acceleration_from_rest(at.position, push, self.mass)
-                .abs()
-        };
+        let acceleration = |phase| self.acceleration(phase, at.position, 0.0, push).abs();
         let sides = at.hold(above).phases().map(acceleration);
         velocity * velocity / (2.0 * sides.fold(f64::INFINITY, f64::min))
     }
@@ -276,10 +244,10 @@ impl Phases {
     /// What a mode is in the machine.
     pub fn kind(&self, mode: Mode) -> PhaseKind {
         match mode {
-            Mode::Moving(phase) => self.phases[phase].kind,
+            Mode::Moving(phase) => self[phase].kind,
             Mode::Chattering(_) => PhaseKind::Chatter,
             Mode::Held(Hold { forward, backward }) => {
-                let kind = |phase: usize| self.phases[phase].kind;
+                let kind = |phase: PhaseId| self[phase].kind;
                 if forward.map(kind) == Some(kind(backward)) {
                     PhaseKind::Stuck
                 } else {
@@ -287,5 +255,14 @@ impl Phases {
                 }
             }
         }
+    }
+}
+
+impl Stack {
+    fn layer_at(&self, position: f64) -> Option<&Layer> {
+        self.layers
+            .iter()
+            .rev()
+            .find(|layer| position >= layer.from)
     }
 }

@@ -5,7 +5,7 @@ use crate::flow::Course;
 use crate::integrator::{
     Arc, Clock, Crossing, Instant, Motion, Observer, Start, Work, mechanical_energy, work,
 };
-use crate::phases::{Law, PhaseKind};
+use crate::phases::PhaseKind;
 use crate::scene::Scene;
 
 /// One arc of a trajectory.
@@ -96,7 +96,10 @@ impl Scene {
     pub fn trajectory_until(&self, start: Start, end: Instant) -> Result<Trajectory, MotionError> {
         let mut motion = self.motion(start)?;
         let energy_before = mechanical_energy(self, &motion);
-        let mut recorder = Recorder::new(self.mass, motion.phases().free);
+        let mut recorder = Recorder {
+            mass: self.mass,
+            ..Recorder::default()
+        };
         motion.advance(end, &mut recorder)?;
         motion.tell_arc(&mut recorder);
         Ok(Trajectory {
@@ -122,29 +125,17 @@ impl Scene {
     }
 }
 
+#[derive(Default)]
 struct Recorder {
     mass: f64,
-    free: Law,
     arcs: Vec<KeptArc>,
     crossings: Vec<Crossing>,
     work: Work,
 }
 
-impl Recorder {
-    fn new(mass: f64, free: Law) -> Self {
-        Self {
-            mass,
-            free,
-            arcs: Vec::new(),
-            crossings: Vec::new(),
-            work: Work::default(),
-        }
-    }
-}
-
 impl Observer for Recorder {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.work += work(arc, self.mass, &self.free, elapsed);
+        self.work += work(arc, self.mass, elapsed);
         self.arcs.push(KeptArc {
             start: arc.start,
             duration: elapsed,

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::law::{Constants, SPAN, TERMS};
-use softstop::internals::{Beyond, Exit, Modes, Phase, Phases};
+use softstop::internals::{Beyond, Exit, Modes, Phase, Phases, SurfaceId};
 
 /// Most windows per drive period.
 const FINEST: f64 = 65_536.0;
@@ -17,8 +17,7 @@ const SLOW: f64 = 1e-5;
 
 impl Constants {
     /// The constants of a phase, unless it is one that only the safe engine follows.
-    pub fn of(phases: &Phases, index: usize) -> Option<Self> {
-        let phase = &phases.phases[index];
+    pub fn of(phases: &Phases, phase: &Phase) -> Option<Self> {
         let one_end = matches!(phase.exits[..], [Exit::Forward(_) | Exit::Backward(_)]);
         let span = if one_end { SPAN } else { 0.5 * SPAN };
         let mut constants = Self::of_flow(phases, phase, span)?;
@@ -28,9 +27,9 @@ impl Constants {
             match *exit {
                 Exit::Forward(surface) => constants.end_above(phases, surface),
                 Exit::Backward(surface) => {
-                    let surface = &phases.surfaces[surface];
+                    let surface = &phases[surface];
                     constants.low = surface.position;
-                    constants.beyond_low = surface.below as f64;
+                    constants.beyond_low = surface.below.index() as f64;
                 }
                 Exit::Reversal { .. } | Exit::Switch(_) if guarded || guard.push != 0.0 => {
                     return None;
@@ -41,9 +40,11 @@ impl Constants {
                     } else {
                         forward
                     };
-                    (guarded, constants.beyond_guard) = (true, to as f64);
+                    (guarded, constants.beyond_guard) = (true, to.index() as f64);
                 }
-                Exit::Switch(to) => (guarded, constants.beyond_guard) = (true, to as f64),
+                Exit::Switch(to) => {
+                    (guarded, constants.beyond_guard) = (true, to.index() as f64);
+                }
             }
             if matches!(exit, Exit::Reversal { .. } | Exit::Switch(_)) {
                 constants.by_position = guard.position;
@@ -91,13 +92,13 @@ impl Constants {
         }
     }
 
-    fn end_above(&mut self, phases: &Phases, surface: usize) {
-        let at = &phases.surfaces[surface];
+    fn end_above(&mut self, phases: &Phases, surface: SurfaceId) {
+        let at = &phases[surface];
         self.high = at.position;
         self.impact = f64::from(u8::from(at.is_clearance));
         (self.beyond_high, self.bounce) = match phases.beyond(at, true) {
-            Beyond::Phase(above) => (above as f64, 1.0),
-            Beyond::Wall { restitution } => (at.below as f64, -restitution),
+            Beyond::Phase(above) => (above.index() as f64, 1.0),
+            Beyond::Wall { restitution } => (at.below.index() as f64, -restitution),
         };
     }
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::law::Constants;
-use softstop::internals::{Beyond, Phases};
+use softstop::internals::{Beyond, PhaseId, Phases};
 use softstop::{Clock, Scene, SceneError};
 
 /// A machine, lowered once for any number of motions.
@@ -30,7 +30,8 @@ impl Machine {
         scene.validate()?;
         let phases = scene.phases();
         let count = phases.phases.len();
-        let laws = (0..count).map(|index| Constants::of(&phases, index));
+        let laws = phases.phases.iter();
+        let laws = laws.map(|phase| Constants::of(&phases, phase));
         let drive = scene.excitation;
         let for_lanes = count <= MOST_PHASES && !may_hum(&phases, drive.amplitude);
         let (sin, cos) = drive.phase.sin_cos();
@@ -75,8 +76,8 @@ const ELASTIC: f64 = 1.0 - 1.0 / 65_536.0;
 /// that is larger than the press, or a wall that is nearly elastic. Bounces there form rows without end, whose
 /// end the safe engine decides from the whole row.
 fn may_hum(phases: &Phases, amplitude: f64) -> bool {
-    let at_rest = |phase: usize, position: f64| {
-        let law = &phases.phases[phase].law;
+    let at_rest = |phase: PhaseId, position: f64| {
+        let law = &phases[phase].law;
         law.force - law.stiffness * position
     };
     phases.surfaces.iter().any(|surface| {

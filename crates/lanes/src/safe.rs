@@ -41,7 +41,7 @@ pub(super) fn begin(machine: &Machine, start: Start) -> Result<Option<usize>, Mo
 
 fn lane_phase(machine: &Machine, motion: &Motion) -> Option<usize> {
     match motion.mode() {
-        Mode::Moving(phase) if machine.is_for_lanes() => Some(phase),
+        Mode::Moving(phase) if machine.is_for_lanes() => Some(phase.index()),
         _ => None,
     }
 }

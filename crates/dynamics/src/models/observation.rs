@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
 use crate::peak;
-use softstop::internals::{Law, work};
+use softstop::internals::work;
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, MotionError, Observer, PhaseKind, Scene, Start, Work,
 };
@@ -85,14 +85,12 @@ impl Observation {
         let mut motion = scene.motion(start)?;
         let mut watch = Watch {
             clock: *motion.clock(),
-            free: motion.phases().free,
             mass: scene.mass,
             sums: Sums::default(),
         };
         let end = Clock::at_cycle(periods);
         motion.advance(end, &mut watch)?;
-        let arc = motion.arc();
-        watch.arc(&arc, motion.clock().elapsed(arc.start, end));
+        motion.tell_arc(&mut watch);
         let map = StroboscopicMap::new(scene, periods)?;
         let max_position = map.max_position(Vector2::new(start.position, start.velocity))?;
         let sums = watch.sums;
@@ -128,7 +126,6 @@ struct Sums {
 
 struct Watch {
     clock: Clock,
-    free: Law,
     mass: f64,
     sums: Sums,
 }
@@ -141,12 +138,11 @@ const SHARP: f64 = 4e-9;
 impl Watch {
     /// The largest contact force in N on an arc: the largest of its samples, made sharper by a golden
     /// section between its neighbours.
-    fn peak(&self, arc: &Arc<'_>, elapsed: f64) -> Option<f64> {
+    fn peak(arc: &Arc<'_>, elapsed: f64) -> Option<f64> {
         let phase = arc.phase?;
         let force = |time: f64| {
-            let drive = self.clock.drive(self.clock.after(arc.start, time));
-            let (position, velocity) = arc.course.at(time, drive);
-            phase.contact_force(&self.free, position, velocity)
+            let Start { position, velocity } = arc.at(time);
+            phase.contact_force(position, velocity)
         };
         let time = |point: f64| elapsed * point.clamp(0.0, f64::from(POINTS)) / f64::from(POINTS);
         let highest = (0..=POINTS)
@@ -160,14 +156,14 @@ impl Watch {
 
 impl Observer for Watch {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let work = work(arc, self.mass, &self.free, elapsed);
+        let work = work(arc, self.mass, elapsed);
         self.sums.work += work;
         if arc.kind == PhaseKind::Free {
             return;
         }
         self.sums.contact_time += elapsed;
         self.sums.lost += work.dissipated;
-        let peak = self.peak(arc, elapsed);
+        let peak = Self::peak(arc, elapsed);
         self.sums.peak_force = match (self.sums.peak_force, peak) {
             (Some(a), Some(b)) => Some(a.max(b)),
             (a, b) => a.or(b),

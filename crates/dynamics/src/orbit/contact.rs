@@ -5,7 +5,7 @@ use std::sync::Arc as Shared;
 
 use nalgebra::{Matrix2, Vector2};
 
-use softstop::internals::{Beyond, Course, Mode, Motion, Phases, Surface, saltation};
+use softstop::internals::{Beyond, Course, Mode, Motion, PhaseId, Phases, Surface, saltation};
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Start, Tangent,
 };
@@ -65,13 +65,13 @@ impl Face {
 
     /// Acceleration of the free motion at a state on the face.
     fn free_acceleration(&self, at: Instant, velocity: f64) -> f64 {
-        self.acceleration(0, at, velocity)
+        self.acceleration(PhaseId::FREE, at, velocity)
     }
 
-    fn acceleration(&self, phase: usize, at: Instant, velocity: f64) -> f64 {
+    fn acceleration(&self, phase: PhaseId, at: Instant, velocity: f64) -> f64 {
         let push = self.phases.held.amplitude * self.clock.drive(at).cos;
-        let mass = self.phases.mass;
-        self.phases.phases[phase].acceleration(self.position(), velocity, push, mass)
+        self.phases
+            .acceleration(phase, self.position(), velocity, push)
     }
 
     /// A motion from the face.

@@ -16,7 +16,7 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::contact::{Face, Passing};
 use super::{Orbit, OrbitError, StroboscopicMap};
-use softstop::internals::{Motion, Outlook, first_crossing};
+use softstop::internals::{Motion, Outlook, PhaseId, first_crossing};
 use softstop::{Clock, Instant, Observer, Scene, Tangent, Touch};
 
 /// Newton steps before giving up.
@@ -237,7 +237,7 @@ impl<'a> Legs<'a> {
             let next = (leg + 1) % count;
             let around = if next <= leg { self.span() } else { 0.0 };
             let flight = at[2 * next] + around - at[2 * leg] - passing.lasting;
-            let (course, guards) = (&passing.course, &self.face.phases.phases[0].guards);
+            let (course, guards) = (&passing.course, &self.face.phases[PhaseId::FREE].guards);
             let early = flight - EARLY * self.face.clock.period();
             if let Outlook::Crossing(found) = first_crossing(course, guards, course.start(), flight)
                 && found.elapsed < early
@@ -259,7 +259,7 @@ impl<'a> Legs<'a> {
     /// From the beginning of the period to the first impact. If `free` is negative, contact lasts on for so
     /// many seconds.
     fn head(&self, time: f64, free: f64, state: Vector2<f64>) -> Result<Matrix2<f64>, OrbitError> {
-        let flow = self.face.phases.phases[0].flow;
+        let flow = self.face.phases[PhaseId::FREE].flow;
         if free >= 0.0 {
             return Ok(flow.transition(time));
         }

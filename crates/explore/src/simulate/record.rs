@@ -1,7 +1,7 @@
 //! Who watches the motion: tallies, the table of crossings, what is drawn.
 
-use softstop::internals::{Law, Motion, Phase, work};
-use softstop::{Arc, Clock, Crossing, CrossingKind, Drive, Observer, PhaseKind, Scene};
+use softstop::internals::{Motion, Phase, work};
+use softstop::{Arc, Clock, Crossing, CrossingKind, Drive, Observer, PhaseKind, Scene, Start};
 
 use super::name;
 use super::tally::{Rest, Tally};
@@ -45,8 +45,6 @@ pub(super) fn columns() -> [Column<Crossed>; 10] {
 pub(super) struct Recorder<'a> {
     scene: &'a Scene,
     clock: Clock,
-    /// The law of free flight.
-    free: Law,
     crossings: Table<'a, Crossed>,
     /// The first thing that went wrong while writing.
     failure: Option<Failure>,
@@ -68,7 +66,6 @@ impl<'a> Recorder<'a> {
         Self {
             scene,
             clock: *motion.clock(),
-            free: motion.phases().phases[0].law,
             crossings,
             failure: None,
             before: motion.kind(),
@@ -94,8 +91,8 @@ impl<'a> Recorder<'a> {
 
     fn take(&mut self, arc: &Arc<'_>, elapsed: f64, last: bool) {
         self.before = arc.kind;
-        self.tally.work += work(arc, self.scene.mass, &self.free, elapsed);
-        let begin = self.clock.time(arc.start);
+        self.tally.work += work(arc, self.scene.mass, elapsed);
+        let begin = arc.begin();
         if elapsed > 0.0 {
             self.tally.arc(arc.kind, elapsed);
         }
@@ -118,18 +115,10 @@ impl<'a> Recorder<'a> {
         let steps = (FINENESS * shown / self.clock.period()).ceil().max(FEWEST);
         for step in 0..=steps as u32 {
             let after = skipped + shown * f64::from(step) / steps;
-            let drive = self.clock.drive(self.clock.after(arc.start, after));
-            let (position, velocity) = arc.course.at(after, drive);
-            let force = force(
-                self.scene,
-                &self.free,
-                arc.phase,
-                (position, velocity),
-                drive,
-            );
-            self.drawing
-                .points
-                .push([begin + after, position, velocity, force]);
+            let state = arc.at(after);
+            let force = force(self.scene, arc.phase, state, arc.drive(after));
+            let point = [begin + after, state.position, state.velocity, force];
+            self.drawing.points.push(point);
         }
         let (from, to) = (begin + skipped, begin + elapsed);
         match self.drawing.phases.last_mut() {
@@ -161,13 +150,12 @@ impl Observer for Recorder<'_> {
 /// Force in N of stop and strip in a state; on a mass that is held, the one that holds it.
 pub(super) fn force(
     scene: &Scene,
-    free: &Law,
     phase: Option<&Phase>,
-    (position, velocity): (f64, f64),
+    Start { position, velocity }: Start,
     drive: Drive,
 ) -> f64 {
     match phase {
-        Some(phase) => phase.contact_force(free, position, velocity),
+        Some(phase) => phase.contact_force(position, velocity),
         None => scene.excitation.amplitude * drive.cos - scene.stiffness * position,
     }
 }

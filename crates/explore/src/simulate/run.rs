@@ -1,6 +1,6 @@
 //! The run itself: from sample to sample, exactly.
 
-use softstop::internals::{Law, Motion, mechanical_energy};
+use softstop::internals::{Motion, mechanical_energy};
 use softstop::{Instant, Scene, Start};
 
 use super::name;
@@ -78,13 +78,11 @@ impl Plan<'_> {
 
     fn sample(&self, motion: &Motion) -> Sample {
         let state = motion.state();
-        let free: &Law = &motion.phases().phases[0].law;
         let drive = motion.clock().drive(motion.now());
-        let place = (state.position, state.velocity);
         Sample {
             time: motion.clock().time(motion.now()),
             state,
-            force: force(self.scene, free, motion.phase(), place, drive),
+            force: force(self.scene, motion.phase(), state, drive),
             phase: name(motion.kind()),
         }
     }

@@ -2,7 +2,6 @@
 //! suspension acting on it besides. What is recorded is the force of the phases that the library
 //! lowers to.
 
-use softstop::internals::Law;
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, MotionError, Observer, PhaseKind, Scene, Start,
 };
@@ -60,10 +59,8 @@ impl Stroke {
         let scene = bare(scene, damped);
         let mut motion = scene.motion(approach(&scene, speed, lead))?;
         let mut recorder = Recorder {
-            clock: *motion.clock(),
             clearance: scene.clearance,
             lead,
-            free: motion.phases().phases[0].law,
             stroke: Self::default(),
         };
         for cycle in 1..=LONGEST {
@@ -111,10 +108,8 @@ fn approach(scene: &Scene, speed: f64, lead: f64) -> Start {
 }
 
 struct Recorder {
-    clock: Clock,
     clearance: f64,
     lead: f64,
-    free: Law,
     stroke: Stroke,
 }
 
@@ -163,14 +158,13 @@ impl Observer for Recorder {
         let points = if fresh { POINTS } else { FEW };
         for step in 0..=points {
             let after = elapsed * f64::from(step) / f64::from(points);
-            let drive = self.clock.drive(self.clock.after(arc.start, after));
-            let (position, velocity) = arc.course.at(after, drive);
+            let Start { position, velocity } = arc.at(after);
             let inward = if step == 0 && velocity == 0.0 {
                 false
             } else {
                 velocity > 0.0
             };
-            let force = phase.contact_force(&self.free, position, velocity);
+            let force = phase.contact_force(position, velocity);
             self.push(arc.kind, inward, fresh, (position - self.clearance, force));
             fresh = false;
         }

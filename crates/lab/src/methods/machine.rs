@@ -1,14 +1,14 @@
 //! A task as the stepping methods see it: forces at a time and a state, and what asking for them costs.
 
 use super::{MethodError, Solution, Task, Work};
-use softstop::internals::Phases;
+use softstop::internals::{PhaseId, Phases};
 use softstop::{Impact, MotionError, SceneError, Start};
 
 /// Which law of force a step goes by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Laws {
     /// That of one phase, smoothly continued beyond its ends.
-    One(usize),
+    One(PhaseId),
     /// Whichever holds where the state is; sign(0) = 0 under dry friction.
     All,
 }
@@ -135,9 +135,8 @@ impl Machine {
     /// Acceleration in m/s^2; counted.
     pub fn acceleration(&mut self, laws: Laws, time: f64, position: f64, velocity: f64) -> f64 {
         self.work.evaluations += 1;
-        let (push, mass) = (self.push(time), self.phases.mass);
-        let of =
-            |phase: usize| self.phases.phases[phase].acceleration(position, velocity, push, mass);
+        let push = self.push(time);
+        let of = |phase| self.phases.acceleration(phase, position, velocity, push);
         match self.laws(laws, position, velocity) {
             [one, other] if one == other => of(one),
             [one, other] => 0.5 * (of(one) + of(other)),
@@ -147,13 +146,13 @@ impl Machine {
     /// -d(acceleration)/d(position) in 1/s^2 and -d(acceleration)/d(velocity) in 1/s. They come with an
     /// evaluation.
     pub fn slopes(&self, laws: Laws, position: f64, velocity: f64) -> (f64, f64) {
-        let of = |phase: usize| self.phases.phases[phase].slopes(position, velocity);
+        let of = |phase: PhaseId| self.phases[phase].slopes(position, velocity);
         let [one, other] = self.laws(laws, position, velocity).map(of);
         let per_mass = 0.5 / self.phases.mass;
         ((one.0 + other.0) * per_mass, (one.1 + other.1) * per_mass)
     }
 
-    fn laws(&self, laws: Laws, position: f64, velocity: f64) -> [usize; 2] {
+    fn laws(&self, laws: Laws, position: f64, velocity: f64) -> [PhaseId; 2] {
         match laws {
             Laws::One(phase) => [phase; 2],
             Laws::All => self.phases.laws_at(position, velocity, true),

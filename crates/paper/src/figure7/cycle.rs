@@ -1,7 +1,7 @@
 //! One period of a motion, arc by arc, with the force of contact.
 
-use softstop::internals::{Law, work};
-use softstop::{Arc, Clock, MotionError, Observer, PhaseKind};
+use softstop::internals::{Phase, work};
+use softstop::{Arc, Clock, MotionError, Observer, PhaseKind, Start};
 use softstop_dynamics::orbit::Orbit;
 
 /// Fewest points of an arc.
@@ -35,8 +35,6 @@ impl Cycle {
         let mut motion = orbit.scene.motion(orbit.state().into())?;
         let end = Clock::at_cycle(orbit.periods);
         let mut recorder = Recorder {
-            clock: *motion.clock(),
-            free: motion.phases().phases[0].law,
             fineness: f64::from(points) / orbit.scene.period(),
             cycle: Self {
                 orbit,
@@ -46,8 +44,7 @@ impl Cycle {
             },
         };
         motion.advance(end, &mut recorder)?;
-        let arc = motion.arc();
-        recorder.arc(&arc, motion.clock().elapsed(arc.start, end));
+        motion.tell_arc(&mut recorder);
         Ok(recorder.cycle)
     }
 
@@ -71,8 +68,6 @@ impl Cycle {
 }
 
 struct Recorder {
-    clock: Clock,
-    free: Law,
     /// Points per time.
     fineness: f64,
     cycle: Cycle,
@@ -81,20 +76,17 @@ struct Recorder {
 impl Observer for Recorder {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         let cycle = &mut self.cycle;
-        let lost = work(arc, cycle.orbit.scene.mass, &self.free, elapsed).dissipated;
+        let lost = work(arc, cycle.orbit.scene.mass, elapsed).dissipated;
         cycle.dissipated += lost;
         if arc.kind != PhaseKind::Free {
             cycle.dissipated_in_contact += lost;
         }
-        let begin = self.clock.time(arc.start);
+        let begin = arc.begin();
         let steps = (self.fineness * elapsed).ceil().max(FEWEST) as u32;
         cycle.points.extend((0..=steps).map(|step| {
             let after = elapsed * f64::from(step) / f64::from(steps);
-            let drive = self.clock.drive(self.clock.after(arc.start, after));
-            let (position, velocity) = arc.course.at(after, drive);
-            let force = |phase: &softstop::internals::Phase| {
-                phase.contact_force(&self.free, position, velocity)
-            };
+            let Start { position, velocity } = arc.at(after);
+            let force = |phase: &Phase| phase.contact_force(position, velocity);
             Point {
                 time: begin + after,
                 position,
