@@ -1,8 +1,10 @@
 //! Derivatives of the outputs, across impacts, against differences of the motion itself.
 
 use approx::abs_diff_eq;
+use nalgebra::Vector2;
 use proptest::prelude::*;
-use softstop::{Clock, Perturbation, Sensitivity, Simulation, Start};
+use softstop::internals::Detuning;
+use softstop::{Clock, Perturbation, Scene, Sensitivity, Simulation, Start};
 use softstop_testing::{Meets, cases, machines, start_below};
 
 /// Position, velocity, acceleration, contact force, energies, and time and velocity of the last impact.
@@ -37,6 +39,24 @@ fn derivatives(of: &Sensitivity) -> [f64; 9] {
         of.impact_time,
         of.impact_velocity,
     ]
+}
+
+/// A scene with another drive frequency.
+fn detuned(scene: &Scene, change: f64) -> Scene {
+    let mut scene = scene.clone();
+    scene.excitation.frequency += change;
+    scene
+}
+
+/// The state when the drive has turned so many times, and what the exact derivative by its frequency is.
+fn turned(scene: &Scene, start: Start, turns: f64) -> (Vector2<f64>, Option<Vector2<f64>>) {
+    let clock = scene.clock();
+    let mut motion = scene.motion(start).expect("valid");
+    let mut watch = Detuning::new(&motion);
+    let until = clock.after(Clock::at_cycle(0), turns * clock.period());
+    motion.advance(until, &mut watch).expect("bounded");
+    motion.tell_arc(&mut watch);
+    (motion.state().into(), watch.at_drive_angle(&motion))
 }
 
 /// Richardson's extrapolation of central differences, with its error.
@@ -103,5 +123,36 @@ proptest! {
             let allowed = noise * size + 3.0 * error[n];
             assert!(abs_diff_eq!(found[n], exact[n], epsilon = allowed), "{n}: {} {} {:?}", found[n], exact[n], meets.crossings);
         }
+    }
+    #[test]
+    fn answers_to_the_drives_frequency_are_derivatives(
+        scene in machines(),
+        depth in -0.5..6.0f64,
+        velocity in -6.0..6.0f64,
+        turns in 0.05..2.2f64,
+    ) {
+        let start = start_below(&scene, depth, velocity);
+        prop_assume!(Simulation::new(&scene, start).is_ok());
+        let way = |change: f64| {
+            let scene = detuned(&scene, change);
+            let clock = scene.clock();
+            let end = clock.after(Clock::at_cycle(0), turns * clock.period());
+            Meets::until(&scene, start, end)
+        };
+        let meets = way(0.0);
+        prop_assume!(meets.slowest > 0.2 && meets.crossings.len() < 12);
+        prop_assume!([-1e-3, 1e-3].iter().all(|change| way(*change).crossings == meets.crossings));
+        let (_, exact) = turned(&scene, start, turns);
+        prop_assume!(exact.is_some());
+        let exact = exact.expect("in closed form");
+        let central = |width: f64| {
+            let [high, low] = [width, -width].map(|change| turned(&detuned(&scene, change), start, turns).0);
+            (high - low) / (2.0 * width)
+        };
+        let (wide, narrow) = (central(2e-4), central(1e-4));
+        let (found, error) = ((4.0 * narrow - wide) / 3.0, (wide - narrow).norm());
+        let size = 1.0 + exact.norm();
+        prop_assume!(error < 1e-2 * size);
+        assert!((found - exact).norm() <= 1e-6 * size + 3.0 * error, "{found} {exact} {:?}", meets.crossings);
     }
 }

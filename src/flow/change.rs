@@ -3,7 +3,6 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::course::{Course, Form};
-use super::place::Drive;
 use super::response::Responses;
 use super::segment::Segment;
 use super::series::{
@@ -44,6 +43,27 @@ impl Course {
         }
     }
 
+    /// The change of the state that a change `by` at departure and one of the drive's frequency bring, per rad/s of
+    /// the latter; the departure is `since` seconds after the instant at which the drive's angle is held. None but in
+    /// closed form.
+    pub(crate) fn detuned(
+        &self,
+        elapsed: f64,
+        since: f64,
+        by: Vector2<f64>,
+    ) -> Option<Vector2<f64>> {
+        match self.form {
+            Form::Held => Some(Vector2::new(by.x, 0.0)),
+            Form::Particular { particular, .. } => {
+                let answer = |elapsed: f64| {
+                    particular.detuned(&self.flow, since + elapsed, self.drive_at(elapsed))
+                };
+                Some(answer(elapsed) + self.flow.modes.at(elapsed) * (by - answer(0.0)))
+            }
+            _ => None,
+        }
+    }
+
     /// The change of the work of the push per mass up to `elapsed`; `law` is the part of the constant
     /// push that is the phase's own force.
     pub(crate) fn changed_supply(&self, elapsed: f64, by: Change, law: f64) -> f64 {
@@ -62,9 +82,7 @@ impl Course {
         if let Form::Segment(segment) = &self.form {
             return value(&segment.push, segment.parameter_at(elapsed));
         }
-        let turn = Drive::at(self.flow.frequency * elapsed);
-        let drive = self.departure.drive.turned(turn);
-        self.push_at(elapsed).0 + self.flow.amplitude * drive.cos
+        self.push_at(elapsed).0 + self.flow.amplitude * self.drive_at(elapsed).cos
     }
 
     /// The work of a linear course is a quadratic form of its departure: a central difference of any

@@ -64,7 +64,7 @@ impl Course {
         Some((node, (way, rise)))
     }
 
-    fn drive_at(&self, elapsed: f64) -> Drive {
+    pub(super) fn drive_at(&self, elapsed: f64) -> Drive {
         let turn = Drive::at(self.flow.frequency * elapsed);
         self.departure.drive.turned(turn)
     }

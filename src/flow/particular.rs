@@ -1,5 +1,7 @@
 //! The particular solution of a linear law.
 
+use nalgebra::{Complex, Vector2};
+
 use super::{Departure, Drive, Flow};
 
 /// The particular solution offset + slope t + cosine cos(angle) + sine sin(angle).
@@ -34,5 +36,19 @@ impl Particular {
             self.offset + self.slope * elapsed + self.cosine * cos + self.sine * sin,
             self.slope + self.frequency * (self.sine * cos - self.cosine * sin),
         )
+    }
+
+    /// What the harmonic part changes by with the drive's frequency, `time` seconds after the instant at which the
+    /// drive's angle is held: the answer Re((c1 t + c0) e^(i angle)) to the force -A t sin(angle).
+    pub fn detuned(&self, flow: &Flow, time: f64, Drive { cos, sin }: Drive) -> Vector2<f64> {
+        if flow.amplitude == 0.0 {
+            return Vector2::zeros();
+        }
+        let (i, w): (Complex<f64>, f64) = (Complex::i(), self.frequency);
+        let steady = Complex::new(self.cosine, -self.sine);
+        let grows = i * steady;
+        let stays = steady * steady * Complex::new(2.0 * w, -flow.damping()) / flow.amplitude;
+        let (angle, now) = (Complex::new(cos, sin), grows * time + stays);
+        Vector2::new((now * angle).re, ((grows + i * w * now) * angle).re)
     }
 }

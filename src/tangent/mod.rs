@@ -1,7 +1,9 @@
 //! The exact Jacobian of a motion: free transitions joined by saltation matrices.
 
+mod detuning;
 mod sensitivity;
 
+pub use detuning::Detuning;
 pub use sensitivity::{Perturbation, Sensitivity};
 
 use nalgebra::Matrix2;

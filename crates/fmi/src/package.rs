@@ -7,6 +7,7 @@ use std::fs::{self, File};
 use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 
+use memchr::memmem;
 use thiserror::Error;
 use zip::write::{SimpleFileOptions, ZipWriter};
 use zip::{CompressionMethod, DateTime};
@@ -25,6 +26,9 @@ pub const HOST_PLATFORM: &str = if cfg!(target_os = "windows") {
 } else {
     "linux64"
 };
+
+/// Deflate's level: packing at the usual one takes longer than finding a design.
+const QUICKLY: i64 = 1;
 
 /// A compiled library for one platform.
 #[derive(Debug, Clone)]
@@ -104,12 +108,9 @@ impl Library {
     fn with_imprint<U: Unit>(&self, imprint: &Imprint<U>) -> Result<Vec<u8>, PackageError> {
         let marker = U::block().marker();
         let values = imprint.to_bytes();
-        let found: Vec<_> = self
-            .bytes
-            .windows(marker.len() + values.len())
-            .enumerate()
-            .filter(|(_, window)| window.starts_with(&marker))
-            .map(|(position, _)| position + marker.len())
+        let found: Vec<_> = memmem::find_iter(&self.bytes, &marker)
+            .map(|position| position + marker.len())
+            .filter(|start| start + values.len() <= self.bytes.len())
             .collect();
         let wanted = self.slices();
         if found.len() != wanted {
@@ -192,6 +193,7 @@ pub fn archive<U: Unit>(
 
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
+        .compression_level(Some(QUICKLY))
         .last_modified_time(DateTime::default());
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, bytes) in entries {

@@ -1,7 +1,7 @@
 //! A machine along its parameters.
 
 use super::Family;
-use softstop::{Machine, MotionError, Parameter, Scene, SceneError};
+use softstop::{Dimension, Machine, MotionError, Parameter, Scene, SceneError};
 
 /// A machine along some of its parameters.
 #[derive(Debug, Clone)]
@@ -67,5 +67,11 @@ impl<const N: usize> Family<N> for Along<N> {
 
     fn parameter_scales(&self) -> [f64; N] {
         self.parameter_scales
+    }
+
+    fn by_frequency(&self) -> [Option<f64>; N] {
+        let unit = self.machine.to_si(Dimension::Frequency, 1.0);
+        self.parameters
+            .map(|parameter| (parameter == Parameter::Frequency).then_some(unit))
     }
 }

@@ -18,6 +18,12 @@ pub(crate) trait Equations {
     /// Derivatives of the residual, a row for each equation, with these slopes. Their error slows the
     /// convergence; the residual alone decides the result.
     fn jacobian(&self, here: &Evaluation<Self::Point>, slopes: &DMatrix<f64>) -> DMatrix<f64>;
+
+    /// The slopes where all of them are known exactly.
+    fn exact_slopes(&self, here: &Evaluation<Self::Point>) -> Option<DMatrix<f64>> {
+        let _ = here;
+        None
+    }
 }
 
 /// A system at one place.
@@ -106,7 +112,10 @@ pub(super) fn correct_with<E: Equations>(
             .take()
             .filter(|_| care == Care::Given || size <= STALE * last);
         last = size;
-        let known = kept.map_or_else(|| slopes_at(equations, &at, &here, care), Ok)?;
+        let known = match equations.exact_slopes(&here).or(kept) {
+            Some(known) => known,
+            None => slopes_at(equations, &at, &here, care)?,
+        };
         let mut right = here.residual.clone();
         let mut matrix = -equations.jacobian(&here, slopes.insert(known));
         if let Some(normal) = normal {
@@ -153,7 +162,7 @@ fn tangent_with<E: Equations>(
     }
 }
 
-/// Columns of differences of a residual for the unknowns without exact derivatives: central ones, or one-sided where
+/// Derivatives of a residual by the unknowns beyond the [`Equations::EXACT`] first ones: exact, or else differences: central ones, or one-sided where
 /// that is enough or there is no machine on the other side.
 fn slopes_at<E: Equations>(
     equations: &E,
@@ -161,6 +170,9 @@ fn slopes_at<E: Equations>(
     here: &Evaluation<E::Point>,
     care: Care,
 ) -> Result<DMatrix<f64>, OrbitError> {
+    if let Some(exact) = equations.exact_slopes(here) {
+        return Ok(exact);
+    }
     let mut columns = Vec::new();
     for unknown in E::EXACT..at.len() {
         let beside = |shift: f64| {

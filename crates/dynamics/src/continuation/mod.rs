@@ -58,7 +58,7 @@ pub use softstop::Parameter;
 
 use softstop::{MotionError, Scene};
 
-/// Scenes along one or more parameters. To add one, implement the three methods.
+/// Scenes along one or more parameters. To add one, implement the first three methods.
 pub trait Family<const PARAMETERS: usize = 1> {
     /// The scene at values of the parameters.
     ///
@@ -71,4 +71,10 @@ pub trait Family<const PARAMETERS: usize = 1> {
 
     /// Typical changes of the parameters: with the sizes of the state, the units of the arclength.
     fn parameter_scales(&self) -> [f64; PARAMETERS];
+
+    /// d(drive frequency in rad/s) / d(parameter) of each parameter that changes nothing else: the exact derivatives of
+    /// orbits by these need no differences.
+    fn by_frequency(&self) -> [Option<f64>; PARAMETERS] {
+        [None; PARAMETERS]
+    }
 }

@@ -4,7 +4,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::face::{Face, Touch};
 use super::way::Border;
-use softstop::internals::Motion;
+use softstop::internals::{Detuning, Motion};
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Scene, Start,
     Tangent,
@@ -77,6 +77,8 @@ pub(crate) struct Round {
     pub ends: Vec<Vector2<f64>>,
     /// Exact Jacobian of the last one.
     pub monodromy: Matrix2<f64>,
+    /// Its exact derivative by the drive's frequency in m s/rad and m/rad, where all laws have one in closed form.
+    pub by_frequency: Option<Vector2<f64>>,
     /// Before-impact velocities in m/s, in order of time.
     pub impacts: Vec<f64>,
     /// How often it crosses what.
@@ -95,6 +97,7 @@ impl Round {
             scene,
             clock: *motion.clock(),
             tangent: Tangent::default(),
+            detuning: Detuning::new(&motion),
             impacts: Vec::new(),
             sequence: Sequence::default(),
             slowest: None,
@@ -114,6 +117,7 @@ impl Round {
         Ok(Self {
             ends,
             monodromy: watch.tangent.matrix,
+            by_frequency: watch.detuning.at_drive_angle(&motion),
             impacts: watch.impacts,
             sequence: watch.sequence,
             slowest: watch.slowest,
@@ -154,6 +158,7 @@ struct Watch<'a> {
     scene: &'a Scene,
     clock: Clock,
     tangent: Tangent,
+    detuning: Detuning,
     impacts: Vec<f64>,
     sequence: Sequence,
     slowest: Option<Touch>,
@@ -168,6 +173,7 @@ struct Watch<'a> {
 impl Observer for Watch<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         self.tangent.arc(arc, elapsed);
+        self.detuning.arc(arc, elapsed);
         let was_held = std::mem::replace(&mut self.is_held, arc.course.is_held());
         if self.is_held && arc.start == Clock::at_cycle(0) {
             self.margin = 0.0;
@@ -177,6 +183,7 @@ impl Observer for Watch<'_> {
 
     fn crossing(&mut self, crossing: &Crossing) {
         self.tangent.crossing(crossing);
+        self.detuning.crossing(crossing);
         let Instant { cycles, offset } = crossing.instant;
         let time = cycles + offset / self.clock.period();
         self.margin = self.margin.min(time).min(self.periods - time);

@@ -88,6 +88,16 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         jacobian.columns_mut(2, N).copy_from(slopes);
         jacobian
     }
+
+    fn exact_slopes(&self, here: &Evaluation<Round>) -> Option<DMatrix<f64>> {
+        let change = here.point.by_frequency?;
+        let change = change.component_div(&self.scales.fixed_rows::<2>(0));
+        let mut slopes = DMatrix::zeros(2, N);
+        for (index, unit) in self.family.by_frequency().into_iter().enumerate() {
+            slopes.set_column(index, &(change * (unit? * self.scales[2 + index])));
+        }
+        Some(slopes)
+    }
 }
 
 /// What rounding alone may leave of P(s) - s in units of `sizes`.

@@ -138,4 +138,8 @@ impl Family for Frequencies<'_> {
     fn parameter_scales(&self) -> [f64; 1] {
         [0.2 * self.0.scales().rate]
     }
+
+    fn by_frequency(&self) -> [Option<f64>; 1] {
+        [Some(1.0)]
+    }
 }
