@@ -1,5 +1,8 @@
 //! What the search minimises, and who watches it.
 
+use std::borrow::Borrow;
+use std::slice::from_ref;
+
 use argmin::core::{CostFunction, Error};
 
 use super::space::Space;
@@ -38,27 +41,40 @@ pub(super) struct Cost<'search> {
     pub watch: &'search dyn Watch,
 }
 
+/// Points computed between two looks at whether to stop.
+const BLOCK: usize = 64;
+
+impl Cost<'_> {
+    /// What points cost. Never is NaN (the swarm would panic, Nelder-Mead stall); once stopped, infinite.
+    fn costs(&self, units: &[Vec<f64>]) -> Vec<f64> {
+        if self.watch.stop() {
+            return vec![f64::INFINITY; units.len()];
+        }
+        let points: Vec<_> = units.iter().map(|unit| self.space.values(unit)).collect();
+        let outcomes = self.problem.soon(&points).into_iter();
+        let costs = outcomes.map(|outcome| {
+            let velocity = outcome.as_ref().ok().map(Design::before_impact_velocity);
+            self.watch.evaluated(velocity);
+            match outcome {
+                Ok(design) => -design.before_impact_velocity(),
+                Err(infeasible) => 1.0 + infeasible.gap,
+            }
+        });
+        costs.collect()
+    }
+}
+
 impl CostFunction for &Cost<'_> {
     type Param = Vec<f64>;
     type Output = f64;
 
-    /// Never is NaN (the swarm would panic, Nelder-Mead stall) and never fails (Nelder-Mead
-    /// would panic); once stopped, infinite.
+    /// Never fails (Nelder-Mead would panic).
     fn cost(&self, unit: &Vec<f64>) -> Result<f64, Error> {
-        if self.watch.stop() {
-            return Ok(f64::INFINITY);
-        }
-        let outcome = self.problem.soon(&self.space.values(unit));
-        self.watch
-            .evaluated(outcome.as_ref().ok().map(Design::before_impact_velocity));
-        Ok(match outcome {
-            Ok(design) => -design.before_impact_velocity(),
-            Err(infeasible) => 1.0 + infeasible.gap,
-        })
+        Ok(self.costs(from_ref(unit))[0])
     }
 }
 
-/// The same for the swarm, which is to end at once when it is stopped.
+/// The same for the survey and the swarm, many points at once: both are to end at once when they are stopped.
 pub(super) struct Stoppable<'search>(pub &'search Cost<'search>);
 
 impl CostFunction for Stoppable<'_> {
@@ -66,9 +82,18 @@ impl CostFunction for Stoppable<'_> {
     type Output = f64;
 
     fn cost(&self, unit: &Vec<f64>) -> Result<f64, Error> {
-        if self.0.watch.stop() {
-            return Err(Error::msg("stopped"));
+        Ok(self.bulk_cost(from_ref(unit))?[0])
+    }
+
+    fn bulk_cost<P: Borrow<Vec<f64>>>(&self, units: &[P]) -> Result<Vec<f64>, Error> {
+        let mut costs = Vec::with_capacity(units.len());
+        for block in units.chunks(BLOCK) {
+            if self.0.watch.stop() {
+                return Err(Error::msg("stopped"));
+            }
+            let block: Vec<_> = block.iter().map(|unit| unit.borrow().clone()).collect();
+            costs.extend(self.0.costs(&block));
         }
-        self.0.cost(unit)
+        Ok(costs)
     }
 }

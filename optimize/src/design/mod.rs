@@ -12,6 +12,7 @@ pub mod search;
 pub mod space;
 mod survey;
 
+use rayon::prelude::*;
 use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_dynamics::orbit::Orbit;
 use softstop_dynamics::zone::{self, Zone, ZoneError};
@@ -86,11 +87,15 @@ impl Problem {
         self.best_of(machine, zone)
     }
 
-    /// The same on the way of a search.
-    fn soon(&self, values: &[f64]) -> Result<Design, Infeasible> {
-        let machine = self.machine_at(values);
-        let zone = zone::hysteresis_soon(&machine.scene);
-        self.best_of(machine, zone)
+    /// The same at many points on the way of a search.
+    fn soon(&self, points: &[Vec<f64>]) -> Vec<Result<Design, Infeasible>> {
+        let machines: Vec<Machine> = points.iter().map(|at| self.machine_at(at)).collect();
+        let scenes: Vec<Scene> = machines.iter().map(|of| of.scene.clone()).collect();
+        let zones = zone::hysteresis_soon(&scenes);
+        let pairs: Vec<_> = machines.into_iter().zip(zones).collect();
+        let designs = pairs.into_par_iter();
+        let designs = designs.map(|(machine, zone)| self.best_of(machine, zone));
+        designs.collect()
     }
 
     fn best_of(

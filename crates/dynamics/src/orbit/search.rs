@@ -1,6 +1,7 @@
 //! The z = 1 motion found from scratch.
 
 use std::f64::consts::TAU;
+use std::slice::from_ref;
 
 use nalgebra::Vector2;
 
@@ -33,7 +34,7 @@ const SAME_SPEED: f64 = 1e-9;
 /// [`OrbitError::NotFound`] if no start leads to one; [`OrbitError::Motion`] if the scene is
 /// invalid.
 pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
-    let settled = search(scene, usize::MAX);
+    let settled = search(from_ref(scene), usize::MAX).remove(0);
     let mut all = all_single(scene)?;
     all.retain(Orbit::is_stable);
     match (settled, all.pop()) {
@@ -49,46 +50,77 @@ fn is_harder(one: &Orbit, other: &Orbit) -> bool {
     one > (1.0 + SAME_SPEED) * other
 }
 
-/// The same from those motions that come back near to where they were, and only if they lead to none, from all.
+/// The same of many scenes at once, from those motions that come back near to where they were, and only if they lead to
+/// none, from all.
 ///
 /// # Errors
-/// As [`find`].
-pub(crate) fn find_soon(scene: &Scene) -> Result<Orbit, OrbitError> {
-    search(scene, 1)
+/// Each as of [`find`].
+pub(crate) fn find_soon(scenes: &[Scene]) -> Vec<Result<Orbit, OrbitError>> {
+    search(scenes, 1)
 }
 
 /// The best of all motions that the first groups of states lead to; further groups are tried only as long as there is
-/// none.
-fn search(scene: &Scene, groups: usize) -> Result<Orbit, OrbitError> {
-    let machines = [Machine::new(scene)?];
-    let map = StroboscopicMap::new(scene, 1)?;
-    let distance = Distance::of(scene);
-    for settling in SETTLING {
-        let mut known: Vec<Fixed> = Vec::new();
-        let candidates = returning(&machines, starts(scene), settling, distance);
-        for (group, states) in candidates.into_iter().enumerate() {
-            if group >= groups && known.iter().any(Fixed::is_single) {
-                break;
-            }
-            for state in states {
-                let near = |state| {
-                    let stands = |other: &Fixed| distance.between(other.state, state) < SAME;
-                    known.iter().any(stands)
-                };
-                if !near(state) {
-                    known.extend(Fixed::beside(scene, &map, state, near));
-                }
-            }
-        }
-        let single = known.into_iter().filter(Fixed::is_single);
-        if let Some(best) = single.max_by(|a, b| a.velocity.total_cmp(&b.velocity)) {
-            return Orbit::near(scene, best.state);
-        }
-    }
-    Err(OrbitError::NotFound {
+/// none. The motions of all scenes are followed together.
+fn search(scenes: &[Scene], groups: usize) -> Vec<Result<Orbit, OrbitError>> {
+    let none = |scene: &Scene| OrbitError::NotFound {
         frequency: scene.excitation.frequency,
         clearance: scene.clearance,
-    })
+    };
+    let mut found: Vec<_> = scenes.iter().map(|scene| Err(none(scene))).collect();
+    let mut open: Vec<usize> = (0..scenes.len()).collect();
+    for settling in SETTLING {
+        let mut machines = Vec::with_capacity(open.len());
+        open.retain(|&index| match Machine::new(&scenes[index]) {
+            Ok(machine) => {
+                machines.push(machine);
+                true
+            }
+            Err(error) => {
+                found[index] = Err(error.into());
+                false
+            }
+        });
+        let all: Vec<&Scene> = open.iter().map(|&index| &scenes[index]).collect();
+        let mut candidates = returning(&machines, &all, settling).into_iter();
+        open.retain(|&index| {
+            let best = candidates.next().map(|of| best(&scenes[index], of, groups));
+            let best = best.unwrap_or(Ok(None)).transpose();
+            let is_open = best.is_none();
+            if let Some(best) = best {
+                found[index] = best;
+            }
+            is_open
+        });
+    }
+    found
+}
+
+/// The hardest of the stable z = 1 motions that states lead to.
+fn best(
+    scene: &Scene,
+    candidates: [Vec<Vector2<f64>>; 2],
+    groups: usize,
+) -> Result<Option<Orbit>, OrbitError> {
+    let map = StroboscopicMap::new(scene, 1)?;
+    let distance = Distance::of(scene);
+    let mut known: Vec<Fixed> = Vec::new();
+    for (group, states) in candidates.into_iter().enumerate() {
+        if group >= groups && known.iter().any(Fixed::is_single) {
+            break;
+        }
+        for state in states {
+            let near = |state| {
+                let stands = |other: &Fixed| distance.between(other.state, state) < SAME;
+                known.iter().any(stands)
+            };
+            if !near(state) {
+                known.extend(Fixed::beside(scene, &map, state, near));
+            }
+        }
+    }
+    let single = known.into_iter().filter(Fixed::is_single);
+    let best = single.max_by(|a, b| a.velocity.total_cmp(&b.velocity));
+    best.map(|best| Orbit::near(scene, best.state)).transpose()
 }
 
 /// A stable motion that repeats after one drive period.
@@ -159,47 +191,60 @@ impl Distance {
     }
 }
 
-/// Of each motion the state that moves least within a period with one impact, where it moves little, the least
-/// first; then where all motions are after each of these numbers of periods, in ascending order.
+/// For each scene: of each motion the state that moves least within a period with one impact, where it moves little,
+/// the least first; then where all motions are after each of these numbers of periods, in ascending order.
 fn returning(
     machines: &[Machine],
-    starts: impl Iterator<Item = Start>,
+    scenes: &[&Scene],
     settling: &[u64],
-    distance: Distance,
-) -> [Vec<Vector2<f64>>; 2] {
-    let jobs: Vec<Job> = starts
-        .map(|start| Job {
-            machine: 0,
-            start,
-            periods: settling[settling.len() - 1],
+) -> Vec<[Vec<Vector2<f64>>; 2]> {
+    let jobs: Vec<Job> = scenes
+        .iter()
+        .enumerate()
+        .flat_map(|(machine, scene)| {
+            starts(scene).map(move |start| Job {
+                machine,
+                start,
+                periods: settling[settling.len() - 1],
+            })
         })
         .collect();
+    let distances: Vec<Distance> = scenes.iter().map(|scene| Distance::of(scene)).collect();
+    let count = jobs.len();
     let mut returns = Returns {
-        distance,
+        distances: jobs.iter().map(|job| distances[job.machine]).collect(),
         settling,
         last: jobs.iter().map(|job| job.start.into()).collect(),
-        impacts: vec![0; jobs.len()],
-        least: vec![(RETURNS, Vector2::zeros()); jobs.len()],
-        settled: Vec::new(),
+        impacts: vec![0; count],
+        least: vec![(RETURNS, Vector2::zeros()); count],
+        settled: vec![vec![None; count]; settling.len()],
     };
     softstop_lanes::run(machines, &jobs, &mut returns);
-    let mut least = returns.least;
-    least.retain(|(moves, _)| *moves < RETURNS);
-    least.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let near = least.into_iter().map(|(_, state)| state).collect();
-    [near, returns.settled]
+    let each = count / scenes.len().max(1);
+    let of_scene = |index: usize| {
+        let jobs = index * each..(index + 1) * each;
+        let mut least = returns.least[jobs.clone()].to_vec();
+        least.retain(|(moves, _)| *moves < RETURNS);
+        least.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let near = least.into_iter().map(|(_, state)| state).collect();
+        let settled = returns.settled.iter();
+        let settled = settled.flat_map(|after| after[jobs.clone()].iter().flatten().copied());
+        [near, settled.collect()]
+    };
+    (0..scenes.len()).map(of_scene).collect()
 }
 
 /// Keeps of each motion the state that moves least within a period with one impact, and the states after some numbers
 /// of periods.
 struct Returns<'a> {
-    distance: Distance,
+    distances: Vec<Distance>,
     settling: &'a [u64],
     last: Vec<Vector2<f64>>,
     /// Impacts in the present period.
     impacts: Vec<u64>,
     least: Vec<(f64, Vector2<f64>)>,
-    settled: Vec<Vector2<f64>>,
+    /// After each of the numbers of periods, of each job.
+    settled: Vec<Vec<Option<Vector2<f64>>>>,
 }
 
 impl Watch for Returns<'_> {
@@ -212,14 +257,16 @@ impl Watch for Returns<'_> {
 
     fn period(&mut self, job: usize, cycle: u64, state: Start) {
         let state = state.into();
-        if self.settling.contains(&cycle) {
-            self.settled.push(state);
+        if let Some(place) = self.settling.iter().position(|after| *after == cycle) {
+            self.settled[place][job] = Some(state);
         }
         let last = std::mem::replace(&mut self.last[job], state);
         let impacts = std::mem::take(&mut self.impacts[job]);
-        let moves = self.distance.between(state, last);
-        if impacts == 1 && moves < self.least[job].0 {
-            self.least[job] = (moves, state);
+        if impacts == 1 {
+            let moves = self.distances[job].between(state, last);
+            if moves < self.least[job].0 {
+                self.least[job] = (moves, state);
+            }
         }
     }
 }
