@@ -18,7 +18,7 @@ const PROGRAM: Program = Program {
 
 #[test]
 fn the_report_holds_what_scripts_look_for() -> Outcome {
-    let report = PROGRAM.json(&["--repeats", "1", "--check", "300"]);
+    let report = PROGRAM.json(&["--repeats", "1", "--check", "300", "--zones", "15"]);
     for key in ["cpu", "cores", "os"] {
         assert!(!report["machine"][key].is_null(), "{key}");
     }
@@ -44,6 +44,10 @@ fn the_report_holds_what_scripts_look_for() -> Outcome {
     let cores = &report["both_cores"];
     assert!(cores["threads"].as_u64().ok_or("threads")? >= 1);
     assert!(cores["periods_per_second"].is_f64() && cores["factor"].is_f64());
+    let zones = &report["zones"];
+    assert_eq!(zones["grid"]["edge"], 4);
+    assert!(zones["found"].as_u64().ok_or("found")? >= 8);
+    assert!(zones["zones_per_second_per_core"].is_f64());
     let check = &report["check"];
     assert_eq!(check["trajectories"], 300);
     assert_eq!(check["different"], 0);

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use anyhow::Context;
-use rayon::ThreadPoolBuilder;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use softstop::MotionError;
 use softstop_lanes::Instructions;
 
@@ -42,9 +42,18 @@ pub fn narrower() -> Vec<Instructions> {
     sets
 }
 
-/// Measurements that [`measure`] makes in so many repeats.
+/// Measurements that [`measure`] makes in so many repeats, and that of the zones.
 pub fn measurements(sets: &[Instructions], repeats: usize) -> u64 {
-    ((repeats + 1) * (sets.len() + 5)) as u64
+    ((repeats + 1) * (sets.len() + 6)) as u64
+}
+
+/// So many threads; 0 for all cores.
+///
+/// # Errors
+/// [`Failure::Run`] if there are none to be had.
+pub fn pool(threads: usize) -> Result<ThreadPool, Failure> {
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    Ok(pool.context("no threads to be had")?)
 }
 
 /// Measures so many rounds after one that is not counted: the safe engine, one lane, all lanes, all cores and one of
@@ -58,10 +67,6 @@ pub fn measure(
     repeats: usize,
     progress: &Progress,
 ) -> Result<(Vec<Timing>, usize), Failure> {
-    let pool = |threads| {
-        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.context("no threads to be had")
-    };
     let (all, one) = (pool(0)?, pool(1)?);
     type Way<'a> = Box<dyn Fn() -> Result<Count, MotionError> + 'a>;
     let lanes = |set| -> Way<'_> { Box::new(move || fleet.batch(set)) };

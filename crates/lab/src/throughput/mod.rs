@@ -1,6 +1,6 @@
 //! `softstop-lab throughput`: how fast the engines are, and whether the fast one counts the same impacts.
 //!
-//! [`fleet`] says what is run, [`measure`] takes the times; [`random_machines`] makes random machines, [`doubt`] says which
+//! [`fleet`] says what is run, [`measure`] takes the times; [`zones`] does both for hysteresis zones; [`random_machines`] makes random machines, [`doubt`] says which
 //! of their motions can be compared, [`check`] compares; `report` says what came of it.
 
 pub mod check;
@@ -9,6 +9,7 @@ pub mod fleet;
 pub mod measure;
 pub mod random_machines;
 mod report;
+pub mod zones;
 
 use anyhow::{Context, anyhow};
 use clap::Args;
@@ -20,11 +21,12 @@ use softstop_console::failure::Failure;
 use softstop_console::output::Format;
 use softstop_console::progress::Progress;
 use softstop_console::range::within;
+use zones::Grid;
 
 const EXAMPLES: &str = "\
 Examples:
   softstop-lab throughput
-      the speed of the safe engine, of one lane and of all, on one core and more
+      the speed of the safe engine, of one lane and of all, on one core and more, and of zones
   softstop-lab throughput --format json
       the same for programs
   softstop-lab throughput --check 1000000 --repeats 5
@@ -50,6 +52,10 @@ pub struct ThroughputArguments {
     /// Measurements that the medians are of, 1 to 1000
     #[arg(long, value_name = "R", default_value_t = 11)]
     pub repeats: usize,
+    /// Machines, over clearance and stiffness, whose hysteresis zones are computed in each round, 4 to 1000000; a square
+    /// grid of as many or a few more
+    #[arg(long, value_name = "N", default_value_t = 400)]
+    pub zones: u32,
     /// How to print the result
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
@@ -64,12 +70,14 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     let ThroughputArguments { check, repeats, .. } = *arguments;
     within("check", check, 0..=1_000_000_000)?;
     within("repeats", repeats, 1..=1000)?;
+    within("zones", arguments.zones, 4..=1_000_000)?;
     let fleet = RANGE.fleet().context("the machines of the measurement")?;
     let sets = measure::narrower();
     let progress = Progress::new(measure::measurements(&sets, repeats), "measurements");
     let (timings, threads) = measure::measure(&fleet, &sets, repeats, &progress)?;
+    let zones = Grid::of(arguments.zones).measure(repeats, &measure::pool(1)?, &progress)?;
     drop(progress);
-    let report = ThroughputReport::new(RANGE, repeats, (&timings, threads), &sets);
+    let report = ThroughputReport::new(RANGE, repeats, (&timings, threads), &sets, zones);
     let mut report = report.context("a measurement is missing")?;
     if check > 0 {
         report.check = Some(check::check(check, arguments.seed)?);

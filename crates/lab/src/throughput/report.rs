@@ -6,6 +6,7 @@ use softstop_lanes::Instructions;
 use super::check::Check;
 use super::fleet::Range;
 use super::measure::{ROUNDS, Timing};
+use super::zones::Zones;
 use crate::precision::computer::Machine;
 use softstop_console::column::{Column, Units, text};
 use softstop_console::columns;
@@ -35,6 +36,8 @@ pub struct ThroughputReport {
     pub portable: Option<LaneEngine>,
     /// The lanes on all cores.
     pub both_cores: Cores,
+    /// Hysteresis zones on one core.
+    pub zones: Zones,
     /// The engines on random machines, if asked for.
     pub check: Option<Check>,
 }
@@ -87,6 +90,7 @@ impl ThroughputReport {
         repeats: usize,
         (timings, threads): (&[Timing], usize),
         sets: &[Instructions],
+        zones: Zones,
     ) -> Option<Self> {
         let [safe, scalar, batch, parallel, alone, narrower @ ..] = timings else {
             return None;
@@ -119,6 +123,7 @@ impl ThroughputReport {
                 periods_per_second: work * ROUNDS as f64 / parallel.median(),
                 factor: alone.median() / parallel.median(),
             },
+            zones,
             check: None,
         })
     }
@@ -177,6 +182,22 @@ impl Report for ThroughputReport {
             cores.threads,
             cores.factor,
             cores.periods_per_second / 1e6
+        );
+        let Zones { grid, spread, .. } = &self.zones;
+        said += &format!(
+            "Hysteresis zones of the {} machine at {} x {} places over clearance {} to {} and stiffness {} to {}, {} \
+             found:\n{:.0} a second on one core, {:.0} to {:.0}\n",
+            grid.machine,
+            grid.edge,
+            grid.edge,
+            grid.clearances.0,
+            grid.clearances.1,
+            grid.stiffnesses.0,
+            grid.stiffnesses.1,
+            self.zones.found,
+            self.zones.zones_per_second_per_core,
+            spread.0,
+            spread.1
         );
         said += &self.check.as_ref().map_or_else(String::new, told);
         said + &format!("Machine: {}\n", self.machine.line())
