@@ -238,7 +238,12 @@ impl<'a, F: Family> Follower<'a, F> {
         way.points
             .extend(specials.iter().map(|special| special.point.clone()));
         way.specials.extend(specials);
-        way.points.push(self.point_at(&to)?);
+        let mut last = self.point_at(&to)?;
+        if let Some(bound) = bound {
+            // Scaled unknowns may round its last digit.
+            last.parameter = bound;
+        }
+        way.points.push(last);
         Ok(end)
     }
 }
