@@ -2,7 +2,6 @@
 
 mod abi;
 mod c_driver;
-mod c_speed;
 mod calls;
 mod common;
 mod directional;

@@ -10,7 +10,7 @@ use softstop_console::export::Report;
 use softstop_console::record::{Record, below, beside};
 use softstop_console::report::{Stated, motion, state};
 use softstop_console::table::{heading, number};
-use softstop_dynamics::orbit::Orbit;
+use softstop_dynamics::Orbit;
 use softstop_dynamics::zone::{Stretch, stretches};
 
 use crate::design::{Design, Problem};

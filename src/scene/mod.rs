@@ -129,6 +129,14 @@ impl Scene {
         })
     }
 
+    /// The same machine at another frequency of its drive, in rad/s.
+    #[must_use]
+    pub fn at_frequency(&self, frequency: f64) -> Self {
+        let mut scene = self.clone();
+        scene.excitation.frequency = frequency;
+        scene
+    }
+
     /// Period of the drive, 2 pi / w, in s.
     pub fn period(&self) -> f64 {
         std::f64::consts::TAU / self.excitation.frequency

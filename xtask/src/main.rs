@@ -99,9 +99,7 @@ fn run_task(task: &Task) -> Result<()> {
         Task::Bench => {
             let run = |arguments: &str| cargo(&arguments.split(' ').collect::<Vec<_>>());
             run("bench --profile dist --package softstop-benches")?;
-            run(
-                "test --profile dist --package softstop-fmu --test fmu c_speed -- --ignored --nocapture",
-            )
+            run("bench --profile dist --package softstop-fmu --bench c_speed")
         }
     }
 }

@@ -6,8 +6,7 @@ use nalgebra::Complex;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use softstop::{Language, Machine, Parameter, Ratios, Stop};
-use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::orbit::{self, Orbit};
+use softstop_dynamics::{MotionKind, Orbit, orbit};
 
 use crate::column::{Cell, Column, Told};
 use crate::columns;

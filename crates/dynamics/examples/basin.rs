@@ -1,9 +1,9 @@
 //! Which starts lead to z = 1 and which to rest.
 
 use softstop::Ratios;
-use softstop_dynamics::basin::{Axis, Grid, Options, basins};
-use softstop_dynamics::orbit::Regime;
+use softstop_dynamics::basin::{Options, basins};
 use softstop_dynamics::watch::unwatched;
+use softstop_dynamics::{Axis, Grid, Regime};
 
 /// Runs the example.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -3,9 +3,8 @@
 use approx::assert_abs_diff_eq;
 use std::ops::ControlFlow;
 
-use softstop::Ratios;
-use softstop_dynamics::continuation::{Along, Follower, Limits, Parameter};
-use softstop_dynamics::orbit;
+use softstop::{Parameter, Ratios};
+use softstop_dynamics::{Along, Follower, Limits, orbit};
 
 /// Runs the example.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {

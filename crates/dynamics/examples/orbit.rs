@@ -2,7 +2,7 @@
 
 use approx::assert_abs_diff_eq;
 use softstop::Ratios;
-use softstop_dynamics::orbit::{self, Exponents};
+use softstop_dynamics::{Exponents, orbit};
 
 /// Runs the example.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {

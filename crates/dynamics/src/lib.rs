@@ -2,6 +2,21 @@
 //! multipliers, exponents) → [`continuation`] (branches, folds, flips, grazings) → [`zone`] (where
 //! impacts and rest coexist) → [`attractors`], [`basin`], [`sweep`], [`transitions`] (what is seen from
 //! many starts), told in one vocabulary ([`motion`]), and [`models`] (how simple a model of a scene may be).
+//!
+//! What they all speak of stands at the root; the rest is where it is computed. Work that may be long takes a
+//! [`watch::Watcher`], [`watch::unwatched`] if nobody looks on.
+//!
+//! ```
+//! use softstop::Ratios;
+//! use softstop_dynamics::{Orbit, Zone, orbit, zone};
+//!
+//! let scene = Ratios::unloaded().scene()?;
+//! let orbit: Orbit = orbit::find(&scene)?;
+//! assert_eq!(orbit.regime().to_string(), "1");
+//! let zone: Zone = zone::hysteresis(&scene)?;
+//! assert!((zone.frequency_sn - 1.369_036).abs() < 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 #![forbid(unsafe_code)]
 
 pub mod attractors;
@@ -16,6 +31,14 @@ pub mod sweep;
 pub mod transitions;
 pub mod watch;
 pub mod zone;
+
+pub use attractors::Survey;
+pub use basin::{Axis, Basins, Grid};
+pub use continuation::{Along, Branch, BranchPoint, Follower, Limits};
+pub use motion::MotionKind;
+pub use orbit::{Exponents, Orbit, Regime, StroboscopicMap};
+pub use sweep::{Chain, Direction, Plan, Step};
+pub use zone::Zone;
 
 /// What sibling crates share beyond this page, without any promise.
 #[doc(hidden)]

@@ -3,7 +3,8 @@
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use softstop::{Scene, Start, Stop};
-use softstop_dynamics::attractors::{Attractor, Chaos, Options, Survey, attractors, classify};
+use softstop_dynamics::Survey;
+use softstop_dynamics::attractors::{Attractor, Chaos, Options, attractors, classify};
 use softstop_dynamics::watch::unwatched;
 use softstop_testing::{loaded, unloaded};
 

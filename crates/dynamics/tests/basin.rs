@@ -5,10 +5,9 @@ use nalgebra::Vector2;
 use rayon::ThreadPoolBuilder;
 use softstop::{Clock, Ratios, Scene, Start};
 use softstop_dynamics::attractors::SurveyError;
-use softstop_dynamics::basin::{Axis, Basins, Grid, Options, basins, establishing};
-use softstop_dynamics::orbit::{Orbit, Regime, StroboscopicMap};
+use softstop_dynamics::basin::{Options, basins, establishing};
 use softstop_dynamics::watch::{stop_if, unwatched};
-use softstop_dynamics::zone;
+use softstop_dynamics::{Axis, Basins, Grid, Orbit, Regime, StroboscopicMap, zone};
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::unloaded;
 

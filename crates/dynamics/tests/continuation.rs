@@ -9,13 +9,12 @@ use softstop_testing::tolerance::{DIFFERENCED, GROWN, MOTION, SOLVED, printed};
 use std::ops::ControlFlow;
 
 use nalgebra::Vector2;
-use softstop::{Ratios, Scene, Stop};
+use softstop::{Parameter, Ratios, Scene, Stop};
 use softstop_dynamics::continuation::{
-    Along, Branch, BranchPoint, Curve, CurvePoint, End, Face, Follower, Limits, Parameter, Region,
-    Special, SpecialKind, Test, curve,
+    Curve, CurvePoint, End, Face, Region, Special, SpecialKind, Test, curve,
 };
-use softstop_dynamics::orbit::StroboscopicMap;
 use softstop_dynamics::zone::grazing_frequencies;
+use softstop_dynamics::{Along, Branch, BranchPoint, Follower, Limits, StroboscopicMap};
 use softstop_testing::loaded;
 use softstop_testing::reference::{FOLDS, MACHINE, list, number};
 use softstop_testing::tangent::differences;

@@ -5,11 +5,10 @@ use approx::abs_diff_eq;
 use softstop_testing::tolerance::SOLVED;
 use std::ops::ControlFlow;
 
-use softstop::{Machine, Ratios, Scene, Stop};
-use softstop_dynamics::continuation::{
-    Along, Branch, BranchPoint, End, Follower, Limits, Parameter,
-};
-use softstop_dynamics::orbit::{Orbit, StroboscopicMap, find};
+use softstop::{Machine, Parameter, Ratios, Scene, Stop};
+use softstop_dynamics::continuation::End;
+use softstop_dynamics::orbit::find;
+use softstop_dynamics::{Along, Branch, BranchPoint, Follower, Limits, Orbit, StroboscopicMap};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 

@@ -3,7 +3,7 @@
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::Vector2;
 use softstop::{Scene, Stop};
-use softstop_dynamics::orbit::{Exponents, Orbit, StroboscopicMap};
+use softstop_dynamics::{Exponents, Orbit, StroboscopicMap};
 use softstop_testing::tolerance::{MOTION, ROUNDING, SOLVED};
 use softstop_testing::unloaded;
 

@@ -5,11 +5,11 @@ mod ladder;
 mod observed;
 
 use softstop::{Excitation, Ratios, Release, Scene, Slope, Start, Stop};
+use softstop_dynamics::Regime;
 use softstop_dynamics::models::{
     Answers, Contact, FidelityError, Ladder, Likeness, Observation, Quantity, Rung, cheapest,
     from_model, from_truth, matching,
 };
-use softstop_dynamics::orbit::Regime;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 

@@ -3,8 +3,9 @@
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::Vector2;
 use softstop::{Ratios, Scene, Stop};
-use softstop_dynamics::orbit::{Orbit, OrbitError, StroboscopicMap, fixed_point};
+use softstop_dynamics::orbit::{OrbitError, fixed_point};
 use softstop_dynamics::zone::grazing_frequencies;
+use softstop_dynamics::{Orbit, StroboscopicMap};
 use softstop_testing::loaded;
 use softstop_testing::tolerance::{GROWN, MOTION, SOLVED};
 

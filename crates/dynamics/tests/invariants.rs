@@ -5,7 +5,7 @@ use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use softstop::{Begin, Clock, PhaseKind, Piercing, Ratios, Simulation, Start, Units};
-use softstop_dynamics::orbit::StroboscopicMap;
+use softstop_dynamics::StroboscopicMap;
 use softstop_testing::tangent::differences;
 use softstop_testing::tolerance::{GROWN, MOTION, ROUNDING, SOLVED};
 use softstop_testing::{Meets, cases, loaded};

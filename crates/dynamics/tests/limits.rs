@@ -8,7 +8,7 @@ mod rigid;
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::{Matrix2, Vector2};
 use softstop::{Clock, Ratios, Release, RigidStop, Scene, Slope, Start, Stop};
-use softstop_dynamics::orbit::{self, Orbit};
+use softstop_dynamics::{Orbit, orbit};
 use softstop_testing::tolerance::ROUNDING;
 
 const DAMPING: f64 = 0.02;

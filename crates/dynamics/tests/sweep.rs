@@ -4,12 +4,10 @@ use std::ops::ControlFlow;
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use rayon::ThreadPoolBuilder;
-use softstop::{Ratios, Start, Stop};
-use softstop_dynamics::continuation::Parameter;
-use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::orbit::{self, Regime};
-use softstop_dynamics::sweep::{Chain, Direction, Plan, PlanError, Step, hysteresis};
+use softstop::{Parameter, Ratios, Start, Stop};
+use softstop_dynamics::sweep::{PlanError, hysteresis};
 use softstop_dynamics::watch::unwatched;
+use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Regime, Step, orbit};
 use softstop_testing::tolerance::{GROWN, MOTION};
 use softstop_testing::unloaded;
 

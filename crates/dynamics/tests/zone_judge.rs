@@ -9,9 +9,8 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use rayon::prelude::*;
 use softstop::{Piercing, Ratios, Release, Scene, Slope, Start, Stop};
-use softstop_dynamics::continuation::BranchPoint;
-use softstop_dynamics::orbit::Orbit;
 use softstop_dynamics::zone::{Loss, Stretch, stretches};
+use softstop_dynamics::{BranchPoint, Orbit};
 use softstop_lanes::{Job, Machine, Watch};
 use softstop_testing::random;
 

@@ -1,10 +1,11 @@
 //! Zones of lightly damped machines: long branches that meet surfaces at drive angle phi, and motions with small basins.
 
 use approx::assert_abs_diff_eq;
-use softstop::{Piercing, Ratios, Scene};
+use softstop::{Piercing, Ratios, Scene, SceneError};
+use softstop_dynamics::Zone;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::{
-    Loss, Stretch, Zone, ZoneError, grazing_frequencies, hysteresis, stretches,
+    Loss, Stretch, ZoneError, grazing_frequencies, hysteresis, stretches,
 };
 use softstop_testing::tolerance::printed;
 
@@ -25,14 +26,8 @@ fn assert_folds(zone: &Zone, expected: &[f64], decimals: i32) {
     }
 }
 
-fn at(scene: &Scene, frequency: f64) -> Scene {
-    let mut scene = scene.clone();
-    scene.excitation.frequency = frequency;
-    scene
-}
-
-#[test]
-fn a_branch_with_three_folds() -> Outcome {
+/// A lightly damped machine whose branch of z = 1 has three folds.
+fn three_folds() -> Result<Scene, SceneError> {
     let ratios = Ratios {
         clearance: 5.067,
         stiffness: 1.191,
@@ -41,9 +36,14 @@ fn a_branch_with_three_folds() -> Outcome {
         contact_damping: 0.007592,
         ..Ratios::unloaded()
     };
-    let scene = ratios.scene()?;
+    ratios.scene()
+}
+
+#[test]
+fn a_branch_with_three_folds() -> Outcome {
+    let scene = three_folds()?;
     assert_folds(&hysteresis(&scene)?, &[1.408618, 1.306632, 1.461022], 6);
-    let velocity = find(&at(&scene, 1.3))?.before_impact_velocity();
+    let velocity = find(&scene.at_frequency(1.3))?.before_impact_velocity();
     assert_abs_diff_eq!(velocity, 7.5128, epsilon = printed(4));
     Ok(())
 }
@@ -68,7 +68,7 @@ fn a_loaded_branch_with_three_folds() -> Outcome {
     let scene = ratios.scene()?;
     let zone = hysteresis(&scene)?;
     assert_folds(&zone, &[1.601, 1.473, 1.664], 3);
-    let hardest = find(&at(&scene, 1.495))?.before_impact_velocity();
+    let hardest = find(&scene.at_frequency(1.495))?.before_impact_velocity();
     assert_abs_diff_eq!(hardest, 60.0, epsilon = printed(0));
     let share = (1.495 - zone.frequency_g0) / (zone.frequency_sn - zone.frequency_g0);
     let on_branch = zone.orbit_at(share)?.before_impact_velocity();
@@ -89,7 +89,7 @@ fn a_motion_with_a_small_basin() -> Outcome {
     let scene = ratios.scene()?;
     let mut last = 0.0;
     for frequency in [1.2712202506698, 1.272, 1.28, 1.28182] {
-        let velocity = find(&at(&scene, frequency))?.before_impact_velocity();
+        let velocity = find(&scene.at_frequency(frequency))?.before_impact_velocity();
         assert!(velocity > last, "{velocity} at {frequency}");
         last = velocity;
     }
@@ -111,15 +111,7 @@ fn between_folds(found: &[Stretch], zone: Option<&Zone>) -> Vec<(f64, f64, bool)
 
 #[test]
 fn stretches_between_several_folds() -> Outcome {
-    let ratios = Ratios {
-        clearance: 5.067,
-        stiffness: 1.191,
-        preload: 42.24,
-        damping: 0.007599,
-        contact_damping: 0.007592,
-        ..Ratios::unloaded()
-    };
-    let scene = ratios.scene()?;
+    let scene = three_folds()?;
     let found = stretches(&scene)?;
     let zone = hysteresis(&scene)?;
     let [(_, first, true), (low, high, true)] = between_folds(&found, Some(&zone))[..] else {

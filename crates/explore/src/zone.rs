@@ -15,9 +15,10 @@ use softstop_console::output::Format;
 use softstop_console::record::{Record, below};
 use softstop_console::report::{self, Stated};
 use softstop_console::table::heading;
+use softstop_dynamics::Zone;
 use softstop_dynamics::continuation::Face;
 use softstop_dynamics::zone::{
-    Loss, Stretch, Zone, ZoneError, grazing_frequencies, hysteresis, stretches,
+    Loss, Stretch, ZoneError, grazing_frequencies, hysteresis, stretches,
 };
 
 const EXAMPLES: &str = "\

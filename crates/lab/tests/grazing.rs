@@ -3,7 +3,7 @@
 use approx::assert_abs_diff_eq;
 use nalgebra::{Matrix2, Vector2};
 use softstop::{Ratios, Scene};
-use softstop_dynamics::orbit::Orbit;
+use softstop_dynamics::Orbit;
 use softstop_dynamics::zone::grazing_frequencies;
 use softstop_lab::methods::Task;
 use softstop_lab::reference::solve;

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use anyhow::{Error, Result};
 use softstop::{Ratios, Scene, Start};
-use softstop_dynamics::basin::{Axis, Basins, Grid, Options, basins};
-use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::basin::{Options, basins};
+use softstop_dynamics::{Axis, Basins, Grid, MotionKind};
 use softstop_lanes::{Job, Machine, Watch};
 
 use crate::figure::{self, Drawn, Figure, Findings, Studio};

@@ -1,10 +1,9 @@
 //! Curves of bifurcations over frequency and clearance.
 
 use anyhow::{Context, Result};
-use softstop::Ratios;
-use softstop_dynamics::continuation::{
-    Along, BranchPoint, Curve, Parameter, Region, SpecialKind, curve,
-};
+use softstop::{Parameter, Ratios};
+use softstop_dynamics::continuation::{Curve, Region, SpecialKind, curve};
+use softstop_dynamics::{Along, BranchPoint};
 
 use softstop_console::interrupt;
 

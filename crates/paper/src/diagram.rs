@@ -3,8 +3,7 @@
 use anyhow::Result;
 use rayon::prelude::*;
 use softstop::Scene;
-use softstop_dynamics::orbit::Regime;
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
+use softstop_dynamics::{Chain, Direction, Plan, Regime, Step};
 
 use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;

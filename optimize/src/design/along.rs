@@ -4,9 +4,8 @@ use std::cell::RefCell;
 
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentOpt;
-use softstop_dynamics::continuation::BranchPoint;
-use softstop_dynamics::orbit::{Orbit, multipliers};
-use softstop_dynamics::zone::Zone;
+use softstop_dynamics::orbit::multipliers;
+use softstop_dynamics::{BranchPoint, Orbit, Zone};
 
 use super::Infeasible;
 use super::space::Interval;

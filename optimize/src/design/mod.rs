@@ -14,8 +14,8 @@ mod survey;
 
 use rayon::prelude::*;
 use softstop::{Dimension, Machine, Parameter, Scene};
-use softstop_dynamics::orbit::Orbit;
-use softstop_dynamics::zone::{self, Zone, ZoneError};
+use softstop_dynamics::zone::ZoneError;
+use softstop_dynamics::{Orbit, Zone, zone};
 
 use space::{Axis, Interval};
 

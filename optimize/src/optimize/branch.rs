@@ -2,9 +2,7 @@
 
 use nalgebra::Vector2;
 use softstop::{Dimension, Machine, Scene};
-use softstop_dynamics::continuation::BranchPoint;
-use softstop_dynamics::orbit::Orbit;
-use softstop_dynamics::zone::Zone;
+use softstop_dynamics::{BranchPoint, Orbit, Zone};
 
 /// Points put in between two of the continuation, for a curve without visible corners.
 const BETWEEN: u32 = 6;
@@ -66,9 +64,7 @@ fn between(scene: &Scene, from: &BranchPoint, to: &BranchPoint, share: f64) -> O
         mix(from.position, to.position),
         mix(from.velocity, to.velocity),
     );
-    let mut scene = scene.clone();
-    scene.excitation.frequency = frequency;
-    let orbit = Orbit::near(&scene, state).ok()?;
+    let orbit = Orbit::near(&scene.at_frequency(frequency), state).ok()?;
     let inside = |value: f64, a: f64, b: f64| value >= a.min(b) && value <= a.max(b);
     inside(orbit.position, from.position, to.position)
         .then_some((frequency, orbit.before_impact_velocity()))

@@ -4,7 +4,7 @@ use anyhow::Context;
 use softstop::Machine;
 use softstop_console::failure::Failure;
 use softstop_console::machine::Regime;
-use softstop_dynamics::orbit::{self, Orbit};
+use softstop_dynamics::{Orbit, orbit};
 
 /// A motion and its machine.
 #[derive(Debug, Clone)]

@@ -39,6 +39,11 @@ const REPEATS: f64 = 1e-7;
 const SHORTEST_LOOP: usize = 8;
 
 impl Branch {
+    /// What is special at a point of it, if anything is.
+    pub fn special_at(&self, point: &BranchPoint) -> Option<&Special> {
+        self.specials.iter().find(|special| special.is_at(point))
+    }
+
     /// The orbits on it at which a test vanishes, in their order.
     pub fn critical(&self, test: Test) -> impl Iterator<Item = &BranchPoint> {
         let own = move |special: &&Special| special.kind == SpecialKind::Critical(test);

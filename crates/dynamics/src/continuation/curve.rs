@@ -40,6 +40,13 @@ pub struct CurvePoint {
     pub monodromy: Matrix2<f64>,
 }
 
+impl CurvePoint {
+    /// The highest before-impact velocity in m/s; 0 without any impact.
+    pub fn before_impact_velocity(&self) -> f64 {
+        self.impacts.iter().copied().fold(0.0, f64::max)
+    }
+}
+
 /// Why a curve ends.
 #[derive(Debug, Clone)]
 pub enum CurveEnd {

@@ -2,7 +2,7 @@
 //! bifurcations, and curves of bifurcations in two parameters.
 //!
 //! A [`Family`] is a machine with one parameter or two left open: [`Along`] makes one of any machine and
-//! any [`Parameter`]. A [`Follower`] follows its orbits over a number of drive periods, whether stable or
+//! any [`Parameter`](softstop::Parameter). A [`Follower`] follows its orbits over a number of drive periods, whether stable or
 //! not, through folds; [`Follower::branch`] finds every fold, flip and grazing on the way,
 //! [`Follower::doubled`] goes on to the orbits of twice the period, and [`curve`] follows a special point
 //! in two parameters.
@@ -11,8 +11,8 @@
 //! use std::ops::ControlFlow;
 //!
 //! use nalgebra::Vector2;
-//! use softstop_dynamics::continuation::{Along, Follower, Limits, Parameter};
-//! use softstop::Ratios;
+//! use softstop::{Parameter, Ratios};
+//! use softstop_dynamics::{Along, Follower, Limits};
 //!
 //! let family = Along::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
 //! let limits = Limits { range: (1.1, 1.5), points: 500 };
@@ -53,8 +53,6 @@ pub use follower::{Follower, Heading};
 pub use point::{BranchPoint, Graze, Special, SpecialKind};
 pub use test::Test;
 pub use way::{Border, End, Limits};
-
-pub use softstop::Parameter;
 
 use softstop::{MotionError, Scene};
 

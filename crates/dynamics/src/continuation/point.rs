@@ -100,3 +100,10 @@ pub struct Special {
     /// Where it is.
     pub point: BranchPoint,
 }
+
+impl Special {
+    /// True if this is the point.
+    pub(crate) fn is_at(&self, point: &BranchPoint) -> bool {
+        self.point.parameter == point.parameter && self.point.state() == point.state()
+    }
+}

@@ -1,7 +1,5 @@
 //! One contact by itself: what it takes, how deep it goes, how long it lasts.
 
-use nalgebra::Vector2;
-
 use crate::orbit::StroboscopicMap;
 use softstop::{
     Clock, Crossing, CrossingKind, Instant, MotionError, Observer, Scene, SceneError, Start,
@@ -52,7 +50,7 @@ impl Contact {
             motion.advance(Clock::at_cycle(cycles), &mut exit)?;
         }
         let map = StroboscopicMap::new(&bare, cycles)?;
-        let deepest = map.max_position(Vector2::new(bare.clearance, velocity))?;
+        let deepest = map.max_position(start.into())?;
         let (restitution, duration) = exit.found.map_or((0.0, f64::INFINITY), |(at, speed)| {
             (speed / velocity, clock.time(at))
         });

@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::Vector2;
 use serde::Serialize;
 
 use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
@@ -59,7 +58,7 @@ impl Observation {
     /// [`MotionError`] if no motion can be computed.
     pub fn settled(scene: &Scene, hint: Option<Start>, start: Start) -> Result<Self, MotionError> {
         let near = |hint: Start| {
-            let orbit = Orbit::near(scene, Vector2::new(hint.position, hint.velocity)).ok()?;
+            let orbit = Orbit::near(scene, hint.into()).ok()?;
             orbit.is_stable().then_some(orbit)
         };
         let orbit = match hint.and_then(near) {
@@ -67,10 +66,7 @@ impl Observation {
             None => find(scene),
         };
         match orbit {
-            Ok(orbit) => {
-                let start = Start::new(orbit.position, orbit.velocity);
-                Self::over(scene, start, Some(Regime::ONE))
-            }
+            Ok(orbit) => Self::over(scene, orbit.state().into(), Some(Regime::ONE)),
             Err(OrbitError::Motion(error)) => Err(error),
             Err(_) => {
                 let (regime, settled) = Regime::after(scene, start, TRANSIENT)?;
@@ -92,7 +88,7 @@ impl Observation {
         motion.advance(end, &mut watch)?;
         motion.tell_arc(&mut watch);
         let map = StroboscopicMap::new(scene, periods)?;
-        let max_position = map.max_position(Vector2::new(start.position, start.velocity))?;
+        let max_position = map.max_position(start.into())?;
         let sums = watch.sums;
         let mean = |sum: f64| (sums.impacts > 0).then(|| sum / sums.impacts as f64);
         Ok(Self {

@@ -25,10 +25,8 @@ pub(super) fn guesses(
         impacts: Impacts::new(),
         miss: None,
     };
-    let end = Clock::at_cycle(periods);
-    motion.advance(end, &mut seen)?;
-    let arc = motion.arc();
-    seen.arc(&arc, motion.clock().elapsed(arc.start, end));
+    motion.advance(Clock::at_cycle(periods), &mut seen)?;
+    motion.tell_arc(&mut seen);
     let Seen { impacts, miss, .. } = seen;
     let mut guesses = Vec::new();
     if !impacts.is_empty() {

@@ -17,7 +17,7 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use super::contact::{Face, Passing};
 use super::{Orbit, OrbitError, StroboscopicMap};
 use softstop::internals::{Motion, Outlook, PhaseId, first_crossing};
-use softstop::{Clock, Instant, Observer, Scene, Tangent, Touch};
+use softstop::{Clock, Instant, Scene, Tangent, Touch};
 
 /// Newton steps before giving up.
 const STEPS: usize = 60;
@@ -276,8 +276,7 @@ impl<'a> Legs<'a> {
 fn advanced(motion: &mut Motion, until: Instant) -> Result<Tangent, OrbitError> {
     let mut tangent = Tangent::default();
     motion.advance(until, &mut tangent)?;
-    let arc = motion.arc();
-    tangent.arc(&arc, motion.clock().elapsed(arc.start, until));
+    motion.tell_arc(&mut tangent);
     Ok(tangent)
 }
 

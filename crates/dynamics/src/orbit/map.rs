@@ -74,7 +74,7 @@ impl StroboscopicMap {
     /// [`MotionError`] if the state is not finite or the motion unbounded.
     pub fn apply(&self, state: Vector2<f64>) -> Result<Passage, MotionError> {
         let mut watch = Watch::default();
-        let end = self.run(state, self.periods, &mut watch)?;
+        let end = self.run(state, &mut watch)?;
         Ok(Passage {
             end,
             monodromy: watch.tangent.matrix,
@@ -90,15 +90,7 @@ impl StroboscopicMap {
     /// # Errors
     /// As [`StroboscopicMap::apply`].
     pub fn image(&self, state: Vector2<f64>) -> Result<Vector2<f64>, MotionError> {
-        self.run(state, self.periods, &mut ())
-    }
-
-    /// The state after `times` applications.
-    ///
-    /// # Errors
-    /// As [`StroboscopicMap::apply`].
-    pub fn iterate(&self, state: Vector2<f64>, times: u64) -> Result<Vector2<f64>, MotionError> {
-        self.run(state, times * self.periods, &mut ())
+        self.run(state, &mut ())
     }
 
     /// The largest position in m on the way from a state.
@@ -107,25 +99,21 @@ impl StroboscopicMap {
     /// As [`StroboscopicMap::apply`].
     pub fn max_position(&self, state: Vector2<f64>) -> Result<f64, MotionError> {
         let mut highest = Highest(state.x);
-        let end = self.run(state, self.periods, &mut highest)?;
+        let end = self.run(state, &mut highest)?;
         Ok(highest.0.max(end.x))
     }
 
     fn run(
         &self,
         state: Vector2<f64>,
-        periods: u64,
         observer: &mut impl Observer,
     ) -> Result<Vector2<f64>, MotionError> {
-        let start = Start::new(state.x, state.y);
+        let start = Start::from(state);
         start.validate()?;
         let mut motion = Motion::new(self.phases.clone(), self.clock, Clock::at_cycle(0), start)?;
-        let end = Clock::at_cycle(periods);
-        motion.advance(end, observer)?;
-        let arc = motion.arc();
-        observer.arc(&arc, self.clock.elapsed(arc.start, end));
-        let Start { position, velocity } = motion.state();
-        Ok(Vector2::new(position, velocity))
+        motion.advance(Clock::at_cycle(self.periods), observer)?;
+        motion.tell_arc(observer);
+        Ok(motion.state().into())
     }
 }
 

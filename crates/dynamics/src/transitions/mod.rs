@@ -2,13 +2,13 @@
 //! and whether the way back leads over the same value.
 //!
 //! Nothing is told of the motions. [`crate::attractors`] finds them at a few values of the parameter;
-//! [`Window`] follows each periodic one to both ends of its stability (grazing, fold, flip); beyond each
+//! each periodic one is followed to both ends of its stability (grazing, fold, flip); beyond each
 //! end [`Explorer::explore`] lets the motion go and sees where it settles; motions found so are followed
 //! in turn. Chaos is followed by its lifetime until it ends.
 //!
 //! ```
-//! use softstop::Ratios;
-//! use softstop_dynamics::continuation::{Along, Parameter};
+//! use softstop::{Parameter, Ratios};
+//! use softstop_dynamics::Along;
 //! use softstop_dynamics::transitions::{Explorer, Rules};
 //! use softstop_dynamics::watch::unwatched;
 //!
@@ -33,7 +33,6 @@ mod window;
 
 pub use cause::Cause;
 pub use stage::Explorer;
-pub use window::{EndKind, Window, WindowEnd};
 
 use thiserror::Error;
 

@@ -8,7 +8,7 @@ use crate::watch::stop_if;
 
 /// By what a window ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EndKind {
+pub(super) enum EndKind {
     /// The motion grazes.
     Grazing {
         /// True if the touch is that of an impact that dies.
@@ -39,8 +39,7 @@ impl From<SpecialKind> for EndKind {
 
 /// One end.
 #[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct WindowEnd {
+pub(super) struct WindowEnd {
     /// By what.
     pub kind: EndKind,
     /// The orbit there.
@@ -49,8 +48,7 @@ pub struct WindowEnd {
 
 /// A periodic motion from one end of its stability to the other.
 #[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct Window {
+pub(super) struct Window {
     /// The motion.
     pub motion: MotionKind,
     /// Its lower end and its upper.
@@ -114,7 +112,7 @@ fn end(branch: &Branch, start: usize, backwards: bool) -> WindowEnd {
         false => (branch.points[start..].iter().collect(), &branch.ends.1),
     };
     let mut beyond = points.iter().skip(1);
-    let special = beyond.find_map(|point| Some((special(branch, point)?, *point)));
+    let special = beyond.find_map(|point| Some((branch.special_at(point)?.kind.into(), *point)));
     let (kind, point) = special.unwrap_or_else(|| {
         let kind = match why {
             End::Range => EndKind::Range,
@@ -127,12 +125,4 @@ fn end(branch: &Branch, start: usize, backwards: bool) -> WindowEnd {
         kind,
         point: point.clone(),
     }
-}
-
-/// What ends stability at a point, if anything does.
-fn special(branch: &Branch, point: &BranchPoint) -> Option<EndKind> {
-    let here = branch.specials.iter().find(|special| {
-        special.point.parameter == point.parameter && special.point.state() == point.state()
-    })?;
-    Some(here.kind.into())
 }

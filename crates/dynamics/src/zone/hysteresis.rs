@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{Frequencies, ZoneError, at, grazing_frequencies};
+use super::{Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{BranchPoint, Follower, Heading};
 use crate::orbit::{Orbit, OrbitError, find, find_soon};
 use crate::watch::stop_if;
@@ -51,7 +51,7 @@ const TOGETHER: usize = 8;
 /// [`ZoneError`] if there is no grazing boundary, no z = 1 motion at it, or no fold.
 pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
     let grazing = grazing_frequencies(scene)?;
-    from_start(scene, grazing, find(&at(scene, grazing.1)).ok())
+    from_start(scene, grazing, find(&scene.at_frequency(grazing.1)).ok())
 }
 
 /// The same of many machines at once, on all cores, in a fraction of the work: the z = 1 motion at g0 is the hardest of
@@ -69,7 +69,7 @@ fn together(scenes: &[Scene]) -> Vec<Result<Zone, ZoneError>> {
     let grazing: Vec<_> = scenes.iter().map(grazing_frequencies).collect();
     let with_grazing = scenes.iter().zip(&grazing);
     let at_grazing: Vec<Scene> = with_grazing
-        .filter_map(|(scene, grazing)| Some(at(scene, grazing.as_ref().ok()?.1)))
+        .filter_map(|(scene, grazing)| Some(scene.at_frequency(grazing.as_ref().ok()?.1)))
         .collect();
     let mut starts = find_soon(&at_grazing).into_iter();
     let zones = scenes.iter().zip(grazing).map(|(scene, grazing)| {
@@ -149,7 +149,7 @@ fn no_fold(branch: &[BranchPoint]) -> ZoneError {
 impl Zone {
     /// The machine at a place s of the zone.
     pub fn scene_at(&self, share: f64) -> Scene {
-        at(&self.scene, self.frequency_at(share))
+        self.scene.at_frequency(self.frequency_at(share))
     }
 
     /// The frequency in rad/s at a place s: g0 + s (s_SN - g0).

@@ -112,19 +112,12 @@ impl From<SceneError> for ZoneError {
     }
 }
 
-/// A scene at another frequency of its drive.
-fn at(scene: &Scene, frequency: f64) -> Scene {
-    let mut scene = scene.clone();
-    scene.excitation.frequency = frequency;
-    scene
-}
-
 /// One scene at all frequencies.
 struct Frequencies<'a>(&'a Scene);
 
 impl Family for Frequencies<'_> {
     fn scene(&self, [frequency]: [f64; 1]) -> Result<Scene, MotionError> {
-        let scene = at(self.0, frequency);
+        let scene = self.0.at_frequency(frequency);
         scene.validate()?;
         Ok(scene)
     }

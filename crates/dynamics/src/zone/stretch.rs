@@ -4,7 +4,7 @@ use nalgebra::Vector4;
 
 use super::{Frequencies, Zone};
 use crate::continuation::{
-    Border, Branch, BranchPoint, End, Face, Family, Follower, Special, SpecialKind, Test,
+    Border, Branch, BranchPoint, End, Face, Family, Follower, SpecialKind, Test,
 };
 use crate::orbit::OrbitError;
 use softstop::Scene;
@@ -158,7 +158,7 @@ pub(super) fn stable(branch: &Branch) -> Vec<Stretch> {
     let mut specials = branch.specials.iter().cycle().peekable();
     let mut part = Part::new(Loss::of(&branch.ends.0));
     for point in in_order(branch) {
-        let special = specials.next_if(|special| is_at(special, point));
+        let special = specials.next_if(|special| special.is_at(point));
         let loss = special.map(|special| Loss::at(&special.kind));
         if let Some(loss) = loss.or_else(|| part.differs(point)) {
             part.points.push(point.clone());
@@ -178,15 +178,11 @@ fn in_order(branch: &Branch) -> Vec<&BranchPoint> {
     };
     // The last point lies beyond the start.
     let mut points: Vec<&BranchPoint> = points.take(branch.points.len() - 1).collect();
-    let is_first = |point: &&BranchPoint| is_at(first, point);
-    let start = points.iter().position(is_first).unwrap_or(0);
+    let start = points.iter().position(|point| first.is_at(point));
+    let start = start.unwrap_or(0);
     points.rotate_left(start);
     points.push(&first.point);
     points
-}
-
-fn is_at(special: &Special, point: &BranchPoint) -> bool {
-    special.point.parameter == point.parameter && special.point.state() == point.state()
 }
 
 /// Points between two special ones.

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::stretch::{Stretch, lies_between, sizes, stable};
-use super::{Frequencies, ZoneError, at, grazing_frequencies};
+use super::{Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{Branch, BranchPoint, End, Follower, Limits};
 use crate::orbit::all_single;
 use softstop::Scene;
@@ -39,7 +39,7 @@ pub fn stretches(scene: &Scene) -> Result<Vec<Stretch>, ZoneError> {
     let mut next = 0;
     while let Some(&frequency) = frequencies.get(next).filter(|_| next < MOST) {
         next += 1;
-        for orbit in all_single(&at(scene, frequency))? {
+        for orbit in all_single(&scene.at_frequency(frequency))? {
             let point = BranchPoint {
                 parameter: frequency,
                 position: orbit.position,

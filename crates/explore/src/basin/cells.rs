@@ -1,7 +1,8 @@
 //! What moves where: motions in the cells of a map, and their colours.
 
-use softstop_dynamics::basin::{Axis, Grid, clearing};
-use softstop_dynamics::motion::{MotionClass, MotionKind};
+use softstop_dynamics::basin::clearing;
+use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::{Axis, Grid, MotionKind};
 
 /// Radius of a place, in units of half the map, that has room for its name.
 const WIDE: f64 = 0.09;

@@ -1,9 +1,9 @@
 //! Pictures of basins: cells of colour, the motions' own points, the largest ball inside a basin.
 
 use softstop::{Dimension, Machine};
-use softstop_dynamics::basin::{Axis, Basins, Class, Clearing, Quantity};
+use softstop_dynamics::basin::{Class, Clearing, Quantity};
 use softstop_dynamics::motion::MotionClass;
-use softstop_dynamics::orbit::{Orbit, Regime};
+use softstop_dynamics::{Axis, Basins, Orbit, Regime};
 
 use super::cells::color;
 use softstop_draw::panel::{Axes, Panel};

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::str::FromStr;
 
 use softstop::{Allowed, Dimension, Machine, Scene};
-use softstop_dynamics::basin::{Axis, Grid, Quantity};
-use softstop_dynamics::orbit;
+use softstop_dynamics::basin::Quantity;
+use softstop_dynamics::{Axis, Grid, orbit};
 
 use super::BasinArguments;
 use softstop_console::failure::Failure;

@@ -8,8 +8,8 @@ use softstop_console::columns;
 use softstop_console::export::Report;
 use softstop_console::record::{Record, below};
 use softstop_console::report::{MachineReport, MotionName};
-use softstop_dynamics::basin::{Basins, Class, Clearing, Establishing, Grid};
-use softstop_dynamics::orbit::Regime;
+use softstop_dynamics::basin::{Class, Clearing, Establishing};
+use softstop_dynamics::{Basins, Grid, Regime};
 
 /// The basins of one machine.
 #[derive(Debug, Serialize)]

@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 
 use anyhow::anyhow;
 use softstop::Machine;
-use softstop_dynamics::continuation::{Along, Branch, Family, Follower, Limits, SpecialKind, Test};
+use softstop_dynamics::continuation::{Family, SpecialKind, Test};
+use softstop_dynamics::{Along, Branch, Follower, Limits};
 
 use super::{ContinueArguments, Followed, family, seed};
 use softstop_console::failure::Failure;

@@ -6,7 +6,8 @@ use softstop_draw::pen::{Pen, Stroke};
 use softstop_draw::scale::around;
 use softstop_draw::shapes::{Mark, Sign};
 use softstop_draw::style;
-use softstop_dynamics::continuation::{Branch, BranchPoint, Curve, SpecialKind, Test};
+use softstop_dynamics::continuation::{Curve, SpecialKind, Test};
+use softstop_dynamics::{Branch, BranchPoint};
 
 /// Name, mark and line of a kind of special points.
 fn sign(kind: &SpecialKind) -> (&'static str, Mark, Stroke) {

@@ -2,7 +2,8 @@
 
 use anyhow::anyhow;
 use softstop::Machine;
-use softstop_dynamics::continuation::{Branch, Curve, CurvePoint, Region, SpecialKind, curve};
+use softstop_dynamics::Branch;
+use softstop_dynamics::continuation::{Curve, CurvePoint, Region, SpecialKind, curve};
 
 use super::branches::{STEP, count};
 use super::{ContinueArguments, Followed, family};

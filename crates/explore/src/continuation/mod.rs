@@ -12,8 +12,7 @@ use std::path::PathBuf;
 use clap::Args;
 use nalgebra::Vector2;
 use softstop::{Machine, Parameter};
-use softstop_dynamics::continuation::Along;
-use softstop_dynamics::orbit::Regime;
+use softstop_dynamics::{Along, Regime};
 
 use report::ContinuationReport;
 pub(crate) use report::met;

@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 use softstop::{Machine, MotionError, Parameter};
-use softstop_dynamics::continuation::{Border, Branch, Curve, CurveEnd, End, Special, SpecialKind};
+use softstop_dynamics::Branch;
+use softstop_dynamics::continuation::{Border, Curve, CurveEnd, End, Special, SpecialKind};
 use softstop_dynamics::orbit::OrbitError;
 
 use softstop_console::column::{Column, Told, Unit, Units};

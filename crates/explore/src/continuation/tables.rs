@@ -3,8 +3,9 @@
 use nalgebra::Complex;
 use softstop_console::column::Column;
 use softstop_console::columns;
-use softstop_dynamics::continuation::{Branch, BranchPoint, Curve, CurvePoint, Special};
+use softstop_dynamics::continuation::{Curve, CurvePoint};
 use softstop_dynamics::orbit::multipliers;
+use softstop_dynamics::{Branch, BranchPoint};
 
 /// A row of `branches.csv`.
 pub(super) struct BranchRow<'a> {
@@ -46,10 +47,7 @@ pub(super) fn branch_rows(branches: &[Branch]) -> impl Iterator<Item = BranchRow
 }
 
 fn symbol_at(branch: &Branch, point: &BranchPoint) -> &'static str {
-    let here = |special: &&Special| {
-        special.point.parameter == point.parameter && special.point.state() == point.state()
-    };
-    let special = branch.specials.iter().find(here);
+    let special = branch.special_at(point);
     special.map_or("", |special| special.kind.symbol())
 }
 
@@ -69,7 +67,7 @@ pub(super) fn curve_columns<'a>() -> [Column<CurveRow<'a>>; 9] {
         "second_value" [Of("own")], "of the second parameter" => row.point.parameters[1];
         "position" [Length], "at drive angle 0" => row.point.position;
         "velocity" [Velocity], "there" => row.point.velocity;
-        "before_impact_velocity" [Velocity], "of the hardest impact" => hardest(row.point);
+        "before_impact_velocity" [Velocity], "of the hardest impact" => row.point.before_impact_velocity();
         "trace" [None], "of the monodromy matrix" => row.point.monodromy.trace();
         "determinant" [None], "of the same" => row.point.monodromy.determinant();
     }
@@ -84,8 +82,4 @@ pub(super) fn curve_rows(curves: &[Curve]) -> impl Iterator<Item = CurveRow<'_>>
             point,
         })
     })
-}
-
-fn hardest(point: &CurvePoint) -> f64 {
-    point.impacts.iter().copied().fold(0.0, f64::max)
 }

@@ -4,7 +4,7 @@ use softstop::{Machine, Parameter};
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Pen};
 use softstop_draw::shapes::Sign;
-use softstop_dynamics::orbit::Regime;
+use softstop_dynamics::Regime;
 
 use super::structure::Structure;
 

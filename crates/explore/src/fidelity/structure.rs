@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use softstop::{Dimension, Machine, Scene, Start};
-use softstop_dynamics::orbit::Regime;
+use softstop_dynamics::Regime;
 
 use super::study::{Entry, Study};
 use super::{FidelityArguments, word};
@@ -181,8 +181,7 @@ pub(super) fn frequencies(
 }
 
 fn regime(scene: &Scene, frequency: f64, origin: Origin) -> Result<Option<Regime>, Failure> {
-    let mut scene = scene.clone();
-    scene.excitation.frequency = frequency;
+    let scene = scene.at_frequency(frequency);
     let unit = (scene.stiffness / scene.mass).sqrt();
     let length = scene
         .clearance

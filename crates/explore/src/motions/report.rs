@@ -3,9 +3,8 @@
 use serde::Serialize;
 use serde_json::json;
 use softstop::{Dimension, Machine};
-use softstop_dynamics::attractors::{Attractor, Certainty, Chaos, Options, Survey};
-use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::orbit::{Exponents, Orbit};
+use softstop_dynamics::attractors::{Attractor, Certainty, Chaos, Options};
+use softstop_dynamics::{Exponents, MotionKind, Orbit, Survey};
 
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Told, Unit, Units};

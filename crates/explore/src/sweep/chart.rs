@@ -3,8 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use softstop::{Dimension, Language, Machine, Parameter};
-use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
+use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Step};
 
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Pen, Stroke};

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, anyhow};
 use serde::{Deserialize, Serialize};
 use softstop::{Scene, Start};
-use softstop_dynamics::sweep::{Chain, Plan, Step};
+use softstop_dynamics::{Chain, Plan, Step};
 
 use softstop_console::failure::Failure;
 use softstop_console::output::json;

@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
 use softstop::{Machine, Parameter};
-use softstop_dynamics::sweep::{Chain, Direction, Plan};
 use softstop_dynamics::watch::stop_if;
+use softstop_dynamics::{Chain, Direction, Plan};
 
 use crate::sweep::chart::SweepChart;
 use keep::Keep;

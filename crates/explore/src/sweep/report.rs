@@ -8,8 +8,8 @@ use softstop_console::export::Report;
 use softstop_console::record::{Record, below};
 use softstop_console::report::{MachineReport, MotionName};
 use softstop_console::units;
-use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::sweep::{Chain, Coexistence, Direction, Jump, Plan, hysteresis};
+use softstop_dynamics::sweep::{Coexistence, Jump, hysteresis};
+use softstop_dynamics::{Chain, Direction, MotionKind, Plan};
 
 use super::steps::clearance;
 

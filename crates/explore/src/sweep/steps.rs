@@ -3,7 +3,7 @@
 use softstop::Parameter;
 use softstop_console::column::Column;
 use softstop_console::columns;
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
+use softstop_dynamics::{Chain, Direction, Plan, Step};
 
 /// A row of `sweep.csv`.
 pub(super) struct Row<'a> {

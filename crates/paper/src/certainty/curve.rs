@@ -6,9 +6,8 @@ use rayon::prelude::*;
 use softstop::Ratios;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
-use softstop_dynamics::basin::{Axis, Establishing, Grid, Options, establishing};
-use softstop_dynamics::orbit::Regime;
-use softstop_dynamics::zone::{self, Zone};
+use softstop_dynamics::basin::{Establishing, Options, establishing};
+use softstop_dynamics::{Axis, Grid, Regime, Zone, zone};
 use std::f64::consts::TAU;
 
 /// Which states are asked.

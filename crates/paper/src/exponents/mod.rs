@@ -4,11 +4,10 @@ mod chart;
 
 use anyhow::{Context, Error, Result};
 use rayon::prelude::*;
-use softstop::{MotionError, Ratios, Scene};
-use softstop_dynamics::continuation::Parameter;
-use softstop_dynamics::orbit::{Exponents, Orbit, find};
-use softstop_dynamics::sweep::{Chain, Plan, Step};
+use softstop::{MotionError, Parameter, Ratios, Scene};
+use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::hysteresis;
+use softstop_dynamics::{Chain, Exponents, Orbit, Plan, Step};
 
 use crate::diagram;
 use crate::figure::{self, Drawn, Figure, Findings, Studio};
@@ -126,8 +125,7 @@ fn points(chain: &Chain, batch: u64, progress: &Progress) -> Result<Vec<Point>> 
 }
 
 fn exponent(scene: &Scene, step: &Step, batch: u64) -> Result<(f64, f64), MotionError> {
-    let mut scene = scene.clone();
-    scene.excitation.frequency = step.value;
+    let scene = scene.at_frequency(step.value);
     if let Some(periods) = step.motion.periods()
         && let Ok(orbit) = Orbit::periodic(&scene, step.end.into(), periods)
         && orbit.is_stable()

@@ -4,14 +4,13 @@ use anyhow::{Context, Result};
 use nalgebra::Vector2;
 use rayon::prelude::*;
 use softstop::{Ratios, Scene};
-use softstop_dynamics::continuation::{
-    BranchPoint, CurvePoint, Heading, Region, SpecialKind, Test,
-};
+use softstop_dynamics::continuation::{CurvePoint, Heading, Region, SpecialKind, Test};
 use softstop_dynamics::internals::highest;
-use softstop_dynamics::orbit::{Orbit, StroboscopicMap, find};
+use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::{
     ZoneError, free_amplitude, grazing_frequencies, hysteresis, loss_of_stability,
 };
+use softstop_dynamics::{BranchPoint, Orbit, StroboscopicMap};
 
 use crate::{curves, figure};
 use softstop_console::progress::Progress;
@@ -90,9 +89,8 @@ fn ends_of(machine: &Ratios) -> Result<Ends> {
 
 /// z = 1 at g0.
 fn grazing(scene: &Scene) -> Result<Orbit> {
-    let mut scene = scene.clone();
-    scene.excitation.frequency = grazing_frequencies(&scene)?.1;
-    Ok(find(&scene)?)
+    let (_, above) = grazing_frequencies(scene)?;
+    Ok(find(&scene.at_frequency(above))?)
 }
 
 /// Those of a motion.
@@ -167,10 +165,8 @@ fn piece(machine: &Ratios, special: (SpecialKind, &BranchPoint), region: &Region
         describe(&machine.at_clearance(clearance), eta, state, &at.impacts).ok()
     };
     let found = curves::critical(&machine, special, region);
-    found.map_or_else(
-        |_| Vec::new(),
-        |curve| curve.points.iter().filter_map(described).collect(),
-    )
+    let points = found.map(|curve| curve.points).unwrap_or_default();
+    points.iter().filter_map(described).collect()
 }
 
 /// The clearance of the highest velocity at the fold, and that velocity, by golden section between the

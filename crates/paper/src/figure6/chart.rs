@@ -7,7 +7,8 @@ use crate::diagram::{is_one, steps};
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Pen, Stroke};
 use softstop_draw::style;
-use softstop_dynamics::sweep::{Chain, Jump, Step};
+use softstop_dynamics::sweep::Jump;
+use softstop_dynamics::{Chain, Step};
 
 /// A colour for each clearance, in the order of the rainbow, all of Okabe and Ito's.
 const COLOURS: [&str; 6] = [

@@ -4,10 +4,8 @@ mod boundaries;
 mod chart;
 
 use anyhow::{Error, Result};
-use softstop::Ratios;
-use softstop_dynamics::continuation::Parameter;
-use softstop_dynamics::orbit;
-use softstop_dynamics::sweep::{Chain, Plan, Step};
+use softstop::{Parameter, Ratios};
+use softstop_dynamics::{Chain, Plan, Step, orbit};
 
 use crate::diagram;
 use crate::figure::{self, Detail, Drawn, Figure, Findings};

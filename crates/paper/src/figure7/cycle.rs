@@ -2,7 +2,7 @@
 
 use softstop::internals::{Phase, work};
 use softstop::{Arc, Clock, MotionError, Observer, PhaseKind, Start};
-use softstop_dynamics::orbit::Orbit;
+use softstop_dynamics::Orbit;
 
 /// Fewest points of an arc.
 const FEWEST: f64 = 24.0;

@@ -5,7 +5,8 @@ mod cycle;
 
 use anyhow::Result;
 use softstop::{PhaseKind, Ratios};
-use softstop_dynamics::orbit::{Exponents, find};
+use softstop_dynamics::Exponents;
+use softstop_dynamics::orbit::find;
 
 use crate::figure::{self, Drawn, Figure, Findings, Studio};
 use cycle::{Cycle, Point};

@@ -1,6 +1,6 @@
 //! The picture of figure 8: one diagram with its zooms and numbered bifurcations (Peterka 2003).
 
-use softstop_dynamics::sweep::Step;
+use softstop_dynamics::Step;
 
 use super::Diagram;
 use super::band::{Bifurcation, LINE, SMALL, band, both_ways, spread};

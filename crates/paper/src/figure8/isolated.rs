@@ -1,12 +1,9 @@
 //! Motions that no sweep from rest reaches: found from starts spread over the plane, and swept from there.
 
 use anyhow::Result;
-use softstop::{Ratios, Start};
+use softstop::{Parameter, Ratios, Start};
 use softstop_dynamics::attractors::{Options, attractors};
-use softstop_dynamics::continuation::Parameter;
-use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::orbit::Orbit;
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
+use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Step};
 
 use super::Diagram;
 use crate::diagram::{self, Job};

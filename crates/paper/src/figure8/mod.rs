@@ -6,9 +6,8 @@ mod isolated;
 mod names;
 
 use anyhow::{Error, Result};
-use softstop::Ratios;
-use softstop_dynamics::continuation::Parameter;
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
+use softstop::{Parameter, Ratios};
+use softstop_dynamics::{Chain, Direction, Plan, Step};
 
 use crate::diagram::{self, Job};
 use crate::figure::{self, Detail, Drawn, Figure, Findings, Studio};

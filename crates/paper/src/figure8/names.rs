@@ -1,8 +1,7 @@
 //! Where the names of motions stand in a diagram.
 
 use softstop::Ratios;
-use softstop_dynamics::orbit::Orbit;
-use softstop_dynamics::sweep::{Chain, Step};
+use softstop_dynamics::{Chain, Orbit, Step};
 
 use super::Diagram;
 

@@ -3,8 +3,8 @@
 use anyhow::Result;
 use serde::Serialize;
 use softstop::Ratios;
-use softstop_dynamics::attractors::{Attractor, Survey};
-use softstop_dynamics::orbit::{Orbit, StroboscopicMap};
+use softstop_dynamics::attractors::Attractor;
+use softstop_dynamics::{Orbit, StroboscopicMap, Survey};
 
 use super::asked::Asked;
 use super::path::{Path, Section};

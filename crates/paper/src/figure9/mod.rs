@@ -7,7 +7,8 @@ mod path;
 
 use anyhow::{Result, anyhow};
 use softstop::Ratios;
-use softstop_dynamics::attractors::{Options, Survey, attractors};
+use softstop_dynamics::Survey;
+use softstop_dynamics::attractors::{Options, attractors};
 
 use crate::figure::{self, Detail, Drawn, Figure, Findings, Studio};
 use asked::MOTIONS;

@@ -3,7 +3,7 @@
 use super::CLEARANCE;
 use anyhow::Result;
 use softstop::{Scene, Start};
-use softstop_dynamics::orbit::StroboscopicMap;
+use softstop_dynamics::StroboscopicMap;
 
 /// Fewest points of an arc.
 const FEWEST: f64 = 8.0;

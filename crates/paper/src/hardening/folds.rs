@@ -4,8 +4,10 @@ use std::f64::consts::PI;
 
 use anyhow::Result;
 use rayon::prelude::*;
-use softstop_dynamics::continuation::{Along, BranchPoint, Follower, Limits, Parameter, Test};
+use softstop::Parameter;
+use softstop_dynamics::continuation::Test;
 use softstop_dynamics::orbit::{OrbitError, find};
+use softstop_dynamics::{Along, BranchPoint, Follower, Limits};
 
 use super::stops::{CLEARANCE, Law, grazing};
 use super::swept::RANGE;

@@ -3,8 +3,8 @@
 use anyhow::Result;
 use rayon::prelude::*;
 use serde::Serialize;
+use softstop_dynamics::Orbit;
 use softstop_dynamics::attractors::{Options, attractors};
-use softstop_dynamics::orbit::Orbit;
 
 use super::stops::{Law, grazing};
 use softstop_console::interrupt;

@@ -1,9 +1,8 @@
 //! Sweeps of many stops along the frequency, up and down.
 
 use anyhow::Result;
-use softstop_dynamics::continuation::Parameter;
-use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::sweep::{Chain, Plan, Step};
+use softstop::Parameter;
+use softstop_dynamics::{Chain, MotionKind, Plan, Step};
 
 use super::stops::{CLEARANCE, Law};
 use crate::diagram::{self, dots};

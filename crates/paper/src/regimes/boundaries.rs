@@ -1,12 +1,11 @@
 //! The boundaries of the z = 1 motion: where it grazes first, doubles its period, and turns back.
 
 use anyhow::{Context, Result};
-use softstop::Ratios;
-use softstop_dynamics::continuation::{
-    Along, Curve, CurvePoint, Follower, Limits, Parameter, Region, SpecialKind, Test,
-};
+use softstop::{Parameter, Ratios};
+use softstop_dynamics::continuation::{Curve, CurvePoint, Region, SpecialKind, Test};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::free_amplitude;
+use softstop_dynamics::{Along, Follower, Limits};
 
 use super::Window;
 use crate::curves;
@@ -85,11 +84,7 @@ impl Boundaries {
     /// The point of s_SN with the hardest impact: the optimum clearance of the paper's section 3.
     pub fn hardest(&self) -> Option<&CurvePoint> {
         let all = self.folds.iter().flat_map(|curve| &curve.points);
-        all.max_by(|a, b| hardest(a).total_cmp(&hardest(b)))
+        let velocity = CurvePoint::before_impact_velocity;
+        all.max_by(|a, b| velocity(a).total_cmp(&velocity(b)))
     }
-}
-
-/// The largest before-impact velocity of a point.
-pub(super) fn hardest(point: &CurvePoint) -> f64 {
-    point.impacts.iter().copied().fold(0.0, f64::max)
 }

@@ -9,7 +9,7 @@ mod swept;
 
 use anyhow::{Error, Result};
 use softstop::Ratios;
-use softstop_dynamics::sweep::Direction;
+use softstop_dynamics::Direction;
 
 use crate::figure::{Detail, Drawn, Figure, Studio};
 use boundaries::Boundaries;

@@ -2,10 +2,12 @@
 
 use anyhow::Result;
 
-use super::boundaries::{Boundaries, hardest};
+use super::boundaries::Boundaries;
 use super::{MAPS, Named, middle};
 use crate::figure::{self, Findings};
-use softstop_dynamics::motion::{MotionClass, MotionKind};
+use softstop_dynamics::MotionKind;
+use softstop_dynamics::continuation::CurvePoint;
+use softstop_dynamics::motion::MotionClass;
 use softstop_explore::basin::cells::RegimeMap;
 
 /// A row for each run of cells of the same motion: from the middle of the first cell to that of the last.
@@ -38,7 +40,7 @@ pub(super) fn boundaries(boundaries: &[Boundaries; 2]) -> Result<Vec<u8>> {
         for (name, curves) in [("s_PD", &own.flips), ("s_SN", &own.folds)] {
             for (number, curve) in curves.iter().enumerate() {
                 lines.extend(curve.points.iter().map(|point| {
-                    let velocity = Some(hardest(point));
+                    let velocity = Some(point.before_impact_velocity());
                     (machine, name, number, point.parameters, velocity)
                 }));
             }
@@ -69,7 +71,7 @@ pub(super) fn findings(maps: &[RegimeMap; 6], boundaries: &[Boundaries; 2]) -> F
         let share = hysteresis(up, down);
         findings.add(format!("{name}: share of z = 1 or z = 0 by the way"), share);
         let point = own.hardest();
-        let velocity = point.map(hardest);
+        let velocity = point.map(CurvePoint::before_impact_velocity);
         findings.add(format!("{name}: largest velocity on s_SN"), velocity);
         let [eta, rho] = [0, 1].map(|index: usize| point.map(|at| at.parameters[index]));
         findings.add(format!("{name}: its clearance rho"), rho);

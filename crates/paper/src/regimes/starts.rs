@@ -6,8 +6,7 @@ use anyhow::Result;
 use rayon::prelude::*;
 use softstop::{Ratios, Scene, Start};
 use softstop_dynamics::attractors::{Arrival, Options, SurveyError, settle};
-use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::orbit::{Orbit, StroboscopicMap};
+use softstop_dynamics::{MotionKind, Orbit, StroboscopicMap};
 
 use super::Window;
 use softstop_console::interrupt;

@@ -3,9 +3,7 @@
 use anyhow::Result;
 use rayon::prelude::*;
 use softstop::{Parameter, Ratios, Scene};
-use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::orbit::Orbit;
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
+use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Step};
 
 use super::{PERIODS, Window, middle};
 use softstop_console::progress::Progress;
@@ -77,8 +75,7 @@ fn cell(scene: &Scene, step: &Step) -> MotionKind {
     let seen = || step.motion.clone();
     match step.motion.regime() {
         Some(regime) if regime.periods >= 4 && 2 * regime.impacts == regime.periods => {
-            let mut scene = scene.clone();
-            scene.excitation.frequency = step.value;
+            let scene = scene.at_frequency(step.value);
             let orbit = Orbit::periodic(&scene, step.end.into(), regime.periods).ok();
             let orbit = orbit.filter(|orbit| orbit.regime() == regime);
             orbit.map_or_else(seen, |orbit| MotionKind::of(&orbit))

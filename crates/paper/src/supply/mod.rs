@@ -12,8 +12,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use rayon::prelude::*;
 use softstop::{Piercing, Ratios};
+use softstop_dynamics::StroboscopicMap;
 use softstop_dynamics::basin::wilson;
-use softstop_dynamics::orbit::{StroboscopicMap, find};
+use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::hysteresis;
 
 use crate::figure::{Detail, Drawn, Figure, Findings, Studio};

@@ -1,6 +1,6 @@
 //! Which transition is which row of the paper.
 
-use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::MotionKind;
 use softstop_dynamics::transitions::Transition;
 
 use super::paper::{Name, PaperRow};

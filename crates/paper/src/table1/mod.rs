@@ -11,8 +11,8 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use softstop::Ratios;
-use softstop_dynamics::continuation::{Along, Parameter};
+use softstop::{Parameter, Ratios};
+use softstop_dynamics::Along;
 use softstop_dynamics::transitions::{Explorer, Rules, Transition};
 
 pub use picture::picture;

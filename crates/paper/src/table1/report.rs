@@ -1,9 +1,8 @@
 //! Table 1 as data: rows beside those of the paper, with remarks.
 
 use serde::Serialize;
-use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::orbit::Regime;
 use softstop_dynamics::transitions::{Cause, Rules, Transition};
+use softstop_dynamics::{MotionKind, Regime};
 
 use super::matching::{Match, find};
 use super::paper::PaperRow;

@@ -1,11 +1,9 @@
 //! What a sweep makes of a transition: it loses a motion later than it ends, and comes to the next later still.
 
-use softstop::Ratios;
-use softstop_dynamics::continuation::Parameter;
-use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::sweep::{Chain, Direction, Plan, Step};
+use softstop::{Parameter, Ratios};
 use softstop_dynamics::transitions::Transition;
 use softstop_dynamics::watch::unwatched;
+use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Step};
 
 /// A sweep over the end of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
