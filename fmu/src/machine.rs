@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use softstop::{Energy, PhaseKind, Rates, Sample, Simulation, Snapshot};
+use softstop::{Energy, Impact, PhaseKind, Rates, Sample, Simulation, Snapshot};
 
 /// A running machine: sampled once at each time, however many outputs are read.
 #[derive(Debug, Clone)]
@@ -48,6 +48,11 @@ impl Machine {
 
     pub(crate) fn energy(&self) -> &Energy {
         self.seen.energy.get_or_init(|| self.simulation.energy())
+    }
+
+    /// The last impact; before the first one, zeros.
+    pub(crate) fn last_impact(&self) -> Impact {
+        self.simulation.last_impact().unwrap_or_default()
     }
 
     /// Number of the present phase, as in the enumeration [`PHASE`](crate::units::PHASE).

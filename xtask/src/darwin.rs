@@ -72,29 +72,17 @@ pub fn universal(slices: &[Vec<u8>]) -> Result<Vec<u8>> {
             slice.len() >= 12 && slice.starts_with(&LIBRARY_OF_64_BITS),
             "not a 64-bit library for macOS"
         );
+        content.resize(content.len().next_multiple_of(page), 0);
         // Processor and its variety stand behind the first word, in the order of the processor.
-        for word in [4, 8] {
-            let bytes = [
-                slice[word],
-                slice[word + 1],
-                slice[word + 2],
-                slice[word + 3],
-            ];
-            put(u32::from_le_bytes(bytes));
+        for word in slice[4..12].as_chunks().0 {
+            put(u32::from_le_bytes(*word));
         }
         put(u32::try_from(page + content.len())?);
         put(u32::try_from(slice.len())?);
         put(ALIGNMENT_BITS);
         content.extend_from_slice(slice);
-        content.resize(content.len().next_multiple_of(page), 0);
     }
-    let end = content.len() - slices.last().map_or(0, |last| padding(last.len(), page));
-    content.truncate(end);
     header.resize(page, 0);
     header.append(&mut content);
     Ok(header)
-}
-
-fn padding(length: usize, page: usize) -> usize {
-    length.next_multiple_of(page) - length
 }

@@ -1,7 +1,7 @@
 //! Building the FMU.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use softstop_fmu::package::{self, HOST_PLATFORM, Library};
@@ -93,10 +93,7 @@ fn host_library() -> Result<Library> {
 fn write(libraries: &[Library]) -> Result<PathBuf> {
     let path = top().join("softstop.fmu");
     package::write(&path, &Imprint::library(), libraries)?;
-    println!("{} ({} KiB)", path.display(), kilobytes(&path)?);
+    let size = fs::metadata(&path)?.len().div_ceil(1024);
+    println!("{} ({size} KiB)", path.display());
     Ok(path)
-}
-
-fn kilobytes(path: &Path) -> Result<u64> {
-    Ok(fs::metadata(path)?.len().div_ceil(1024))
 }

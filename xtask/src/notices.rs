@@ -41,7 +41,9 @@ fn path() -> PathBuf {
 fn notices() -> Result<String> {
     let mut text = HEAD.to_owned();
     let mut licences = BTreeMap::<String, Vec<String>>::new();
-    for package in linked_packages(&metadata()?)? {
+    let arguments = ["metadata", "--format-version=1", "--locked"];
+    let metadata = serde_json::from_str(&output(cargo_command().args(arguments))?)?;
+    for package in linked_packages(&metadata)? {
         let [licence, home] = ["license", "repository"].map(|key| field(package, key));
         writeln!(text, "  {}, {licence}, {home}", name(package))?;
         let manifest = Path::new(field(package, "manifest_path"));
@@ -60,29 +62,15 @@ fn notices() -> Result<String> {
     Ok(text)
 }
 
-/// What cargo knows about all packages.
-fn metadata() -> Result<Value> {
-    let arguments = ["metadata", "--format-version=1", "--locked"];
-    Ok(serde_json::from_str(&output(
-        cargo_command().args(arguments),
-    )?)?)
-}
-
 /// Names and versions of the crates in the library, whatever the target.
 fn linked() -> Result<BTreeSet<String>> {
     let mut crates = BTreeSet::new();
     for triple in targets::triples() {
-        let arguments = [
-            "tree",
-            "--locked",
-            "--package=softstop-fmu",
-            "--prefix=none",
-        ];
         let tree = output(
             cargo_command()
-                .args(arguments)
-                .args(["--edges=normal,no-proc-macro", "--format={p}"])
-                .args(["--target", triple]),
+                .args(["tree", "--locked", "--package=softstop-fmu"])
+                .args(["--edges=normal,no-proc-macro", "--target", triple])
+                .args(["--prefix=none", "--format={p}"]),
         )?;
         crates.extend(tree.lines().filter_map(|line| {
             let (name, rest) = line.split_once(" v")?;
@@ -95,8 +83,8 @@ fn linked() -> Result<BTreeSet<String>> {
 /// The packages of others that the library is built from.
 fn linked_packages(metadata: &Value) -> Result<Vec<&Value>> {
     let linked = linked()?;
-    let mut packages: Vec<_> = list(&metadata["packages"])
-        .iter()
+    let packages = metadata["packages"].as_array().into_iter().flatten();
+    let mut packages: Vec<_> = packages
         .filter(|package| !package["source"].is_null() && linked.contains(&name(package)))
         .collect();
     packages.sort_by_key(|package| name(package));
@@ -109,10 +97,6 @@ fn field<'a>(package: &'a Value, name: &str) -> &'a str {
 
 fn name(package: &Value) -> String {
     format!("{} {}", field(package, "name"), field(package, "version"))
-}
-
-fn list(value: &Value) -> &[Value] {
-    value.as_array().map_or(&[], Vec::as_slice)
 }
 
 /// The texts of the licence in a package's folder: that of MIT if it may be chosen, for it holds

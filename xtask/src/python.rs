@@ -53,14 +53,8 @@ pub fn environment(name: &str, requirements: &str) -> Result<PathBuf> {
         .arg(&folder))
     .context("Python 3 with its venv module is needed")?;
     run(Command::new(&python)
-        .args([
-            "-m",
-            "pip",
-            "install",
-            "--quiet",
-            "--disable-pip-version-check",
-            "-r",
-        ])
+        .args(["-m", "pip", "install", "--quiet"])
+        .args(["--disable-pip-version-check", "-r"])
         .arg(&requirements))?;
     fs::write(&installed, wanted)?;
     Ok(python)

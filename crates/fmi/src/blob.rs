@@ -33,7 +33,7 @@ impl<U: Unit> Instance<U> {
     /// This instance as bytes.
     pub(crate) fn to_bytes(&self) -> Result<Vec<u8>, Fault> {
         let data = self.data()?;
-        let guid = own_uuid::<U>()?;
+        let guid = library_uuid::<U>()?;
         let mut bytes = Vec::with_capacity(HEADER + data.len());
         bytes.extend(MAGIC);
         bytes.extend(FORMAT.to_le_bytes());
@@ -46,7 +46,7 @@ impl<U: Unit> Instance<U> {
 
     /// The instance that was written as these bytes. Zeros after its end are passed over.
     pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Self, Fault> {
-        let data = checked(bytes, own_uuid::<U>()?)?;
+        let data = checked(bytes, library_uuid::<U>()?)?;
         let instance: Self =
             rmp_serde::from_slice(data).map_err(|_| Fault::Blob("cannot be read"))?;
         let sizes = |instance: &Self| (instance.values.len(), instance.signals.len());
@@ -61,7 +61,7 @@ impl<U: Unit> Instance<U> {
 fn checked(bytes: &[u8], own: Uuid) -> Result<&[u8], Fault> {
     let (head, rest) = bytes
         .split_at_checked(HEADER)
-        .ok_or_else(|| Fault::Blob("is too short"))?;
+        .ok_or(Fault::Blob("is too short"))?;
     let (magic, head) = head.split_at(8);
     let (format, head) = head.split_at(4);
     let (guid, head) = head.split_at(16);
@@ -79,7 +79,7 @@ fn checked(bytes: &[u8], own: Uuid) -> Result<&[u8], Fault> {
     let (data, beyond) = usize::try_from(length)
         .ok()
         .and_then(|length| rest.split_at_checked(length))
-        .ok_or_else(|| Fault::Blob("is cut off"))?;
+        .ok_or(Fault::Blob("is cut off"))?;
     if beyond.iter().any(|byte| *byte != 0) {
         return Err(Fault::Blob("goes on after its end"));
     }
@@ -87,8 +87,4 @@ fn checked(bytes: &[u8], own: Uuid) -> Result<&[u8], Fault> {
         return Err(Fault::Blob("was altered"));
     }
     Ok(data)
-}
-
-fn own_uuid<U: Unit>() -> Result<Uuid, Fault> {
-    library_uuid::<U>().ok_or_else(|| Fault::Internal("the GUID cannot be computed".to_owned()))
 }

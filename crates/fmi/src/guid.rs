@@ -3,6 +3,7 @@
 use uuid::Uuid;
 
 use crate::description;
+use crate::fault::Fault;
 use crate::imprint::Imprint;
 use crate::unit::Unit;
 
@@ -25,11 +26,14 @@ pub fn guid_of<U: Unit>(imprint: &Imprint<U>) -> std::io::Result<String> {
 
 /// The GUID of this very library, or nothing if its description cannot be written.
 pub fn library_guid<U: Unit>() -> Option<String> {
-    library_uuid::<U>().map(|uuid| uuid.braced().to_string())
+    let uuid = library_uuid::<U>().ok()?;
+    Some(uuid.braced().to_string())
 }
 
 /// The same as a number. It is held without a heap so that unloading the library leaves nothing behind.
-pub(crate) fn library_uuid<U: Unit>() -> Option<Uuid> {
-    let guid = &U::about().guid;
-    *guid.get_or_init(|| uuid_of(&Imprint::<U>::library()).ok())
+pub(crate) fn library_uuid<U: Unit>() -> Result<Uuid, Fault> {
+    let uuid = U::about()
+        .guid
+        .get_or_init(|| uuid_of(&Imprint::<U>::library()).ok());
+    uuid.ok_or_else(|| Fault::Internal("the GUID cannot be computed".to_owned()))
 }

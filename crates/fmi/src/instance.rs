@@ -31,12 +31,6 @@ pub(crate) struct Experiment {
     pub(crate) stop: Option<f64>,
 }
 
-impl<U: Unit> Default for Instance<U> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 impl<U: Unit> Instance<U> {
     /// A fresh instance with the start values of the library.
     pub(crate) fn new() -> Self {
@@ -92,11 +86,8 @@ impl<U: Unit> Instance<U> {
             return Err(Fault::argument("startTime", start, "finite"));
         }
         if let Some(stop) = stop.filter(|stop| !(stop.is_finite() && *stop >= start)) {
-            return Err(Fault::argument(
-                "stopTime",
-                stop,
-                "finite and not before startTime",
-            ));
+            let allowed = "finite and not before startTime";
+            return Err(Fault::argument("stopTime", stop, allowed));
         }
         self.experiment = Some(Experiment { start, stop });
         start_signals(&mut self.signals, start);

@@ -51,36 +51,14 @@ pub(crate) fn find<U: Unit>(reference: u32, wanted: Type) -> Result<&'static Row
 }
 
 impl<U: Unit> Instance<U> {
-    /// Reads real values.
-    pub(crate) fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Fault> {
-        self.read(references, values, Type::Real, |value| value)
-    }
-
-    /// Reads integers and enumerations.
-    pub(crate) fn get_integer(
-        &mut self,
-        references: &[u32],
-        values: &mut [i32],
-    ) -> Result<(), Fault> {
-        self.read(references, values, Type::Integer, |value| value as i32)
-    }
-
-    /// Reads Booleans, as 0 and 1.
-    pub(crate) fn get_boolean(
-        &mut self,
-        references: &[u32],
-        values: &mut [i32],
-    ) -> Result<(), Fault> {
-        self.read(references, values, Type::Boolean, |value| value as i32)
-    }
-
     /// Reads or sets strings, of which there are none.
     pub(crate) fn strings(&self, references: &[u32]) -> Result<(), Fault> {
         let mut references = references.iter();
         references.try_for_each(|&reference| find::<U>(reference, Type::String).map(drop))
     }
 
-    fn read<T>(
+    /// Reads values of one type, a Boolean as 0 or 1.
+    pub(crate) fn read<T>(
         &mut self,
         references: &[u32],
         values: &mut [T],

@@ -9,23 +9,8 @@ use crate::unit::{Row, Unit};
 use crate::variable::Access;
 
 impl<U: Unit> Instance<U> {
-    /// Sets real values: all of them, or none if one is refused.
-    pub(crate) fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Fault> {
-        self.set(references, values, Type::Real, |value| value)
-    }
-
-    /// Sets integers and enumerations: all of them, or none if one is refused.
-    pub(crate) fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Result<(), Fault> {
-        self.set(references, values, Type::Integer, f64::from)
-    }
-
-    /// Sets Booleans; every number but 0 means true.
-    pub(crate) fn set_boolean(&mut self, references: &[u32], values: &[i32]) -> Result<(), Fault> {
-        let number = |value| f64::from(u8::from(value != 0));
-        self.set(references, values, Type::Boolean, number)
-    }
-
-    fn set<T: Copy>(
+    /// Sets values of one type: all of them, or none if one is refused.
+    pub(crate) fn set<T: Copy>(
         &mut self,
         references: &[u32],
         values: &[T],
@@ -72,14 +57,9 @@ impl<U: Unit> Instance<U> {
     }
 
     pub(crate) fn require_settable(&self) -> Result<(), Fault> {
-        self.require(
-            &[
-                Lifecycle::Instantiated,
-                Lifecycle::Initializing,
-                Lifecycle::Running,
-            ],
-            "values can be set again after fmi2Reset",
-        )
+        use Lifecycle::{Initializing, Instantiated, Running};
+        let remedy = "values can be set again after fmi2Reset";
+        self.require(&[Instantiated, Initializing, Running], remedy)
     }
 
     fn check_settable(&self, variable: &Row<U>) -> Result<(), Fault> {

@@ -23,9 +23,8 @@ pub(crate) struct StepReport {
 /// the last place would do. A billionth of the time leaves room for importers that count in
 /// nanoseconds. Half a step is the limit in any case: a step that is called twice is refused.
 fn drift_tolerance(present: f64, step: f64) -> f64 {
-    let rounding = rounding_of(present, 0.0);
     let counting = 1e-9 * present.abs().max(1.0);
-    counting.min(0.5 * step).max(rounding)
+    counting.min(0.5 * step).max(rounding_of(present, 0.0))
 }
 
 /// What adding up a time in such steps may bring.
@@ -56,8 +55,15 @@ impl<U: Unit> Instance<U> {
             unit.check_reach(end.max(unit.time()))?;
         }
         self.retry(point, step);
-        self.check_communication_point(point, step)?;
         let present = self.time();
+        let tolerance = drift_tolerance(present, step);
+        if (point - present).abs() > tolerance {
+            return Err(Fault::CommunicationPoint {
+                point,
+                present,
+                tolerance,
+            });
+        }
         let unit = self.settle()?;
         let mut events = Events {
             wanted: wants_events,
@@ -103,43 +109,20 @@ impl<U: Unit> Instance<U> {
         }
         self.unit = Some(unit);
     }
-
-    fn check_communication_point(&self, point: f64, step: f64) -> Result<(), Fault> {
-        let present = self.time();
-        let tolerance = drift_tolerance(present, step);
-        if (point - present).abs() > tolerance {
-            return Err(Fault::CommunicationPoint {
-                point,
-                present,
-                tolerance,
-            });
-        }
-        Ok(())
-    }
 }
 
 fn end_of_step(point: f64, step: f64) -> Result<f64, Fault> {
+    let end = point + step;
+    let wrong_step = |allowed| Err(Fault::argument("communicationStepSize", step, allowed));
     if !point.is_finite() {
-        return Err(Fault::argument(
-            "currentCommunicationPoint",
-            point,
-            "finite",
-        ));
+        let name = "currentCommunicationPoint";
+        return Err(Fault::argument(name, point, "finite"));
     }
     if !(step.is_finite() && step > 0.0) {
-        return Err(Fault::argument(
-            "communicationStepSize",
-            step,
-            "finite and > 0",
-        ));
+        return wrong_step("finite and > 0");
     }
-    let end = point + step;
     if !end.is_finite() {
-        return Err(Fault::argument(
-            "communicationStepSize",
-            step,
-            "such that its end is finite",
-        ));
+        return wrong_step("such that its end is finite");
     }
     Ok(end)
 }

@@ -97,9 +97,3 @@ impl From<StartValues> for Imprint<Machine> {
         Self::new(values.values())
     }
 }
-
-impl Default for StartValues {
-    fn default() -> Self {
-        Self::DEFAULT
-    }
-}

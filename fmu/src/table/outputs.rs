@@ -6,10 +6,6 @@ use super::rows::{Row, after, at_once, continuous, count, discrete, nominal, rea
 use crate::machine::Machine;
 use crate::units;
 
-fn position(machine: &Machine) -> f64 {
-    machine.sample().position
-}
-
 fn velocity(machine: &Machine) -> f64 {
     machine.sample().velocity
 }
@@ -20,20 +16,6 @@ fn acceleration(machine: &Machine) -> f64 {
 
 fn jerk(machine: &Machine) -> f64 {
     machine.sample().jerk
-}
-
-fn impact_time(machine: &Machine) -> f64 {
-    machine
-        .simulation()
-        .last_impact()
-        .map_or(0.0, |last| last.time)
-}
-
-fn impact_velocity(machine: &Machine) -> f64 {
-    machine
-        .simulation()
-        .last_impact()
-        .map_or(0.0, |last| last.velocity)
 }
 
 fn clamp_count(count: u64) -> i32 {
@@ -68,7 +50,7 @@ pub(super) const OUTPUTS: &[Row] = &[
         &[|machine| machine.rates().contact_force.0, |machine| machine.rates().contact_force.1],
         "Force of stop and strip on the mass: F in m x'' + b1 x' + k1 x + F = F0 cos(w t + phi) + force. Positive in compression (against positive x); it includes the additional damping in contact. While the phase is resting it is what holds the mass, while it is chatter the mean over the bounces"),
     continuous(200, "position", nominal(real(&units::LENGTH), 10.0), after(&["initial.position"]),
-        (position, |of| of.position), &[velocity, acceleration],
+        (|machine| machine.sample().position, |of| of.position), &[velocity, acceleration],
         "Position of the mass"),
     continuous(201, "velocity", nominal(real(&units::VELOCITY), 10.0), after(&["initial.velocity"]),
         (velocity, |of| of.velocity), &[acceleration, jerk],
@@ -81,9 +63,11 @@ pub(super) const OUTPUTS: &[Row] = &[
         "Law that the mass moves under at present"),
     count(205, "impact.count", |machine| clamp_count(machine.simulation().impact_count()),
         "Impacts since the start: upward crossings of the clearance with contact, and rebounds at a rigid stop that stands there"),
-    discrete(207, "impact.time", real(&units::TIME), (impact_time, |of| of.impact_time),
+    discrete(207, "impact.time", real(&units::TIME),
+        (|machine| machine.last_impact().time, |of| of.impact_time),
         "Time of the last impact, exact whatever the communication step; 0 before the first one"),
-    discrete(208, "impact.velocity", nominal(real(&units::VELOCITY), 10.0), (impact_velocity, |of| of.impact_velocity),
+    discrete(208, "impact.velocity", nominal(real(&units::VELOCITY), 10.0),
+        (|machine| machine.last_impact().velocity, |of| of.impact_velocity),
         "Velocity just before the last impact; 0 before the first one"),
     count(206, "pierce.count", |machine| clamp_count(machine.simulation().pierce_count()),
         "Strips pierced through since the start"),

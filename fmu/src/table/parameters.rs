@@ -24,14 +24,14 @@ pub(super) const OSCILLATOR: &[Row] = &[
         "Stiffness k1 of the suspension"),
     fixed(2, "damping", slot::DAMPING, within(&units::DAMPING, 0.0, LARGE),
         "Viscous damping b1 of the motion without contact"),
-    tunable(3, "excitation.amplitude", slot::AMPLITUDE, within(&units::FORCE, 0.0, LARGE),
-        "Amplitude F0 of the drive F0 cos(w t + phi)"),
-    tunable(4, "excitation.frequency", slot::FREQUENCY, within(&units::ANGULAR_FREQUENCY, SMALL, LARGE),
-        "Angular frequency w of the drive; when it is tuned, the drive angle goes on without a jump"),
+    tunable(fixed(3, "excitation.amplitude", slot::AMPLITUDE, within(&units::FORCE, 0.0, LARGE),
+        "Amplitude F0 of the drive F0 cos(w t + phi)")),
+    tunable(fixed(4, "excitation.frequency", slot::FREQUENCY, within(&units::ANGULAR_FREQUENCY, SMALL, LARGE),
+        "Angular frequency w of the drive; when it is tuned, the drive angle goes on without a jump")),
     fixed(5, "excitation.phase", slot::DRIVE_PHASE, shown_in(within(&units::ANGLE, -LARGE, LARGE), "deg"),
         "Drive angle phi at time 0"),
-    tunable(6, "clearance", slot::CLEARANCE, nominal(within(&units::LENGTH, -LARGE, LARGE), 10.0),
-        "Clearance r: contact begins at this position; negative means interference. It cannot be tuned such that a rigid stop would stand before the mass"),
+    tunable(fixed(6, "clearance", slot::CLEARANCE, nominal(within(&units::LENGTH, -LARGE, LARGE), 10.0),
+        "Clearance r: contact begins at this position; negative means interference. It cannot be tuned such that a rigid stop would stand before the mass")),
 ];
 
 /// The strip, the state at the start, and the damping that both stop and strip bring.

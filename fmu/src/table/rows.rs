@@ -83,16 +83,12 @@ pub(super) const fn fixed(
     row(reference, name, kind, access, description)
 }
 
-pub(super) const fn tunable(
-    reference: u32,
-    name: &'static str,
-    slot: Slot,
-    kind: Kind,
-    description: &'static str,
-) -> Row {
-    let tunable = true;
-    let access = Access::Parameter { slot, tunable };
-    row(reference, name, kind, access, description)
+/// The same parameter, to be set between steps.
+pub(super) const fn tunable(mut row: Row) -> Row {
+    if let Access::Parameter { tunable, .. } = &mut row.access {
+        *tunable = true;
+    }
+    row
 }
 
 /// The rows of an array of fixed parameters, one element for each slope.

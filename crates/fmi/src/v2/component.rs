@@ -7,7 +7,7 @@ use libc::{c_char, c_int, c_void, size_t};
 
 use super::pointers::string;
 use crate::fault::{Fault, Status};
-use crate::guid::library_guid;
+use crate::guid::library_uuid;
 use crate::instance::Instance;
 use crate::log::{Category, Wanted};
 use crate::step::StepReport;
@@ -82,14 +82,12 @@ impl<U: Unit> Component<U> {
 
     /// Tells of the events in a step, and of a gap before it.
     pub(super) fn tell(&self, report: &StepReport) {
-        if let Some(gap) = report.gap
-            && self.wanted.has(Category::Warnings)
-        {
+        if let Some(gap) = report.gap {
             let text = format!(
                 "currentCommunicationPoint lies {gap:e} s from the end of the last step: the motion goes on \
                  without a gap"
             );
-            self.sink.send(Status::Ok, Category::Warnings, &text);
+            self.log(Status::Ok, Category::Warnings, &text);
         }
         for event in &report.events {
             self.log(Status::Ok, Category::Events, event);
@@ -123,10 +121,7 @@ pub(super) unsafe fn instantiate<U: Unit>(
         )
     };
     let sink = Sink {
-        name: name
-            .as_ref()
-            .map(|name| CString::new(name.as_bytes()).unwrap_or_default())
-            .unwrap_or_default(),
+        name: CString::new(name.as_deref().unwrap_or_default()).unwrap_or_default(),
         logger: functions.and_then(|functions| functions.logger),
         environment: functions.map_or(std::ptr::null_mut(), |functions| functions.environment),
     };
@@ -158,8 +153,7 @@ fn check<U: Unit>(
             "fmuType = {fmu_type}: only fmi2CoSimulation ({CO_SIMULATION}) is available"
         )));
     }
-    let own = library_guid::<U>()
-        .ok_or_else(|| Fault::Internal("the GUID cannot be computed".to_owned()))?;
+    let own = library_uuid::<U>()?.braced().to_string();
     let guid = guid?;
     if guid == own {
         Ok(())

@@ -17,6 +17,7 @@ use super::pointers::{read, string, write, write_one};
 use crate::fault::{Fault, Status};
 use crate::instance::Instance;
 use crate::log::Category;
+use crate::reading::Type;
 use crate::unit::Unit;
 
 const LAST_SUCCESSFUL_TIME: c_int = 2;
@@ -140,19 +141,22 @@ functions! { $
     /// Reads real values.
     fn fmi2GetReal<U>(component, references: *const c_uint, count: size_t, values: *mut f64) {
         let references = read("vr", references, count)?;
-        component.instance.get_real(references, write("value", values, count)?)
+        let values = write("value", values, count)?;
+        component.instance.read(references, values, Type::Real, |value| value)
     }
 
     /// Reads integers and enumerations.
     fn fmi2GetInteger<U>(component, references: *const c_uint, count: size_t, values: *mut c_int) {
         let references = read("vr", references, count)?;
-        component.instance.get_integer(references, write("value", values, count)?)
+        let values = write("value", values, count)?;
+        component.instance.read(references, values, Type::Integer, |value| value as i32)
     }
 
     /// Reads Booleans.
     fn fmi2GetBoolean<U>(component, references: *const c_uint, count: size_t, values: *mut c_int) {
         let references = read("vr", references, count)?;
-        component.instance.get_boolean(references, write("value", values, count)?)
+        let values = write("value", values, count)?;
+        component.instance.read(references, values, Type::Boolean, |value| value as i32)
     }
 
     /// Reads strings, of which there are none.
@@ -166,19 +170,22 @@ functions! { $
     /// Sets real values.
     fn fmi2SetReal<U>(component, references: *const c_uint, count: size_t, values: *const f64) {
         let references = read("vr", references, count)?;
-        component.instance.set_real(references, read("value", values, count)?)
+        let values = read("value", values, count)?;
+        component.instance.set(references, values, Type::Real, |value| value)
     }
 
     /// Sets integers and enumerations.
     fn fmi2SetInteger<U>(component, references: *const c_uint, count: size_t, values: *const c_int) {
         let references = read("vr", references, count)?;
-        component.instance.set_integer(references, read("value", values, count)?)
+        let values = read("value", values, count)?;
+        component.instance.set(references, values, Type::Integer, f64::from)
     }
 
-    /// Sets Booleans.
+    /// Sets Booleans; every number but 0 means true.
     fn fmi2SetBoolean<U>(component, references: *const c_uint, count: size_t, values: *const c_int) {
         let references = read("vr", references, count)?;
-        component.instance.set_boolean(references, read("value", values, count)?)
+        let values = read("value", values, count)?;
+        component.instance.set(references, values, Type::Boolean, |value| f64::from(u8::from(value != 0)))
     }
 
     /// Sets strings, of which there are none.
