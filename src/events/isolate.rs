@@ -42,12 +42,7 @@ pub(super) enum Verdict {
 const DEEPEST: u32 = 60;
 
 impl Candidate<'_> {
-    /// The first s in [from, to] at which g rises from <= 0 to > 0.
-    pub fn first_rise_between(&self, from: f64, to: f64) -> Option<f64> {
-        self.first_rise(self.point(from), self.point(to))
-    }
-
-    /// The same between two points.
+    /// The first s between two points at which g rises from <= 0 to > 0.
     pub fn first_rise(&self, left: Point, right: Point) -> Option<f64> {
         let (low, high) = self.isolate(left, right, 0)?;
         Some(self.polish(low, high))
@@ -103,7 +98,8 @@ impl Candidate<'_> {
         rates
     }
 
-    fn point(&self, at: f64) -> Point {
+    /// g and its rate at a place.
+    pub fn point(&self, at: f64) -> Point {
         let (value, rate) = evaluate(self.coefficients, at);
         Point { at, value, rate }
     }

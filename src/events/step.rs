@@ -7,7 +7,7 @@ use crate::flow::{DEGREE, Node, Segment, evaluate};
 /// The first crossing from `node` to the end of the step. Bounds on the fourth derivative follow from
 /// the coefficients of the polynomial, which is the motion to round-off.
 pub(super) fn first_crossing(segment: &Segment, guards: &[Guard], node: Node) -> Outlook {
-    let (from, to) = (segment.parameter_at(node.elapsed), segment.reach());
+    let (from, to) = (segment.parameter_at(node.elapsed), segment.reach);
     let (position, velocity) = segment.last_state();
     let finite = position.is_finite() && velocity.is_finite();
     let held = segment.is_still() && !segment.push_at(to).is_finite();
@@ -25,7 +25,7 @@ pub(super) fn first_crossing(segment: &Segment, guards: &[Guard], node: Node) ->
             bound: fourth_derivative(&coefficients, to),
             rounding: rounding(&coefficients, to),
         };
-        candidate.first_rise_between(from, to)
+        candidate.first_rise(candidate.point(from), candidate.point(to))
     };
     match earliest(guards, rise) {
         None => Outlook::Ends(segment.end),
@@ -43,10 +43,7 @@ pub(super) fn first_crossing(segment: &Segment, guards: &[Guard], node: Node) ->
 
 /// True if g < 0 throughout [0, span], as its tangent and the sizes of all other terms show.
 fn stays_below(coefficients: &[f64; DEGREE + 1], span: f64) -> bool {
-    let mut others = *coefficients;
-    for coefficient in &mut others {
-        *coefficient = coefficient.abs();
-    }
+    let mut others = coefficients.map(f64::abs);
     (others[0], others[1]) = (0.0, 0.0);
     let tangent = coefficients[0] + (coefficients[1] * span).max(0.0);
     tangent + evaluate(&others, span).0 < 0.0

@@ -8,6 +8,7 @@ use super::particular::Particular;
 use super::place::Node;
 use super::response::Responses;
 use super::soon::soon;
+use super::taylor::linear_push_series;
 use super::{Chatter, Departure, Drive, Flow, Hertz, LARGEST_LOSS, Segment, Taylor};
 
 /// The exact motion that follows from a departure.
@@ -54,6 +55,10 @@ impl Course {
             }
             _ => Form::Responses,
         };
+        Self::of(flow, departure, form)
+    }
+
+    fn of(flow: Flow, departure: Departure, form: Form) -> Self {
         Self {
             flow,
             departure,
@@ -64,11 +69,7 @@ impl Course {
     /// The next step of `flow`, where rounding took `low` from the position.
     pub(crate) fn resumed(flow: Flow, departure: Departure, low: f64) -> Self {
         let segment = Segment::pushed(&flow, &departure, low);
-        Self {
-            flow,
-            departure,
-            form: Form::Segment(Arc::new(segment)),
-        }
+        Self::of(flow, departure, Form::Segment(Arc::new(segment)))
     }
 
     /// One step of `flow` together with a power law, from `deflection` m beyond its face.
@@ -79,20 +80,12 @@ impl Course {
         deflection: f64,
     ) -> Self {
         let segment = Segment::new(&flow, hertz, &departure, deflection);
-        Self {
-            flow,
-            departure,
-            form: Form::Segment(Arc::new(segment)),
-        }
+        Self::of(flow, departure, Form::Segment(Arc::new(segment)))
     }
 
     /// The last bounces on a rigid stop at the departure's position.
     pub(crate) fn chattering(flow: Flow, departure: Departure, chatter: Chatter) -> Self {
-        Self {
-            flow,
-            departure,
-            form: Form::Chatter(chatter),
-        }
+        Self::of(flow, departure, Form::Chatter(chatter))
     }
 
     /// The Taylor step that the motion is followed in, if it is.
@@ -124,11 +117,7 @@ impl Course {
         } else {
             Form::Segment(Arc::new(Segment::held(&flow, &departure)))
         };
-        Self {
-            flow,
-            departure,
-            form,
-        }
+        Self::of(flow, departure, form)
     }
 
     /// True if a state anywhere costs no more than a few elementary functions.
@@ -205,21 +194,14 @@ impl Course {
 
     /// Taylor polynomials about a node.
     pub(crate) fn expand(&self, node: &Node) -> Taylor {
-        let taylor = Taylor::about(
-            &self.flow,
-            (node.position, node.velocity),
-            node.drive,
-            self.push_at(node.elapsed),
-        );
-        if self.is_held() {
-            taylor.at_rest(node.position)
-        } else {
-            match self.departure.acceleration {
-                Some(acceleration) if node.elapsed == 0.0 => {
-                    taylor.with_acceleration(&self.flow, acceleration)
-                }
-                _ => taylor,
+        let push = linear_push_series(&self.flow, node.drive, self.push_at(node.elapsed));
+        let taylor = Taylor::under(&self.flow, (node.position, node.velocity), push);
+        match self.departure.acceleration {
+            _ if self.is_held() => taylor.at_rest(node.position),
+            Some(acceleration) if node.elapsed == 0.0 => {
+                taylor.with_acceleration(&self.flow, acceleration)
             }
+            _ => taylor,
         }
     }
 

@@ -29,19 +29,8 @@ const SETTLED: f64 = 16.0 * f64::EPSILON;
 impl Course {
     /// The departure as a node.
     pub fn start(&self) -> Node {
-        let deviation = match self.form {
-            Form::Particular { deviation, .. } => (deviation.x, deviation.y),
-            _ => (0.0, 0.0),
-        };
-        Node {
-            elapsed: 0.0,
-            position: self.departure.position,
-            velocity: self.departure.velocity,
-            drive: self.departure.drive,
-            deviation,
-            origin: 0.0,
-            windows: 0,
-        }
+        let from = &self.departure;
+        self.placed(0.0, from.drive, (from.position, from.velocity))
     }
 
     /// The node at `elapsed`, evaluated afresh.

@@ -38,7 +38,7 @@ pub(crate) struct Segment {
     /// The power law acts.
     pub(super) is_pressed: bool,
     /// How far the series hold, in sigma.
-    pub(super) reach: f64,
+    pub reach: f64,
     /// How far the mass stays beyond the face, in sigma: further on time would run back.
     pub(super) contact: f64,
     /// The same in time, in s.
@@ -258,11 +258,6 @@ impl Segment {
             Some(stretch) => value(&stretch.time, sigma),
             None => sigma,
         }
-    }
-
-    /// How far the series hold, in sigma.
-    pub fn reach(&self) -> f64 {
-        self.reach
     }
 
     /// `position` x + `velocity` v + `push` q - `level` as a series in sigma; where it is the distance

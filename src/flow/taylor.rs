@@ -15,8 +15,9 @@ pub(crate) struct Taylor {
     pub push: [f64; DEGREE + 1],
 }
 
-pub(super) const RECIPROCALS: [f64; DEGREE + 2] = {
-    let mut table = [0.0; DEGREE + 2];
+/// 1/n.
+pub(super) const RECIPROCALS: [f64; DEGREE + 3] = {
+    let mut table = [0.0; DEGREE + 3];
     let mut n = 1;
     while n < table.len() {
         table[n] = 1.0 / n as f64;
@@ -26,11 +27,6 @@ pub(super) const RECIPROCALS: [f64; DEGREE + 2] = {
 };
 
 impl Taylor {
-    /// Expands the motion from (x, v) with drive (cos, sin) and push `constant` + `ramp` t.
-    pub fn about(flow: &Flow, state: (f64, f64), drive: Drive, push: (f64, f64)) -> Self {
-        Self::under(flow, state, linear_push_series(flow, drive, push))
-    }
-
     /// Expands the motion from (x, v) under a push.
     pub fn under(flow: &Flow, (x, v): (f64, f64), push: [f64; DEGREE + 1]) -> Self {
         let mut position = [0.0; DEGREE + 1];
@@ -91,7 +87,7 @@ pub(super) fn push_series(flow: &Flow, from: &Departure) -> [f64; DEGREE + 1] {
 }
 
 /// Coefficients of the push `constant` + `ramp` t + A cos(angle + w t) with drive (cos, sin).
-fn linear_push_series(
+pub(super) fn linear_push_series(
     flow: &Flow,
     Drive { cos, sin }: Drive,
     (constant, ramp): (f64, f64),
@@ -103,13 +99,7 @@ fn linear_push_series(
         push[n] = even;
         push[n + 1] = odd;
         even *= square * RECIPROCALS[n + 1] * RECIPROCALS[n + 2];
-        odd *= square
-            * RECIPROCALS[n + 2]
-            * if n + 3 <= DEGREE {
-                RECIPROCALS[n + 3]
-            } else {
-                0.0
-            };
+        odd *= square * RECIPROCALS[n + 2] * RECIPROCALS[n + 3];
     }
     push[0] += constant;
     push[1] += ramp;

@@ -83,7 +83,7 @@ impl Motion {
 
     /// Tells `observer` of the arc that is under way, up to the present time.
     pub fn tell_arc(&self, observer: &mut impl Observer) {
-        observer.arc(&self.arc(), self.clock.elapsed(self.start, self.now));
+        observer.arc(&self.arc(), self.elapsed());
     }
 
     /// Moves on along the present arc if it reaches to `until`; false if something happens before, or

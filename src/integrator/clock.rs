@@ -57,13 +57,7 @@ impl Clock {
 
     /// The instant `time` seconds after time 0.
     pub fn instant(&self, time: f64) -> Instant {
-        self.after(
-            Instant {
-                cycles: 0.0,
-                offset: 0.0,
-            },
-            time,
-        )
+        self.after(Self::at_cycle(0), time)
     }
 
     /// The instant at which `cycles` periods are complete.
@@ -85,10 +79,7 @@ impl Clock {
     pub fn after(&self, from: Instant, elapsed: f64) -> Instant {
         let offset = from.offset + elapsed;
         if offset >= 0.0 && offset < self.period {
-            return Instant {
-                cycles: from.cycles,
-                offset,
-            };
+            return Instant { offset, ..from };
         }
         if offset >= self.period && offset < 2.0 * self.period {
             // Exact by Sterbenz, apart from the part of the period below its last digit.
@@ -102,27 +93,18 @@ impl Clock {
     }
 
     fn carried(&self, cycles: f64, offset: f64) -> Instant {
-        let whole = (offset / self.period).floor();
-        let rest = (-whole).mul_add(self.period, offset) - whole * self.period_low;
-        if rest < 0.0 {
-            let rest = rest + self.period;
-            // A rest of less than one unit in the last place rounds up to the period itself.
-            let offset = if rest < self.period { rest } else { 0.0 };
-            let back = if rest < self.period { 1.0 } else { 0.0 };
-            Instant {
-                cycles: cycles + whole - back,
-                offset,
-            }
-        } else if rest >= self.period {
-            Instant {
-                cycles: cycles + whole + 1.0,
-                offset: rest - self.period,
-            }
-        } else {
-            Instant {
-                cycles: cycles + whole,
-                offset: rest,
-            }
+        let mut whole = (offset / self.period).floor();
+        let mut offset = (-whole).mul_add(self.period, offset) - whole * self.period_low;
+        if offset < 0.0 {
+            (whole, offset) = (whole - 1.0, offset + self.period);
+        }
+        // What lacks less than one unit in the last place has been rounded up to the period itself.
+        if offset >= self.period {
+            (whole, offset) = (whole + 1.0, offset - self.period);
+        }
+        Instant {
+            cycles: cycles + whole,
+            offset,
         }
     }
 

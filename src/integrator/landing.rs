@@ -103,7 +103,7 @@ impl Motion {
 
     /// Push of drive and external force per mass, in m/s^2, at the start of the present arc.
     pub(super) fn push(&self, drive: Drive) -> f64 {
-        self.phases.held.amplitude * drive.cos + self.force.on_arc().value() / self.phases.mass
+        self.phases.push(drive, self.force.on_arc())
     }
 
     /// Acceleration in m/s^2 in a mode.

@@ -1,22 +1,38 @@
 //! Where an advance begins.
 
+use serde::{Deserialize, Serialize};
+
 use super::clock::Instant;
 use super::motion::Motion;
 use super::tallies::Counts;
 
-/// Where the last advance began.
-#[derive(Debug, Clone)]
-pub(super) enum Mark {
+/// Where the last advance began; the motion is itself, or data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) enum Mark<M = Motion> {
     /// On the arc that is under way.
     OnArc(Instant),
     /// Some crossings ago.
-    Before(Box<Origin>),
+    Before(Box<Origin<M>>),
 }
 
 /// A machine as it was before an advance.
-#[derive(Debug, Clone)]
-pub(super) struct Origin {
-    pub motion: Motion,
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Origin<M = Motion> {
+    pub motion: M,
     pub counts: Counts,
     pub now: f64,
+}
+
+impl<M> Mark<M> {
+    /// The same with another motion.
+    pub fn with<N, E>(&self, motion: impl Fn(&M) -> Result<N, E>) -> Result<Mark<N>, E> {
+        Ok(match self {
+            Self::OnArc(instant) => Mark::OnArc(*instant),
+            Self::Before(origin) => Mark::Before(Box::new(Origin {
+                motion: motion(&origin.motion)?,
+                counts: origin.counts,
+                now: origin.now,
+            })),
+        })
+    }
 }

@@ -72,7 +72,7 @@ impl Motion {
             acceleration: None,
         };
         let course = Course::held(phases.held, departure);
-        let push = phases.held.amplitude * drive.cos + force.value() / phases.mass;
+        let push = phases.push(drive, &force);
         let mode = phases.locate(start.position, start.velocity, push, fed);
         let outlook = Outlook::Never;
         let mut motion = Self {
@@ -95,6 +95,11 @@ impl Motion {
     /// The present time.
     pub fn now(&self) -> Instant {
         self.now
+    }
+
+    /// Time in s since the present arc began.
+    pub(crate) fn elapsed(&self) -> f64 {
+        self.clock.elapsed(self.start, self.now)
     }
 
     /// The clock of its drive.
@@ -136,18 +141,15 @@ impl Motion {
 
     /// External force in N from now on.
     pub fn force(&self) -> Polynomial {
-        let elapsed = self.clock.elapsed(self.start, self.now);
-        self.force.seen_from(&self.clock, self.now, elapsed)
+        self.force.seen_from(&self.clock, self.now, self.elapsed())
     }
 
     /// Position and velocity now.
     pub fn state(&self) -> Start {
-        let elapsed = self.clock.elapsed(self.start, self.now);
-        let (position, velocity) = self.course.at(elapsed, self.clock.drive(self.now));
-        let position = self
-            .phase()
-            .map_or(position, |phase| phase.confine(position));
-        Start::new(position, velocity)
+        let drive = self.clock.drive(self.now);
+        let (position, velocity) = self.course.at(self.elapsed(), drive);
+        let confine = |phase: &Phase| phase.confine(position);
+        Start::new(self.phase().map_or(position, confine), velocity)
     }
 
     /// The arc that is under way.
@@ -193,9 +195,8 @@ impl Motion {
         mode: Mode,
         acceleration: Option<f64>,
     ) -> Departure {
-        let law = mode
-            .phase()
-            .map_or(0.0, |phase| self.phases[phase].law.force);
+        let constant = |phase: PhaseId| self.phases[phase].law.force;
+        let law = mode.phase().map_or(0.0, constant);
         Departure {
             position: state.position,
             velocity: state.velocity,

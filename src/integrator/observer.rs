@@ -164,19 +164,14 @@ impl Crossing {
 /// ```
 pub trait Observer {
     /// An arc has ended `elapsed` seconds after its start.
-    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let _ = (arc, elapsed);
-    }
+    fn arc(&mut self, _arc: &Arc<'_>, _elapsed: f64) {}
 
     /// A crossing has happened.
-    fn crossing(&mut self, crossing: &Crossing) {
-        let _ = crossing;
-    }
+    fn crossing(&mut self, _crossing: &Crossing) {}
 
     /// Whether to go on. Asked after each crossing and each step, and now and then on a long arc, with what
     /// has been done since, in scan windows (see [`Effort`](super::Effort)).
-    fn progress(&mut self, windows: u64) -> ControlFlow<()> {
-        let _ = windows;
+    fn progress(&mut self, _windows: u64) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 }

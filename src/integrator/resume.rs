@@ -28,8 +28,7 @@ impl Motion {
     /// bounces in a row stay as they are; only a held mass may be let go at once.
     pub(super) fn set_force(&mut self, force: Polynomial) -> bool {
         if self.keeps_bouncing(&force) {
-            let elapsed = self.clock.elapsed(self.start, self.now);
-            self.force = Force::new(force.shifted(-elapsed), self.start);
+            self.force = Force::new(force.shifted(-self.elapsed()), self.start);
             return false;
         }
         let state = self.state();
@@ -67,10 +66,11 @@ impl Motion {
         let Mode::Chattering(hold) = self.mode else {
             return false;
         };
-        let (phases, position) = (&self.phases, self.course.departure.position);
-        let drive = self.clock.drive(self.now);
-        let push = phases.held.amplitude * drive.cos + force.value() / phases.mass;
-        matches!(phases.leave(hold, position, push), Mode::Held(_))
+        let push = self.phases.push(self.clock.drive(self.now), force);
+        let left = self
+            .phases
+            .leave(hold, self.course.departure.position, push);
+        matches!(left, Mode::Held(_))
     }
 
     /// The same motion at a time on its present arc, with an arc of its own from there on.

@@ -130,7 +130,8 @@ impl Simulation {
         until: f64,
         observer: &mut impl Observer,
     ) -> Result<ControlFlow<()>, MotionError> {
-        let instant = self.instant_of(until)?;
+        self.check_reach(until)?;
+        let instant = self.motion.clock().instant(until - self.epoch);
         let before = self.motion.now();
         // Equal times may be written as instants that differ in the last digit.
         if instant <= before || self.motion.glide(instant)? {
@@ -178,12 +179,6 @@ impl Simulation {
             });
         }
         within_reach(self.motion.clock(), until, self.epoch)
-    }
-
-    /// Where an absolute time lies on the clock, unless it is out of range.
-    fn instant_of(&self, until: f64) -> Result<Instant, MotionError> {
-        self.check_reach(until)?;
-        Ok(self.motion.clock().instant(until - self.epoch))
     }
 
     /// The motion now.

@@ -3,6 +3,7 @@
 //! Whatever follows from the scene (phases, flows) and from a departure (the course) is left out and
 //! computed anew, which gives the same numbers bit for bit.
 
+use std::convert::Infallible;
 use std::sync::Arc as Shared;
 
 use serde::{Deserialize, Serialize};
@@ -10,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::clock::{Clock, Instant};
 use super::force::Force;
 use super::hum::Hum;
-use super::mark::{Mark, Origin};
+use super::mark::Mark;
 use super::motion::Motion;
 use super::simulation::Simulation;
 use super::start::Start;
@@ -31,18 +32,7 @@ pub struct Snapshot {
     begin: f64,
     counts: Counts,
     motion: Moving,
-    mark: Marked,
-}
-
-/// [`Mark`] as data.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-enum Marked {
-    OnArc(Instant),
-    Before {
-        motion: Box<Moving>,
-        counts: Counts,
-        now: f64,
-    },
+    mark: Mark<Moving>,
 }
 
 /// [`Motion`] as data.
@@ -84,11 +74,8 @@ impl Moving {
 
     fn motion(&self, scene: &Scene, phases: &Shared<Phases>) -> Result<Motion, MotionError> {
         self.validate(phases)?;
-        let Departure {
-            position, velocity, ..
-        } = self.departure;
         let clock = Clock::new(scene.excitation.frequency, self.angle);
-        let start = Start::new(position, velocity);
+        let start = Start::new(self.departure.position, self.departure.velocity);
         let force = Polynomial::default();
         let fresh = Motion::with(phases.clone(), clock, self.start, start, force, self.fed)?;
         let mut motion = Motion {
@@ -113,12 +100,9 @@ impl Moving {
         if named.any(|phase| phase.index() >= phases.phases.len()) {
             return Err(broken("a phase that does not exist"));
         }
-        let Departure {
-            position, velocity, ..
-        } = self.departure;
         let (start, now) = (self.start, self.now);
         let times = [start.cycles, start.offset, now.cycles, now.offset];
-        let numbers = [self.angle, position, velocity];
+        let numbers = [self.angle, self.departure.position, self.departure.velocity];
         if times.iter().chain(&numbers).any(|n| !n.is_finite()) || now < start {
             return Err(broken("numbers that no motion has"));
         }
@@ -133,6 +117,8 @@ fn broken(what: &'static str) -> MotionError {
 impl Simulation {
     /// All that is needed to go on from here.
     pub fn snapshot(&self) -> Snapshot {
+        let moving = |motion: &Motion| Ok::<_, Infallible>(Moving::of(motion));
+        let Ok(mark) = self.mark.with(moving);
         Snapshot {
             scene: self.scene.clone(),
             epoch: self.epoch,
@@ -140,14 +126,7 @@ impl Simulation {
             begin: self.begin,
             counts: self.tallies.counts,
             motion: Moving::of(&self.motion),
-            mark: match &self.mark {
-                Mark::OnArc(instant) => Marked::OnArc(*instant),
-                Mark::Before(origin) => Marked::Before {
-                    motion: Box::new(Moving::of(&origin.motion)),
-                    counts: origin.counts,
-                    now: origin.now,
-                },
-            },
+            mark,
         }
     }
 
@@ -164,18 +143,6 @@ impl Simulation {
         }
         let phases: Shared<Phases> = scene.phases().into();
         let motion = snapshot.motion.motion(scene, &phases)?;
-        let mark = match &snapshot.mark {
-            Marked::OnArc(instant) => Mark::OnArc(*instant),
-            Marked::Before {
-                motion,
-                counts,
-                now,
-            } => Mark::Before(Box::new(Origin {
-                motion: motion.motion(scene, &phases)?,
-                counts: *counts,
-                now: *now,
-            })),
-        };
         Ok(Self {
             scene: scene.clone(),
             motion,
@@ -186,7 +153,7 @@ impl Simulation {
                 counts: snapshot.counts,
             },
             begin: snapshot.begin,
-            mark,
+            mark: snapshot.mark.with(|motion| motion.motion(scene, &phases))?,
         })
     }
 }

@@ -1,5 +1,6 @@
 //! The last advance: where it began, and how to take it back.
 
+use super::clock::Instant;
 use super::mark::Mark;
 use super::motion::Motion;
 use super::simulation::Simulation;
@@ -25,18 +26,21 @@ impl Simulation {
 
     /// True if that stretch reaches back to the start.
     pub fn is_marked_at_start(&self) -> bool {
-        let at = match &self.mark {
-            Mark::OnArc(instant) => *instant,
-            Mark::Before(origin) => origin.motion.now(),
-        };
+        let (_, at) = self.marked();
         self.epoch == 0.0 && at == self.motion.clock().instant(self.begin)
     }
 
     /// The motion as it was at the mark, on an arc of its own from there on.
     pub(crate) fn motion_at_mark(&self) -> Motion {
+        let (motion, at) = self.marked();
+        motion.departed_at(at)
+    }
+
+    /// A motion that passes the mark, and when.
+    fn marked(&self) -> (&Motion, Instant) {
         match &self.mark {
-            Mark::OnArc(instant) => self.motion.departed_at(*instant),
-            Mark::Before(origin) => origin.motion.departed_at(origin.motion.now()),
+            Mark::OnArc(instant) => (&self.motion, *instant),
+            Mark::Before(origin) => (&origin.motion, origin.motion.now()),
         }
     }
 }

@@ -42,8 +42,6 @@ impl Observer for Tallies {
 impl Tallies {
     /// Work of the arc that is under way.
     pub fn work_under_way(&self, motion: &Motion) -> Work {
-        let arc = motion.arc();
-        let elapsed = motion.clock().elapsed(arc.start, motion.now());
-        work(&arc, self.mass, elapsed)
+        work(&motion.arc(), self.mass, motion.elapsed())
     }
 }

@@ -43,11 +43,9 @@ impl Machine {
             MachineError::Syntax(error.to_string().trim_end().to_owned())
         };
         let table = DeTable::parse(text).map_err(syntax)?;
-        let ratios = table.get_ref().get(RATIOS).is_some();
-        let language = if ratios {
-            Language::Ratios
-        } else {
-            Language::Si
+        let language = match table.get_ref().get(RATIOS) {
+            Some(_) => Language::Ratios,
+            None => Language::Si,
         };
         let mut places = Vec::new();
         walk(table.get_ref(), "", text, &mut places);
@@ -129,16 +127,15 @@ fn known(places: &[Place], language: Language) -> Result<(), MachineError> {
 
 /// Refuses what is no number in a number's place.
 fn numbers(places: &[Place]) -> Result<(), MachineError> {
-    for Place { key, line, word } in places {
-        if let (Some(_), Some(word)) = (Parameter::named(key), word) {
-            return Err(MachineError::NotANumber {
-                line: Some(*line),
-                key: key.clone(),
-                value: word.clone(),
-            });
-        }
-    }
-    Ok(())
+    let wrong = |Place { key, line, word }: &Place| {
+        Parameter::named(key)?;
+        Some(MachineError::NotANumber {
+            line: Some(*line),
+            key: key.clone(),
+            value: word.clone()?,
+        })
+    };
+    places.iter().find_map(wrong).map_or(Ok(()), Err)
 }
 
 /// The line of the parameter that is out of range.
@@ -155,21 +152,11 @@ fn line_of(error: &SceneError, places: &[Place]) -> Option<usize> {
     Some(place.line)
 }
 
+#[derive(Debug, thiserror::Error)]
+#[error(transparent)]
 enum Trouble {
-    Toml(Error),
-    Machine(MachineError),
-}
-
-impl From<Error> for Trouble {
-    fn from(error: Error) -> Self {
-        Self::Toml(error)
-    }
-}
-
-impl From<MachineError> for Trouble {
-    fn from(error: MachineError) -> Self {
-        Self::Machine(error)
-    }
+    Toml(#[from] Error),
+    Machine(#[from] MachineError),
 }
 
 fn of<T: DeserializeOwned>(value: Value<'_>) -> Result<T, Error> {
@@ -231,11 +218,7 @@ fn read(mut file: Spanned<DeTable<'_>>, language: Language) -> Result<Machine, T
         name,
         description,
         start: Start::new(position, velocity),
-        speaks: if hertz.is_some() {
-            Language::Hertz
-        } else {
-            language
-        },
+        speaks: hertz.map_or(language, |_| Language::Hertz),
         preload_deflection: deflection,
         ..Machine::of_scene(Scene::deserialize(Deserializer::from(file))?)
     };

@@ -18,7 +18,7 @@ use std::ops::Index;
 use serde::{Deserialize, Serialize};
 
 use crate::events::Guard;
-use crate::flow::{Flow, Hertz};
+use crate::flow::{Drive, Flow, Hertz, Polynomial};
 use crate::scene::Scene;
 
 /// What a phase is in the machine.
@@ -232,6 +232,11 @@ impl Phases {
     /// Where the mass can go no further, in m.
     pub(crate) fn wall(&self) -> Option<f64> {
         self.fed.wall.map(|wall| self[wall].position)
+    }
+
+    /// Push of drive and external force per mass, in m/s^2.
+    pub(crate) fn push(&self, drive: Drive, force: &Polynomial) -> f64 {
+        self.held.amplitude * drive.cos + force.value() / self.mass
     }
 
     /// [`Phase::acceleration`] of a phase.

@@ -110,6 +110,25 @@ pub struct Wall {
 }
 
 impl Scene {
+    /// The oscillator with m = k1 = F0 = w = 1 and without damping that meets this stop at position 0.
+    pub const fn of_stop(stop: Stop) -> Self {
+        Self {
+            mass: 1.0,
+            stiffness: 1.0,
+            damping: 0.0,
+            excitation: Excitation {
+                amplitude: 1.0,
+                frequency: 1.0,
+                phase: 0.0,
+            },
+            clearance: 0.0,
+            contact_damping: 0.0,
+            stop,
+            piercing: None,
+            rigid: None,
+        }
+    }
+
     /// Where the stop stands, in m: the clearance, or behind the strip.
     pub fn stop_position(&self) -> f64 {
         let behind = self.piercing.map_or(0.0, |p| p.thickness + p.travel);

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Excitation, Piercing, RigidStop, Scene, Stop, Units};
+use super::{Piercing, RigidStop, Scene, Stop, Units};
 use crate::error::SceneError;
 
 /// Dimensionless parameters as in Peterka 2003, section 3: stiffness ratios in units of k1,
@@ -69,24 +69,18 @@ impl Ratios {
     /// # Errors
     /// [`SceneError`] if a ratio is out of range.
     pub fn scene(&self) -> Result<Scene, SceneError> {
-        let scene = Scene {
-            mass: 1.0,
-            stiffness: 1.0,
+        let mut scene = Scene {
             damping: 2.0 * self.damping,
-            excitation: Excitation {
-                amplitude: 1.0,
-                frequency: self.frequency,
-                phase: 0.0,
-            },
             clearance: self.clearance,
             contact_damping: 2.0 * self.contact_damping,
-            stop: Stop::Preloaded {
-                stiffness: self.stiffness,
-                preload: self.preload,
-            },
             piercing: self.piercing,
             rigid: self.rigid,
+            ..Scene::of_stop(Stop::Preloaded {
+                stiffness: self.stiffness,
+                preload: self.preload,
+            })
         };
+        scene.excitation.frequency = self.frequency;
         scene.validate()?;
         Ok(scene)
     }

@@ -61,10 +61,8 @@ impl Simulation {
             ..Watch::default()
         };
         motion.advance(now.now(), &mut watch)?;
-        let arc = motion.arc();
-        let elapsed = motion.clock().elapsed(arc.start, motion.now());
-        if elapsed > 0.0 {
-            watch.arc(&arc, elapsed);
+        if motion.elapsed() > 0.0 {
+            motion.tell_arc(&mut watch);
         }
         let mechanical = change_of_energy(scene, now, watch.position, watch.velocity);
         let (acceleration, contact_force) = watch.forces(scene, now);

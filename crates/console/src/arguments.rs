@@ -8,7 +8,7 @@ use softstop::{Language, Machine, Parameter};
 
 use crate::failure::Failure;
 use crate::machine::{Regime, SceneSettings};
-use crate::scene_file::{read_toml, text};
+use crate::scene_file::{read, read_toml};
 
 /// Arguments of every command that looks at one machine.
 #[derive(Debug, Clone, PartialEq, Default, Args)]
@@ -102,8 +102,8 @@ impl MachineArguments {
     /// # Errors
     /// [`Failure::Usage`] naming it.
     pub fn refuse_start(&self) -> Result<(), Failure> {
-        let is_start = |key: &str| key.starts_with("initial.") || key.starts_with("start.");
-        self.refuse_key(is_start, "the machine's own start plays no part")
+        let why = "the machine's own start plays no part";
+        self.refuse_key(|key| of_start(key).is_some(), why)
     }
 
     /// Refuses a coordinate of the start, `position` or `velocity`, that is set although a flag of this name
@@ -112,12 +112,8 @@ impl MachineArguments {
     /// # Errors
     /// [`Failure::Usage`] naming both.
     pub fn refuse_start_beside(&self, flag: &str) -> Result<(), Failure> {
-        let is_same = |key: &str| {
-            ["initial.", "start."]
-                .map(|table| table.to_owned() + flag)
-                .contains(&key.to_owned())
-        };
-        self.refuse_key(is_same, &format!("goes not with --{flag}"))
+        let why = format!("goes not with --{flag}");
+        self.refuse_key(|key| of_start(key) == Some(flag), &why)
     }
 
     /// Refuses a key that the command line states, and why.
@@ -222,21 +218,9 @@ impl MachineArguments {
     }
 }
 
-/// Reads a machine file. A machine without a name is called as the file.
-///
-/// # Errors
-/// [`Failure::Usage`] naming the file, and line, key, value and range of what is wrong in it.
-pub fn read(path: &Path) -> Result<Machine, Failure> {
-    let place = path.display();
-    let text = text(path)?;
-    let mut machine =
-        Machine::from_toml(&text).map_err(|error| Failure::usage(format!("{place}: {error}")))?;
-    if machine.name.is_none() {
-        machine.name = path
-            .file_stem()
-            .map(|stem| stem.to_string_lossy().into_owned());
-    }
-    Ok(machine)
+/// The coordinate of the start that a key sets.
+fn of_start(key: &str) -> Option<&str> {
+    key.strip_prefix("initial.").or(key.strip_prefix("start."))
 }
 
 /// The paper's machine with what layers say of it, the first one having the first word.
@@ -256,19 +240,14 @@ pub fn paper(layers: &[SceneSettings]) -> Result<Machine, Failure> {
                     "{name} = {value}: the unloaded regime has no strip; allowed only with regime loaded"
                 )));
             }
-            let told = given[..above]
-                .iter()
-                .any(|(other, _)| kind(other) == kind(name));
-            if !told {
+            let mut told = given[..above].iter();
+            if !told.any(|(other, _)| kind(other) == kind(name)) {
                 given.push((name, format!("{value:?}")));
             }
         }
     }
-    let both = ["preload", "preload_deflection"];
-    if both
-        .iter()
-        .all(|name| given.iter().any(|(other, _)| other == name))
-    {
+    let tells = |name| given.iter().any(|(other, _)| *other == name);
+    if tells("preload") && tells("preload_deflection") {
         return Err(Failure::usage(
             "preload and preload_deflection: only one of the two can be given",
         ));

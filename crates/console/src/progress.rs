@@ -34,24 +34,19 @@ impl Progress {
     pub fn new(total: u64, what: &str) -> Self {
         let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
         let style = format!("{{spinner}} {{bar:36}} {{pos}}/{{len}} {what}, {{eta}} left{{msg}}");
-        if let Ok(style) = ProgressStyle::with_template(&style) {
-            bar.set_style(style);
-        }
-        Self::of(bar, what)
+        Self::of(bar, what, &style)
     }
 
     /// A count of things called `what`, nobody knows how many.
     pub fn open(what: &str) -> Self {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
-        if let Ok(style) =
-            ProgressStyle::with_template(&format!("{{spinner}} {{pos}} {what}{{msg}}"))
-        {
-            bar.set_style(style);
-        }
-        Self::of(bar, what)
+        Self::of(bar, what, &format!("{{spinner}} {{pos}} {what}{{msg}}"))
     }
 
-    fn of(bar: ProgressBar, what: &str) -> Self {
+    fn of(bar: ProgressBar, what: &str, style: &str) -> Self {
+        if let Ok(style) = ProgressStyle::with_template(style) {
+            bar.set_style(style);
+        }
         Self {
             begin: Instant::now(),
             bar,
@@ -69,13 +64,8 @@ impl Progress {
         } else {
             elapsed.as_secs() / PAUSE
         };
-        let order = Ordering::Relaxed;
-        if due <= shown
-            || self
-                .shown
-                .compare_exchange(shown, due, order, order)
-                .is_err()
-        {
+        // Of several threads one says it.
+        if due <= shown || self.shown.fetch_max(due, Ordering::Relaxed) >= due {
             return;
         }
         if self.is_terminal {
@@ -88,18 +78,10 @@ impl Progress {
 
     /// How far the run is, in a line.
     fn line(&self) {
-        let all = self
-            .bar
-            .length()
-            .map_or_else(String::new, |all| format!(" of {all}"));
+        let all = self.bar.length();
+        let all = all.map_or_else(String::new, |all| format!(" of {all}"));
         let (done, seconds) = (self.bar.position(), self.begin.elapsed().as_secs());
         let _ = writeln!(io::stderr(), "{done}{all} {} after {seconds} s", self.what);
-    }
-
-    /// One more is done.
-    pub fn one(&self) {
-        self.bar.inc(1);
-        self.beat();
     }
 
     /// One more is done, and the run may go on.
@@ -115,8 +97,7 @@ impl Progress {
     /// # Errors
     /// [`Failure::Interrupted`] after Ctrl-C.
     pub fn steps(&self, count: u64) -> Result<(), Failure> {
-        self.bar.inc(count);
-        self.beat();
+        self.more(count);
         if interrupt::requested() {
             return Err(Failure::Interrupted);
         }

@@ -1,39 +1,24 @@
-//! Machine files as scenes.
+//! Files that users write: machines, and layers of settings in TOML.
 
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
 use serde::de::DeserializeOwned;
-use softstop::{Machine, Scene, Start};
+use softstop::Machine;
 
 use crate::failure::Failure;
 
-/// A machine and where it starts.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SceneFile {
-    /// The machine; its parameters are in range.
-    pub scene: Scene,
-    /// The state at time 0; at rest at position 0 unless the file says otherwise.
-    pub start: Start,
-}
-
-/// Reads a scene file.
+/// Reads a machine file. A machine without a name is called as the file.
 ///
 /// # Errors
 /// [`Failure::Usage`] naming the file, and line, key, value and range of what is wrong in it.
-pub fn read(path: &Path) -> Result<SceneFile, Failure> {
-    parse(&text(path)?).map_err(|error| Failure::usage(format!("{}: {error}", path.display())))
-}
-
-/// Reads the text of a scene file.
-///
-/// # Errors
-/// What is wrong, without the name of the file.
-pub fn parse(text: &str) -> Result<SceneFile, String> {
-    let Machine { scene, start, .. } =
-        Machine::from_toml(text).map_err(|error| error.to_string())?;
-    Ok(SceneFile { scene, start })
+pub fn read(path: &Path) -> Result<Machine, Failure> {
+    let wrong = |error| Failure::usage(format!("{}: {error}", path.display()));
+    let mut machine = Machine::from_toml(&text(path)?).map_err(wrong)?;
+    let stem = || Some(path.file_stem()?.to_string_lossy().into_owned());
+    machine.name = machine.name.or_else(stem);
+    Ok(machine)
 }
 
 /// Bytes of a file at most.

@@ -3,7 +3,7 @@
 use crate::machine::{Regime, SceneSettings};
 use clap::{Args, Command, ValueEnum};
 use serde_json::{Map, Value, json};
-use softstop::{Allowed, Excitation, Language, Machine, Parameter, Release, Scene, Stop};
+use softstop::{Allowed, Language, Machine, Parameter, Release, Scene, Stop};
 
 /// The draft in which schemas are written.
 pub const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
@@ -40,29 +40,18 @@ pub fn shorthands() -> Value {
 /// `#:schema ./machine.schema.json`.
 pub fn machine() -> Value {
     let mut si = sections(Language::Si);
-    let required = required(&si);
+    let mut required = required(&si);
     si.extend([
         ("name".to_owned(), text("Its name, also that of its FMU.")),
         ("description".to_owned(), text("What it is, in a sentence.")),
         ("ratios".to_owned(), ratios()),
     ]);
-    let (start, damping) = (
-        si["initial"].clone(),
-        si["contact"]["properties"]["damping"].clone(),
-    );
-    si.extend([
-        ("start".to_owned(), older(start, "initial")),
-        (
-            "contact_damping".to_owned(),
-            older(damping, "contact.damping"),
-        ),
-    ]);
+    let start = older(&si["initial"], "initial");
+    let damping = older(&si["contact"]["properties"]["damping"], "contact.damping");
+    si.insert("start".to_owned(), start);
+    si.insert("contact_damping".to_owned(), damping);
     let beside = ["name", "description", "initial", "start", "ratios"];
-    let required: Vec<Value> = required
-        .into_iter()
-        .filter(|key| key != "contact")
-        .map(Value::from)
-        .collect();
+    required.retain(|key| key != "contact");
     json!({
         "$schema": DRAFT,
         "title": "softstop machine",
@@ -138,10 +127,9 @@ fn sections(language: Language) -> Map<String, Value> {
 /// Keys that every machine states.
 fn required(sections: &Map<String, Value>) -> Vec<String> {
     let optional = ["piercing", "rigid", "initial"];
-    let keys = sections
-        .keys()
-        .filter(|key| !optional.contains(&key.as_str()));
-    keys.cloned().collect()
+    let mut keys: Vec<String> = sections.keys().cloned().collect();
+    keys.retain(|key| !optional.contains(&key.as_str()));
+    keys
 }
 
 fn text(what: &str) -> Value {
@@ -152,7 +140,8 @@ fn object(properties: Map<String, Value>) -> Value {
     json!({ "type": "object", "properties": properties, "additionalProperties": false })
 }
 
-fn older(mut schema: Value, name: &str) -> Value {
+fn older(schema: &Value, name: &str) -> Value {
+    let mut schema = schema.clone();
     schema["deprecated"] = true.into();
     schema["description"] = format!("older spelling of {name}").into();
     schema
@@ -226,18 +215,15 @@ fn law(stop: Stop, language: Language) -> Value {
     let model = stop.model();
     let chained = matches!(stop, Stop::PiecewiseLinear { .. });
     let released = matches!(stop, Stop::KelvinVoigt { .. });
-    let machine = Machine::of_scene(scene(stop));
+    let machine = Machine::of_scene(Scene::of_stop(stop));
     let own = machine.parameters().filter_map(|parameter| {
         let field = parameter.name().strip_prefix("stop.")?;
         Some((field.to_owned(), number(parameter, language)))
     });
     let mut properties = Map::from_iter(own);
     let optional = ["exponent", "dissipation"];
-    let mut required: Vec<String> = properties
-        .keys()
-        .filter(|key| !optional.contains(&key.as_str()))
-        .cloned()
-        .collect();
+    let mut required: Vec<String> = properties.keys().cloned().collect();
+    required.retain(|key| !optional.contains(&key.as_str()));
     required.push("model".to_owned());
     properties.insert("model".to_owned(), json!({ "const": model }));
     if released {
@@ -272,23 +258,4 @@ fn slope() -> Value {
     ]));
     require_all(&mut slope);
     slope
-}
-
-/// A scene with this stop.
-fn scene(stop: Stop) -> Scene {
-    Scene {
-        mass: 1.0,
-        stiffness: 1.0,
-        damping: 0.0,
-        excitation: Excitation {
-            amplitude: 1.0,
-            frequency: 1.0,
-            phase: 0.0,
-        },
-        clearance: 0.0,
-        contact_damping: 0.0,
-        stop,
-        piercing: None,
-        rigid: None,
-    }
 }

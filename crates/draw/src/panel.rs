@@ -89,12 +89,8 @@ impl Panel {
         for (value, name) in axes.marks(self.y, axes.ticks.1) {
             let y = self.height(value);
             pen.tick((left - TICK, y), (left, y));
-            pen.text(
-                (left - TICK - 4.0, y + 0.36 * size),
-                axes.letters,
-                Align::Right,
-                &name,
-            );
+            let place = (left - TICK - 4.0, y + 0.36 * size);
+            pen.text(place, axes.letters, Align::Right, &name);
             widest = widest.max(pen::width(axes.letters, &name));
         }
         let place = (left - TICK - 8.0 - widest - 0.5 * size, top + 0.5 * height);
@@ -116,10 +112,8 @@ impl Panel {
             ((x / GRAIN).round() as i64, (y / GRAIN).round() as i64)
         };
         let seen: BTreeSet<(i64, i64)> = inside.map(square).collect();
-        let places: Vec<(f64, f64)> = seen
-            .into_iter()
-            .map(|(x, y)| (x as f64 * GRAIN, y as f64 * GRAIN))
-            .collect();
+        let place = |(x, y)| (x as f64 * GRAIN, y as f64 * GRAIN);
+        let places: Vec<Point> = seen.into_iter().map(place).collect();
         if !places.is_empty() {
             pen.dots(&places, radius, color);
         }
@@ -227,13 +221,8 @@ impl Panel {
 /// The heading of a page and a line that explains it.
 pub fn heading(pen: &mut Pen, (left, top): (f64, f64), title: &str, explanation: &str) {
     pen.heading((left, top), 20, Align::Left, title);
-    pen.words(
-        (left, top + 22.0),
-        13,
-        Align::Left,
-        (style::ASIDE, false),
-        explanation,
-    );
+    let (place, grey) = ((left, top + 22.0), (style::ASIDE, false));
+    pen.words(place, 13, Align::Left, grey, explanation);
 }
 
 #[cfg(test)]
@@ -242,11 +231,7 @@ mod tests {
 
     #[test]
     fn lines_are_cut_at_the_frame() {
-        let panel = Panel {
-            area: (0.0, 0.0, 1.0, 1.0),
-            x: (0.0, 1.0),
-            y: (0.0, 1.0),
-        };
+        let panel = Panel::new((0.0, 0.0, 1.0, 1.0), (0.0, 1.0), (0.0, 1.0));
         let cut = panel.clip((-1.0, 0.5), (3.0, 0.5));
         assert_eq!(cut, Some(((0.0, 0.5), (1.0, 0.5))));
         assert_eq!(panel.clip((0.0, 2.0), (1.0, 3.0)), None);
@@ -254,11 +239,7 @@ mod tests {
 
     #[test]
     fn a_curve_that_leaves_comes_back_as_another_piece() {
-        let panel = Panel {
-            area: (0.0, 0.0, 100.0, 100.0),
-            x: (0.0, 1.0),
-            y: (0.0, 1.0),
-        };
+        let panel = Panel::new((0.0, 0.0, 100.0, 100.0), (0.0, 1.0), (0.0, 1.0));
         let line = [
             (-1.0, 0.5),
             (0.5, 0.5),

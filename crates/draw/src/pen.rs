@@ -177,8 +177,7 @@ impl Pen {
     }
 
     /// A filled rectangle: left, top, width, height.
-    pub fn tint(&mut self, area: Area, color: &str, opacity: f64) {
-        let (x, y, width, height) = area;
+    pub fn tint(&mut self, (x, y, width, height): Area, color: &str, opacity: f64) {
         self.scene.add(Primitive::Rect {
             x,
             y,
@@ -207,11 +206,8 @@ impl Pen {
                 Align::Right => x - width + 2.0,
                 Align::Middle | Align::Upwards => x - 0.5 * width,
             };
-            self.tint(
-                (left, y - 0.95 * f64::from(size), width, height),
-                "#ffffff",
-                0.82,
-            );
+            let ground = (left, y - 0.95 * f64::from(size), width, height);
+            self.tint(ground, "#ffffff", 0.82);
         }
         self.write((x, y), size, align, (false, color), text);
     }

@@ -41,13 +41,8 @@ impl Pen {
     /// A line that is seen on any ground, by its light rim; with lengths of dashes and gaps it is dashed.
     pub fn rimmed(&mut self, points: &[Point], dashes: Option<(f64, f64)>) {
         self.line(points, Stroke::solid("#ffffff", LINE.1));
-        self.line(
-            points,
-            Stroke {
-                dashes,
-                ..Stroke::solid(style::INK, LINE.0)
-            },
-        );
+        let ink = Stroke::solid(style::INK, LINE.0);
+        self.line(points, Stroke { dashes, ..ink });
     }
 
     /// A line with a head at its end.
@@ -58,10 +53,8 @@ impl Pen {
             return;
         }
         let (x, y) = (x / length, y / length);
-        let (long, wide) = (
-            HEAD.0 * stroke.width.max(1.0),
-            HEAD.1 * stroke.width.max(1.0),
-        );
+        let unit = stroke.width.max(1.0);
+        let (long, wide) = (HEAD.0 * unit, HEAD.1 * unit);
         let neck = (to.0 - long * x, to.1 - long * y);
         if length > long {
             self.line(&[from, neck], stroke);
@@ -78,10 +71,8 @@ impl Pen {
         let letters = f64::from(size);
         let width = 0.6 * letters * text.chars().count() as f64 + 4.0;
         let height = 1.15 * letters;
-        self.fill(
-            &[(x - 0.5 * width, y - 0.5 * height, width, height)],
-            "#ffffff",
-        );
+        let ground = (x - 0.5 * width, y - 0.5 * height, width, height);
+        self.fill(&[ground], "#ffffff");
         self.text((x, y + 0.35 * letters), size, Align::Middle, text);
     }
 

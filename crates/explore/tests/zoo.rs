@@ -4,8 +4,7 @@ use approx::{abs_diff_eq, assert_abs_diff_eq, assert_relative_eq};
 use softstop_testing::tolerance::printed;
 use std::fs;
 
-use softstop::{PhaseKind, Release, Scene, Slope, Stop};
-use softstop_console::scene_file;
+use softstop::{Machine, PhaseKind, Release, Scene, Slope, Stop};
 use softstop_explore::simulate::name;
 use softstop_explore::stops::stroke::Stroke;
 use softstop_explore::stops::{picture, zoo::ZOO};
@@ -15,7 +14,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 fn scene(name: &str) -> Result<Scene, Box<dyn std::error::Error>> {
     let text = fs::read_to_string(docs("scenes").join(name))?;
-    Ok(scene_file::parse(&text)?.scene)
+    Ok(Machine::from_toml(&text)?.scene)
 }
 
 fn kinds(scene: &Scene) -> Vec<&'static str> {
@@ -118,7 +117,7 @@ fn every_example_scene_runs() -> Outcome {
     let mut seen = 0;
     for entry in fs::read_dir(docs("scenes"))? {
         let path = entry?.path();
-        let file = scene_file::parse(&fs::read_to_string(&path)?)?;
+        let file = Machine::from_toml(&fs::read_to_string(&path)?)?;
         let motion = file.scene.trajectory(file.start, 20)?;
         let defect = motion.energy_defect().abs();
         assert!(
@@ -242,7 +241,7 @@ fn layers_without_thickness_do_not_exist() -> Outcome {
 #[test]
 fn a_stop_without_stiffness_is_none() -> Outcome {
     let text = fs::read_to_string(docs("scenes/none.toml"))?;
-    let none = scene_file::parse(&text)?;
+    let none = Machine::from_toml(&text)?;
     let slack = Scene {
         stop: Stop::KelvinVoigt {
             stiffness: 0.0,

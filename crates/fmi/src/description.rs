@@ -1,5 +1,6 @@
 //! The model description, written from what a unit says of itself and from its table of variables.
 
+use std::borrow::Cow;
 use std::io;
 
 use quick_xml::Writer;
@@ -14,10 +15,12 @@ use crate::variable::{Access, Kind, RealKind};
 /// The tool that writes units, and its version.
 const TOOL: &str = "softstop";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
+const GENERATOR: &str = concat!("softstop ", env!("CARGO_PKG_VERSION"));
 const INDENT: usize = 2;
 
 type Xml = Writer<Vec<u8>>;
-pub(crate) type Attributes = Vec<(&'static str, String)>;
+type Attributes = Vec<(&'static str, String)>;
+const NONE: [(&str, &str); 0] = [];
 
 /// The XML of the FMU with this imprint and this GUID.
 ///
@@ -27,36 +30,43 @@ pub fn write<U: Unit>(imprint: &Imprint<U>, guid: &str) -> io::Result<String> {
     let about = U::about();
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', INDENT);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    let root = root(imprint, guid);
+    let root = [
+        ("fmiVersion", "2.0"),
+        ("modelName", imprint.name()),
+        ("guid", guid),
+        ("description", imprint.description()),
+        ("version", about.version),
+        ("license", about.license),
+        ("generationTool", GENERATOR),
+        ("variableNamingConvention", "structured"),
+        ("numberOfEventIndicators", "0"),
+    ];
     element(&mut xml, "fmiModelDescription", root, |xml| {
         empty(xml, "CoSimulation", capabilities(about))?;
-        element(xml, "UnitDefinitions", vec![], |xml| {
+        element(xml, "UnitDefinitions", NONE, |xml| {
             about.quantities.iter().try_for_each(|of| unit(xml, of))
         })?;
-        element(xml, "TypeDefinitions", vec![], |xml| {
+        element(xml, "TypeDefinitions", NONE, |xml| {
             let mut quantities = about.quantities.iter();
             quantities.try_for_each(|of| real_type(xml, of))?;
             let mut enumerations = about.enumerations.iter();
             enumerations.try_for_each(|of| enumeration_type(xml, of))
         })?;
-        element(xml, "LogCategories", vec![], |xml| {
-            log_categories(xml, about)
-        })?;
-        let experiment = about.experiment.iter();
-        let experiment = experiment.map(|(name, value)| (*name, (*value).to_owned()));
-        empty(xml, "DefaultExperiment", experiment.collect())?;
-        element(xml, "VendorAnnotations", vec![], |xml| {
-            element(xml, "Tool", attributes([("name", TOOL)]), |xml| {
-                empty(xml, TOOL, attributes([("version", VERSION)]))
+        element(xml, "LogCategories", NONE, |xml| log_categories(xml, about))?;
+        let experiment = about.experiment.iter().copied();
+        empty(xml, "DefaultExperiment", experiment)?;
+        element(xml, "VendorAnnotations", NONE, |xml| {
+            element(xml, "Tool", [("name", TOOL)], |xml| {
+                empty(xml, TOOL, [("version", VERSION)])
             })
         })?;
-        element(xml, "ModelVariables", vec![], |xml| {
+        element(xml, "ModelVariables", NONE, |xml| {
             let mut rows = about.table.rows();
             rows.try_for_each(|variable| scalar_variable(xml, variable, imprint))
         })?;
-        element(xml, "ModelStructure", vec![], |xml| {
-            element(xml, "Outputs", vec![], |xml| unknowns(xml, about, false))?;
-            element(xml, "InitialUnknowns", vec![], |xml| {
+        element(xml, "ModelStructure", NONE, |xml| {
+            element(xml, "Outputs", NONE, |xml| unknowns(xml, about, false))?;
+            element(xml, "InitialUnknowns", NONE, |xml| {
                 unknowns(xml, about, true)
             })
         })
@@ -66,54 +76,35 @@ pub fn write<U: Unit>(imprint: &Imprint<U>, guid: &str) -> io::Result<String> {
     String::from_utf8(bytes).map_err(io::Error::other)
 }
 
-fn attributes<const N: usize>(pairs: [(&'static str, &str); N]) -> Attributes {
-    pairs.map(|(name, value)| (name, value.to_owned())).into()
-}
-
-fn pairs(attributes: &Attributes) -> impl Iterator<Item = (&str, &str)> {
-    let pairs = attributes.iter();
-    pairs.map(|(name, value)| (*name, value.as_str()))
-}
-
-fn element(
+fn element<'a, V: Into<Cow<'a, str>>>(
     xml: &mut Xml,
     name: &'static str,
-    attributes: Attributes,
+    attributes: impl IntoIterator<Item = (&'static str, V)>,
     content: impl FnOnce(&mut Xml) -> io::Result<()>,
 ) -> io::Result<()> {
+    let attributes = attributes.into_iter();
     xml.create_element(name)
-        .with_attributes(pairs(&attributes))
+        .with_attributes(attributes.map(|(name, value)| (name, value.into())))
         .write_inner_content(content)?;
     Ok(())
 }
 
-fn empty(xml: &mut Xml, name: &'static str, attributes: Attributes) -> io::Result<()> {
+fn empty<'a, V: Into<Cow<'a, str>>>(
+    xml: &mut Xml,
+    name: &'static str,
+    attributes: impl IntoIterator<Item = (&'static str, V)>,
+) -> io::Result<()> {
+    let attributes = attributes.into_iter();
     xml.create_element(name)
-        .with_attributes(pairs(&attributes))
+        .with_attributes(attributes.map(|(name, value)| (name, value.into())))
         .write_empty()?;
     Ok(())
 }
 
-fn root<U: Unit>(imprint: &Imprint<U>, guid: &str) -> Attributes {
-    let about = U::about();
-    let tool = format!("{TOOL} {VERSION}");
-    attributes([
-        ("fmiVersion", "2.0"),
-        ("modelName", imprint.name()),
-        ("guid", guid),
-        ("description", imprint.description()),
-        ("version", about.version),
-        ("license", about.license),
-        ("generationTool", &tool),
-        ("variableNamingConvention", "structured"),
-        ("numberOfEventIndicators", "0"),
-    ])
-}
-
 /// The attributes of the element `CoSimulation`.
-pub(crate) fn capabilities<U: Unit>(about: &About<U>) -> Attributes {
+pub(crate) fn capabilities<U: Unit>(about: &About<U>) -> Vec<(&'static str, String)> {
     let order = about.table.highest_output_order().to_string();
-    attributes([
+    let flags = [
         ("modelIdentifier", about.identifier),
         ("needsExecutionTool", "false"),
         ("canHandleVariableCommunicationStepSize", "true"),
@@ -125,7 +116,8 @@ pub(crate) fn capabilities<U: Unit>(about: &About<U>) -> Attributes {
         ("canGetAndSetFMUstate", "true"),
         ("canSerializeFMUstate", "true"),
         ("providesDirectionalDerivative", "true"),
-    ])
+    ];
+    flags.map(|(name, value)| (name, value.to_owned())).into()
 }
 
 fn log_categories<U: Unit>(xml: &mut Xml, about: &About<U>) -> io::Result<()> {
@@ -133,35 +125,35 @@ fn log_categories<U: Unit>(xml: &mut Xml, about: &About<U>) -> io::Result<()> {
     categories.try_for_each(|category| {
         let description = category.description().unwrap_or(about.events);
         let named = [("name", category.name()), ("description", description)];
-        empty(xml, "Category", attributes(named))
+        empty(xml, "Category", named)
     })
 }
 
 fn unit(xml: &mut Xml, quantity: &Quantity) -> io::Result<()> {
-    element(xml, "Unit", attributes([("name", quantity.unit)]), |xml| {
+    element(xml, "Unit", [("name", quantity.unit)], |xml| {
         let base = quantity.base.iter();
         let base = base.map(|(name, exponent)| (*name, exponent.to_string()));
-        empty(xml, "BaseUnit", base.collect())?;
+        empty(xml, "BaseUnit", base)?;
         quantity.display.iter().try_for_each(|(name, factor)| {
             let shown = [("name", *name), ("factor", &number(*factor))];
-            empty(xml, "DisplayUnit", attributes(shown))
+            empty(xml, "DisplayUnit", shown)
         })
     })
 }
 
 fn real_type(xml: &mut Xml, quantity: &Quantity) -> io::Result<()> {
-    let named = attributes([("name", quantity.type_name)]);
-    let real = attributes([("quantity", quantity.quantity), ("unit", quantity.unit)]);
+    let named = [("name", quantity.type_name)];
+    let real = [("quantity", quantity.quantity), ("unit", quantity.unit)];
     element(xml, "SimpleType", named, |xml| empty(xml, "Real", real))
 }
 
 fn enumeration_type(xml: &mut Xml, items: &Enumeration) -> io::Result<()> {
-    let named = attributes([
+    let named = [
         ("name", items.type_name),
         ("description", items.description),
-    ]);
+    ];
     element(xml, "SimpleType", named, |xml| {
-        element(xml, "Enumeration", vec![], |xml| {
+        element(xml, "Enumeration", NONE, |xml| {
             items.items.iter().try_for_each(|item| {
                 let value = item.value.to_string();
                 let named = [
@@ -169,7 +161,7 @@ fn enumeration_type(xml: &mut Xml, items: &Enumeration) -> io::Result<()> {
                     ("value", &value),
                     ("description", item.description),
                 ];
-                empty(xml, "Item", attributes(named))
+                empty(xml, "Item", named)
             })
         })
     })
@@ -181,27 +173,27 @@ fn scalar_variable<U: Unit>(
     imprint: &Imprint<U>,
 ) -> io::Result<()> {
     let reference = variable.reference.to_string();
-    let mut named = attributes([
+    let initial = match variable.access {
+        Access::Parameter { .. } => Some("exact"),
+        Access::Signal(_) | Access::Input(_) => None,
+        _ => Some("calculated"),
+    };
+    let named = [
         ("name", variable.name),
         ("valueReference", &reference),
         ("description", variable.description),
         ("causality", variable.causality()),
         ("variability", variable.variability()),
-    ]);
-    match variable.access {
-        Access::Parameter { .. } => named.push(("initial", "exact".to_owned())),
-        Access::Signal(_) | Access::Input(_) => {}
-        _ => named.push(("initial", "calculated".to_owned())),
-    }
-    let mut typed = match &variable.kind {
+    ];
+    let named = named.into_iter().chain(initial.map(|it| ("initial", it)));
+    let typed = match &variable.kind {
         Kind::Real(kind) => real_attributes(kind),
         Kind::Count { min, max } => count_attributes(*min, *max),
         Kind::Boolean => vec![],
-        Kind::Enumeration(items) => attributes([("declaredType", items.type_name)]),
+        Kind::Enumeration(items) => vec![("declaredType", items.type_name.to_owned())],
     };
-    if let Some(value) = start_value(variable, imprint) {
-        typed.push(("start", value));
-    }
+    let start = start_value(variable, imprint).map(|value| ("start", value));
+    let typed = typed.into_iter().chain(start);
     element(xml, "ScalarVariable", named, |xml| {
         empty(xml, variable.kind.type_name(), typed)
     })
@@ -265,12 +257,11 @@ fn unknowns<U: Unit>(xml: &mut Xml, about: &About<U>, initial: bool) -> io::Resu
         rows.sort_unstable();
         let indices: Vec<_> = rows.iter().map(|row| (row + 1).to_string()).collect();
         let kinds = vec!["dependent"; rows.len()];
-        let index = (row + 1).to_string();
-        let known = attributes([
-            ("index", &index),
-            ("dependencies", &indices.join(" ")),
-            ("dependenciesKind", &kinds.join(" ")),
-        ]);
+        let known = [
+            ("index", (row + 1).to_string()),
+            ("dependencies", indices.join(" ")),
+            ("dependenciesKind", kinds.join(" ")),
+        ];
         empty(xml, "Unknown", known)?;
     }
     Ok(())

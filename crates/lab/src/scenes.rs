@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use softstop::Machine;
 use softstop_console::failure::Failure;
-use softstop_console::scene_file::{self, SceneFile};
+use softstop_console::scene_file;
 
 /// A scene that comes with the program.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,21 +32,21 @@ macro_rules! built_in {
 pub(crate) use built_in;
 
 impl BuiltIn {
-    /// Machine and start.
+    /// Its machine.
     ///
     /// # Errors
     /// [`Failure::Usage`] if its text is none.
-    pub fn file(&self) -> Result<SceneFile, Failure> {
-        scene_file::parse(self.text)
+    pub fn machine(&self) -> Result<Machine, Failure> {
+        Machine::from_toml(self.text)
             .map_err(|error| Failure::usage(format!("{}: {error}", self.name)))
     }
 }
 
-/// The scene file at a path, and its name without folder and ending.
+/// The machine of the file at a path, and the file's name without folder and ending.
 ///
 /// # Errors
 /// [`Failure::Usage`] if there is none, naming the built-in scenes that could have been meant.
-pub fn read(place: &str, known: &[BuiltIn]) -> Result<(String, SceneFile), Failure> {
+pub fn read(place: &str, known: &[BuiltIn]) -> Result<(String, Machine), Failure> {
     let path = Path::new(place);
     if !path.exists() {
         let names: Vec<&str> = known.iter().map(|known| known.name).collect();

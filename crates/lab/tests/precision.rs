@@ -8,8 +8,7 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
-use softstop::{Impact, Scene, Start};
-use softstop_console::scene_file;
+use softstop::{Impact, Machine, Scene, Start};
 use softstop_lab::methods::{Integrator, MethodError, Solution, Task, Work};
 use softstop_lab::precision::case::{self, BUILT_IN};
 use softstop_lab::precision::errors::Scale;
@@ -23,7 +22,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 /// A scene of `docs/scenes` for some periods.
 fn task(file: &str, periods: f64) -> Result<Task, Box<dyn std::error::Error>> {
     let text = fs::read_to_string(docs("scenes").join(file))?;
-    let file = scene_file::parse(&text)?;
+    let file = Machine::from_toml(&text)?;
     Ok(Task::new(file.scene, file.start, periods, u64::MAX))
 }
 

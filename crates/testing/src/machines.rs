@@ -1,7 +1,7 @@
 //! Random machines with every kind of stop.
 
 use proptest::prelude::*;
-use softstop::{Excitation, Piercing, Release, RigidStop, Scene, Slope, Start, Stop};
+use softstop::{Piercing, Release, RigidStop, Scene, Slope, Start, Stop};
 
 fn release() -> impl Strategy<Value = Release> {
     prop_oneof![Just(Release::Clearance), Just(Release::ZeroForce)]
@@ -82,21 +82,16 @@ pub fn machines() -> impl Strategy<Value = Scene> {
     )
         .prop_map(
             |((frequency, phase), clearance, (damping, contact_damping), stop, piercing, rigid)| {
-                Scene {
-                    mass: 1.0,
-                    stiffness: 1.0,
+                let mut scene = Scene {
                     damping,
-                    excitation: Excitation {
-                        amplitude: 1.0,
-                        frequency,
-                        phase,
-                    },
                     clearance,
                     contact_damping,
-                    stop,
                     piercing,
                     rigid,
-                }
+                    ..Scene::of_stop(stop)
+                };
+                (scene.excitation.frequency, scene.excitation.phase) = (frequency, phase);
+                scene
             },
         )
 }

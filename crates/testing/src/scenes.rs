@@ -12,10 +12,7 @@ use crate::reference::{list, number};
 /// # Panics
 /// If the frequency cannot be.
 pub fn unloaded(frequency: f64) -> Scene {
-    let ratios = Ratios {
-        frequency,
-        ..Ratios::unloaded()
-    };
+    let ratios = Ratios::unloaded().at_frequency(frequency);
     ratios.scene().expect("valid")
 }
 
@@ -69,8 +66,6 @@ fn stop(value: &Value) -> Stop {
 pub fn scene(value: &Value) -> Scene {
     let given = |key: &str| (!value[key].is_null()).then(|| &value[key]);
     Scene {
-        mass: 1.0,
-        stiffness: 1.0,
         damping: number(value, "damping"),
         excitation: Excitation {
             amplitude: 1.0,
@@ -79,7 +74,6 @@ pub fn scene(value: &Value) -> Scene {
         },
         clearance: number(value, "clearance"),
         contact_damping: number(value, "contact_damping"),
-        stop: stop(&value["stop"]),
         piercing: given("strip").map(|strip| Piercing {
             stiffness: number(strip, "stiffness"),
             friction: number(strip, "friction"),
@@ -90,6 +84,7 @@ pub fn scene(value: &Value) -> Scene {
             travel: number(rigid, "travel"),
             restitution: number(rigid, "restitution"),
         }),
+        ..Scene::of_stop(stop(&value["stop"]))
     }
 }
 

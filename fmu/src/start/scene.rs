@@ -1,8 +1,6 @@
 //! Start values and scenes: the one from the other, both ways.
 
-use softstop::{
-    Excitation, Parameter, Piercing, Release, RigidStop, Scene, SceneError, Slope, Start, Stop,
-};
+use softstop::{Parameter, Piercing, Release, RigidStop, Scene, SceneError, Slope, Start, Stop};
 use softstop_fmi::variable::Slot;
 use thiserror::Error;
 
@@ -156,27 +154,12 @@ impl StartValues {
         let extent = [slot::PIERCING_THICKNESS, slot::PIERCING_TRAVEL];
         let has_strip = extent.into_iter().any(|place| self.get(place) > 0.0);
         let mut scene = Scene {
-            mass: 0.0,
-            stiffness: 0.0,
-            damping: 0.0,
-            excitation: Excitation {
-                amplitude: 0.0,
-                frequency: 0.0,
-                phase: 0.0,
-            },
-            clearance: 0.0,
-            contact_damping: 0.0,
             rigid: has_rigid.then_some(RigidStop {
                 travel: 0.0,
                 restitution: 0.0,
             }),
-            stop,
-            piercing: has_strip.then_some(Piercing {
-                stiffness: 0.0,
-                friction: 0.0,
-                thickness: 0.0,
-                travel: 0.0,
-            }),
+            piercing: has_strip.then_some(Piercing::PAPER),
+            ..Scene::of_stop(stop)
         };
         for (parameter, place) in PARAMETERS {
             parameter.set(&mut scene, self.get(place));

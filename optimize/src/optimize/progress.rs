@@ -35,7 +35,7 @@ impl Best {
 impl Watch for Best {
     fn evaluated(&self, velocity: Option<f64>) {
         self.evaluations.fetch_add(1, Ordering::Relaxed);
-        self.progress.one();
+        self.progress.more(1);
         let Some(velocity) = velocity else { return };
         let Ok(mut best) = self.velocity.lock() else {
             return;

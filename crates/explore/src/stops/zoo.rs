@@ -3,7 +3,6 @@
 use softstop::Scene;
 
 use softstop_console::failure::Failure;
-use softstop_console::scene_file;
 
 /// One picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,8 +95,7 @@ pub const ZOO: [Exhibit; 6] = [
 impl Specimen {
     /// The scene.
     pub fn scene(&self) -> Result<Scene, Failure> {
-        let file = scene_file::parse(self.scene)
-            .map_err(|error| Failure::usage(format!("{}: {error}", self.label)))?;
-        Ok(file.scene)
+        Scene::from_toml(self.scene)
+            .map_err(|error| Failure::usage(format!("{}: {error}", self.label)))
     }
 }

@@ -13,7 +13,7 @@ use libc::{c_char, c_int, c_uint, c_void, size_t};
 
 use super::component::{CallbackFunctions, Component, instantiate};
 use super::guard::{guarded, silent};
-use super::pointers::{read, string, write, write_one};
+use super::pointers::{answer, kept, read, string, write, write_one};
 use crate::fault::{Fault, Status};
 use crate::instance::Instance;
 use crate::log::Category;
@@ -24,37 +24,6 @@ const LAST_SUCCESSFUL_TIME: c_int = 2;
 const DO_STEP_STATUS: c_int = 0;
 const PENDING_STATUS: c_int = 1;
 const TERMINATED: c_int = 3;
-
-/// What a snapshot's handle points to.
-///
-/// # Safety
-/// NULL, or what `fmi2GetFMUstate` or `fmi2DeSerializeFMUstate` gave and nobody has freed.
-unsafe fn kept<'a, U: Unit>(state: *mut c_void) -> Result<&'a Instance<U>, Fault> {
-    // SAFETY: by this function's contract.
-    unsafe { state.cast::<Instance<U>>().as_ref() }.ok_or(Fault::Null {
-        argument: "FMUstate",
-    })
-}
-
-/// Answers a question about the last step, if it is of the one kind that has an answer of this type.
-///
-/// # Safety
-/// As [`write_one`].
-unsafe fn answer<T>(
-    wanted: &'static str,
-    kind: c_int,
-    answered: c_int,
-    place: *mut T,
-    value: T,
-) -> Result<(), Fault> {
-    // SAFETY: by this function's contract.
-    let place = unsafe { write_one("value", place) }?;
-    if kind != answered {
-        return Err(Fault::StatusKind { kind, wanted });
-    }
-    *place = value;
-    Ok(())
-}
 
 functions! { $
     /// The platform types this library was built with.

@@ -1,11 +1,13 @@
-//! Pointers of the importer as slices and strings.
+//! Pointers of the importer as slices, strings and snapshots.
 
 use std::borrow::Cow;
 use std::ffi::CStr;
 
-use libc::c_char;
+use libc::{c_char, c_int, c_void};
 
 use crate::fault::Fault;
+use crate::instance::Instance;
+use crate::unit::Unit;
 
 fn check<T>(argument: &'static str, pointer: *const T, length: usize) -> Result<(), Fault> {
     if pointer.is_null() {
@@ -76,4 +78,35 @@ pub(super) unsafe fn string<'a>(
     }
     // SAFETY: not NULL, and valid by this function's contract.
     Ok(unsafe { CStr::from_ptr(pointer) }.to_string_lossy())
+}
+
+/// What a snapshot's handle points to.
+///
+/// # Safety
+/// NULL, or what `fmi2GetFMUstate` or `fmi2DeSerializeFMUstate` gave and nobody has freed.
+pub(super) unsafe fn kept<'a, U: Unit>(state: *mut c_void) -> Result<&'a Instance<U>, Fault> {
+    // SAFETY: by this function's contract.
+    unsafe { state.cast::<Instance<U>>().as_ref() }.ok_or(Fault::Null {
+        argument: "FMUstate",
+    })
+}
+
+/// Answers a question about the last step, if it is of the one kind that has an answer of this type.
+///
+/// # Safety
+/// As [`write_one`].
+pub(super) unsafe fn answer<T>(
+    wanted: &'static str,
+    kind: c_int,
+    answered: c_int,
+    place: *mut T,
+    value: T,
+) -> Result<(), Fault> {
+    // SAFETY: by this function's contract.
+    let place = unsafe { write_one("value", place) }?;
+    if kind != answered {
+        return Err(Fault::StatusKind { kind, wanted });
+    }
+    *place = value;
+    Ok(())
 }

@@ -161,7 +161,7 @@ impl Column {
         let judged = |truth| Cell::new(&Judge::new(&task, truth, tolerance), Ok(own.clone()));
         let exact = known.as_ref().map(judged);
         let truth = known.unwrap_or(own);
-        progress.one();
+        progress.more(1);
         Ok(Self {
             contact: contact.map(|contact| contact / task.scene.period()),
             mode: contact_mode(&task.scene),

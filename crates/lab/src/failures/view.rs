@@ -2,10 +2,9 @@
 
 use crate::methods::Task;
 use crate::scenes::{self, BuiltIn, built_in};
-use softstop::{MotionError, PhaseKind, Scene, Slope, Start, Stop};
+use softstop::{Machine, MotionError, PhaseKind, Scene, Slope, Start, Stop};
 
 use softstop_console::failure::Failure;
-use softstop_console::scene_file::SceneFile;
 
 /// A machine of the atlas with its start and its duration.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,7 +14,7 @@ pub struct View {
     /// What it shows.
     pub title: String,
     /// Machine and start; the stop's stiffness is swept.
-    pub file: SceneFile,
+    pub machine: Machine,
     /// Whether it starts in contact, near the position where the stop carries the suspension's load.
     pub settling: bool,
     /// Drive periods to run.
@@ -55,11 +54,11 @@ impl View {
     /// [`Failure::Usage`] if there is neither, or nothing to sweep.
     pub fn find(place: &str) -> Result<Self, Failure> {
         let known = BUILT_IN.iter().find(|known| known.name == place);
-        let (name, file) = match known {
-            Some(known) => (place.to_owned(), known.file()?),
+        let (name, machine) = match known {
+            Some(known) => (place.to_owned(), known.machine()?),
             None => scenes::read(place, &BUILT_IN)?,
         };
-        if with_stiffness(&file.scene.stop, 1.0).is_none() {
+        if with_stiffness(&machine.scene.stop, 1.0).is_none() {
             return Err(Failure::usage(format!(
                 "{place}: stop.model: must have a stiffness to sweep: kelvinVoigt, piecewiseLinear, hertz or \
                  preloaded"
@@ -68,7 +67,7 @@ impl View {
         Ok(Self {
             title: known.map_or(name.clone(), |known| known.title.to_owned()),
             name,
-            file,
+            machine,
             settling: place == PRESSED,
             periods: known.map_or(PERIODS, |known| known.periods),
         })
@@ -76,7 +75,7 @@ impl View {
 
     /// The task with a stop of this stiffness in N/m.
     pub fn task(&self, stiffness: f64) -> Task {
-        let scene = &self.file.scene;
+        let scene = &self.machine.scene;
         let stop = with_stiffness(&scene.stop, stiffness);
         let scene = Scene {
             stop: stop.unwrap_or_else(|| scene.stop.clone()),
@@ -86,8 +85,8 @@ impl View {
     }
 
     fn start(&self, stiffness: f64) -> Start {
-        let Start { position, velocity } = self.file.start;
-        let scene = &self.file.scene;
+        let Start { position, velocity } = self.machine.start;
+        let scene = &self.machine.scene;
         let load = -scene.stiffness * scene.clearance;
         let carried = load / (scene.stiffness + stiffness);
         let share = if self.settling { SETTLED } else { 0.0 };

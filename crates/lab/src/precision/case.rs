@@ -1,7 +1,7 @@
 //! The motions that methods are measured on: built-in ones, and any scene file.
 
+use softstop::Machine;
 use softstop_console::failure::Failure;
-use softstop_console::scene_file::SceneFile;
 
 use crate::methods::Task;
 use crate::scenes::{self, BuiltIn, built_in};
@@ -42,18 +42,23 @@ pub const ALL: &str = "all";
 pub fn cases(scene: &str, periods: Option<f64>) -> Result<Vec<Case>, Failure> {
     let wanted = |built_in: &&BuiltIn| scene == ALL || built_in.name == scene;
     let found: Vec<&BuiltIn> = BUILT_IN.iter().filter(wanted).collect();
-    let case = |name: &str, title: &str, file: SceneFile, length: f64| Case {
+    let case = |name: &str, title: &str, machine: Machine, length: f64| Case {
         name: name.to_owned(),
         title: title.to_owned(),
-        task: Task::new(file.scene, file.start, periods.unwrap_or(length), u64::MAX),
+        task: Task::new(
+            machine.scene,
+            machine.start,
+            periods.unwrap_or(length),
+            u64::MAX,
+        ),
     };
     if found.is_empty() {
-        let (name, file) = scenes::read(scene, &BUILT_IN)?;
-        return Ok(vec![case(&name, scene, file, PERIODS)]);
+        let (name, machine) = scenes::read(scene, &BUILT_IN)?;
+        return Ok(vec![case(&name, scene, machine, PERIODS)]);
     }
     let built_in = |it: &BuiltIn| {
-        it.file()
-            .map(|file| case(it.name, it.title, file, it.periods))
+        let machine = it.machine()?;
+        Ok(case(it.name, it.title, machine, it.periods))
     };
     found.into_iter().map(built_in).collect()
 }

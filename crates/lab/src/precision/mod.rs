@@ -155,7 +155,7 @@ fn measured(
     let truth = Truth::of(&case.task, &scale, &|share| {
         progress.say(&format!("{name}: reference, {:.0} %", 100.0 * share));
     })?;
-    progress.one();
+    progress.more(1);
     let bench = Bench {
         task: &case.task,
         truth: &truth,
@@ -165,7 +165,7 @@ fn measured(
     let mut rows: Vec<Row> = Vec::new();
     for family in families {
         progress.say(&format!("{name}: {}", family.name));
-        rows.extend(bench.family(family, &|| progress.one())?);
+        rows.extend(bench.family(family, &|| progress.more(1))?);
     }
     Ok(SceneReport::new(case, machine, &truth, scale, rows))
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use softstop::{Excitation, Release, Scene, Slope, Stop};
+use softstop::{Release, Scene, Slope, Stop};
 use softstop_dynamics::zone::grazing_frequencies;
 
 /// The clearance rho of the diagrams.
@@ -79,21 +79,14 @@ impl Law {
     /// The machine with m = k1 = F0 = 1.
     pub(super) fn scene(self, frequency: f64, clearance: f64) -> Scene {
         let critical = 2.0 * self.stiffness().sqrt();
-        Scene {
-            mass: 1.0,
-            stiffness: 1.0,
+        let mut scene = Scene {
             damping: DAMPING,
-            excitation: Excitation {
-                amplitude: 1.0,
-                frequency,
-                phase: 0.0,
-            },
             clearance,
             contact_damping: DAMPING + damping_ratio() * critical,
-            stop: self.stop(),
-            piercing: None,
-            rigid: None,
-        }
+            ..Scene::of_stop(self.stop())
+        };
+        scene.excitation.frequency = frequency;
+        scene
     }
 }
 

@@ -139,7 +139,7 @@ pub fn transitions(rules: &Rules, range: (f64, f64), values: &[f64]) -> Result<V
     let family = Along::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
     let bar = Progress::open("looks at motions");
     let watcher = |_, _| {
-        bar.one();
+        bar.more(1);
         interrupt::go_on()
     };
     let found = Explorer::new(&family, range, *rules, &watcher).explore(values);
