@@ -262,7 +262,7 @@ fn a_machine_in_si_units_has_the_same_optimum() -> Outcome {
         high: range.high * unit,
     };
     let press = Problem {
-        machine: Machine::of_scene(ratios.machine.scene.in_units(units)?),
+        machine: Machine::from(ratios.machine.scene.in_units(units)?),
         axes: axes(
             in_units(Interval::held(7.0), units.stiffness),
             in_units(CLEARANCE, length),

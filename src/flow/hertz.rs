@@ -15,16 +15,20 @@ pub struct Hertz {
     pub mass: f64,
 }
 
-impl Hertz {
-    /// No power law at all.
-    pub(super) const ABSENT: Self = Self {
-        stiffness: 0.0,
-        exponent: 1.0,
-        dissipation: 0.0,
-        origin: 0.0,
-        mass: 1.0,
-    };
+/// No power law at all.
+impl Default for Hertz {
+    fn default() -> Self {
+        Self {
+            stiffness: 0.0,
+            exponent: 1.0,
+            dissipation: 0.0,
+            origin: 0.0,
+            mass: 1.0,
+        }
+    }
+}
 
+impl Hertz {
     /// Force in N.
     pub fn force(&self, position: f64, velocity: f64) -> f64 {
         let depth = (position - self.origin).max(0.0);

@@ -16,7 +16,12 @@ use super::{Departure, Flow};
 impl Segment {
     /// The step of a linear law; `low` is what rounding took from the position before.
     pub fn pushed(flow: &Flow, from: &Departure, low: f64) -> Self {
-        let mut segment = Self::in_time(flow, &Hertz::ABSENT, from, (from.position, from.velocity));
+        let mut segment = Self::in_time(
+            flow,
+            &Hertz::default(),
+            from,
+            (from.position, from.velocity),
+        );
         segment.low = low;
         segment.ends_at(segment.reach_in_time(flow, from));
         segment
@@ -24,7 +29,7 @@ impl Segment {
 
     /// The step of a mass that is held while the push changes.
     pub fn held(flow: &Flow, from: &Departure) -> Self {
-        let mut segment = Self::blank(flow, &Hertz::ABSENT);
+        let mut segment = Self::blank(flow, &Hertz::default());
         segment.depth[0] = from.position;
         segment.push = push_series(flow, from);
         segment.ends_at(flow.reach.min(outgrown(&segment.push)));

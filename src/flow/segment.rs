@@ -23,7 +23,7 @@ use super::series::{Series, ZERO, derivative, power, value};
 use super::taylor::{evaluate, evaluate_from};
 
 /// The motion of one step, as series in sigma.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Segment {
     /// Deflection in m at departure.
     pub(super) departed: f64,
@@ -55,7 +55,7 @@ pub(crate) struct Segment {
 }
 
 /// Series of a stretched time.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Stretch {
     /// Which root: m >= 2.
     pub index: f64,
@@ -94,20 +94,10 @@ impl Segment {
     /// One without a motion yet.
     pub(super) fn blank(flow: &Flow, hertz: &Hertz) -> Self {
         Self {
-            departed: 0.0,
-            depth: ZERO,
-            low: 0.0,
-            push: ZERO,
-            stretch: None,
-            is_pressed: false,
-            reach: 0.0,
-            contact: 0.0,
-            end: 0.0,
-            last: Moved::default(),
             hertz: *hertz,
             damping: flow.damping(),
             stiffness: flow.modes.stiffness,
-            creep: None,
+            ..Self::default()
         }
     }
 

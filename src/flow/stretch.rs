@@ -18,10 +18,7 @@ impl Segment {
         let mut segment = Self::blank(flow, hertz);
         let mut stretch = Box::new(Stretch {
             index,
-            root: ZERO,
-            velocity: ZERO,
-            time: ZERO,
-            power: ZERO,
+            ..Stretch::default()
         });
         let Stretch {
             root: s,

@@ -6,13 +6,14 @@ use std::ops::ControlFlow;
 
 use super::clock::Instant;
 use super::effort;
+use super::landing::Landing;
 use super::motion::Motion;
 use super::observer::{Crossing, CrossingKind, Observer};
 use super::start::Start;
 use crate::error::MotionError;
 use crate::events::{Found, Guard, Outlook, first_crossing};
-use crate::flow::{Chatter, Drive, Finer, Node};
-use crate::phases::{Hold, Mode, Phase};
+use crate::flow::{Drive, Finer, Node};
+use crate::phases::{Mode, Phase};
 
 /// Crossings and steps at one and the same instant that a motion may make: more than any row of bounces that
 /// is shorter than the resolution of time.
@@ -53,8 +54,11 @@ impl Motion {
         while !self.glide(until)? {
             if let Outlook::Crossing(Found { elapsed, .. }) | Outlook::Ends(elapsed) = self.outlook
             {
-                let instantly = self.is_instant(elapsed);
-                at_once = if instantly { at_once + 1 } else { 0 };
+                at_once = if self.is_instant(elapsed) {
+                    at_once + 1
+                } else {
+                    0
+                };
                 if at_once > MOST_AT_ONCE {
                     return Err(self.stalled());
                 }
@@ -171,17 +175,24 @@ impl Motion {
 
     /// Takes up the motion where a course ends that was not meant to go further.
     fn go_on(&mut self, elapsed: f64, observer: &mut impl Observer) {
+        let drive = self.end_arc(elapsed, observer);
+        let Mode::Chattering(hold) = self.mode else {
+            return self.next_step(elapsed, drive);
+        };
+        let position = self.course.departure.position;
+        let speed = self.course.chatter().map_or(0.0, |chatter| chatter.speed);
+        let mode = self.phases.leave(hold, position, self.push(drive));
+        let rest = Landing::new(position, 0.0, mode, CrossingKind::Rest);
+        self.take_up(rest, Start::new(position, speed), drive, observer);
+    }
+
+    /// Ends the present arc, tells of it, and lets the next one begin there: where the drive then stands.
+    fn end_arc(&mut self, elapsed: f64, observer: &mut impl Observer) -> Drive {
         observer.arc(&self.arc(), elapsed);
         let at = self.clock.after(self.start, elapsed);
         self.force.go_on(&self.clock, at, elapsed);
-        let drive = self.clock.drive(at);
         (self.start, self.now) = (at, at);
-        match (self.mode, self.course.chatter().copied()) {
-            (Mode::Chattering(hold), Some(chatter)) => {
-                self.come_to_rest(hold, &chatter, drive, observer);
-            }
-            _ => self.next_step(elapsed, drive),
-        }
+        self.clock.drive(at)
     }
 
     /// The next Taylor step, from the very place at which the last one ended.
@@ -197,65 +208,44 @@ impl Motion {
         self.begin(departure, self.mode, finer, None);
     }
 
-    /// The end of the summed bounces on a rigid stop.
-    fn come_to_rest(
-        &mut self,
-        hold: Hold,
-        chatter: &Chatter,
-        drive: Drive,
-        observer: &mut impl Observer,
-    ) {
-        let position = self.course.departure.position;
-        let push = self.push(drive);
-        let mode = self.phases.leave(hold, position, push);
-        let state = Start::new(position, 0.0);
-        self.depart(state, drive, mode);
-        observer.crossing(&Crossing {
-            instant: self.start,
-            kind: CrossingKind::Rest,
-            position,
-            velocity: chatter.speed,
-            velocity_after: 0.0,
-            acceleration_before: 0.0,
-            acceleration_after: self.acceleration(mode, position, 0.0, push),
-        });
-    }
-
     fn cross(&mut self, found: Found, observer: &mut impl Observer) {
-        observer.arc(&self.arc(), found.elapsed);
-        let at = self.clock.after(self.start, found.elapsed);
-        let drive = self.clock.drive(at);
-        self.force.go_on(&self.clock, at, found.elapsed);
-        let push = self.push(drive);
+        // A mass that leaves rest and is back at once has not moved.
+        let moved = self.course.departure.velocity != 0.0 || !self.is_instant(found.elapsed);
+        let drive = self.end_arc(found.elapsed, observer);
         if let Some(surface) = self.surface_of(found.guard) {
             self.hum.count(surface, found.velocity);
         }
-        let landing = self.land(&found, push);
-        let before = self.mode;
+        let landing = self.land(&found, self.push(drive), moved);
         self.note_strip(landing.kind);
-        self.start = at;
-        self.now = at;
-        let acceleration_before = self.acceleration(before, found.position, found.velocity, push);
+        let before = Start::new(found.position, found.velocity);
+        self.take_up(landing, before, drive, observer);
+    }
+
+    /// Goes on from a crossing at the start of the next arc, and tells of it.
+    fn take_up(
+        &mut self,
+        landing: Landing,
+        before: Start,
+        drive: Drive,
+        observer: &mut impl Observer,
+    ) {
+        let (push, after) = (self.push(drive), landing.state);
+        let acceleration_before = self.acceleration(self.mode, before, push);
         match landing.chatter {
             Some(chatter) => {
-                let departure = self.departure(landing.state, drive, landing.mode, None);
+                let departure = self.departure(after, drive, landing.mode, None);
                 self.begin(departure, landing.mode, None, Some(chatter));
             }
-            None => self.depart(landing.state, drive, landing.mode),
+            None => self.depart(after, drive, landing.mode),
         }
         observer.crossing(&Crossing {
-            instant: at,
+            instant: self.start,
             kind: landing.kind,
-            position: landing.state.position,
-            velocity: found.velocity,
-            velocity_after: landing.state.velocity,
+            position: after.position,
+            velocity: before.velocity,
+            velocity_after: after.velocity,
             acceleration_before,
-            acceleration_after: self.acceleration(
-                landing.mode,
-                landing.state.position,
-                landing.state.velocity,
-                push,
-            ),
+            acceleration_after: self.acceleration(landing.mode, after, push),
         });
     }
 }

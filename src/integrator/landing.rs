@@ -21,7 +21,7 @@ pub(crate) struct Landing {
 }
 
 impl Landing {
-    fn new(position: f64, velocity: f64, mode: Mode, kind: CrossingKind) -> Self {
+    pub fn new(position: f64, velocity: f64, mode: Mode, kind: CrossingKind) -> Self {
         Self {
             state: Start::new(position, velocity),
             mode,
@@ -52,15 +52,10 @@ impl Motion {
         self.phases.endless_surface(self.mode.phase()?, guard)
     }
 
-    /// State and mode right after a crossing.
-    pub(super) fn land(&self, found: &Found, push: f64) -> Landing {
+    /// State and mode right after a crossing; `moved` as for [`Ground::leave`].
+    pub(super) fn land(&self, found: &Found, push: f64, moved: bool) -> Landing {
         match self.mode {
-            Mode::Moving(phase) => {
-                // A mass that leaves rest and is back at once has not moved.
-                let moved =
-                    self.course.departure.velocity != 0.0 || !self.is_instant(found.elapsed);
-                self.ground().leave(phase, found, push, moved)
-            }
+            Mode::Moving(phase) => self.ground().leave(phase, found, push, moved),
             Mode::Held(hold) | Mode::Chattering(hold) => {
                 let mode = hold.released(found.guard);
                 Landing::new(found.position, 0.0, mode, CrossingKind::Release)
@@ -107,9 +102,9 @@ impl Motion {
     }
 
     /// Acceleration in m/s^2 in a mode.
-    pub fn acceleration(&self, mode: Mode, position: f64, velocity: f64, push: f64) -> f64 {
-        let phases = &self.phases;
-        let moving = |phase| phases.acceleration(phase, position, velocity, push);
+    pub(super) fn acceleration(&self, mode: Mode, at: Start, push: f64) -> f64 {
+        let Start { position, velocity } = at;
+        let moving = |phase| self.phases.acceleration(phase, position, velocity, push);
         mode.phase().map_or(0.0, moving)
     }
 }

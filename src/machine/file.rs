@@ -220,7 +220,7 @@ fn read(mut file: Spanned<DeTable<'_>>, language: Language) -> Result<Machine, T
         start: Start::new(position, velocity),
         speaks: hertz.map_or(language, |_| Language::Hertz),
         preload_deflection: deflection,
-        ..Machine::of_scene(Scene::deserialize(Deserializer::from(file))?)
+        ..Machine::from(Scene::deserialize(Deserializer::from(file))?)
     };
     if language == Language::Ratios {
         machine.scene.damping *= 2.0;

@@ -70,15 +70,9 @@ pub struct Machine {
     pub preload_deflection: Option<f64>,
 }
 
+/// A scene in SI units.
 impl From<Scene> for Machine {
     fn from(scene: Scene) -> Self {
-        Self::of_scene(scene)
-    }
-}
-
-impl Machine {
-    /// A scene in SI units.
-    pub fn of_scene(scene: Scene) -> Self {
         Self {
             name: None,
             description: None,
@@ -88,7 +82,9 @@ impl Machine {
             preload_deflection: None,
         }
     }
+}
 
+impl Machine {
     /// A machine of the paper, by the name `unloaded` or `loaded` of its regime.
     pub fn named(name: &str) -> Option<Self> {
         let ratios = match name {
@@ -110,7 +106,7 @@ impl Machine {
         Ok(Self {
             start: Start::new(0.0, 14.0),
             speaks: Language::Ratios,
-            ..Self::of_scene(ratios.scene()?)
+            ..Self::from(ratios.scene()?)
         })
     }
 

@@ -91,8 +91,10 @@ impl Stated {
 
 fn flat(machine: &Machine, ratios: &Ratios) -> Map<String, Value> {
     let regime = ratios.piercing.map_or(Regime::Unloaded, |_| Regime::Loaded);
-    let named = |it| Some((ratio(it)?.to_owned(), machine.value(it)?.into()));
-    let named = machine.parameters().filter_map(named);
+    let named = RATIOS.into_iter().filter_map(|name| {
+        let value = machine.value(machine.parameter(name).ok()?)?;
+        Some((name.to_owned(), value.into()))
+    });
     let others = [
         ("regime".to_owned(), regime.name().into()),
         ("preload".to_owned(), ratios.preload.into()),
@@ -100,20 +102,17 @@ fn flat(machine: &Machine, ratios: &Ratios) -> Map<String, Value> {
     named.chain(others).collect()
 }
 
-/// What the paper's ratio of a parameter is called in JSON; none of those that have no ratio.
-const fn ratio(parameter: Parameter) -> Option<&'static str> {
-    Some(match parameter {
-        Parameter::Clearance => "clearance",
-        Parameter::StopStiffness => "stiffness",
-        Parameter::Damping => "damping",
-        Parameter::ContactDamping => "contact_damping",
-        Parameter::PiercingStiffness => "piercing_stiffness",
-        Parameter::PiercingFriction => "piercing_friction",
-        Parameter::Thickness => "thickness",
-        Parameter::Travel => "travel",
-        _ => return None,
-    })
-}
+/// What the paper's ratios are called in JSON, but for frequency and preload.
+const RATIOS: [&str; 8] = [
+    "damping",
+    "clearance",
+    "contact_damping",
+    "stiffness",
+    "piercing_stiffness",
+    "piercing_friction",
+    "thickness",
+    "travel",
+];
 
 /// What a motion settles on, by the same names in all reports.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

@@ -215,7 +215,7 @@ fn law(stop: Stop, language: Language) -> Value {
     let model = stop.model();
     let chained = matches!(stop, Stop::PiecewiseLinear { .. });
     let released = matches!(stop, Stop::KelvinVoigt { .. });
-    let machine = Machine::of_scene(Scene::of_stop(stop));
+    let machine = Machine::from(Scene::of_stop(stop));
     let own = machine.parameters().filter_map(|parameter| {
         let field = parameter.name().strip_prefix("stop.")?;
         Some((field.to_owned(), number(parameter, language)))

@@ -32,7 +32,7 @@ fn machines() -> Result<Vec<Machine>, Box<dyn std::error::Error>> {
 
 /// The same machine in SI units, its frequency in Hz.
 fn twin(machine: &Machine) -> Result<Machine, Box<dyn std::error::Error>> {
-    let mut twin = Machine::of_scene(machine.scene.in_units(UNITS)?);
+    let mut twin = Machine::from(machine.scene.in_units(UNITS)?);
     let hertz = twin.scene.excitation.frequency / std::f64::consts::TAU;
     twin.apply([("excitation.frequency_hz", format!("{hertz:?}").as_str())])?;
     Ok(twin)

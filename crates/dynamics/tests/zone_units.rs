@@ -82,7 +82,7 @@ proptest! {
 
 #[test]
 fn a_zone_that_is_not_there_is_told_in_the_units_of_the_machine() {
-    let mut machine = Machine::of_scene(machine(10.0, 0.02, 0));
+    let mut machine = Machine::from(machine(10.0, 0.02, 0));
     let error = ZoneError::NoFold {
         frequency: std::f64::consts::PI.into(),
     };
