@@ -43,6 +43,8 @@ pub use zone::Zone;
 /// What sibling crates share beyond this page, without any promise.
 #[doc(hidden)]
 pub mod internals {
+    pub use crate::attractors::starts::evenly;
+    pub use crate::orbit::regime::ImpactCounter;
     pub use crate::orbit::turn::turns;
     pub use crate::peak::highest;
 }

@@ -101,10 +101,9 @@ pub fn run(arguments: &PaperArguments) -> Result<(), Failure> {
     let asked = &arguments.figures;
     let is_wanted = |name: &str| asked.is_empty() || asked.iter().any(|it| it == name);
     let wanted = || FIGURES.iter().filter(|(name, _)| is_wanted(name));
-    let studio = Studio::new(if arguments.draft {
-        Detail::Draft
-    } else {
-        Detail::Full
+    let studio = Studio::new(match arguments.draft {
+        true => Detail::Draft,
+        false => Detail::Full,
     });
     let files = wanted().flat_map(|(_, figure)| figure.files);
     let mut names: Vec<&str> = files.copied().collect();

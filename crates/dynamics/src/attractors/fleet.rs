@@ -115,18 +115,14 @@ impl<'a> Fleet<'a> {
         periods: u64,
         from: u64,
     ) -> Result<(), SurveyError> {
-        let mut afloat: Vec<&mut &mut Voyage> = voyages
-            .iter_mut()
-            .filter(|voyage| voyage.error.is_none())
-            .collect();
-        let jobs: Vec<Job> = afloat
-            .iter()
-            .map(|voyage| Job {
-                machine: 0,
-                start: voyage.state,
-                periods,
-            })
-            .collect();
+        let afloat = voyages.iter_mut().filter(|voyage| voyage.error.is_none());
+        let mut afloat: Vec<&mut &mut Voyage> = afloat.collect();
+        let job = |voyage: &&mut &mut Voyage| Job {
+            machine: 0,
+            start: voyage.state,
+            periods,
+        };
+        let jobs: Vec<Job> = afloat.iter().map(job).collect();
         let logs = vec![Vec::new(); jobs.len()];
         let mut log = Log { from, logs };
         let outcomes = softstop_lanes::run(&self.machine, &jobs, &mut log);

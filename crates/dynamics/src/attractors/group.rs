@@ -26,10 +26,8 @@ type Place = [f64; 2];
 pub(super) fn groups(logs: &[&[Start]]) -> Vec<usize> {
     let units = units(logs);
     let place = |state: &Start| [state.position / units[0], state.velocity / units[1]];
-    let places: Vec<Vec<Place>> = logs
-        .iter()
-        .map(|log| log.iter().map(place).collect())
-        .collect();
+    let places = logs.iter().map(|log| log.iter().map(place).collect());
+    let places: Vec<Vec<Place>> = places.collect();
     let cells: Vec<Vec<(i64, i64)>> = places.iter().map(|log| cells(log)).collect();
     let own: Vec<Vec<f64>> = places.iter().map(|log| gaps_within(log)).collect();
     let mut group: Vec<usize> = (0..logs.len()).collect();

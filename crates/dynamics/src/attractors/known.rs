@@ -79,10 +79,8 @@ impl<'a> Book<'a> {
 
     /// Distance of a state from an orbit.
     fn gap(&self, known: &Known, state: &Start) -> f64 {
-        let gaps = known
-            .states
-            .iter()
-            .map(|other| distance(self.frequency(), state, other));
+        let others = known.states.iter();
+        let gaps = others.map(|other| distance(self.frequency(), state, other));
         gaps.fold(f64::INFINITY, f64::min)
     }
 

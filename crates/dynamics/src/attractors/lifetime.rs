@@ -53,11 +53,8 @@ impl Looks {
         if self.0.iter().all(|look| look.gone == 0) {
             return None;
         }
-        let stayed: f64 = self
-            .0
-            .iter()
-            .map(|look| (look.periods * look.stayed) as f64)
-            .sum();
+        let stayed = self.0.iter().map(|look| look.periods * look.stayed);
+        let stayed: f64 = stayed.map(|periods| periods as f64).sum();
         // Where none has stayed, half a motion is taken to have.
         let least = self.0.iter().map(|look| look.periods).min().unwrap_or(1);
         let stayed = stayed.max(0.5 * least as f64);
@@ -68,10 +65,9 @@ impl Looks {
             };
             self.0.iter().map(share).sum::<f64>() - stayed
         };
-        let at = |rate: f64| (rate, excess(rate.exp()));
-        let found = narrow(at(RATES.0), at(RATES.1), WIDTH, |rate| {
-            Ok::<f64, Infallible>(excess(rate.exp()))
-        });
+        let at = |rate: f64| excess(rate.exp());
+        let [low, high] = [RATES.0, RATES.1].map(|rate| (rate, at(rate)));
+        let found = narrow(low, high, WIDTH, |rate| Ok::<f64, Infallible>(at(rate)));
         Some((-found.ok()?.middle()).exp())
     }
 }

@@ -13,7 +13,7 @@ mod group;
 pub(crate) mod known;
 mod lifetime;
 mod search;
-mod starts;
+pub(crate) mod starts;
 
 pub use chaos::Chaos;
 pub use search::{attractors, classify, settle};

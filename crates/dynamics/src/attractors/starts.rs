@@ -69,18 +69,18 @@ impl Region {
     /// Quasi-random starts.
     pub(super) fn starts(&self, count: usize, seed: u64) -> Vec<Start> {
         let shifts = [scramble(seed), scramble(!seed)];
-        let within = |range: [f64; 2], which: usize, index: usize| {
-            let share = (shifts[which] + STEPS[which] * (index + 1) as f64).fract();
-            range[0] + share * (range[1] - range[0])
-        };
+        let within = |[low, high]: [f64; 2], share: f64| low + share * (high - low);
         let start = |index| {
-            Start::new(
-                within(self.position, 0, index),
-                within(self.velocity, 1, index),
-            )
+            let [across, up] = evenly(shifts, index);
+            Start::new(within(self.position, across), within(self.velocity, up))
         };
         (0..count).map(start).collect()
     }
+}
+
+/// Places in the unit square, counted from 0: however many there are, they fill it evenly.
+pub fn evenly(shifts: [f64; 2], index: usize) -> [f64; 2] {
+    std::array::from_fn(|axis| (shifts[axis] + STEPS[axis] * (index + 1) as f64).fract())
 }
 
 /// A number in 0..1 from a seed (SplitMix64, Steele et al. 2014).

@@ -78,10 +78,8 @@ pub struct Basins {
 impl Basins {
     /// Share of the cells whose motions settle in a regime, and its 95 % interval.
     pub fn share(&self, regime: Regime) -> (f64, [f64; 2]) {
-        let own = self
-            .classes
-            .iter()
-            .filter(|class| class.motion.regime() == Some(regime));
+        let classes = self.classes.iter();
+        let own = classes.filter(|class| class.motion.regime() == Some(regime));
         let cells = own.map(|class| class.cells).sum();
         let all = self.cells.len();
         (cells as f64 / all as f64, wilson(cells, all))
@@ -94,11 +92,10 @@ impl Basins {
 
     /// The largest ball all of whose motions settle in a regime, be it on one motion or on several of it.
     pub fn largest_ball_of(&self, regime: Regime) -> Option<Clearing> {
-        let classes = self.classes.iter();
-        let own: Vec<bool> = classes
-            .map(|class| class.motion.regime() == Some(regime))
-            .collect();
-        clearing(&self.grid, |cell| own[usize::from(self.cells[cell])])
+        clearing(&self.grid, |cell| {
+            let class = &self.classes[usize::from(self.cells[cell])];
+            class.motion.regime() == Some(regime)
+        })
     }
 }
 

@@ -47,10 +47,8 @@ impl Branch {
     /// The orbits on it at which a test vanishes, in their order.
     pub fn critical(&self, test: Test) -> impl Iterator<Item = &BranchPoint> {
         let own = move |special: &&Special| special.kind == SpecialKind::Critical(test);
-        self.specials
-            .iter()
-            .filter(own)
-            .map(|special| &special.point)
+        let own = self.specials.iter().filter(own);
+        own.map(|special| &special.point)
     }
 }
 

@@ -133,10 +133,8 @@ impl Quantity {
 /// The place of the cheapest among models, given as error and cost, whose error is within `tolerance`;
 /// of two that cost the same, the first.
 pub fn cheapest(models: &[(Option<f64>, f64)], tolerance: f64) -> Option<usize> {
-    models
-        .iter()
-        .enumerate()
-        .filter(|(_, (error, _))| error.is_some_and(|error| error <= tolerance))
-        .min_by(|(_, a), (_, b)| a.1.total_cmp(&b.1))
-        .map(|(place, _)| place)
+    let models = models.iter().enumerate();
+    let fit = models.filter(|(_, it)| it.0.is_some_and(|error| error <= tolerance));
+    let best = fit.min_by(|(_, a), (_, b)| a.1.total_cmp(&b.1));
+    best.map(|(place, _)| place)
 }

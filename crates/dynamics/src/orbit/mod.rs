@@ -10,7 +10,7 @@ mod newton;
 mod pattern;
 mod periodic;
 pub(crate) mod recurrence;
-mod regime;
+pub(crate) mod regime;
 mod scan;
 mod search;
 pub(crate) mod turn;

@@ -147,17 +147,13 @@ impl Orbit {
             instant: *instant,
             before_impact_velocity: *velocity,
         };
+        let touches = passage.instants.iter().zip(&passage.impacts);
         Ok(Self {
             scene: scene.clone(),
             periods: map.periods(),
             position: state.x,
             velocity: state.y,
-            impacts: passage
-                .instants
-                .iter()
-                .zip(&passage.impacts)
-                .map(touch)
-                .collect(),
+            impacts: touches.map(touch).collect(),
             rests: passage.rests.clone(),
             max_position: map.max_position(state)?,
             monodromy: passage.monodromy,
@@ -177,12 +173,8 @@ impl Orbit {
     /// The order of its impacts.
     pub fn pattern(&self) -> ImpactPattern {
         let instants: Vec<Instant> = self.impacts.iter().map(|touch| touch.instant).collect();
-        ImpactPattern::new(
-            &instants,
-            &self.rests,
-            self.periods,
-            self.scene.clock().period(),
-        )
+        let period = self.scene.clock().period();
+        ImpactPattern::new(&instants, &self.rests, self.periods, period)
     }
 
     /// True if there are infinitely many impacts in its period, ever weaker ones that end in rest.
@@ -197,9 +189,8 @@ impl Orbit {
 
     /// Before-impact velocities in m/s, in order of time.
     pub fn before_impact_velocities(&self) -> impl Iterator<Item = f64> + '_ {
-        self.impacts
-            .iter()
-            .map(|touch| touch.before_impact_velocity)
+        let impacts = self.impacts.iter();
+        impacts.map(|touch| touch.before_impact_velocity)
     }
 
     /// Drive angles of its impacts in rad, w t + phi with t within the drive period of each.

@@ -21,10 +21,8 @@ pub(crate) fn distance(frequency: f64, a: &Start, b: &Start) -> f64 {
 
 /// The size of a motion in m/s: its largest state.
 pub(crate) fn size<'a>(frequency: f64, states: impl IntoIterator<Item = &'a Start>) -> f64 {
-    let zero = Start::REST;
-    let sizes = states
-        .into_iter()
-        .map(|state| distance(frequency, state, &zero));
+    let states = states.into_iter();
+    let sizes = states.map(|state| distance(frequency, state, &Start::REST));
     sizes.fold(0.0, f64::max)
 }
 

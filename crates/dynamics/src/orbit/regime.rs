@@ -42,7 +42,7 @@ impl Regime {
         let mut motion = scene.motion(start)?;
         motion.advance(Clock::at_cycle(transient), &mut ())?;
         let settled = motion.state();
-        let mut counter = Counter(0);
+        let mut counter = ImpactCounter::default();
         let (mut states, mut counts) = (vec![settled], vec![0]);
         for period in 1..=2 * LONGEST {
             motion.advance(Clock::at_cycle(transient + period), &mut counter)?;
@@ -67,9 +67,11 @@ impl fmt::Display for Regime {
     }
 }
 
-struct Counter(u64);
+/// Counts impacts.
+#[derive(Default)]
+pub struct ImpactCounter(pub u64);
 
-impl Observer for Counter {
+impl Observer for ImpactCounter {
     fn crossing(&mut self, crossing: &Crossing) {
         self.0 += u64::from(crossing.impact_velocity().is_some());
     }

@@ -44,9 +44,8 @@ impl Step {
         let found = settles_on(scene.excitation.frequency, states, tolerance);
         let periods = found.unwrap_or(watched);
         let first = (watched - periods) as f64;
-        let own = impacts
-            .iter()
-            .filter(|(instant, _)| instant.cycles >= first);
+        let impacts = impacts.iter();
+        let own = impacts.filter(|(instant, _)| instant.cycles >= first);
         let mut velocities: Vec<f64> = own.clone().map(|(_, velocity)| *velocity).collect();
         velocities.sort_by(f64::total_cmp);
         let regime = Regime {
@@ -62,16 +61,19 @@ impl Step {
                     ..*instant
                 };
                 let instants: Vec<Instant> = own.map(since).collect();
-                let rests = rests(scene, &map, from)?;
+                // Nothing chatters where nothing rebounds from a face.
+                let rests = match scene.wall() {
+                    Some(_) => map.apply(from.into())?.rests,
+                    None => Vec::new(),
+                };
                 let order = ImpactPattern::new(&instants, &rests, regime.periods, scene.period());
                 (MotionKind::repeating(regime, order), None)
             }
             None => {
                 let growth = map.apply(from.into())?.monodromy.norm().ln();
-                let motion = if growth > MUCH {
-                    MotionKind::Chaos
-                } else {
-                    MotionKind::Unsettled
+                let motion = match growth > MUCH {
+                    true => MotionKind::Chaos,
+                    false => MotionKind::Unsettled,
                 };
                 (motion, Some(growth / watched as f64))
             }
@@ -95,14 +97,6 @@ impl Step {
     /// True if it returns, or is chaotic.
     pub fn is_settled(&self) -> bool {
         self.motion != MotionKind::Unsettled
-    }
-}
-
-/// When complete chatter ends on the way from a state; never where nothing rebounds from a face.
-fn rests(scene: &Scene, map: &StroboscopicMap, from: Start) -> Result<Vec<Instant>, MotionError> {
-    match scene.wall() {
-        Some(_) => Ok(map.apply(from.into())?.rests),
-        None => Ok(Vec::new()),
     }
 }
 

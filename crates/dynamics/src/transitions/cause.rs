@@ -78,19 +78,17 @@ impl Course<'_> {
 
     /// A jump to another motion, or into chaos.
     fn jump(&self) -> Vec<Cause> {
-        if self.met_chaos() {
-            self.out_of_chaos(Cause::InterruptedFold)
-        } else {
-            vec![Cause::Fold]
+        match self.met_chaos() {
+            true => self.out_of_chaos(Cause::InterruptedFold),
+            false => vec![Cause::Fold],
         }
     }
 
     /// What led into chaos, and the way out of it if there is one.
     fn out_of_chaos(&self, into: Cause) -> Vec<Cause> {
-        if self.path.last() == Some(&MotionKind::Chaos) {
-            vec![into]
-        } else {
-            vec![into, Cause::OutOfChaos]
+        match self.path.last() {
+            Some(MotionKind::Chaos) => vec![into],
+            _ => vec![into, Cause::OutOfChaos],
         }
     }
 

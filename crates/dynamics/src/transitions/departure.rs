@@ -99,10 +99,9 @@ impl<F: Family + Sync> Explorer<'_, F> {
         while far - near > width {
             let middle = 0.5 * (near + far);
             let there = self.gather(end + sign * middle, &self.fill(states))?;
-            if there.motion.as_ref() == Some(last) {
-                far = middle;
-            } else {
-                near = middle;
+            match there.motion.as_ref() == Some(last) {
+                true => far = middle,
+                false => near = middle,
             }
         }
         Ok(Some(end + sign * 0.5 * (near + far)))

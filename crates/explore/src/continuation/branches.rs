@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use anyhow::anyhow;
 use softstop::Machine;
-use softstop_dynamics::continuation::{Family, SpecialKind, Test};
+use softstop_dynamics::continuation::{Family, Test};
 use softstop_dynamics::{Along, Branch, Follower, Limits};
 
 use super::{ContinueArguments, Followed, family, seed};
@@ -56,13 +56,11 @@ pub(super) fn branches(
     let mut branches = vec![first];
     let mut done = 0;
     for _ in 0..arguments.double {
-        let last = branches.len();
-        let doubled: Vec<Branch> = branches[done..last]
-            .iter()
-            .flat_map(|branch| doubled(family, branch, limits, &bar))
-            .collect();
+        let fresh = branches[done..].iter();
+        let doubled = fresh.flat_map(|branch| doubled(family, branch, limits, &bar));
+        let doubled: Vec<Branch> = doubled.collect();
+        done = branches.len();
         branches.extend(doubled);
-        done = last;
     }
     drop(bar);
     if interrupt::requested() {
@@ -74,11 +72,7 @@ pub(super) fn branches(
 /// The branches of twice the period from the flips of one.
 fn doubled(family: &Along<1>, branch: &Branch, limits: &Limits, bar: &Progress) -> Vec<Branch> {
     let follower = Follower::new(family, branch.periods).with_steps(step(family, limits.range));
-    let flips = branch
-        .specials
-        .iter()
-        .filter(|special| special.kind == SpecialKind::Critical(Test::Flip));
-    flips
-        .filter_map(|flip| follower.doubled(&flip.point, limits, |_| count(bar)).ok())
-        .collect()
+    let flips = branch.critical(Test::Flip);
+    let doubled = flips.map(|flip| follower.doubled(flip, limits, |_| count(bar)));
+    doubled.filter_map(Result::ok).collect()
 }

@@ -182,10 +182,8 @@ fn pieces(branch: &Branch) -> Vec<Vec<&BranchPoint>> {
 }
 
 fn is_special(branch: &Branch, point: &BranchPoint) -> bool {
-    branch
-        .specials
-        .iter()
-        .any(|special| special.point.state() == point.state())
+    let mut specials = branch.specials.iter();
+    specials.any(|special| special.point.state() == point.state())
 }
 
 /// By a point inside: the ends of a stretch are on the border.

@@ -122,11 +122,7 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
         let message = format!("--second {name}: must be another one than --parameter");
         return Err(Failure::usage(message));
     }
-    let files = if second.is_some() {
-        &FILES[..]
-    } else {
-        &FILES[..2]
-    };
+    let files = &FILES[..if second.is_some() { 4 } else { 2 }];
     let export = Export::open(&arguments.output, files)?;
     let branches = branches::branches(arguments, &machine, &first)?;
     let chart = chart::branches(&machine, first.parameter, &branches);

@@ -39,14 +39,11 @@ pub(super) fn costs(
         }
     }
     let per_period = |total: f64| total / periods as f64;
-    Ok(times
-        .into_iter()
-        .zip(evaluations)
-        .map(|(times, evaluations)| Cost {
-            evaluations_per_period: per_period(evaluations as f64),
-            microseconds_per_period: 1e6 * per_period(median(times)),
-        })
-        .collect())
+    let cost = |(times, evaluations): (Vec<f64>, u64)| Cost {
+        evaluations_per_period: per_period(evaluations as f64),
+        microseconds_per_period: 1e6 * per_period(median(times)),
+    };
+    Ok(times.into_iter().zip(evaluations).map(cost).collect())
 }
 
 fn run(scene: &Scene, start: Start, periods: u64) -> Result<Evaluations, MotionError> {

@@ -109,11 +109,7 @@ fn help() -> String {
 pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     check(arguments)?;
     let machine = arguments.machine.machine()?;
-    let files = if arguments.structure {
-        &FILES[..]
-    } else {
-        &FILES[..2]
-    };
+    let files = &FILES[..if arguments.structure { 4 } else { 2 }];
     let frequencies = arguments
         .structure
         .then(|| structure::frequencies(&machine, arguments));

@@ -63,13 +63,7 @@ pub(super) fn svg(title: &str, machine: &Machine, structure: &Structure) -> Stri
         panel.cells(&mut pen, structure.frequencies.len(), &colors);
         for (row, track) in structure.tracks.iter().enumerate() {
             let place = (LEFT - 10.0, top + ROW * (row as f64 + 0.7));
-            let scene = if track.entry.is_truth {
-                " = the scene"
-            } else {
-                ""
-            };
-            let name = format!("{}{scene}", track.entry.name());
-            pen.text(place, LETTERS, Align::Right, &name);
+            pen.text(place, LETTERS, Align::Right, &track.entry.full_name());
         }
         panel.axes(&mut pen, &Axes::new(LETTERS, Some(&across), "", (8, 0)));
     }

@@ -213,16 +213,12 @@ impl FidelityReport {
     fn write(&self, machine: &Machine, study: &Study) -> String {
         let units = Units::of(machine);
         let named = |figures: &Record, entry: &Entry| {
-            let scene = if entry.is_truth { " = the scene" } else { "" };
-            let name = format!("{}{scene}", entry.name());
-            Record::default()
-                .with("model", "", name)
-                .and(figures.clone())
+            let named = Record::default().with("model", "", entry.full_name());
+            named.and(figures.clone())
         };
         let models = self.models.iter().zip(&study.entries);
-        let models: Vec<Record> = models
-            .map(|(it, entry)| named(&it.figures, entry))
-            .collect();
+        let models = models.map(|(it, entry)| named(&it.figures, entry));
+        let models: Vec<Record> = models.collect();
         let value = units.label(self.quantity.name(), Unit::Of(self.unit));
         let mut text = heading(&format!("Models of {} for its {value}", title(machine)));
         text += &format!("{}\n{}", below(&models, &units), self.advice(&units, study));
@@ -232,9 +228,8 @@ impl FidelityReport {
         }
         if let Some(tracks) = &self.structure {
             let tracks = tracks.iter().zip(&study.entries);
-            let tracks: Vec<Record> = tracks
-                .map(|(it, entry)| named(&it.figures, entry))
-                .collect();
+            let tracks = tracks.map(|(it, entry)| named(&it.figures, entry));
+            let tracks: Vec<Record> = tracks.collect();
             let title = heading("Regimes over the sweep, from rest and from a flung start");
             text += &format!("\n{title}{}", below(&tracks, &units));
         }

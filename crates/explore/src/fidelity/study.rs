@@ -90,10 +90,9 @@ impl Study {
             progress.step()?;
         }
         drop(progress);
-        let motions: Vec<(Scene, Start)> = found
-            .iter()
-            .map(|(_, _, model, answers)| (model.scene.clone(), answers.observed.start))
-            .collect();
+        let motions = found.iter();
+        let motions = motions.map(|(_, _, it, seen)| (it.scene.clone(), seen.observed.start));
+        let motions: Vec<(Scene, Start)> = motions.collect();
         let costs = costs(&motions, task.periods, task.repeats)?;
         let entry = |((rung, likeness, model, seen), cost): ((Rung, _, Model, _), Cost)| Entry {
             rung,
@@ -114,12 +113,9 @@ impl Study {
 
     /// The cheapest model within a tolerance; the scene itself always is.
     pub(super) fn cheapest(&self, tolerance: f64) -> Option<&Entry> {
-        let models: Vec<(Option<f64>, f64)> = self
-            .entries
-            .iter()
-            .map(|entry| (entry.error, entry.cost.evaluations_per_period))
-            .collect();
-        cheapest(&models, tolerance).map(|place| &self.entries[place])
+        let models = self.entries.iter();
+        let models = models.map(|entry| (entry.error, entry.cost.evaluations_per_period));
+        cheapest(&models.collect::<Vec<_>>(), tolerance).map(|place| &self.entries[place])
     }
 }
 
@@ -127,6 +123,12 @@ impl Entry {
     /// Its rung and what it has in common with the contact.
     pub(super) fn name(&self) -> String {
         name(self.rung, self.likeness)
+    }
+
+    /// The same, and whether it is the scene itself.
+    pub(super) fn full_name(&self) -> String {
+        let scene = if self.is_truth { " = the scene" } else { "" };
+        self.name() + scene
     }
 }
 

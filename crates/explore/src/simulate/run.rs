@@ -109,12 +109,8 @@ pub(super) fn columns() -> [Column<Sample>; 5] {
 
 /// The positions in m at which the law of force changes.
 pub(super) fn faces(scene: &Scene) -> Vec<f64> {
-    let mut faces: Vec<f64> = scene
-        .phases()
-        .surfaces
-        .iter()
-        .map(|surface| surface.position)
-        .collect();
+    let surfaces = scene.phases().surfaces;
+    let mut faces: Vec<f64> = surfaces.iter().map(|it| it.position).collect();
     faces.sort_by(f64::total_cmp);
     faces.dedup();
     faces

@@ -94,11 +94,8 @@ fn draw(pen: &mut Pen, panel: &Panel, stroke: &Stroke, line: Line) {
 
 /// The arrow of a piece.
 fn arrow(pen: &mut Pen, panel: &Panel, piece: &Piece, line: Line) {
-    let places: Vec<(f64, f64)> = piece
-        .points
-        .iter()
-        .map(|point| panel.place(*point))
-        .collect();
+    let places = piece.points.iter().map(|point| panel.place(*point));
+    let places: Vec<(f64, f64)> = places.collect();
     let length = |pair: &[(f64, f64)]| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
     let whole: f64 = places.windows(2).map(length).sum();
     if whole < SHORTEST || piece.kind == PhaseKind::Free {

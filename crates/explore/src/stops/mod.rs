@@ -94,11 +94,9 @@ const LEAD: f64 = 0.12;
 /// # Errors
 /// [`Failure`] if one of its scenes cannot be read or run.
 pub fn picture(exhibit: &Exhibit) -> Result<String, Failure> {
-    let strokes = exhibit
-        .laws
-        .iter()
-        .map(|law| Ok((law.label, stroke(exhibit, law)?)))
-        .collect::<Result<Vec<_>, Failure>>()?;
+    let stroke = |law: &Specimen| Ok((law.label, stroke(exhibit, law)?));
+    let strokes = exhibit.laws.iter().map(stroke);
+    let strokes = strokes.collect::<Result<Vec<_>, Failure>>()?;
     let subtitle = format!("full stroke of 1 kg, first touch at {} m/s", exhibit.speed);
     Ok(loops::svg(exhibit.title, &subtitle, &strokes))
 }

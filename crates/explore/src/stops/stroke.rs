@@ -80,9 +80,8 @@ impl Stroke {
 
     /// All its points in order of time.
     pub fn points(&self) -> impl Iterator<Item = (f64, f64)> + Clone + '_ {
-        self.pieces
-            .iter()
-            .flat_map(|piece| piece.points.iter().copied())
+        let pieces = self.pieces.iter();
+        pieces.flat_map(|piece| piece.points.iter().copied())
     }
 }
 

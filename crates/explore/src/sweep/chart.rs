@@ -107,16 +107,11 @@ impl<'a> SweepChart<'a> {
 
     /// Least and largest value with some room.
     fn range(&self, show: Show) -> (f64, f64) {
-        let values = self
-            .chains
-            .iter()
-            .flat_map(|chain| &chain.steps)
-            .flat_map(show);
-        let (low, high) = around(values, 0.0);
-        let low = if 0.0 < low && low < 0.35 * high {
-            0.0
-        } else {
-            low
+        let steps = self.chains.iter().flat_map(|chain| &chain.steps);
+        let (low, high) = around(steps.flat_map(show), 0.0);
+        let low = match low {
+            0.0.. if low < 0.35 * high => 0.0,
+            _ => low,
         };
         let room = 0.05 * (high - low);
         (if low == 0.0 { 0.0 } else { low - room }, high + room)
@@ -136,10 +131,9 @@ impl<'a> SweepChart<'a> {
             let mut seen = Points::new();
             let shared = chaos_both_ways(machine);
             for chain in machine {
-                let way = if chain.direction == Direction::Up {
-                    1
-                } else {
-                    2
+                let way = match chain.direction {
+                    Direction::Up => 1,
+                    Direction::Down => 2,
                 };
                 for step in &chain.steps {
                     let is_shared = shared.contains(&step.value.to_bits());

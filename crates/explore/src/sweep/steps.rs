@@ -45,10 +45,8 @@ pub(super) fn rows<'a>(plan: &Plan, chains: &'a [Chain]) -> impl Iterator<Item =
 }
 
 fn velocities(step: &Step) -> String {
-    let written = step
-        .velocities
-        .iter()
-        .map(|velocity| format!("{velocity:.9}"));
+    let velocities = step.velocities.iter();
+    let written = velocities.map(|velocity| format!("{velocity:.9}"));
     written.collect::<Vec<_>>().join(" ")
 }
 

@@ -96,10 +96,8 @@ fn exact(pen: &mut Pen, atlas: &Atlas, cell: f64, top: f64) {
         corner: (LEFT, top),
         cell: (cell, STRIP),
     };
-    let cells = atlas
-        .columns
-        .iter()
-        .map(|column| Vec::from_iter(column.exact));
+    let columns = atlas.columns.iter();
+    let cells = columns.map(|column| Vec::from_iter(column.exact));
     grid.verdicts(pen, &cells.collect::<Vec<_>>());
     pen.frame(grid.area());
     grid.stiffness_axis(pen);

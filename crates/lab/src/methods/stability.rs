@@ -85,10 +85,8 @@ fn radius(matrix: &Matrix2<f64>) -> f64 {
 fn over_modes(z: f64, zeta: f64, factor: impl Fn(Complex<f64>) -> Complex<f64>) -> f64 {
     let root = Complex::from(zeta * zeta - 1.0).sqrt();
     let modes = [root, -root].map(|root| (root - zeta) * z);
-    modes
-        .into_iter()
-        .map(|s| factor(s).norm())
-        .fold(0.0, f64::max)
+    let sizes = modes.map(|s| factor(s).norm());
+    sizes.into_iter().fold(0.0, f64::max)
 }
 
 impl Alpha {

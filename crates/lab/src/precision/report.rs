@@ -231,11 +231,8 @@ fn summary(report: &PrecisionReport) -> String {
 }
 
 fn summary_line(chart: &SceneReport, quantity: Quantity) -> String {
-    let own = chart
-        .lead
-        .at
-        .iter()
-        .filter(|lead| lead.quantity == quantity);
+    let leads = chart.lead.at.iter();
+    let own = leads.filter(|lead| lead.quantity == quantity);
     let cells = own.map(|lead| match &lead.next {
         Some(next) => format!("{} {}", ratio(lead), next.method),
         None => "none gets there".to_owned(),

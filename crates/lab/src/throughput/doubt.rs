@@ -74,9 +74,8 @@ impl Doubt {
     }
 
     fn passes_near(&self, position: f64, errors: f64) -> bool {
-        self.levels
-            .iter()
-            .any(|level| (position - level).abs() <= errors)
+        let mut levels = self.levels.iter();
+        levels.any(|level| (position - level).abs() <= errors)
     }
 }
 

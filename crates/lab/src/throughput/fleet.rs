@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 use serde::Serialize;
-use softstop::{Clock, Crossing, MotionError, Observer, Ratios, Scene, SceneError, Start};
+use softstop::{Clock, MotionError, Ratios, Scene, SceneError, Start};
+use softstop_dynamics::internals::ImpactCounter;
 use softstop_lanes::{Instructions, Job, Machine, Outcome, run_parallel, run_with};
 
 /// The motions.
@@ -74,23 +75,13 @@ impl Range {
     }
 }
 
-/// Counts impacts.
-#[derive(Default)]
-struct Impacts(u64);
-
-impl Observer for Impacts {
-    fn crossing(&mut self, crossing: &Crossing) {
-        self.0 += u64::from(crossing.impact_velocity().is_some());
-    }
-}
-
 impl Fleet {
     /// One motion after the other by the safe engine, each machine lowered first.
     ///
     /// # Errors
     /// [`MotionError`] if a motion cannot be computed.
     pub fn safe(&self) -> Result<Count, MotionError> {
-        let mut impacts = Impacts::default();
+        let mut impacts = ImpactCounter::default();
         for (scene, job) in self.scenes.iter().zip(&self.jobs) {
             let mut motion = scene.motion(job.start)?;
             motion.advance(Clock::at_cycle(job.periods), &mut impacts)?;

@@ -137,11 +137,9 @@ fn exponent(scene: &Scene, step: &Step, batch: u64) -> Result<(f64, f64), Motion
 }
 
 fn of(orbit: &Orbit) -> Place {
-    let (eta, velocity) = (
-        orbit.scene.excitation.frequency,
-        orbit.before_impact_velocity(),
-    );
-    [eta, velocity, Exponents::of(orbit).per_second()[0]]
+    let [exponent, _] = Exponents::of(orbit).per_second();
+    let eta = orbit.scene.excitation.frequency;
+    [eta, orbit.before_impact_velocity(), exponent]
 }
 
 /// z = 1 from the grazing g0 to its fold, ever denser towards the fold.

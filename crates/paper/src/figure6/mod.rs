@@ -74,12 +74,8 @@ fn table(chains: &[Chain]) -> Result<Vec<u8>> {
         .flat_map(|chain| chain.steps.iter().map(move |step| (chain, step)));
     let rows = steps.map(|(chain, step)| {
         let (rho, way) = (chain.machine.scene.clearance, chain.direction.name());
-        (
-            rho,
-            way,
-            format!("{:.9}", step.value),
-            diagram::fields(step),
-        )
+        let eta = format!("{:.9}", step.value);
+        (rho, way, eta, diagram::fields(step))
     });
     figure::table(&columns, rows)
 }

@@ -92,10 +92,8 @@ fn shows(step: &Step, orbit: &Orbit) -> bool {
 /// The steps of both sweeps nearest to a frequency, if the diagram shows it.
 fn at(diagram: &Diagram, eta: f64) -> impl Iterator<Item = &Step> {
     let (low, high) = diagram.part.range;
-    let ways = diagram
-        .ways
-        .iter()
-        .filter(move |_| (low..=high).contains(&eta));
+    let ways = diagram.ways.iter();
+    let ways = ways.filter(move |_| (low..=high).contains(&eta));
     ways.filter_map(move |chain| near(&chain.steps, eta))
 }
 

@@ -62,10 +62,8 @@ fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmoni
     };
     let scene = Law::KelvinVoigt(stiffness).scene(frequency, NARROW);
     let survey = attractors(&scene, &options, &|_, _| interrupt::go_on())?;
-    let orbits = survey
-        .attractors
-        .iter()
-        .filter_map(|it| it.orbit.as_deref());
+    let motions = survey.attractors.iter();
+    let orbits = motions.filter_map(|it| it.orbit.as_deref());
     let sub = orbits.filter(|orbit| orbit.periods > 1 && !orbit.impacts.is_empty());
     let motion = |orbit: &Orbit| Subharmonic {
         stiffness,

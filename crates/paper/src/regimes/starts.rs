@@ -6,6 +6,7 @@ use anyhow::Result;
 use rayon::prelude::*;
 use softstop::{Ratios, Scene, Start};
 use softstop_dynamics::attractors::{Arrival, Options, SurveyError, settle};
+use softstop_dynamics::internals::evenly;
 use softstop_dynamics::{MotionKind, Orbit, StroboscopicMap};
 
 use super::Window;
@@ -15,8 +16,6 @@ use softstop_explore::basin::cells::RegimeMap;
 
 /// Half of the ranges of position and velocity in which starts lie, in units of the clearance.
 const REGION: (f64, f64) = (1.5, 2.0);
-/// 1/g and 1/g^2 with g^3 = g + 1: multiples that fill a square evenly (Roberts 2018).
-const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
 /// Drive periods before motions are looked at, and the longest period looked for.
 const OPTIONS: (u64, usize) = (250, 12);
 /// Drive periods in which small differences have to grow a hundredfold in chaos.
@@ -75,11 +74,11 @@ fn of_one(machine: &Ratios, count: usize) -> Result<MotionKind> {
 
 /// Starts that fill the region evenly, the same for all machines.
 fn starts(machine: &Ratios, count: usize) -> Vec<Start> {
-    let within = |half: f64, which: usize, index: usize| {
-        let share = (STEPS[which] * (index + 1) as f64).fract();
-        machine.clearance * half * (2.0 * share - 1.0)
+    let within = |half: f64, share: f64| machine.clearance * half * (2.0 * share - 1.0);
+    let start = |index| {
+        let [across, up] = evenly([0.0; 2], index);
+        Start::new(within(REGION.0, across), within(REGION.1, up))
     };
-    let start = |index| Start::new(within(REGION.0, 0, index), within(REGION.1, 1, index));
     (0..count).map(start).collect()
 }
 

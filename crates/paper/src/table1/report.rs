@@ -97,10 +97,9 @@ impl RowReport {
 
     /// From one motion to the other by an arrow, or one in both directions where there is no hysteresis.
     pub(super) fn transition(&self, there: &str, both: &str) -> String {
-        let arrow = if self.hysteresis == Some(false) {
-            both
-        } else {
-            there
+        let arrow = match self.hysteresis {
+            Some(false) => both,
+            _ => there,
         };
         let motions = self.from.as_ref().zip(self.to.as_ref());
         motions.map_or("not found".to_owned(), |(from, to)| {

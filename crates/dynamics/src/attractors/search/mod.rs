@@ -149,10 +149,9 @@ impl<'a> Search<'a> {
 
     /// Drive periods for which motions may be watched.
     fn patience(&self) -> u64 {
-        if self.fleet.is_fast() {
-            self.options.patience
-        } else {
-            self.options.patience / DEAR
+        match self.fleet.is_fast() {
+            true => self.options.patience,
+            false => self.options.patience / DEAR,
         }
     }
 

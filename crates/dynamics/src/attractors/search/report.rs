@@ -16,10 +16,8 @@ impl Search<'_> {
         attractors.extend(self.resting(counted));
         attractors.extend(self.wandering(counted));
         attractors.sort_by_key(|attractor| std::cmp::Reverse(attractor.starts));
-        let errors = self
-            .members
-            .iter_mut()
-            .filter_map(|member| member.voyage.error.take());
+        let members = self.members.iter_mut();
+        let errors = members.filter_map(|member| member.voyage.error.take());
         let errors: Vec<MotionError> = errors.collect();
         Ok(Survey {
             attractors,

@@ -27,11 +27,8 @@ impl Search<'_> {
             .afloat()
             .filter(|index| self.members[*index].standing == Standing::Wandering)
             .collect();
-        let logs: Vec<&[Start]> = wandering
-            .iter()
-            .map(|index| self.members[*index].voyage.log.as_slice())
-            .collect();
-        let numbers = groups(&logs);
+        let log = |index: &usize| self.members[*index].voyage.log.as_slice();
+        let numbers = groups(&wandering.iter().map(log).collect::<Vec<&[Start]>>());
         let mut of_group: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (index, number) in wandering.into_iter().zip(numbers) {
             self.members[index].group = Some(number);
