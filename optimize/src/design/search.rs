@@ -87,7 +87,7 @@ pub fn search(
     let values = space.values(&best);
     problem
         .at(&values)
-        .or_else(|_| problem.soon(&[values.clone()]).remove(0))
+        .or_else(|_| problem.soon(std::slice::from_ref(&values)).remove(0))
         .map_err(|infeasible| SearchError::NoDesign {
             place: place(problem, &values),
             reason: infeasible.reason,
