@@ -5,7 +5,7 @@ use super::report::{RowReport, TableReport};
 use softstop_draw::table::TablePicture;
 
 const NOTES: [&str; 2] = [
-    "η: where the motion is lost; ends of branches located to 1e-10, chaos by its lifetime.",
+    "η: where the motion is lost; ends of branches located to 1e-10, chaos by its lifetime, to 5 digits.",
     "G grazing, SN fold or jump, PD flip, ISN and IPD such a jump or a cascade of flips ending in chaos, OCH out of chaos.",
 ];
 
@@ -37,7 +37,7 @@ fn line(row: &RowReport, paper: &PaperRow) -> (Vec<String>, bool) {
     let cells = vec![
         letter.unwrap_or_default().to_owned(),
         row.number.to_string(),
-        row.eta.map_or("–".to_owned(), |eta| format!("{eta:.10}")),
+        row.figure().unwrap_or_else(|| "–".to_owned()),
         row.paper.to_string(),
         row.transition(" → ", " ↔ ").replace("->", "→"),
         match row.hysteresis {

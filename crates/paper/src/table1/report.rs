@@ -56,7 +56,7 @@ impl TableReport {
     pub fn text(&self) -> String {
         let columns = columns! { RowReport, it;
             "No." [None] Plain, "" => it.number;
-            "eta" [None] Fixed(10), "" => it.eta;
+            "eta" [None] Plain, "" => it.figure();
             "paper" [None] Plain, "" => it.paper;
             "hyst." [None] Plain, "" => it.hysteresis;
             "type" [None] Plain, "" => it.kind.clone();
@@ -71,6 +71,13 @@ impl TableReport {
 }
 
 impl RowReport {
+    /// The frequency with the digits that are known of it: of chaos that ends, by the lifetimes of some motions, five.
+    pub fn figure(&self) -> Option<String> {
+        let of_chaos = self.kind.as_deref() == Some("OCH");
+        let decimals = if of_chaos { 5 } else { 10 };
+        self.eta.map(|eta| format!("{eta:.decimals$}"))
+    }
+
     fn new(row: &PaperRow, found: Option<&Match<'_>>, rules: &Rules) -> Self {
         let missing =
             "not found: no transition between these motions was met near the paper's figure";
