@@ -45,20 +45,22 @@ impl Course {
 
     /// The change of the state that a change `by` at departure and one of the drive's frequency bring, per rad/s of
     /// the latter; the departure is `since` seconds after the instant at which the drive's angle is held. None but in
-    /// closed form.
+    /// closed form. With the transition up to then.
     pub(crate) fn detuned(
         &self,
-        elapsed: f64,
+        (elapsed, transition): (f64, &Matrix2<f64>),
         since: f64,
         by: Vector2<f64>,
     ) -> Option<Vector2<f64>> {
         match self.form {
             Form::Held => Some(Vector2::new(by.x, 0.0)),
             Form::Particular { particular, .. } => {
-                let answer = |elapsed: f64| {
-                    particular.detuned(&self.flow, since + elapsed, self.drive_at(elapsed))
-                };
-                Some(answer(elapsed) + self.flow.modes.at(elapsed) * (by - answer(0.0)))
+                let answer =
+                    |elapsed: f64, drive| particular.detuned(&self.flow, since + elapsed, drive);
+                Some(
+                    answer(elapsed, self.drive_at(elapsed))
+                        + transition * (by - answer(0.0, self.departure.drive)),
+                )
             }
             _ => None,
         }

@@ -2,13 +2,15 @@
 
 use nalgebra::Vector2;
 
-use super::saltation;
+use super::{Tangent, saltation};
 use crate::integrator::{Arc, Clock, Crossing, Motion, Observer};
 
 /// Watches a motion from time 0 and gathers d(state)/d(w), the state at time 0 held: x' of the variational
 /// equation x'' + 2 a x' + b x = -A t sin(w t + phi), with the saltation matrices of the crossings.
 #[derive(Debug, Clone)]
 pub struct Detuning {
+    /// d(state)/d(state at time 0), gathered on the same way.
+    pub tangent: Tangent,
     clock: Clock,
     change: Option<Vector2<f64>>,
 }
@@ -17,6 +19,7 @@ impl Detuning {
     /// Of a motion that begins now.
     pub fn new(motion: &Motion) -> Self {
         Self {
+            tangent: Tangent::default(),
             clock: *motion.clock(),
             change: Some(Vector2::zeros()),
         }
@@ -42,11 +45,13 @@ impl Detuning {
 impl Observer for Detuning {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         let since = self.clock.time(arc.start);
+        let transition = self.tangent.along(arc, elapsed);
         let by = self.change;
-        self.change = by.and_then(|by| arc.course.detuned(elapsed, since, by));
+        self.change = by.and_then(|by| arc.course.detuned((elapsed, &transition), since, by));
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
+        self.tangent.crossing(crossing);
         self.change = self.change.map(|change| saltation(crossing) * change);
     }
 }

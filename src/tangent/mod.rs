@@ -30,8 +30,9 @@ impl Default for Tangent {
     }
 }
 
-impl Observer for Tangent {
-    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+impl Tangent {
+    /// Goes along an arc: its transition.
+    fn along(&mut self, arc: &Arc<'_>, elapsed: f64) -> Matrix2<f64> {
         let transition = match (arc.phase, arc.course.segment()) {
             (Some(_), Some(segment)) => {
                 let (transition, damping) = segment.transition(elapsed);
@@ -45,6 +46,13 @@ impl Observer for Tangent {
             (None, _) => Matrix2::new(1.0, 0.0, 0.0, 0.0),
         };
         self.matrix = transition * self.matrix;
+        transition
+    }
+}
+
+impl Observer for Tangent {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.along(arc, elapsed);
     }
 
     fn crossing(&mut self, crossing: &Crossing) {

@@ -202,6 +202,9 @@ pub(crate) const LARGEST_STEP: f64 = 0.25;
 /// Largest turn of the direction per step, as a cosine, and that up to which steps grow.
 const LARGEST_TURN: f64 = 0.96;
 const GENTLE_TURN: f64 = 0.995;
+/// The latter where guesses bend with the curve, and how many times as long the first step is there.
+const QUICK_TURN: f64 = 0.985;
+const QUICK_STEP: f64 = 2.5;
 
 /// Goes along a curve with adaptive steps.
 pub(crate) struct Walker<'a, E: Equations> {
@@ -212,6 +215,8 @@ pub(crate) struct Walker<'a, E: Equations> {
     /// Change of the direction by arclength, across it, where guesses take it.
     bend: Option<DVector<f64>>,
     care: Care,
+    /// Cosine of the turn of the direction per step up to which steps grow.
+    gentle: f64,
     pub step: f64,
     largest: f64,
 }
@@ -237,6 +242,7 @@ impl<'a, E: Equations> Walker<'a, E> {
             equations,
             bend: None,
             care: Care::Full,
+            gentle: GENTLE_TURN,
             node,
             direction,
             slopes,
@@ -250,6 +256,8 @@ impl<'a, E: Equations> Walker<'a, E> {
         Self {
             bend: Some(DVector::zeros(self.direction.len())),
             care: Care::Quick,
+            gentle: QUICK_TURN,
+            step: (QUICK_STEP * self.step).min(self.largest),
             ..self
         }
     }
@@ -272,7 +280,7 @@ impl<'a, E: Equations> Walker<'a, E> {
             node,
             direction,
             slopes,
-            grows: turn > GENTLE_TURN,
+            grows: turn > self.gentle,
         })
     }
 

@@ -7,7 +7,6 @@ use super::way::Border;
 use softstop::internals::{Detuning, Motion};
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Scene, Start,
-    Tangent,
 };
 
 /// How often an orbit crosses what; it changes only where the orbit grazes something.
@@ -96,7 +95,6 @@ impl Round {
         let mut watch = Watch {
             scene,
             clock: *motion.clock(),
-            tangent: Tangent::default(),
             detuning: Detuning::new(&motion),
             impacts: Vec::new(),
             sequence: Sequence::default(),
@@ -116,7 +114,7 @@ impl Round {
         watch.sequence.impacts = watch.impacts.len();
         Ok(Self {
             ends,
-            monodromy: watch.tangent.matrix,
+            monodromy: watch.detuning.tangent.matrix,
             by_frequency: watch.detuning.at_drive_angle(&motion),
             impacts: watch.impacts,
             sequence: watch.sequence,
@@ -157,7 +155,6 @@ pub(crate) fn carry_on(
 struct Watch<'a> {
     scene: &'a Scene,
     clock: Clock,
-    tangent: Tangent,
     detuning: Detuning,
     impacts: Vec<f64>,
     sequence: Sequence,
@@ -172,7 +169,6 @@ struct Watch<'a> {
 
 impl Observer for Watch<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.tangent.arc(arc, elapsed);
         self.detuning.arc(arc, elapsed);
         let was_held = std::mem::replace(&mut self.is_held, arc.course.is_held());
         if self.is_held && arc.start == Clock::at_cycle(0) {
@@ -182,7 +178,6 @@ impl Observer for Watch<'_> {
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
-        self.tangent.crossing(crossing);
         self.detuning.crossing(crossing);
         let Instant { cycles, offset } = crossing.instant;
         let time = cycles + offset / self.clock.period();
