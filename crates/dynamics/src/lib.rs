@@ -3,6 +3,9 @@
 //! impacts and rest coexist) → [`attractors`], [`basin`], [`sweep`], [`transitions`] (what is seen from
 //! many starts), told in one vocabulary ([`motion`]), and [`models`] (how simple a model of a scene may be).
 //!
+//! Records and errors that will grow are `non_exhaustive`; options, which a user fills in, and the enumerations that say
+//! what a motion, an end or a model is, are not, so that a match says what a new one asks for.
+//!
 //! What they all speak of stands at the root; the rest is where it is computed. Work that may be long takes a
 //! [`watch::Watcher`], [`watch::unwatched`] if nobody looks on.
 //!

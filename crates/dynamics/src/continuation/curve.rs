@@ -27,6 +27,7 @@ pub struct Region {
 
 /// A point of a curve of special points.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct CurvePoint {
     /// The parameters' values.
     pub parameters: [f64; 2],

@@ -55,6 +55,7 @@ pub enum SpecialKind {
 
 /// An orbit that grazes.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Graze {
     /// Drive angle in rad of the touch, counted on over the drive periods from the phase at time 0.
     pub angle: f64,

@@ -8,6 +8,7 @@ use softstop::{
 /// What a contact is like that begins with a given velocity, with nothing but the contact's own forces
 /// (neither suspension nor drive): the limit in which a rigid stop's restitution is defined.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Contact {
     /// Before-impact velocity in m/s, > 0.
     pub velocity: f64,

@@ -86,6 +86,7 @@ pub enum Likeness {
 
 /// A model of a scene.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Model {
     /// Its rung.
     pub rung: Rung,

@@ -152,6 +152,7 @@ impl Plan {
 
 /// One machine on its way through the values of the parameter.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Chain {
     /// The machine; its own value of the parameter plays no part.
     pub machine: Machine,
