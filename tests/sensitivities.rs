@@ -52,7 +52,7 @@ fn detuned(scene: &Scene, change: f64) -> Scene {
 fn turned(scene: &Scene, start: Start, turns: f64) -> (Vector2<f64>, Option<Vector2<f64>>) {
     let clock = scene.clock();
     let mut motion = scene.motion(start).expect("valid");
-    let mut watch = Detuning::new(&motion);
+    let mut watch = Detuning::default();
     let until = clock.after(Clock::at_cycle(0), turns * clock.period());
     motion.advance(until, &mut watch).expect("bounded");
     motion.tell_arc(&mut watch);

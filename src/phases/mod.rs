@@ -268,9 +268,8 @@ impl Phase {
     /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m of spring, damper and stop
     /// together.
     pub fn slopes(&self, position: f64, velocity: f64) -> (f64, f64) {
-        let (stiffness, damping) = self
-            .hertz
-            .map_or((0.0, 0.0), |hertz| hertz.slopes(position, velocity));
+        let of_hertz = |hertz: Hertz| hertz.slopes(position, velocity);
+        let (stiffness, damping) = self.hertz.map_or((0.0, 0.0), of_hertz);
         (self.law.stiffness + stiffness, self.law.damping + damping)
     }
 
@@ -292,9 +291,7 @@ impl Phase {
     /// another, the suspension left out.
     pub(crate) fn elastic_work(&self, low: f64, high: f64) -> f64 {
         let force = 0.5 * self.contact.stiffness * (high + low) - self.contact.force;
-        let hertz = self
-            .hertz
-            .map_or(0.0, |hertz| hertz.energy(high) - hertz.energy(low));
-        force * (high - low) + hertz
+        let of_hertz = |hertz: Hertz| hertz.energy(high) - hertz.energy(low);
+        force * (high - low) + self.hertz.map_or(0.0, of_hertz)
     }
 }

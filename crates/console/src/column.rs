@@ -85,6 +85,7 @@ macro_rules! columns {
 
 impl<T> Column<T> {
     /// The table for people has it, too, its numbers in this form.
+    #[must_use]
     pub const fn shown(self, form: Form) -> Self {
         Self {
             form: Some(form),

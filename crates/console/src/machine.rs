@@ -4,7 +4,6 @@ use std::path::Path;
 
 use clap::{Args, ValueEnum};
 use serde::{Deserialize, Serialize};
-use softstop::Ratios;
 
 /// The paper's two regimes (its Figs. 6 and 7, a and b).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
@@ -17,14 +16,6 @@ pub enum Regime {
 }
 
 impl Regime {
-    /// The paper's machine in this regime, at its point A or B.
-    pub const fn ratios(self) -> Ratios {
-        match self {
-            Self::Unloaded => Ratios::unloaded(),
-            Self::Loaded => Ratios::loaded(),
-        }
-    }
-
     /// The paper's name of its point in this regime (Fig. 7).
     pub const fn point(self) -> &'static str {
         match self {

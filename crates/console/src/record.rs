@@ -39,6 +39,7 @@ pub(crate) struct Figure {
 
 impl Record {
     /// The same, and a figure for people under a label of its own.
+    #[must_use]
     pub fn with(mut self, name: &'static str, label: &str, cell: impl Into<Cell>) -> Self {
         self.0.push(Figure {
             name,
@@ -51,6 +52,7 @@ impl Record {
     }
 
     /// The same, and then the figures of another one.
+    #[must_use]
     pub fn and(mut self, other: Self) -> Self {
         self.0.extend(other.0);
         self

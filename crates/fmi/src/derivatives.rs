@@ -12,12 +12,6 @@ use crate::variable::Access;
 const AVAILABLE: &str = "orders 1 to 7 are (and zeros of any higher order)";
 const _: () = assert!(HIGHEST_ORDER == 7);
 
-/// An order that an input can have.
-fn order_of(order: i32) -> Option<usize> {
-    let order = usize::try_from(order).ok()?;
-    (1..=HIGHEST_ORDER).contains(&order).then_some(order)
-}
-
 impl<U: Unit> Instance<U> {
     /// Sets time derivatives of continuous inputs at the present time; those of other orders go on.
     pub(crate) fn set_input_derivatives(
@@ -28,11 +22,8 @@ impl<U: Unit> Instance<U> {
     ) -> Result<(), Fault> {
         self.require_settable()?;
         let now = self.time();
-        let mut signals = self
-            .signals
-            .iter()
-            .map(|signal| signal.seen_from(now))
-            .collect::<Vec<_>>();
+        let signals = self.signals.iter();
+        let mut signals: Vec<_> = signals.map(|signal| signal.seen_from(now)).collect();
         let mut set = vec![false; signals.len()];
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
             let variable = find::<U>(reference, Type::Real)?;
@@ -51,10 +42,10 @@ impl<U: Unit> Instance<U> {
                     allowed: format!("{} (derivative of order {order})", variable.kind.range()),
                 });
             }
-            match order_of(order) {
-                Some(order) => signals[number][order] = value,
-                None if order < 1 || value != 0.0 => return Err(fault(AVAILABLE)),
-                None => {}
+            match usize::try_from(order) {
+                Ok(order @ 1..=HIGHEST_ORDER) => signals[number][order] = value,
+                _ if order < 1 || value != 0.0 => return Err(fault(AVAILABLE)),
+                _ => {}
             }
             set[number] = true;
         }

@@ -95,7 +95,7 @@ impl Round {
         let mut watch = Watch {
             scene,
             clock: *motion.clock(),
-            detuning: Detuning::new(&motion),
+            detuning: Detuning::default(),
             impacts: Vec::new(),
             sequence: Sequence::default(),
             slowest: None,

@@ -109,22 +109,19 @@ functions! { $
 
     /// Reads real values.
     fn fmi2GetReal<U>(component, references: *const c_uint, count: size_t, values: *mut f64) {
-        let references = read("vr", references, count)?;
-        let values = write("value", values, count)?;
+        let (references, values) = (read("vr", references, count)?, write("value", values, count)?);
         component.instance.read(references, values, Type::Real, |value| value)
     }
 
     /// Reads integers and enumerations.
     fn fmi2GetInteger<U>(component, references: *const c_uint, count: size_t, values: *mut c_int) {
-        let references = read("vr", references, count)?;
-        let values = write("value", values, count)?;
+        let (references, values) = (read("vr", references, count)?, write("value", values, count)?);
         component.instance.read(references, values, Type::Integer, |value| value as i32)
     }
 
     /// Reads Booleans.
     fn fmi2GetBoolean<U>(component, references: *const c_uint, count: size_t, values: *mut c_int) {
-        let references = read("vr", references, count)?;
-        let values = write("value", values, count)?;
+        let (references, values) = (read("vr", references, count)?, write("value", values, count)?);
         component.instance.read(references, values, Type::Boolean, |value| value as i32)
     }
 
@@ -138,22 +135,19 @@ functions! { $
 
     /// Sets real values.
     fn fmi2SetReal<U>(component, references: *const c_uint, count: size_t, values: *const f64) {
-        let references = read("vr", references, count)?;
-        let values = read("value", values, count)?;
+        let (references, values) = (read("vr", references, count)?, read("value", values, count)?);
         component.instance.set(references, values, Type::Real, |value| value)
     }
 
     /// Sets integers and enumerations.
     fn fmi2SetInteger<U>(component, references: *const c_uint, count: size_t, values: *const c_int) {
-        let references = read("vr", references, count)?;
-        let values = read("value", values, count)?;
+        let (references, values) = (read("vr", references, count)?, read("value", values, count)?);
         component.instance.set(references, values, Type::Integer, f64::from)
     }
 
     /// Sets Booleans; every number but 0 means true.
     fn fmi2SetBoolean<U>(component, references: *const c_uint, count: size_t, values: *const c_int) {
-        let references = read("vr", references, count)?;
-        let values = read("value", values, count)?;
+        let (references, values) = (read("vr", references, count)?, read("value", values, count)?);
         component.instance.set(references, values, Type::Boolean, |value| f64::from(u8::from(value != 0)))
     }
 
