@@ -18,9 +18,7 @@ const SLOW: f64 = 1e-5;
 impl Constants {
     /// The constants of a phase, unless it is one that only the safe engine follows.
     pub fn of(phases: &Phases, phase: &Phase) -> Option<Self> {
-        let one_end = matches!(phase.exits[..], [Exit::Forward(_) | Exit::Backward(_)]);
-        let span = if one_end { SPAN } else { 0.5 * SPAN };
-        let mut constants = Self::of_flow(phases, phase, span)?;
+        let mut constants = Self::of_flow(phases, phase)?;
         let mut guarded = false;
         (constants.low, constants.high) = (f64::NEG_INFINITY, f64::INFINITY);
         for (guard, exit) in phase.guards.iter().zip(&phase.exits) {
@@ -68,6 +66,17 @@ impl Constants {
         one_sided && self.level == f64::INFINITY && self.stiffness < 0.0
     }
 
+    /// The phases that follow on it, the further ones first.
+    pub fn beyond(&self) -> impl Iterator<Item = usize> {
+        let ends = [
+            (self.high.is_finite(), self.beyond_high),
+            (self.level.is_finite(), self.beyond_guard),
+            (self.low.is_finite(), self.beyond_low),
+        ];
+        let real = ends.into_iter().filter(|(is_there, _)| *is_there);
+        real.map(|(_, beyond)| beyond as usize)
+    }
+
     /// The same with x itself in the place of the guard.
     pub fn of_position(&self) -> Self {
         Self {
@@ -102,7 +111,7 @@ impl Constants {
         };
     }
 
-    fn of_flow(phases: &Phases, phase: &Phase, span: f64) -> Option<Self> {
+    fn of_flow(phases: &Phases, phase: &Phase) -> Option<Self> {
         let flow = &phase.flow;
         let (cosine, sine) = flow.steady()?;
         if phase.hertz.is_some() {
@@ -110,7 +119,7 @@ impl Constants {
         }
         let w = flow.frequency;
         let fastest = w.max(flow.modes.fastest_rate());
-        let window = span / fastest;
+        let window = SPAN / fastest;
         let soft = flow.modes.stiffness.abs() < SOFTEST * w * w;
         if TAU / w > FINEST * window || (soft && phase.law.force != 0.0) {
             return None;

@@ -5,6 +5,7 @@ use pulp::Simd;
 use super::job::{Job, Outcome};
 use super::lanes::{Lanes, Mask};
 use super::law::{Constants, Law};
+use super::round::round;
 use super::safe::{self, Place, Resumed};
 use super::state::State;
 use super::task::Task;
@@ -19,6 +20,8 @@ pub(super) struct Engine<'a, S: Simd, const N: usize> {
     pub laws: Vec<Law<S, N>>,
     /// Phases that in all machines end at one position alone.
     plain: Vec<bool>,
+    /// The phases in the order of a round.
+    order: Vec<usize>,
     pub state: State<S, N>,
     /// The job of each lane.
     lanes: Vec<Option<usize>>,
@@ -44,6 +47,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         Self {
             laws: vec![Law::new(simd); most],
             plain: (0..most).map(is_plain).collect(),
+            order: round(task.machines),
             state: State::idle(simd),
             lanes: vec![None; Lanes::<S, N>::COUNT],
             next: 0,
@@ -59,7 +63,8 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         }
         let mut steps = 0;
         while self.lanes.iter().any(Option::is_some) {
-            for phase in 0..self.laws.len() {
+            for at in 0..self.order.len() {
+                let phase = self.order[at];
                 let here = self.state.phase.equals(self.state.phase.like(phase as f64));
                 let active = self.state.busy() & here;
                 if !active.any() {
@@ -108,8 +113,16 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     /// may end by more than one position.
     #[inline(always)]
     fn step<const GUARDED: bool>(&mut self, phase: usize, active: Mask<S, N>) {
-        let law = &self.laws[phase];
         let due = self.due();
+        let active = if GUARDED {
+            self.dash(phase, active, due)
+        } else {
+            active
+        };
+        if !active.any() {
+            return;
+        }
+        let law = &self.laws[phase];
         let reached = if GUARDED {
             self.stand(law, active)
         } else {

@@ -4,8 +4,7 @@ use pulp::Simd;
 
 use super::lanes::Lanes;
 
-/// Largest product of window and fastest rate; half of it where a phase has several ends, which are not to be met
-/// in one window.
+/// Product of window and fastest rate.
 pub(super) const SPAN: f64 = 1.2;
 /// Terms of the free motion's polynomial: for times of up to half a window, 0.6^16 / 16! < 2e-17.
 pub(super) const TERMS: usize = 15;

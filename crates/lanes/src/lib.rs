@@ -2,7 +2,8 @@
 //!
 //! The lanes go in lock-step through the same work, phase after phase: those that are in a phase scan windows of time
 //! until each stands before one that may hold the phase's end; then all decide about that window, guess the crossing
-//! from the cubic through its ends, take the exact flow to the guess and a step of Newton's method from there. What a
+//! from the cubic through its ends, take the exact flow to the guess and a step of Newton's method from there. Through a
+//! phase with several ends they dash, where the velocity keeps its sign up to the one that it leads to. What a
 //! lane concludes it concludes by certificates as the safe engine does, [`Motion`](softstop::internals::Motion); what
 //! lies within rounding of two answers, or is not a plain crossing (rest, sticking, chatter), is handed to the safe
 //! engine up to the end of the drive period. Machines with power laws go there altogether.
@@ -13,6 +14,7 @@
 
 mod constants;
 mod cubic;
+mod dash;
 mod dispatch;
 mod engine;
 mod guard;
@@ -26,6 +28,7 @@ mod machine;
 mod parts;
 mod registers;
 mod root;
+mod round;
 mod run;
 mod safe;
 mod scan;

@@ -154,11 +154,15 @@ fn newton<S: Simd, const N: usize>(
         value = value.mul_add(at, *term);
     }
     let step = value / slope;
-    // The curvature, to the digits that a short step needs.
+    (at - step, slope - second(local, at) * step, step)
+}
+
+/// Second derivative of a function a moment later, to the digits that a short step needs.
+#[inline(always)]
+pub(super) fn second<S: Simd, const N: usize>(local: &Local<S, N>, at: Lanes<S, N>) -> Lanes<S, N> {
     let fifth = (at * local[5]).mul_add(at.like(20.0), local[4] * at.like(12.0));
     let third = at.mul_add(fifth, local[3] * at.like(6.0));
-    let bend = at.mul_add(third, local[2] + local[2]);
-    (at - step, slope - bend * step, step)
+    at.mul_add(third, local[2] + local[2])
 }
 
 /// Value of a function a moment later.

@@ -13,14 +13,16 @@ use super::search::Found;
 /// Shortest stretch, in windows, that is looked at.
 const LEAST: f64 = 1e-12;
 /// Share of a window that is looked at last before the safe engine decides.
-const SHORTEST: f64 = 1.0 / 256.0;
+const SHORTEST: f64 = 1.0 / 512.0;
 
 /// Where a lane comes to, and if it crosses there, the phase beyond and the impacts that it makes.
-struct End<S: Simd, const N: usize> {
-    x: Lanes<S, N>,
-    v: Lanes<S, N>,
-    beyond: Lanes<S, N>,
-    impact: Lanes<S, N>,
+pub(super) struct End<S: Simd, const N: usize> {
+    pub x: Lanes<S, N>,
+    pub v: Lanes<S, N>,
+    pub beyond: Lanes<S, N>,
+    pub impact: Lanes<S, N>,
+    /// The velocity before an impact.
+    pub before: Lanes<S, N>,
 }
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
@@ -100,8 +102,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             law.side.mul_add(parts.y + parts.p, law.offset),
             law.side * hits.choose(found.velocity, parts.u + parts.q),
         );
-        let state = &mut self.state;
-        let (end, is_impact) = if GUARDED {
+        let end = if GUARDED {
             let is_high = guard.is_low.not().and_not(guard.is_further);
             let at_high = hits & is_high;
             let at_further = hits & guard.is_further;
@@ -109,31 +110,41 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             let turned = turns.choose(zero, v);
             let x = at_further.choose(found.position, x);
             let beyond = is_high.choose(law.beyond_high, law.beyond_low);
-            (
-                End {
-                    x: at_high.choose(law.high, (hits & guard.is_low).choose(law.low, x)),
-                    v: at_high.choose(v * law.bounce, turned),
-                    beyond: guard.is_further.choose(law.beyond_guard, beyond),
-                    impact: at_high.choose(law.impact, zero),
-                },
-                at_high & zero.below(law.impact),
-            )
+            End {
+                x: at_high.choose(law.high, (hits & guard.is_low).choose(law.low, x)),
+                v: at_high.choose(v * law.bounce, turned),
+                beyond: guard.is_further.choose(law.beyond_guard, beyond),
+                impact: at_high.choose(law.impact, zero),
+                before: v,
+            }
         } else {
-            (
-                End {
-                    x: hits.choose(law.end, x),
-                    v: hits.choose(v * law.end_bounce, v),
-                    beyond: law.beyond_end,
-                    impact: law.end_impact,
-                },
-                hits & zero.below(law.end_impact),
-            )
+            End {
+                x: hits.choose(law.end, x),
+                v: hits.choose(v * law.end_bounce, v),
+                beyond: law.beyond_end,
+                impact: law.end_impact,
+                before: v,
+            }
         };
+        let (cos, sin) = law.angle(parts);
+        self.settle((moved, hits), &end, (cos, sin), time);
+        (hits, doubtful)
+    }
+
+    /// Puts the lanes `moved` where they have come to after `time`, the lanes `hits` into the phase beyond.
+    #[inline(always)]
+    pub fn settle(
+        &mut self,
+        (moved, hits): (Mask<S, N>, Mask<S, N>),
+        end: &End<S, N>,
+        (cos, sin): (Lanes<S, N>, Lanes<S, N>),
+        time: Lanes<S, N>,
+    ) {
+        let state = &mut self.state;
         state.x = moved.choose(end.x, state.x);
         state.v = moved.choose(end.v, state.v);
         state.phase = hits.choose(end.beyond, state.phase);
         state.impacts = hits.choose(state.impacts + end.impact, state.impacts);
-        let (cos, sin) = law.angle(parts);
         state.angle.0 = moved.choose(cos, state.angle.0);
         state.angle.1 = moved.choose(sin, state.angle.1);
         state.offset = moved.choose(state.offset + time, state.offset);
@@ -141,9 +152,11 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             state.wrap();
         }
         if self.task.watch.impacts {
-            self.tell_impacts(is_impact, v);
+            let impacts = hits & time.like(0.0).below(end.impact);
+            if impacts.any() {
+                self.tell_impacts(impacts, end.before);
+            }
         }
-        (hits, doubtful)
     }
 
     /// Shares of a window that the active lanes look at next: half of that which could not be decided.

@@ -164,6 +164,28 @@ impl<S: Simd, const N: usize> Law<S, N> {
             .mul_add(parts.y, self.damping.mul_add(parts.u, steady))
     }
 
+    /// x''' and x'''' of the two parts together.
+    #[inline(always)]
+    pub fn jerk_and_snap(
+        &self,
+        frequency: Lanes<S, N>,
+        parts: &Parts<S, N>,
+    ) -> (Lanes<S, N>, Lanes<S, N>) {
+        let turn = -(frequency * frequency);
+        let second = self.next_derivative((parts.y, parts.u));
+        let third = self.next_derivative(second);
+        let (third, fourth) = self.next_derivative(third);
+        let steady = turn * parts.p;
+        (turn.mul_add(parts.q, third), turn.mul_add(steady, fourth))
+    }
+
+    /// True where the further guard is the end of the velocity, under dry friction.
+    #[inline(always)]
+    pub fn reverses(&self) -> Mask<S, N> {
+        let zero = self.level.like(0.0);
+        self.by_position.equals(zero) & self.level.equals(zero)
+    }
+
     /// Largest value of the further guard's weighted sum within the hulls of position and velocity.
     #[inline(always)]
     pub fn guard_top(&self, positions: &Hull<S, N>, velocities: &Hull<S, N>) -> Lanes<S, N> {

@@ -12,7 +12,7 @@ use super::parts::Parts;
 pub(super) const MOST_WINDOWS: usize = 12;
 /// In the first window after a crossing the motion falls from zero; 16/3 times the error of the cubic there is
 /// what its second Bernstein coefficient has to lie below zero.
-const LEAVING: f64 = 16.0 / 3.0;
+pub(super) const LEAVING: f64 = 16.0 / 3.0;
 
 /// How far the lanes have come.
 #[derive(Debug, Clone, Copy)]

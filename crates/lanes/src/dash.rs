@@ -1,0 +1,181 @@
+//! Straight through a phase, without a look: to the position that ends it in the direction of the velocity, or to where
+//! the velocity ends.
+
+use pulp::Simd;
+
+use super::engine::Engine;
+use super::lanes::{Lanes, Mask};
+use super::law::Law;
+use super::local;
+use super::look::End;
+use super::parts::{Hull, Parts};
+use super::scan::LEAVING;
+use super::taylor::MOMENT;
+
+/// Share of a window that a crossing stays before the end of the period or job: more than rounding could bridge.
+const BEFORE: f64 = 1e-4;
+
+/// A way out of the phase, and what the lane is on it.
+struct Way<S: Simd, const N: usize> {
+    /// Forward, and from rest.
+    up: Mask<S, N>,
+    rests: Mask<S, N>,
+    /// To where the velocity ends; else to the surface.
+    turns: Mask<S, N>,
+    surface: Lanes<S, N>,
+    acceleration: Lanes<S, N>,
+    /// About when.
+    time: Lanes<S, N>,
+}
+
+impl<S: Simd, const N: usize> Engine<'_, S, N> {
+    /// Moves the lanes on whose velocity provably keeps its sign up to the end of the phase, and that meet no further
+    /// guard before; those that are left.
+    #[inline(always)]
+    pub fn dash(&mut self, phase: usize, active: Mask<S, N>, due: Lanes<S, N>) -> Mask<S, N> {
+        let law = &self.laws[phase];
+        let frequency = self.state.drive.frequency;
+        let (x, v) = (self.state.x, self.state.v);
+        let (zero, one) = (x.like(0.0), x.like(1.0));
+        let here = self.parts(law);
+        let way = self.way(law, &here);
+        let turns = active & way.turns;
+        let parts = here.at(law, frequency, &here.next(law), way.time);
+        let derivatives = local::derivatives(law, frequency, &parts);
+        let mut sought = local::guard::<S, N, false>(&derivatives, (one, zero, zero));
+        sought[0] = sought[0] - way.surface;
+        if turns.any() {
+            let velocity = local::guard::<S, N, true>(&derivatives, (zero, one, zero));
+            for (sought, velocity) in sought.iter_mut().zip(velocity) {
+                *sought = turns.choose(velocity, *sought);
+            }
+        }
+        let crossing = local::zero(&sought, law.window, active);
+        let moment = crossing.time;
+        let time = way.time + moment;
+        let latest = law.window.min(due - law.window * due.like(BEFORE));
+        let in_time = zero.below(time) & time.below(latest);
+
+        let (mut end_x, mut end_v) = (way.surface, crossing.slope);
+        let mut rate = local::second(&sought, moment);
+        let distance = (way.surface - x).abs();
+        let mut apart = law.grain.below(distance);
+        if turns.any() {
+            let (position, _) = local::state(&derivatives, moment);
+            let short = ((position - x).abs() + law.grain).below(distance);
+            apart = turns.choose_mask(short, apart);
+            rate = turns.choose(crossing.slope, rate);
+            end_x = turns.choose(position, end_x);
+            end_v = turns.choose(zero, end_v);
+        }
+        let ends = [(v, way.acceleration), (end_v, rate)];
+        let alone = way.is_straight(law, &here, time, ends);
+        let hits = active & crossing.sure & in_time & apart & alone;
+
+        let at_high = way.up.and_not(turns);
+        let beyond = way.up.choose(law.beyond_high, law.beyond_low);
+        let end = End {
+            x: end_x,
+            v: end_v * at_high.choose(law.bounce, one),
+            beyond: turns.choose(law.beyond_guard, beyond),
+            impact: at_high.choose(law.impact, zero),
+            before: end_v,
+        };
+        let angle = law.angle(&parts.turned::<MOMENT>(frequency, moment));
+        self.state.share = hits.choose(one, self.state.share);
+        self.settle((hits, hits), &end, angle, time);
+        active.and_not(hits)
+    }
+
+    /// The way that the lanes would go if their acceleration changed at a constant rate.
+    #[inline(always)]
+    fn way(&self, law: &Law<S, N>, here: &Parts<S, N>) -> Way<S, N> {
+        let (x, v) = (self.state.x, self.state.v);
+        let frequency = self.state.drive.frequency;
+        let (zero, half) = (x.like(0.0), x.like(0.5));
+        let acceleration = law.acceleration(frequency, here);
+        let (jerk, snap) = law.jerk_and_snap(frequency, here);
+        let rests = v.equals(zero);
+        let up = zero.below(rests.choose(acceleration, v));
+        let surface = up.choose(law.high, law.low);
+        let distance = surface - x;
+        let twice = distance + distance;
+        let square = v.mul_add(v, acceleration * twice);
+        let root = square.square_root();
+        let start = twice / (v + up.choose(root, -root));
+        let (third, sixth) = (jerk * x.like(1.0 / 6.0), snap * x.like(1.0 / 24.0));
+        let mean = after(v, [acceleration * half, third, sixth], start);
+        let off = start.mul_add(mean, -distance);
+        let change = [acceleration, jerk * half, snap * x.like(1.0 / 6.0)];
+        let mut time = start - off / after(v, change, start);
+        let last = after(v, change, time);
+        let turns = zero.below(up.choose(last, -last)).not() & law.reverses();
+        if turns.any() {
+            let start = -v / acceleration;
+            let bend = start.mul_add(snap * x.like(1.0 / 3.0), jerk) * half;
+            let off = start * start * bend;
+            let slope = start.mul_add(start.mul_add(snap * half, jerk), acceleration);
+            time = turns.choose(start - off / slope, time);
+        }
+        Way {
+            up,
+            rests,
+            turns,
+            surface,
+            acceleration,
+            time,
+        }
+    }
+}
+
+impl<S: Simd, const N: usize> Way<S, N> {
+    /// True where the velocity, with the acceleration as `ends` say now and after `time`, keeps its sign, and the
+    /// further guard is not met.
+    #[inline(always)]
+    fn is_straight(
+        &self,
+        law: &Law<S, N>,
+        here: &Parts<S, N>,
+        time: Lanes<S, N>,
+        ends: [(Lanes<S, N>, Lanes<S, N>); 2],
+    ) -> Mask<S, N> {
+        let [(v0, a0), (v1, a1)] = ends;
+        let one = time.like(1.0);
+        let third = time * one.like(1.0 / 3.0);
+        let share = time * law.per_window;
+        let square = share * share;
+        let slack = law.rate_slack(here) * (square * square);
+        let side = self.up.choose(one, -one);
+        let (b1, b2) = (side * third.mul_add(a0, v0), side * (v1 - third * a1));
+        // At an end where it is zero its first Bernstein coefficient needs no proof.
+        let first = self.rests.choose(b1, side * v0);
+        let last = self.turns.choose(b2, side * v1);
+        let margin = (self.rests | self.turns).choose(slack * one.like(LEAVING), slack);
+        let keeps = (law.slow + margin).below(first.min(last).min(b1.min(b2)));
+        let reverses = law.reverses();
+        let away = (side * law.by_velocity).below(one.like(0.0));
+        let mut alone = reverses & away;
+        if keeps.and_not(reverses).any() {
+            let rates = Hull::of(ends[0], ends[1], third, slack);
+            let x = here.y + (here.p - law.edge);
+            let positions = Hull {
+                low: x.min(self.surface),
+                high: x.max(self.surface),
+            };
+            let top = law.guard_top(&positions, &rates) + law.grain * law.guard_scale;
+            alone = alone | top.below(law.level).and_not(reverses);
+        }
+        keeps & alone
+    }
+}
+
+/// A value some time later, from it and its changes, term by term.
+#[inline(always)]
+fn after<S: Simd, const N: usize>(
+    value: Lanes<S, N>,
+    [first, second, third]: [Lanes<S, N>; 3],
+    time: Lanes<S, N>,
+) -> Lanes<S, N> {
+    let change = time.mul_add(time.mul_add(third, second), first);
+    time.mul_add(change, value)
+}
