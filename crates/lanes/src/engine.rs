@@ -25,6 +25,8 @@ pub(super) struct Engine<'a, S: Simd, const N: usize> {
     pub state: State<S, N>,
     /// The job of each lane.
     lanes: Vec<Option<usize>>,
+    /// The machine whose laws each lane has.
+    installed: Vec<Option<usize>>,
     next: usize,
     outcomes: Vec<Outcome>,
 }
@@ -50,6 +52,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             order: round(task.machines),
             state: State::idle(simd),
             lanes: vec![None; Lanes::<S, N>::COUNT],
+            installed: vec![None; Lanes::<S, N>::COUNT],
             next: 0,
             outcomes: outcomes.collect(),
             task,
@@ -181,7 +184,12 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
 
     /// Gives a lane the laws of a job's machine.
     fn install(&mut self, lane: usize, job: usize) {
-        let machine = &self.task.machines[self.task.jobs[job].machine];
+        let index = self.task.jobs[job].machine;
+        self.lanes[lane] = Some(job);
+        if self.installed[lane].replace(index) == Some(index) {
+            return;
+        }
+        let machine = &self.task.machines[index];
         let constants = machine.laws.iter().flatten().zip(&self.plain);
         for (law, (constants, plain)) in self.laws.iter_mut().zip(constants) {
             if *plain {
@@ -191,7 +199,6 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             }
         }
         self.state.install(lane, machine);
-        self.lanes[lane] = Some(job);
     }
 
     fn resume(&mut self, lane: usize, job: usize, resumed: &Resumed) {
