@@ -16,6 +16,22 @@ pub enum SceneError {
         /// The allowed range in words.
         allowed: &'static str,
     },
+    /// Time scales so far apart that doubles do not resolve the shorter one.
+    #[error(
+        "{name} = {}: must be {bound} {} beside the other values of this machine; where time scales lie so far \
+         apart, doubles do not keep eight digits",
+        plain(*value), plain(*limit)
+    )]
+    TimeScales {
+        /// The parameter's name, as in TOML and in the FMU.
+        name: &'static str,
+        /// The value that was given.
+        value: f64,
+        /// On which side of the limit it must lie: "at most", "at least".
+        bound: &'static str,
+        /// The last allowed value.
+        limit: f64,
+    },
     /// A parameter that the machine does not have.
     #[error("{0}: this machine has no such parameter")]
     Lacks(&'static str),
@@ -214,6 +230,16 @@ pub enum MotionError {
     /// Crossings pile up at one instant.
     #[error("the motion does not get on from t = {time} s, position {position} m")]
     Stalled {
+        /// The time in s.
+        time: f64,
+        /// The position in m.
+        position: f64,
+    },
+    /// A drive period of more work than any machine's within the limits of a scene.
+    #[error(
+        "the motion takes too much work: seconds for one drive period, at t = {time} s, position {position} m"
+    )]
+    Endless {
         /// The time in s.
         time: f64,
         /// The position in m.

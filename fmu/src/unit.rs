@@ -131,12 +131,14 @@ impl Unit for Machine {
                 before: simulation.before_advance().map(Self::new),
             }),
             // The motion has not left the point at which the step begins.
-            Err(error @ (MotionError::Unbounded { .. } | MotionError::Stalled { .. })) => {
-                Ok(Advance::Short {
-                    reason: error.to_string(),
-                    before: Some(self.clone()),
-                })
-            }
+            Err(
+                error @ (MotionError::Unbounded { .. }
+                | MotionError::Stalled { .. }
+                | MotionError::Endless { .. }),
+            ) => Ok(Advance::Short {
+                reason: error.to_string(),
+                before: Some(self.clone()),
+            }),
             Err(error) => Err(error.into()),
         }
     }

@@ -111,3 +111,19 @@ fn a_rigid_stop_tuned_to_before_the_mass() {
     assert!(unit.get("position") <= position);
     assert!(unit.get_integer("impact.count") > 0);
 }
+
+#[test]
+fn time_scales_that_doubles_do_not_resolve() {
+    let unit = unit(HERTZ);
+    unit.refused(
+        unit.set("stop.exponent", 21.0),
+        &["stop.exponent = 21", "20"],
+    );
+    for (name, value) in [("excitation.frequency", 0.01), ("contact.damping", 2e4)] {
+        assert_eq!(unit.set(name, value), OK, "{name}");
+    }
+    let words = ["contact.damping = 20000", "at most 10000", "eight digits"];
+    unit.refused(unit.try_to_begin(), &words);
+    assert_eq!(unit.set("contact.damping", 9e3), OK);
+    assert_eq!(unsafe { fmi2ExitInitializationMode(unit.component) }, OK);
+}

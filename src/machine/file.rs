@@ -141,7 +141,7 @@ fn numbers(places: &[Place]) -> Result<(), MachineError> {
 /// The line of the parameter that is out of range.
 fn line_of(error: &SceneError, places: &[Place]) -> Option<usize> {
     let key = match error {
-        SceneError::OutOfRange { name, .. } => name,
+        SceneError::OutOfRange { name, .. } | SceneError::TimeScales { name, .. } => name,
         SceneError::EmptyPiercing { .. } => Parameter::Thickness.name(),
         SceneError::NoSlope => "stop.loading",
         SceneError::Slope { list, .. } => list,

@@ -161,7 +161,30 @@ impl Machine {
         }
         Allowed::Finite.check(keys::POSITION, self.start.position)?;
         Allowed::Finite.check(keys::VELOCITY, self.start.velocity)?;
-        self.scene.validate()
+        self.scene.validate().map_err(|error| self.in_own(error))
+    }
+
+    /// A limit of the scene in its own units.
+    fn in_own(&self, error: SceneError) -> SceneError {
+        match error {
+            SceneError::TimeScales {
+                name,
+                value,
+                bound,
+                limit,
+            } => {
+                let parameter = Parameter::named(name);
+                let dimension =
+                    parameter.map_or(Dimension::Number, |parameter| parameter.about().dimension);
+                SceneError::TimeScales {
+                    name: parameter.map_or(name, |parameter| self.name(parameter)),
+                    value: self.to_own(dimension, value),
+                    bound,
+                    limit: self.to_own(dimension, limit),
+                }
+            }
+            error => error,
+        }
     }
 
     /// Its dimensionless figures, if it speaks ratios and is a machine like the paper's.

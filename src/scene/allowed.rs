@@ -13,13 +13,16 @@ pub enum Allowed {
     Finite,
     /// From 0 to 1.
     Share,
-    /// >= 1 and not too large.
-    AtLeastOne,
+    /// From 1 to [`Allowed::HIGHEST_POWER`].
+    Power,
 }
 
 impl Allowed {
     /// A number far above any machine's, below which no intermediate result overflows.
     pub const LARGEST: f64 = 1e24;
+
+    /// The exponent up to which Taylor steps keep all digits; beyond 30 a power law is a wall to them.
+    pub const HIGHEST_POWER: f64 = 20.0;
 
     /// True if the value lies there.
     pub fn holds(self, value: f64) -> bool {
@@ -29,7 +32,7 @@ impl Allowed {
                 Self::NotNegative => value >= 0.0,
                 Self::Finite => true,
                 Self::Share => (0.0..=1.0).contains(&value),
-                Self::AtLeastOne => value >= 1.0,
+                Self::Power => (1.0..=Self::HIGHEST_POWER).contains(&value),
             }
     }
 
@@ -40,7 +43,7 @@ impl Allowed {
             Self::NotNegative => "finite and >= 0, at most 1e24",
             Self::Finite => "finite, from -1e24 to 1e24",
             Self::Share => "in [0, 1]",
-            Self::AtLeastOne => "finite and >= 1, at most 1e24",
+            Self::Power => "from 1 to 20",
         }
     }
 

@@ -119,7 +119,7 @@ table! {
     ContactDamping "contact.damping", "beta", "β", ["b", "contact_damping"], Damping, NotNegative, "damping in contact";
     StopStiffness "stop.stiffness", "k4", "k₄/k₁", ["stop_stiffness", "stiffness"], Stiffness, NotNegative, "stiffness of the stop";
     Preload "stop.preload", "Fp", "Fₚ/F₀", ["preload"], Force, NotNegative, "preload of the stop";
-    Exponent "stop.exponent", "exponent", "exponent", [], Number, AtLeastOne, "exponent of the stop";
+    Exponent "stop.exponent", "exponent", "exponent", [], Number, Power, "exponent of the stop";
     Dissipation "stop.dissipation", "dissipation", "dissipation", [], Slowness, NotNegative, "dissipation of the stop";
     Restitution "stop.restitution", "R", "R", ["restitution"], Number, Share, "restitution of the stop";
     PiercingStiffness "piercing.stiffness", "k2", "k₂/k₁", ["piercing_stiffness"], Stiffness, NotNegative, "stiffness of the strip";

@@ -65,7 +65,8 @@ impl Scene {
         if let Stop::PiecewiseLinear { loading, unloading } = &self.stop {
             slopes(loading, unloading)?;
         }
-        self.validate_piercing()
+        self.validate_piercing()?;
+        self.validate_pace()
     }
 
     fn validate_piercing(&self) -> Result<(), SceneError> {

@@ -162,7 +162,22 @@ fn number(parameter: Parameter, language: Language) -> Value {
         (_, "") => about.meaning.to_owned(),
         (_, unit) => format!("{} in {unit}", about.meaning),
     };
-    within(about.allowed, &what)
+    within(about.allowed, &(what + pace(parameter)))
+}
+
+/// How far its time scale may lie from the drive's.
+const fn pace(parameter: Parameter) -> &'static str {
+    use Parameter as P;
+    match parameter {
+        P::Frequency => "; at least 1e-7 of the rate sqrt(k1/m) of the suspension",
+        P::StopStiffness | P::PiercingStiffness | P::PiercingFriction => {
+            "; its rate sqrt(k/m) is at most 1e7 times the drive frequency"
+        }
+        P::Damping | P::ContactDamping => {
+            "; its rate, damping over mass, is at most 1e6 times the drive frequency"
+        }
+        _ => "",
+    }
 }
 
 /// A number in a range.
@@ -171,10 +186,11 @@ fn within(allowed: Allowed, what: &str) -> Value {
         Allowed::Finite => ("minimum", -Allowed::LARGEST),
         Allowed::Positive => ("exclusiveMinimum", 0.0),
         Allowed::NotNegative | Allowed::Share => ("minimum", 0.0),
-        Allowed::AtLeastOne => ("minimum", 1.0),
+        Allowed::Power => ("minimum", 1.0),
     };
     let most = match allowed {
         Allowed::Share => 1.0,
+        Allowed::Power => Allowed::HIGHEST_POWER,
         _ => Allowed::LARGEST,
     };
     json!({ "type": "number", "description": what, limit: least, "maximum": most })

@@ -22,7 +22,7 @@ pub(super) const LAWS: &[Row] = &[
         "Newton's coefficient of restitution R of the rigid stop, and of the one behind another stop"),
     fixed(18, "stop.release", slot::STOP_RELEASE, Kind::Enumeration(&units::RELEASE),
         "Where the Kelvin-Voigt stop lets go of a mass that moves back"),
-    fixed(19, "stop.exponent", slot::STOP_EXPONENT, bare(1.0, LARGE),
+    fixed(19, "stop.exponent", slot::STOP_EXPONENT, bare(1.0, 20.0),
         "Exponent of the Hertz stop, 3/2 for a sphere"),
     fixed(20, "stop.dissipation", slot::STOP_DISSIPATION, within(&units::DISSIPATION, 0.0, LARGE),
         "Hunt and Crossley's dissipation factor of the Hertz stop"),

@@ -1,5 +1,7 @@
 //! Who watches the motion: tallies, the table of crossings, what is drawn.
 
+use std::ops::ControlFlow;
+
 use softstop::internals::{Motion, Phase, work};
 use softstop::{Arc, Clock, Crossing, CrossingKind, Drive, Observer, PhaseKind, Scene, Start};
 
@@ -10,6 +12,7 @@ use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::export::Table;
 use softstop_console::failure::Failure;
+use softstop_console::interrupt;
 
 /// Points that one period is drawn with, at least.
 const FINENESS: f64 = 250.0;
@@ -144,6 +147,13 @@ impl Observer for Recorder<'_> {
         if let Err(failure) = line {
             self.failure.get_or_insert(failure);
         }
+    }
+
+    fn progress(&mut self, _: u64) -> ControlFlow<()> {
+        if self.failure.is_some() {
+            return ControlFlow::Break(());
+        }
+        interrupt::go_on()
     }
 }
 

@@ -51,7 +51,7 @@ fn energy() -> [Column<Outcome>; 4] {
         "supplied" [Energy] Seven, "energy supplied" => it.tally.work.supplied;
         "dissipated" [Energy] Seven, "dissipated" => it.tally.work.dissipated;
         "stored" [Energy] Seven, "stored" => it.stored;
-        "defect" [Energy] Seven, "balance, zero but for rounding" => it.tally.work.supplied - it.tally.work.dissipated - it.stored;
+        "defect" [Energy] Seven, "balance, zero but for rounding" => it.defect();
     }
 }
 

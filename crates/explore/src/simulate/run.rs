@@ -1,5 +1,6 @@
 //! The run itself: from sample to sample, exactly.
 
+use anyhow::anyhow;
 use softstop::internals::{Motion, mechanical_energy};
 use softstop::{Instant, Scene, Start};
 
@@ -35,6 +36,35 @@ pub(super) struct Outcome {
     pub duration: f64,
 }
 
+/// Share of all energies beyond which their balance tells that digits are lost.
+const MOST_DEFECT: f64 = 1e-9;
+
+impl Outcome {
+    /// Energy in J that the balance lacks.
+    pub(super) fn defect(&self) -> f64 {
+        let work = &self.tally.work;
+        work.supplied - work.dissipated - self.stored
+    }
+
+    /// Refuses a motion that does not keep its energies; that at the start was `before`.
+    fn check(&self, before: f64) -> Result<(), Failure> {
+        let work = &self.tally.work;
+        let energies = [before, self.stored, work.supplied, work.dissipated];
+        let size = energies
+            .iter()
+            .map(|energy| energy.abs())
+            .fold(0.0, f64::max);
+        let defect = self.defect();
+        if defect.abs() <= MOST_DEFECT * size {
+            return Ok(());
+        }
+        Err(Failure::Run(anyhow!(
+            "the motion lost its digits: its energies of up to {size:e} J are out of balance by {defect:e} J, more \
+             than a share of {MOST_DEFECT:e}"
+        )))
+    }
+}
+
 impl Plan<'_> {
     /// Runs the motion and writes its tables.
     pub(super) fn run(
@@ -60,20 +90,25 @@ impl Plan<'_> {
                 cycles: cycle as f64,
                 offset: period * (part as f64 / self.samples as f64),
             };
-            motion.advance(instant, &mut recorder)?;
+            let stopped = motion.watch(instant, &mut recorder)?.is_break();
             recorder.check()?;
+            if stopped {
+                return Err(Failure::Interrupted);
+            }
             table.row(&self.sample(&motion))?;
         }
         drop(progress);
         table.close()?;
         let (tally, drawing) = recorder.finish(&motion)?;
-        Ok(Outcome {
+        let outcome = Outcome {
             tally,
             drawing,
             stored: mechanical_energy(self.scene, &motion) - before,
             end: motion.state(),
             duration: motion.clock().time(motion.now()),
-        })
+        };
+        outcome.check(before)?;
+        Ok(outcome)
     }
 
     fn sample(&self, motion: &Motion) -> Sample {
