@@ -18,6 +18,9 @@ use crate::phases::{Mode, Phase};
 /// Crossings and steps at one and the same instant that a motion may make: more than any row of bounces that
 /// is shorter than the resolution of time.
 const MOST_AT_ONCE: u32 = 1_000_000;
+/// Work of one drive period, in windows, some seconds: four times that of scanning one at the fastest rate that a
+/// scene may have.
+const MOST_IN_A_PERIOD: u64 = 1 << 28;
 
 impl Motion {
     /// Advances to `until`, or to where `observer` stops it, telling it of every finished arc and every
@@ -25,8 +28,9 @@ impl Motion {
     ///
     /// # Errors
     /// [`MotionError::TimeBackwards`] if `until` lies in the past, [`MotionError::Unbounded`] if the
-    /// motion grows beyond all bounds, [`MotionError::Stalled`] if crossings pile up; the motion is
-    /// then known no further than its present time.
+    /// motion grows beyond all bounds, [`MotionError::Stalled`] if crossings pile up,
+    /// [`MotionError::Endless`] if a drive period takes too much work; the motion is then known no further than its
+    /// present time.
     pub fn advance(
         &mut self,
         until: Instant,
@@ -51,6 +55,7 @@ impl Motion {
             return Err(MotionError::TimeBackwards { until, present });
         }
         let mut at_once = 0;
+        let (mut cycle, mut work) = (self.now.cycles, 0);
         while !self.glide(until)? {
             if let Outlook::Crossing(Found { elapsed, .. }) | Outlook::Ends(elapsed) = self.outlook
             {
@@ -80,6 +85,13 @@ impl Motion {
             };
             if observer.progress(windows).is_break() {
                 return Ok(ControlFlow::Break(()));
+            }
+            if self.now.cycles != cycle {
+                (cycle, work) = (self.now.cycles, 0);
+            }
+            work += windows;
+            if work > MOST_IN_A_PERIOD {
+                return Err(self.endless());
             }
         }
         Ok(ControlFlow::Continue(()))
@@ -129,6 +141,11 @@ impl Motion {
     fn stalled(&self) -> MotionError {
         let (time, position) = (self.clock.time(self.start), self.course.departure.position);
         MotionError::Stalled { time, position }
+    }
+
+    fn endless(&self) -> MotionError {
+        let (time, position) = (self.clock.time(self.now), self.course.departure.position);
+        MotionError::Endless { time, position }
     }
 
     fn look_ahead(&mut self, horizon: f64) -> Result<(), MotionError> {

@@ -44,7 +44,7 @@ impl fmt::Display for Failure {
                 "error: {message}\n\nFor more information, try '--help'."
             ),
             Self::Run(error) => write!(formatter, "error: {error:#}"),
-            Self::Interrupted => write!(formatter, "interrupted: no files were written"),
+            Self::Interrupted => formatter.write_str(interrupt::MESSAGE),
             Self::Suspended(message) => write!(formatter, "interrupted: {message}"),
         }
     }

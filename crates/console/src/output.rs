@@ -8,10 +8,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, anyhow};
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
-use tempfile::TempDir;
 
 use crate::failure::Failure;
-use crate::interrupt;
+use crate::interrupt::{self, Making, under_way};
 
 /// How a subcommand prints its result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
@@ -59,10 +58,15 @@ pub fn csv(rows: impl IntoIterator<Item = impl Serialize>) -> Result<Vec<u8>, Fa
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
-    /// Folders made for this run, outermost first.
-    made: Vec<PathBuf>,
-    staging: TempDir,
+    making: Making,
+    /// Locked as long as the run lives.
+    _alive: fs::File,
 }
+
+/// How the names of staging folders begin.
+const STAGING: &str = ".softstop-";
+/// The file in a staging folder that its run holds locked.
+const ALIVE: &str = "alive";
 
 impl Folder {
     /// Makes the folder if need be and tries whether it and the files of these names in it
@@ -78,20 +82,31 @@ impl Folder {
                 "{place}: cannot be written, a folder is in its place"
             )));
         }
-        let made = missing(path);
-        let staging = fs::create_dir_all(path).and_then(|()| {
-            tempfile::Builder::new()
-                .prefix(".softstop-")
-                .tempdir_in(path)
+        let mut making = Making {
+            staging: PathBuf::new(),
+            made: missing(path),
+        };
+        let mut under_way = under_way();
+        let alive = fs::create_dir_all(path).and_then(|()| {
+            remove_dead(path);
+            let staging = tempfile::Builder::new().prefix(STAGING).tempdir_in(path)?;
+            let alive = fs::File::create_new(staging.path().join(ALIVE))?;
+            // Without locks, what a killed run leaves stays.
+            let _ = alive.lock();
+            making.staging = staging.keep();
+            Ok(alive)
         });
-        match staging {
-            Ok(staging) => Ok(Self {
-                path: path.to_owned(),
-                made,
-                staging,
-            }),
+        match alive {
+            Ok(alive) => {
+                under_way.begin(making.clone());
+                Ok(Self {
+                    path: path.to_owned(),
+                    making,
+                    _alive: alive,
+                })
+            }
             Err(error) => {
-                remove(&made);
+                making.undo();
                 let place = path.display();
                 Err(Failure::Run(anyhow!(error).context(format!(
                     "output folder {place}: cannot be written"
@@ -102,7 +117,7 @@ impl Folder {
 
     /// Where the file of this name is until [`Folder::commit`].
     fn staged(&self, name: &str) -> PathBuf {
-        self.staging.path().join(name)
+        self.making.staging.join(name)
     }
 
     /// The place of the file of this name after [`Folder::commit`].
@@ -132,14 +147,22 @@ impl Folder {
 
     /// Puts the staged files into place, replacing older ones.
     pub fn commit(mut self, names: &[&str]) -> Result<(), Failure> {
+        let under_way = under_way();
         if interrupt::requested() {
+            drop(under_way);
             return Err(Failure::Interrupted);
         }
+        let mut moved = Ok(());
         for name in names {
-            fs::rename(self.staged(name), self.place(name))
-                .with_context(|| format!("cannot write {}", self.place(name).display()))?;
-            self.made.clear();
+            moved = fs::rename(self.staged(name), self.place(name))
+                .with_context(|| format!("cannot write {}", self.place(name).display()));
+            if moved.is_err() {
+                break;
+            }
+            self.making.made.clear();
         }
+        drop(under_way);
+        moved?;
         Ok(())
     }
 }
@@ -173,11 +196,9 @@ impl Staged {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        if !self.made.is_empty() {
-            // The staging folder stands in the way of removing its parent.
-            let _ = fs::remove_dir_all(self.staging.path());
-            remove(&self.made);
-        }
+        let mut under_way = under_way();
+        self.making.undo();
+        under_way.end(&self.making);
     }
 }
 
@@ -193,9 +214,13 @@ fn missing(path: &Path) -> Vec<PathBuf> {
     folders
 }
 
-/// Takes away empty folders, innermost first; one that has been filled meanwhile stays.
-fn remove(folders: &[PathBuf]) {
-    for folder in folders.iter().rev() {
-        let _ = fs::remove_dir(folder);
+/// Takes away the staging folders of runs that were killed: nobody holds their locks any more.
+fn remove_dead(path: &Path) {
+    let entries = fs::read_dir(path).into_iter().flatten().flatten();
+    for entry in entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(STAGING)) {
+        let alive = fs::File::open(entry.path().join(ALIVE));
+        if alive.is_ok_and(|alive| alive.try_lock().is_ok()) {
+            let _ = fs::remove_dir_all(entry.path());
+        }
     }
 }

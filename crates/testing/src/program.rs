@@ -1,6 +1,6 @@
 //! Programs as users and scripts meet them.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
@@ -129,11 +129,64 @@ impl Program {
             std::thread::sleep(Duration::from_millis(10));
         }
         std::thread::sleep(Duration::from_millis(200));
-        Command::new("kill")
-            .args(["-INT", &run.id().to_string()])
-            .status()
-            .expect("kill starts");
+        kill("INT", run.id());
         assert_eq!(run.wait().expect("it ends").code(), Some(130));
         assert!(!folder.exists(), "{} is left", folder.display());
     }
+
+    /// Sends the program a signal (`INT`, say) in the middle of a long job that works in an empty folder: it
+    /// ends with exit code 130 within 10 s, and leaves no file but those of the names in `kept`.
+    ///
+    /// # Panics
+    /// If it does otherwise, or is over before.
+    #[track_caller]
+    pub fn ends_on(&self, signal: &str, arguments: &[&str], folder: &Path, kept: &[&str]) {
+        let mut command = self.command(arguments);
+        let silent = command.stdout(Stdio::null()).stderr(Stdio::null());
+        let mut run = silent
+            .current_dir(folder)
+            .spawn()
+            .expect("the program starts");
+        std::thread::sleep(Duration::from_millis(600));
+        let early = run.try_wait().expect("a process");
+        assert_eq!(early, None, "{arguments:?} is over too soon");
+        kill(signal, run.id());
+        let deadline = Instant::now() + Duration::from_secs(10);
+        let mut status = None;
+        while status.is_none() && Instant::now() < deadline {
+            std::thread::sleep(Duration::from_millis(10));
+            status = run.try_wait().expect("a process");
+        }
+        if status.is_none() {
+            run.kill().expect("a process");
+        }
+        let code = status.and_then(|status| status.code());
+        assert_eq!(code, Some(130), "SIG{signal} of {arguments:?}: {status:?}");
+        let left = files(folder);
+        let strange = left
+            .iter()
+            .find(|file| !kept.iter().any(|name| file.ends_with(name)));
+        assert_eq!(strange, None, "SIG{signal} of {arguments:?}");
+    }
+}
+
+fn kill(signal: &str, process: u32) {
+    let arguments = [format!("-{signal}"), process.to_string()];
+    let status = Command::new("kill").args(arguments).status();
+    assert!(status.expect("kill starts").success(), "kill -{signal}");
+}
+
+/// All files in a folder and below.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    paths
+        .flat_map(|path| {
+            if path.is_dir() {
+                files(&path)
+            } else {
+                vec![path]
+            }
+        })
+        .collect()
 }

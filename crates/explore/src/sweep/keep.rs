@@ -1,7 +1,7 @@
 //! What is done of a sweep, kept for `--resume`.
 
 use std::fs;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
@@ -67,6 +67,11 @@ impl Keep {
         })
     }
 
+    /// The file while it is being written.
+    fn staged(&self) -> PathBuf {
+        self.path.with_extension("part.new")
+    }
+
     /// Puts what is done into the file, whole or not at all.
     pub(super) fn store(&self, chains: &[Chain]) -> Result<(), Failure> {
         let content = Content {
@@ -76,19 +81,22 @@ impl Keep {
         let place = || format!("cannot write {}", self.path.display());
         let mut bytes = rmp_serde::to_vec(&content).with_context(place)?;
         bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
-        let folder = self.path.parent().unwrap_or(Path::new("."));
-        let mut file = tempfile::NamedTempFile::new_in(folder).with_context(place)?;
+        let staged = self.staged();
+        let mut file = fs::File::create(&staged).with_context(place)?;
         file.write_all(&bytes).with_context(place)?;
-        file.as_file().sync_all().with_context(place)?;
-        file.persist(&self.path).with_context(place)?;
+        file.sync_all().with_context(place)?;
+        fs::rename(&staged, &self.path).with_context(place)?;
         Ok(())
     }
 
-    /// Gives the chains the steps that the file holds.
+    /// Gives the chains the steps that the file holds, none if there is no file.
     pub(super) fn restore(&self, chains: &mut [Chain]) -> Result<(), Failure> {
         let place = self.path.display();
-        let bytes = fs::read(&self.path)
-            .map_err(|error| Failure::usage(format!("--resume: {place}: {error}")))?;
+        let bytes = match fs::read(&self.path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+            Err(error) => return Err(Failure::usage(format!("--resume: {place}: {error}"))),
+        };
         let damaged = || Failure::Run(anyhow!("{place}: is damaged; sweep without --resume"));
         let (content, check) = bytes.split_last_chunk::<CHECK>().ok_or_else(damaged)?;
         if crc32fast::hash(content) != u32::from_le_bytes(*check) {
@@ -109,5 +117,6 @@ impl Keep {
     /// Takes the file away.
     pub(super) fn forget(&self) {
         let _ = fs::remove_file(&self.path);
+        let _ = fs::remove_file(self.staged());
     }
 }

@@ -112,7 +112,7 @@ pub struct SweepArguments {
     /// Distance within which a state has returned, in units of the motion's size, > 0 and < 1
     #[arg(long, value_name = "SHARE", default_value_t = 1e-4)]
     pub tolerance: f64,
-    /// Go on with a sweep that was interrupted, from the same arguments
+    /// Go on with a sweep that was interrupted, from the same arguments; begin if there is none
     #[arg(long)]
     pub resume: bool,
     /// Folder for sweep.csv, sweep.svg and sweep.json
@@ -265,8 +265,12 @@ fn follow(plan: &Plan, chains: &mut [Chain], keep: &Keep) -> Result<(), Failure>
         if finished {
             return Ok(());
         }
+        let requested = interrupt::requested();
+        if requested {
+            interrupt::under_way().keep();
+        }
         keep.store(chains)?;
-        if interrupt::requested() {
+        if requested {
             let done: usize = chains.iter().map(|chain| chain.steps.len()).sum();
             return Err(Failure::Suspended(format!(
                 "{done} of {all} steps are done; the same line with --resume goes on"

@@ -1,0 +1,121 @@
+//! Every long command of `softstop` ends on a signal, and leaves nothing half written.
+#![cfg(unix)]
+
+use std::fs;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use softstop_testing::{Program, words};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+const SOFTSTOP: Program = Program {
+    file: env!("CARGO_BIN_EXE_softstop"),
+    first: &[],
+};
+
+const SIGNALS: [&str; 3] = ["INT", "TERM", "HUP"];
+
+fn ends(line: &str, kept: &[&str]) {
+    let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes");
+    let line = line.replace("SCENES", scenes);
+    for signal in SIGNALS {
+        let folder = tempfile::tempdir().expect("a folder");
+        SOFTSTOP.ends_on(signal, &words(&line), folder.path(), kept);
+    }
+}
+
+#[test]
+fn simulate() {
+    ends("simulate --periods 1000000 --samples-per-period 20", &[]);
+    ends(
+        "simulate SCENES/hertz.toml --periods 1000000 --samples-per-period 1",
+        &[],
+    );
+}
+
+#[test]
+fn motions() {
+    ends("motions --clearance -3", &[]);
+    ends("motions SCENES/chatter.toml --starts 100000", &[]);
+}
+
+#[test]
+fn zone() {
+    ends("zone --contact-damping 4e5", &[]);
+}
+
+#[test]
+fn continuation() {
+    ends(
+        "continue SCENES/chatter.toml --orbit 5/7 --parameter w --from 0.1 --to 1.8",
+        &[],
+    );
+}
+
+#[test]
+fn sweep() {
+    ends("sweep --from 0.8 --to 1.8 --steps 100000", &["sweep.part"]);
+}
+
+#[test]
+fn basin() {
+    ends("basin --size 3000", &[]);
+    ends("basin SCENES/chatter.toml --size 100", &[]);
+    ends("basin --along-zone 1000 --size 1000", &[]);
+}
+
+#[test]
+fn optimize() {
+    ends("optimize --set contact.damping=100", &[]);
+}
+
+#[test]
+fn fidelity() {
+    ends("fidelity B --repeats 1000", &[]);
+}
+
+/// What a run that was killed has left is taken away by the next one into the same folder; that of a run that lives
+/// is not.
+#[test]
+fn the_next_run_clears_up_after_a_killed_one() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let basin = |size: &str| {
+        let mut command = Command::new(SOFTSTOP.file);
+        command
+            .args(["basin", "--size", size, "--output"])
+            .arg(folder.path());
+        command.stdout(Stdio::null()).stderr(Stdio::null());
+        command
+    };
+    let names = || -> std::io::Result<Vec<_>> {
+        let entries = fs::read_dir(folder.path())?;
+        let mut names: Vec<_> = entries
+            .map(|entry| Ok(entry?.file_name()))
+            .collect::<Result<_, std::io::Error>>()?;
+        names.sort();
+        Ok(names)
+    };
+    let begun = |count: usize| -> Outcome {
+        let deadline = Instant::now() + Duration::from_secs(20);
+        while names()?.len() < count && Instant::now() < deadline {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        std::thread::sleep(Duration::from_millis(100));
+        Ok(assert_eq!(names()?.len(), count))
+    };
+    let (mut killed, mut alive) = (basin("3000").spawn()?, basin("3001").spawn()?);
+    begun(2)?;
+    killed.kill()?;
+    killed.wait()?;
+    assert_eq!(names()?.len(), 2);
+    assert!(basin("20").status()?.success());
+    let left = names()?;
+    assert_eq!(left[1..], ["basin.csv", "basin.json", "basin.png"]);
+    assert!(left[0].to_string_lossy().starts_with(".softstop-"));
+    alive.kill()?;
+    alive.wait()?;
+    assert!(basin("20").status()?.success());
+    assert_eq!(names()?.len(), 3);
+    Ok(())
+}
