@@ -127,3 +127,55 @@ fn values_that_cannot_be_are_refused_by_name_value_and_range() {
         MOTIONS.refuses(&[flag, value], &[told]);
     }
 }
+
+/// `motions` and `basin` take starts from one box, which holds the machine's own motions and is told.
+#[test]
+fn one_box_of_starts_for_all_commands() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let basin = Program {
+        first: &["basin"],
+        ..MOTIONS
+    };
+    let scenes = format!("{}/../docs/scenes", env!("CARGO_MANIFEST_DIR"));
+    for machine in [
+        &["unloaded", "--clearance", "0.5"][..],
+        &["loaded"],
+        &["loaded", "--clearance", "1"],
+        &["unloaded", "--stiffness", "1000"],
+        &[&format!("{scenes}/rigid.toml")],
+        &[&format!("{scenes}/kelvin-voigt.toml")],
+    ] {
+        let few = ["--starts", "8", "--seed", "3", "--transient", "700"];
+        let report = MOTIONS.json(&[machine, &few].concat());
+        let plane = basin.json_into(folder.path(), &[machine, &["--size", "10"]].concat());
+        let (position, velocity) = (&report["region_position"], &report["region_velocity"]);
+        assert_eq!(plane["grid"]["across"]["range"], *position, "{machine:?}");
+        assert_eq!(plane["grid"]["up"]["range"], *velocity, "{machine:?}");
+        assert!(
+            plane["warning"].is_null(),
+            "{machine:?}: {}",
+            plane["warning"]
+        );
+        let holds = |range: &Value, value: &Value| {
+            number(&range[0]) <= number(value) && number(value) <= number(&range[1])
+        };
+        for motion in report["motions"].as_array().ok_or("no list")? {
+            let is_inside =
+                holds(position, &motion["position"]) && holds(velocity, &motion["velocity"]);
+            assert!(
+                motion["position"].is_null() || is_inside,
+                "{machine:?}: {motion}"
+            );
+        }
+        let folder = folder.path().to_str().ok_or("path")?;
+        let text = basin.text(&[machine, &["--size", "10", "--output", folder]].concat());
+        let told = format!(
+            "{:.4} <= x <= {:.4}",
+            number(&position[0]),
+            number(&position[1])
+        );
+        assert!(text.contains(&told), "{told} is not in {text}");
+        assert!(MOTIONS.text(&[machine, &few].concat()).contains(&told));
+    }
+    Ok(())
+}

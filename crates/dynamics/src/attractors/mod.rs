@@ -16,7 +16,7 @@ mod search;
 pub(crate) mod starts;
 
 pub use chaos::Chaos;
-pub use search::{attractors, classify, settle};
+pub use search::{attractors, classify, settle, starting_box};
 pub use starts::Region;
 
 use thiserror::Error;

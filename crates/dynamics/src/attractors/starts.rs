@@ -19,6 +19,10 @@ const FAR: f64 = 3.0;
 const MARGIN: f64 = 0.5;
 /// Least half-size of a region, in units of the motion's length.
 const LEAST: f64 = 0.1;
+/// Half-size of the box of all starts, at least, in units of the motion's length (and of w times it).
+const WIDE: f64 = 2.0;
+/// How much wider it is than the motions in it.
+const ROOM: f64 = 1.5;
 /// 1/g and 1/g^2 with g^3 = g + 1: of all pairs the one whose multiples fill a square most evenly
 /// (Roberts 2018).
 const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
@@ -52,6 +56,36 @@ impl Region {
             velocity: widen(velocity, LEAST * rate * length),
         };
         position[0].is_finite().then(|| region.before(scene))
+    }
+
+    /// The box that commands take starts from: twice the motion's length both ways, and more where these states need
+    /// more.
+    pub(super) fn box_with(scene: &Scene, states: impl IntoIterator<Item = Start>) -> Self {
+        let Scales { length, rate } = scene.motion_scales();
+        let length = WIDE * length;
+        let half = states
+            .into_iter()
+            .fold((length, length * rate), |(x, v), state| {
+                let (far, fast) = (state.position.abs(), state.velocity.abs());
+                match (far + fast).is_finite() {
+                    true => (x.max(ROOM * far), v.max(ROOM * fast)),
+                    false => (x, v),
+                }
+            });
+        Self {
+            position: [-half.0, half.0],
+            velocity: [-half.1, half.1],
+        }
+        .before(scene)
+    }
+
+    /// The smallest that holds both.
+    pub fn with(&self, other: &Self) -> Self {
+        let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        Self {
+            position: both(self.position, other.position),
+            velocity: both(self.velocity, other.velocity),
+        }
     }
 
     /// The part before a rigid stop.

@@ -61,10 +61,10 @@ pub struct BasinArguments {
     /// The third quantity, which all cells share
     #[arg(long, value_name = "VALUE", default_value_t = 0.0)]
     pub at: f64,
-    /// Range of the initial position [default: twice the clearance both ways]
+    /// Range of the initial position [default: twice the clearance both ways, more where motions go farther]
     #[arg(long, value_name = "LOW:HIGH", value_parser = range::rising, allow_hyphen_values = true)]
     pub x: Option<[f64; 2]>,
-    /// Range of the initial velocity [default: that of x times the drive frequency]
+    /// Range of the initial velocity [default: twice the clearance times the drive frequency both ways, more where motions are faster]
     #[arg(long, value_name = "LOW:HIGH", value_parser = range::rising, allow_hyphen_values = true)]
     pub v: Option<[f64; 2]>,
     /// Range of the drive angle in rad [default: a whole turn]
@@ -145,7 +145,7 @@ fn picture(
     machine: &Machine,
 ) -> Result<(), Failure> {
     let scene = &machine.scene;
-    let grid = plane::grid(arguments, scene)?;
+    let grid = plane::grid(arguments, std::slice::from_ref(scene))?;
     let export = Export::open(&arguments.output, &PICTURE)?;
     let progress = Progress::new(grid.cells() as u64, "cells");
     let basins = basins(scene, &grid, options, &progress.watcher()).map_err(Error::from)?;
@@ -160,6 +160,9 @@ fn picture(
     export.finish(&report, arguments.format)
 }
 
+/// Places of a zone that its box of starts is made for.
+const BOXED: [f64; 3] = [0.0, 0.5, 0.99];
+
 /// The certainty of z = 1 along the hysteresis zone.
 fn along(
     arguments: &BasinArguments,
@@ -169,7 +172,7 @@ fn along(
 ) -> Result<(), Failure> {
     let zone = zone::hysteresis(&machine.scene)
         .with_context(|| format!("no hysteresis zone found of {}", title(machine)))?;
-    let grid = plane::grid(arguments, &zone.scene_at(0.0))?;
+    let grid = plane::grid(arguments, &BOXED.map(|place| zone.scene_at(place)))?;
     let export = Export::open(&arguments.output, &ALONG)?;
     let shares: Vec<f64> = (0..places)
         .map(|k| k as f64 / (places - 1) as f64)

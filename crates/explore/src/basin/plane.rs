@@ -3,15 +3,15 @@
 use std::f64::consts::TAU;
 use std::str::FromStr;
 
+use anyhow::Error;
 use softstop::{Allowed, Dimension, Machine, Scene};
+use softstop_dynamics::attractors::{Region, starting_box};
 use softstop_dynamics::basin::Quantity;
 use softstop_dynamics::{Axis, Grid, orbit};
 
 use super::BasinArguments;
 use softstop_console::failure::Failure;
-
-/// Half of the range of positions, in units of the motion's length.
-const FAR: f64 = 2.0;
+use softstop_console::interrupt;
 
 /// Two different quantities: across and upwards.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,50 +39,60 @@ impl FromStr for Plane {
     }
 }
 
-/// The grid for a scene.
-pub(super) fn grid(arguments: &BasinArguments, scene: &Scene) -> Result<Grid, Failure> {
+/// The grid for scenes that differ in their frequency: one box for all of them.
+pub(super) fn grid(arguments: &BasinArguments, scenes: &[Scene]) -> Result<Grid, Failure> {
     Allowed::Finite.check("at", arguments.at)?;
-    for (flag, range, quantity) in [
+    let Plane { across, up } = arguments.plane;
+    let shows = |quantity| across == quantity || up == quantity;
+    let given = [
         ("x", arguments.x, Quantity::Position),
         ("v", arguments.v, Quantity::Velocity),
         ("phi", arguments.phi, Quantity::Angle),
-    ] {
-        let Plane { across, up } = arguments.plane;
-        if range.is_some() && across != quantity && up != quantity {
+    ];
+    for (flag, range, quantity) in given {
+        if range.is_some() && !shows(quantity) {
             let message =
                 format!("--{flag}: the plane does not show it; --at has the value of all cells");
             return Err(Failure::usage(message));
         }
     }
-    let drive = scene.excitation;
-    let free = drive.amplitude / (scene.mass * drive.frequency * drive.frequency);
-    let length = scene.clearance.abs().max(free);
-    let length = FAR * if length > 0.0 { length } else { 1.0 };
-    let wall = scene.wall().map_or(f64::INFINITY, |wall| wall.position);
+    let is_left = |(_, range, quantity): &(_, Option<_>, _)| range.is_none() && shows(*quantity);
+    let region = match given[..2].iter().any(is_left) {
+        true => common_box(scenes)?,
+        false => None,
+    };
     let axis = |quantity| {
-        let speed = length * drive.frequency;
         let range = match quantity {
-            Quantity::Position => arguments.x.unwrap_or([-length, length.min(wall)]),
-            Quantity::Velocity => arguments.v.unwrap_or([-speed, speed]),
-            Quantity::Angle => arguments.phi.unwrap_or([0.0, TAU]),
+            Quantity::Position => arguments.x.or(region.map(|region| region.position)),
+            Quantity::Velocity => arguments.v.or(region.map(|region| region.velocity)),
+            Quantity::Angle => arguments.phi,
         };
         Axis {
             quantity,
-            range,
+            range: range.unwrap_or([0.0, TAU]),
             cells: arguments.size,
         }
     };
-    let Plane { across, up } = arguments.plane;
-    let mut grid = Grid::states(axis(across), axis(up), drive.phase);
-    let shared = |quantity| across != quantity && up != quantity;
-    if shared(Quantity::Position) {
+    let phase = scenes.first().map_or(0.0, |scene| scene.excitation.phase);
+    let mut grid = Grid::states(axis(across), axis(up), phase);
+    if !shows(Quantity::Position) {
         grid.state.position = arguments.at;
-    } else if shared(Quantity::Velocity) {
+    } else if !shows(Quantity::Velocity) {
         grid.state.velocity = arguments.at;
     } else {
         grid.angle = arguments.at;
     }
     Ok(grid)
+}
+
+/// The box of starts that holds those of all these scenes.
+fn common_box(scenes: &[Scene]) -> Result<Option<Region>, Failure> {
+    let mut all: Option<Region> = None;
+    for scene in scenes {
+        let own = starting_box(scene, &|_, _| interrupt::go_on()).map_err(Error::from)?;
+        all = Some(all.map_or(own, |all| all.with(&own)));
+    }
+    Ok(all)
 }
 
 /// A word of warning if the machine's own z = 1 motion does not pass the plane at its drive angle: then the shares say

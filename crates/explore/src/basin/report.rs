@@ -8,8 +8,8 @@ use softstop_console::columns;
 use softstop_console::export::Report;
 use softstop_console::record::{Record, below};
 use softstop_console::report::{MachineReport, MotionName};
-use softstop_dynamics::basin::{Class, Clearing, Establishing};
-use softstop_dynamics::{Basins, Grid, Regime};
+use softstop_dynamics::basin::{Class, Clearing, Establishing, Quantity};
+use softstop_dynamics::{Axis, Basins, Grid, Regime};
 
 /// The basins of one machine.
 #[derive(Debug, Serialize)]
@@ -115,10 +115,27 @@ fn motions(place: &Establishing) -> String {
     motions.collect::<Vec<_>>().join(", ")
 }
 
-/// What a machine is called, and how many states were tried.
+/// What a machine is called, and which states were tried.
 fn head(machine: &Machine, grid: &Grid) -> String {
-    let (across, up) = (grid.across.cells, grid.up.cells);
-    format!("{}: {across} x {up} initial states\n\n", title(machine))
+    let [across, up] = [&grid.across, &grid.up].map(|axis| axis.cells);
+    let [first, second] = [&grid.across, &grid.up].map(|axis| range(machine, axis));
+    format!(
+        "{}: {across} x {up} initial states with {first} and {second}\n\n",
+        title(machine)
+    )
+}
+
+/// Where the cells lie along an axis.
+fn range(machine: &Machine, axis: &Axis) -> String {
+    let (name, dimension) = match axis.quantity {
+        Quantity::Position => ("x", Dimension::Length),
+        Quantity::Velocity => ("x'", Dimension::Velocity),
+        Quantity::Angle => ("phi", Dimension::Angle),
+    };
+    let ([low, high], unit) = (axis.range, machine.unit(dimension));
+    format!("{low:.4} <= {name} <= {high:.4} {unit}")
+        .trim_end()
+        .to_owned()
 }
 
 impl BasinReport {

@@ -10,7 +10,7 @@ use super::fleet::{Fleet, Voyage};
 use super::known::{Book, Standing};
 use super::lifetime::Looks;
 use super::{Arrival, Attractor, Options, Region, Survey, SurveyError};
-use crate::orbit::Exponents;
+use crate::orbit::{self, Exponents};
 use crate::watch::{Watcher, unwatched};
 use softstop::{Scene, Start};
 
@@ -86,6 +86,23 @@ pub fn attractors(
     search.launch(region.starts(options.starts, options.seed), true)?;
     search.watch()?;
     search.report(region)
+}
+
+/// The box of initial states that commands take starts from unless they are told another: twice the clearance (or the
+/// amplitude of a free mass, if that is larger) both ways, the same times the drive frequency, and half as much
+/// again as any motion needs that [`orbit::find`] or 64 starts from far and wide come to. It depends on the scene alone.
+///
+/// # Errors
+/// As [`attractors`].
+pub fn starting_box(scene: &Scene, watcher: Watcher<'_>) -> Result<Region, SurveyError> {
+    let options = Options::default();
+    let mut search = Search::new(scene, &options, watcher)?;
+    search.fleet.planned = (options.transient + search.logged() as u64) * PILOT as u64;
+    search.launch(Region::far(scene).starts(PILOT, options.seed), false)?;
+    let stays = search.members.iter().flat_map(|member| &member.voyage.log);
+    let own = orbit::find(scene).ok();
+    let own = own.map(|orbit| Start::new(orbit.position, orbit.velocity));
+    Ok(Region::box_with(scene, stays.copied().chain(own)))
 }
 
 /// What the motion from one start settles on.
