@@ -102,7 +102,8 @@ fn the_next_run_clears_up_after_a_killed_one() -> Outcome {
             std::thread::sleep(Duration::from_millis(10));
         }
         std::thread::sleep(Duration::from_millis(100));
-        Ok(assert_eq!(names()?.len(), count))
+        assert_eq!(names()?.len(), count);
+        Ok(())
     };
     let (mut killed, mut alive) = (basin("3000").spawn()?, basin("3001").spawn()?);
     begun(2)?;
