@@ -42,7 +42,7 @@ fn motions() {
 
 #[test]
 fn zone() {
-    ends("zone --contact-damping 4e5", &[]);
+    ends("zone SCENES/hertz.toml --set contact.damping=1e4", &[]);
 }
 
 #[test]
