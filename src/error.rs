@@ -18,8 +18,8 @@ pub enum SceneError {
     },
     /// Time scales so far apart that doubles do not resolve the shorter one.
     #[error(
-        "{name} = {}: must be {bound} {} beside the other values of this machine; where time scales lie so far \
-         apart, doubles do not keep eight digits",
+        "{name} = {}: must be {bound} {} beside the other values of this machine; doubles do not resolve time scales \
+         that lie farther apart",
         plain(*value), plain(*limit)
     )]
     TimeScales {

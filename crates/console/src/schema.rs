@@ -174,7 +174,7 @@ const fn pace(parameter: Parameter) -> &'static str {
             "; its rate sqrt(k/m) is at most 1e7 times the drive frequency"
         }
         P::Damping | P::ContactDamping => {
-            "; its rate, damping over mass, is at most 1e6 times the drive frequency"
+            "; its rate, damping over mass, is at most 1e9 times the drive frequency"
         }
         _ => "",
     }
