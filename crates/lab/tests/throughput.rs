@@ -3,7 +3,7 @@
 use softstop::{Ratios, Scene, Start};
 use softstop_lab::throughput::check::check;
 use softstop_lab::throughput::doubt::judge;
-use softstop_lab::throughput::fleet::Range;
+use softstop_lab::throughput::fleet::{Machinery, Range};
 use softstop_lab::throughput::measure::narrower;
 use softstop_lab::throughput::random_machines::{Draw, Kind};
 use softstop_lanes::Instructions;
@@ -57,10 +57,11 @@ fn the_report_holds_what_scripts_look_for() -> Outcome {
 
 #[test]
 fn the_table_is_for_people_and_the_check_can_be_left_out() {
-    let text = PROGRAM.text(&["--repeats", "1", "--check", "0"]);
+    let text = PROGRAM.text(&["loaded", "--repeats", "1", "--check", "0", "--zones", "4"]);
     let name = Instructions::Widest.registers().name;
     assert!(text.contains("scalar") && text.contains(&format!("batch, {name}")));
     assert!(!text.contains("random motions"));
+    assert!(text.contains("The loaded machine at 1000 frequencies"));
 }
 
 #[test]
@@ -90,7 +91,7 @@ fn both_engines_count_the_same_impacts_on_random_machines() -> Outcome {
 #[test]
 fn engines_agree_on_the_motions_that_are_timed() -> Outcome {
     let range = Range {
-        machine: "unloaded",
+        machine: Machinery::Unloaded,
         frequencies: (1.1, 1.4),
         motions: 20,
         periods: 30,

@@ -1,5 +1,6 @@
-//! What is run: the paper's unloaded machine at a thousand frequencies, by either engine.
+//! What is run: a machine of the paper's at a thousand frequencies, by either engine.
 
+use clap::ValueEnum;
 use rayon::prelude::*;
 use serde::Serialize;
 use softstop::{Clock, MotionError, Ratios, Scene, SceneError, Start};
@@ -10,7 +11,7 @@ use softstop_lanes::{Instructions, Job, Machine, Outcome, run_parallel, run_with
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Range {
     /// The machine.
-    pub machine: &'static str,
+    pub machine: Machinery,
     /// Lowest and highest frequency ratio eta.
     pub frequencies: (f64, f64),
     /// Frequencies, evenly over the range.
@@ -21,9 +22,36 @@ pub struct Range {
     pub start: (f64, f64),
 }
 
+/// The paper's machines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Machinery {
+    /// Without a strip.
+    Unloaded,
+    /// With a strip to pierce.
+    Loaded,
+}
+
+impl Machinery {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Unloaded => "unloaded",
+            Self::Loaded => "loaded",
+        }
+    }
+
+    fn ratios(self) -> Ratios {
+        match self {
+            Self::Unloaded => Ratios::unloaded(),
+            Self::Loaded => Ratios::loaded(),
+        }
+    }
+}
+
 /// The range that softstop's figures are given for.
 pub const RANGE: Range = Range {
-    machine: "unloaded",
+    machine: Machinery::Unloaded,
     frequencies: (0.95, 1.4),
     motions: 1000,
     periods: 200,
@@ -56,7 +84,7 @@ impl Range {
         let step = (high - low) / f64::from(self.motions.max(2) - 1);
         let scene = |number| {
             let frequency = low + step * f64::from(number);
-            Ratios::unloaded().at_frequency(frequency).scene()
+            self.machine.ratios().at_frequency(frequency).scene()
         };
         let scenes: Vec<Scene> = (0..self.motions).map(scene).collect::<Result<_, _>>()?;
         let start = Start::new(self.start.0, self.start.1);

@@ -14,7 +14,7 @@ pub mod zones;
 use anyhow::{Context, anyhow};
 use clap::Args;
 
-use fleet::RANGE;
+use fleet::{Machinery, RANGE, Range};
 use report::ThroughputReport;
 use softstop_console::export;
 use softstop_console::failure::Failure;
@@ -27,6 +27,8 @@ const EXAMPLES: &str = "\
 Examples:
   softstop-lab throughput
       the speed of the safe engine, of one lane and of all, on one core and more, and of zones
+  softstop-lab throughput loaded --check 0
+      with a strip to pierce
   softstop-lab throughput --format json
       the same for programs
   softstop-lab throughput --check 1000000 --repeats 5
@@ -43,6 +45,9 @@ differs.";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct ThroughputArguments {
+    /// Machine whose drive periods are counted
+    #[arg(value_enum, default_value_t = Machinery::Unloaded)]
+    pub machine: Machinery,
     /// Random motions to compare both engines on, 0 to 1000000000
     #[arg(long, value_name = "N", default_value_t = 10_000)]
     pub check: u64,
@@ -71,13 +76,17 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     within("check", check, 0..=1_000_000_000)?;
     within("repeats", repeats, 1..=1000)?;
     within("zones", arguments.zones, 4..=1_000_000)?;
-    let fleet = RANGE.fleet().context("the machines of the measurement")?;
+    let range = Range {
+        machine: arguments.machine,
+        ..RANGE
+    };
+    let fleet = range.fleet().context("the machines of the measurement")?;
     let sets = measure::narrower();
     let progress = Progress::new(measure::measurements(&sets, repeats), "measurements");
     let (timings, threads) = measure::measure(&fleet, &sets, repeats, &progress)?;
     let zones = Grid::of(arguments.zones).measure(repeats, &measure::pool(1)?, &progress)?;
     drop(progress);
-    let report = ThroughputReport::new(RANGE, repeats, (&timings, threads), &sets, zones);
+    let report = ThroughputReport::new(range, repeats, (&timings, threads), &sets, zones);
     let mut report = report.context("a measurement is missing")?;
     if check > 0 {
         report.check = Some(check::check(check, arguments.seed)?);

@@ -171,7 +171,12 @@ impl Report for ThroughputReport {
         said += &format!(
             "The {} machine at {} frequencies over {low} to {high}, {} periods each from ({}, {});\n\
              medians of {} runs (--repeats)\n\n",
-            scene.machine, scene.motions, scene.periods, scene.start.0, scene.start.1, self.repeats
+            scene.machine.name(),
+            scene.motions,
+            scene.periods,
+            scene.start.0,
+            scene.start.1,
+            self.repeats
         );
         said += &text(&table(), &lines, &Units::SI);
         said += &format!(
