@@ -237,7 +237,7 @@ pub enum MotionError {
     },
     /// A drive period of more work than any machine's within the limits of a scene.
     #[error(
-        "the motion takes too much work: seconds for one drive period, at t = {time} s, position {position} m"
+        "one drive period takes too much work (some seconds), at t = {time} s, position {position} m"
     )]
     Endless {
         /// The time in s.

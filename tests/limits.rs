@@ -1,5 +1,5 @@
-//! Machines whose time scales lie too far apart for doubles are refused; up to there, and with dampers up to a thousandth
-//! of that, eight digits hold.
+//! Machines whose time scales lie too far apart for doubles are refused. With springs up to their limit and dampers up to
+//! a thousandth of theirs eight digits hold.
 
 use softstop::{Excitation, Machine, Release, Scene, SceneError, Simulation, Slope, Start, Stop};
 use softstop_testing::loaded;

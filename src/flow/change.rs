@@ -45,7 +45,7 @@ impl Course {
 
     /// The change of the state that a change `by` at departure and one of the drive's frequency bring, per rad/s of
     /// the latter; the departure is `since` seconds after the instant at which the drive's angle is held. None but in
-    /// closed form. With the transition up to then.
+    /// closed form. `transition` is d(state)/d(state at departure) after `elapsed`.
     pub(crate) fn detuned(
         &self,
         (elapsed, transition): (f64, &Matrix2<f64>),

@@ -18,8 +18,8 @@ use crate::phases::{Mode, Phase};
 /// Crossings and steps at one and the same instant that a motion may make: more than any row of bounces that
 /// is shorter than the resolution of time.
 const MOST_AT_ONCE: u32 = 1_000_000;
-/// Work of one drive period, in windows, some seconds: four times that of scanning one at the fastest rate that a
-/// scene may have.
+/// Most windows of work in one drive period, which take some seconds: four times as many as scanning one takes at the
+/// fastest rate that a scene may have.
 const MOST_IN_A_PERIOD: u64 = 1 << 28;
 
 impl Motion {

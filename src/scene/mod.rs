@@ -30,9 +30,10 @@ use serde::{Deserialize, Serialize};
 /// dimensional.
 ///
 /// Time scales may not lie too far apart: sqrt(k/m) of each spring is at most 1e7 times the drive's frequency, b/m of
-/// each damper 1e9 times. A contact is known to eight digits of the motion where springs keep that limit and dampers 1e6, for
-/// positions are doubles: their rounding, 2^-53 of the clearance, is a share of 1e-9 of its depth. A power law may be so stiff, and so lossy, that it takes all of a motion
-/// as large as the clearance within 1e-7 of it; its exponent is at most 20.
+/// each damper 1e9 times. A contact is known to eight digits of the motion where springs keep that limit and dampers 1e6,
+/// for positions are doubles: their rounding, 2^-53 of the clearance, is a share of 1e-9 of its depth. A power law may be
+/// so stiff, and so lossy, that it takes all of a motion as large as the clearance within 1e-7 of it; its exponent is at
+/// most 20.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {

@@ -15,6 +15,7 @@ static INSTALL: Once = Once::new();
 static UNDER_WAY: Mutex<UnderWay> = Mutex::new(UnderWay {
     outputs: Vec::new(),
     is_kept: false,
+    closing: MESSAGE,
 });
 
 /// How long a run may take to end by itself.
@@ -29,6 +30,8 @@ pub struct UnderWay {
     outputs: Vec<Making>,
     /// The run has taken its end upon itself: it keeps what is done.
     is_kept: bool,
+    /// What is said if the run is ended.
+    closing: &'static str,
 }
 
 /// Folders of an output that is not whole yet.
@@ -59,6 +62,11 @@ impl UnderWay {
     /// Ends one, whole or not.
     pub fn end(&mut self, making: &Making) {
         self.outputs.retain(|other| other.staging != making.staging);
+    }
+
+    /// Files stand: from now on this is said if the run is ended.
+    pub fn close_with(&mut self, closing: &'static str) {
+        self.closing = closing;
     }
 
     /// The run ends by itself, however long it takes to keep what is done; only a second signal ends it before.
@@ -102,7 +110,7 @@ fn end_late() {
 
 fn end(under_way: &UnderWay) -> ! {
     under_way.outputs.iter().for_each(Making::undo);
-    let _ = writeln!(io::stderr(), "{MESSAGE}");
+    let _ = writeln!(io::stderr(), "{}", under_way.closing);
     std::process::exit(130)
 }
 

@@ -63,6 +63,8 @@ pub struct Folder {
     _alive: fs::File,
 }
 
+/// What is said of a run that is ended with its files in place.
+const WRITTEN: &str = "interrupted: the files are written";
 /// How the names of staging folders begin.
 const STAGING: &str = ".softstop-";
 /// The file in a staging folder that its run holds locked.
@@ -147,7 +149,7 @@ impl Folder {
 
     /// Puts the staged files into place, replacing older ones.
     pub fn commit(mut self, names: &[&str]) -> Result<(), Failure> {
-        let under_way = under_way();
+        let mut under_way = under_way();
         if interrupt::requested() {
             drop(under_way);
             return Err(Failure::Interrupted);
@@ -160,6 +162,7 @@ impl Folder {
                 break;
             }
             self.making.made.clear();
+            under_way.close_with(WRITTEN);
         }
         drop(under_way);
         moved?;

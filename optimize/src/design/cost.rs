@@ -42,7 +42,7 @@ pub(super) struct Cost<'search> {
 }
 
 /// Points computed between two looks at whether to stop.
-const BLOCK: usize = 64;
+const BLOCK: usize = 512;
 
 impl Cost<'_> {
     /// What points cost. Never is NaN (the swarm would panic, Nelder-Mead stall); once stopped, infinite.

@@ -106,7 +106,7 @@ pub(super) fn correct_with<E: Equations>(
             return Ok(Node { at, here });
         }
         if late && size > 0.5 * last {
-            break;
+            return Err(OrbitError::Diverged { residual: size });
         }
         let kept = slopes
             .take()
@@ -162,8 +162,8 @@ fn tangent_with<E: Equations>(
     }
 }
 
-/// Derivatives of a residual by the unknowns beyond the [`Equations::EXACT`] first ones: exact, or else differences: central ones, or one-sided where
-/// that is enough or there is no machine on the other side.
+/// Derivatives of a residual by the unknowns beyond the [`Equations::EXACT`] first ones. They are exact where the system
+/// knows them, otherwise differences, central or one-sided where that is enough or there is no machine on the other side.
 fn slopes_at<E: Equations>(
     equations: &E,
     at: &DVector<f64>,

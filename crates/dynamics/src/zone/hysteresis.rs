@@ -54,7 +54,7 @@ pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
     from_start(scene, grazing, find(&scene.at_frequency(grazing.1)).ok())
 }
 
-/// The same of many machines at once, on all cores, in a fraction of the work: the z = 1 motion at g0 is the hardest of
+/// The same of many machines at once, in groups of some on all cores, in a fraction of the work: the z = 1 motion at g0 is the hardest of
 /// those that motions come back near to, and where there is none of them, as in [`hysteresis`].
 ///
 /// # Errors

@@ -61,10 +61,10 @@ pub struct BasinArguments {
     /// The third quantity, which all cells share
     #[arg(long, value_name = "VALUE", default_value_t = 0.0)]
     pub at: f64,
-    /// Range of the initial position [default: twice the clearance both ways, more where motions go farther]
+    /// Range of the initial position [default: twice the clearance, or the amplitude of a free mass if that is larger, both ways; more where motions go farther]
     #[arg(long, value_name = "LOW:HIGH", value_parser = range::rising, allow_hyphen_values = true)]
     pub x: Option<[f64; 2]>,
-    /// Range of the initial velocity [default: twice the clearance times the drive frequency both ways, more where motions are faster]
+    /// Range of the initial velocity [default: that times the drive frequency both ways, more where motions are faster]
     #[arg(long, value_name = "LOW:HIGH", value_parser = range::rising, allow_hyphen_values = true)]
     pub v: Option<[f64; 2]>,
     /// Range of the drive angle in rad [default: a whole turn]
@@ -145,8 +145,8 @@ fn picture(
     machine: &Machine,
 ) -> Result<(), Failure> {
     let scene = &machine.scene;
-    let grid = plane::grid(arguments, std::slice::from_ref(scene))?;
     let export = Export::open(&arguments.output, &PICTURE)?;
+    let grid = plane::grid(arguments, std::slice::from_ref(scene))?;
     let progress = Progress::new(grid.cells() as u64, "cells");
     let basins = basins(scene, &grid, options, &progress.watcher()).map_err(Error::from)?;
     drop(progress);

@@ -78,7 +78,8 @@ pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
         progress.at_of(done, planned);
         interrupt::go_on()
     };
-    options.region = Some(starting_box(&machine.scene, &watcher).map_err(Error::from)?);
+    options.region =
+        Some(starting_box(&machine.scene, &|_, _| interrupt::go_on()).map_err(Error::from)?);
     let survey = attractors(&machine.scene, &options, &watcher).map_err(Error::from)?;
     drop(progress);
     export::print(

@@ -36,7 +36,7 @@ pub(super) struct Outcome {
     pub duration: f64,
 }
 
-/// Share of all energies beyond which their balance tells that digits are lost.
+/// Share of the largest energy beyond which their balance tells that digits are lost.
 const MOST_DEFECT: f64 = 1e-9;
 
 impl Outcome {
@@ -46,10 +46,11 @@ impl Outcome {
         work.supplied - work.dissipated - self.stored
     }
 
-    /// Refuses a motion that does not keep its energies; that at the start was `before`.
-    fn check(&self, before: f64) -> Result<(), Failure> {
+    /// Refuses a motion that does not keep its energies; that at the start was `before`, and `typical` is that of motions
+    /// of this scene, for a run may end with none.
+    fn check(&self, before: f64, typical: f64) -> Result<(), Failure> {
         let work = &self.tally.work;
-        let energies = [before, self.stored, work.supplied, work.dissipated];
+        let energies = [before, self.stored, work.supplied, work.dissipated, typical];
         let size = energies
             .iter()
             .map(|energy| energy.abs())
@@ -107,7 +108,8 @@ impl Plan<'_> {
             end: motion.state(),
             duration: motion.clock().time(motion.now()),
         };
-        outcome.check(before)?;
+        let speed = self.scene.motion_scales().speed();
+        outcome.check(before, self.scene.mass * speed * speed)?;
         Ok(outcome)
     }
 

@@ -252,6 +252,10 @@ fn check(
     Ok(())
 }
 
+/// What is said of a sweep that is ended in the middle of a step.
+const KEPT: &str =
+    "interrupted: the same line with --resume goes on from the last steps that were kept";
+
 /// Carries the chains on to their ends, and keeps what is done from time to time.
 fn follow(plan: &Plan, chains: &mut [Chain], keep: &Keep) -> Result<(), Failure> {
     let all = (plan.steps * chains.len()) as u64;
@@ -265,11 +269,15 @@ fn follow(plan: &Plan, chains: &mut [Chain], keep: &Keep) -> Result<(), Failure>
         if finished {
             return Ok(());
         }
+        // Nothing ends the run while this is held.
+        let mut under_way = interrupt::under_way();
         let requested = interrupt::requested();
         if requested {
-            interrupt::under_way().keep();
+            under_way.keep();
         }
         keep.store(chains)?;
+        under_way.close_with(KEPT);
+        drop(under_way);
         if requested {
             let done: usize = chains.iter().map(|chain| chain.steps.len()).sum();
             return Err(Failure::Suspended(format!(
