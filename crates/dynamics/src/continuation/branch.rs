@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use nalgebra::{DVector, Vector2};
 
 use super::Family;
-use super::arclength::{Node, Walker};
+use super::arclength::Node;
 use super::caution::SHORT;
 use super::detect::passes_by;
 use super::follower::{Follower, Heading, Turned, WIDTH};
@@ -14,6 +14,7 @@ use super::locate::locate;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::round::Round;
 use super::test::Test;
+use super::walker::Walker;
 use super::way::{End, Limits, Way};
 use crate::orbit::OrbitError;
 

@@ -1,13 +1,14 @@
 //! What keeps a step along a branch from missing anything, and what ends a branch that no step can follow.
 
 use super::Family;
-use super::arclength::{Equations, Stride, Walker};
+use super::arclength::Equations;
 use super::follower::Follower;
 use super::graze::Approach;
 use super::point::{Special, SpecialKind};
 use super::round::Round;
 use super::shooting::Shooting;
 use super::test::Test;
+use super::walker::{Stride, Walker};
 use super::way::{Border, End, Limits, Way};
 use crate::orbit::OrbitError;
 

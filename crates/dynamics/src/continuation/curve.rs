@@ -5,13 +5,14 @@ use std::ops::ControlFlow;
 use nalgebra::{DVector, Matrix2};
 
 use super::Family;
-use super::arclength::{Equations, Node, Walker, correct};
+use super::arclength::{Equations, Node, correct};
 use super::follower::WIDTH;
 use super::locate::locate;
 use super::point::{BranchPoint, Graze, SpecialKind};
 use super::round::{Round, Sequence};
 use super::shooting::{Critical, Shooting};
 use super::touching::{Contact, Touching};
+use super::walker::Walker;
 use crate::orbit::OrbitError;
 
 /// The part of the plane of two parameters in which a curve is followed.

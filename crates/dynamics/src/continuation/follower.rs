@@ -5,12 +5,13 @@ use std::ops::ControlFlow;
 use nalgebra::{DVector, Vector2};
 
 use super::Family;
-use super::arclength::{Equations, LARGEST_STEP, Node, Walker, correct, correct_at};
+use super::arclength::{Equations, Node, correct, correct_at};
 use super::locate::locate;
 use super::point::BranchPoint;
 use super::round::Round;
 use super::shooting::{Critical, Shooting};
 use super::test::Test;
+use super::walker::{LARGEST_STEP, Walker};
 use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
 
 /// Scaled distance along a branch to which special points are located.

@@ -43,6 +43,7 @@ mod shooting;
 mod switch;
 mod test;
 mod touching;
+mod walker;
 mod way;
 
 pub use along::Along;
