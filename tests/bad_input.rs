@@ -61,19 +61,8 @@ fn time_does_not_run_backwards() {
 #[test]
 fn an_unbounded_motion_is_an_error() {
     let scene = Scene {
-        mass: 1.0,
         stiffness: 0.0,
-        damping: 0.0,
-        excitation: Excitation {
-            amplitude: 1.0,
-            frequency: 1.0,
-            phase: 0.0,
-        },
-        clearance: 0.0,
-        contact_damping: 0.0,
-        rigid: None,
-        stop: Stop::None,
-        piercing: None,
+        ..Scene::of_stop(Stop::None)
     };
     let mut machine = Simulation::new(&scene, Start::new(1e308, 1e308)).expect("finite");
     let error = machine.advance(1e3).expect_err("beyond all numbers");

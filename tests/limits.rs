@@ -1,7 +1,7 @@
 //! Machines whose time scales lie too far apart for doubles are refused. With springs up to their limit and dampers up to
 //! a thousandth of theirs eight digits hold.
 
-use softstop::{Excitation, Machine, Release, Scene, SceneError, Simulation, Slope, Start, Stop};
+use softstop::{Machine, Release, Scene, SceneError, Simulation, Slope, Start, Stop};
 use softstop_testing::loaded;
 
 /// The promise of docs/method.md.
@@ -15,21 +15,16 @@ const OUTSIDE: f64 = 1.0 + 1e-12;
 
 /// A mass that flies through a clearance of 10 m against a stop; nothing else acts on it.
 fn flight(frequency: f64, contact_damping: f64, stop: Stop) -> Scene {
-    Scene {
+    let mut scene = Scene {
         mass: 2.0,
         stiffness: 0.0,
-        damping: 0.0,
-        excitation: Excitation {
-            amplitude: 0.0,
-            frequency,
-            phase: 0.0,
-        },
         clearance: 10.0,
         contact_damping,
-        stop,
-        piercing: None,
-        rigid: None,
-    }
+        ..Scene::of_stop(stop)
+    };
+    scene.excitation.amplitude = 0.0;
+    scene.excitation.frequency = frequency;
+    scene
 }
 
 fn kelvin_voigt(stiffness: f64) -> Stop {
