@@ -50,6 +50,49 @@ fn the_strip_is_pierced_on_the_way_forward_and_the_stop_pressed_between_d_and_e(
 }
 
 #[test]
+fn a_stop_that_stays_where_it_is_misses_no_stroke_at_b() {
+    let figure = Figure::of("supply");
+    for runs in [2, 5, 25] {
+        let missed = |stop: &str| {
+            figure.get(&format!(
+                "{stop}, runs of {runs}: motions with a missed stroke at B"
+            ))
+        };
+        assert_eq!(missed("stop fixed at rho + 0.9"), 0.0, "runs of {runs}");
+        assert!(
+            missed("stop at rho without a strip") > 0.0,
+            "runs of {runs}"
+        );
+    }
+}
+
+#[test]
+fn a_slow_change_of_the_clearance_seldom_leads_to_two_thirds() {
+    let figure = Figure::of("ways");
+    let told = "z = 2/3, 5e-4 per period: ways of 11";
+    let (met, there) = (
+        figure.get(&format!("{told} that meet it")),
+        figure.get(&format!("{told} on it at rho = 10")),
+    );
+    assert!(there <= met && met < 11.0, "{there} of {met}");
+}
+
+#[test]
+fn b_goes_farther_than_a_and_hits_harder() {
+    let figure = Figure::of("7");
+    figure.near(
+        "X_m of B less that of A",
+        11.155_994_68 - 10.260_591_34,
+        printed(7),
+    );
+    figure.near(
+        "X'_- of B over that of A",
+        8.398_675_59 / 6.494_627_43,
+        printed(7),
+    );
+}
+
+#[test]
 fn the_twelve_motions_are_found_and_are_what_the_paper_says() {
     let figure = Figure::of("9");
     let regimes = [
@@ -124,10 +167,12 @@ fn from_soft_to_rigid_the_papers_five_points_in_numbers() {
     );
     let power = "(3) width of weak z = 1 goes with k2 to the power";
     figure.near(power, -2.0, 0.03);
-    // (4) Other laws, the same structure.
+    // (4) Other laws, the same fundamental motions; the others less so.
     for law in ["two slopes", "Hertz"] {
         let name = format!("(4) {law}, like k2/k1 = 10: share of eta with the same motion");
         assert!(of(&name) > 0.85, "{law}: {}", of(&name));
+        let others = of(&format!("{name}, where either is neither z = 0 nor z = 1"));
+        assert!(others < of(&name), "{law}: {others}");
     }
     // (5) z = 1/n of high order only where the impact-less motion exists too.
     for motion in figure.table("hardening-subharmonics.csv") {

@@ -13,10 +13,12 @@ mod figure7;
 mod figure8;
 mod figure9;
 mod hardening;
+mod laminar;
 mod regimes;
 mod report;
 mod supply;
 pub mod table1;
+mod ways;
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -40,6 +42,7 @@ Examples:
 Figures of F. Peterka, Chaos, Solitons & Fractals 18 (2003) 79-88, computed anew:
   6a, 6b   bifurcation diagrams over six clearances, unloaded and loaded, up and down
   7a, 7b   points A and B: time series and phase trajectory, phases shaded
+  7        A over B
   8        the diagram of rho = 10 with its four zooms and the numbered bifurcations of Table 1
   9        the motions (A) to (L): time series, phase trajectory, Poincare points
   table1   its Table 1
@@ -50,6 +53,8 @@ and what it only describes:
   certainty   how certainly z = 1 establishes itself, from g0 to s_SN
   supply      whether an interrupted supply of strips ends z = 1
   hardening   the transition of the stop's stiffness k2 from 0 to infinity
+  ways        whether slow changes of clearance lead from z = 0 to z = 2/3 or (2/4)B
+  laminar     how long the old motion lasts between bursts beside rows 3, 16 and 17 of Table 1
 
 Pictures are SVG where they are curves and PNG where they are clouds or maps, with the data of
 each beside it as CSV; files are written whole or not at all.";
@@ -74,11 +79,12 @@ pub struct PaperArguments {
 }
 
 /// The figures by their names on the command line.
-static FIGURES: [(&str, &Figure); 13] = [
+static FIGURES: [(&str, &Figure); 16] = [
     ("6a", &figure6::UNLOADED),
     ("6b", &figure6::LOADED),
     ("7a", &figure7::POINT_A),
     ("7b", &figure7::POINT_B),
+    ("7", &figure7::BOTH),
     ("8", &figure8::FIGURE),
     ("9", &figure9::FIGURE),
     ("table1", &table1::figure::FIGURE),
@@ -88,6 +94,8 @@ static FIGURES: [(&str, &Figure); 13] = [
     ("certainty", &certainty::FIGURE),
     ("supply", &supply::FIGURE),
     ("hardening", &hardening::FIGURE),
+    ("ways", &ways::FIGURE),
+    ("laminar", &laminar::FIGURE),
 ];
 
 const REPORT: &str = "paper.json";

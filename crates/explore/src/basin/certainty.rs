@@ -3,7 +3,7 @@
 use softstop::{Dimension, Machine, Parameter};
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Pen, Stroke};
-use softstop_draw::shapes::Sign;
+use softstop_draw::shapes::{Mark, Sign};
 use softstop_draw::style;
 use softstop_dynamics::basin::Establishing;
 
@@ -65,8 +65,9 @@ const FIRST: (f64, f64) = (84.0, 108.0);
 const LEGEND: f64 = 320.0;
 /// Letters.
 const LETTERS: u32 = 14;
-/// The paper's claim.
-const CLAIM: Stroke = Stroke::dashed(style::ASIDE, 1.4, (2.0, 3.0));
+/// The paper's claim, which names the ends only.
+const CLAIM: [(f64, f64); 2] = [(0.0, 1.0), (1.0, 0.0)];
+const CLAIMED: Sign = Sign::Mark(Mark::Circle, style::ASIDE);
 /// Values upwards: a share, with room for the line at one.
 const SHARES: (f64, f64) = (0.0, 1.02);
 
@@ -97,7 +98,9 @@ impl CertaintyPanel {
             curve.draw(pen, panel);
         }
         if self.has_claim {
-            panel.curve(pen, &[(0.0, 1.0), (1.0, 0.0)], CLAIM);
+            for end in CLAIM {
+                pen.mark(panel.place(end), Mark::Circle, 6.0, style::ASIDE);
+            }
         }
         panel.axes(pen, &axes);
         let (left, top, ..) = panel.area;
@@ -115,7 +118,7 @@ impl CertaintyPanel {
             .collect();
         if has_claim {
             let claim = "the paper: one at g₀, zero at s_SN".to_owned();
-            entries.push((Sign::Line(CLAIM), claim));
+            entries.push((CLAIMED, claim));
         }
         entries
     }

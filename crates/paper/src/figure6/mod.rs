@@ -91,11 +91,21 @@ fn findings(ends: &[Ends], chains: &[Chain], optimum: Option<(f64, f64)>) -> Fin
         add("eta_g0", Some(end.grazing[0]));
         add("eta_SN", fold.map(|it| it[0]));
         add("eta_PD", end.flip.as_ref().map(|it| it.1[0]));
+        add("X_m at the fold", fold.map(|it| it[1]));
         add("velocity at the fold", fold.map(|it| it[2]));
         let ones = diagram::steps(ways).filter(|step| diagram::is_one(step));
         let hardest = ones.max_by(|a, b| a.hardest().total_cmp(&b.hardest()));
         add("hardest impact of z = 1", hardest.map(Step::hardest));
         add("eta of the hardest impact", hardest.map(|it| it.value));
+        let highest = diagram::steps(ways).map(|step| step.max_position);
+        add("largest X_m of any motion", highest.max_by(f64::total_cmp));
+        let ones = diagram::steps(ways).filter(|step| diagram::is_one(step));
+        let highest = ones.max_by(|a, b| a.max_position.total_cmp(&b.max_position));
+        add("largest X_m of z = 1", highest.map(|it| it.max_position));
+        add(
+            "eta of the largest X_m of z = 1",
+            highest.map(|it| it.value),
+        );
         add("hysteresis width", fold.map(|it| it[0] - end.grazing[0]));
         for chain in ways {
             let ranges = chart::ranges(chain);

@@ -1,5 +1,6 @@
-//! Figure 7, (a) and (b): the z = 1 motion at the points A and B.
+//! Figure 7, (a) and (b): the z = 1 motion at the points A and B, and both over each other.
 
+mod both;
 mod chart;
 mod cycle;
 
@@ -25,9 +26,34 @@ pub(super) const POINT_B: Figure = Figure {
     draw: |studio| draw(studio, &Ratios::loaded(), "(b), point B: loaded"),
 };
 
-fn draw(studio: &Studio, machine: &Ratios, name: &str) -> Result<Drawn> {
+/// Both.
+pub(super) const BOTH: Figure = Figure {
+    title: "Point A over point B",
+    files: &["figure-7.svg"],
+    draw: |studio| {
+        let cycles = [
+            cycle(studio, &Ratios::unloaded())?,
+            cycle(studio, &Ratios::loaded())?,
+        ];
+        let [a, b] = cycles.each_ref().map(|cycle| &cycle.orbit);
+        let mut findings = Findings::default();
+        findings.add("X_m of B less that of A", b.max_position - a.max_position);
+        let velocity = b.before_impact_velocity() / a.before_impact_velocity();
+        findings.add("X'_- of B over that of A", velocity);
+        Ok(Drawn {
+            files: vec![both::svg(&cycles).into_bytes()],
+            findings,
+        })
+    },
+};
+
+fn cycle(studio: &Studio, machine: &Ratios) -> Result<Cycle> {
     let orbit = find(&machine.scene()?)?;
-    let cycle = Cycle::of(orbit, studio.detail.pick(2000, 400))?;
+    Ok(Cycle::of(orbit, studio.detail.pick(2000, 400))?)
+}
+
+fn draw(studio: &Studio, machine: &Ratios, name: &str) -> Result<Drawn> {
+    let cycle = cycle(studio, machine)?;
     Ok(Drawn {
         files: vec![cycle.svg(name).into_bytes(), table(&cycle.points)?],
         findings: findings(&cycle),

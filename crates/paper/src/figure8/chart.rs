@@ -164,7 +164,7 @@ fn legend(pen: &mut Pen, y: f64) {
         (BOTH, "up and down"),
         (UP, "up only"),
         (DOWN, "down only"),
-        (ISOLATED, "reached by no sweep from z = 0"),
+        (ISOLATED, "on none of these sweeps"),
     ];
     let mut x = COLUMNS[0].0;
     for (color, text) in entries {

@@ -159,9 +159,10 @@ fn explanation(detail: Detail) -> String {
         let (steps, periods) = zoom.size(detail);
         format!("{} {steps} × {periods}", zoom.name)
     });
+    let (fast, short) = FLEETING.size(detail);
     format!(
-        "Peterka 2003, Fig. 8 and Table 1. Sweeps up and down: {steps} frequencies × {periods} drive periods; \
-         zooms {}",
+        "Peterka 2003, Fig. 8. Frequencies × drive periods, up and down: {steps} × {periods}; {}; \
+         in (a) also {SIDE_BY_SIDE} fast ways down {fast} × {short}",
         zooms.collect::<Vec<String>>().join(", ")
     )
 }

@@ -39,7 +39,7 @@ pub(super) const MOTIONS: [Asked; 12] = motions! {
     'G' 0.987_5 true None, "coexists with (H) and (I)";
     'H' 0.987_5 true Some("1-1-0-0"), "the paper's (2/4)B; coexists with (G) and (I)";
     'I' 0.987_5 true Some("1-1-0"), "coexists with (G) and (H)";
-    'J' 0.988_5 false Some("1-0"), "the paper's (2/4)A: one impact in 2 T";
+    'J' 0.988_5 false Some("1-0"), "the paper's (2/4)A; here z = 1/2, one impact in 2 T";
     'K' 1.005_6 false None, "beyond the doubling of z = 2/3 (bifurcation 17)";
     'L' 1.369 false Some("1"), "just below s_SN (bifurcation 19)";
 };

@@ -12,6 +12,8 @@ use crate::figure::Findings;
 
 /// Drive periods of the phase trajectory of what does not repeat.
 const WANDERING: u64 = 60;
+/// Drive periods over which its energy is taken, and points in each.
+const ENERGY: (u64, u32) = (2000, 400);
 
 /// A motion and what was asked for.
 pub struct Found {
@@ -136,8 +138,21 @@ impl Found {
         )
     }
 
+    /// The kinetic energy in units of F0^2/k1: its mean over time, and the largest.
+    fn kinetic(&self) -> Result<[f64; 2]> {
+        let path = self.path(Some(self.period().unwrap_or(ENERGY.0)), ENERGY.1)?;
+        let energy = |at: &[f64; 3]| 0.5 * at[2] * at[2];
+        let pieces = path.points.windows(2);
+        let pieces = pieces
+            .map(|two| f64::midpoint(energy(&two[0]), energy(&two[1])) * (two[1][0] - two[0][0]));
+        let time = path.points.last().map_or(1.0, |at| at[0]);
+        let largest = path.points.iter().map(energy).fold(0.0, f64::max);
+        Ok([pieces.sum::<f64>() / time, largest])
+    }
+
     /// What is told of it.
-    pub fn tell(&self, findings: &mut Findings) {
+    pub fn tell(&self, findings: &mut Findings) -> Result<()> {
+        let [energy, largest] = self.kinetic()?;
         let mut add = |what: &str, value: Option<f64>| {
             findings.add(format!("({}) {what}", self.asked.letter), value);
         };
@@ -151,5 +166,8 @@ impl Found {
         add("impacts per period", self.is_chaotic().then_some(mean));
         add("largest multiplier, modulus", self.modulus());
         add("mean life, periods", self.lifetime());
+        add("mean kinetic energy", Some(energy));
+        add("largest kinetic energy", Some(largest));
+        Ok(())
     }
 }

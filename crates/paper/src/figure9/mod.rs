@@ -59,7 +59,9 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     files.push(figure::table(columns, series)?);
     files.push(figure::table("motion,position,velocity", sections)?);
     let mut findings = Findings::default();
-    found.iter().for_each(|motion| motion.tell(&mut findings));
+    for motion in &found {
+        motion.tell(&mut findings)?;
+    }
     Ok(Drawn { files, findings })
 }
 

@@ -50,8 +50,17 @@ pub(super) fn of_stops(findings: &mut Findings, drawn: &[Swept], folds: &[Folds]
     let of = |law: Law| drawn.iter().find(|swept| swept.law == law);
     for law in [Law::TwoSlopes(10.0), Law::Hertz(10.0)] {
         let both = of(Law::KelvinVoigt(10.0)).zip(of(law));
-        let name = format!("(4) {}: share of eta with the same motion", plain(law));
-        findings.add(name, both.map(|(kelvin, other)| kelvin.likeness(other)));
+        let likeness = both.map(|(kelvin, other)| kelvin.likeness(other));
+        let mut add = |what: &str, value: Option<f64>| {
+            let name = format!(
+                "(4) {}: share of eta with the same motion{what}",
+                plain(law)
+            );
+            findings.add(name, value);
+        };
+        add("", likeness.map(|it| it[0]));
+        let others = ", where either is neither z = 0 nor z = 1";
+        add(others, likeness.map(|it| it[1]));
     }
 }
 

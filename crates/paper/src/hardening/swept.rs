@@ -101,10 +101,14 @@ impl Swept {
         self.up.iter().filter(complex).count() as f64 / self.up.len().max(1) as f64
     }
 
-    /// Share of the frequencies and ways at which two stops end in the same kind of motion.
-    pub(super) fn likeness(&self, other: &Self) -> f64 {
+    /// Share of the frequencies and ways at which two stops end in the same kind of motion: of all, and of those
+    /// at which either is neither z = 0 nor z = 1.
+    pub(super) fn likeness(&self, other: &Self) -> [f64; 2] {
         let ours = self.up.iter().chain(&self.down);
-        agreement(ours.zip(other.up.iter().chain(&other.down)))
+        let pairs = ours.zip(other.up.iter().chain(&other.down));
+        let is_other = |step: &Step| !matches!(kind(step), Kind::None | Kind::One);
+        let others = pairs.clone().filter(|(a, b)| is_other(a) || is_other(b));
+        [agreement(pairs), agreement(others)]
     }
 }
 

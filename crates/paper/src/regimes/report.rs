@@ -5,9 +5,9 @@ use anyhow::Result;
 use super::boundaries::Boundaries;
 use super::{MAPS, Named, middle};
 use crate::figure::{self, Findings};
-use softstop_dynamics::MotionKind;
 use softstop_dynamics::continuation::CurvePoint;
 use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::{MotionKind, Regime};
 use softstop_explore::basin::cells::RegimeMap;
 
 /// A row for each run of cells of the same motion: from the middle of the first cell to that of the last.
@@ -65,6 +65,14 @@ pub(super) fn findings(maps: &[RegimeMap; 6], boundaries: &[Boundaries; 2]) -> F
             let name = format!("{machine}, {finding}: share of {name}");
             findings.add(name, (share > 0.0).then_some(share));
         }
+        let two_thirds = Regime {
+            impacts: 2,
+            periods: 3,
+        };
+        let is = |cell: &MotionKind| cell.regime() == Some(two_thirds);
+        let rows = map.cells.chunks(map.columns);
+        let rows = rows.filter(|row| row.iter().any(is)).count() as f64;
+        findings.add(format!("{machine}, {finding}: rows with z = 2/3"), rows);
     }
     let ways = [("unloaded", up, down), ("loaded", loaded_up, loaded_down)];
     for ((name, up, down), own) in ways.into_iter().zip(boundaries) {

@@ -1,64 +1,85 @@
-//! How many z = 1 motions outlast an interrupted supply.
+//! How many z = 1 motions outlast an interrupted supply, and how many miss no stroke.
 
-use kuva::backend::svg::SvgBackend;
-use kuva::plot::LinePlot;
-use kuva::plot::band::BandPlot;
-use kuva::plot::legend::LegendPosition;
-use kuva::render::annotations::ReferenceLine;
-use kuva::render::plots::Plot;
-use kuva::render::render::{collect_legend_entries, render_multiple};
-
+use softstop_draw::panel::{Axes, Panel, heading};
+use softstop_draw::pen::{Align, Pen, Stroke};
+use softstop_draw::shapes::Sign;
 use softstop_draw::style;
+use softstop_dynamics::basin::wilson;
+
+use super::{Outcome, READINGS, RUNS, of_run};
 
 const COLORS: [&str; 3] = [style::DESIGN, style::REFERENCE, "#009E73"];
+/// Width and height of a panel, from one to the next, left and top of the first.
+const AREA: (f64, f64) = (560.0, 360.0);
+const NEXT: f64 = 660.0;
+const FIRST: (f64, f64) = (84.0, 112.0);
+const LETTERS: u32 = 14;
+const MARK: Stroke = Stroke::dashed(style::INK, 1.2, (5.0, 4.0));
 
-/// A name, and for each frequency eta, share that stays z = 1, and both ends of its 95 % interval.
-pub(super) type Curve = (String, Vec<[f64; 4]>);
-
-/// The chart as an SVG document, with a curve for each kind of supply; `folds` is where z = 1 ends with strips, and
-/// without.
-pub(super) fn svg(curves: &[Curve], grazing: f64, folds: [f64; 2], clearance: f64) -> String {
-    let plots: Vec<Plot> = curves.iter().zip(COLORS).flat_map(curve).collect();
-    let right = curves.iter().flat_map(|(_, points)| points);
-    let right = right.map(|point| point[0]).fold(folds[0], f64::max);
+/// The chart as an SVG document; `fold` is where z = 1 ends with strips.
+pub(super) fn svg(outcomes: &[Outcome], grazing: f64, fold: f64, clearance: f64) -> String {
+    let right = outcomes.iter().map(|it| it.eta).fold(fold, f64::max);
     let room = 0.03 * (right - grazing);
-    let line = |eta: f64, name: &str| {
-        ReferenceLine::vertical(eta)
-            .with_color(style::INK)
-            .with_dasharray("5 4")
-            .with_label(name)
-    };
-    let mut layout = style::plain((grazing - room, right + room), (0.0, 1.08))
-        .with_width(960.0)
-        .with_height(520.0)
-        .with_title("z = 1 under an interrupted supply of strips")
-        .with_subtitle(format!(
-            "share of motions that are z = 1 in the end, ρ = {clearance}, with 95 % interval"
-        ))
-        .with_x_label("drive frequency η = ω/Ω")
-        .with_y_label("share that stays z = 1")
-        .with_legend_position(LegendPosition::InsideBottomLeft)
-        .with_reference_line(line(grazing, "g₀"))
-        .with_reference_line(line(folds[0], "s_SN with strips"));
-    if folds[1] <= right + room {
-        layout = layout.with_reference_line(line(folds[1], "s_SN without"));
+    let mut pen = Pen::page(FIRST.0 + 2.0 * NEXT + 100.0, FIRST.1 + AREA.1 + 72.0);
+    let title = format!("z = 1 under an interrupted supply of strips, ρ = {clearance}");
+    let explanation = "solid: is z = 1 in the end, with 95 % interval; dotted: has missed no stroke; \
+                       strips come and fail in runs of a mean length";
+    heading(&mut pen, (FIRST.0, 36.0), &title, explanation);
+    let axes = Axes::new(
+        LETTERS,
+        Some("drive frequency η = ω/Ω"),
+        "share of motions",
+        (6, 6),
+    );
+    for (index, (reading, name)) in READINGS.into_iter().enumerate() {
+        let left = FIRST.0 + NEXT * index as f64;
+        let area = (left, FIRST.1, AREA.0, AREA.1);
+        let panel = Panel::new(area, (grazing - room, right + room), (0.0, 1.02));
+        panel.ground(&mut pen, &axes);
+        let own = outcomes
+            .iter()
+            .filter(|it| it.stop_without_strip == reading);
+        let own: Vec<Outcome> = own.copied().collect();
+        for (mean, color) in RUNS.into_iter().zip(COLORS) {
+            curves(&mut pen, &panel, of_run(&own, mean), color);
+        }
+        for (eta, name, align, beside) in [
+            (grazing, "g₀", Align::Left, 6.0),
+            (fold, "s_SN with strips", Align::Right, -6.0),
+        ] {
+            panel.curve(&mut pen, &[(eta, 0.0), (eta, 1.02)], MARK);
+            let place = (panel.across(eta) + beside, panel.height(0.05));
+            pen.text(place, LETTERS, align, name);
+        }
+        panel.axes(&mut pen, &axes);
+        let place = (left, FIRST.1 - 12.0);
+        let name = name.replace("rho", "ρ");
+        pen.heading(place, LETTERS + 2, Align::Left, &name);
     }
-    let layout = layout.with_legend_entries(collect_legend_entries(&plots));
-    SvgBackend::new()
-        .with_pretty(true)
-        .render_scene(&render_multiple(plots, layout))
+    let signs = RUNS.iter().zip(COLORS).map(|(mean, color)| {
+        let sign = Sign::Line(Stroke::solid(color, 2.2));
+        (sign, format!("{mean} periods"))
+    });
+    let place = (FIRST.0 + 2.0 * NEXT - 50.0, FIRST.1 + 14.0);
+    pen.legend(place, LETTERS, &signs.collect::<Vec<_>>());
+    pen.svg()
 }
 
-fn curve(((name, points), color): (&Curve, &str)) -> [Plot; 2] {
-    let column = |index: usize| points.iter().map(move |point| point[index]);
-    let band = BandPlot::new(column(0), column(2), column(3));
-    let line = LinePlot::new().with_data(column(0).zip(column(1)).collect::<Vec<_>>());
-    [
-        Plot::Band(band.with_color(color).with_opacity(0.2)),
-        Plot::Line(
-            line.with_color(color)
-                .with_stroke_width(2.2)
-                .with_legend(name.clone()),
-        ),
-    ]
+/// How many are z = 1 in the end, and how many have missed no stroke.
+fn curves<'a>(
+    pen: &mut Pen,
+    panel: &Panel,
+    outcomes: impl Iterator<Item = &'a Outcome>,
+    color: &'static str,
+) {
+    let (mut stay, mut sure, mut struck) = (Vec::new(), Vec::new(), Vec::new());
+    for it in outcomes {
+        let share = |lost: usize| (it.motions - lost) as f64 / it.motions as f64;
+        stay.push((it.eta, share(it.ended)));
+        sure.push((it.eta, wilson(it.motions - it.ended, it.motions)));
+        struck.push((it.eta, share(it.missed)));
+    }
+    panel.band(pen, &sure, color, 0.2);
+    panel.curve(pen, &stay, Stroke::solid(color, 2.2));
+    panel.curve(pen, &struck, Stroke::dashed(color, 1.6, (2.0, 4.0)));
 }

@@ -2,7 +2,8 @@
 //!
 //! At the end of each drive period, while the mass is short of the strip, the supply breaks off or sets in again
 //! by chance, so that strips come and fail in runs of a mean length. The motion begins as z = 1; in the end the
-//! supply is steady once more, and it is counted whether each period has its impact still.
+//! supply is steady once more, and it is counted whether each period has its impact still. What is there without a
+//! strip can be read in two ways ([`Reading`]).
 
 mod chart;
 
@@ -13,7 +14,6 @@ use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use rayon::prelude::*;
 use softstop::{Piercing, Ratios};
 use softstop_dynamics::StroboscopicMap;
-use softstop_dynamics::basin::wilson;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::hysteresis;
 
@@ -35,9 +35,26 @@ const CLOSE: (usize, usize) = (250, 64);
 /// Shares of the range from g0 to the loaded machine's fold, that fold being 1; the unloaded one's lies beyond.
 const SHARES: (f64, f64) = (0.02, 1.1);
 
+/// Where the stop stands while there is no strip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+enum Reading {
+    /// At rho, as in the paper's unloaded machine.
+    #[serde(rename = "rho")]
+    Near,
+    /// At rho + sigma + nu, where it stands behind a strip: it is fixed.
+    #[serde(rename = "rho + sigma + nu")]
+    Fixed,
+}
+
+const READINGS: [(Reading, &str); 2] = [
+    (Reading::Near, "stop at rho without a strip"),
+    (Reading::Fixed, "stop fixed at rho + 0.9"),
+];
+
 /// What became of many motions at one frequency.
 #[derive(Debug, Clone, Copy, serde::Serialize)]
 struct Outcome {
+    stop_without_strip: Reading,
     eta: f64,
     mean_run: f64,
     motions: usize,
@@ -59,26 +76,39 @@ struct Press {
 
 fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
-    let clearance = Ratios::unloaded().clearance;
-    let zones = zones(clearance)?;
-    let count = detail.pick(55, 12);
-    let etas = etas(zones, count);
-    let progress = Progress::new((etas.len() * RUNS.len()) as u64, "frequencies");
-    let outcomes = survey(clearance, zones[1], &etas, detail, &progress)?;
-    let curve = |mean: f64| {
-        let points = of_run(&outcomes, mean).map(point);
-        (format!("runs of {mean} periods"), points.collect())
-    };
-    let [grazing, loaded, unloaded] = zones;
-    let svg = chart::svg(&RUNS.map(curve), grazing, [loaded, unloaded], clearance);
+    let machine = Ratios::loaded();
+    let zones = zones(machine.clearance)?;
+    let mut etas = etas(zones, detail.pick(55, 12));
+    // Point B among them.
+    etas.push(machine.frequency);
+    etas.sort_by(f64::total_cmp);
+    let progress = Progress::new((2 * etas.len() * RUNS.len()) as u64, "frequencies");
+    let mut outcomes = Vec::new();
     let mut findings = Findings::default();
+    let [grazing, loaded, unloaded] = zones;
     findings.add("eta_SN loaded", loaded);
     findings.add("eta_SN unloaded", unloaded);
-    for mean in RUNS {
-        let first = of_run(&outcomes, mean).find(|it| it.ended > 0);
-        let name = format!("first eta at which a motion ends, runs of {mean}");
-        findings.add(name, first.map_or(unloaded, |it| it.eta));
+    for (reading, name) in READINGS {
+        let found = survey(reading, &etas, loaded, detail, &progress)?;
+        for mean in RUNS {
+            let mut add = |what: &str, value: Option<f64>| {
+                findings.add(format!("{name}, runs of {mean}: {what}"), value);
+            };
+            let ended = of_run(&found, mean).find(|it| it.ended > 0);
+            add("first eta at which a motion ends", ended.map(|it| it.eta));
+            let missed = of_run(&found, mean).filter(|it| it.missed > 0 && it.ended == 0);
+            let missed = missed.map(|it| it.eta).max_by(f64::total_cmp);
+            add(
+                "last eta at which strokes are missed and no motion ends",
+                missed,
+            );
+            let at_b = of_run(&found, mean).find(|it| it.eta == machine.frequency);
+            let at_b = at_b.map(|it| it.missed as f64);
+            add("motions with a missed stroke at B", at_b);
+        }
+        outcomes.extend(found);
     }
+    let svg = chart::svg(&outcomes, grazing, loaded, machine.clearance);
     Ok(Drawn {
         files: vec![svg.into_bytes(), output::csv(&outcomes)?],
         findings,
@@ -101,9 +131,9 @@ fn etas([grazing, loaded, unloaded]: [f64; 3], count: usize) -> Vec<f64> {
 }
 
 fn survey(
-    clearance: f64,
-    loaded: f64,
+    reading: Reading,
     etas: &[f64],
+    loaded: f64,
     detail: Detail,
     progress: &Progress,
 ) -> Result<Vec<Outcome>> {
@@ -113,8 +143,9 @@ fn survey(
     let cases: Vec<(f64, f64)> = cases.collect();
     let (motions, periods) = detail.pick((64, 400), (16, 200));
     let outcome = |&(eta, mean): &(f64, f64)| {
-        let press = Press::new(clearance, eta, eta < loaded)?;
+        let press = Press::new(reading, eta, eta < loaded)?;
         let mut outcome = Outcome {
+            stop_without_strip: reading,
             eta,
             mean_run: mean,
             motions,
@@ -133,19 +164,24 @@ fn survey(
 }
 
 impl Press {
-    fn new(clearance: f64, frequency: f64, is_supplied: bool) -> Result<Self> {
-        let scene = |piercing: Option<Piercing>| {
-            let ratios = Ratios {
-                piercing,
-                ..Ratios::unloaded()
-            };
-            let ratios = ratios.at_clearance(clearance);
-            ratios.at_frequency(frequency).scene()
+    fn new(reading: Reading, frequency: f64, is_supplied: bool) -> Result<Self> {
+        let machine = Ratios::loaded().at_frequency(frequency);
+        let without = match reading {
+            Reading::Near => None,
+            Reading::Fixed => Some(Piercing {
+                stiffness: 0.0,
+                friction: 0.0,
+                ..Piercing::PAPER
+            }),
         };
-        let scenes = [scene(None)?, scene(Some(Piercing::PAPER))?];
+        let without = Ratios {
+            piercing: without,
+            ..machine
+        };
+        let scenes = [without.scene()?, machine.scene()?];
         let map = |scene| StroboscopicMap::new(scene, 1);
         Ok(Self {
-            clearance,
+            clearance: machine.clearance,
             maps: [map(&scenes[0])?, map(&scenes[1])?],
             start: find(&scenes[usize::from(is_supplied)])?.state(),
             is_supplied,
@@ -181,12 +217,4 @@ impl Press {
 
 fn of_run(outcomes: &[Outcome], mean: f64) -> impl Iterator<Item = &Outcome> {
     outcomes.iter().filter(move |it| it.mean_run == mean)
-}
-
-/// eta, the share of motions that stay z = 1, and its 95 % interval.
-fn point(outcome: &Outcome) -> [f64; 4] {
-    let stay = outcome.motions - outcome.ended;
-    let [low, high] = wilson(stay, outcome.motions);
-    let share = stay as f64 / outcome.motions as f64;
-    [outcome.eta, share, low, high]
 }

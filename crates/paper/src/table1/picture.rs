@@ -4,9 +4,12 @@ use super::paper::{INTERVALS, PaperRow, ROWS};
 use super::report::{RowReport, TableReport};
 use softstop_draw::table::TablePicture;
 
-const NOTES: [&str; 2] = [
-    "η: where the motion is lost; ends of branches located to 1e-10, chaos by its lifetime, to 5 digits.",
+const NOTES: [&str; 5] = [
+    "η: where the motion is lost; ends of branches located to 1e-10, chaos by its lifetime, to 5 digits. After a soft flip",
+    "with hysteresis (row 4) it is where the next motion begins. “Next from”: where the last motion first follows.",
     "G grazing, SN fold or jump, PD flip, ISN and IPD such a jump or a cascade of flips ending in chaos, OCH out of chaos.",
+    "✓: type and hysteresis as printed; not all motions on the way. Behind a hard flip the doubled motion is unstable: the",
+    "paper's z = 2/2, (4/8)B and 4/6 (rows 14, 16, 17) are not met, and its (2/4)A (rows 13 to 15) is z = 1/2.",
 ];
 
 /// The rows with the paper's beside ours.
@@ -17,12 +20,15 @@ pub fn picture(report: &TableReport) -> TablePicture {
         columns: vec![
             ("", 44.0),
             ("No.", 50.0),
-            ("η", 128.0),
-            ("paper", 120.0),
-            ("transition", 400.0),
-            ("hyst.", 60.0),
-            ("type", 160.0),
-            ("as in the paper", 130.0),
+            ("η", 122.0),
+            ("paper", 106.0),
+            ("η − paper", 96.0),
+            ("transition", 330.0),
+            ("flip", 54.0),
+            ("next from", 122.0),
+            ("hyst.", 54.0),
+            ("type", 140.0),
+            ("as printed", 100.0),
         ],
         lines: lines.map(|(row, paper)| line(row, paper)).collect(),
         notes: NOTES.map(str::to_owned).to_vec(),
@@ -39,7 +45,13 @@ fn line(row: &RowReport, paper: &PaperRow) -> (Vec<String>, bool) {
         row.number.to_string(),
         row.figure().unwrap_or_else(|| "–".to_owned()),
         row.paper.to_string(),
+        row.eta.map_or_else(String::new, |eta| {
+            format!("{:+.0e}", eta - row.paper).replace('-', "−")
+        }),
         row.transition(" → ", " ↔ ").replace("->", "→"),
+        row.flip.unwrap_or_default().to_owned(),
+        row.follows_from
+            .map_or_else(String::new, |eta| format!("{eta:.10}")),
         match row.hysteresis {
             Some(true) => "yes",
             Some(false) => "no",

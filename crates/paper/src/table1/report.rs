@@ -36,6 +36,12 @@ pub struct RowReport {
     pub from: Option<String>,
     /// What follows, everything on the way named.
     pub to: Option<String>,
+    /// Where the branch of the first motion ends, if it repeats.
+    pub branch_ends: Option<f64>,
+    /// `hard` if it ends by a flip whose doubled motion is unstable, `soft` if by one that goes on doubled.
+    pub flip: Option<&'static str>,
+    /// Where the last motion first follows, if others come before it.
+    pub follows_from: Option<f64>,
     /// How the figure was found, and why it differs.
     pub remark: String,
 }
@@ -98,6 +104,11 @@ impl RowReport {
             hysteresis: transition.map(|transition| transition.hysteresis),
             from,
             to,
+            branch_ends: transition
+                .filter(|it| it.state.is_some())
+                .map(|it| it.value),
+            flip: transition.and_then(flip),
+            follows_from: transition.and_then(|it| it.settled_at.filter(|_| it.hysteresis)),
             remark: found.map_or(missing.to_owned(), |found| remark(row, found, rules)),
         }
     }
@@ -163,14 +174,22 @@ fn origin(transition: &Transition, rules: &Rules) -> String {
     }
 }
 
+/// Which kind of flip ends the first motion, if one does.
+fn flip(transition: &Transition) -> Option<&'static str> {
+    let until = transition.doubled_until?;
+    match (until > transition.value) == transition.rising {
+        true => Some("soft"),
+        false => Some("hard"),
+    }
+}
+
 /// What comes between the first motion and the last.
 fn succession(transition: &Transition) -> Vec<String> {
     let mut parts = Vec::new();
     if let Some(until) = transition.doubled_until {
-        let what = if (until > transition.value) == transition.rising {
-            "it goes on doubled until"
-        } else {
-            "the flip is hard: the doubled branch is unstable and runs back to"
+        let what = match flip(transition) {
+            Some("soft") => "it goes on doubled until",
+            _ => "the flip is hard: the doubled branch is unstable and runs back to",
         };
         parts.push(format!("{what} {until:.10}"));
     }

@@ -1,0 +1,94 @@
+//! Do slow changes of the clearance lead from z = 0 to z = (2/4)B or z = 2/3? The paper (section 4): they "cannot be
+//! reached by successive, and quasistationary changes of parameters eta, rho from impact-less (z = 0) motion". Changes
+//! of the frequency are in the maps of the regimes.
+
+use anyhow::Result;
+use softstop::{Parameter, Ratios};
+use softstop_dynamics::{Chain, Direction, Plan, Step};
+
+use crate::diagram;
+use crate::figure::{self, Drawn, Figure, Findings, Studio};
+
+/// Slow changes of the clearance from z = 0.
+pub(crate) const FIGURE: Figure = Figure {
+    title: "From z = 0 by slow changes of the clearance",
+    files: &["ways.csv"],
+    draw,
+};
+
+/// Frequencies: both motions are stable on parts of this range at rho = 10.
+const ETAS: (f64, f64, usize) = (0.984, 1.004, 11);
+/// From beyond the highest resonance, where z = 0 is all there is, down to the paper's clearance.
+const CLEARANCES: (f64, f64) = (10.0, 26.0);
+/// Drive periods at each clearance.
+const PERIODS: u64 = 100;
+/// Steps of the sweeps, from fast to slow.
+const STEPS: [usize; 3] = [321, 3201, 32_001];
+/// Distance within which a state has returned, in units of the motion's size: more than a step changes.
+const RETURN: f64 = 1e-2;
+/// Steps in a row for which a motion is shown to count.
+const LASTING: usize = 3;
+
+/// The motions that are looked for: name, impacts, drive periods, order of impacts.
+const SOUGHT: [(&str, u64, u64, &str); 2] =
+    [("z = 2/3", 2, 3, "1-1-0"), ("z = (2/4)B", 2, 4, "1-1-0-0")];
+
+fn draw(studio: &Studio) -> Result<Drawn> {
+    let etas = etas();
+    let mut rows = Vec::new();
+    let mut findings = Findings::default();
+    let steps = studio.detail.pick(&STEPS[..], &STEPS[..1]);
+    for steps in steps.iter().copied() {
+        let plan = Plan::new(Parameter::Clearance, CLEARANCES, steps, PERIODS)?;
+        let plan = Plan {
+            tolerance: RETURN,
+            ..plan
+        };
+        let chain = |eta: &f64| -> Result<Chain> {
+            let scene = Ratios::unloaded().at_frequency(*eta).scene()?;
+            Ok(Chain::new(scene, Direction::Down))
+        };
+        let chains = etas.iter().map(chain).collect::<Result<_>>()?;
+        let chains = diagram::sweep(vec![(plan, chains)], "steps of the ways")?;
+        for (name, p, n, order) in SOUGHT {
+            let shows = |step: &Step| shows(step, (p, n), order);
+            let (mut met, mut there) = (0, 0);
+            for (eta, chain) in etas.iter().zip(&chains) {
+                let mut lasting = chain.steps.windows(LASTING);
+                let first = lasting.find(|steps| steps.iter().all(shows));
+                let first = first.map(|steps| steps[0].value);
+                let stays = chain.steps.last().is_some_and(shows);
+                met += u32::from(first.is_some());
+                there += u32::from(stays);
+                rows.push((plan.rate(), eta, name, first, stays));
+            }
+            let told = format!(
+                "{name}, {:.0e} per period: ways of {}",
+                plan.rate(),
+                etas.len()
+            );
+            findings.add(format!("{told} that meet it"), f64::from(met));
+            findings.add(format!("{told} on it at rho = 10"), f64::from(there));
+        }
+    }
+    let columns = "change_of_rho_per_period,eta,motion,first_rho,at_rho_10";
+    Ok(Drawn {
+        files: vec![figure::table(columns, rows)?],
+        findings,
+    })
+}
+
+fn etas() -> Vec<f64> {
+    let (low, high, count) = ETAS;
+    let step = (high - low) / (count - 1) as f64;
+    (0..count).map(|index| low + step * index as f64).collect()
+}
+
+fn shows(step: &Step, (impacts, periods): (u64, u64), order: &str) -> bool {
+    let regime = step.motion.regime();
+    regime.is_some_and(|it| (it.impacts, it.periods) == (impacts, periods))
+        && step
+            .motion
+            .order()
+            .is_some_and(|it| it.to_string() == order)
+}
