@@ -35,11 +35,11 @@ def rust_worker():
     return [str(PLACE / "rust" / "release" / _program("peers"))]
 
 
-def softstop():
-    """The program softstop, built."""
+def laboratory():
+    """The program softstop-lab, built."""
     manifest = ["--manifest-path", ROOT / "Cargo.toml", "--locked"]
-    _build([*manifest, "--bin", "softstop"], TARGET)
-    return TARGET / "release" / _program("softstop")
+    _build([*manifest, "--package", "softstop-lab"], TARGET)
+    return TARGET / "release" / _program("softstop-lab")
 
 
 def crate_versions():

@@ -19,7 +19,7 @@ def lines(worker, truth, program):
     own = [_scalar(worker, truth)]
     for engine in ("safe", "scalar", "batch"):
         if engine in told:
-            setting = "softstop " + " ".join(THROUGHPUT)
+            setting = "softstop-lab " + " ".join(THROUGHPUT)
             if "lanes" in told[engine]:
                 setting += f": {told[engine]['instructions']}, {told[engine]['lanes']} lanes"
             name = "softstop safe (program)" if engine == "safe" else f"softstop {engine}"

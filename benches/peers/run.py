@@ -100,7 +100,7 @@ def run(given):
     peers = wanted(given.only)
     machine = report.machine()
     say("building softstop and the Rust peers (minutes, the first time)")
-    program = install.softstop()
+    program = install.laboratory()
     workers = {"rust": Worker(install.rust_worker())}
     added, missing = python_workers(peers)
     workers |= added
