@@ -128,7 +128,9 @@ impl Unit for Machine {
             Ok(ControlFlow::Continue(())) => Ok(Advance::Arrived),
             Ok(ControlFlow::Break(())) => Ok(Advance::Short {
                 reason: format!("{impacts} impacts so far"),
-                before: simulation.before_advance().map(Self::new),
+                before: simulation
+                    .before_advance()
+                    .map(|before| Box::new(Self::new(before))),
             }),
             // The motion has not left the point at which the step begins.
             Err(
@@ -137,7 +139,7 @@ impl Unit for Machine {
                 | MotionError::Endless { .. }),
             ) => Ok(Advance::Short {
                 reason: error.to_string(),
-                before: Some(self.clone()),
+                before: Some(Box::new(self.clone())),
             }),
             Err(error) => Err(error.into()),
         }

@@ -9,11 +9,24 @@ use crate::unit::{Advance, Events, Unit};
 /// What there is to tell of a step.
 #[derive(Debug)]
 pub(crate) struct StepReport {
-    /// What happened, in lines, if they are wanted.
-    pub events: Vec<String>,
+    /// What happened.
+    pub events: Events,
     /// How far the communication point lay from the end of the last step, in s, if further than by
     /// rounding.
     pub gap: Option<f64>,
+}
+
+impl StepReport {
+    /// Nothing so far; with events or without.
+    pub(crate) fn new(wants_events: bool) -> Self {
+        Self {
+            events: Events {
+                wanted: wants_events,
+                lines: Vec::new(),
+            },
+            gap: None,
+        }
+    }
 }
 
 /// How far a communication point may lie from the end of the last step.
@@ -33,15 +46,15 @@ fn rounding_of(time: f64, step: f64) -> f64 {
 }
 
 impl<U: Unit> Instance<U> {
-    /// Carries the unit on to `point + step`, whatever happens on the way. Next to the report stands
+    /// Carries the unit on to `point + step`, whatever happens on the way, and adds to the report.
     /// [`Fault::Discarded`] if it did not get that far: [`Instance::time`] is then where it is, and the
     /// next step may begin there, or where this one began.
     pub(crate) fn do_step(
         &mut self,
         point: f64,
         step: f64,
-        wants_events: bool,
-    ) -> Result<(StepReport, Result<(), Fault>), Fault> {
+        report: &mut StepReport,
+    ) -> Result<(), Fault> {
         self.require(
             &[Lifecycle::Running],
             "a step needs an initialised unit that has not failed or ended",
@@ -65,28 +78,20 @@ impl<U: Unit> Instance<U> {
             });
         }
         let unit = self.settle()?;
-        let mut events = Events {
-            wanted: wants_events,
-            lines: Vec::new(),
-        };
         // A step below the last digit of the time ends where it began.
-        let advance = unit.advance(end.max(present), &mut events)?;
+        let advance = unit.advance(end.max(present), &mut report.events)?;
         let reached = unit.time();
-        let report = StepReport {
-            events: events.lines,
-            gap: Some(point - present).filter(|gap| gap.abs() > rounding_of(present, step)),
-        };
+        report.gap = Some(point - present).filter(|gap| gap.abs() > rounding_of(present, step));
         let Advance::Short { reason, before } = advance else {
             self.discarded = None;
-            return Ok((report, Ok(())));
+            return Ok(());
         };
-        self.discarded = before.map(|before| Box::new((before, self.signals.clone())));
-        let discarded = Fault::Discarded {
+        self.discarded = before.map(|before| Box::new((*before, self.signals.clone())));
+        Err(Fault::Discarded {
             end,
             reached,
             reason,
-        };
-        Ok((report, Err(discarded)))
+        })
     }
 
     /// Takes a discarded step back if this one begins where it began. What was set since holds from

@@ -95,7 +95,7 @@ pub enum Advance<U> {
         /// Why it ended there, in words.
         reason: String,
         /// The unit as it was before; without it the step cannot be repeated.
-        before: Option<U>,
+        before: Option<Box<U>>,
     },
 }
 

@@ -89,7 +89,7 @@ impl<U: Unit> Component<U> {
             );
             self.log(Status::Ok, Category::Warnings, &text);
         }
-        for event in &report.events {
+        for event in &report.events.lines {
             self.log(Status::Ok, Category::Events, event);
         }
     }

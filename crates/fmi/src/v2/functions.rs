@@ -18,6 +18,7 @@ use crate::fault::{Fault, Status};
 use crate::instance::Instance;
 use crate::log::Category;
 use crate::reading::Type;
+use crate::step::StepReport;
 use crate::unit::Unit;
 
 const LAST_SUCCESSFUL_TIME: c_int = 2;
@@ -256,8 +257,8 @@ functions! { $
 
     /// Carries the motion on by one communication step.
     fn fmi2DoStep<U>(component, point: f64, step: f64, _no_set_state_prior: c_int) {
-        let wants_events = component.wanted.has(Category::Events);
-        let (report, outcome) = component.instance.do_step(point, step, wants_events)?;
+        let mut report = StepReport::new(component.wanted.has(Category::Events));
+        let outcome = component.instance.do_step(point, step, &mut report);
         component.tell(&report);
         outcome
     }

@@ -38,9 +38,12 @@ fn install_hook() {
 /// Runs `action`; a panic ends it in silence.
 pub(super) fn silent<T>(action: impl FnOnce() -> T) -> Result<T, String> {
     install_hook();
-    let before = GUARDED.replace(true);
-    let outcome = catch_unwind(AssertUnwindSafe(action));
-    GUARDED.set(before);
+    let outcome = GUARDED.with(|guarded| {
+        let before = guarded.replace(true);
+        let outcome = catch_unwind(AssertUnwindSafe(action));
+        guarded.set(before);
+        outcome
+    });
     outcome.map_err(|panic| message(panic.as_ref()).to_owned())
 }
 
