@@ -161,17 +161,24 @@ impl Ends {
         g0 <= 0.0 && g1 <= 0.0 && bound * span * span * 0.125 - g0.min(g1) <= rounding
     }
 
-    /// True if g < 0 throughout a window of length `span` with |g''''| <= `bound`.
+    /// True if g < 0 throughout a window of length `span` with |g''''| <= `bound`, or everywhere but at its left end
+    /// if g = 0 there.
     ///
-    /// The cubic Hermite interpolant is off by at most bound span^4 / 384, and lies below its
-    /// largest Bernstein coefficient.
+    /// The cubic Hermite interpolant is off by at most bound s^2 (span - s)^2 / 24, that is bound span^4 / 384, and
+    /// lies below its largest Bernstein coefficient. From zero on it is u = s / span times a parabola, and off by at
+    /// most u bound span^4 / 162.
     #[inline(always)]
     pub fn stay_below(&self, span: f64, bound: f64) -> bool {
         let (g0, d0) = self.left;
         let (g1, d1) = self.right;
         let third = span * (1.0 / 3.0);
-        let top = g0.max(g1).max(g0 + third * d0).max(g1 - third * d1);
+        let (after, before) = (g0 + third * d0, g1 - third * d1);
         let square = span * span;
-        top + bound * square * square * (1.0 / 384.0) < 0.0
+        let slack = bound * square * square;
+        if g0 == 0.0 {
+            (3.0 * after).max(1.5 * before).max(g1) + slack * (1.0 / 162.0) < 0.0
+        } else {
+            g0.max(g1).max(after).max(before) + slack * (1.0 / 384.0) < 0.0
+        }
     }
 }

@@ -75,14 +75,15 @@ pub fn first_crossing(course: &Course, guards: &[Guard], node: Node, until: f64)
             }
             looked = node.elapsed;
         }
+        let mut ahead = None;
         if watches_position {
-            node = course.coast(node, until, |window| scan.stays_short(window));
+            (node, ahead) = course.coast(node, until, |window| scan.stays_short(window));
             if node.elapsed >= until {
                 break;
             }
         }
         let left = Jets::new(course, node);
-        let right = Jets::new(course, course.next(&left.node));
+        let right = Jets::new(course, ahead.unwrap_or_else(|| course.next(&left.node)));
         if !(right.node.position.is_finite() && right.node.velocity.is_finite()) {
             return Outlook::Unbounded(left.node);
         }
@@ -92,7 +93,7 @@ pub fn first_crossing(course: &Course, guards: &[Guard], node: Node, until: f64)
         } else {
             course.flow.modes.bounds(span)
         };
-        if !scan.stays_below(&left, &right, bounds)
+        if (ahead.is_some() || !scan.stays_below(&left, &right, bounds))
             && let Some(found) = scan.search(&left, &right, bounds)
         {
             return Outlook::Crossing(found);

@@ -103,7 +103,8 @@ impl Look {
     }
 }
 
-/// The zero next to 0 through which the series rises, by reverting it, where that is exact.
+/// The zero next to 0 through which the series rises, by reverting it and, where that is not exact, one step of
+/// Newton's method that is.
 fn reverted(c: &[f64; 6]) -> Option<f64> {
     let inverse = 1.0 / c[1];
     let [a, b, d] = [c[2], c[3], c[4]].map(|c| c * inverse);
@@ -112,12 +113,21 @@ fn reverted(c: &[f64; 6]) -> Option<f64> {
     let size = (a * s)
         .abs()
         .max((b * s * s).abs().max((d * s * s * s).abs()));
-    let exact = c[1] > 0.0 && size <= SMALL;
-    exact.then_some(s - s * s * (a - s * (second + s * third)))
+    if !(c[1] > 0.0 && size <= MODEST) {
+        return None;
+    }
+    let rest = s - s * s * (a - s * (second + s * third));
+    if size <= SMALL {
+        return Some(rest);
+    }
+    let (value, rate) = evaluate(c, rest);
+    Some(rest - value / rate)
 }
 
 /// Relative size of the terms of a series whose fourth power is below rounding.
 const SMALL: f64 = 1.0 / (1u64 << 14) as f64;
+/// The same of the eighth power.
+const MODEST: f64 = 1.0 / (1u64 << 7) as f64;
 
 /// Newton's method from `at` to a zero through which the series rises, until a next step, foreseen from the
 /// last two as for quadratic convergence, would be below `grain`.

@@ -58,7 +58,13 @@ impl Course {
         self.departure.drive.turned(turn)
     }
 
-    fn placed(&self, elapsed: f64, drive: Drive, (position, velocity): (f64, f64)) -> Node {
+    /// The node at `elapsed` where drive and state are known.
+    pub(crate) fn placed(
+        &self,
+        elapsed: f64,
+        drive: Drive,
+        (position, velocity): (f64, f64),
+    ) -> Node {
         let deviation = match self.form {
             Form::Particular { particular, .. } => {
                 let (x, v) = particular.at(elapsed, drive);
@@ -123,20 +129,21 @@ impl Course {
         }
     }
 
-    /// Passes the scan windows that are reached by rotation and `is_clear` of something, up to `until`.
+    /// Passes the scan windows that are reached by rotation and `is_clear` of something, up to `until`. Beside the
+    /// node where it ends stands the next one, if the window between them is not clear.
     #[inline(never)]
     pub(crate) fn coast(
         &self,
         mut node: Node,
         until: f64,
         is_clear: impl Fn(&Window) -> bool,
-    ) -> Node {
+    ) -> (Node, Option<Node>) {
         let flow = &self.flow;
         let Form::Particular { particular, .. } = self.form else {
-            return node;
+            return (node, None);
         };
         if flow.long_window > LONG * flow.window {
-            return node;
+            return (node, None);
         }
         let (damping, stiffness) = (2.0 * flow.modes.decay, flow.modes.stiffness);
         // Of the free motion, y'' = -damping y' - stiffness y and so on.
@@ -163,11 +170,11 @@ impl Course {
             };
             let bounded = window.bound < f64::INFINITY;
             if !(bounded && is_clear(&window)) {
-                break;
+                return (node, Some(next));
             }
             node = next;
         }
-        node
+        (node, None)
     }
 
     /// True if nothing is left of the free motion.
