@@ -104,7 +104,7 @@ impl Course {
             moved.velocity += width * by.velocity;
             moved.push = from.push.with(0, from.push.value() + width * by.push);
             moved.acceleration = None;
-            let course = Self::new(self.flow, moved);
+            let course = Self::new(&self.flow, moved);
             course.power(&course.node(elapsed), law).supplied
         };
         (work(width) - work(-width)) / (2.0 * width)

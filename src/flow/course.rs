@@ -41,11 +41,11 @@ pub(super) enum Form {
 
 impl Course {
     /// The motion of `flow` from `departure`; under a push of degree 2 or higher, one step of it.
-    pub fn new(flow: Flow, departure: Departure) -> Self {
+    pub fn new(flow: &Flow, departure: Departure) -> Self {
         let form = match flow.steady {
             _ if !departure.push.is_linear() => return Self::resumed(flow, departure, 0.0),
-            Some(steady) if is_well_conditioned(&flow, &departure) => {
-                let particular = Particular::new(&flow, &departure, steady);
+            Some(steady) if is_well_conditioned(flow, &departure) => {
+                let particular = Particular::new(flow, &departure, steady);
                 let (x, v) = particular.at(0.0, departure.drive);
                 let deviation = Vector2::new(departure.position - x, departure.velocity - v);
                 Form::Particular {
@@ -58,33 +58,33 @@ impl Course {
         Self::of(flow, departure, form)
     }
 
-    fn of(flow: Flow, departure: Departure, form: Form) -> Self {
+    fn of(flow: &Flow, departure: Departure, form: Form) -> Self {
         Self {
-            flow,
+            flow: *flow,
             departure,
             form,
         }
     }
 
     /// The next step of `flow`, where rounding took `low` from the position.
-    pub(crate) fn resumed(flow: Flow, departure: Departure, low: f64) -> Self {
-        let segment = Segment::pushed(&flow, &departure, low);
+    pub(crate) fn resumed(flow: &Flow, departure: Departure, low: f64) -> Self {
+        let segment = Segment::pushed(flow, &departure, low);
         Self::of(flow, departure, Form::Segment(Arc::new(segment)))
     }
 
     /// One step of `flow` together with a power law, from `deflection` m beyond its face.
     pub(crate) fn nonlinear(
-        flow: Flow,
+        flow: &Flow,
         hertz: &Hertz,
         departure: Departure,
         deflection: f64,
     ) -> Self {
-        let segment = Segment::new(&flow, hertz, &departure, deflection);
+        let segment = Segment::new(flow, hertz, &departure, deflection);
         Self::of(flow, departure, Form::Segment(Arc::new(segment)))
     }
 
     /// The last bounces on a rigid stop at the departure's position.
-    pub(crate) fn chattering(flow: Flow, departure: Departure, chatter: Chatter) -> Self {
+    pub(crate) fn chattering(flow: &Flow, departure: Departure, chatter: Chatter) -> Self {
         Self::of(flow, departure, Form::Chatter(chatter))
     }
 
@@ -111,11 +111,11 @@ impl Course {
 
     /// A mass held at the departure's position while the drive turns; under a push of degree 2 or
     /// higher, for one step.
-    pub fn held(flow: Flow, departure: Departure) -> Self {
+    pub fn held(flow: &Flow, departure: Departure) -> Self {
         let form = if departure.push.is_linear() {
             Form::Held
         } else {
-            Form::Segment(Arc::new(Segment::held(&flow, &departure)))
+            Form::Segment(Arc::new(Segment::held(flow, &departure)))
         };
         Self::of(flow, departure, form)
     }

@@ -13,25 +13,7 @@ const EIGHT: [(f64, f64); 8] = [
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
 ];
 
-/// The same of the five-point rule: as exact over a quarter of a reach.
-const FIVE: [(f64, f64); 5] = [
-    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
-    (-0.538_469_310_105_683, 0.478_628_670_499_366_5),
-    (0.0, 128.0 / 225.0),
-    (0.538_469_310_105_683, 0.478_628_670_499_366_5),
-    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
-];
-
 /// The eight-point rule's nodes and weights on [0, `span`].
 pub(super) fn gauss_nodes(span: f64) -> [(f64, f64); 8] {
-    EIGHT.map(|node| over(span, node))
-}
-
-/// Those of the five-point rule.
-pub(super) fn few_gauss_nodes(span: f64) -> [(f64, f64); 5] {
-    FIVE.map(|node| over(span, node))
-}
-
-fn over(span: f64, (place, weight): (f64, f64)) -> (f64, f64) {
-    (0.5 * span * (1.0 + place), 0.5 * span * weight)
+    EIGHT.map(|(place, weight)| (0.5 * span * (1.0 + place), 0.5 * span * weight))
 }

@@ -49,7 +49,8 @@ impl Polynomial {
     /// True if no derivative of order 2 or higher is there.
     #[inline]
     pub fn is_linear(&self) -> bool {
-        self.derivatives[2..] == [0.0; HIGHEST_ORDER - 1]
+        let higher = self.derivatives[2..].iter();
+        !higher.fold(false, |some, derivative| some | (*derivative != 0.0))
     }
 
     /// p(t).

@@ -3,15 +3,11 @@
 use nalgebra::Complex;
 
 use super::course::{Course, Form};
-use super::gauss::{few_gauss_nodes, gauss_nodes};
+use super::gauss::gauss_nodes;
 use super::particular::Particular;
 use super::place::{Drive, Node};
 use super::segment::Segment;
 use super::series::{ZERO, integral_of_product, value};
-use super::soon::soon;
-
-/// Share of a flow's reach over which the five-point rule is exact.
-const SHORT: f64 = 0.25;
 
 /// Integrals along a course, per unit of mass, in m^2/s^2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -37,26 +33,7 @@ impl Course {
                 let start = (deviation.x, deviation.y);
                 self.power_in_closed_form(&particular, start, to, law)
             }
-            _ if elapsed <= SHORT * self.flow.reach => self.power_soon(elapsed, law),
             _ => self.power_by_quadrature(elapsed, law),
-        }
-    }
-
-    /// One short panel.
-    fn power_soon(&self, elapsed: f64, law: f64) -> Power {
-        let (flow, from) = (&self.flow, &self.departure);
-        let (constant, ramp) = self.push_at(0.0);
-        let (mut supplied, mut square) = (0.0, 0.0);
-        for (s, weight) in few_gauss_nodes(elapsed) {
-            let velocity = from.velocity + soon(flow, from, s).1;
-            let drive = from.drive.turned(Drive::at(flow.frequency * s));
-            let push = constant - law + ramp * s + flow.amplitude * drive.cos;
-            supplied += weight * push * velocity;
-            square += weight * velocity * velocity;
-        }
-        Power {
-            supplied,
-            lost: flow.damping() * square,
         }
     }
 
@@ -91,8 +68,7 @@ impl Course {
         };
         let widest = nodes[6].0.max(nodes[7].0);
         if widest <= self.flow.reach {
-            let taylor = self.expand(&node);
-            return nodes.map(|(s, _)| (taylor.push(s), taylor.state(s).1));
+            return self.expand(&node).push_and_velocity(nodes.map(|(s, _)| s));
         }
         nodes.map(|(s, _)| {
             let node = self.node(start + s);

@@ -8,7 +8,7 @@ use super::clock::Instant;
 use super::effort;
 use super::landing::Landing;
 use super::motion::Motion;
-use super::observer::{Crossing, CrossingKind, Observer};
+use super::observer::{Arc, Crossing, CrossingKind, Observer};
 use super::start::Start;
 use crate::error::MotionError;
 use crate::events::{Found, Guard, Outlook, first_crossing};
@@ -192,7 +192,7 @@ impl Motion {
 
     /// Takes up the motion where a course ends that was not meant to go further.
     fn go_on(&mut self, elapsed: f64, observer: &mut impl Observer) {
-        let drive = self.end_arc(elapsed, observer);
+        let drive = self.end_arc(elapsed, None, observer);
         let Mode::Chattering(hold) = self.mode else {
             return self.next_step(elapsed, drive);
         };
@@ -203,13 +203,21 @@ impl Motion {
         self.take_up(rest, Start::new(position, speed), drive, observer);
     }
 
-    /// Ends the present arc, tells of it, and lets the next one begin there: where the drive then stands.
-    fn end_arc(&mut self, elapsed: f64, observer: &mut impl Observer) -> Drive {
-        observer.arc(&self.arc(), elapsed);
+    /// Ends the present arc, in the state that a crossing tells, tells of it, and lets the next one begin there:
+    /// where the drive then stands.
+    fn end_arc(
+        &mut self,
+        elapsed: f64,
+        state: Option<Start>,
+        observer: &mut impl Observer,
+    ) -> Drive {
         let at = self.clock.after(self.start, elapsed);
+        let drive = self.clock.drive(at);
+        let end = state.map(|state| (state, drive));
+        observer.arc(&Arc { end, ..self.arc() }, elapsed);
         self.force.go_on(&self.clock, at, elapsed);
         (self.start, self.now) = (at, at);
-        self.clock.drive(at)
+        drive
     }
 
     /// The next Taylor step, from the very place at which the last one ended.
@@ -228,13 +236,13 @@ impl Motion {
     fn cross(&mut self, found: Found, observer: &mut impl Observer) {
         // A mass that leaves rest and is back at once has not moved.
         let moved = self.course.departure.velocity != 0.0 || !self.is_instant(found.elapsed);
-        let drive = self.end_arc(found.elapsed, observer);
+        let before = Start::new(found.position, found.velocity);
+        let drive = self.end_arc(found.elapsed, Some(before), observer);
         if let Some(surface) = self.surface_of(found.guard) {
             self.hum.count(surface, found.velocity);
         }
         let landing = self.land(&found, self.push(drive), moved);
         self.note_strip(landing.kind);
-        let before = Start::new(found.position, found.velocity);
         self.take_up(landing, before, drive, observer);
     }
 

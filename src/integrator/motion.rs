@@ -71,7 +71,7 @@ impl Motion {
             push: Polynomial::default(),
             acceleration: None,
         };
-        let course = Course::held(phases.held, departure);
+        let course = Course::held(&phases.held, departure);
         let push = phases.push(drive, &force);
         let mode = phases.locate(start.position, start.velocity, push, fed);
         let outlook = Outlook::Never;
@@ -160,6 +160,7 @@ impl Motion {
             course: &self.course,
             phase: self.phase(),
             kind: self.kind(),
+            end: None,
         }
     }
 
@@ -215,7 +216,7 @@ impl Motion {
         finer: Option<Finer>,
         chatter: Option<Chatter>,
     ) {
-        let held = self.phases.held;
+        let held = &self.phases.held;
         self.course = match (mode, chatter) {
             (Mode::Moving(phase), _) => {
                 let phase = &self.phases[phase];
@@ -223,10 +224,10 @@ impl Motion {
                     (Some(hertz), finer) => {
                         let rounded = departure.position - hertz.origin;
                         let deflection = finer.map_or(rounded, |finer| finer.deflection);
-                        Course::nonlinear(phase.flow, hertz, departure, deflection)
+                        Course::nonlinear(&phase.flow, hertz, departure, deflection)
                     }
-                    (None, Some(Finer { low, .. })) => Course::resumed(phase.flow, departure, low),
-                    (None, None) => Course::new(phase.flow, departure),
+                    (None, Some(Finer { low, .. })) => Course::resumed(&phase.flow, departure, low),
+                    (None, None) => Course::new(&phase.flow, departure),
                 }
             }
             (Mode::Chattering(_), Some(chatter)) => Course::chattering(held, departure, chatter),

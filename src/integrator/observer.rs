@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::clock::{Clock, Instant};
 use super::start::Start;
-use crate::flow::{Course, Drive};
+use crate::flow::{Course, Drive, Node};
 use crate::phases::{Phase, PhaseKind};
 
 /// A stretch of motion in one phase.
@@ -23,9 +23,21 @@ pub struct Arc<'a> {
     pub phase: Option<&'a Phase>,
     /// What the mass does on it.
     pub kind: PhaseKind,
+    /// State and drive at its end, where a crossing has told them.
+    pub(super) end: Option<(Start, Drive)>,
 }
 
 impl Arc<'_> {
+    /// Where it has come to `elapsed` seconds after the start, at its end or on the way.
+    pub(super) fn node(&self, elapsed: f64) -> Node {
+        match self.end {
+            Some((Start { position, velocity }, drive)) => {
+                self.course.placed(elapsed, drive, (position, velocity))
+            }
+            None => self.course.node(elapsed),
+        }
+    }
+
     /// When it began, in s since the clock's time 0.
     pub fn begin(&self) -> f64 {
         self.clock.time(self.start)

@@ -34,7 +34,7 @@ pub fn work(arc: &Arc<'_>, mass: f64, elapsed: f64) -> Work {
     let Some(phase) = arc.phase else {
         return Work::default();
     };
-    let end = arc.course.node(elapsed);
+    let end = arc.node(elapsed);
     let power = arc.course.power(&end, phase.law.force / mass);
     let (low, high) = (arc.course.departure.position, end.position);
     let stored = phase.store.energy_at(high) - phase.store.energy_at(low);
