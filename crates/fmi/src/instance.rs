@@ -8,7 +8,7 @@ use crate::signal::Signal;
 use crate::unit::Unit;
 
 /// One instance. Its clone is a snapshot from which it, or another one, can go on bit by bit.
-#[derive(Clone, Serialize, Deserialize)]
+#[derive(Serialize, Deserialize)]
 #[serde(bound = "")]
 pub(crate) struct Instance<U: Unit> {
     pub(crate) lifecycle: Lifecycle,
@@ -29,6 +29,31 @@ pub(crate) struct Instance<U: Unit> {
 pub(crate) struct Experiment {
     pub(crate) start: f64,
     pub(crate) stop: Option<f64>,
+}
+
+impl<U: Unit> Clone for Instance<U> {
+    fn clone(&self) -> Self {
+        Self {
+            lifecycle: self.lifecycle,
+            values: self.values.clone(),
+            signals: self.signals.clone(),
+            experiment: self.experiment,
+            unit: self.unit.clone(),
+            tuned: self.tuned,
+            discarded: self.discarded.clone(),
+        }
+    }
+
+    /// Takes no memory anew: going back to a snapshot is asked for as often as a step.
+    fn clone_from(&mut self, kept: &Self) {
+        self.lifecycle = kept.lifecycle;
+        self.values.clone_from(&kept.values);
+        self.signals.clone_from(&kept.signals);
+        self.experiment = kept.experiment;
+        self.unit.clone_from(&kept.unit);
+        self.tuned = kept.tuned;
+        self.discarded.clone_from(&kept.discarded);
+    }
 }
 
 impl<U: Unit> Instance<U> {
