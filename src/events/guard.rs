@@ -89,6 +89,17 @@ impl Guard {
         }
     }
 
+    /// The rounding that g may carry at a state under a push.
+    pub(super) fn rounding(&self, position: f64, velocity: f64, push: f64) -> f64 {
+        let terms = [
+            self.position * position,
+            self.velocity * velocity,
+            self.push * push,
+            self.level,
+        ];
+        2.0 * f64::EPSILON * terms.iter().map(|term| term.abs()).sum::<f64>() + f64::MIN_POSITIVE
+    }
+
     /// True if neither velocity nor push matters.
     pub(super) fn asks_for_position(&self) -> bool {
         self.velocity == 0.0 && self.push == 0.0

@@ -2,7 +2,7 @@
 
 use super::guard::Guard;
 use super::isolate::Point;
-use crate::flow::{Course, Flow, Node};
+use crate::flow::{Course, Flow, Node, Window};
 
 /// Derivatives of position (0..=6) and push (0..=4) at a node.
 #[derive(Debug, Clone, Copy)]
@@ -79,14 +79,7 @@ impl Jets {
 
     /// The rounding that g may carry at this node.
     pub fn rounding(&self, guard: &Guard) -> f64 {
-        let (x, q) = (&self.position, &self.push);
-        let terms = [
-            guard.position * x[0],
-            guard.velocity * x[1],
-            guard.push * q[0],
-            guard.level,
-        ];
-        2.0 * f64::EPSILON * terms.iter().map(|term| term.abs()).sum::<f64>() + f64::MIN_POSITIVE
+        guard.rounding(self.position[0], self.position[1], self.push[0])
     }
 
     /// g and g' at this node.
@@ -134,6 +127,19 @@ impl Jets {
 }
 
 impl Ends {
+    /// Those of a guard that asks for nothing but the position.
+    #[inline(always)]
+    pub fn of_window(guard: &Guard, window: &Window<'_>) -> Self {
+        let end = |node: &Node| {
+            let value = guard.position * node.position - guard.level;
+            (value, guard.position * node.velocity)
+        };
+        Self {
+            left: end(window.left),
+            right: end(window.right),
+        }
+    }
+
     #[inline(always)]
     pub fn new(guard: &Guard, left: &Jets, right: &Jets) -> Self {
         Self {

@@ -16,7 +16,7 @@ pub use guard::Guard;
 use serde::{Deserialize, Serialize};
 
 use crate::flow::{Course, Node, Window};
-use isolate::{Candidate, Verdict, judge};
+use isolate::{Candidate, Point, Verdict, judge};
 use jets::{Ends, Jets};
 use pinpoint::pinpoint;
 
@@ -77,9 +77,20 @@ pub fn first_crossing(course: &Course, guards: &[Guard], node: Node, until: f64)
         }
         let mut ahead = None;
         if watches_position {
-            (node, ahead) = course.coast(node, until, |window| scan.stays_short(window));
+            let doubtful = course.coast(&mut node, until, |window| scan.stays_short(window));
             if node.elapsed >= until {
                 break;
+            }
+            if let Some((next, bound)) = doubtful {
+                let (left, right) = (&node, &next);
+                match scan.glance(&Window { left, right, bound }) {
+                    Some(Some(found)) => return Outlook::Crossing(found),
+                    Some(None) => {
+                        node = next;
+                        continue;
+                    }
+                    None => ahead = Some(next),
+                }
             }
         }
         let left = Jets::new(course, node);
@@ -117,19 +128,58 @@ impl Scan<'_> {
 
     /// True if all guards, which ask for nothing but the position, stay below zero over a window.
     #[inline(always)]
-    fn stays_short(&self, window: &Window) -> bool {
+    fn stays_short(&self, window: &Window<'_>) -> bool {
+        let span = window.right.elapsed - window.left.elapsed;
         for guard in self.guards {
-            let weight = guard.position;
-            let end = |(x, v)| (weight * x - guard.level, weight * v);
-            let ends = Ends {
-                left: end(window.left),
-                right: end(window.right),
-            };
-            if !ends.stay_below(window.span, weight.abs() * window.bound) {
+            let ends = Ends::of_window(guard, window);
+            if !ends.stay_below(span, guard.position.abs() * window.bound) {
                 return false;
             }
         }
         true
+    }
+
+    /// Whether the only guard, which asks for nothing but the position, rises in a window, and where; none if it takes
+    /// more to tell.
+    fn glance(&self, window: &Window<'_>) -> Option<Option<Found>> {
+        let [guard] = self.guards else {
+            return None;
+        };
+        let &Window { left, right, bound } = window;
+        let span = right.elapsed - left.elapsed;
+        let size = bound + right.position + right.velocity;
+        if span > self.course.flow.reach * 1.000001 || !size.is_finite() {
+            return None;
+        }
+        let ends = Ends::of_window(guard, window).points(span);
+        let bound = guard.position.abs() * bound;
+        let rounding = guard.rounding(left.position, left.velocity, 0.0);
+        self.single_rise((0, guard), (left, right), ends, (bound, rounding))
+    }
+
+    /// The same of one guard, which does not ask for the push, by its values at the ends and a bound on its fourth
+    /// derivative.
+    #[inline]
+    fn single_rise(
+        &self,
+        (index, guard): (usize, &Guard),
+        nodes: (&Node, &Node),
+        ends: (Point, Point),
+        (bound, rounding): (f64, f64),
+    ) -> Option<Option<Found>> {
+        match judge(ends.0, ends.1, bound, rounding) {
+            Verdict::NoRise => Some(None),
+            Verdict::Unknown => None,
+            _ => {
+                let (elapsed, position, velocity) = pinpoint(self.course, guard, nodes, ends)?;
+                Some(Some(Found {
+                    elapsed,
+                    guard: index,
+                    position,
+                    velocity,
+                }))
+            }
+        }
     }
 
     /// True if all guards are below zero between two nodes, by the bound that settles most windows.
@@ -194,20 +244,10 @@ impl Scan<'_> {
             let span = right.node.elapsed - left.node.elapsed;
             let ends = Ends::new(guard, left, right).points(span);
             let bound = left.bound(&self.course.flow, guard, span, bounds);
-            let verdict = judge(ends.0, ends.1, bound, left.rounding(guard));
-            if verdict == Verdict::NoRise {
-                return None;
-            }
-            if verdict != Verdict::Unknown
-                && let Some((elapsed, position, velocity)) =
-                    pinpoint(self.course, guard, (left, right), ends)
-            {
-                return Some(Found {
-                    elapsed,
-                    guard: index,
-                    position,
-                    velocity,
-                });
+            let nodes = (&left.node, &right.node);
+            let doubt = (bound, left.rounding(guard));
+            if let Some(found) = self.single_rise((index, guard), nodes, ends, doubt) {
+                return found;
             }
         }
         self.search_polynomial(left, right, bounds)

@@ -6,7 +6,7 @@
 use super::Guard;
 use super::isolate::{Point, guess};
 use super::jets::Jets;
-use crate::flow::Course;
+use crate::flow::{Course, Node};
 
 /// Share of a flow's reach over which a polynomial of degree 5 is exact.
 const CLOSE: f64 = 1.0 / 512.0;
@@ -18,21 +18,21 @@ const LOOKS: usize = 4;
 pub(super) fn pinpoint(
     course: &Course,
     guard: &Guard,
-    (left, right): (&Jets, &Jets),
+    (left, right): (&Node, &Node),
     (low, high): (Point, Point),
 ) -> Option<(f64, f64, f64)> {
     let within = |at: f64| at > low.at && at < high.at;
-    let start = left.node.elapsed;
+    let start = left.elapsed;
     let reach = course.flow.reach;
     let outer = if low.rate > 0.0 { low.at } else { high.at };
     let first = guess(low, high).unwrap_or(outer);
     let nearer_right = first > 0.5 * (low.at + high.at);
-    let (origin, jets) = if nearer_right {
+    let (origin, nearer) = if nearer_right {
         (high.at, right)
     } else {
         (low.at, left)
     };
-    let series = jets.guard_series(guard);
+    let series = Jets::new(course, *nearer).guard_series(guard);
     let mut at = origin + newton(&series, first - origin, CLOSE * reach)?;
     for _ in 0..LOOKS {
         if !within(at) {

@@ -39,23 +39,37 @@ pub(super) enum Form {
     Chatter(Chatter),
 }
 
-impl Course {
-    /// The motion of `flow` from `departure`; under a push of degree 2 or higher, one step of it.
-    pub fn new(flow: &Flow, departure: Departure) -> Self {
-        let form = match flow.steady {
-            _ if !departure.push.is_linear() => return Self::resumed(flow, departure, 0.0),
-            Some(steady) if is_well_conditioned(flow, &departure) => {
-                let particular = Particular::new(flow, &departure, steady);
+impl Form {
+    fn new(flow: &Flow, departure: &Departure) -> Self {
+        match flow.steady {
+            _ if !departure.push.is_linear() => {
+                Self::Segment(Arc::new(Segment::pushed(flow, departure, 0.0)))
+            }
+            Some(steady) if is_well_conditioned(flow, departure) => {
+                let particular = Particular::new(flow, departure, steady);
                 let (x, v) = particular.at(0.0, departure.drive);
                 let deviation = Vector2::new(departure.position - x, departure.velocity - v);
-                Form::Particular {
+                Self::Particular {
                     particular,
                     deviation,
                 }
             }
-            _ => Form::Responses,
-        };
-        Self::of(flow, departure, form)
+            _ => Self::Responses,
+        }
+    }
+}
+
+impl Course {
+    /// The motion of `flow` from `departure`; under a push of degree 2 or higher, one step of it.
+    pub fn new(flow: &Flow, departure: Departure) -> Self {
+        Self::of(flow, departure, Form::new(flow, &departure))
+    }
+
+    /// The same in the place of this one.
+    pub(crate) fn renew(&mut self, flow: &Flow, departure: Departure) {
+        self.form = Form::new(flow, &departure);
+        self.flow = *flow;
+        self.departure = departure;
     }
 
     fn of(flow: &Flow, departure: Departure, form: Form) -> Self {

@@ -5,13 +5,10 @@ use super::particular::Particular;
 use super::place::{Drive, Node};
 use super::soon::soon;
 
-/// What is known of a scan window of `span` seconds.
-pub(crate) struct Window {
-    /// Position and velocity at its beginning.
-    pub left: (f64, f64),
-    /// The same at its end.
-    pub right: (f64, f64),
-    pub span: f64,
+/// What is known of a scan window.
+pub(crate) struct Window<'a> {
+    pub left: &'a Node,
+    pub right: &'a Node,
     /// Bound on the fourth derivative of the position, in m/s^4.
     pub bound: f64,
 }
@@ -129,21 +126,21 @@ impl Course {
         }
     }
 
-    /// Passes the scan windows that are reached by rotation and `is_clear` of something, up to `until`. Beside the
-    /// node where it ends stands the next one, if the window between them is not clear.
+    /// Passes the scan windows that are reached by rotation and `is_clear` of something, up to `until`. Where one is
+    /// not, it ends at its left end, and tells its right end and its bound.
     #[inline(never)]
     pub(crate) fn coast(
         &self,
-        mut node: Node,
+        node: &mut Node,
         until: f64,
-        is_clear: impl Fn(&Window) -> bool,
-    ) -> (Node, Option<Node>) {
+        is_clear: impl Fn(&Window<'_>) -> bool,
+    ) -> Option<(Node, f64)> {
         let flow = &self.flow;
         let Form::Particular { particular, .. } = self.form else {
-            return (node, None);
+            return None;
         };
         if flow.long_window > LONG * flow.window {
-            return (node, None);
+            return None;
         }
         let (damping, stiffness) = (2.0 * flow.modes.decay, flow.modes.stiffness);
         // Of the free motion, y'' = -damping y' - stiffness y and so on.
@@ -158,23 +155,22 @@ impl Course {
         let (most, rest) = flow.window_bounds;
         let driven = flow.amplitude * square * square * flow.window * rest;
         while node.elapsed < until && !(node.windows + 1).is_multiple_of(ROTATIONS) {
-            let next = self.rotated(&particular, &node);
+            let next = self.rotated(&particular, node);
             let ((y, rate), Drive { cos, sin }) = (node.deviation, node.drive);
             let x4 = cosine * cos + sine * sin + (fourth.0 * y + fourth.1 * rate);
             let x5 = flow.frequency * (sine * cos - cosine * sin) + (fifth.0 * y + fifth.1 * rate);
+            let bound = x4.abs() * most + x5.abs() * rest + driven;
             let window = Window {
-                left: (node.position, node.velocity),
-                right: (next.position, next.velocity),
-                span: next.elapsed - node.elapsed,
-                bound: x4.abs() * most + x5.abs() * rest + driven,
+                left: node,
+                right: &next,
+                bound,
             };
-            let bounded = window.bound < f64::INFINITY;
-            if !(bounded && is_clear(&window)) {
-                return (node, Some(next));
+            if !(bound < f64::INFINITY && is_clear(&window)) {
+                return Some((next, bound));
             }
-            node = next;
+            *node = next;
         }
-        (node, None)
+        None
     }
 
     /// True if nothing is left of the free motion.

@@ -57,9 +57,9 @@ impl Motion {
         let mut at_once = 0;
         let (mut cycle, mut work) = (self.now.cycles, 0);
         while !self.glide(until)? {
-            if let Outlook::Crossing(Found { elapsed, .. }) | Outlook::Ends(elapsed) = self.outlook
+            if let Outlook::Crossing(Found { elapsed, .. }) | Outlook::Ends(elapsed) = &self.outlook
             {
-                at_once = if self.is_instant(elapsed) {
+                at_once = if self.is_instant(*elapsed) {
                     at_once + 1
                 } else {
                     0
@@ -112,9 +112,9 @@ impl Motion {
         let horizon = self.clock.elapsed(self.start, until);
         self.look_ahead(horizon)?;
         // Written such that a time that is not a number stops nothing.
-        let ends = match self.outlook {
+        let ends = match &self.outlook {
             Outlook::Crossing(found) => found.elapsed <= horizon,
-            Outlook::Ends(elapsed) => elapsed <= horizon,
+            Outlook::Ends(elapsed) => *elapsed <= horizon,
             Outlook::ClearUntil(node) => node.elapsed < horizon,
             Outlook::Never | Outlook::Unbounded(_) => false,
         };
@@ -161,7 +161,7 @@ impl Motion {
             };
             self.outlook = self.search(node, until);
         }
-        if let Outlook::Unbounded(node) = self.outlook
+        if let Outlook::Unbounded(node) = &self.outlook
             && node.elapsed < horizon
         {
             let time = self.clock.time(self.clock.after(self.start, node.elapsed));

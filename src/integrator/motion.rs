@@ -217,22 +217,26 @@ impl Motion {
         chatter: Option<Chatter>,
     ) {
         let held = &self.phases.held;
-        self.course = match (mode, chatter) {
+        match (mode, chatter) {
             (Mode::Moving(phase), _) => {
                 let phase = &self.phases[phase];
                 match (&phase.hertz, finer) {
                     (Some(hertz), finer) => {
                         let rounded = departure.position - hertz.origin;
                         let deflection = finer.map_or(rounded, |finer| finer.deflection);
-                        Course::nonlinear(&phase.flow, hertz, departure, deflection)
+                        self.course = Course::nonlinear(&phase.flow, hertz, departure, deflection);
                     }
-                    (None, Some(Finer { low, .. })) => Course::resumed(&phase.flow, departure, low),
-                    (None, None) => Course::new(&phase.flow, departure),
+                    (None, Some(Finer { low, .. })) => {
+                        self.course = Course::resumed(&phase.flow, departure, low);
+                    }
+                    (None, None) => self.course.renew(&phase.flow, departure),
                 }
             }
-            (Mode::Chattering(_), Some(chatter)) => Course::chattering(held, departure, chatter),
-            (Mode::Held(_) | Mode::Chattering(_), _) => Course::held(held, departure),
-        };
+            (Mode::Chattering(_), Some(chatter)) => {
+                self.course = Course::chattering(held, departure, chatter);
+            }
+            (Mode::Held(_) | Mode::Chattering(_), _) => self.course = Course::held(held, departure),
+        }
         self.mode = mode;
         self.outlook = Outlook::ClearUntil(self.course.start());
     }

@@ -139,11 +139,12 @@ impl Simulation {
             self.now = until;
             return Ok(ControlFlow::Continue(()));
         }
-        let origin = Box::new(Origin {
+        let origin = Origin {
             motion: self.motion.clone(),
             counts: self.tallies.counts,
             now: self.now,
-        });
+        };
+        let origin = Box::write(Box::new_uninit(), origin);
         let mut observers = (&mut self.tallies, observer);
         match self.motion.watch(instant, &mut observers) {
             Ok(flow) => {
