@@ -180,11 +180,13 @@ impl Ends {
         let third = span * (1.0 / 3.0);
         let (after, before) = (g0 + third * d0, g1 - third * d1);
         let square = span * span;
-        let slack = bound * square * square;
+        let room = bound * square * square;
         if g0 == 0.0 {
-            (3.0 * after).max(1.5 * before).max(g1) + slack * (1.0 / 162.0) < 0.0
+            let limit = room * (-1.0 / 162.0);
+            3.0 * after < limit && 1.5 * before < limit && g1 < limit
         } else {
-            g0.max(g1).max(after).max(before) + slack * (1.0 / 384.0) < 0.0
+            let limit = room * (-1.0 / 384.0);
+            g0 < limit && after < limit && before < limit && g1 < limit
         }
     }
 }

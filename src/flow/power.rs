@@ -197,13 +197,13 @@ struct Waves {
 impl Waves {
     fn between(w: f64, from: &Node, to: &Node) -> Self {
         let (Drive { cos: c0, sin: s0 }, Drive { cos: c1, sin: s1 }) = (from.drive, to.drive);
-        let half = 0.5 * to.elapsed;
-        let ripple = (s1 * c1 - s0 * c0) / (2.0 * w);
+        let (half, slowness) = (0.5 * to.elapsed, 1.0 / w);
+        let ripple = 0.5 * slowness * (s1 * c1 - s0 * c0);
         Self {
-            cos: (s1 - s0) / w,
-            sin: (c0 - c1) / w,
+            cos: slowness * (s1 - s0),
+            sin: slowness * (c0 - c1),
             cos_cos: half + ripple,
-            cos_sin: (s1 * s1 - s0 * s0) / (2.0 * w),
+            cos_sin: 0.5 * slowness * (s1 * s1 - s0 * s0),
             sin_sin: half - ripple,
         }
     }

@@ -5,23 +5,24 @@
 
 use super::{Departure, Flow};
 
-/// Shares of the reach of a flow, each with the terms beyond which all others are below rounding of the third.
+/// Shares of the reach of a flow, each with the terms beyond which all others are below rounding of the third. From
+/// the fourth on they come in pairs.
 const TERMS: [(f64, usize); 4] = [
-    (1.0 / 256.0, 8),
-    (1.0 / 32.0, 10),
-    (1.0 / 8.0, 12),
-    (1.0 / 4.0, 14),
+    (1.0 / 256.0, 9),
+    (1.0 / 32.0, 11),
+    (1.0 / 8.0, 13),
+    (1.0 / 4.0, 15),
 ];
 /// The same up to half of it.
 const MOST_TERMS: usize = 17;
 
-/// 1/((n + 1)(n + 2)), 1/(n + 2) and n + 2, from n = 1 on.
-const FACTORS: [[f64; 3]; MOST_TERMS - 3] = {
-    let mut table = [[0.0; 3]; MOST_TERMS - 3];
+/// 1/((n + 1)(n + 2)), 1/(n + 2) and n + 2, from n = 1 on, for two terms.
+const FACTORS: [[[f64; 3]; 2]; (MOST_TERMS - 3) / 2] = {
+    let mut table = [[[0.0; 3]; 2]; (MOST_TERMS - 3) / 2];
     let mut index = 0;
-    while index < table.len() {
+    while index < 2 * table.len() {
         let (first, second) = ((index + 2) as f64, (index + 3) as f64);
-        table[index] = [1.0 / (first * second), 1.0 / second, second];
+        table[index / 2][index % 2] = [1.0 / (first * second), 1.0 / second, second];
         index += 1;
     }
     table
@@ -44,20 +45,21 @@ pub(super) fn soon(flow: &Flow, from: &Departure, elapsed: f64) -> (f64, f64) {
         .unwrap_or_else(|| flow.acceleration(from.position, from.velocity, push));
     // Of order n and n + 1, times t^2.
     let amplitude = square * flow.amplitude;
-    let mut drive = [
-        -amplitude * from.drive.sin * angle,
-        -0.5 * angle * angle * amplitude * from.drive.cos,
-    ];
+    let turn = -angle * angle;
+    let mut odd = -amplitude * from.drive.sin * angle;
+    let mut even = 0.5 * turn * amplitude * from.drive.cos;
     let mut ramp = square * elapsed * from.push.rate();
-    let mut term = [from.velocity * elapsed, 0.5 * start * square];
+    let (mut first, mut second) = (from.velocity * elapsed, 0.5 * start * square);
     let (mut way, mut rise) = (0.0, 0.0);
-    for [both, second, order] in &FACTORS[..terms - 3] {
-        let load = (drive[0] + ramp) - stiffness * term[0];
-        let next = load * both - damping * second * term[1];
-        way += next;
-        rise += order * next;
-        term = [term[1], next];
-        drive = [drive[1], -angle * angle * drive[0] * both];
+    for [one, other] in &FACTORS[..(terms - 3) / 2] {
+        let load = (odd + ramp) - stiffness * first;
+        first = load * one[0] - damping * one[1] * second;
+        let load = even - stiffness * second;
+        second = load * other[0] - damping * other[1] * first;
+        way += first + second;
+        rise += one[2] * first + other[2] * second;
+        odd *= turn * one[0];
+        even *= turn * other[0];
         ramp = 0.0;
     }
     let way = 0.5 * start * elapsed * elapsed + way;

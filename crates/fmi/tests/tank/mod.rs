@@ -163,7 +163,7 @@ impl Unit for Tank {
         }
         Ok(Advance::Short {
             reason: format!("{SPAN} s at a time"),
-            before: Some(before),
+            before: Some(Box::new(before)),
         })
     }
 
