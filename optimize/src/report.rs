@@ -7,11 +7,12 @@ use softstop::{Dimension, Machine, Parameter};
 use softstop_console::column::{Column, Told, Units};
 use softstop_console::columns;
 use softstop_console::export::Report;
+use softstop_console::interrupt;
 use softstop_console::record::{Record, below, beside};
 use softstop_console::report::{Stated, motion, state};
 use softstop_console::table::{heading, number};
 use softstop_dynamics::Orbit;
-use softstop_dynamics::zone::{Stretch, stretches};
+use softstop_dynamics::zone::{Stretch, stretches_watched};
 
 use crate::design::{Design, Problem};
 use crate::optimize::reference::Reference;
@@ -102,7 +103,7 @@ fn place<'a>() -> [Column<Placed<'a>>; 5] {
 
 /// The stretches of the design's machine that are no part of its zone.
 fn left_out(design: &Design) -> Vec<Record> {
-    let all = stretches(&design.machine.scene).unwrap_or_default();
+    let all = stretches_watched(&design.machine.scene, &interrupt::watch).unwrap_or_default();
     let others = all.iter().filter(|one| !one.is_part_of(&design.zone));
     others
         .map(|one| Record::of(&stretch(), &(design, one)))

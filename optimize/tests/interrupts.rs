@@ -5,6 +5,7 @@ use std::fs;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use softstop_console::interrupt::LATE;
 use softstop_testing::{Program, words};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -17,21 +18,30 @@ const SOFTSTOP: Program = Program {
 const SIGNALS: [&str; 3] = ["INT", "TERM", "HUP"];
 
 fn ends(line: &str, kept: &[&str]) {
+    all_signals(line, kept);
+}
+
+/// By itself: no step of it takes long.
+fn ends_by_itself(line: &str) {
+    for said in all_signals(line, &[]) {
+        assert!(!said.contains(LATE), "{line}: {said}");
+    }
+}
+
+/// What it says on each signal.
+fn all_signals(line: &str, kept: &[&str]) -> [String; 3] {
     let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes");
     let line = line.replace("SCENES", scenes);
-    for signal in SIGNALS {
+    SIGNALS.map(|signal| {
         let folder = tempfile::tempdir().expect("a folder");
-        SOFTSTOP.ends_on(signal, &words(&line), folder.path(), kept);
-    }
+        SOFTSTOP.ends_on(signal, &words(&line), folder.path(), kept)
+    })
 }
 
 #[test]
 fn simulate() {
     ends("simulate --periods 1000000 --samples-per-period 20", &[]);
-    ends(
-        "simulate SCENES/hertz.toml --periods 1000000 --samples-per-period 1",
-        &[],
-    );
+    ends_by_itself("simulate SCENES/hertz.toml --periods 1000000 --samples-per-period 1");
 }
 
 #[test]
@@ -42,7 +52,12 @@ fn motions() {
 
 #[test]
 fn zone() {
-    ends("zone SCENES/hertz.toml --set contact.damping=1e4", &[]);
+    ends_by_itself("zone SCENES/hertz.toml --set contact.damping=1e4");
+}
+
+#[test]
+fn orbit() {
+    ends_by_itself("orbit SCENES/hertz.toml --set contact.damping=1e5");
 }
 
 #[test]
@@ -62,17 +77,17 @@ fn sweep() {
 fn basin() {
     ends("basin --size 3000", &[]);
     ends("basin SCENES/chatter.toml --size 100", &[]);
-    ends("basin --along-zone 1000 --size 1000", &[]);
+    ends_by_itself("basin --along-zone 1000 --size 1000");
 }
 
 #[test]
 fn optimize() {
-    ends("optimize --set contact.damping=100", &[]);
+    ends_by_itself("optimize --set contact.damping=100");
 }
 
 #[test]
 fn fidelity() {
-    ends("fidelity B --repeats 1000", &[]);
+    ends_by_itself("fidelity B --repeats 1000");
 }
 
 /// What a run that was killed has left is taken away by the next one into the same folder; that of a run that lives

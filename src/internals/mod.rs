@@ -8,5 +8,5 @@ pub use crate::flow::{Course, Departure, Flow, Modes, Polynomial};
 pub use crate::integrator::{Evaluations, Motion, Walk, mechanical_energy, work};
 pub use crate::phases::{Beyond, Exit, Mode, Phase, PhaseId, Phases, Surface, SurfaceId};
 pub use crate::root::narrow;
-pub use crate::scene::{Scales, force_of};
+pub use crate::scene::{FASTEST, HEAVIEST, Scales, force_of};
 pub use crate::tangent::{Detuning, saltation};

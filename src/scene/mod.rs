@@ -10,6 +10,7 @@ mod units;
 mod validate;
 
 pub use allowed::Allowed;
+pub use pace::{FASTEST, HEAVIEST};
 pub use parameter::{About, Dimension, Parameter};
 pub use ratios::Ratios;
 pub use scales::Scales;

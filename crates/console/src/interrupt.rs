@@ -21,6 +21,9 @@ static UNDER_WAY: Mutex<UnderWay> = Mutex::new(UnderWay {
 /// How long a run may take to end by itself.
 const GRACE: Duration = Duration::from_millis(700);
 
+/// What is said besides where that was not enough.
+pub const LATE: &str = "ended in the middle of a long step";
+
 /// What is said at the end.
 pub const MESSAGE: &str = "interrupted: no files were written";
 
@@ -104,6 +107,7 @@ fn end_late() {
     thread::sleep(GRACE);
     let under_way = under_way();
     if !under_way.is_kept {
+        let _ = writeln!(io::stderr(), "{LATE}");
         end(&under_way);
     }
 }
@@ -120,6 +124,11 @@ pub fn go_on() -> ControlFlow<()> {
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
     }
+}
+
+/// The same for work that tells how much of it is done.
+pub fn watch(_: u64, _: u64) -> ControlFlow<()> {
+    go_on()
 }
 
 /// Whether the user asked the run to end.

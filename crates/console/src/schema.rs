@@ -3,6 +3,7 @@
 use crate::machine::{Regime, SceneSettings};
 use clap::{Args, Command, ValueEnum};
 use serde_json::{Map, Value, json};
+use softstop::internals::{FASTEST, HEAVIEST};
 use softstop::{Allowed, Language, Machine, Parameter, Release, Scene, Stop};
 
 /// The draft in which schemas are written.
@@ -162,21 +163,26 @@ fn number(parameter: Parameter, language: Language) -> Value {
         (_, "") => about.meaning.to_owned(),
         (_, unit) => format!("{} in {unit}", about.meaning),
     };
-    within(about.allowed, &(what + pace(parameter)))
+    within(about.allowed, &(what + &pace(parameter)))
 }
 
 /// How far its time scale may lie from the drive's.
-const fn pace(parameter: Parameter) -> &'static str {
+fn pace(parameter: Parameter) -> String {
     use Parameter as P;
     match parameter {
-        P::Frequency => "; at least 1e-7 of the rate sqrt(k1/m) of the suspension",
+        P::Frequency => format!(
+            "; at least {:e} of the rate sqrt(k1/m) of the suspension",
+            1.0 / FASTEST
+        ),
         P::StopStiffness | P::PiercingStiffness | P::PiercingFriction => {
-            "; its rate sqrt(k/m) is at most 1e7 times the drive frequency"
+            format!("; its rate sqrt(k/m) is at most {FASTEST:e} times the drive frequency")
         }
         P::Damping | P::ContactDamping => {
-            "; its rate, damping over mass, is at most 1e9 times the drive frequency"
+            format!(
+                "; its rate, damping over mass, is at most {HEAVIEST:e} times the drive frequency"
+            )
         }
-        _ => "",
+        _ => String::new(),
     }
 }
 

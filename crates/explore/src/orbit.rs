@@ -3,13 +3,14 @@
 use anyhow::anyhow;
 use clap::Args;
 use serde::Serialize;
-use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::orbit::{OrbitError, find_watched};
 
 use softstop::{Machine, Parameter};
 use softstop_console::arguments::MachineArguments;
 use softstop_console::column::Units;
 use softstop_console::export::{self, Report};
 use softstop_console::failure::Failure;
+use softstop_console::interrupt;
 use softstop_console::output::Format;
 use softstop_console::record::Record;
 use softstop_console::report::{self, Stated};
@@ -49,7 +50,7 @@ pub struct OrbitArguments {
 pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
     arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
-    let orbit = softstop_dynamics::orbit::find(&machine.scene).map_err(|error| match error {
+    let orbit = find_watched(&machine.scene, &interrupt::watch).map_err(|error| match error {
         OrbitError::NotFound { clearance, .. } => anyhow!(
             "no stable z = 1 motion found at {} = {}, clearance = {clearance}",
             machine.name(Parameter::Frequency),

@@ -11,6 +11,7 @@ use softstop_console::column::{Column, Units};
 use softstop_console::columns;
 use softstop_console::export::{self, Report};
 use softstop_console::failure::Failure;
+use softstop_console::interrupt;
 use softstop_console::output::Format;
 use softstop_console::record::{Record, below};
 use softstop_console::report::{self, Stated};
@@ -18,7 +19,7 @@ use softstop_console::table::heading;
 use softstop_dynamics::Zone;
 use softstop_dynamics::continuation::Face;
 use softstop_dynamics::zone::{
-    Loss, Stretch, ZoneError, grazing_frequencies, hysteresis, stretches,
+    Loss, Stretch, ZoneError, grazing_frequencies, hysteresis_watched, stretches_watched,
 };
 
 const EXAMPLES: &str = "\
@@ -57,11 +58,12 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
     arguments
         .machine
         .refuse(&machine, Parameter::Frequency, why)?;
-    let zone = match hysteresis(&machine.scene) {
+    let zone = match hysteresis_watched(&machine.scene, &interrupt::watch) {
         Err(error @ ZoneError::NoGrazing { .. }) => return Err(Failure::usage(error.to_string())),
         zone => zone.map_err(|error| error.stated(&machine)),
     };
-    let all = stretches(&machine.scene).map_err(|error| anyhow!(error))?;
+    let all =
+        stretches_watched(&machine.scene, &interrupt::watch).map_err(|error| anyhow!(error))?;
     match zone {
         Err(error) if all.is_empty() => {
             let place = format!("no hysteresis zone found of {}", title(&machine));

@@ -135,15 +135,21 @@ impl Program {
     }
 
     /// Sends the program a signal (`INT`, say) in the middle of a long job that works in an empty folder: it
-    /// ends with exit code 130 within 10 s, and leaves no file but those of the names in `kept`.
+    /// ends with exit code 130 within 10 s, and leaves no file but those of the names in `kept`. What it says.
     ///
     /// # Panics
     /// If it does otherwise, or is over before.
     #[track_caller]
-    pub fn ends_on(&self, signal: &str, arguments: &[&str], folder: &Path, kept: &[&str]) {
+    pub fn ends_on(
+        &self,
+        signal: &str,
+        arguments: &[&str],
+        folder: &Path,
+        kept: &[&str],
+    ) -> String {
         let mut command = self.command(arguments);
-        let silent = command.stdout(Stdio::null()).stderr(Stdio::null());
-        let mut run = silent
+        let heard = command.stdout(Stdio::null()).stderr(Stdio::piped());
+        let mut run = heard
             .current_dir(folder)
             .spawn()
             .expect("the program starts");
@@ -167,6 +173,8 @@ impl Program {
             .iter()
             .find(|file| !kept.iter().any(|name| file.ends_with(name)));
         assert_eq!(strange, None, "SIG{signal} of {arguments:?}");
+        let said = run.wait_with_output().expect("a process").stderr;
+        String::from_utf8_lossy(&said).into_owned()
     }
 }
 

@@ -14,6 +14,7 @@ mod survey;
 
 use rayon::prelude::*;
 use softstop::{Dimension, Machine, Parameter, Scene};
+use softstop_console::interrupt;
 use softstop_dynamics::zone::ZoneError;
 use softstop_dynamics::{Orbit, Zone, zone};
 
@@ -83,7 +84,7 @@ impl Problem {
     /// [`Infeasible`] if there is no zone, or none of it is allowed and stable.
     pub fn at(&self, values: &[f64]) -> Result<Design, Infeasible> {
         let machine = self.machine_at(values);
-        let zone = zone::hysteresis(&machine.scene);
+        let zone = zone::hysteresis_watched(&machine.scene, &interrupt::watch);
         self.best_of(machine, zone)
     }
 
@@ -91,7 +92,7 @@ impl Problem {
     fn soon(&self, points: &[Vec<f64>]) -> Vec<Result<Design, Infeasible>> {
         let machines: Vec<Machine> = points.iter().map(|at| self.machine_at(at)).collect();
         let scenes: Vec<Scene> = machines.iter().map(|of| of.scene.clone()).collect();
-        let zones = zone::hysteresis_soon(&scenes);
+        let zones = zone::hysteresis_soon(&scenes, &interrupt::watch);
         let pairs: Vec<_> = machines.into_iter().zip(zones).collect();
         let designs = pairs.into_par_iter();
         let designs = designs.map(|(machine, zone)| self.best_of(machine, zone));

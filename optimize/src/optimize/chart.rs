@@ -1,6 +1,7 @@
 //! The chart of a design: before-impact velocity over drive frequency, in the paper's symbols.
 
 use softstop::{Dimension, Language, Machine, Parameter};
+use softstop_console::interrupt;
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Area, Pen, Stroke};
 use softstop_draw::scale::around;
@@ -115,7 +116,7 @@ struct Beside {
 impl Beside {
     fn new(reference: &Reference) -> Self {
         let machine = &reference.machine;
-        let zone = zone::hysteresis(&machine.scene).ok();
+        let zone = zone::hysteresis_watched(&machine.scene, &interrupt::watch).ok();
         let named = match reference.name {
             "given" => "as given".to_owned(),
             point => format!("paper's {point}"),

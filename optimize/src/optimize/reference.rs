@@ -3,6 +3,7 @@
 use anyhow::Context;
 use softstop::Machine;
 use softstop_console::failure::Failure;
+use softstop_console::interrupt;
 use softstop_console::machine::Regime;
 use softstop_dynamics::{Orbit, orbit};
 
@@ -21,7 +22,7 @@ pub struct Reference {
 /// machine itself, if it has a stable z = 1 motion as it is.
 pub(super) fn references(machine: &Machine) -> Result<Vec<Reference>, Failure> {
     if machine.ratios().is_none() {
-        let found = orbit::find(&machine.scene).ok();
+        let found = orbit::find_watched(&machine.scene, &interrupt::watch).ok();
         return Ok(Vec::from_iter(found.map(|orbit| Reference {
             name: "given",
             machine: machine.clone(),
@@ -33,7 +34,8 @@ pub(super) fn references(machine: &Machine) -> Result<Vec<Reference>, Failure> {
         .map(|regime| {
             let point = || format!("the paper's point {}", regime.point());
             let machine = Machine::named(regime.name()).with_context(point)?;
-            let orbit = orbit::find(&machine.scene).with_context(point)?;
+            let orbit =
+                orbit::find_watched(&machine.scene, &interrupt::watch).with_context(point)?;
             Ok(Reference {
                 name: regime.point(),
                 machine,

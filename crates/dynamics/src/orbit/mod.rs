@@ -22,12 +22,15 @@ pub use pattern::{Count, ImpactPattern};
 pub use periodic::Orbit;
 pub use regime::Regime;
 pub(crate) use scan::all_single;
-pub use search::find;
 pub(crate) use search::find_soon;
+pub use search::{find, find_watched};
+
+use std::ops::ControlFlow;
 
 use nalgebra::{Complex, Matrix2};
 use thiserror::Error;
 
+use crate::watch::Watcher;
 use softstop::{MotionError, SceneError};
 
 /// Why there is no orbit.
@@ -50,15 +53,31 @@ pub enum OrbitError {
         /// The last residual, in m and m/s.
         residual: f64,
     },
+    /// Orbits lie side by side, as where dry friction holds the mass for good, at one place or another.
+    #[error("the periodic motion is one of many, side by side: no single one can be followed")]
+    NotIsolated,
     /// The periodic motion has another number of impacts.
     #[error("the periodic motion has {impacts} impacts in its period, not one")]
     OtherRegime {
         /// Impacts in the period.
         impacts: usize,
     },
+    /// The watcher asked for it.
+    #[error("stopped")]
+    Stopped,
     /// The motion cannot be computed.
     #[error(transparent)]
     Motion(#[from] MotionError),
+}
+
+impl OrbitError {
+    /// [`OrbitError::Stopped`] if a watcher wants to stop.
+    pub(crate) fn ask(watcher: Watcher<'_>) -> Result<(), Self> {
+        match watcher(0, 0) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(Self::Stopped),
+        }
+    }
 }
 
 impl From<SceneError> for OrbitError {

@@ -83,7 +83,7 @@ impl Orbit {
         most: usize,
     ) -> Result<Self, OrbitError> {
         match Self::on_map(scene, state, periods) {
-            Ok(orbit) if orbit.is_weak() => {
+            Ok(orbit) if orbit.is_weak() && orbit.impacts.len() <= MOST_IMPACTS => {
                 let impacts: Vec<(f64, f64)> = orbit.timed_impacts();
                 Ok(Self::by_impacts(scene, orbit.periods, &impacts).unwrap_or(orbit))
             }

@@ -7,6 +7,7 @@
 
 use super::legs::Legs;
 use super::{Orbit, OrbitError};
+use crate::watch::Watcher;
 use softstop::Scene;
 
 /// Times in a drive period, and velocities, each so many times the one before.
@@ -27,8 +28,8 @@ const SAME: f64 = 1e-6;
 /// All z = 1 motions, those with the hardest impacts last.
 ///
 /// # Errors
-/// [`OrbitError::Motion`] if the scene is none.
-pub(crate) fn all_single(scene: &Scene) -> Result<Vec<Orbit>, OrbitError> {
+/// [`OrbitError::Motion`] if the scene is none; [`OrbitError::Stopped`].
+pub(crate) fn all_single(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Orbit>, OrbitError> {
     scene.validate()?;
     let Some(legs) = Legs::new(scene, 1) else {
         return Ok(Vec::new());
@@ -36,7 +37,8 @@ pub(crate) fn all_single(scene: &Scene) -> Result<Vec<Orbit>, OrbitError> {
     let period = scene.clock().period();
     let unit = scene.motion_scales().speed();
     let mut found: Vec<Orbit> = Vec::new();
-    for guess in guesses(scene, &legs, period) {
+    for guess in guesses(scene, &legs, period, watcher)? {
+        OrbitError::ask(watcher)?;
         let Ok(orbit) = legs.settle(&[guess]) else {
             continue;
         };
@@ -60,16 +62,24 @@ fn same(a: &Orbit, b: &Orbit, period: f64) -> bool {
 }
 
 /// The middles of the cells in which the residual may vanish.
-fn guesses(scene: &Scene, legs: &Legs<'_>, period: f64) -> Vec<(f64, f64)> {
+fn guesses(
+    scene: &Scene,
+    legs: &Legs<'_>,
+    period: f64,
+    watcher: Watcher<'_>,
+) -> Result<Vec<(f64, f64)>, OrbitError> {
     let speeds = speeds(scene);
     let times: Vec<f64> = (0..TIMES)
         .map(|index| period * index as f64 / TIMES as f64)
         .collect();
-    let column = |time: &f64| -> Vec<Option<[f64; 2]>> {
-        let gaps = speeds.iter().map(|speed| legs.gap(*time, *speed));
-        gaps.collect()
+    let column = |time: &f64| -> Result<Vec<Option<[f64; 2]>>, OrbitError> {
+        let gap = |speed: &f64| {
+            OrbitError::ask(watcher)?;
+            Ok(legs.gap(*time, *speed))
+        };
+        speeds.iter().map(gap).collect()
     };
-    let lattice: Vec<_> = times.iter().map(column).collect();
+    let lattice: Vec<_> = times.iter().map(column).collect::<Result<_, _>>()?;
     let mut guesses = Vec::new();
     for (index, time) in times.iter().enumerate() {
         let pair = [&lattice[index], &lattice[(index + 1) % TIMES]];
@@ -81,7 +91,7 @@ fn guesses(scene: &Scene, legs: &Legs<'_>, period: f64) -> Vec<(f64, f64)> {
             }
         }
     }
-    guesses
+    Ok(guesses)
 }
 
 /// True if both parts change their sign between corners, or may do so beyond those where there is no such motion.

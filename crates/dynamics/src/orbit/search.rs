@@ -9,6 +9,7 @@ use super::newton::fixed_point_unless;
 use super::periodic::STEEP;
 use super::scan::all_single;
 use super::{Orbit, OrbitError, Passage, StroboscopicMap, is_stable};
+use crate::watch::{Watcher, unwatched};
 use softstop::internals::Scales;
 use softstop::{Scene, Start};
 use softstop_lanes::{Job, Machine, Watch};
@@ -34,8 +35,16 @@ const SAME_SPEED: f64 = 1e-9;
 /// [`OrbitError::NotFound`] if no start leads to one; [`OrbitError::Motion`] if the scene is
 /// invalid.
 pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
-    let settled = search(from_ref(scene), usize::MAX).remove(0);
-    let mut all = all_single(scene)?;
+    find_watched(scene, &unwatched)
+}
+
+/// The same, as long as a watcher, which is not told how much is done, lets it go on.
+///
+/// # Errors
+/// As [`find`]; [`OrbitError::Stopped`].
+pub fn find_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Orbit, OrbitError> {
+    let settled = search(from_ref(scene), usize::MAX, watcher).remove(0);
+    let mut all = all_single(scene, watcher)?;
     all.retain(Orbit::is_stable);
     match (settled, all.pop()) {
         (Ok(settled), Some(other)) if is_harder(&other, &settled) => Ok(other),
@@ -55,13 +64,13 @@ fn is_harder(one: &Orbit, other: &Orbit) -> bool {
 ///
 /// # Errors
 /// Each as of [`find`].
-pub(crate) fn find_soon(scenes: &[Scene]) -> Vec<Result<Orbit, OrbitError>> {
-    search(scenes, 1)
+pub(crate) fn find_soon(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Orbit, OrbitError>> {
+    search(scenes, 1, watcher)
 }
 
 /// The best of all motions that the first groups of states lead to; further groups are tried only as long as there is
 /// none. The motions of all scenes are followed together.
-fn search(scenes: &[Scene], groups: usize) -> Vec<Result<Orbit, OrbitError>> {
+fn search(scenes: &[Scene], groups: usize, watcher: Watcher<'_>) -> Vec<Result<Orbit, OrbitError>> {
     let none = |scene: &Scene| OrbitError::NotFound {
         frequency: scene.excitation.frequency,
         clearance: scene.clearance,
@@ -81,9 +90,11 @@ fn search(scenes: &[Scene], groups: usize) -> Vec<Result<Orbit, OrbitError>> {
             }
         });
         let all: Vec<&Scene> = open.iter().map(|&index| &scenes[index]).collect();
-        let mut candidates = returning(&machines, &all, settling).into_iter();
+        let mut candidates = returning(&machines, &all, settling, watcher).into_iter();
         open.retain(|&index| {
-            let best = candidates.next().map(|of| best(&scenes[index], of, groups));
+            let best = candidates
+                .next()
+                .map(|of| best(&scenes[index], of, groups, watcher));
             let best = best.unwrap_or(Ok(None)).transpose();
             let is_open = best.is_none();
             if let Some(best) = best {
@@ -100,7 +111,9 @@ fn best(
     scene: &Scene,
     candidates: [Vec<Vector2<f64>>; 2],
     groups: usize,
+    watcher: Watcher<'_>,
 ) -> Result<Option<Orbit>, OrbitError> {
+    OrbitError::ask(watcher)?;
     let map = StroboscopicMap::new(scene, 1)?;
     let distance = Distance::of(scene);
     let mut known: Vec<Fixed> = Vec::new();
@@ -109,6 +122,7 @@ fn best(
             break;
         }
         for state in states {
+            OrbitError::ask(watcher)?;
             let near = |state| {
                 let stands = |other: &Fixed| distance.between(other.state, state) < SAME;
                 known.iter().any(stands)
@@ -197,6 +211,7 @@ fn returning(
     machines: &[Machine],
     scenes: &[&Scene],
     settling: &[u64],
+    watcher: Watcher<'_>,
 ) -> Vec<[Vec<Vector2<f64>>; 2]> {
     let jobs: Vec<Job> = scenes
         .iter()
@@ -212,6 +227,7 @@ fn returning(
     let distances: Vec<Distance> = scenes.iter().map(|scene| Distance::of(scene)).collect();
     let count = jobs.len();
     let mut returns = Returns {
+        first: 0,
         distances: jobs.iter().map(|job| distances[job.machine]).collect(),
         settling,
         last: jobs.iter().map(|job| job.start.into()).collect(),
@@ -219,7 +235,18 @@ fn returning(
         least: vec![(RETURNS, Vector2::zeros()); count],
         settled: vec![vec![None; count]; settling.len()],
     };
-    softstop_lanes::run(machines, &jobs, &mut returns);
+    // One by one where they are slow, with the watcher asked in between: each is followed alone then.
+    let together = match machines.iter().all(Machine::is_for_lanes) {
+        true => jobs.len(),
+        false => 1,
+    };
+    for (part, jobs) in jobs.chunks(together.max(1)).enumerate() {
+        if watcher(0, 0).is_break() {
+            break;
+        }
+        returns.first = part * together;
+        softstop_lanes::run(machines, jobs, &mut returns);
+    }
     let each = count / scenes.len().max(1);
     let of_scene = |index: usize| {
         let jobs = index * each..(index + 1) * each;
@@ -237,6 +264,8 @@ fn returning(
 /// Keeps of each motion the state that moves least within a period with one impact, and the states after some numbers
 /// of periods.
 struct Returns<'a> {
+    /// Number of the first job of those that are followed now.
+    first: usize,
     distances: Vec<Distance>,
     settling: &'a [u64],
     last: Vec<Vector2<f64>>,
@@ -252,11 +281,11 @@ impl Watch for Returns<'_> {
     const PERIODS: bool = true;
 
     fn impact(&mut self, job: usize, _: u64, _: f64, _: f64) {
-        self.impacts[job] += 1;
+        self.impacts[self.first + job] += 1;
     }
 
     fn period(&mut self, job: usize, cycle: u64, state: Start) {
-        let state = state.into();
+        let (job, state) = (self.first + job, state.into());
         if let Some(place) = self.settling.iter().position(|after| *after == cycle) {
             self.settled[place][job] = Some(state);
         }

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::{Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{BranchPoint, Follower, Heading};
-use crate::orbit::{Orbit, OrbitError, find, find_soon};
-use crate::watch::stop_if;
+use crate::orbit::{Orbit, OrbitError, find_soon, find_watched};
+use crate::watch::{Watcher, stop_if, unwatched};
 use softstop::Scene;
 
 /// The hysteresis zone of one machine, with its branch of z = 1 motions.
@@ -50,31 +50,42 @@ const TOGETHER: usize = 8;
 /// # Errors
 /// [`ZoneError`] if there is no grazing boundary, no z = 1 motion at it, or no fold.
 pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
+    hysteresis_watched(scene, &unwatched)
+}
+
+/// The same, as long as a watcher, which is not told how much is done, lets it go on.
+///
+/// # Errors
+/// As [`hysteresis`]; [`OrbitError::Stopped`].
+pub fn hysteresis_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Zone, ZoneError> {
     let grazing = grazing_frequencies(scene)?;
-    from_start(scene, grazing, find(&scene.at_frequency(grazing.1)).ok())
+    let start = find_watched(&scene.at_frequency(grazing.1), watcher);
+    from_start(scene, grazing, start.ok(), watcher)
 }
 
 /// The same of many machines at once, in groups of some on all cores, in a fraction of the work: the z = 1 motion at g0 is the hardest of
 /// those that motions come back near to, and where there is none of them, as in [`hysteresis`].
 ///
 /// # Errors
-/// Each as [`hysteresis`].
-pub fn hysteresis_soon(scenes: &[Scene]) -> Vec<Result<Zone, ZoneError>> {
+/// Each as [`hysteresis_watched`].
+pub fn hysteresis_soon(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Zone, ZoneError>> {
     let chunks = scenes.par_chunks(TOGETHER);
-    chunks.flat_map_iter(together).collect()
+    let zones = chunks.flat_map_iter(|scenes| together(scenes, watcher));
+    zones.collect()
 }
 
 /// Zones of a few machines.
-fn together(scenes: &[Scene]) -> Vec<Result<Zone, ZoneError>> {
+fn together(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Zone, ZoneError>> {
     let grazing: Vec<_> = scenes.iter().map(grazing_frequencies).collect();
     let with_grazing = scenes.iter().zip(&grazing);
     let at_grazing: Vec<Scene> = with_grazing
         .filter_map(|(scene, grazing)| Some(scene.at_frequency(grazing.as_ref().ok()?.1)))
         .collect();
-    let mut starts = find_soon(&at_grazing).into_iter();
+    let mut starts = find_soon(&at_grazing, watcher).into_iter();
     let zones = scenes.iter().zip(grazing).map(|(scene, grazing)| {
         let grazing = grazing?;
-        from_start(scene, grazing, starts.next().and_then(Result::ok))
+        let start = starts.next().and_then(Result::ok);
+        from_start(scene, grazing, start, watcher)
     });
     zones.collect()
 }
@@ -84,7 +95,9 @@ fn from_start(
     scene: &Scene,
     (frequency_g0_below, frequency_g0): (Option<f64>, f64),
     start: Option<Orbit>,
+    watcher: Watcher<'_>,
 ) -> Result<Zone, ZoneError> {
+    OrbitError::ask(watcher)?;
     let family = Frequencies(scene);
     let start = start.ok_or(ZoneError::NoOrbit {
         frequency: frequency_g0.into(),
@@ -97,8 +110,9 @@ fn from_start(
             let outside =
                 point.parameter < frequency_g0 || point.parameter > FARTHEST * frequency_g0;
             let ends_in_grazing = point.fold_test() < STEEPEST || (weak && point.fold_test() < 0.0);
-            stop_if(flipped || outside || ends_in_grazing)
+            stop_if(flipped || outside || ends_in_grazing || watcher(0, 0).is_break())
         })?;
+    OrbitError::ask(watcher)?;
     insert_folds(&follower, &mut branch)?;
     let fold = branch
         .iter()

@@ -1,11 +1,10 @@
 //! All stable z = 1 motions of a machine, as stretches of the drive's frequency.
 
-use std::ops::ControlFlow;
-
 use super::stretch::{Stretch, lies_between, sizes, stable};
 use super::{Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{Branch, BranchPoint, End, Follower, Limits};
-use crate::orbit::all_single;
+use crate::orbit::{OrbitError, all_single};
+use crate::watch::{Watcher, unwatched};
 use softstop::Scene;
 
 /// Frequencies in units of the natural one between which motions are looked for, and how many of them in a row.
@@ -29,6 +28,14 @@ const MOST: usize = 160;
 /// # Errors
 /// [`ZoneError::Orbit`] for a scene that is none.
 pub fn stretches(scene: &Scene) -> Result<Vec<Stretch>, ZoneError> {
+    stretches_watched(scene, &unwatched)
+}
+
+/// The same, as long as a watcher, which is not told how much is done, lets it go on.
+///
+/// # Errors
+/// As [`stretches`]; [`OrbitError::Stopped`].
+pub fn stretches_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Stretch>, ZoneError> {
     scene.validate()?;
     let family = Frequencies(scene);
     let follower = Follower::new(&family, 1);
@@ -39,7 +46,7 @@ pub fn stretches(scene: &Scene) -> Result<Vec<Stretch>, ZoneError> {
     let mut next = 0;
     while let Some(&frequency) = frequencies.get(next).filter(|_| next < MOST) {
         next += 1;
-        for orbit in all_single(&scene.at_frequency(frequency))? {
+        for orbit in all_single(&scene.at_frequency(frequency), watcher)? {
             let point = BranchPoint {
                 parameter: frequency,
                 position: orbit.position,
@@ -54,8 +61,9 @@ pub fn stretches(scene: &Scene) -> Result<Vec<Stretch>, ZoneError> {
             if is_known {
                 continue;
             }
-            let go_on = |_: &BranchPoint| ControlFlow::Continue(());
+            let go_on = |_: &BranchPoint| watcher(0, 0);
             if let Ok(branch) = follower.branch(frequency, orbit.state(), &limits, go_on) {
+                OrbitError::ask(watcher)?;
                 frequencies.extend(borders(&branch).into_iter().flat_map(beside));
                 branches.push(branch);
             }

@@ -21,6 +21,7 @@ use softstop_console::arguments::{MachineArguments, title};
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
+use softstop_console::interrupt;
 use softstop_console::output::Format;
 use softstop_console::progress::Progress;
 use softstop_console::range::{self, within};
@@ -170,7 +171,7 @@ fn along(
     machine: &Machine,
     places: usize,
 ) -> Result<(), Failure> {
-    let zone = zone::hysteresis(&machine.scene)
+    let zone = zone::hysteresis_watched(&machine.scene, &interrupt::watch)
         .with_context(|| format!("no hysteresis zone found of {}", title(machine)))?;
     let grid = plane::grid(arguments, &BOXED.map(|place| zone.scene_at(place)))?;
     let export = Export::open(&arguments.output, &ALONG)?;

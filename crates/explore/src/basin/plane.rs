@@ -103,7 +103,7 @@ pub(super) fn beyond(machine: &Machine, grid: &Grid) -> Option<String> {
     if !is_own || shows.contains(&Quantity::Angle) {
         return None;
     }
-    let orbit = orbit::find(&machine.scene).ok()?;
+    let orbit = orbit::find_watched(&machine.scene, &interrupt::watch).ok()?;
     let outside = |axis: &Axis| {
         let value = match axis.quantity {
             Quantity::Position => orbit.position,

@@ -7,6 +7,7 @@ use rayon::ThreadPool;
 use serde::Serialize;
 use softstop::{Ratios, Scene, SceneError};
 use softstop_console::failure::Failure;
+use softstop_console::interrupt;
 use softstop_console::median::median;
 use softstop_console::progress::Progress;
 use softstop_dynamics::zone::hysteresis_soon;
@@ -86,7 +87,7 @@ impl Grid {
             let begin = Instant::now();
             found = 0;
             for block in scenes.chunks(BLOCK) {
-                let zones = one.install(|| hysteresis_soon(block));
+                let zones = one.install(|| hysteresis_soon(block, &interrupt::watch));
                 found += zones.iter().filter(|zone| zone.is_ok()).count();
                 progress.steps(0)?;
             }

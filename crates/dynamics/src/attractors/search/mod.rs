@@ -11,7 +11,7 @@ use super::known::{Book, Standing};
 use super::lifetime::Looks;
 use super::{Arrival, Attractor, Options, Region, Survey, SurveyError};
 use crate::orbit::{self, Exponents};
-use crate::watch::{Watcher, unwatched};
+use crate::watch::{Watcher, stop_if, unwatched};
 use softstop::{Scene, Start};
 
 /// Starts of the pilot.
@@ -100,7 +100,9 @@ pub fn starting_box(scene: &Scene, watcher: Watcher<'_>) -> Result<Region, Surve
     search.fleet.planned = (options.transient + search.logged() as u64) * PILOT as u64;
     search.launch(Region::far(scene).starts(PILOT, options.seed), false)?;
     let stays = search.members.iter().flat_map(|member| &member.voyage.log);
-    let own = orbit::find(scene).ok();
+    let go_on = |_, _| stop_if(search.fleet.note(0).is_err());
+    let own = orbit::find_watched(scene, &go_on).ok();
+    search.fleet.note(0)?;
     let own = own.map(|orbit| Start::new(orbit.position, orbit.velocity));
     Ok(Region::box_with(scene, stays.copied().chain(own)))
 }
