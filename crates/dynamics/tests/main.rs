@@ -2,6 +2,7 @@
 
 mod attractors;
 mod basin;
+mod branch_ends;
 mod continuation;
 mod corners;
 mod examples;

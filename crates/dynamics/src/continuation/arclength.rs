@@ -24,6 +24,18 @@ pub(crate) trait Equations {
         let _ = here;
         None
     }
+
+    /// Scaled half-width of the differences by the other unknowns.
+    fn width(&self, here: &Evaluation<Self::Point>) -> f64 {
+        let _ = here;
+        DIFFERENCE
+    }
+
+    /// True if nothing that breaks a derivative lies between two places side by side.
+    fn is_smooth(&self, from: &Self::Point, to: &Self::Point) -> bool {
+        let _ = (from, to);
+        true
+    }
 }
 
 /// A system at one place.
@@ -124,6 +136,7 @@ pub(super) fn correct_with<E: Equations>(
         }
         match matrix.lu().solve(&right) {
             Some(step) if step.iter().all(|part| part.is_finite()) => at += step,
+            _ if fits => return Err(OrbitError::NotIsolated),
             _ => return Err(OrbitError::Diverged { residual: size }),
         }
     }
@@ -158,7 +171,7 @@ pub(super) fn tangent_with<E: Equations>(
     right[node.at.len() - 1] = 1.0;
     match matrix.lu().solve(&right).map(|found| found.normalize()) {
         Some(direction) if direction.iter().all(|part| part.is_finite()) => Ok((direction, slopes)),
-        _ => Err(OrbitError::Diverged { residual: 0.0 }),
+        _ => Err(OrbitError::NotIsolated),
     }
 }
 
@@ -173,21 +186,26 @@ fn slopes_at<E: Equations>(
     if let Some(exact) = equations.exact_slopes(here) {
         return Ok(exact);
     }
+    let width = equations.width(here);
     let mut columns = Vec::new();
     for unknown in E::EXACT..at.len() {
         let beside = |shift: f64| {
             let mut at = at.clone();
             at[unknown] += shift;
-            equations.evaluate(&at).map(|found| found.residual)
+            let found = equations.evaluate(&at)?;
+            Ok::<_, OrbitError>((
+                equations.is_smooth(&here.point, &found.point),
+                found.residual,
+            ))
         };
         let one_sided = |there: DVector<f64>, shift: f64| (there - &here.residual) / shift;
-        let ahead = beside(DIFFERENCE);
+        let ahead = beside(width);
         columns.push(match (ahead, care) {
-            (Ok(ahead), Care::Quick) => one_sided(ahead, DIFFERENCE),
-            (ahead, _) => match (ahead, beside(-DIFFERENCE)) {
-                (Ok(ahead), Ok(behind)) => (ahead - behind) / (2.0 * DIFFERENCE),
-                (Ok(ahead), Err(_)) => one_sided(ahead, DIFFERENCE),
-                (Err(_), Ok(behind)) => one_sided(behind, -DIFFERENCE),
+            (Ok((true, ahead)), Care::Quick) => one_sided(ahead, width),
+            (ahead, _) => match (ahead, beside(-width)) {
+                (Ok((a, ahead)), Ok((b, behind))) if a == b => (ahead - behind) / (2.0 * width),
+                (Ok((true, ahead)), _) | (Ok((_, ahead)), Err(_)) => one_sided(ahead, width),
+                (_, Ok((_, behind))) => one_sided(behind, -width),
                 (Err(error), Err(_)) => return Err(error),
             },
         });

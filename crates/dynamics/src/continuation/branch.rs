@@ -80,7 +80,10 @@ impl<'a, F: Family> Follower<'a, F> {
             &mut watch,
         )?;
         let down = match up.end {
-            End::Closed => Way::none(),
+            End::Closed => Way {
+                end: End::Closed,
+                ..Way::none()
+            },
             _ => self.way(
                 start.clone(),
                 &Self::direction(Heading::Down),
@@ -167,6 +170,8 @@ impl<'a, F: Family> Follower<'a, F> {
         let mut approach = Approach::of(&self.shooting, &start)?;
         let mut walker = Walker::new(&self.shooting, start, along, self.largest)?;
         let mut crawled = 0;
+        // Since the last corner, if one was passed.
+        let mut goes_on = true;
         while way.points.len() < limits.points {
             if crawled > LONGEST_CRAWL {
                 self.give_up(way, &walker, &approach, limits, UNSTABLE);
@@ -174,15 +179,20 @@ impl<'a, F: Family> Follower<'a, F> {
             }
             let stride = walker.attempt().and_then(|stride| {
                 let ahead = Approach::of(&self.shooting, &stride.node)?;
-                Ok((stride, ahead))
+                if !self.may_take(&walker, &stride, (&approach, &ahead)) {
+                    return Err(UNSTABLE);
+                }
+                let specials = self.specials_between(&walker.node, &stride.node)?;
+                Ok((stride, ahead, specials))
             });
             match stride {
-                Ok((stride, ahead)) if self.may_take(&walker, &stride, (&approach, &ahead)) => {
+                Ok((stride, ahead, specials)) => {
                     let last = walker.node.clone();
                     crawled = if walker.step < SHORT { crawled + 1 } else { 0 };
                     walker.take(stride);
-                    let end = self.record(way, (&last, &walker.node), &origin, limits)?;
-                    approach = ahead;
+                    let step = (&last, &walker.node);
+                    let end = self.record(way, step, specials, &origin, limits)?;
+                    (approach, goes_on) = (ahead, true);
                     let stopped = way
                         .points
                         .last()
@@ -192,23 +202,37 @@ impl<'a, F: Family> Follower<'a, F> {
                         return Ok(None);
                     }
                 }
-                refused => {
+                Err(error) => {
                     if watch(&self.point_at(&walker.node)?).is_break() {
                         way.end = End::Stopped;
                         return Ok(None);
                     }
-                    let turned = self.turned(&walker.node, &walker.direction);
-                    if turned.is_some() {
-                        return Ok(turned);
+                    if way.turned_at != Some(way.points.len())
+                        && let Some(turned) = self.turned(&walker.node, &walker.direction)
+                    {
+                        way.turned_at = Some(way.points.len());
+                        return Ok(Some(turned));
                     }
                     if way.grazes(self.graze_ahead(&walker, &approach)) {
                         return Ok(None);
                     }
-                    if !walker.shorten() {
-                        let error = refused.err().unwrap_or(UNSTABLE);
+                    if walker.shorten() {
+                        continue;
+                    }
+                    let Some((node, along)) = self.beyond_corner(&walker).filter(|_| goes_on)
+                    else {
                         self.give_up(way, &walker, &approach, limits, error);
                         return Ok(None);
+                    };
+                    let specials = self.specials_of_corner(&walker.node, &node)?;
+                    let step = (&walker.node, &node);
+                    if let Some(end) = self.record(way, step, specials, &origin, limits)? {
+                        way.end = end;
+                        return Ok(None);
                     }
+                    approach = Approach::of(&self.shooting, &node)?;
+                    walker = Walker::new(&self.shooting, node, &along, self.largest)?;
+                    goes_on = false;
                 }
             }
         }
@@ -220,6 +244,7 @@ impl<'a, F: Family> Follower<'a, F> {
         &self,
         way: &mut Way,
         (from, to): (&Node<Round>, &Node<Round>),
+        mut specials: Vec<Special>,
         origin: &DVector<f64>,
         limits: &Limits,
     ) -> Result<Option<End>, OrbitError> {
@@ -238,7 +263,8 @@ impl<'a, F: Family> Follower<'a, F> {
             }
             (None, None) => (to.clone(), closes.then_some(End::Closed)),
         };
-        let specials = self.specials_between(from, &to)?;
+        let (low, high) = limits.range;
+        specials.retain(|special| (low..=high).contains(&special.point.parameter));
         way.points
             .extend(specials.iter().map(|special| special.point.clone()));
         way.specials.extend(specials);

@@ -23,7 +23,7 @@ const CLOSE: f64 = 1e-3;
 /// Scaled distance within which a branch that cannot be followed is taken to end in the grazing ahead: multipliers grow
 /// as the reciprocal of the distance, and no step is short enough for them.
 const AHEAD: f64 = 1e-2;
-/// Scaled distances at which something is looked for that a branch without a grazing ends in.
+/// Scaled distances, ahead and behind, at which something is looked for that a branch without a grazing ends in.
 const JUST_AHEAD: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 /// Length of the steps from which on all changes are taken.
 pub(super) const SHORT: f64 = 1e-5;
@@ -52,16 +52,19 @@ impl<F: Family> Follower<'_, F> {
             };
             return;
         }
-        way.end = match self.border_ahead(walker) {
+        let dies = approach.dies_within(NEAR).then_some(Border::Surface);
+        way.end = match self.border_ahead(walker).or(dies) {
             Some(border) => End::Border(border),
             None => End::Lost(error),
         };
     }
 
-    /// What the orbits just ahead of a node meet, and it does not.
+    /// What the orbits just ahead of a node meet, and it does not, or those just behind it, as where a corner was passed
+    /// beyond which no orbit goes on.
     fn border_ahead(&self, walker: &Walker<'_, Shooting<'_, F, 1>>) -> Option<Border> {
         let node = &walker.node;
-        JUST_AHEAD.into_iter().find_map(|reach| {
+        let behind = JUST_AHEAD.map(|reach| -reach);
+        JUST_AHEAD.into_iter().chain(behind).find_map(|reach| {
             let there = &node.at + reach * &walker.direction;
             let beyond = self.shooting.evaluate(&there).ok()?;
             node.here.point.sequence.border(&beyond.point.sequence)

@@ -74,7 +74,7 @@ impl<F: Family> Follower<'_, F> {
     }
 
     /// The grazing of a stop without a jump of its force, where the branch goes on.
-    fn graze_between(
+    pub(super) fn graze_between(
         &self,
         from: &Node<Round>,
         to: &Node<Round>,

@@ -117,6 +117,7 @@ impl<'a, F: Family> Follower<'a, F> {
     ) -> Result<Vec<BranchPoint>, OrbitError> {
         let node = self.start(parameter, start.state())?;
         let mut points = vec![self.point_at(&node)?];
+        let mut turned_at = 0;
         let mut next = Some(self.set_out(node, Self::direction(heading)));
         while let Some(Turned {
             follower,
@@ -124,7 +125,12 @@ impl<'a, F: Family> Follower<'a, F> {
             along,
         }) = next
         {
-            next = follower.follow_on((node, &along), limit, &mut points, &mut watch)?;
+            next = follower.follow_on(
+                (node, &along),
+                limit,
+                (&mut points, &mut turned_at),
+                &mut watch,
+            )?;
         }
         Ok(points)
     }
@@ -143,7 +149,7 @@ impl<'a, F: Family> Follower<'a, F> {
         &self,
         (node, along): (Node<Round>, &DVector<f64>),
         limit: usize,
-        points: &mut Vec<BranchPoint>,
+        (points, turned_at): (&mut Vec<BranchPoint>, &mut usize),
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Option<Turned<'a, F>>, OrbitError> {
         let sequence = node.here.point.sequence;
@@ -160,9 +166,11 @@ impl<'a, F: Family> Follower<'a, F> {
                     }
                 }
                 _ => {
-                    let turned = self.turned(&walker.node, &walker.direction);
-                    if turned.is_some() {
-                        return Ok(turned);
+                    if *turned_at != points.len()
+                        && let Some(turned) = self.turned(&walker.node, &walker.direction)
+                    {
+                        *turned_at = points.len();
+                        return Ok(Some(turned));
                     }
                     if !walker.shorten() {
                         break;
@@ -262,7 +270,7 @@ impl<'a, F: Family> Follower<'a, F> {
             let here = plain.shooting.evaluate(&at)?;
             return plain.point_at(&Node { at, here });
         }
-        let state = self.shooting.state(&node.at);
+        let state = node.here.point.start;
         let [parameter] = self.shooting.parameters(&node.at);
         Ok(BranchPoint {
             parameter,

@@ -41,7 +41,7 @@ impl Approach {
         let scene = shooting.scene(&node.at)?;
         let round = &node.here.point;
         let total = round.sequence.crossings();
-        let nearby = nearby(&scene, shooting.periods, shooting.state(&node.at))?;
+        let nearby = nearby(&scene, shooting.periods, round.start)?;
         let taken = round.slowest.map_or(0, |touch| nearby.taken(touch.time));
         Ok(Self {
             dying: round.slowest,
@@ -67,6 +67,12 @@ impl Approach {
         leaves(self.dying, before.dying) && leaves(self.rising, before.rising)
     }
 
+    /// True if a crossing with a jump of the force is slower than that (scaled): it is about to die.
+    pub fn dies_within(&self, near: f64) -> bool {
+        let dies = |touch: Touch| touch.amount < near * self.speed && !self.is_gentle(touch.face);
+        self.dying.is_some_and(dies)
+    }
+
     /// True if an orbit can graze a face smoothly.
     pub fn is_gentle(&self, face: Face) -> bool {
         let mut faces = Face::ALL.into_iter().zip(self.gentle);
@@ -77,10 +83,12 @@ impl Approach {
     pub fn grazes<F: Family>(&self, shooting: &Shooting<'_, F, 1>) -> Vec<Special> {
         let (total, taken) = self.crossings;
         let dying = self.dying.zip(total.checked_sub(taken));
+        // Where the force jumps down, the mass goes on from rest at the surface.
+        let passing = self.dying.filter(|_| taken > 1).zip(total.checked_sub(1));
         let rising = self
             .rising
             .map(|touch| (touch, total - usize::from(touch.reverses)));
-        [(dying, true), (rising, false)]
+        [(dying, true), (passing, true), (rising, false)]
             .into_iter()
             .filter_map(|(touch, dies)| touch.map(|(touch, crossings)| (touch, crossings, dies)))
             .filter_map(|(touch, crossings, dies)| {

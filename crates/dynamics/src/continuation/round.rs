@@ -3,75 +3,17 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::face::{Face, Touch};
-use super::way::Border;
+use super::sequence::Sequence;
 use softstop::internals::{Detuning, Motion};
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Scene, Start,
 };
 
-/// How often an orbit crosses what; it changes only where the orbit grazes something.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Sequence {
-    /// Impacts; each row of bounces that ends in rest counts as one.
-    pub impacts: usize,
-    /// Crossings of surfaces, impacts on a rigid stop among them.
-    pub surfaces: usize,
-    /// Turns under dry friction.
-    pub reversals: usize,
-    /// Rows of bounces that end in rest.
-    pub rests: usize,
-    /// Crossings of other kinds: ends of rest, contacts that cease or begin to press.
-    pub others: usize,
-    /// How often the mass is held, by dry friction or at a face.
-    pub holds: usize,
-    /// Crossings of surfaces and turns at which the force does not jump: an orbit gains and loses them smoothly.
-    pub gentle: [usize; 2],
-}
-
-impl Sequence {
-    /// True if no crossing with a jump of the force makes the difference.
-    pub fn agrees(&self, other: &Self) -> bool {
-        self.hard() == other.hard() && self.rests == other.rests
-    }
-
-    /// The same, with as many impacts.
-    pub fn goes_on(&self, other: &Self) -> bool {
-        self.impacts == other.impacts && self.agrees(other)
-    }
-
-    /// What comes in between two orbits.
-    pub fn border(&self, other: &Self) -> Option<Border> {
-        let ([surfaces, turns], [others, other_turns]) = (self.hard(), other.hard());
-        if (self.holds, self.rests) != (other.holds, other.rests) {
-            Some(Border::Rest)
-        } else if surfaces != others {
-            Some(Border::Surface)
-        } else {
-            (turns != other_turns).then_some(Border::Turn)
-        }
-    }
-
-    fn hard(&self) -> [usize; 2] {
-        [
-            self.surfaces - self.gentle[0],
-            self.reversals - self.gentle[1],
-        ]
-    }
-
-    /// What happens how often, whether the force jumps there or not: at the end of a range a jump may vanish.
-    pub fn events(&self) -> [usize; 4] {
-        [self.impacts, self.surfaces, self.reversals, self.rests]
-    }
-
-    /// Crossings of all kinds.
-    pub fn crossings(&self) -> usize {
-        self.surfaces + self.reversals + self.others
-    }
-}
-
 /// What happens from time 0 over a number of drive periods.
 #[derive(Debug, Clone)]
 pub(crate) struct Round {
+    /// Where it begins: the state, or the face of a rigid stop for a state beyond it.
+    pub start: Vector2<f64>,
     /// States after each drive period.
     pub ends: Vec<Vector2<f64>>,
     /// Exact Jacobian of the last one.
@@ -91,7 +33,9 @@ pub(crate) struct Round {
 impl Round {
     /// The round from a state.
     pub fn of(scene: &Scene, periods: u64, state: Vector2<f64>) -> Result<Self, MotionError> {
-        let mut motion = scene.motion(state.into())?;
+        let start = before_wall(scene, state);
+        let at_wall = scene.wall().is_some_and(|wall| wall.position == start.x);
+        let mut motion = scene.motion(start.into())?;
         let mut watch = Watch {
             scene,
             clock: *motion.clock(),
@@ -103,6 +47,7 @@ impl Round {
             periods: periods as f64,
             is_held: false,
             touched: None,
+            row: None,
         };
         let mut ends = Vec::with_capacity(periods as usize);
         for period in 1..=periods {
@@ -113,8 +58,13 @@ impl Round {
         motion.tell_arc(&mut watch);
         watch.sequence.impacts = watch.impacts.len();
         Ok(Self {
+            start,
             ends,
-            monodromy: watch.detuning.tangent.matrix,
+            // Whatever comes to rest at a rigid stop goes on alike.
+            monodromy: match at_wall && watch.margin == 0.0 {
+                true => Matrix2::zeros(),
+                false => watch.detuning.tangent.matrix,
+            },
             by_frequency: watch.detuning.at_drive_angle(&motion),
             impacts: watch.impacts,
             sequence: watch.sequence,
@@ -127,6 +77,21 @@ impl Round {
     pub fn end(&self) -> Vector2<f64> {
         self.ends[self.ends.len() - 1]
     }
+}
+
+/// Distance and speed, in the scene's scales, within which a mass rests at a rigid stop.
+const AT_REST: f64 = 1e-9;
+
+/// A state, or one at the face of a rigid stop for one beyond it, or at rest there to rounding: so the map goes on
+/// continuously past the face, and has no other fixed points.
+pub(crate) fn before_wall(scene: &Scene, state: Vector2<f64>) -> Vector2<f64> {
+    let wall = scene.wall().map_or(f64::INFINITY, |wall| wall.position);
+    let scales = scene.scales();
+    let near = (wall - state.x).abs() < AT_REST * scales.length;
+    if near && state.y.abs() < AT_REST * scales.speed() {
+        return Vector2::new(wall, 0.0);
+    }
+    Vector2::new(state.x.min(wall), state.y)
 }
 
 /// Work that an orbit may cost per drive period, in scan windows: 32,000 crossings. A mass that bounces more
@@ -165,6 +130,17 @@ struct Watch<'a> {
     /// The position at which a surface without a jump of the force was passed forward last, and whether the mass has
     /// turned since.
     touched: Option<(f64, bool)>,
+    row: Option<Row>,
+}
+
+/// Ever weaker bounces at one place.
+struct Row {
+    position: f64,
+    /// That of the last.
+    velocity: f64,
+    /// Up to the first: what happens how often, and impacts.
+    sequence: Sequence,
+    impacts: usize,
 }
 
 impl Observer for Watch<'_> {
@@ -188,6 +164,10 @@ impl Observer for Watch<'_> {
             CrossingKind::Reversal => self.turns(),
             CrossingKind::Rest => self.rests(),
             CrossingKind::Switch | CrossingKind::Release => self.sequence.others += 1,
+        }
+        let bounces = matches!(crossing.kind, CrossingKind::Rebound { .. });
+        if bounces || crossing.impact_velocity().is_some() {
+            self.bounces(crossing);
         }
     }
 }
@@ -229,16 +209,36 @@ impl Watch<'_> {
         }
     }
 
+    fn bounces(&mut self, crossing: &Crossing) {
+        let (position, velocity) = (crossing.position, crossing.velocity);
+        match &mut self.row {
+            Some(row) if row.position == position && velocity < row.velocity => {
+                row.velocity = velocity;
+            }
+            row => {
+                *row = Some(Row {
+                    position,
+                    velocity,
+                    sequence: self.sequence,
+                    impacts: self.impacts.len(),
+                });
+            }
+        }
+    }
+
     /// A row of ever weaker bounces counts as its first: how many of them are told one by one is the
     /// simulation's choice.
     fn rests(&mut self) {
-        self.sequence.rests += 1;
-        while let [.., before, last] = self.impacts[..]
-            && last < before
-        {
-            self.impacts.pop();
-            self.sequence.surfaces -= 1;
+        if let Some(row) = self.row.take() {
+            self.impacts.truncate(row.impacts);
+            let Sequence { rests, holds, .. } = self.sequence;
+            self.sequence = Sequence {
+                rests,
+                holds,
+                ..row.sequence
+            };
         }
+        self.sequence.rests += 1;
         self.slowest = None;
     }
 }

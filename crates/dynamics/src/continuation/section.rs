@@ -11,7 +11,7 @@ use super::Family;
 use super::arclength::{Node, correct};
 use super::follower::{Follower, Turned};
 use super::point::BranchPoint;
-use super::round::{Round, carry_on};
+use super::round::{Round, before_wall, carry_on};
 use softstop::{Arc, Clock, Crossing, MotionError, Observer, Scene};
 
 /// Drive periods between the section and a crossing within which the crossing may stand in the way.
@@ -49,7 +49,7 @@ impl<'a, F: Family> Follower<'a, F> {
             return None;
         }
         let scene = self.shooting.scene(&node.at).ok()?;
-        let state = self.shooting.state(&node.at);
+        let state = node.here.point.start;
         let (middle, gap) = longest_flight(&scene, self.shooting.periods, state).ok()?;
         (0.5 * gap > FARTHER * margin).then(|| self.with_turn(self.shooting.turn + middle))
     }
@@ -79,7 +79,7 @@ impl<'a, F: Family> Follower<'a, F> {
 
 /// The state so many drive periods after time 0.
 fn after(scene: &Scene, state: Vector2<f64>, periods: f64) -> Result<Vector2<f64>, MotionError> {
-    let mut motion = scene.motion(state.into())?;
+    let mut motion = scene.motion(before_wall(scene, state).into())?;
     for period in 1..=periods as u64 {
         carry_on(&mut motion, Clock::at_cycle(period), &mut ())?;
     }

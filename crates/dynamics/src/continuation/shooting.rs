@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
-use super::arclength::{Equations, Evaluation};
+use super::arclength::{DIFFERENCE, Equations, Evaluation};
 use super::round::Round;
 use super::test::Test;
 use crate::orbit::OrbitError;
@@ -89,6 +89,25 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         jacobian
     }
 
+    /// Near grazing the map bends within the square of the speed of the touch, or of what its Jacobian's reciprocal
+    /// measures.
+    fn width(&self, here: &Evaluation<Round>) -> f64 {
+        let [length, speed] = self.family.state_scales();
+        let m = &here.point.monodromy;
+        let size = m
+            .m11
+            .hypot(m.m22)
+            .hypot(m.m12 * speed / length)
+            .hypot(m.m21 * length / speed);
+        let touch = here.point.slowest.map_or(1.0, |touch| touch.amount / speed);
+        let share = (STEEP / size).min(touch / SLOW).powi(2);
+        DIFFERENCE * share.clamp(LEAST, 1.0)
+    }
+
+    fn is_smooth(&self, from: &Round, to: &Round) -> bool {
+        from.sequence == to.sequence
+    }
+
     fn exact_slopes(&self, here: &Evaluation<Round>) -> Option<DMatrix<f64>> {
         let change = here.point.by_frequency?;
         let change = change.component_div(&self.scales.fixed_rows::<2>(0));
@@ -99,6 +118,13 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         Some(slopes)
     }
 }
+
+/// Size of a Jacobian from which on its orbit is taken to be near grazing.
+const STEEP: f64 = 10.0;
+/// Scaled speed of a touch up to which it is.
+const SLOW: f64 = 0.01;
+/// The smallest share of the usual width that rounding leaves good for a difference.
+const LEAST: f64 = 1e-5;
 
 /// What rounding alone may leave of P(s) - s in units of `sizes`.
 pub(crate) fn round_off(

@@ -12,7 +12,9 @@ pub(crate) const LARGEST_STEP: f64 = 0.25;
 /// Largest turn of the direction per step, as a cosine, and that up to which steps grow.
 const LARGEST_TURN: f64 = 0.96;
 const GENTLE_TURN: f64 = 0.995;
-/// The latter where guesses bend with the curve, and how many times as long the first step is there.
+/// Distance of the next node in steps beyond which it lies on another curve.
+const LONGEST_CHORD: f64 = 1.1;
+/// The former of these where guesses bend with the curve, and how many times as long the first step is there.
 const QUICK_TURN: f64 = 0.985;
 const QUICK_STEP: f64 = 2.5;
 
@@ -83,7 +85,8 @@ impl<'a, E: Equations> Walker<'a, E> {
         let node = correct_with(equations, &guess, across, &mut slopes, self.care)?;
         let (direction, slopes) = tangent_with(equations, &node, &self.direction, self.care)?;
         let turn = direction.dot(&self.direction);
-        if turn <= LARGEST_TURN {
+        let leaps = (&node.at - &self.node.at).norm() > LONGEST_CHORD * self.step;
+        if turn <= LARGEST_TURN || leaps {
             return Err(OrbitError::Diverged { residual: 0.0 });
         }
         Ok(Stride {

@@ -49,6 +49,8 @@ pub(super) struct Way {
     pub(super) points: Vec<BranchPoint>,
     pub(super) specials: Vec<Special>,
     pub(super) end: End,
+    /// Points at the last turn of the section: it is not turned twice at one place.
+    pub(super) turned_at: Option<usize>,
 }
 
 impl Way {
@@ -68,6 +70,7 @@ impl Way {
             points: Vec::new(),
             specials: Vec::new(),
             end: End::Points,
+            turned_at: None,
         }
     }
 }

@@ -1,0 +1,63 @@
+//! Corners of a branch: where an orbit gains or loses a touch that jumps no force but a derivative (the damper of a stop
+//! that sets in, a spring that becomes another), the branch goes on in another direction, and its multipliers jump.
+//! (Leine and Nijmeijer 2004, ch. 8: the nonsmooth fold and flip.)
+
+use nalgebra::DVector;
+
+use super::Family;
+use super::arclength::{Equations, Node, correct, tangent};
+use super::follower::Follower;
+use super::point::{Special, SpecialKind};
+use super::round::Round;
+use super::shooting::Shooting;
+use super::test::Test;
+use super::walker::Walker;
+use crate::orbit::OrbitError;
+
+/// Scaled distances beyond a corner at which the branch is taken up.
+const BEYOND: [f64; 4] = [1e-7, 1e-6, 1e-5, 1e-4];
+/// How many times as far from this side of the corner it may lie.
+const NEAR: f64 = 10.0;
+
+impl<F: Family> Follower<'_, F> {
+    /// A node beyond the corner just ahead, and the direction in which the branch goes on from it.
+    pub(super) fn beyond_corner(
+        &self,
+        walker: &Walker<'_, Shooting<'_, F, 1>>,
+    ) -> Option<(Node<Round>, DVector<f64>)> {
+        let node = &walker.node;
+        BEYOND.into_iter().find_map(|reach| {
+            let at = &node.at + reach * &walker.direction;
+            let here = self.shooting.evaluate(&at).ok()?;
+            let sequence = here.point.sequence;
+            if sequence == node.here.point.sequence {
+                return None;
+            }
+            let guess = Node { at, here };
+            let (along, _) = tangent(&self.shooting, &guess, &walker.direction).ok()?;
+            [along.clone(), -along].into_iter().find_map(|along| {
+                let ahead = &node.at + reach * &along;
+                let found = correct(&self.shooting, &ahead, Some(&along)).ok()?;
+                let near = (&found.at - &node.at).norm() < NEAR * reach;
+                (near && found.here.point.sequence == sequence).then_some((found, along))
+            })
+        })
+    }
+
+    /// What is special about a corner between two nodes: the touch, and the tests that jump through zero.
+    pub(super) fn specials_of_corner(
+        &self,
+        from: &Node<Round>,
+        to: &Node<Round>,
+    ) -> Result<Vec<Special>, OrbitError> {
+        let (a, b) = (&from.here.point.monodromy, &to.here.point.monodromy);
+        let mut found = Vec::new();
+        for test in Test::ALL.into_iter().filter(|test| test.passes(a, b)) {
+            let (kind, point) = (SpecialKind::Critical(test), self.point_at(from)?);
+            found.push(Special { kind, point });
+        }
+        let touch = self.graze_between(from, to)?;
+        found.extend(touch.map(|(_, special)| special));
+        Ok(found)
+    }
+}
