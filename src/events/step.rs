@@ -2,7 +2,7 @@
 
 use super::isolate::Candidate;
 use super::{Found, Guard, Outlook, earliest};
-use crate::flow::{DEGREE, Node, Segment, evaluate};
+use crate::flow::{DEGREE, Node, Segment, value};
 
 /// The first crossing from `node` to the end of the step. Bounds on the fourth derivative follow from
 /// the coefficients of the polynomial, which is the motion to round-off.
@@ -46,7 +46,7 @@ fn stays_below(coefficients: &[f64; DEGREE + 1], span: f64) -> bool {
     let mut others = coefficients.map(f64::abs);
     (others[0], others[1]) = (0.0, 0.0);
     let tangent = coefficients[0] + (coefficients[1] * span).max(0.0);
-    tangent + evaluate(&others, span).0 < 0.0
+    tangent + value(&others, span) < 0.0
 }
 
 /// Bound on |g''''| over [0, span].
@@ -63,5 +63,5 @@ fn fourth_derivative(coefficients: &[f64; DEGREE + 1], span: f64) -> f64 {
 /// What g may carry of rounding on [0, span].
 fn rounding(coefficients: &[f64; DEGREE + 1], span: f64) -> f64 {
     let majorant = coefficients.map(f64::abs);
-    f64::EPSILON * evaluate(&majorant, span).0 + f64::MIN_POSITIVE
+    f64::EPSILON * value(&majorant, span) + f64::MIN_POSITIVE
 }

@@ -4,6 +4,7 @@ use super::creep::Equation;
 use super::hertz::Hertz;
 use super::segment::Segment;
 use super::series::{Series, majorant, value};
+use super::sphere::is_spherical;
 use super::taylor::{DEGREE, RECIPROCALS, push_series};
 use super::{Departure, Flow};
 
@@ -19,13 +20,19 @@ const LONGER: f64 = 20.0;
 impl Segment {
     /// The step from a departure that lies `deflection` m beyond the face.
     pub fn new(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
-        let raised = deflection.max(0.0).powf(hertz.exponent);
         let mut segment = if deflection <= 0.0 && from.velocity == 0.0 {
             Self::from_rest(flow, hertz, from)
-        } else if is_off_face(hertz, (deflection, raised), from.velocity) {
-            Self::pressed(flow, hertz, from, (deflection, raised))
-        } else {
+        } else if is_spherical(hertz, from) {
             Self::from_root(flow, hertz, from, deflection)
+        } else if hertz.exponent == 2.0 {
+            Self::squared(flow, hertz, from, deflection.max(0.0))
+        } else {
+            let raised = deflection.max(0.0).powf(hertz.exponent);
+            if is_off_face(hertz, (deflection, raised), from.velocity) {
+                Self::pressed(flow, hertz, from, (deflection, raised))
+            } else {
+                Self::from_root(flow, hertz, from, deflection)
+            }
         };
         if let Some(creeping) = Self::creeping(flow, hertz, from, deflection, segment.end) {
             segment = creeping;

@@ -17,6 +17,7 @@ mod gauss;
 mod hertz;
 mod modes;
 mod node;
+mod pairs;
 mod particular;
 mod place;
 mod polynomial;
@@ -28,6 +29,7 @@ mod rungs;
 mod segment;
 mod series;
 mod soon;
+mod sphere;
 mod stretch;
 mod taylor;
 
@@ -40,7 +42,7 @@ pub(crate) use node::Window;
 pub use place::{Departure, Drive, Node};
 pub use polynomial::{HIGHEST_ORDER, Polynomial};
 pub(crate) use segment::{Finer, Segment};
-pub(crate) use taylor::{DEGREE, Taylor, evaluate};
+pub(crate) use taylor::{DEGREE, Taylor, evaluate, value};
 
 use nalgebra::Matrix2;
 

@@ -5,6 +5,7 @@
 
 use super::expansion::{converges_densely, outgrown};
 use super::hertz::Hertz;
+use super::pairs::Products;
 use super::segment::Segment;
 use super::series::{Series, ZERO};
 use super::taylor::{DEGREE, RECIPROCALS, push_series};
@@ -26,85 +27,79 @@ impl Segment {
         segment.is_pressed = true;
         let start = (deflection, from.velocity, raised);
         let velocity = segment.press(flow, start);
-        // What is below rounding of the velocity is so of the deflection.
         let ways = WAYS * deflection / from.velocity.abs();
-        let mut reach = converges_densely(&velocity).min(ways);
-        if !from.push.is_linear() {
-            reach = reach.min(outgrown(&segment.depth)).min(outgrown(&velocity));
-        }
-        segment.ends_at(reach.min(flow.reach));
+        segment.ends_before(flow.reach.min(ways), from, &velocity);
         segment
+    }
+
+    /// The same where n = 2: the law is regular at the face, too.
+    pub(super) fn squared(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
+        let mut segment = Self::blank(flow, hertz);
+        segment.push = push_series(flow, from);
+        segment.is_pressed = true;
+        let velocity = segment.press_squared(flow, (deflection, from.velocity));
+        segment.ends_before(flow.reach, from, &velocity);
+        segment
+    }
+
+    /// Ends the step where its series no longer hold, or at `limit`.
+    fn ends_before(&mut self, limit: f64, from: &Departure, velocity: &Series) {
+        // What is below rounding of the velocity is so of the deflection.
+        let mut reach = converges_densely(velocity).min(limit);
+        if !from.push.is_linear() {
+            reach = reach.min(outgrown(&self.depth)).min(outgrown(velocity));
+        }
+        self.ends_at(reach);
+    }
+
+    /// The series of the deflection where n = 2; that of the velocity is returned.
+    fn press_squared(&mut self, flow: &Flow, (deflection, velocity): (f64, f64)) -> Series {
+        let (kappa, pull) = (self.hertz.rate(), flow.modes.stiffness);
+        let grip = kappa * self.hertz.dissipation;
+        let mut v = ZERO;
+        let (mut d, mut next) = (deflection, velocity);
+        // Deflection and velocity against deflection and its square.
+        let mut products = Products::ZERO;
+        let mut load = self.push[0] - pull * self.hertz.origin;
+        for k in 0..=DEGREE {
+            (self.depth[k], v[k]) = (d, next);
+            if k == DEGREE {
+                break;
+            }
+            let [[square, gripped]] = products.next(k, [[d, next]], [[d, 0.0]]);
+            products.amend(k, [[d, square]]);
+            let press = kappa * square + grip * (gripped + velocity * square);
+            let rate = RECIPROCALS[k + 1];
+            let driven = load - pull * d - press;
+            load = self.push[k + 1];
+            (d, next) = (rate * next, rate * (driven - flow.damping() * next));
+        }
+        v
     }
 
     /// The series of the deflection; that of the velocity is returned.
     fn press(&mut self, flow: &Flow, (deflection, velocity, raised): (f64, f64, f64)) -> Series {
-        let (hertz, push, d) = (&self.hertz, &self.push, &mut self.depth);
-        let (twice_decay, pull) = (2.0 * flow.modes.decay, flow.modes.stiffness);
-        let kappa = hertz.rate();
-        let above = hertz.exponent + 1.0;
-        let grip = kappa * hertz.dissipation / above;
-        let inverse = 1.0 / deflection;
+        let (kappa, pull) = (self.hertz.rate(), flow.modes.stiffness);
+        let grip = kappa * self.hertz.dissipation;
+        let (inverse, above) = (1.0 / deflection, self.hertz.exponent + 1.0);
         let mut v = ZERO;
-        // Coefficient k of the velocity beside k + 1 of the deflection, from k = 1 on, and twice those of the n-th
-        // power, from the last to the first: sums of products then run along two rows, full ones thanks to zeros
-        // before them. What is newest comes from registers, not by way of memory.
-        let mut moved = [[0.0; 2]; DEGREE + ROW];
-        let mut turned = [[0.0; 2]; DEGREE + ROW];
-        (d[0], d[1], v[0]) = (deflection, velocity, velocity);
-        let (mut w, mut newest) = (raised, [velocity; 2]);
-        turned[DEGREE + ROW - 1] = [w; 2];
-        let mut load = push[0] - pull * hertz.origin;
-        for k in 0..DEGREE {
-            let next = k + 1;
-            let rate = RECIPROCALS[next];
-            // Of order k + 1, whose deflection is known, but for the product with the n-th power's newest.
-            let mut by_velocity = newest[0] * raised;
-            let mut by_depth = newest[1] * raised;
-            let mut first = 0.0;
-            if k > 0 {
-                let length = (k - 1).next_multiple_of(ROW);
-                let a = &moved[ROW + k - 1 - length..ROW + k - 1];
-                let b = &turned[DEGREE + ROW - 1 - length..DEGREE + ROW - 1];
-                let inner = inner_sums(a, b);
-                by_velocity += inner[0];
-                by_depth += inner[1];
-                first = velocity;
+        let (mut d, mut newest, mut w) = (deflection, velocity, raised);
+        // Velocity and the next of the deflection against the n-th power.
+        let mut products = Products::ZERO;
+        let mut load = self.push[0] - pull * self.hertz.origin;
+        for k in 0..=DEGREE {
+            (self.depth[k], v[k]) = (d, newest);
+            if k == DEGREE {
+                break;
             }
-            let mut resisting = twice_decay * v[k] + pull * d[k] + kappa * w;
-            let share = rate * above;
-            let last = w;
-            w = inverse * (share * by_velocity - by_depth)
-                + (inverse * first * (share - 1.0)) * last;
-            by_depth += first * last;
-            turned[DEGREE + ROW - 1 - next] = [w; 2];
-            if grip > 0.0 {
-                resisting += grip * (next as f64 * (by_depth + deflection * w));
-            }
-            v[next] = rate * (load - resisting);
-            if next < DEGREE {
-                d[next + 1] = v[next] * RECIPROCALS[next + 1];
-                newest = [v[next], d[next + 1]];
-                moved[ROW + k] = newest;
-            }
-            load = push[next];
+            let rate = RECIPROCALS[k + 1];
+            let next = rate * newest;
+            let [[by_velocity, by_depth]] = products.next(k, [[newest, next]], [[w; 2]]);
+            let driven = load - pull * d - grip * by_velocity - flow.damping() * newest;
+            load = self.push[k + 1];
+            (d, newest) = (next, rate * (driven - kappa * w));
+            w = inverse * (rate * above * by_velocity - by_depth);
         }
         v
     }
-}
-
-/// Products that are added up side by side.
-const ROW: usize = 4;
-
-/// Sums of the products of two rows, lane by lane.
-#[inline(always)]
-fn inner_sums(a: &[[f64; 2]], b: &[[f64; 2]]) -> [f64; 2] {
-    let mut sums = [[0.0; 2]; ROW];
-    for (a, b) in a.chunks_exact(ROW).zip(b.chunks_exact(ROW)) {
-        for row in 0..ROW {
-            for lane in 0..2 {
-                sums[row][lane] += a[row][lane] * b[row][lane];
-            }
-        }
-    }
-    [0, 1].map(|lane| (sums[0][lane] + sums[1][lane]) + (sums[2][lane] + sums[3][lane]))
 }

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use super::Flow;
 use super::creep::Creep;
 use super::hertz::Hertz;
-use super::series::{Series, ZERO, derivative, power, value};
+use super::series::{Series, ZERO, derivative, power, product, value};
 use super::taylor::{evaluate, evaluate_from};
 
 /// The motion of one step, as series in sigma.
@@ -65,8 +65,6 @@ pub(super) struct Stretch {
     pub velocity: Series,
     /// Time since departure in s.
     pub time: Series,
-    /// d^n.
-    pub power: Series,
 }
 
 /// A place along a step.
@@ -137,7 +135,10 @@ impl Segment {
     pub(super) fn power(&self) -> Series {
         match &self.stretch {
             _ if !self.is_pressed => ZERO,
-            Some(stretch) => stretch.power,
+            Some(stretch) => {
+                let steepness = stretch.index * (self.hertz.exponent - 1.0);
+                product(&power(&stretch.root, steepness), &self.depth)
+            }
             None => power(&self.depth, self.hertz.exponent),
         }
     }
@@ -150,6 +151,9 @@ impl Segment {
         let Some(stretch) = &self.stretch else {
             return elapsed;
         };
+        if elapsed == 0.0 {
+            return 0.0;
+        }
         let (mut low, mut high) = (0.0, self.contact);
         let mut at = self.contact * (elapsed / self.end);
         for _ in 0..100 {

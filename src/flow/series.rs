@@ -1,6 +1,6 @@
 //! Truncated power series.
 
-use super::taylor::{DEGREE, evaluate};
+use super::taylor::DEGREE;
 
 /// Coefficients, constant first.
 pub(super) type Series = [f64; DEGREE + 1];
@@ -61,10 +61,7 @@ pub(super) fn convolve(a: &Series, b: &Series, k: usize) -> f64 {
     pairs.map(|(a, b)| a * b).sum()
 }
 
-/// The sum of a series at `at`.
-pub(super) fn value(series: &Series, at: f64) -> f64 {
-    evaluate(series, at).0
-}
+pub(super) use super::taylor::value;
 
 /// A series with its coefficients made positive: a bound on it.
 pub(super) fn majorant(series: &Series) -> Series {

@@ -5,70 +5,20 @@ use super::hertz::Hertz;
 use super::rungs::Rungs;
 use super::segment::{Segment, Stretch};
 use super::series::{Power, Turned, ZERO, convolve, majorant, value};
+use super::sphere::is_spherical;
 use super::taylor::{DEGREE, RECIPROCALS, evaluate};
 use super::{Departure, Flow};
 
 impl Segment {
-    /// The series in sigma.
+    /// The step in sigma.
     pub(super) fn from_root(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
-        let index = hertz.root_index().unwrap_or(2.0);
-        let root = deflection.max(0.0).powf(1.0 / index);
-        let (twice_decay, b, w) = (flow.damping(), flow.modes.stiffness, flow.frequency);
-        let (kappa, lambda) = (hertz.rate(), hertz.dissipation);
         let mut segment = Self::blank(flow, hertz);
-        let mut stretch = Box::new(Stretch {
-            index,
-            ..Stretch::default()
-        });
-        let Stretch {
-            root: s,
-            velocity: v,
-            time: t,
-            power,
-            ..
-        } = &mut *stretch;
-        (s[0], v[0]) = (root, from.velocity);
-        let (mut cos, mut sin, mut acceleration) = (ZERO, ZERO, ZERO);
-        (cos[0], sin[0]) = (from.drive.cos, from.drive.sin);
-        let (mut rate, mut roots, mut steepness) = (Turned::ZERO, Turned::ZERO, Turned::ZERO);
-        let mut rates = Power::new(index - 1.0, root);
-        let mut steepnesses = Power::new(index * (hertz.exponent - 1.0), root);
-        let mut rungs = Rungs::new(&from.push);
-        let share = 1.0 / index;
-        for k in 0..=DEGREE {
-            roots.set(k, s[k]);
-            let stretch = rates.coefficient(s, &roots, k);
-            rate.set(k, stretch);
-            steepness.set(k, steepnesses.coefficient(s, &roots, k));
-            // The deflection itself, not the power of its rounded root: a surface may stand there.
-            segment.depth[k] = if k == 0 { deflection } else { rate.times(s, k) };
-            power[k] = steepness.times(&segment.depth, k);
-            let mut push = flow.amplitude * cos[k] + from.push.rate() * t[k];
-            if let Some(rungs) = &mut rungs {
-                push += rungs.coefficient(&rate, k);
-            }
-            let mut pull = b * segment.depth[k];
-            if k == 0 {
-                push += from.push.value();
-                pull += b * hertz.origin;
-            }
-            segment.push[k] = push;
-            let mut press = power[k];
-            if lambda > 0.0 {
-                press += lambda * convolve(power, v, k);
-            }
-            acceleration[k] = push - twice_decay * v[k] - pull - kappa * press;
-            if k == DEGREE {
-                break;
-            }
-            let next = RECIPROCALS[k + 1];
-            s[k + 1] = share * next * v[k];
-            v[k + 1] = next * rate.times(&acceleration, k);
-            t[k + 1] = next * stretch;
-            cos[k + 1] = -w * next * rate.times(&sin, k);
-            sin[k + 1] = w * next * rate.times(&cos, k);
-        }
-        segment.is_pressed = *power != ZERO;
+        let deflection = deflection.max(0.0);
+        let stretch = match is_spherical(hertz, from) {
+            true if hertz.dissipation > 0.0 => segment.along_sphere::<true>(flow, from, deflection),
+            true => segment.along_sphere::<false>(flow, from, deflection),
+            false => segment.along_root(flow, from, deflection),
+        };
         segment.reach = stretch.reach(flow.reach, from.push.is_linear());
         if !segment.is_pressed && hertz.stiffness > 0.0 {
             let bounds = [segment.depth, stretch.velocity, stretch.time].map(|s| majorant(&s));
@@ -83,6 +33,67 @@ impl Segment {
         segment.last = segment.moved_at(segment.contact);
         segment
     }
+
+    /// The series in sigma.
+    fn along_root(&mut self, flow: &Flow, from: &Departure, deflection: f64) -> Box<Stretch> {
+        let hertz = self.hertz;
+        let index = hertz.root_index().unwrap_or(2.0);
+        let root = deflection.powf(1.0 / index);
+        let (twice_decay, b, w) = (flow.damping(), flow.modes.stiffness, flow.frequency);
+        let (kappa, lambda) = (hertz.rate(), hertz.dissipation);
+        let mut stretch = Box::<Stretch>::default();
+        stretch.index = index;
+        let Stretch {
+            root: s,
+            velocity: v,
+            time: t,
+            ..
+        } = &mut *stretch;
+        (s[0], v[0]) = (root, from.velocity);
+        let (mut cos, mut sin) = (ZERO, ZERO);
+        let (mut power, mut acceleration) = (ZERO, ZERO);
+        (cos[0], sin[0]) = (from.drive.cos, from.drive.sin);
+        let (mut rate, mut roots, mut steepness) = (Turned::ZERO, Turned::ZERO, Turned::ZERO);
+        let mut rates = Power::new(index - 1.0, root);
+        let mut steepnesses = Power::new(index * (hertz.exponent - 1.0), root);
+        let mut rungs = Rungs::new(&from.push);
+        let share = 1.0 / index;
+        for k in 0..=DEGREE {
+            roots.set(k, s[k]);
+            let stretch = rates.coefficient(s, &roots, k);
+            rate.set(k, stretch);
+            steepness.set(k, steepnesses.coefficient(s, &roots, k));
+            // The deflection itself, not the power of its rounded root: a surface may stand there.
+            self.depth[k] = if k == 0 { deflection } else { rate.times(s, k) };
+            power[k] = steepness.times(&self.depth, k);
+            let mut push = flow.amplitude * cos[k] + from.push.rate() * t[k];
+            if let Some(rungs) = &mut rungs {
+                push += rungs.coefficient(&rate, k);
+            }
+            let mut pull = b * self.depth[k];
+            if k == 0 {
+                push += from.push.value();
+                pull += b * hertz.origin;
+            }
+            self.push[k] = push;
+            let mut press = power[k];
+            if lambda > 0.0 {
+                press += lambda * convolve(&power, v, k);
+            }
+            acceleration[k] = push - twice_decay * v[k] - pull - kappa * press;
+            if k == DEGREE {
+                break;
+            }
+            let next = RECIPROCALS[k + 1];
+            s[k + 1] = share * next * v[k];
+            v[k + 1] = next * rate.times(&acceleration, k);
+            t[k + 1] = next * stretch;
+            cos[k + 1] = -w * next * rate.times(&sin, k);
+            sin[k + 1] = w * next * rate.times(&cos, k);
+        }
+        self.is_pressed = power != ZERO;
+        stretch
+    }
 }
 
 impl Stretch {
@@ -91,11 +102,14 @@ impl Stretch {
     fn reach(&self, limit: f64, is_linear: bool) -> f64 {
         // With s = s0 + v sigma / m, t is the integral of s^(m - 1).
         let m = self.index;
-        let speed = (self.velocity[0].abs() / m).powf(m - 1.0);
-        let within = (limit / self.time[1]).min((m * limit / speed).powf(1.0 / m));
-        let holds = converges(&self.root)
-            .min(converges(&self.velocity))
-            .min(within);
+        let speed = self.velocity[0].abs() / m;
+        let beyond = match m {
+            2.0 => (m * limit / speed).sqrt(),
+            _ => (m * limit / speed.powf(m - 1.0)).powf(1.0 / m),
+        };
+        let within = (limit / self.time[1]).min(beyond);
+        // What is below rounding of the velocity is so of the root.
+        let holds = converges(&self.velocity).min(within);
         if is_linear {
             return holds;
         }

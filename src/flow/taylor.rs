@@ -114,6 +114,22 @@ pub(super) fn linear_push_series(
     push
 }
 
+/// Value of a polynomial: Horner on four parts of it, side by side.
+#[inline]
+pub(crate) fn value(coefficients: &[f64; DEGREE + 1], s: f64) -> f64 {
+    let square = s * s;
+    let fourth = square * square;
+    let (rows, rest) = coefficients.as_chunks::<4>();
+    let mut value = [0.0; 4];
+    value[..rest.len()].copy_from_slice(rest);
+    for row in rows.iter().rev() {
+        for lane in 0..4 {
+            value[lane] = value[lane] * fourth + row[lane];
+        }
+    }
+    (value[0] + s * value[1]) + square * (value[2] + s * value[3])
+}
+
 /// Value and first derivative of a polynomial.
 #[inline]
 pub(crate) fn evaluate(coefficients: &[f64; DEGREE + 1], s: f64) -> (f64, f64) {

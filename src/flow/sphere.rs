@@ -1,0 +1,70 @@
+//! The law of Hertz himself, n = 3/2, along the square root s of the deflection D.
+//!
+//! With dt = s dsigma every term of the equation is a product of few series:
+//!
+//! ```text
+//! 2 s'' = s A cos(angle) + (p - b x0) s - 2 a D' - D (b s + kappa D) - kappa lambda D^2 v
+//! ```
+
+use super::hertz::Hertz;
+use super::pairs::Products;
+use super::segment::{Segment, Stretch};
+use super::taylor::{DEGREE, RECIPROCALS};
+use super::{Departure, Flow};
+
+/// True if it is this law, under a constant push beside the drive.
+pub(super) fn is_spherical(hertz: &Hertz, from: &Departure) -> bool {
+    hertz.exponent == 1.5 && from.push.is_linear() && from.push.rate() == 0.0
+}
+
+impl Segment {
+    /// The series in sigma; `GRIPS`: the law dissipates.
+    pub(super) fn along_sphere<const GRIPS: bool>(
+        &mut self,
+        flow: &Flow,
+        from: &Departure,
+        deflection: f64,
+    ) -> Box<Stretch> {
+        let (kappa, b, w) = (self.hertz.rate(), flow.modes.stiffness, flow.frequency);
+        let grip = kappa * self.hertz.dissipation;
+        let constant = from.push.value() - b * self.hertz.origin;
+        let mut stretch = Box::<Stretch>::default();
+        stretch.index = 2.0;
+        let start = deflection.sqrt();
+        let (mut cos, mut sin) = (
+            flow.amplitude * from.drive.cos,
+            flow.amplitude * from.drive.sin,
+        );
+        // The newest of s, the next one, and the newest of D: itself first, not the square of its rounded root.
+        let (mut s, mut next, mut deep) = (start, 0.5 * from.velocity, deflection);
+        // The drive against s; b s + kappa D and the next s against D and s; D and v against D and D^2.
+        let (mut linear, mut squares) = (Products::ZERO, Products::ZERO);
+        for k in 0..=DEGREE {
+            let (rate, after) = (RECIPROCALS[k + 1], RECIPROCALS[k + 2]);
+            let v = 2.0 * (k + 1) as f64 * next;
+            (stretch.root[k], stretch.velocity[k]) = (s, v);
+            (self.depth[k], self.push[k]) = (deep, cos);
+            if k == DEGREE {
+                break;
+            }
+            stretch.time[k + 1] = rate * s;
+            let [[by_cos, by_sin], [mut press, squared]] = linear.next(
+                k,
+                [[cos, sin], [b * s + kappa * deep, next]],
+                [[s; 2], [deep, s]],
+            );
+            if GRIPS {
+                let [[square, gripped]] = squares.next(k, [[deep, v]], [[deep, 0.0]]);
+                squares.amend(k, [[deep, square]]);
+                press += grip * (gripped + from.velocity * square);
+            }
+            deep = squared + start * next;
+            let driven = rate * (by_cos + constant * s - press) - flow.damping() * deep;
+            (s, next) = (next, 0.5 * after * driven);
+            (cos, sin) = (-w * rate * by_sin, w * rate * by_cos);
+        }
+        self.push[0] += from.push.value();
+        self.is_pressed = true;
+        stretch
+    }
+}
