@@ -57,7 +57,23 @@ impl Constants {
         constants.set_side();
         constants.set_grain(flow.frequency.max(flow.modes.fastest_rate()));
         constants.set_bounds(&flow.modes, flow.frequency);
+        if constants.releases_first() {
+            constants.low = f64::NEG_INFINITY;
+        }
         Some(constants.turned(constants.side))
+    }
+
+    /// True if no motion comes down to the lower end but through the further guard: there it is
+    /// by_velocity x', not below zero on the way down. So a contact that must not pull ends before it is open.
+    fn releases_first(&self) -> bool {
+        let off = self.by_position * self.low - self.level;
+        self.by_velocity < 0.0 && off.abs() <= 4.0 * f64::EPSILON * self.level.abs()
+    }
+
+    /// The same with velocities below this one not decided.
+    pub fn no_slower_than(self, slowest: f64) -> Self {
+        let slow = self.slow.max(slowest);
+        Self { slow, ..self }
     }
 
     /// True if one position and nothing else ends the phase, and its free motion never grows.

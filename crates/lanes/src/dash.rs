@@ -4,11 +4,12 @@
 use pulp::Simd;
 
 use super::engine::Engine;
+use super::judge::Stretch;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::local;
 use super::look::End;
-use super::parts::{Hull, Parts};
+use super::parts::Parts;
 use super::scan::LEAVING;
 use super::taylor::MOMENT;
 
@@ -156,14 +157,12 @@ impl<S: Simd, const N: usize> Way<S, N> {
         let away = (side * law.by_velocity).below(one.like(0.0));
         let mut alone = reverses & away;
         if keeps.and_not(reverses).any() {
-            let rates = Hull::of(ends[0], ends[1], third, slack);
+            let [(v0, a0), (v1, a1)] = ends;
             let x = here.y + (here.p - law.edge);
-            let positions = Hull {
-                low: x.min(self.surface),
-                high: x.max(self.surface),
-            };
-            let top = law.guard_top(&positions, &rates) + law.grain * law.guard_scale;
-            alone = alone | top.below(law.level).and_not(reverses);
+            let ends = [[x, v0, a0], [self.surface, v1, a1]];
+            let slacks = (law.slack(here) * (square * square), slack);
+            let stretch = Stretch::of_further(law, ends, time, slacks);
+            alone = alone | stretch.is_clear(law).and_not(reverses);
         }
         keeps & alone
     }

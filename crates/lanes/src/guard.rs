@@ -2,6 +2,7 @@
 
 use pulp::Simd;
 
+use super::judge::Stretch;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::parts::{Hull, Parts};
@@ -15,6 +16,8 @@ pub(super) struct Ahead<S: Simd, const N: usize> {
     pub there: Parts<S, N>,
     pub next: Parts<S, N>,
     pub span: Lanes<S, N>,
+    /// (span / window)^4.
+    pub scale: Lanes<S, N>,
 }
 
 /// The guard that each lane has to look at: g = position x + velocity v - level.
@@ -54,12 +57,9 @@ impl<S: Simd, const N: usize> Ahead<S, N> {
 impl<S: Simd, const N: usize> Guard<S, N> {
     #[inline(always)]
     pub fn of<const GUARDED: bool>(law: &Law<S, N>, ahead: &Ahead<S, N>) -> Self {
-        let share = ahead.span * law.per_window;
-        let square = share * share;
-        let scale = square * square;
-        let slack = law.slack(&ahead.here) * scale;
+        let slack = law.slack(&ahead.here) * ahead.scale;
         if GUARDED {
-            Self::of_several(law, ahead, slack, scale)
+            Self::of_several(law, ahead, slack)
         } else {
             Self::of_one(law, slack)
         }
@@ -86,12 +86,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
 
     /// The one that may be met.
     #[inline(always)]
-    fn of_several(
-        law: &Law<S, N>,
-        ahead: &Ahead<S, N>,
-        slack: Lanes<S, N>,
-        scale: Lanes<S, N>,
-    ) -> Self {
+    fn of_several(law: &Law<S, N>, ahead: &Ahead<S, N>, slack: Lanes<S, N>) -> Self {
         let one = slack.like(1.0);
         let third = ahead.span * one.like(1.0 / 3.0);
         let [x0, v0, a0] = ahead.state(law, &ahead.here);
@@ -107,9 +102,10 @@ impl<S: Simd, const N: usize> Guard<S, N> {
             several: is_low & is_high,
             ..Self::of_one(law, slack)
         };
-        let rate_slack = law.rate_slack(&ahead.here) * scale;
-        let rates = Hull::of((v0, a0), (v1, a1), third, rate_slack);
-        let further = law.guard_top(&hull, &rates).below(law.level).not();
+        let rate_slack = law.rate_slack(&ahead.here) * ahead.scale;
+        let ends = [[x0, v0, a0], [x1, v1, a1]];
+        let stretch = Stretch::of_further(law, ends, ahead.span, (slack, rate_slack));
+        let further = stretch.stays_below().not();
         guard.turn_to_further(law, further, rate_slack);
         guard
     }

@@ -6,6 +6,7 @@
 use pulp::Simd;
 
 use super::lanes::{Lanes, Mask};
+use super::law::Law;
 
 /// A guard function g on [0, span]: values and rates at both ends, and slack = |g''''| span^4 / 384.
 #[derive(Debug, Clone, Copy)]
@@ -28,16 +29,59 @@ pub(super) struct Verdict<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> Stretch<S, N> {
+    /// The further guard's, between two ends with their positions, velocities and accelerations; `slacks`: of position
+    /// and velocity.
+    #[inline(always)]
+    pub fn of_further(
+        law: &Law<S, N>,
+        [left, right]: [[Lanes<S, N>; 3]; 2],
+        span: Lanes<S, N>,
+        (slack, rate_slack): (Lanes<S, N>, Lanes<S, N>),
+    ) -> Self {
+        let (a, b) = (law.by_position.abs(), law.by_velocity.abs());
+        Self {
+            left: law.further(left),
+            right: law.further(right),
+            span,
+            slack: a.mul_add(slack, b * rate_slack),
+        }
+    }
+
+    /// The inner two Bernstein coefficients of the cubic.
+    #[inline(always)]
+    fn inner(&self) -> (Lanes<S, N>, Lanes<S, N>) {
+        let ((g0, d0), (g1, d1)) = (self.left, self.right);
+        let third = self.span * g0.like(1.0 / 3.0);
+        (third.mul_add(d0, g0), g1 - third * d1)
+    }
+
+    /// True where the hull of g lies below zero.
+    #[inline(always)]
+    pub fn stays_below(&self) -> Mask<S, N> {
+        let (b1, b2) = self.inner();
+        let high = self.left.0.max(self.right.0).max(b1.max(b2));
+        (high + self.slack).below(high.like(0.0))
+    }
+
+    /// True where the further guard provably does not rise through zero, nor comes within rounding of it at the end.
+    #[inline(always)]
+    pub fn is_clear(&self, law: &Law<S, N>) -> Mask<S, N> {
+        let ((g0, d0), (g1, d1)) = (self.left, self.right);
+        let (zero, scale) = (g0.like(0.0), law.guard_scale);
+        let (grain, slow) = (law.grain * scale, law.slow * scale);
+        let touches = (-grain).below(g0);
+        let leaves = touches & d0.below(-slow) & g0.at_most(grain);
+        let ends_there = (-grain).below(g1) & zero.below(d1);
+        self.judge(touches, leaves).clear.and_not(ends_there)
+    }
+
     /// Judges all lanes. `touches`: the guard begins within rounding of zero; `leaves`: and it falls there.
     #[inline(always)]
     pub fn judge(&self, touches: Mask<S, N>, leaves: Mask<S, N>) -> Verdict<S, N> {
         let ((g0, d0), (g1, d1)) = (self.left, self.right);
         let zero = g0.like(0.0);
-        let third = self.span * g0.like(1.0 / 3.0);
-        let (b1, b2) = (third.mul_add(d0, g0), g1 - third * d1);
+        let (b1, b2) = self.inner();
         let inverse = g0.like(1.0) / self.span;
-        let high = g0.max(g1).max(b1.max(b2));
-        let stays_below = (high + self.slack).below(zero);
         let slopes = [d0, (b2 - b1) * inverse * g0.like(3.0), d1];
         // sqrt(3)/216 |g''''| span^3 (Birkhoff and Priver 1967), and |g''''| span^2 / 12.
         let slope_slack = self.slack * inverse * g0.like(384.0 * 0.00802);
@@ -54,7 +98,7 @@ impl<S: Simd, const N: usize> Stretch<S, N> {
         let turns = zero.below(d0) & d1.below(zero);
         let rises = above & ((apart & (climbs | convex | concave)) | (leaves & convex));
         let quiet = falls | convex | (apart & climbs) | concave.and_not(turns);
-        let clear = stays_below | (sound & quiet).and_not(above);
+        let clear = self.stays_below() | (sound & quiet).and_not(above);
         let hump = (concave & turns & apart).and_not(above);
         Verdict {
             clear,

@@ -65,11 +65,14 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let frequency = self.state.drive.frequency;
         let here = reached.parts;
         let next = here.next(law);
-        let mut there = next;
+        let (mut there, mut scale) = (next, span.like(1.0));
         let part = pending & span.below(law.window);
         if part.any() {
             let at = here.at(law, frequency, &next, part.choose(span, law.window));
             there = Parts::choose(part, &at, &next);
+            let share = span * law.per_window;
+            let square = share * share;
+            scale = part.choose(square * square, scale);
         }
         Ahead {
             frequency,
@@ -77,6 +80,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             there,
             next,
             span,
+            scale,
         }
     }
 

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::law::Constants;
-use softstop::internals::{Beyond, PhaseId, Phases};
-use softstop::{Clock, Scene, SceneError};
+use softstop::internals::{Beyond, Exit, Phase, PhaseId, Phases, Surface};
+use softstop::{Clock, Excitation, Scene, SceneError};
 
 /// A machine, lowered once for any number of motions.
 #[derive(Debug, Clone)]
@@ -30,10 +30,17 @@ impl Machine {
         scene.validate()?;
         let phases = scene.phases();
         let count = phases.phases.len();
-        let laws = phases.phases.iter();
-        let laws = laws.map(|phase| Constants::of(&phases, phase));
         let drive = scene.excitation;
-        let for_lanes = count <= MOST_PHASES && !may_hum(&phases, drive.amplitude);
+        let hum = Hum {
+            phases: &phases,
+            drive,
+        };
+        let for_lanes = count <= MOST_PHASES && hum.is_short();
+        let laws = phases.phases.iter();
+        let laws = laws.map(|phase| {
+            let constants = Constants::of(&phases, phase)?;
+            Some(constants.no_slower_than(hum.slowest(phase)))
+        });
         let (sin, cos) = drive.phase.sin_cos();
         Ok(Self {
             laws: if for_lanes { laws.collect() } else { None },
@@ -45,7 +52,7 @@ impl Machine {
     }
 
     /// True if its motions can be followed in lanes: all its laws are linear, none is much stiffer than the
-    /// drive is slow, and none can hold the mass at a face that throws it back for thousands of bounces.
+    /// drive is slow, and none can hold the mass at a face that throws it back for rows of bounces without end.
     pub fn is_for_lanes(&self) -> bool {
         self.laws.is_some()
     }
@@ -71,28 +78,65 @@ impl Machine {
 
 /// Restitution above which bounces go on beyond counting.
 const ELASTIC: f64 = 1.0 - 1.0 / 65_536.0;
+/// Shortest bounce that lanes follow at a face that hums, in drive periods.
+const SHORTEST: f64 = 1e-2;
+/// Most that damping may take of a motion in a drive period, as an exponent, where faces hum: bounces that are longer
+/// do not become a row without end before the drive lifts the mass.
+const MOST_DAMPING: f64 = 6.0;
 
-/// True if the drive can press the mass onto a surface that throws it back with hardly any loss: a jump of the force
-/// that is larger than the press, or a wall that is nearly elastic. Bounces there form rows without end, whose
-/// end the safe engine decides from the whole row.
-fn may_hum(phases: &Phases, amplitude: f64) -> bool {
-    let at_rest = |phase: PhaseId, position: f64| {
-        let law = &phases[phase].law;
+/// Faces that hum: the drive can press the mass onto them while they throw it back with hardly any loss, by a jump of
+/// the force that is larger than the press, or as a wall that is nearly elastic. Bounces there may form rows without
+/// end, whose end the safe engine decides from the whole row.
+struct Hum<'a> {
+    phases: &'a Phases,
+    drive: Excitation,
+}
+
+impl Hum<'_> {
+    /// The constant force on the mass at a position in a phase.
+    fn force(&self, phase: PhaseId, position: f64) -> f64 {
+        let law = &self.phases[phase].law;
         law.force - law.stiffness * position
-    };
-    phases.surfaces.iter().any(|surface| {
-        let pressed = at_rest(surface.below, surface.position) + amplitude > 0.0;
-        let [fed, unfed] = [Some(surface.above), surface.above_unfed];
-        let elastic = [fed, unfed].into_iter().flatten().any(|above| match above {
+    }
+
+    fn is_at(&self, surface: &Surface) -> bool {
+        let before = self.force(surface.below, surface.position);
+        let mut beyond = [Some(surface.above), surface.above_unfed]
+            .into_iter()
+            .flatten();
+        let elastic = beyond.any(|above| match above {
             Beyond::Phase(above) => {
-                let (before, after) = (
-                    at_rest(surface.below, surface.position),
-                    at_rest(above, surface.position),
-                );
-                after - amplitude < 0.0 && after < before
+                let after = self.force(above, surface.position);
+                after < before.min(self.drive.amplitude)
             }
             Beyond::Wall { restitution } => restitution > ELASTIC,
         });
-        pressed && elastic
-    })
+        elastic && before + self.drive.amplitude > 0.0
+    }
+
+    /// True if no row of bounces that lanes follow comes to its end: the drive lifts the mass from all faces that hum,
+    /// before damping has taken much.
+    fn is_short(&self) -> bool {
+        let damping = self.phases.phases.iter().map(|phase| phase.law.damping);
+        let damping = damping.fold(0.0, f64::max) / self.phases.mass;
+        let strong = damping * TAU / self.drive.frequency > MOST_DAMPING;
+        let lifts = |surface: &Surface| {
+            self.force(surface.below, surface.position) < self.drive.amplitude && !strong
+        };
+        let mut faces = self.phases.surfaces.iter();
+        faces.all(|surface| lifts(surface) || !self.is_at(surface))
+    }
+
+    /// Speed of the shortest bounces that lanes follow at the ends of a phase.
+    fn slowest(&self, phase: &Phase) -> f64 {
+        let faces = phase.exits.iter().filter_map(|exit| match exit {
+            Exit::Forward(surface) | Exit::Backward(surface) => Some(&self.phases[*surface]),
+            Exit::Reversal { .. } | Exit::Switch(_) => None,
+        });
+        let press =
+            |surface: &Surface| self.force(surface.below, surface.position) + self.drive.amplitude;
+        let presses = faces.filter(|surface| self.is_at(surface)).map(press);
+        let half = 0.5 * SHORTEST * TAU / self.drive.frequency;
+        presses.fold(0.0, f64::max) / self.phases.mass * half
+    }
 }

@@ -3,7 +3,7 @@
 use pulp::Simd;
 
 use super::lanes::{Lanes, Mask};
-use super::law::Law;
+use super::law::{Law, TERMS};
 use super::taylor::{HALF_WINDOW, cos_sinc};
 
 /// A motion as the sum of a free one (y, u) and the steady one (p, q): positions and velocities.
@@ -72,13 +72,13 @@ impl<S: Simd, const N: usize> Parts<S, N> {
     fn after(&self, law: &Law<S, N>, frequency: Lanes<S, N>, time: Lanes<S, N>) -> Self {
         let Self { y, u, p, q } = *self;
         let share = time * law.per_window;
-        let mut position = law.response[law.response.len() - 1];
-        let mut vv = position.like(0.0);
-        for term in law.response[..law.response.len() - 1].iter().rev() {
-            vv = vv.mul_add(share, position);
-            position = position.mul_add(share, *term);
-        }
-        vv = vv.mul_add(share, position);
+        let square = share * share;
+        let twice = square + square;
+        let (even, even_rate) = every_second(&law.response, 0, square);
+        let (odd, odd_rate) = every_second(&law.response, 1, square);
+        let position = share.mul_add(odd, even);
+        let vv = twice.mul_add(even_rate, even);
+        let vv = (share + share).mul_add(square.mul_add(odd_rate, odd), vv);
         let xv = position * time;
         let xx = vv - law.damping * xv;
         let vx = law.stiffness * xv;
@@ -186,11 +186,30 @@ impl<S: Simd, const N: usize> Law<S, N> {
         self.by_position.equals(zero) & self.level.equals(zero)
     }
 
-    /// Largest value of the further guard's weighted sum within the hulls of position and velocity.
+    /// Value and rate of the further guard at a position, velocity and acceleration.
     #[inline(always)]
-    pub fn guard_top(&self, positions: &Hull<S, N>, velocities: &Hull<S, N>) -> Lanes<S, N> {
-        let (a, b) = (self.by_position, self.by_velocity);
-        let x = (a * positions.low).max(a * positions.high);
-        x + (b * velocities.low).max(b * velocities.high)
+    pub fn further(&self, [x, v, a]: [Lanes<S, N>; 3]) -> (Lanes<S, N>, Lanes<S, N>) {
+        let by_position = self.by_position.mul_add(x, -self.level);
+        (
+            self.by_velocity.mul_add(v, by_position),
+            self.by_velocity.mul_add(a, self.by_position * v),
+        )
     }
+}
+
+/// Value and derivative of the polynomial whose terms are every second one of these: two of them side by side wait half as
+/// long for their sums as one.
+#[inline(always)]
+fn every_second<S: Simd, const N: usize>(
+    terms: &[Lanes<S, N>; TERMS],
+    first: usize,
+    at: Lanes<S, N>,
+) -> (Lanes<S, N>, Lanes<S, N>) {
+    let last = (TERMS - 1 - first) / 2;
+    let (mut value, mut rate) = (terms[first + 2 * last], at.like(0.0));
+    for n in (0..last).rev() {
+        rate = rate.mul_add(at, value);
+        value = value.mul_add(at, terms[first + 2 * n]);
+    }
+    (value, rate)
 }

@@ -153,7 +153,28 @@ fn plain_machines_among_themselves_do_too() {
     compare(batch_of(plain));
 }
 
-fn compare(batch: Batch) {
+#[test]
+fn pressed_faces_and_contacts_that_must_not_pull_stay_in_lanes() {
+    let scene = |index: usize| {
+        let mut ratios = Ratios::unloaded().at_frequency(between(0.5, 2.0, spread(index, 1)));
+        if index.is_multiple_of(2) {
+            ratios.clearance = between(0.0, 1.0, spread(index, 2));
+        }
+        let mut scene = ratios.scene().expect("valid");
+        if !index.is_multiple_of(2) {
+            scene.stop = Stop::KelvinVoigt {
+                stiffness: 100.0,
+                release: Release::ZeroForce,
+            };
+        }
+        scene
+    };
+    let handed = compare(batch_of((0..2000).map(scene).collect()));
+    assert!(handed < 0.01, "{handed} of the periods handed over");
+}
+
+/// The share of the periods that lanes hand over.
+fn compare(batch: Batch) -> f64 {
     let Batch {
         machines,
         jobs,
@@ -182,6 +203,7 @@ fn compare(batch: Batch) {
     assert!(share > 0.9, "{compared} compared");
     let handed = handed as f64 / (jobs.len() as f64 * PERIODS as f64);
     assert!(handed < 0.1, "{handed} of the periods handed over");
+    handed
 }
 
 #[test]

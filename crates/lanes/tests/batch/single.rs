@@ -97,7 +97,7 @@ fn an_impact_at_the_very_end_of_a_period_is_counted_once() {
 }
 
 #[test]
-fn endless_bounces_on_a_pressed_face_are_left_to_the_safe_engine() {
+fn endless_bounces_under_a_slow_drive_are_left_to_the_safe_engine() {
     let mut ratios = Ratios::unloaded();
     (ratios.clearance, ratios.frequency) = (0.5, 0.002);
     let scene = ratios.scene().expect("valid");
