@@ -69,24 +69,38 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
 
     /// Where the cubic rises from below to above zero near `root`, true if every function does that is nowhere
     /// further from it than `slack`, and with its slope than 3.08 slack (Birkhoff and Priver 1967: 384 * 0.00802),
-    /// and if none of them rises through zero before. Those that leave zero at the left end fall there.
+    /// and if none of them rises through zero before. Those that leave zero at the left end fall there. For the lanes `of`.
     #[inline(always)]
-    pub fn rises(&self, slack: Lanes<S, N>, root: Lanes<S, N>, leaves: Mask<S, N>) -> Mask<S, N> {
+    pub fn rises(
+        &self,
+        slack: Lanes<S, N>,
+        root: Lanes<S, N>,
+        leaves: Mask<S, N>,
+        of: Mask<S, N>,
+    ) -> Mask<S, N> {
         let (zero, one) = (root.like(0.0), root.like(1.0));
         let middle = (self.bend - self.twist) + self.slope;
         let curve = self.last_slope - middle;
         let first = middle - self.slope;
-        let convex = (slack * one.like(16.0)).below(first.min(curve)) & zero.below(self.end);
-        // Up, down and up again?
-        let winds = zero.below(self.slope) & middle.below(zero);
-        let near = self.at(root).abs().below(slack * one.like(NEAR));
-        let slope = self.slope_at(root);
-        let curvature = first.abs().max(curve.abs());
-        let least = slope.mul_add(one.like(SLOPE), curvature * one.like(BAND));
-        let steep = (slack * least).below(slope * slope) & zero.below(slope);
-        let behind = (slack * one.like(2.2)).below(slope * (one - root));
-        let apart = self.value.below(-slack) & near & steep & behind;
-        leaves.choose_mask(convex, apart.and_not(winds))
+        let (leaving, rising) = (of & leaves, of.and_not(leaves));
+        let mut rises = of.and_not(of);
+        if leaving.any() {
+            let convex = (slack * one.like(16.0)).below(first.min(curve));
+            rises = leaving & convex & zero.below(self.end);
+        }
+        if rising.any() {
+            // Up, down and up again?
+            let winds = zero.below(self.slope.min(self.last_slope)) & middle.below(zero);
+            let near = self.at(root).abs().below(slack * one.like(NEAR));
+            let slope = self.slope_at(root);
+            let curvature = first.abs().max(curve.abs());
+            let least = slope.mul_add(one.like(SLOPE), curvature * one.like(BAND));
+            let steep = (slack * least).below(slope * slope) & zero.below(slope);
+            let behind = (slack * one.like(2.2)).below(slope * (one - root));
+            let apart = self.value.below(-slack) & near & steep & behind;
+            rises = rises | (rising & apart).and_not(winds);
+        }
+        rises
     }
 
     /// Its slope.

@@ -129,7 +129,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         let reached = if GUARDED {
             self.stand(law, active)
         } else {
-            self.scan(law, active, (due * law.per_window).floor())
+            self.scan(law, active, due * law.per_window)
         };
         let (ended, doubtful) = self.look::<GUARDED>(phase, active, &reached, due);
         if (ended | doubtful).any() {

@@ -6,11 +6,12 @@ use super::cubic::Cubic;
 use super::lanes::{Lanes, Mask};
 
 /// The zero of the parabola through the left end and the right value, then one step of Newton's method on the
-/// cubic; in the lanes that leave zero at the left end, the other zero. In units of the stretch.
+/// cubic; in the lanes that leave zero at the left end, the other zero. In units of the stretch, for the lanes `of`.
 #[inline(always)]
 pub(super) fn guess<S: Simd, const N: usize>(
     cubic: &Cubic<S, N>,
     leaves: Mask<S, N>,
+    of: Mask<S, N>,
 ) -> Lanes<S, N> {
     let Cubic {
         value,
@@ -28,12 +29,16 @@ pub(super) fn guess<S: Simd, const N: usize>(
     let discriminant = b.mul_add(b, -(twice * half));
     let root = discriminant.max(zero).square_root();
     let at = -half / (b + root);
+    let plain = zero.at_most(at) & at.at_most(one);
+    let plain = plain.choose(at, one.like(0.5));
+    let rising = of.and_not(leaves);
+    if !rising.any() {
+        return plain;
+    }
     let behind = at - one;
     let off = twist * at * at * behind;
     let slope = (twist * at).mul_add(at + behind + behind, root);
     let better = at - off / slope;
     let inside = zero.at_most(better) & better.at_most(one);
-    let plain = zero.at_most(at) & at.at_most(one);
-    let at = plain.choose(at, one.like(0.5));
-    inside.and_not(leaves).choose(better, at)
+    (inside & rising).choose(better, plain)
 }

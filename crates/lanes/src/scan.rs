@@ -52,7 +52,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     }
 
     /// Moves the lanes on for a while, on one side of one position, or until each stands before a window in which
-    /// something may happen, or that is its last. `cap`: windows before that one.
+    /// something may happen, or that is its last. `cap`: windows up to its last moment.
     #[inline(always)]
     pub fn scan(&self, law: &Law<S, N>, active: Mask<S, N>, cap: Lanes<S, N>) -> Reached<S, N> {
         let reached = Reached {
@@ -82,6 +82,7 @@ fn scan_below<S: Simd, const N: usize>(
     // On the edge the first two Bernstein coefficients need no proof.
     top = apart.choose(top.max(x), one.like(f64::NEG_INFINITY));
     let mut below = apart.choose(limit, one.like(-LEAVING).mul_add(slack, law.edge));
+    let capped = (reached.go & cap.below(one.like(MOST_WINDOWS as f64))).any();
     for window in 0..MOST_WINDOWS {
         let next = parts.next(law);
         let (x, v) = (next.y + next.p, next.u + next.q);
@@ -97,7 +98,10 @@ fn scan_below<S: Simd, const N: usize>(
             }
         }
         apart = one.at_most(one);
-        reached.go = reached.go & clear & one.like(window as f64).below(cap);
+        reached.go = reached.go & clear;
+        if capped {
+            reached.go = reached.go & one.like((window + 1) as f64).at_most(cap);
+        }
         if !reached.go.any() {
             break;
         }

@@ -65,7 +65,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         let cubic = Cubic::new(left, right, ahead.span);
         let touches = (-self.grain).below(left.0);
         let leaves = touches & left.1.below(-self.slow) & left.0.at_most(self.grain);
-        let root = guess(&cubic, leaves);
+        let root = guess(&cubic, leaves, single);
         let sound = single.and_not(touches) | (single & leaves);
         let mut goal = Goal {
             clear: if GUARDED {
@@ -73,7 +73,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
             } else {
                 pending.and_not(pending)
             },
-            rises: sound & cubic.rises(self.slack, root, leaves),
+            rises: cubic.rises(self.slack, root, leaves, sound),
             humps: pending.and_not(pending),
             doubtful: single & touches.and_not(leaves),
             end: ahead.span,
@@ -117,6 +117,8 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         let zero = ahead.span.like(0.0);
         let mut tries = 0;
         loop {
+            // Or the compiler would fetch the whole law before the loop, that seldom goes round twice, and spill it.
+            let law = std::hint::black_box(law);
             let parts = ahead.at(law, goal.at);
             let derivatives = local::derivatives(law, ahead.frequency, &parts);
             let weights = (self.position, self.velocity, self.level);
@@ -178,7 +180,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         goal.rises = goal.rises | over;
         goal.end = over.choose(goal.at, goal.end);
         let risen = Cubic::new(left, (height, none), goal.end);
-        let root = goal.end * guess(&risen, over.and_not(over));
+        let root = goal.end * guess(&risen, over.and_not(over), over);
         goal.at = over.choose(root, under.choose(span, goal.at));
     }
 }
