@@ -3,7 +3,7 @@
 use pulp::Simd;
 
 use super::lanes::{Lanes, Mask};
-use super::law::{Law, TERMS};
+use super::law::Law;
 use super::taylor::{HALF_WINDOW, cos_sinc};
 
 /// A motion as the sum of a free one (y, u) and the steady one (p, q): positions and velocities.
@@ -72,13 +72,13 @@ impl<S: Simd, const N: usize> Parts<S, N> {
     fn after(&self, law: &Law<S, N>, frequency: Lanes<S, N>, time: Lanes<S, N>) -> Self {
         let Self { y, u, p, q } = *self;
         let share = time * law.per_window;
-        let square = share * share;
-        let twice = square + square;
-        let (even, even_rate) = every_second(&law.response, 0, square);
-        let (odd, odd_rate) = every_second(&law.response, 1, square);
-        let position = share.mul_add(odd, even);
-        let vv = twice.mul_add(even_rate, even);
-        let vv = (share + share).mul_add(square.mul_add(odd_rate, odd), vv);
+        let mut position = law.response[law.response.len() - 1];
+        let mut vv = position.like(0.0);
+        for term in law.response[..law.response.len() - 1].iter().rev() {
+            vv = vv.mul_add(share, position);
+            position = position.mul_add(share, *term);
+        }
+        vv = vv.mul_add(share, position);
         let xv = position * time;
         let xx = vv - law.damping * xv;
         let vx = law.stiffness * xv;
@@ -195,21 +195,4 @@ impl<S: Simd, const N: usize> Law<S, N> {
             self.by_velocity.mul_add(a, self.by_position * v),
         )
     }
-}
-
-/// Value and derivative of the polynomial whose terms are every second one of these: two of them side by side wait half as
-/// long for their sums as one.
-#[inline(always)]
-fn every_second<S: Simd, const N: usize>(
-    terms: &[Lanes<S, N>; TERMS],
-    first: usize,
-    at: Lanes<S, N>,
-) -> (Lanes<S, N>, Lanes<S, N>) {
-    let last = (TERMS - 1 - first) / 2;
-    let (mut value, mut rate) = (terms[first + 2 * last], at.like(0.0));
-    for n in (0..last).rev() {
-        rate = rate.mul_add(at, value);
-        value = value.mul_add(at, terms[first + 2 * n]);
-    }
-    (value, rate)
 }
