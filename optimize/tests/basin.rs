@@ -109,12 +109,3 @@ fn bad_values_are_named() {
         &["frequency", "is not used"],
     );
 }
-
-#[cfg(unix)]
-#[test]
-fn an_interrupt_leaves_nothing_behind() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let target = folder.path().join("basin");
-    BASIN.leaves_nothing_when_interrupted(&["--size", "4000"], &target);
-    Ok(())
-}

@@ -15,6 +15,7 @@ const SOFTSTOP: Program = Program {
     first: &[],
 };
 
+const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes");
 const SIGNALS: [&str; 3] = ["INT", "TERM", "HUP"];
 
 fn ends(line: &str, kept: &[&str]) {
@@ -22,16 +23,15 @@ fn ends(line: &str, kept: &[&str]) {
 }
 
 /// By itself: no step of it takes long.
-fn ends_by_itself(line: &str) {
-    for said in all_signals(line, &[]) {
+fn ends_by_itself(line: &str, kept: &[&str]) {
+    for said in all_signals(line, kept) {
         assert!(!said.contains(LATE), "{line}: {said}");
     }
 }
 
 /// What it says on each signal.
 fn all_signals(line: &str, kept: &[&str]) -> [String; 3] {
-    let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes");
-    let line = line.replace("SCENES", scenes);
+    let line = line.replace("SCENES", SCENES);
     SIGNALS.map(|signal| {
         let folder = tempfile::tempdir().expect("a folder");
         SOFTSTOP.ends_on(signal, &words(&line), folder.path(), kept)
@@ -41,7 +41,10 @@ fn all_signals(line: &str, kept: &[&str]) -> [String; 3] {
 #[test]
 fn simulate() {
     ends("simulate --periods 1000000 --samples-per-period 20", &[]);
-    ends_by_itself("simulate SCENES/hertz.toml --periods 1000000 --samples-per-period 1");
+    ends_by_itself(
+        "simulate SCENES/hertz.toml --periods 1000000 --samples-per-period 1",
+        &[],
+    );
 }
 
 #[test]
@@ -52,12 +55,12 @@ fn motions() {
 
 #[test]
 fn zone() {
-    ends_by_itself("zone SCENES/hertz.toml --set contact.damping=1e4");
+    ends_by_itself("zone SCENES/hertz.toml --set contact.damping=1e4", &[]);
 }
 
 #[test]
 fn orbit() {
-    ends_by_itself("orbit SCENES/hertz.toml --set contact.damping=1e5");
+    ends_by_itself("orbit SCENES/hertz.toml --set contact.damping=1e5", &[]);
 }
 
 #[test]
@@ -75,19 +78,35 @@ fn sweep() {
 
 #[test]
 fn basin() {
-    ends("basin --size 3000", &[]);
-    ends("basin SCENES/chatter.toml --size 100", &[]);
-    ends_by_itself("basin --along-zone 1000 --size 1000");
+    ends("basin --size 3000", &["basin.part"]);
+    ends("basin SCENES/chatter.toml --size 100", &["basin.part"]);
+    ends_by_itself("basin --along-zone 1000 --size 1000", &["basin.part"]);
 }
 
 #[test]
 fn optimize() {
-    ends_by_itself("optimize --set contact.damping=100");
+    ends_by_itself("optimize --set contact.damping=100", &["optimize.part"]);
 }
 
 #[test]
 fn fidelity() {
-    ends_by_itself("fidelity B --repeats 1000");
+    ends_by_itself("fidelity B --repeats 1000", &[]);
+}
+
+/// Kills at random moments, each job taken up after each of them.
+#[test]
+fn nothing_is_lost_to_kills() {
+    for line in [
+        "sweep --from 0.8 --to 1.8 --steps 6000",
+        "basin --size 700",
+        "basin SCENES/chatter.toml --size 4 --transient 100",
+        "basin --along-zone 4 --size 200",
+        "optimize --evaluations 4000",
+    ] {
+        let line = line.replace("SCENES", SCENES);
+        let folder = tempfile::tempdir().expect("a folder");
+        SOFTSTOP.survives_kills(&words(&line), 6, folder.path());
+    }
 }
 
 /// What a run that was killed has left is taken away by the next one into the same folder; that of a run that lives

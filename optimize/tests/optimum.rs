@@ -59,6 +59,7 @@ fn solve(problem: &Problem, evaluations: u64) -> Result<Design, SearchError> {
             evaluations,
         },
         &Unwatched,
+        None,
     )
 }
 
@@ -160,6 +161,7 @@ fn a_narrow_ridge_is_found_with_any_seed() -> Outcome {
                 evaluations: 600,
             },
             &Unwatched,
+            None,
         )?;
         let velocity = design.before_impact_velocity();
         println!("seed {seed}");
@@ -184,8 +186,8 @@ fn the_same_seed_gives_the_same_design() -> Outcome {
         seed: 42,
         evaluations: 200,
     };
-    let first = search(&problem, settings, &Unwatched)?;
-    let second = search(&problem, settings, &Unwatched)?;
+    let first = search(&problem, settings, &Unwatched, None)?;
+    let second = search(&problem, settings, &Unwatched, None)?;
     assert_eq!(first.machine, second.machine);
     assert_eq!(
         first.before_impact_velocity().to_bits(),
@@ -339,6 +341,7 @@ fn a_stopped_search_has_no_result() {
             evaluations: 2000,
         },
         &Stop,
+        None,
     );
     assert!(matches!(outcome, Err(SearchError::Stopped)));
 }

@@ -1,5 +1,7 @@
 //! A motion kept: its arcs, its crossings, its energies.
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::MotionError;
 use crate::flow::Course;
 use crate::integrator::{
@@ -24,7 +26,7 @@ pub struct KeptArc {
 }
 
 /// A mass that touches: when, and how fast.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Touch {
     /// When it happens.
     pub instant: Instant,

@@ -16,8 +16,6 @@ pub enum Failure {
     Run(anyhow::Error),
     /// Ctrl-C or a termination signal.
     Interrupted,
-    /// The same, but what is done is kept; the message says how to go on.
-    Suspended(String),
 }
 
 impl Failure {
@@ -31,7 +29,7 @@ impl Failure {
         ExitCode::from(match self {
             Self::Usage(_) => 2,
             Self::Run(_) => 1,
-            Self::Interrupted | Self::Suspended(_) => 130,
+            Self::Interrupted => 130,
         })
     }
 }
@@ -44,8 +42,7 @@ impl fmt::Display for Failure {
                 "error: {message}\n\nFor more information, try '--help'."
             ),
             Self::Run(error) => write!(formatter, "error: {error:#}"),
-            Self::Interrupted => formatter.write_str(interrupt::MESSAGE),
-            Self::Suspended(message) => write!(formatter, "interrupted: {message}"),
+            Self::Interrupted => formatter.write_str(interrupt::under_way().closing()),
         }
     }
 }

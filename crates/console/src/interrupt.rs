@@ -4,7 +4,7 @@
 use std::fs;
 use std::io::{self, Write};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, Once, PoisonError};
 use std::thread;
@@ -14,8 +14,7 @@ static REQUESTED: AtomicBool = AtomicBool::new(false);
 static INSTALL: Once = Once::new();
 static UNDER_WAY: Mutex<UnderWay> = Mutex::new(UnderWay {
     outputs: Vec::new(),
-    is_kept: false,
-    closing: MESSAGE,
+    closing: "interrupted: no files were written",
 });
 
 /// How long a run may take to end by itself.
@@ -24,15 +23,10 @@ const GRACE: Duration = Duration::from_millis(700);
 /// What is said besides where that was not enough.
 pub const LATE: &str = "ended in the middle of a long step";
 
-/// What is said at the end.
-pub const MESSAGE: &str = "interrupted: no files were written";
-
 /// What a run has begun to write. Nothing ends the run while somebody holds it.
 #[derive(Debug)]
 pub struct UnderWay {
     outputs: Vec<Making>,
-    /// The run has taken its end upon itself: it keeps what is done.
-    is_kept: bool,
     /// What is said if the run is ended.
     closing: &'static str,
 }
@@ -49,11 +43,23 @@ pub struct Making {
 impl Making {
     /// Takes away what is there of it; a folder that has been filled meanwhile stays.
     pub fn undo(&self) {
-        let _ = fs::remove_dir_all(&self.staging);
+        clear(&self.staging);
         for folder in self.made.iter().rev() {
             let _ = fs::remove_dir(folder);
         }
     }
+}
+
+/// The file in a staging folder that its run holds locked.
+pub const ALIVE: &str = "alive";
+
+/// Takes a staging folder away, the file that tells of its run last: this may be cut short as well.
+pub fn clear(staging: &Path) {
+    let entries = fs::read_dir(staging).into_iter().flatten().flatten();
+    for entry in entries.filter(|entry| entry.file_name() != ALIVE) {
+        let _ = fs::remove_file(entry.path());
+    }
+    let _ = fs::remove_dir_all(staging);
 }
 
 impl UnderWay {
@@ -72,9 +78,9 @@ impl UnderWay {
         self.closing = closing;
     }
 
-    /// The run ends by itself, however long it takes to keep what is done; only a second signal ends it before.
-    pub fn keep(&mut self) {
-        self.is_kept = true;
+    /// What is said if the run is ended.
+    pub fn closing(&self) -> &'static str {
+        self.closing
     }
 }
 
@@ -106,10 +112,8 @@ pub fn install() {
 fn end_late() {
     thread::sleep(GRACE);
     let under_way = under_way();
-    if !under_way.is_kept {
-        let _ = writeln!(io::stderr(), "{LATE}");
-        end(&under_way);
-    }
+    let _ = writeln!(io::stderr(), "{LATE}");
+    end(&under_way);
 }
 
 fn end(under_way: &UnderWay) -> ! {

@@ -1,5 +1,5 @@
 //! What the programs share: the [`machine`] as the user states it, [`scene_file`]s, [`progress`],
-//! [`interrupt`], [`failure`], and one [`export`] of every report: [`mod@column`]s and [`record`]s said once, text [`table`]s, [`units`], [`range`]s, and
+//! [`interrupt`], what long runs [`keep`], [`failure`], and one [`export`] of every report: [`mod@column`]s and [`record`]s said once, text [`table`]s, [`units`], [`range`]s, and
 //! [`output`] that is there whole or not at all.
 #![forbid(unsafe_code)]
 
@@ -9,6 +9,7 @@ pub mod column;
 pub mod export;
 pub mod failure;
 pub mod interrupt;
+pub mod keep;
 pub mod machine;
 pub mod median;
 pub mod output;

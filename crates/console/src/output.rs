@@ -10,7 +10,7 @@ use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
-use crate::interrupt::{self, Making, under_way};
+use crate::interrupt::{self, ALIVE, Making, clear, under_way};
 
 /// How a subcommand prints its result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
@@ -67,8 +67,6 @@ pub struct Folder {
 const WRITTEN: &str = "interrupted: the files are written";
 /// How the names of staging folders begin.
 const STAGING: &str = ".softstop-";
-/// The file in a staging folder that its run holds locked.
-const ALIVE: &str = "alive";
 
 impl Folder {
     /// Makes the folder if need be and tries whether it and the files of these names in it
@@ -91,11 +89,8 @@ impl Folder {
         let mut under_way = under_way();
         let alive = fs::create_dir_all(path).and_then(|()| {
             remove_dead(path);
-            let staging = tempfile::Builder::new().prefix(STAGING).tempdir_in(path)?;
-            let alive = fs::File::create_new(staging.path().join(ALIVE))?;
-            // Without locks, what a killed run leaves stays.
-            let _ = alive.lock();
-            making.staging = staging.keep();
+            let (staging, alive) = staging(path).or_else(|_| staging(path))?;
+            making.staging = staging;
             Ok(alive)
         });
         match alive {
@@ -217,13 +212,27 @@ fn missing(path: &Path) -> Vec<PathBuf> {
     folders
 }
 
+/// A staging folder and the file in it that this run holds locked. An error where another run that clears up came
+/// before the lock.
+fn staging(path: &Path) -> io::Result<(PathBuf, fs::File)> {
+    let staging = tempfile::Builder::new().prefix(STAGING).tempdir_in(path)?;
+    let place = staging.path().join(ALIVE);
+    let alive = fs::File::create_new(&place)?;
+    // Without locks, what a killed run leaves stays.
+    let _ = alive.lock();
+    fs::metadata(place)?;
+    Ok((staging.keep(), alive))
+}
+
 /// Takes away the staging folders of runs that were killed: nobody holds their locks any more.
 fn remove_dead(path: &Path) {
     let entries = fs::read_dir(path).into_iter().flatten().flatten();
     for entry in entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(STAGING)) {
-        let alive = fs::File::open(entry.path().join(ALIVE));
-        if alive.is_ok_and(|alive| alive.try_lock().is_ok()) {
-            let _ = fs::remove_dir_all(entry.path());
+        match fs::File::open(entry.path().join(ALIVE)) {
+            Ok(alive) if alive.try_lock().is_ok() => clear(&entry.path()),
+            Ok(_) => {}
+            // Killed right at its begin or end: it is empty.
+            Err(_) => drop(fs::remove_dir(entry.path())),
         }
     }
 }

@@ -13,7 +13,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
         Axis::velocity(-20.0, 20.0, 24),
         0.0,
     );
-    let basins = basins(&scene, &grid, &Options::default(), &unwatched)?;
+    let basins = basins(&scene, &grid, &Options::default(), &unwatched, None)?;
     for class in &basins.classes {
         println!("{}: {:.1} %", class.motion, 100.0 * class.share);
     }

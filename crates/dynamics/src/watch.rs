@@ -1,6 +1,9 @@
-//! One way to watch long work and to stop it.
+//! One way to watch long work, to stop it, and to take it up again.
 
 use std::ops::ControlFlow;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 /// Told how much is done, and of how much at most; asked whether to go on.
 pub type Watcher<'a> = &'a (dyn Fn(u64, u64) -> ControlFlow<()> + Sync);
@@ -16,4 +19,38 @@ pub fn stop_if(holds: bool) -> ControlFlow<()> {
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
     }
+}
+
+/// Keeps finished pieces of long work for the day on which it is taken up again.
+pub trait Memory: Sync {
+    /// The piece under this key, if it is known.
+    fn recall(&self, key: &[u8]) -> Option<Vec<u8>>;
+    /// Keeps a piece.
+    fn keep(&self, key: &[u8], piece: &[u8]);
+}
+
+/// Where pieces are kept, if anywhere.
+pub type Kept<'a> = Option<&'a dyn Memory>;
+
+/// A piece of work: recalled if it is known, else done now and kept. It must follow from its key.
+///
+/// # Errors
+/// Those of the work, which is not kept then.
+pub fn piece<T: Serialize + DeserializeOwned, E>(
+    kept: Kept<'_>,
+    key: &impl Serialize,
+    work: impl FnOnce() -> Result<T, E>,
+) -> Result<T, E> {
+    let Some((memory, key)) = kept.zip(rmp_serde::to_vec(key).ok()) else {
+        return work();
+    };
+    let known = memory.recall(&key);
+    if let Some(known) = known.and_then(|bytes| rmp_serde::from_slice(&bytes).ok()) {
+        return Ok(known);
+    }
+    let done = work()?;
+    if let Ok(bytes) = rmp_serde::to_vec(&done) {
+        memory.keep(&key, &bytes);
+    }
+    Ok(done)
 }

@@ -29,7 +29,7 @@ fn states(size: usize) -> Grid {
 }
 
 fn on(scene: &Scene, grid: &Grid) -> Basins {
-    let found = basins(scene, grid, &Options::default(), &unwatched).expect("there is one");
+    let found = basins(scene, grid, &Options::default(), &unwatched, None).expect("there is one");
     assert_eq!(found.cells.len(), grid.cells());
     let cells: usize = found.classes.iter().map(|class| class.cells).sum();
     assert_eq!(cells, grid.cells());
@@ -172,8 +172,15 @@ fn cells_in_a_basin_go_to_its_orbit_and_the_largest_ball_is_inside() {
 fn the_certainty_falls_along_the_zone() {
     let zone = zone::hysteresis(&Ratios::unloaded().scene().expect("valid")).expect("there is one");
     let places = [0.0, 0.25, 0.5, 0.75, 0.98];
-    let found = establishing(&zone, &places, &states(30), &Options::default(), &unwatched)
-        .expect("there is one");
+    let found = establishing(
+        &zone,
+        &places,
+        &states(30),
+        &Options::default(),
+        &unwatched,
+        None,
+    )
+    .expect("there is one");
     let shares: Vec<f64> = found.iter().map(|place| place.certainty).collect();
     // The paper says from 1 at g0 to 0 at s_SN. A few starts at g0 lead to z = 3/4, and near the fold a share
     // above zero is left; in between the certainty hardly falls.
@@ -203,6 +210,7 @@ fn it_stops_when_told() {
             assert!(done <= all && all == 6400);
             stop_if(done >= 1000)
         },
+        None,
     );
     assert_eq!(stopped, Err(SurveyError::Stopped));
 }

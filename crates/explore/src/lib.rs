@@ -2,12 +2,11 @@
 //! [`motions`], [`continuation`], [`sweep`], [`basin`], [`stops`] and [`fidelity`].
 //!
 //! Whatever fails does so with [`Failure::Usage`] for values that cannot be, with [`Failure::Run`] if nothing can be
-//! computed or written, and with [`Failure::Interrupted`] or [`Failure::Suspended`] after Ctrl-C.
+//! computed or written, and with [`Failure::Interrupted`] after Ctrl-C.
 //!
 //! [`Failure::Usage`]: softstop_console::failure::Failure::Usage
 //! [`Failure::Run`]: softstop_console::failure::Failure::Run
 //! [`Failure::Interrupted`]: softstop_console::failure::Failure::Interrupted
-//! [`Failure::Suspended`]: softstop_console::failure::Failure::Suspended
 #![forbid(unsafe_code)]
 
 pub mod basin;

@@ -19,7 +19,14 @@ fn long_commands_end_on_a_signal() {
     ] {
         for signal in ["INT", "TERM", "HUP"] {
             let folder = tempfile::tempdir().expect("a folder");
-            LABORATORY.ends_on(signal, &words(line), folder.path(), &[]);
+            LABORATORY.ends_on(signal, &words(line), folder.path(), &["paper.part"]);
         }
     }
+}
+
+#[test]
+fn nothing_of_the_paper_is_lost_to_kills() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let line = "paper 6a 7a 8 table1 certainty supply hardening --draft";
+    LABORATORY.survives_kills(&words(line), 6, folder.path());
 }

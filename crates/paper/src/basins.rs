@@ -77,7 +77,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
         let machine = softstop::Machine::of_ratios(&ratios)?;
         let [across, up] = axes.map(|axis| Axis { cells, ..axis });
         let (scene, grid) = (&machine.scene, Grid::states(across, up, 0.0));
-        let basins = basins(scene, &grid, &Options::default(), &watcher)?;
+        let basins = basins(scene, &grid, &Options::default(), &watcher, studio.kept)?;
         let wandering = wandering(scene, &basins)?;
         found.push((machine, basins, wandering, title));
     }

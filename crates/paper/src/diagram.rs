@@ -3,6 +3,7 @@
 use anyhow::Result;
 use rayon::prelude::*;
 use softstop::Scene;
+use softstop_dynamics::watch::Kept;
 use softstop_dynamics::{Chain, Direction, Plan, Regime, Step};
 
 use softstop_console::failure::Failure;
@@ -19,13 +20,13 @@ pub(super) fn ways(scene: &Scene) -> [Chain; 2] {
     [Direction::Up, Direction::Down].map(|way| Chain::new(scene.clone(), way))
 }
 
-/// Carries all chains of all plans to their ends.
-pub(super) fn sweep(mut jobs: Vec<Job>, what: &str) -> Result<Vec<Chain>> {
+/// Carries all chains of all plans to their ends; what is known of them is recalled.
+pub(super) fn sweep(mut jobs: Vec<Job>, what: &str, kept: Kept<'_>) -> Result<Vec<Chain>> {
     let steps = jobs.iter().map(|(plan, chains)| plan.steps * chains.len());
     let progress = Progress::new(steps.sum::<usize>() as u64, what);
     let finished = jobs
         .par_iter_mut()
-        .map(|(plan, chains)| plan.run(chains, &progress.watcher()));
+        .map(|(plan, chains)| plan.run_kept(chains, &progress.watcher(), kept));
     if !finished.collect::<Vec<bool>>().into_iter().all(|it| it) {
         return Err(Failure::Interrupted.into());
     }

@@ -4,9 +4,12 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 use anyhow::Result;
-use serde::Serialize;
+use rayon::prelude::*;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use softstop_dynamics::attractors::Options;
 use softstop_dynamics::transitions::{Rules, Transition};
+use softstop_dynamics::watch::{Kept, piece};
 
 use crate::table1::{self, paper};
 
@@ -17,10 +20,11 @@ pub(crate) struct Figure {
     /// Names of its files: pictures and tables.
     pub(crate) files: &'static [&'static str],
     /// Makes them.
-    pub(crate) draw: fn(&Studio) -> Result<Drawn>,
+    pub(crate) draw: fn(&Studio<'_>) -> Result<Drawn>,
 }
 
 /// What came out of a figure.
+#[derive(Serialize, Deserialize)]
 pub(crate) struct Drawn {
     /// Contents of the files, in the order of their names.
     pub(crate) files: Vec<Vec<u8>>,
@@ -28,7 +32,7 @@ pub(crate) struct Drawn {
 }
 
 /// What a figure shows in numbers, by name, in the paper's symbols.
-#[derive(Debug, Default, Serialize)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Findings(pub(crate) BTreeMap<String, f64>);
 
 impl Findings {
@@ -40,14 +44,16 @@ impl Findings {
 }
 
 /// What figures share.
-pub(crate) struct Studio {
+pub(crate) struct Studio<'a> {
     pub(crate) detail: Detail,
+    /// Where finished work is kept.
+    pub(crate) kept: Kept<'a>,
     /// All transitions along rho = 10, once they are asked for.
     transitions: OnceCell<Vec<Transition>>,
 }
 
 /// How fine figures are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub(crate) enum Detail {
     /// For print.
     Full,
@@ -55,12 +61,30 @@ pub(crate) enum Detail {
     Draft,
 }
 
-impl Studio {
-    pub(crate) fn new(detail: Detail) -> Self {
+impl<'a> Studio<'a> {
+    pub(crate) fn new(detail: Detail, kept: Kept<'a>) -> Self {
         Self {
             detail,
+            kept,
             transitions: OnceCell::new(),
         }
+    }
+
+    /// Works on all items side by side, each a piece to be kept.
+    pub(crate) fn each<I, T>(
+        &self,
+        what: &str,
+        items: &[I],
+        work: impl Fn(&I) -> Result<T> + Sync,
+    ) -> Result<Vec<T>>
+    where
+        I: Serialize + Sync,
+        T: Serialize + DeserializeOwned + Send,
+    {
+        let kept = self.kept;
+        let items = items.par_iter();
+        let done = items.map(|item| piece(kept, &(what, item), || work(item)));
+        done.collect()
     }
 
     /// How transitions are looked for: with few motions and short runs for a first look.
@@ -88,7 +112,7 @@ impl Studio {
             Detail::Full => (table1::RANGE, table1::values(&paper::INTERVALS)),
             Detail::Draft => ((1.01, 1.8), vec![1.2]),
         };
-        let found = table1::transitions(&self.rules(), range, &values)?;
+        let found = table1::transitions(&self.rules(), range, &values, self.kept)?;
         Ok(self.transitions.get_or_init(|| found))
     }
 }

@@ -6,9 +6,11 @@ use std::collections::VecDeque;
 use anyhow::Result;
 use nalgebra::Vector2;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use softstop::Ratios;
 use softstop_dynamics::StroboscopicMap;
 use softstop_dynamics::transitions::Transition;
+use softstop_dynamics::watch::piece;
 
 use crate::figure::{self, Drawn, Figure, Findings, Studio};
 use crate::table1::{matching, paper};
@@ -35,7 +37,7 @@ const CALM: u64 = 5;
 const APART: f64 = 1e-3;
 
 /// Stretches beside the end of a motion.
-#[derive(Debug, Clone, Copy, serde::Serialize)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Beside {
     row: usize,
     eta: f64,
@@ -57,9 +59,11 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     let cases = found.flat_map(|case| powers.clone().map(move |power| (case, 10f64.powf(power))));
     let cases: Vec<((usize, &Transition), f64)> = cases.collect();
     let progress = Progress::new(cases.len() as u64, "distances");
+    let kept = studio.kept;
     let beside = cases.par_iter().map(|((row, transition), distance)| {
         progress.step()?;
-        beside(*row, transition, *distance)
+        let of = ("laminar", row, distance);
+        piece(kept, &of, || beside(*row, transition, *distance))
     });
     let beside: Vec<Beside> = beside.flat_map(Result::transpose).collect::<Result<_>>()?;
     let mut findings = Findings::default();

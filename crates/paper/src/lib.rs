@@ -26,17 +26,20 @@ use std::time::Instant;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use figure::{Detail, Figure, Studio};
+use figure::{Detail, Drawn, Figure, Studio};
 use report::{FigureReport, PaperReport};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
+use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::{self, Folder, Format};
+use softstop_dynamics::watch::piece;
 
 const EXAMPLES: &str = "\
 Examples:
   softstop-lab paper                      all figures, into the folder softstop-paper
   softstop-lab paper 6a 8                 two of them
   softstop-lab paper regimes --draft      coarser, ten times as fast
+  softstop-lab paper --resume             goes on after Ctrl-C or a kill
   softstop-lab paper --format json        what was drawn, and the figures found, for programs
 
 Figures of F. Peterka, Chaos, Solitons & Fractals 18 (2003) 79-88, computed anew:
@@ -70,6 +73,9 @@ pub struct PaperArguments {
     /// Coarser grids and shorter runs, ten times as fast
     #[arg(long)]
     pub draft: bool,
+    /// Whether it goes on with an earlier one.
+    #[command(flatten)]
+    pub keep: KeepArguments,
     /// Folder for the figures and paper.json
     #[arg(long, value_name = "DIR", default_value = "softstop-paper")]
     pub output: PathBuf,
@@ -109,14 +115,17 @@ pub fn run(arguments: &PaperArguments) -> Result<(), Failure> {
     let asked = &arguments.figures;
     let is_wanted = |name: &str| asked.is_empty() || asked.iter().any(|it| it == name);
     let wanted = || FIGURES.iter().filter(|(name, _)| is_wanted(name));
-    let studio = Studio::new(match arguments.draft {
-        true => Detail::Draft,
-        false => Detail::Full,
-    });
     let files = wanted().flat_map(|(_, figure)| figure.files);
     let mut names: Vec<&str> = files.copied().collect();
     names.push(REPORT);
     let folder = Folder::open(&arguments.output, &names)?;
+    let detail = match arguments.draft {
+        true => Detail::Draft,
+        false => Detail::Full,
+    };
+    let of = (&names, detail);
+    let keep = Keep::open(&arguments.output, "paper", &of, arguments.keep)?;
+    let studio = Studio::new(detail, Some(&keep));
     let begin = Instant::now();
     let mut figures = Vec::new();
     for (name, figure) in wanted() {
@@ -129,6 +138,7 @@ pub fn run(arguments: &PaperArguments) -> Result<(), Failure> {
     let json = output::json(&report)?;
     folder.stage(REPORT, json.as_bytes())?;
     folder.commit(&names)?;
+    keep.forget();
     output::print(&match arguments.format {
         Format::Json => json,
         Format::Text => report.text(),
@@ -145,7 +155,10 @@ fn draw(
         return Err(Failure::Interrupted);
     }
     let begin = Instant::now();
-    let drawn = (figure.draw)(studio)?;
+    let (drawn, seconds): (Drawn, f64) = piece(studio.kept, &name, || {
+        let drawn = (figure.draw)(studio)?;
+        Ok::<_, anyhow::Error>((drawn, begin.elapsed().as_secs_f64()))
+    })?;
     for (name, content) in figure.files.iter().zip(&drawn.files) {
         folder.stage(name, content)?;
     }
@@ -154,6 +167,6 @@ fn draw(
         title: figure.title,
         files: figure.files.iter().map(|name| folder.place(name)).collect(),
         findings: drawn.findings,
-        seconds: begin.elapsed().as_secs_f64(),
+        seconds,
     })
 }

@@ -49,7 +49,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
             Ok(Chain::new(scene, Direction::Down))
         };
         let chains = etas.iter().map(chain).collect::<Result<_>>()?;
-        let chains = diagram::sweep(vec![(plan, chains)], "steps of the ways")?;
+        let chains = diagram::sweep(vec![(plan, chains)], "steps of the ways", studio.kept)?;
         for (name, p, n, order) in SOUGHT {
             let shows = |step: &Step| shows(step, (p, n), order);
             let (mut met, mut there) = (0, 0);

@@ -27,7 +27,7 @@ fn quick() -> Rules {
 
 fn table(range: (f64, f64), values: &[f64]) -> Result<TableReport, Box<dyn std::error::Error>> {
     let rules = quick();
-    let found = transitions(&rules, range, values).map_err(|failure| failure.to_string())?;
+    let found = transitions(&rules, range, values, None).map_err(|failure| failure.to_string())?;
     Ok(TableReport::new(&ROWS, &found, &rules))
 }
 

@@ -1,9 +1,12 @@
 //! Programs as users and scripts meet them.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use serde_json::Value;
 
 /// The arguments of a line.
@@ -176,6 +179,73 @@ impl Program {
         let said = run.wait_with_output().expect("a process").stderr;
         String::from_utf8_lossy(&said).into_owned()
     }
+
+    /// Kills the program at random moments of a job that writes into the folder `out`, and takes the job up again with
+    /// `--resume`, over and over: in the end its files, and no others, hold what they hold after an undisturbed run.
+    /// So many kills, or `SOFTSTOP_KILLS`, of a seed or `SOFTSTOP_KILLS_SEED`; `folder` is empty.
+    ///
+    /// # Panics
+    /// If it does otherwise.
+    #[track_caller]
+    pub fn survives_kills(&self, arguments: &[&str], kills: u64, folder: &Path) {
+        let given = |name| std::env::var(name).ok()?.parse::<u64>().ok();
+        let mut left = given("SOFTSTOP_KILLS").unwrap_or(kills);
+        let mut chance = SplitMix64::seed_from_u64(given("SOFTSTOP_KILLS_SEED").unwrap_or(2003));
+        let start = |more: &[&str]| {
+            let mut command = self.command(&[arguments, &["--output", "out"], more].concat());
+            let silent = command.stdout(Stdio::null()).stderr(Stdio::null());
+            let run = silent.current_dir(folder).spawn();
+            run.expect("the program starts")
+        };
+        let out = folder.join("out");
+        let begin = Instant::now();
+        let status = start(&[]).wait().expect("it ends");
+        assert!(status.success(), "{arguments:?}: {status}");
+        let (longest, whole) = (begin.elapsed(), contents(&out));
+        let (mut jobs, mut taken_up) = (0, 0);
+        while left > 0 || jobs == 0 {
+            std::fs::remove_dir_all(&out).expect("a folder");
+            let status = loop {
+                let mut run = start(&["--resume"]);
+                if left == 0 {
+                    break run.wait().expect("it ends");
+                }
+                let share = chance.next_u64() as f64 / u64::MAX as f64;
+                std::thread::sleep(longest.mul_f64(share));
+                if let Some(status) = run.try_wait().expect("a process") {
+                    break status;
+                }
+                left -= 1;
+                kill(
+                    SIGNALS[chance.next_u64() as usize % SIGNALS.len()],
+                    run.id(),
+                );
+                run.wait().expect("it ends");
+                let names = std::fs::read_dir(&out).into_iter().flatten().flatten();
+                let mut names = names.map(|entry| entry.file_name());
+                taken_up += u64::from(names.any(|it| it.to_string_lossy().ends_with(".part")));
+            };
+            assert!(status.success(), "{arguments:?}, job {jobs}: {status}");
+            assert_eq!(contents(&out), whole, "{arguments:?}, job {jobs}");
+            jobs += 1;
+        }
+        println!("{arguments:?}: {jobs} jobs, {taken_up} times something was kept");
+        assert!(taken_up > 0, "{arguments:?} keeps nothing");
+    }
+}
+
+/// Ways to end a program; more than half of them leave it no time.
+const SIGNALS: [&str; 5] = ["KILL", "KILL", "KILL", "TERM", "INT"];
+
+/// The files in a folder and below by name; of texts the lines that state no time.
+fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let content = |path: PathBuf| {
+        let bytes = std::fs::read(&path).expect("a file");
+        let lines = bytes.split(|byte| *byte == b'\n');
+        let lasting = lines.filter(|line| !line.trim_ascii().starts_with(b"\"seconds\""));
+        (path, lasting.collect::<Vec<_>>().concat())
+    };
+    files(folder).into_iter().map(content).collect()
 }
 
 fn kill(signal: &str, process: u32) {

@@ -1,12 +1,16 @@
 //! What the search minimises, and who watches it.
 
 use std::borrow::Borrow;
+use std::convert::Infallible;
 use std::slice::from_ref;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use argmin::core::{CostFunction, Error};
+use rayon::prelude::*;
+use softstop_dynamics::watch::{Kept, piece};
 
+use super::Problem;
 use super::space::Space;
-use super::{Design, Problem};
 
 /// Who watches the search, from several threads at once.
 pub trait Watch: Sync {
@@ -39,10 +43,17 @@ pub(super) struct Cost<'search> {
     pub problem: &'search Problem,
     pub space: Space<'search>,
     pub watch: &'search dyn Watch,
+    pub kept: Kept<'search>,
+    /// Calls so far.
+    pub calls: AtomicU64,
 }
 
 /// Points computed between two looks at whether to stop.
 const BLOCK: usize = 512;
+/// Those of them that are kept together: groups of zones that are computed together.
+const PIECE: usize = 16;
+/// What a point costs, and the velocity of its best motion, if there is one.
+type Found = (f64, Option<f64>);
 
 impl Cost<'_> {
     /// What points cost. Never is NaN (the swarm would panic, Nelder-Mead stall); once stopped, infinite.
@@ -50,17 +61,31 @@ impl Cost<'_> {
         if self.watch.stop() {
             return vec![f64::INFINITY; units.len()];
         }
+        let call = self.calls.fetch_add(1, Ordering::Relaxed);
+        let pieces = units.par_chunks(PIECE).enumerate();
+        let found = pieces.flat_map_iter(|(index, units)| {
+            let Ok(found) = piece(self.kept, &(call, index), || {
+                Ok::<_, Infallible>(self.found(units))
+            });
+            for (_, velocity) in &found {
+                self.watch.evaluated(*velocity);
+            }
+            found.into_iter().map(|(cost, _)| cost)
+        });
+        found.collect()
+    }
+
+    fn found(&self, units: &[Vec<f64>]) -> Vec<Found> {
         let points: Vec<_> = units.iter().map(|unit| self.space.values(unit)).collect();
         let outcomes = self.problem.soon(&points).into_iter();
-        let costs = outcomes.map(|outcome| {
-            let velocity = outcome.as_ref().ok().map(Design::before_impact_velocity);
-            self.watch.evaluated(velocity);
-            match outcome {
-                Ok(design) => -design.before_impact_velocity(),
-                Err(infeasible) => 1.0 + infeasible.gap,
+        let found = outcomes.map(|outcome| match outcome {
+            Ok(design) => {
+                let velocity = design.before_impact_velocity();
+                (-velocity, Some(velocity))
             }
+            Err(infeasible) => (1.0 + infeasible.gap, None),
         });
-        costs.collect()
+        found.collect()
     }
 }
 

@@ -7,11 +7,14 @@
 //! All see the unit cube. The swarm keeps to it by itself; Nelder-Mead does not, so points
 //! outside are pulled in, and an optimum on the boundary (common here) is met exactly.
 
+use std::sync::atomic::AtomicU64;
+
 use argmin::core::{Error, Executor, State};
 use argmin::solver::particleswarm::{Particle, ParticleSwarm};
 use argmin_math::ArgminRandom;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
+use softstop_dynamics::watch::Kept;
 
 use super::cost::{Cost, Point, Stoppable};
 pub use super::cost::{Unwatched, Watch};
@@ -62,7 +65,7 @@ pub enum SearchError {
     Optimizer(Error),
 }
 
-/// The feasible design with the highest before-impact velocity.
+/// The feasible design with the highest before-impact velocity. What is known of the search is recalled.
 ///
 /// # Errors
 /// [`SearchError`] if nothing feasible was met or the watcher stopped the search.
@@ -70,12 +73,15 @@ pub fn search(
     problem: &Problem,
     settings: Settings,
     watch: &dyn Watch,
+    kept: Kept<'_>,
 ) -> Result<Design, SearchError> {
     let space = Space(&problem.axes);
     let cost = Cost {
         problem,
         space,
         watch,
+        kept,
+        calls: AtomicU64::new(0),
     };
     let best = match outer(&cost, settings) {
         Err(error) if !watch.stop() => return Err(SearchError::Optimizer(error)),

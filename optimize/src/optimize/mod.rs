@@ -16,6 +16,7 @@ use softstop::{Dimension, Machine, Parameter, Start};
 use softstop_console::arguments::MachineArguments;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
+use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::Format;
 
 use crate::design::search::{self, SearchError};
@@ -90,6 +91,9 @@ pub struct OptimizeArguments {
     /// Zones to compute at most, at least 100; the search ends before when it gains nothing [default: 1200]
     #[arg(long, value_name = "N")]
     pub evaluations: Option<u64>,
+    /// Whether it goes on with an earlier one.
+    #[command(flatten)]
+    pub keep: KeepArguments,
     /// The machine.
     #[command(flatten)]
     pub machine: MachineArguments,
@@ -105,7 +109,14 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     ];
     let export = Export::open(&job.output, &files)?;
     let library = library()?;
-    let outcome = solve(&job)?;
+    let keep = Keep::open(&job.output, "optimize", &job.identity(), arguments.keep)?;
+    let outcome = match solve(&job, &keep) {
+        Err(failure @ Failure::Run(_)) => {
+            keep.forget();
+            return Err(failure);
+        }
+        outcome => outcome?,
+    };
     let design = &outcome.design;
     let references = reference::references(&job.problem.machine)?;
     let beside = reference::nearest(&job.problem.machine, &references);
@@ -120,7 +131,9 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         evaluations_used: outcome.evaluations,
     };
     let report = OptimizeReport::new(&job.problem, design, &references, search);
-    export.finish(&report, job.format)
+    export.finish(&report, job.format)?;
+    keep.forget();
+    Ok(())
 }
 
 /// The design's machine under the name of a design.
@@ -148,9 +161,9 @@ struct Outcome {
     evaluations: u64,
 }
 
-fn solve(job: &Job) -> Result<Outcome, Failure> {
+fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     let best = Best::new(&job.problem.machine, job.settings.evaluations);
-    let outcome = search::search(&job.problem, job.settings, &best);
+    let outcome = search::search(&job.problem, job.settings, &best, Some(keep));
     let evaluations = best.evaluations();
     drop(best);
     let design = outcome.map_err(|error| match error {

@@ -2,11 +2,13 @@
 
 use std::path::PathBuf;
 
+use serde::Serialize;
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::failure::Failure;
 use softstop_console::machine::{Regime, SceneSettings};
 use softstop_console::output::Format;
 use softstop_console::range::require;
+use softstop_console::report::MachineReport;
 use softstop_console::scene_file;
 
 use super::OptimizeArguments;
@@ -94,6 +96,31 @@ impl Job {
                 .unwrap_or_else(|| OUTPUT.into()),
             format: arguments.format.or(task.format).unwrap_or_default(),
         })
+    }
+}
+
+impl Job {
+    /// What comes of the search follows from this.
+    pub(super) fn identity(&self) -> impl Serialize {
+        let Problem {
+            machine,
+            margin,
+            axes,
+            frequency,
+        } = &self.problem;
+        let axes = axes.iter();
+        let axes = axes.map(|axis| (axis.parameter.name(), axis.range.low, axis.range.high));
+        let axes: Vec<_> = axes.collect();
+        let settings = (self.settings.seed, self.settings.evaluations);
+        let frequency = (frequency.low, frequency.high);
+        (
+            &machine.scene,
+            MachineReport::of(machine),
+            margin,
+            axes,
+            frequency,
+            settings,
+        )
     }
 }
 

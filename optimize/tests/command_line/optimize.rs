@@ -157,13 +157,3 @@ fn a_folder_in_the_way_is_found_before_the_search() -> Outcome {
     );
     Ok(())
 }
-
-#[cfg(unix)]
-#[test]
-fn an_interrupt_ends_the_search_and_leaves_nothing_behind() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let target = folder.path().join("design");
-    let search = ["optimize", "--evaluations", "100000000"];
-    SOFTSTOP.leaves_nothing_when_interrupted(&search, &target);
-    Ok(())
-}

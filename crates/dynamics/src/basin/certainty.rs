@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::{Basins, Grid, Options, basins};
 use crate::attractors::SurveyError;
 use crate::orbit::Regime;
-use crate::watch::Watcher;
+use crate::watch::{Kept, Watcher};
 use crate::zone::{Zone, ZoneError};
 
 /// The basins at one place of the zone.
@@ -49,6 +49,7 @@ pub fn establishing(
     grid: &Grid,
     options: &Options,
     watcher: Watcher<'_>,
+    kept: Kept<'_>,
 ) -> Result<Vec<Establishing>, CertaintyError> {
     let each = grid.cells() as u64;
     let at = |(index, place): (usize, &f64)| {
@@ -58,9 +59,8 @@ pub fn establishing(
         let before = each * index as u64;
         let all = each * places.len() as u64;
         let scene = zone.scene_at(*place);
-        let basins = basins(&scene, grid, options, &|done, _| {
-            watcher(before + done, all)
-        })?;
+        let watcher = |done, _| watcher(before + done, all);
+        let basins = basins(&scene, grid, options, &watcher, kept)?;
         let (certainty, interval) = basins.share(Regime::ONE);
         Ok(Establishing {
             place: *place,

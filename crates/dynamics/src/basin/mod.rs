@@ -17,7 +17,7 @@
 //!
 //! let scene = Ratios::unloaded().scene()?;
 //! let grid = Grid::states(Axis::position(-20.0, 10.0, 30), Axis::velocity(-25.0, 25.0, 30), 0.0);
-//! let basins = basins(&scene, &grid, &Options::default(), &unwatched)?;
+//! let basins = basins(&scene, &grid, &Options::default(), &unwatched, None)?;
 //! // Point A: without impacts, and z = 1.
 //! let names: Vec<String> = basins.classes.iter().map(|class| class.motion.to_string()).collect();
 //! assert_eq!(names, ["z = 0", "z = 1"]);
@@ -27,6 +27,7 @@
 mod ball;
 mod certainty;
 mod classes;
+mod follow;
 mod grid;
 mod integrity;
 mod share;
@@ -38,9 +39,10 @@ pub use integrity::{Clearing, clearing};
 pub use share::wilson;
 pub use survey::basins;
 
+use serde::Serialize;
+
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit, Regime};
-use softstop::MotionError;
 
 /// One basin.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,7 +55,7 @@ pub struct Class {
     /// The exponents of the first motion of what does not return.
     pub exponents: Option<Exponents>,
     /// Why the first of what is lost could not be computed.
-    pub error: Option<MotionError>,
+    pub error: Option<String>,
     /// How many cells belong to it.
     pub cells: usize,
     /// Their share of all.
@@ -100,7 +102,7 @@ impl Basins {
 }
 
 /// How to follow the cells' motions.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Options {
     /// Drive periods after which a motion that no ball has caught is looked at.
     pub transient: u64,

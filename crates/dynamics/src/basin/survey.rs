@@ -1,29 +1,30 @@
-//! Following the motions of all cells.
+//! The survey of a grid: scouts, the motions of all cells, and a look at what is left.
 
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::ball::Ball;
 use super::{Basins, Grid, Options};
 use crate::attractors::SurveyError;
 use crate::attractors::fleet::{Fleet, Voyage};
 use crate::attractors::known::{Book, Standing};
-use crate::watch::{Watcher, stop_if};
+use crate::watch::{Kept, Watcher, piece, stop_if};
 use softstop::internals::Motion;
 use softstop::{Clock, MotionError, Scene, Start};
-use softstop_lanes::Job;
 
 /// Cells that go together: enough for all lanes to be busy. The tiles may not depend on how many threads
 /// there are.
-const TILE: usize = 4096;
-/// Drive periods between two looks at where the motions are.
-const STRETCH: u64 = 16;
+pub(super) const TILE: usize = 4096;
 /// Scouts on each axis of the grid: these cells are looked at first.
 const SCOUTS: usize = 16;
 
+/// Cells that are looked at one by one before what they have come to is kept; so many groups of the fleet's.
+const LOOKED: usize = 1024;
+
 /// How it stands with a cell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Fate {
     /// On its way.
     Afloat,
@@ -38,22 +39,33 @@ pub(super) enum Fate {
 pub(super) struct Survey<'a> {
     pub scene: &'a Scene,
     pub grid: &'a Grid,
-    options: Options,
+    pub options: Options,
     /// Counts cells.
-    fleet: Fleet<'a>,
+    pub fleet: Fleet<'a>,
     pub book: Book<'a>,
     /// Balls of the orbits in the book.
-    balls: Vec<(usize, Ball)>,
+    pub balls: Vec<(usize, Ball)>,
     pub states: Vec<Start>,
     pub fates: Vec<Fate>,
     /// Why the first lost cell is lost.
-    pub lost: Option<(usize, MotionError)>,
+    pub lost: Option<(usize, String)>,
+    pub kept: Kept<'a>,
 }
 
-/// A cell that was followed: its number, its fate, its state.
-type Followed = (usize, Fate, Start, Option<MotionError>);
+/// One motion that is looked at: its latest state, the last ones, and why it ended.
+type Seen = (Start, Vec<Start>, Option<String>);
 
-/// The basins of a scene on a grid. The watcher is told of the cells done and of all cells.
+/// Cells that were looked at.
+#[derive(Serialize, Deserialize, Default)]
+struct Looked {
+    states: Vec<Start>,
+    fates: Vec<Fate>,
+    /// Motions by which the book has grown, in order.
+    entered: Vec<Vec<Start>>,
+    lost: Option<(usize, String)>,
+}
+
+/// The basins of a scene on a grid. The watcher is told of the cells done and of all cells; what is known is recalled.
 ///
 /// # Errors
 /// [`SurveyError::Motion`] if the scene is invalid; [`SurveyError::Stopped`].
@@ -62,6 +74,7 @@ pub fn basins(
     grid: &Grid,
     options: &Options,
     watcher: Watcher<'_>,
+    kept: Kept<'_>,
 ) -> Result<Basins, SurveyError> {
     let mut fleet = Fleet::new(scene, watcher)?;
     fleet.planned = grid.cells() as u64;
@@ -75,6 +88,7 @@ pub fn basins(
         states: Vec::new(),
         fates: Vec::new(),
         lost: None,
+        kept,
     };
     survey.bring()?;
     survey.scout()?;
@@ -99,7 +113,7 @@ impl Survey<'_> {
             let (state, fate) = match result {
                 Ok(state) => (state, Fate::Afloat),
                 Err(error) => {
-                    self.lost.get_or_insert((cell, error));
+                    self.lost.get_or_insert((cell, error.to_string()));
                     (self.grid.start(cell).0, Fate::Lost)
                 }
             };
@@ -140,76 +154,19 @@ impl Survey<'_> {
         self.look(&cells, self.options.transient)
     }
 
-    /// Follows all cells that are afloat until a ball catches them or the transient is over.
-    fn settle(&mut self) -> Result<(), SurveyError> {
-        let afloat: Vec<usize> = self.afloat().collect();
-        let followed: Vec<Vec<Followed>> = afloat
-            .par_chunks(TILE)
-            .map(|tile| self.follow(tile))
-            .collect::<Result<_, _>>()?;
-        for (cell, fate, state, error) in followed.into_iter().flatten() {
-            self.states[cell] = state;
-            self.set(cell, fate, error);
-        }
-        Ok(())
+    /// Why a cell is lost; that of the first one stands.
+    pub(super) fn lose(&mut self, lost: Option<(usize, String)>) {
+        self.lost = self.lost.take().into_iter().chain(lost).min();
     }
 
-    fn set(&mut self, cell: usize, fate: Fate, error: Option<MotionError>) {
-        self.fates[cell] = fate;
-        if let Some(error) = error
-            && self.lost.as_ref().is_none_or(|(first, _)| cell < *first)
-        {
-            self.lost = Some((cell, error));
-        }
-    }
-
-    fn afloat(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(super) fn afloat(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.fates.len()).filter(|cell| self.fates[*cell] == Fate::Afloat)
-    }
-
-    fn follow(&self, tile: &[usize]) -> Result<Vec<Followed>, SurveyError> {
-        let mut followed = Vec::with_capacity(tile.len());
-        let left = tile.iter().map(|cell| (*cell, self.states[*cell]));
-        let mut left: Vec<(usize, Start)> = left.collect();
-        let mut periods = 0;
-        while periods < self.options.transient && !left.is_empty() {
-            let stretch = STRETCH.min(self.options.transient - periods);
-            periods += stretch;
-            let job = |(_, start): &(usize, Start)| Job {
-                machine: 0,
-                start: *start,
-                periods: stretch,
-            };
-            let jobs: Vec<Job> = left.iter().map(job).collect();
-            let outcomes = softstop_lanes::run(&self.fleet.machine, &jobs, &mut ());
-            let before = left.len();
-            let ends = std::mem::take(&mut left).into_iter().zip(outcomes);
-            for ((cell, _), outcome) in ends {
-                if outcome.error.is_some() {
-                    followed.push((cell, Fate::Lost, outcome.end, outcome.error));
-                } else if let Some(orbit) = self.caught(outcome.end) {
-                    followed.push((cell, Fate::Orbit(orbit), outcome.end, None));
-                } else {
-                    left.push((cell, outcome.end));
-                }
-            }
-            self.fleet.note((before - left.len()) as u64)?;
-        }
-        let left = left.into_iter();
-        followed.extend(left.map(|(cell, end)| (cell, Fate::Afloat, end, None)));
-        Ok(followed)
-    }
-
-    /// The orbit in one of whose balls a state lies.
-    fn caught(&self, state: Start) -> Option<usize> {
-        let ball = self.balls.iter().find(|(_, ball)| ball.holds(state));
-        ball.map(|(orbit, _)| *orbit)
     }
 
     /// Looks at all cells that no ball has caught.
     fn judge_all(&mut self) -> Result<(), SurveyError> {
         let afloat: Vec<usize> = self.afloat().collect();
-        for cells in afloat.chunks(TILE) {
+        for cells in afloat.chunks(LOOKED) {
             self.look(cells, 0)?;
         }
         Ok(())
@@ -217,6 +174,68 @@ impl Survey<'_> {
 
     /// Follows cells for so many drive periods, and says of each what it has come to.
     fn look(&mut self, cells: &[usize], periods: u64) -> Result<(), SurveyError> {
+        let of = (
+            "look",
+            self.scene,
+            self.grid,
+            self.options,
+            cells.first(),
+            periods,
+        );
+        let mut is_known = true;
+        let looked = piece(self.kept, &of, || {
+            is_known = false;
+            self.look_anew(cells, periods)
+        })?;
+        if is_known {
+            for log in &looked.entered {
+                self.judge(log)?;
+            }
+            self.fleet.note(cells.len() as u64)?;
+        }
+        let ends = looked.states.into_iter().zip(looked.fates);
+        for (cell, (state, fate)) in cells.iter().zip(ends) {
+            (self.states[*cell], self.fates[*cell]) = (state, fate);
+        }
+        self.lose(looked.lost);
+        Ok(())
+    }
+
+    fn look_anew(&mut self, cells: &[usize], periods: u64) -> Result<Looked, SurveyError> {
+        let seen = self.see(cells, periods)?;
+        let mut looked = Looked::default();
+        for (cell, (state, log, error)) in cells.iter().zip(seen) {
+            let known = self.book.orbits.len();
+            looked.states.push(state);
+            looked.fates.push(match error {
+                Some(error) => {
+                    looked.lost.get_or_insert((*cell, error));
+                    Fate::Lost
+                }
+                None => self.judge(&log)?,
+            });
+            if self.book.orbits.len() > known {
+                looked.entered.push(log);
+            }
+            self.fleet.note(1)?;
+        }
+        Ok(looked)
+    }
+
+    /// Follows cells for so many drive periods and those of a log; motions that take long are kept one by one.
+    fn see(&self, cells: &[usize], periods: u64) -> Result<Vec<Seen>, SurveyError> {
+        if self.fleet.is_fast() {
+            return self.see_together(cells, periods);
+        }
+        let one = |cell: &usize| {
+            let of = ("cell", self.scene, self.grid, self.options, cell, periods);
+            piece(self.kept, &of, || self.see_together(&[*cell], periods))
+        };
+        let seen = cells.par_iter().map(one);
+        Ok(seen.collect::<Result<Vec<_>, SurveyError>>()?.concat())
+    }
+
+    fn see_together(&self, cells: &[usize], periods: u64) -> Result<Vec<Seen>, SurveyError> {
         let logged = 2 * self.options.longest + 1;
         let states = cells.iter().map(|cell| Voyage::new(self.states[*cell]));
         let mut voyages: Vec<Voyage> = states.collect();
@@ -224,16 +243,9 @@ impl Survey<'_> {
         let fleet = Fleet::new(self.scene, &go_on)?;
         let mut all: Vec<&mut Voyage> = voyages.iter_mut().collect();
         fleet.sail(&mut all, periods + logged as u64, logged)?;
-        for (cell, voyage) in cells.iter().zip(voyages) {
-            self.states[*cell] = voyage.state;
-            let fate = match voyage.error {
-                Some(_) => Fate::Lost,
-                None => self.judge(&voyage.log)?,
-            };
-            self.set(*cell, fate, voyage.error);
-            self.fleet.note(1)?;
-        }
-        Ok(())
+        let seen = voyages.into_iter();
+        let seen = seen.map(|it| (it.state, it.log, it.error.map(|error| error.to_string())));
+        Ok(seen.collect())
     }
 
     fn judge(&mut self, log: &[Start]) -> Result<Fate, SurveyError> {

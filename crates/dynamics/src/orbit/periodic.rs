@@ -1,6 +1,7 @@
 //! A periodic motion of any regime, stable or not.
 
 use nalgebra::{Complex, Matrix2, Vector2};
+use serde::{Deserialize, Serialize};
 
 use super::guess::guesses;
 use super::newton::fixed_point;
@@ -14,7 +15,7 @@ use softstop::{Instant, MotionError, Scene, Touch};
 pub(super) const SAME: f64 = 1e-9;
 
 /// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Orbit {
     /// The scene it belongs to.
@@ -33,6 +34,7 @@ pub struct Orbit {
     /// Largest position in m.
     pub max_position: f64,
     /// Jacobian of the map over the period, saltation included.
+    #[serde(with = "columns")]
     pub monodromy: Matrix2<f64>,
     /// Integral of damping over mass along the period: det = exp(-integral), times R^2 for each rebound
     /// from a rigid stop, unless the mass turns or sticks under dry friction.
@@ -40,6 +42,20 @@ pub struct Orbit {
     /// Determinant of the monodromy matrix, free of the cancellation between entries that a weak impact makes
     /// large.
     pub(super) determinant: f64,
+}
+
+/// A matrix as its columns.
+mod columns {
+    use super::{Deserialize, Matrix2, Serialize};
+    use serde::{Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(matrix: &Matrix2<f64>, to: S) -> Result<S::Ok, S::Error> {
+        <[[f64; 2]; 2]>::from(*matrix).serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Matrix2<f64>, D::Error> {
+        <[[f64; 2]; 2]>::deserialize(from).map(Matrix2::from)
+    }
 }
 
 /// Impacts up to which orbits are sought from impact to impact: a mass that bounces more often chatters, and the

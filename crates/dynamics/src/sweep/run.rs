@@ -1,18 +1,23 @@
 //! Sweeps side by side in the lanes.
 
+use std::convert::Infallible;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::settle::{Log, Step};
 use super::{Chain, Plan};
-use crate::watch::Watcher;
+use crate::watch::{Kept, Watcher, piece, stop_if};
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::{Job, Machine};
 
 /// Most chains that go together. Lanes that go together round together, so the groups may not depend on
 /// how many threads there are.
 const TOGETHER: usize = 8;
+/// How long a piece takes that is kept.
+const PIECE: Duration = Duration::from_millis(250);
 
 /// One chain's next step.
 struct Leg {
@@ -46,6 +51,48 @@ impl Plan {
             }
         });
         chains.iter().all(|chain| self.is_complete(chain))
+    }
+
+    /// What its chains come to follows from this.
+    pub fn identity(&self, chains: &[Chain]) -> impl Serialize + use<> {
+        let chains = chains.iter();
+        let chains = chains.map(|it| (it.machine.scene.clone(), it.direction.name()));
+        let plan = (self.range, self.steps, self.periods, self.tolerance);
+        let chains: Vec<_> = chains.collect();
+        (self.parameter.name(), plan, self.start, chains)
+    }
+
+    /// The same as [`Plan::run`], piece by piece: what is known of them is recalled, and what they come to is kept.
+    pub fn run_kept(&self, chains: &mut [Chain], watcher: Watcher<'_>, kept: Kept<'_>) -> bool {
+        if kept.is_none() {
+            return self.run(chains, watcher);
+        }
+        let all = (self.steps * chains.len()) as u64;
+        let of = self.identity(chains);
+        loop {
+            let before: Vec<usize> = chains.iter().map(|chain| chain.steps.len()).collect();
+            let Ok(made) = piece(kept, &("sweep", &of, &before), || {
+                let begin = Instant::now();
+                self.run(chains, &|done, _| {
+                    watcher(done, all)?;
+                    stop_if(begin.elapsed() >= PIECE)
+                });
+                let made = chains.iter().zip(&before);
+                let made = made.map(|(chain, before)| chain.steps[*before..].to_vec());
+                Ok::<Vec<Vec<Step>>, Infallible>(made.collect())
+            });
+            for ((chain, before), made) in chains.iter_mut().zip(before).zip(made) {
+                chain.steps.truncate(before);
+                chain.steps.extend(made);
+            }
+            if chains.iter().all(|chain| self.is_complete(chain)) {
+                return true;
+            }
+            let done = chains.iter().map(|chain| chain.steps.len() as u64);
+            if watcher(done.sum(), all).is_break() {
+                return false;
+            }
+        }
     }
 
     fn is_complete(&self, chain: &Chain) -> bool {

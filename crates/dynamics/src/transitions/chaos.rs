@@ -6,6 +6,7 @@ use crate::attractors::Arrival;
 use crate::continuation::Family;
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
+use crate::watch::piece;
 use softstop::Start;
 
 /// Largest step of the parameter on the way, as a share of it.
@@ -28,10 +29,13 @@ impl<F: Family + Sync> Explorer<'_, F> {
         value: f64,
         states: &[Start],
     ) -> Result<Option<Vec<Start>>, TransitionError> {
-        let arrivals = self.hold(value, &self.fill(states), self.rules.lifetime)?;
-        let wandering = arrivals.iter().filter(|it| it.orbit.is_none());
-        let wandering: Vec<Start> = wandering.map(|it| it.state).collect();
-        Ok((2 * wandering.len() >= arrivals.len()).then_some(wandering))
+        let of = ("lasting", self.family.scene([value])?, states);
+        piece(self.kept, &of, || {
+            let arrivals = self.hold(value, &self.fill(states), self.rules.lifetime)?;
+            let wandering = arrivals.iter().filter(|it| it.orbit.is_none());
+            let wandering: Vec<Start> = wandering.map(|it| it.state).collect();
+            Ok((2 * wandering.len() >= arrivals.len()).then_some(wandering))
+        })
     }
 
     /// Follows chaos from a value on until it ends, or the range does.

@@ -12,6 +12,7 @@ use crate::attractors::attractors;
 use crate::continuation::Family;
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
+use crate::watch::piece;
 use softstop::Start;
 
 /// A periodic motion to follow: where it was met, and its orbit.
@@ -75,13 +76,19 @@ impl<F: Family + Sync> Explorer<'_, F> {
         seeds: &mut Vec<Seed>,
     ) -> Result<(), TransitionError> {
         let scene = self.family.scene([value])?;
-        let survey = attractors(&scene, &self.rules.survey, self.watcher)?;
-        for attractor in survey.attractors {
-            if attractor.motion.is_chaotic() {
-                seeds.push((value, vec![attractor.state]));
+        let found: (Vec<Met>, Vec<Seed>) = piece(self.kept, &("survey", &scene), || {
+            let survey = attractors(&scene, &self.rules.survey, self.watcher)?;
+            let (mut met, mut seeds) = (Vec::new(), Vec::new());
+            for attractor in survey.attractors {
+                if attractor.motion.is_chaotic() {
+                    seeds.push((value, vec![attractor.state]));
+                }
+                met.extend(attractor.orbit.map(|orbit| (value, *orbit)));
             }
-            met.extend(attractor.orbit.map(|orbit| (value, *orbit)));
-        }
+            Ok::<_, TransitionError>((met, seeds))
+        })?;
+        met.extend(found.0);
+        seeds.extend(found.1);
         Ok(())
     }
 

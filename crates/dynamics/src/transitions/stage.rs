@@ -5,7 +5,8 @@ use crate::attractors::{Arrival, Options, settle};
 use crate::continuation::Family;
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit};
-use crate::watch::Watcher;
+use crate::watch::{Kept, Watcher, piece};
+use serde::{Deserialize, Serialize};
 use softstop::Start;
 
 /// Relative differences between motions started side by side.
@@ -19,10 +20,11 @@ pub struct Explorer<'a, F> {
     pub(super) range: (f64, f64),
     pub(super) rules: Rules,
     pub(super) watcher: Watcher<'a>,
+    pub(super) kept: Kept<'a>,
 }
 
 /// Where most of several motions are.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Gathering {
     /// What they do; none if that cannot be said yet.
     pub motion: Option<MotionKind>,
@@ -41,7 +43,14 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
             range,
             rules,
             watcher,
+            kept: None,
         }
+    }
+
+    /// The same search, in which what is known is recalled.
+    #[must_use]
+    pub fn recalling(self, kept: Kept<'a>) -> Self {
+        Self { kept, ..self }
     }
 
     /// Holds the parameter and lets motions settle.
@@ -65,6 +74,11 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
         value: f64,
         starts: &[Start],
     ) -> Result<Gathering, TransitionError> {
+        let of = ("gathering", self.family.scene([value])?, starts);
+        piece(self.kept, &of, || self.gather_anew(value, starts))
+    }
+
+    fn gather_anew(&self, value: f64, starts: &[Start]) -> Result<Gathering, TransitionError> {
         let arrivals = self.hold(value, starts, self.rules.patience)?;
         let (settled, wandering): (Vec<Arrival>, Vec<Arrival>) =
             arrivals.into_iter().partition(|it| it.orbit.is_some());

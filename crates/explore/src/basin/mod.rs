@@ -12,6 +12,7 @@ use anyhow::{Context, Error, anyhow};
 use clap::Args;
 use softstop::{Machine, Parameter};
 use softstop_dynamics::basin::{Options, basins, establishing};
+use softstop_dynamics::watch::Kept;
 use softstop_dynamics::zone;
 
 use crate::basin::picture::BasinPicture;
@@ -22,6 +23,7 @@ use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
+use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::Format;
 use softstop_console::progress::Progress;
 use softstop_console::range::{self, within};
@@ -39,6 +41,8 @@ Examples:
       that lead to it, for the same plane at all of them
   softstop basin docs/scenes/rigid.toml --size 400 --format json
       any machine with any stop, in its own units
+  softstop basin --size 4000 --resume
+      goes on after Ctrl-C or a kill, with the same result
 
 Each cell's motion is followed until it lies in a ball about a stable orbit in which the map
 contracts; what no ball has caught after --transient drive periods is looked at one by one: what
@@ -81,6 +85,9 @@ pub struct BasinArguments {
     /// 2 to 1000
     #[arg(long, value_name = "N")]
     pub along_zone: Option<usize>,
+    /// Whether it goes on with an earlier one.
+    #[command(flatten)]
+    pub keep: KeepArguments,
     /// Folder for the files
     #[arg(long, value_name = "DIR", default_value = "softstop-basin")]
     pub output: PathBuf,
@@ -148,8 +155,12 @@ fn picture(
     let scene = &machine.scene;
     let export = Export::open(&arguments.output, &PICTURE)?;
     let grid = plane::grid(arguments, std::slice::from_ref(scene))?;
+    let of = (scene, grid, options);
+    let keep = Keep::open(&arguments.output, "basin", &of, arguments.keep)?;
     let progress = Progress::new(grid.cells() as u64, "cells");
-    let basins = basins(scene, &grid, options, &progress.watcher()).map_err(Error::from)?;
+    let kept: Kept<'_> = Some(&keep);
+    let basins = basins(scene, &grid, options, &progress.watcher(), kept);
+    let basins = basins.map_err(Error::from)?;
     drop(progress);
     let shown = format!("Basins: {}", title(machine));
     let png = BasinPicture::new(machine, &basins, &shown)
@@ -158,7 +169,9 @@ fn picture(
     export.file("png", &png)?;
     let report = BasinReport::new(machine, &basins, plane::beyond(machine, &grid));
     export.table("csv", &report::columns(), report::rows(&basins))?;
-    export.finish(&report, arguments.format)
+    export.finish(&report, arguments.format)?;
+    keep.forget();
+    Ok(())
 }
 
 /// Places of a zone that its box of starts is made for.
@@ -178,8 +191,11 @@ fn along(
     let shares: Vec<f64> = (0..places)
         .map(|k| k as f64 / (places - 1) as f64)
         .collect();
+    let of = (&zone.scene, &shares, grid, options);
+    let keep = Keep::open(&arguments.output, "basin", &of, arguments.keep)?;
     let progress = Progress::new((grid.cells() * places) as u64, "cells");
-    let found = establishing(&zone, &shares, &grid, options, &progress.watcher());
+    let kept: Kept<'_> = Some(&keep);
+    let found = establishing(&zone, &shares, &grid, options, &progress.watcher(), kept);
     let found = found.map_err(Error::from)?;
     drop(progress);
     let title = format!("Establishing certainty: {}", title(machine));
@@ -187,5 +203,7 @@ fn along(
     let report = CertaintyReport::new(machine, &grid, &found);
     let rows = found.iter().map(|place| (machine, place));
     export.sheet(["csv", "svg"], &report::places(), rows, &chart)?;
-    export.finish(&report, arguments.format)
+    export.finish(&report, arguments.format)?;
+    keep.forget();
+    Ok(())
 }

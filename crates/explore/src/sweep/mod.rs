@@ -1,26 +1,23 @@
 //! `softstop sweep`: a parameter up and down, and where the motion jumps.
 
 pub mod chart;
-mod keep;
 mod report;
 mod steps;
 
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
 use softstop::{Machine, Parameter};
-use softstop_dynamics::watch::stop_if;
 use softstop_dynamics::{Chain, Direction, Plan};
 
 use crate::sweep::chart::SweepChart;
-use keep::Keep;
 use report::SweepReport;
 use softstop_console::arguments::MachineArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
+use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::Format;
 use softstop_console::progress::Progress;
 use softstop_console::range::{require, within};
@@ -40,7 +37,7 @@ Examples:
   softstop sweep docs/scenes/rigid.toml --from 3 --to 1 --set clearance=0.5
       any machine with any stop, in its own units, downwards
   softstop sweep --from 0.8 --to 1.8 --steps 100000 --periods 1000
-      long: after Ctrl-C the same line with --resume goes on, with the same result
+      long: after Ctrl-C, or a kill, the same line with --resume goes on, with the same result
 
 The rule: each value holds for --periods drive periods; the state at their end, at drive angle 0,
 is where the next value begins. So the faster the sweep, the later it loses a motion; the rate is
@@ -112,9 +109,9 @@ pub struct SweepArguments {
     /// Distance within which a state has returned, in units of the motion's size, > 0 and < 1
     #[arg(long, value_name = "SHARE", default_value_t = 1e-4)]
     pub tolerance: f64,
-    /// Go on with a sweep that was interrupted, from the same arguments; begin if there is none
-    #[arg(long)]
-    pub resume: bool,
+    /// Whether it goes on with an earlier one.
+    #[command(flatten)]
+    pub keep: KeepArguments,
     /// Folder for sweep.csv, sweep.svg and sweep.json
     #[arg(long, value_name = "DIR", default_value = "softstop-sweep")]
     pub output: PathBuf,
@@ -131,8 +128,6 @@ const FILES: [(&str, &str); 3] = [
     ("svg", "sweep.svg"),
     ("json", "sweep.json"),
 ];
-/// How often what is done is kept for `--resume`.
-const KEEPING: Duration = Duration::from_secs(10);
 
 /// Sweeps, writes table and chart, and says where the motion jumps.
 pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
@@ -156,11 +151,17 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let plan = plan(arguments, parameter, ends)?;
     let mut chains = chains(arguments, &machine, parameter, ends)?;
     let export = Export::open(&arguments.output, &FILES)?;
-    let keep = Keep::new(&arguments.output, &plan, &chains)?;
-    if arguments.resume {
-        keep.restore(&mut chains)?;
+    let of = plan.identity(&chains);
+    let keep = Keep::open(&arguments.output, "sweep", &of, arguments.keep)?;
+    let progress = Progress::new((plan.steps * chains.len()) as u64, "steps");
+    let watcher = |done, _| {
+        progress.at(done);
+        interrupt::go_on()
+    };
+    if !plan.run_kept(&mut chains, &watcher, Some(&keep)) {
+        return Err(Failure::Interrupted);
     }
-    follow(&plan, &mut chains, &keep)?;
+    drop(progress);
     let chart = SweepChart::new(&machine, &plan, &chains).svg();
     let rows = steps::rows(&plan, &chains);
     export.sheet(["csv", "svg"], &steps::columns(), rows, &chart)?;
@@ -250,39 +251,4 @@ fn check(
             .map_err(|error| Failure::usage(format!("{flag} {value}: {error}")))?;
     }
     Ok(())
-}
-
-/// What is said of a sweep that is ended in the middle of a step.
-const KEPT: &str =
-    "interrupted: the same line with --resume goes on from the last steps that were kept";
-
-/// Carries the chains on to their ends, and keeps what is done from time to time.
-fn follow(plan: &Plan, chains: &mut [Chain], keep: &Keep) -> Result<(), Failure> {
-    let all = (plan.steps * chains.len()) as u64;
-    let progress = Progress::new(all, "steps");
-    loop {
-        let begin = Instant::now();
-        let finished = plan.run(chains, &|done, _| {
-            progress.at(done);
-            stop_if(interrupt::requested() || begin.elapsed() >= KEEPING)
-        });
-        if finished {
-            return Ok(());
-        }
-        // Nothing ends the run while this is held.
-        let mut under_way = interrupt::under_way();
-        let requested = interrupt::requested();
-        if requested {
-            under_way.keep();
-        }
-        keep.store(chains)?;
-        under_way.close_with(KEPT);
-        drop(under_way);
-        if requested {
-            let done: usize = chains.iter().map(|chain| chain.steps.len()).sum();
-            return Err(Failure::Suspended(format!(
-                "{done} of {all} steps are done; the same line with --resume goes on"
-            )));
-        }
-    }
 }

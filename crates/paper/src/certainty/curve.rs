@@ -7,6 +7,7 @@ use softstop::Ratios;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 use softstop_dynamics::basin::{Establishing, Options, establishing};
+use softstop_dynamics::watch::Kept;
 use softstop_dynamics::{Axis, Grid, Regime, Zone, zone};
 use std::f64::consts::TAU;
 
@@ -92,25 +93,36 @@ impl Curve {
         format!("{machine}, rho = {rho}, starts {}", self.starts.label())
     }
 
-    fn at(&self, place: f64, cells: usize, progress: &Progress) -> Result<Establishing> {
+    fn at(
+        &self,
+        (place, cells): (f64, usize),
+        progress: &Progress,
+        kept: Kept<'_>,
+    ) -> Result<Establishing> {
         let grid = self.starts.grid(self.clearance(), cells);
         let watcher = |_, _| {
             progress.beat();
             interrupt::go_on()
         };
-        let found = establishing(&self.zone, &[place], &grid, &Options::default(), &watcher)?;
+        let options = Options::default();
+        let found = establishing(&self.zone, &[place], &grid, &options, &watcher, kept)?;
         progress.steps((cells * cells) as u64)?;
         found.into_iter().next().context("no place")
     }
 }
 
-/// Fills all curves, places side by side.
-pub fn fill(curves: &mut [Curve], places: &[f64], cells: usize, progress: &Progress) -> Result<()> {
+/// Fills all curves, places side by side, each with so many cells.
+pub fn fill(
+    curves: &mut [Curve],
+    (places, cells): (&[f64], usize),
+    progress: &Progress,
+    kept: Kept<'_>,
+) -> Result<()> {
     let tasks = (0..curves.len()).flat_map(|curve| places.iter().map(move |place| (curve, *place)));
     let tasks: Vec<(usize, f64)> = tasks.collect();
     let found = tasks
         .par_iter()
-        .map(|(curve, place)| curves[*curve].at(*place, cells, progress));
+        .map(|(curve, place)| curves[*curve].at((*place, cells), progress, kept));
     let found: Vec<Establishing> = found.collect::<Result<_>>()?;
     for ((curve, _), place) in tasks.into_iter().zip(found) {
         curves[curve].places.push(place);

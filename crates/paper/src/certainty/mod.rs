@@ -67,7 +67,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     }
     let work = curves.len() * places.len() * cells * cells;
     let progress = Progress::new(work as u64, "cells");
-    curve::fill(&mut curves, &places, cells, &progress)?;
+    curve::fill(&mut curves, (&places, cells), &progress, studio.kept)?;
     drop(progress);
     let svg = CertaintyPage {
         panels: panels(&curves),

@@ -51,10 +51,14 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     };
     let plans = [plan(0)?, plan(1)?];
     let ways = diagram::ways(&Ratios::unloaded().scene()?).to_vec();
-    let mut chains = diagram::sweep(vec![(plans[0], ways)], "steps of the sweeps")?;
+    let mut chains = diagram::sweep(vec![(plans[0], ways)], "steps of the sweeps", studio.kept)?;
     let zoom = chains.iter();
     let zoom = zoom.map(|sweep| diagram::part_of(sweep, &plans[1]));
-    chains.extend(diagram::sweep(zoom.collect(), "steps of the zoom")?);
+    chains.extend(diagram::sweep(
+        zoom.collect(),
+        "steps of the zoom",
+        studio.kept,
+    )?);
     let steps: usize = chains.iter().map(|chain| chain.steps.len()).sum();
     let progress = Progress::new(steps as u64, "exponents");
     let batch = detail.pick(40, 4);

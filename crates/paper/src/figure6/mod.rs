@@ -8,7 +8,7 @@ use softstop::{Parameter, Ratios};
 use softstop_dynamics::{Chain, Plan, Step, orbit};
 
 use crate::diagram;
-use crate::figure::{self, Detail, Drawn, Figure, Findings};
+use crate::figure::{self, Drawn, Figure, Findings, Studio};
 use boundaries::Ends;
 use chart::Chart;
 use softstop_console::progress::Progress;
@@ -17,21 +17,22 @@ use softstop_console::progress::Progress;
 pub(super) const UNLOADED: Figure = Figure {
     title: "Bifurcation diagrams of the unloaded machine over six clearances",
     files: &["figure-6a.png", "figure-6a.csv", "figure-6a-boundaries.csv"],
-    draw: |studio| draw(studio.detail, Ratios::unloaded(), "A"),
+    draw: |studio| draw(studio, Ratios::unloaded(), "A"),
 };
 
 /// Fig. 6(b).
 pub(super) const LOADED: Figure = Figure {
     title: "Bifurcation diagrams of the loaded machine over six clearances",
     files: &["figure-6b.png", "figure-6b.csv", "figure-6b-boundaries.csv"],
-    draw: |studio| draw(studio.detail, Ratios::loaded(), "B"),
+    draw: |studio| draw(studio, Ratios::loaded(), "B"),
 };
 
 /// The paper's clearances and frequencies.
 const CLEARANCES: [f64; 6] = [2.0, 6.0, 10.0, 14.0, 18.0, 22.0];
 const RANGE: (f64, f64) = (0.8, 1.8);
 
-fn draw(detail: Detail, machine: Ratios, name: &'static str) -> Result<Drawn> {
+fn draw(studio: &Studio, machine: Ratios, name: &'static str) -> Result<Drawn> {
+    let detail = studio.detail;
     let (steps, periods) = detail.pick((1000, 200), (120, 100));
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods)?;
     let mut chains = Vec::new();
@@ -39,7 +40,7 @@ fn draw(detail: Detail, machine: Ratios, name: &'static str) -> Result<Drawn> {
         let scene = machine.at_clearance(clearance).scene()?;
         chains.extend(diagram::ways(&scene));
     }
-    let chains = diagram::sweep(vec![(plan, chains)], "steps of the sweeps")?;
+    let chains = diagram::sweep(vec![(plan, chains)], "steps of the sweeps", studio.kept)?;
     let progress = Progress::new(3 * CLEARANCES.len() as u64, "boundaries");
     let ends = boundaries::ends(&machine, &CLEARANCES, &progress)?;
     let across = boundaries::across(&machine, &ends, detail.pick(0.02, 0.05), &progress)?;

@@ -2,12 +2,13 @@
 
 use anyhow::Result;
 use softstop::{Parameter, Ratios, Start};
-use softstop_dynamics::attractors::{Options, attractors};
+use softstop_dynamics::attractors::{Options, SurveyError, attractors};
+use softstop_dynamics::watch::piece;
 use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Step};
 
 use super::Diagram;
 use crate::diagram::{self, Job};
-use crate::figure::Detail;
+use crate::figure::{Detail, Studio};
 use crate::table1::{paper, values};
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
@@ -18,15 +19,16 @@ const REACH: f64 = 0.02;
 const SHORTEST: usize = 10;
 
 /// Steps of all isolated motions.
-pub(super) fn find(known: &[Diagram], detail: Detail) -> Result<Vec<Step>> {
+pub(super) fn find(known: &[Diagram], studio: &Studio) -> Result<Vec<Step>> {
+    let detail = studio.detail;
     let mut found: Vec<Step> = Vec::new();
-    for (eta, orbit) in seeds(known, detail)? {
+    for (eta, orbit) in seeds(known, studio)? {
         if near(&found, eta).is_some_and(|step| shows(step, &orbit)) {
             continue;
         }
         let job = |way| job(eta, &orbit, way, detail);
         let jobs = vec![job(Direction::Down)?, job(Direction::Up)?];
-        for chain in diagram::sweep(jobs, "steps of isolated motions")? {
+        for chain in diagram::sweep(jobs, "steps of isolated motions", studio.kept)? {
             let apart = chain.steps.into_iter().take_while(|step| {
                 let wanders = step.motion == MotionKind::Chaos;
                 let mut others = known.iter().flat_map(|diagram| at(diagram, step.value));
@@ -43,7 +45,8 @@ pub(super) fn find(known: &[Diagram], detail: Detail) -> Result<Vec<Step>> {
 }
 
 /// Stable orbits at frequencies inside the paper's intervals that are on no sweep.
-fn seeds(known: &[Diagram], detail: Detail) -> Result<Vec<(f64, Orbit)>> {
+fn seeds(known: &[Diagram], studio: &Studio) -> Result<Vec<(f64, Orbit)>> {
+    let detail = studio.detail;
     let options = Options {
         starts: detail.pick(128, 32),
         patience: 20_000,
@@ -55,11 +58,15 @@ fn seeds(known: &[Diagram], detail: Detail) -> Result<Vec<(f64, Orbit)>> {
     let mut seeds: Vec<(f64, Orbit)> = Vec::new();
     for eta in some {
         let scene = Ratios::unloaded().at_frequency(eta).scene()?;
-        let survey = attractors(&scene, &options, &|_, _| interrupt::go_on())?;
-        for orbit in survey.attractors.into_iter().filter_map(|it| it.orbit) {
+        let orbits: Vec<Orbit> = piece(studio.kept, &("isolated", &scene), || {
+            let survey = attractors(&scene, &options, &|_, _| interrupt::go_on())?;
+            let orbits = survey.attractors.into_iter().filter_map(|it| it.orbit);
+            Ok::<_, SurveyError>(orbits.map(|orbit| *orbit).collect())
+        })?;
+        for orbit in orbits {
             let mut steps = known.iter().flat_map(|diagram| at(diagram, eta));
             if !steps.any(|step| shows(step, &orbit)) {
-                seeds.push((eta, *orbit));
+                seeds.push((eta, orbit));
             }
         }
         progress.step()?;

@@ -85,10 +85,10 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
     let ways = diagram::ways(&Ratios::unloaded().scene()?).to_vec();
     let jobs = vec![(WHOLE.plan(detail)?, ways)];
-    let whole = diagram::sweep(jobs, "steps of the sweeps")?;
+    let whole = diagram::sweep(jobs, "steps of the sweeps", studio.kept)?;
     let mut diagrams = vec![Diagram::new(&WHOLE, whole)];
-    zooms(&mut diagrams, detail)?;
-    let isolated = isolated::find(&diagrams, detail)?;
+    zooms(&mut diagrams, studio)?;
+    let isolated = isolated::find(&diagrams, studio)?;
     for diagram in &mut diagrams {
         diagram.names = names::of(diagram, &isolated);
     }
@@ -115,7 +115,8 @@ fn draw(studio: &Studio) -> Result<Drawn> {
 
 /// Adds the zooms, each way going on from where the sweep over all frequencies is at their ends, and to the first the
 /// chaos that does not last.
-fn zooms(diagrams: &mut Vec<Diagram>, detail: Detail) -> Result<()> {
+fn zooms(diagrams: &mut Vec<Diagram>, studio: &Studio) -> Result<()> {
+    let detail = studio.detail;
     let mut jobs = Vec::new();
     for zoom in &ZOOMS {
         let plan = zoom.plan(detail)?;
@@ -123,7 +124,7 @@ fn zooms(diagrams: &mut Vec<Diagram>, detail: Detail) -> Result<()> {
         jobs.extend(ways.map(|sweep| diagram::part_of(sweep, &plan)));
     }
     jobs.push(fleeting(detail)?);
-    let mut chains = diagram::sweep(jobs, "steps of the zooms")?.into_iter();
+    let mut chains = diagram::sweep(jobs, "steps of the zooms", studio.kept)?.into_iter();
     for zoom in &ZOOMS {
         diagrams.push(Diagram::new(zoom, chains.by_ref().take(2).collect()));
     }

@@ -50,13 +50,12 @@ const SUBHARMONIC: [f64; 3] = [1.0, 10.0, 100.0];
 
 fn draw(studio: &Studio) -> Result<Drawn> {
     let detail = studio.detail;
-    let drawn = sweep(&DRAWN, detail.pick(420, 120), detail.pick(200, 80))?;
+    let drawn = sweep(&DRAWN, detail.pick((420, 200), (120, 80)), studio.kept)?;
     let rows = stiffnesses(detail.pick(51, 11));
     let laws: Vec<Law> = rows.iter().copied().map(Law::KelvinVoigt).collect();
-    let map = sweep(&laws, detail.pick(240, 60), detail.pick(120, 60))?;
+    let map = sweep(&laws, detail.pick((240, 120), (60, 60)), studio.kept)?;
     let folds = folds::folds(&stiffnesses(detail.pick(21, 6)))?;
-    let (frequencies, starts) = detail.pick((72, 64), (18, 32));
-    let subharmonics = subharmonics::subharmonics(&SUBHARMONIC, frequencies, starts)?;
+    let subharmonics = subharmonics::subharmonics(&SUBHARMONIC, studio)?;
     let mut findings = Findings::default();
     folds::onsets(&mut findings, &folds)?;
     // A branch that was cut short would go unnoticed.

@@ -1,12 +1,12 @@
 //! Subharmonic motions of soft stops and where they lie.
 
 use anyhow::Result;
-use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::attractors::{Options, attractors};
 
 use super::stops::{Law, grazing};
+use crate::figure::Studio;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
@@ -16,7 +16,7 @@ pub const RANGE: (f64, f64) = (1.5, 10.0);
 pub const NARROW: f64 = 0.1;
 
 /// A stable subharmonic motion that was found: a row of the table.
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub struct Subharmonic {
     pub stiffness: f64,
     #[serde(rename = "eta")]
@@ -28,22 +28,19 @@ pub struct Subharmonic {
     pub beside_rest: bool,
 }
 
-/// All that are found from scratch at so many frequencies, from so many starts each.
-pub fn subharmonics(
-    stiffnesses: &[f64],
-    frequencies: usize,
-    starts: usize,
-) -> Result<Vec<Subharmonic>> {
+/// All that are found from scratch.
+pub(super) fn subharmonics(stiffnesses: &[f64], studio: &Studio) -> Result<Vec<Subharmonic>> {
+    let (frequencies, starts) = studio.detail.pick((72, 64), (18, 32));
     let places = stiffnesses.iter().flat_map(|&stiffness| {
         (0..frequencies).map(move |index| (stiffness, at(index, frequencies)))
     });
     let places: Vec<(f64, f64)> = places.collect();
     let progress = Progress::new(places.len() as u64, "searches for subharmonic motions");
-    let found = places.into_par_iter().map(|(stiffness, frequency)| {
+    let found = studio.each("subharmonics", &places, |&(stiffness, frequency)| {
         progress.step()?;
         found(stiffness, frequency, starts)
     });
-    Ok(found.collect::<Result<Vec<_>>>()?.concat())
+    Ok(found?.concat())
 }
 
 /// Frequencies with equal ratios.

@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use softstop::Parameter;
+use softstop_dynamics::watch::Kept;
 use softstop_dynamics::{Chain, MotionKind, Plan, Step};
 
 use super::stops::{CLEARANCE, Law};
@@ -19,11 +20,15 @@ pub(super) struct Swept {
 }
 
 /// Sweeps of stops: so many frequencies, and drive periods at each.
-pub(super) fn sweep(laws: &[Law], steps: usize, periods: u64) -> Result<Vec<Swept>> {
+pub(super) fn sweep(
+    laws: &[Law],
+    (steps, periods): (usize, u64),
+    kept: Kept<'_>,
+) -> Result<Vec<Swept>> {
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods)?;
     let ways = |law: &Law| diagram::ways(&law.scene(RANGE.0, CLEARANCE));
     let jobs = vec![(plan, laws.iter().flat_map(ways).collect())];
-    let chains = diagram::sweep(jobs, "steps of the stops' sweeps")?;
+    let chains = diagram::sweep(jobs, "steps of the stops' sweeps", kept)?;
     let rising = |chain: &Chain| chain.rising().into_iter().cloned().collect();
     let swept = laws.iter().zip(chains.chunks_exact(2));
     let swept = swept.map(|(law, pair)| Swept {

@@ -8,8 +8,10 @@ mod starts;
 mod swept;
 
 use anyhow::{Error, Result};
+use serde::Serialize;
 use softstop::Ratios;
 use softstop_dynamics::Direction;
+use softstop_dynamics::watch::Kept;
 
 use crate::figure::{Detail, Drawn, Figure, Studio};
 use boundaries::Boundaries;
@@ -80,7 +82,7 @@ fn is_loaded(map: usize) -> bool {
 }
 
 /// A part of the plane of eta and rho.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 struct Window {
     eta: (f64, f64),
     rho: (f64, f64),
@@ -99,8 +101,8 @@ fn middle((from, to): (f64, f64), cell: usize, cells: usize) -> f64 {
 }
 
 fn draw(studio: &Studio) -> Result<Drawn> {
-    let detail = studio.detail;
-    let (maps, boundaries) = rayon::join(|| maps(detail), boundaries);
+    let (detail, kept) = (studio.detail, studio.kept);
+    let (maps, boundaries) = rayon::join(|| maps(detail, kept), boundaries);
     let (maps, boundaries) = (maps?, boundaries?);
     let png = chart::png(&maps, &boundaries).map_err(Error::msg)?;
     Ok(Drawn {
@@ -110,7 +112,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
 }
 
 /// The maps.
-fn maps(detail: Detail) -> Result<[RegimeMap; 6]> {
+fn maps(detail: Detail, kept: Kept<'_>) -> Result<[RegimeMap; 6]> {
     let [all, near, many, less] =
         [FREE, NEAR, MANY, LOADED].map(|[full, draft]| detail.pick(full, draft));
     let cells = |size: (usize, usize)| size.0 * size.1;
@@ -123,14 +125,14 @@ fn maps(detail: Detail) -> Result<[RegimeMap; 6]> {
             way,
             size,
         };
-        sweep.map(&progress)
+        sweep.map(&progress, kept)
     };
     let (free, loaded) = (Ratios::unloaded(), Ratios::loaded());
     Ok([
         swept(free, ALL, Direction::Up, all)?,
         swept(free, ALL, Direction::Down, all)?,
         swept(free, ZOOM, Direction::Up, near)?,
-        starts::hardest(&free, ZOOM, many, STARTS, &progress)?,
+        starts::hardest(&free, ZOOM, many, &progress, kept)?,
         swept(loaded, ALL, Direction::Up, less)?,
         swept(loaded, ALL, Direction::Down, less)?,
     ])

@@ -7,9 +7,10 @@ use rayon::prelude::*;
 use softstop::{Ratios, Scene, Start};
 use softstop_dynamics::attractors::{Arrival, Options, SurveyError, settle};
 use softstop_dynamics::internals::evenly;
+use softstop_dynamics::watch::{Kept, piece};
 use softstop_dynamics::{MotionKind, Orbit, StroboscopicMap};
 
-use super::Window;
+use super::{STARTS, Window};
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 use softstop_explore::basin::cells::RegimeMap;
@@ -22,26 +23,32 @@ const OPTIONS: (u64, usize) = (250, 12);
 const WATCHED: u64 = 64;
 const MUCH: f64 = 100.0;
 
-/// The map of the hardest periodic motion among those from `count` starts in each cell.
+/// The map of the hardest periodic motion among those from some starts in each cell.
 pub(super) fn hardest(
     machine: &Ratios,
     window: Window,
     (columns, rows): (usize, usize),
-    count: usize,
     progress: &Progress,
+    kept: Kept<'_>,
 ) -> Result<RegimeMap> {
-    let cell = |index: usize| -> Result<MotionKind> {
-        let cell = (index % columns, index / columns);
-        let found = of_one(&window.machine(machine, cell, (columns, rows)), count)?;
-        progress.steps(count as u64)?;
+    let cell = |cell: (usize, usize)| -> Result<MotionKind> {
+        let found = of_one(&window.machine(machine, cell, (columns, rows)), STARTS)?;
+        progress.steps(STARTS as u64)?;
         Ok(found)
     };
-    let cells = (0..columns * rows).into_par_iter().map(cell);
+    let row = |row: usize| -> Result<Vec<MotionKind>> {
+        let of = ("hardest", machine, window, (columns, rows), row);
+        piece(kept, &of, || {
+            let columns = (0..columns).into_par_iter();
+            columns.map(|column| cell((column, row))).collect()
+        })
+    };
+    let cells = (0..rows).into_par_iter().map(row);
     Ok(RegimeMap {
         eta: window.eta,
         rho: window.rho,
         columns,
-        cells: cells.collect::<Result<_>>()?,
+        cells: cells.collect::<Result<Vec<_>>>()?.concat(),
     })
 }
 

@@ -3,6 +3,7 @@
 use anyhow::Result;
 use rayon::prelude::*;
 use softstop::{Parameter, Ratios, Scene};
+use softstop_dynamics::watch::{Kept, piece};
 use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Step};
 
 use super::{PERIODS, Window, middle};
@@ -25,7 +26,7 @@ pub(super) struct Sweep {
 
 impl Sweep {
     /// The regime in each cell.
-    pub fn map(&self, progress: &Progress) -> Result<RegimeMap> {
+    pub fn map(&self, progress: &Progress, kept: Kept<'_>) -> Result<RegimeMap> {
         let (columns, rows) = self.size;
         let [first, last] = [0, columns - 1].map(|column| middle(self.window.eta, column, columns));
         let ahead = AHEAD as f64 * (last - first) / (columns - 1) as f64;
@@ -36,7 +37,11 @@ impl Sweep {
         let plan = Plan::new(Parameter::Frequency, range, columns + AHEAD, PERIODS)?;
         let rows: Vec<usize> = (0..rows).collect();
         let found = rows.par_chunks(TOGETHER);
-        let found = found.map(|rows| self.cells(&plan, rows, progress));
+        let of = (&self.machine, self.window, self.way.name(), self.size);
+        let found = found.map(|rows| {
+            let of = ("regimes", of, rows[0]);
+            piece(kept, &of, || self.cells(&plan, rows, progress))
+        });
         Ok(RegimeMap {
             eta: self.window.eta,
             rho: self.window.rho,

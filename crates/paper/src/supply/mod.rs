@@ -11,13 +11,13 @@ use anyhow::Result;
 use nalgebra::Vector2;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
-use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use softstop::{Piercing, Ratios};
 use softstop_dynamics::StroboscopicMap;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::hysteresis;
 
-use crate::figure::{Detail, Drawn, Figure, Findings, Studio};
+use crate::figure::{Drawn, Figure, Findings, Studio};
 use softstop_console::output;
 use softstop_console::progress::Progress;
 
@@ -36,7 +36,7 @@ const CLOSE: (usize, usize) = (250, 64);
 const SHARES: (f64, f64) = (0.02, 1.1);
 
 /// Where the stop stands while there is no strip.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 enum Reading {
     /// At rho, as in the paper's unloaded machine.
     #[serde(rename = "rho")]
@@ -52,7 +52,7 @@ const READINGS: [(Reading, &str); 2] = [
 ];
 
 /// What became of many motions at one frequency.
-#[derive(Debug, Clone, Copy, serde::Serialize)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Outcome {
     stop_without_strip: Reading,
     eta: f64,
@@ -89,7 +89,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     findings.add("eta_SN loaded", loaded);
     findings.add("eta_SN unloaded", unloaded);
     for (reading, name) in READINGS {
-        let found = survey(reading, &etas, loaded, detail, &progress)?;
+        let found = survey(reading, &etas, loaded, studio, &progress)?;
         for mean in RUNS {
             let mut add = |what: &str, value: Option<f64>| {
                 findings.add(format!("{name}, runs of {mean}: {what}"), value);
@@ -134,15 +134,15 @@ fn survey(
     reading: Reading,
     etas: &[f64],
     loaded: f64,
-    detail: Detail,
+    studio: &Studio,
     progress: &Progress,
 ) -> Result<Vec<Outcome>> {
     let cases = RUNS
         .iter()
-        .flat_map(|mean| etas.iter().map(move |eta| (*eta, *mean)));
-    let cases: Vec<(f64, f64)> = cases.collect();
-    let (motions, periods) = detail.pick((64, 400), (16, 200));
-    let outcome = |&(eta, mean): &(f64, f64)| {
+        .flat_map(|mean| etas.iter().map(move |eta| (reading, *eta, *mean)));
+    let cases: Vec<(Reading, f64, f64)> = cases.collect();
+    let (motions, periods) = studio.detail.pick((64, 400), (16, 200));
+    let outcome = |&(reading, eta, mean): &(Reading, f64, f64)| {
         let press = Press::new(reading, eta, eta < loaded)?;
         let mut outcome = Outcome {
             stop_without_strip: reading,
@@ -160,7 +160,7 @@ fn survey(
         progress.step()?;
         Ok(outcome)
     };
-    cases.par_iter().map(outcome).collect()
+    studio.each("supply", &cases, outcome)
 }
 
 impl Press {

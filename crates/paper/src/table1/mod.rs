@@ -14,6 +14,7 @@ use clap::{Args, ValueEnum};
 use softstop::{Parameter, Ratios};
 use softstop_dynamics::Along;
 use softstop_dynamics::transitions::{Explorer, Rules, Transition};
+use softstop_dynamics::watch::Kept;
 
 pub use picture::picture;
 use report::TableReport;
@@ -107,7 +108,7 @@ pub fn run(arguments: &TableArguments) -> Result<(), Failure> {
 /// # Errors
 /// As [`transitions`].
 pub fn table(rules: &Rules) -> Result<TableReport> {
-    let transitions = transitions(rules, RANGE, &values(&paper::INTERVALS))?;
+    let transitions = transitions(rules, RANGE, &values(&paper::INTERVALS), None)?;
     Ok(TableReport::new(&paper::ROWS, &transitions, rules))
 }
 
@@ -131,18 +132,24 @@ pub fn values(intervals: &[(f64, f64, usize)]) -> Vec<f64> {
 }
 
 /// All transitions in a range of frequencies, of the unloaded machine at rho = 10, that are found from
-/// some of them.
+/// some of them. What is known is recalled.
 ///
 /// # Errors
 /// [`Failure::Run`] if they cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
-pub fn transitions(rules: &Rules, range: (f64, f64), values: &[f64]) -> Result<Vec<Transition>> {
+pub fn transitions(
+    rules: &Rules,
+    range: (f64, f64),
+    values: &[f64],
+    kept: Kept<'_>,
+) -> Result<Vec<Transition>> {
     let family = Along::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
     let bar = Progress::open("looks at motions");
     let watcher = |_, _| {
         bar.more(1);
         interrupt::go_on()
     };
-    let found = Explorer::new(&family, range, *rules, &watcher).explore(values);
+    let found = Explorer::new(&family, range, *rules, &watcher);
+    let found = found.recalling(kept).explore(values);
     drop(bar);
     Ok(found?)
 }

@@ -1,0 +1,122 @@
+//! Following cells until a ball catches them.
+
+use std::time::{Duration, Instant};
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::survey::{Fate, Survey, TILE};
+use crate::attractors::SurveyError;
+use crate::watch::piece;
+use softstop::Start;
+use softstop_lanes::Job;
+
+/// As [`TILE`], where each motion goes alone, and takes long.
+const SMALL_TILE: usize = 16;
+/// Drive periods between two looks at where the motions are.
+const STRETCH: u64 = 16;
+/// How long cells are followed before what they have come to is kept.
+const PIECE: Duration = Duration::from_millis(250);
+
+/// Cells that were followed together for some time.
+#[derive(Serialize, Deserialize)]
+struct Followed {
+    /// Drive periods so far.
+    periods: u64,
+    /// Those that a ball has caught, and the orbit; none for a lost cell.
+    ended: Vec<(usize, Option<usize>)>,
+    /// Those on their way, and where they are.
+    left: Vec<(usize, Start)>,
+    lost: Option<(usize, String)>,
+}
+
+impl Survey<'_> {
+    /// Follows all cells that are afloat until a ball catches them or the transient is over.
+    pub(super) fn settle(&mut self) -> Result<(), SurveyError> {
+        let afloat: Vec<usize> = self.afloat().collect();
+        let tile = if self.fleet.is_fast() {
+            TILE
+        } else {
+            SMALL_TILE
+        };
+        let followed: Vec<Vec<Followed>> = afloat
+            .par_chunks(tile)
+            .map(|tile| self.follow(tile))
+            .collect::<Result<_, _>>()?;
+        for tile in followed {
+            let last = tile.last().map(|followed| followed.left.clone());
+            for (cell, state) in last.into_iter().flatten() {
+                self.states[cell] = state;
+            }
+            for Followed { ended, lost, .. } in tile {
+                for (cell, orbit) in ended {
+                    self.fates[cell] = orbit.map_or(Fate::Lost, Fate::Orbit);
+                }
+                self.lose(lost);
+            }
+        }
+        Ok(())
+    }
+
+    /// Follows some cells, piece by piece.
+    fn follow(&self, tile: &[usize]) -> Result<Vec<Followed>, SurveyError> {
+        let of = ("tile", self.scene, self.grid, self.options, tile[0]);
+        let left = tile.iter().map(|cell| (*cell, self.states[*cell]));
+        let (mut periods, mut left) = (0, left.collect::<Vec<_>>());
+        let mut pieces = Vec::new();
+        while periods < self.options.transient && !left.is_empty() {
+            let on = || self.follow_on(std::mem::take(&mut left), periods);
+            let next = piece(self.kept, &(of, periods), on)?;
+            self.fleet.note(next.ended.len() as u64)?;
+            periods = next.periods;
+            left.clone_from(&next.left);
+            pieces.push(next);
+        }
+        Ok(pieces)
+    }
+
+    /// Follows cells on from so many drive periods.
+    fn follow_on(&self, left: Vec<(usize, Start)>, periods: u64) -> Result<Followed, SurveyError> {
+        let begin = Instant::now();
+        let mut all = Followed {
+            periods,
+            ended: Vec::with_capacity(left.len()),
+            left,
+            lost: None,
+        };
+        while all.periods < self.options.transient
+            && !all.left.is_empty()
+            && begin.elapsed() < PIECE
+        {
+            let stretch = STRETCH.min(self.options.transient - all.periods);
+            all.periods += stretch;
+            let job = |(_, start): &(usize, Start)| Job {
+                machine: 0,
+                start: *start,
+                periods: stretch,
+            };
+            let jobs: Vec<Job> = all.left.iter().map(job).collect();
+            let outcomes = softstop_lanes::run(&self.fleet.machine, &jobs, &mut ());
+            let ends = std::mem::take(&mut all.left).into_iter().zip(outcomes);
+            for ((cell, _), outcome) in ends {
+                if let Some(error) = outcome.error {
+                    all.ended.push((cell, None));
+                    let lost = (cell, error.to_string());
+                    all.lost = all.lost.take().into_iter().chain([lost]).min();
+                } else if let Some(orbit) = self.caught(outcome.end) {
+                    all.ended.push((cell, Some(orbit)));
+                } else {
+                    all.left.push((cell, outcome.end));
+                }
+            }
+            self.fleet.note(0)?;
+        }
+        Ok(all)
+    }
+
+    /// The orbit in one of whose balls a state lies.
+    fn caught(&self, state: Start) -> Option<usize> {
+        let ball = self.balls.iter().find(|(_, ball)| ball.holds(state));
+        ball.map(|(orbit, _)| *orbit)
+    }
+}
