@@ -79,7 +79,15 @@ impl Flow {
     /// `mass` > 0, `damping` >= 0, `frequency` > 0.
     pub fn new(mass: f64, damping: f64, stiffness: f64, amplitude: f64, frequency: f64) -> Self {
         let modes = Modes::new(0.5 * damping / mass, stiffness / mass);
-        let amplitude = amplitude / mass;
+        Self::of(modes, amplitude / mass, frequency)
+    }
+
+    /// The same under a drive of another frequency.
+    pub(crate) fn tuned(&self, frequency: f64) -> Self {
+        Self::of(self.modes, self.amplitude, frequency)
+    }
+
+    fn of(modes: Modes, amplitude: f64, frequency: f64) -> Self {
         let window = 1.0 / frequency.max(modes.slow_rate());
         let reach = 1.0 / frequency.max(modes.fastest_rate());
         Self {

@@ -186,6 +186,16 @@ impl Scene {
     }
 }
 
+impl Phases {
+    /// Changes the frequency in rad/s of the drive, and with it no law.
+    pub fn tune(&mut self, frequency: f64) {
+        self.held = self.held.tuned(frequency);
+        for phase in &mut self.phases {
+            phase.flow = phase.flow.tuned(frequency);
+        }
+    }
+}
+
 impl Index<PhaseId> for Phases {
     type Output = Phase;
 

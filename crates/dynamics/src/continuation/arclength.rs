@@ -90,14 +90,14 @@ pub(crate) fn correct_at<E: Equations>(
 pub(super) enum Care {
     /// To the last digit, with central differences.
     Full,
-    /// Well within what rounding leaves, with one-sided differences.
+    /// To nine digits, with one-sided differences, and known from the place one Newton step before.
     Quick,
     /// To the last digit, with the last unknown given: slopes play no part.
     Given,
 }
 
-/// Share of the tolerance that is well within it.
-const WITHIN: f64 = 0.02;
+/// Residual that a quick solution may leave.
+const QUICK: f64 = 1e-9;
 
 /// The same with the slopes of a place nearby, if there are any, as long as they serve; it leaves the last ones.
 pub(super) fn correct_with<E: Equations>(
@@ -113,8 +113,7 @@ pub(super) fn correct_with<E: Equations>(
         let here = equations.evaluate(&at)?;
         let size = here.residual.norm();
         let (fits, late) = (size <= here.tolerance, round >= CORRECTIONS);
-        let enough = care == Care::Quick && size <= WITHIN * here.tolerance;
-        if enough || (fits && (late || size >= 0.1 * last)) {
+        if fits && (late || size >= 0.1 * last) {
             return Ok(Node { at, here });
         }
         if late && size > 0.5 * last {
@@ -123,8 +122,16 @@ pub(super) fn correct_with<E: Equations>(
         let kept = slopes
             .take()
             .filter(|_| care == Care::Given || size <= STALE * last);
-        last = size;
-        let known = match equations.exact_slopes(&here).or(kept) {
+        let shrinks = size / std::mem::replace(&mut last, size);
+        let exact = equations.exact_slopes(&here);
+        // Newton's method squares the residual, with slopes that are none it shrinks at the same rate.
+        let next = size
+            * if exact.is_some() {
+                shrinks * shrinks
+            } else {
+                shrinks
+            };
+        let known = match exact.or(kept) {
             Some(known) => known,
             None => slopes_at(equations, &at, &here, care)?,
         };
@@ -132,22 +139,39 @@ pub(super) fn correct_with<E: Equations>(
         let mut matrix = -equations.jacobian(&here, slopes.insert(known));
         if let Some(normal) = normal {
             right = right.push(normal.dot(&(guess - &at)));
-            matrix = bordered(matrix, normal);
+            matrix = bordered(&matrix, normal);
         }
-        match matrix.lu().solve(&right) {
+        match solved(matrix, &right) {
             Some(step) if step.iter().all(|part| part.is_finite()) => at += step,
             _ if fits => return Err(OrbitError::NotIsolated),
             _ => return Err(OrbitError::Diverged { residual: size }),
+        }
+        if care == Care::Quick && round > 0 && next <= QUICK {
+            return Ok(Node { at, here });
         }
     }
     Err(OrbitError::Diverged { residual: last })
 }
 
-fn bordered(matrix: DMatrix<f64>, normal: &DVector<f64>) -> DMatrix<f64> {
+pub(super) fn bordered(matrix: &DMatrix<f64>, normal: &DVector<f64>) -> DMatrix<f64> {
     let rows = matrix.nrows();
-    let mut matrix = matrix.insert_row(rows, 0.0);
-    matrix.row_mut(rows).copy_from(&normal.transpose());
-    matrix
+    DMatrix::from_fn(rows + 1, rows + 1, |row, column| {
+        if row < rows {
+            matrix[(row, column)]
+        } else {
+            normal[column]
+        }
+    })
+}
+
+/// The solution of a linear system; most have three unknowns.
+pub(super) fn solved(matrix: DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
+    if right.len() != 3 {
+        return matrix.lu().solve(right);
+    }
+    let (matrix, right) = (matrix.fixed_view::<3, 3>(0, 0), right.fixed_rows::<3>(0));
+    let found = matrix.into_owned().lu().solve(&right)?;
+    Some(DVector::from_column_slice(found.as_slice()))
 }
 
 /// Unit direction of a curve at a node, on the side of `along`, and the slopes there.
@@ -166,10 +190,10 @@ pub(super) fn tangent_with<E: Equations>(
     care: Care,
 ) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
     let slopes = slopes_at(equations, &node.at, &node.here, care)?;
-    let matrix = bordered(equations.jacobian(&node.here, &slopes), along);
+    let matrix = bordered(&equations.jacobian(&node.here, &slopes), along);
     let mut right = DVector::zeros(node.at.len());
     right[node.at.len() - 1] = 1.0;
-    match matrix.lu().solve(&right).map(|found| found.normalize()) {
+    match solved(matrix, &right).map(|found| found.normalize()) {
         Some(direction) if direction.iter().all(|part| part.is_finite()) => Ok((direction, slopes)),
         _ => Err(OrbitError::NotIsolated),
     }
@@ -177,7 +201,7 @@ pub(super) fn tangent_with<E: Equations>(
 
 /// Derivatives of a residual by the unknowns beyond the [`Equations::EXACT`] first ones. They are exact where the system
 /// knows them, otherwise differences, central or one-sided where that is enough or there is no machine on the other side.
-fn slopes_at<E: Equations>(
+pub(super) fn slopes_at<E: Equations>(
     equations: &E,
     at: &DVector<f64>,
     here: &Evaluation<E::Point>,

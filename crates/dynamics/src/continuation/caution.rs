@@ -12,8 +12,6 @@ use super::walker::{Stride, Walker};
 use super::way::{Border, End, Limits, Way};
 use crate::orbit::OrbitError;
 
-/// Largest change of a test function per step.
-const LARGEST_CHANGE: f64 = 0.3;
 /// Smallest share that a step may leave of the distance to grazing, while that is more than `NEAR`
 /// (scaled).
 const SHARE_LEFT: f64 = 0.3;
@@ -83,8 +81,7 @@ impl<F: Family> Follower<'_, F> {
         if walker.step < SHORT {
             return same;
         }
-        let change = |test: Test| (test.value(&from.monodromy) - test.value(&to.monodromy)).abs();
-        Test::ALL.iter().all(|test| change(*test) < LARGEST_CHANGE)
+        Test::change_little(&from.monodromy, &to.monodromy)
             && same
             && ahead.leaves(now, SHARE_LEFT, NEAR)
     }

@@ -6,20 +6,15 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Node, correct, correct_at};
-use super::locate::locate;
 use super::point::BranchPoint;
 use super::round::Round;
 use super::shooting::{Critical, Shooting};
 use super::test::Test;
-use super::walker::{LARGEST_STEP, Walker};
+use super::walker::{LARGEST_STEP, Stride, Walker};
 use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
 
 /// Scaled distance along a branch to which special points are located.
 pub(crate) const WIDTH: f64 = 1e-12;
-
-/// Distance of a point from the chord between its neighbours, as a share of the chord, within which it is taken for
-/// a point between them.
-const ASIDE: f64 = 0.2;
 
 /// Which way a branch is followed from its start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -156,7 +151,10 @@ impl<'a, F: Family> Follower<'a, F> {
         let mut walker = Walker::new(&self.shooting, node, along, self.largest)?.quick();
         while points.len() < limit {
             match walker.attempt() {
-                Ok(stride) if stride.node.here.point.sequence.goes_on(&sequence) => {
+                Ok(stride)
+                    if stride.node.here.point.sequence.goes_on(&sequence)
+                        && is_same_piece(&walker, &stride) =>
+                {
                     walker.take(stride);
                     let point = self.point_at(&walker.node)?;
                     let ends = watch(&point).is_break();
@@ -179,59 +177,6 @@ impl<'a, F: Family> Follower<'a, F> {
             }
         }
         Ok(None)
-    }
-
-    /// The point between two neighbours at which `test` changes its sign.
-    ///
-    /// # Errors
-    /// [`OrbitError`] if a correction fails.
-    pub fn locate(
-        &self,
-        from: &BranchPoint,
-        to: &BranchPoint,
-        test: impl Fn(&BranchPoint) -> f64,
-    ) -> Result<BranchPoint, OrbitError> {
-        let ends = (self.node_at(from)?, self.node_at(to)?);
-        match self.clear_of(&ends.0).or_else(|| self.clear_of(&ends.1)) {
-            None => self.locate_between((&ends.0, &ends.1), test),
-            Some(clear) => clear.locate_between((&clear.node_at(from)?, &clear.node_at(to)?), test),
-        }
-    }
-
-    fn locate_between(
-        &self,
-        ends: (&Node<Round>, &Node<Round>),
-        test: impl Fn(&BranchPoint) -> f64,
-    ) -> Result<BranchPoint, OrbitError> {
-        let value = |node: &Node<Round>| self.point_at(node).map_or(f64::NAN, |point| test(&point));
-        let (node, _) = locate(&self.shooting, ends, WIDTH, value)?;
-        self.point_at(&node)
-    }
-
-    /// The point between two neighbours at a value of the parameter between theirs.
-    ///
-    /// # Errors
-    /// [`OrbitError`] if a correction fails.
-    pub fn between(
-        &self,
-        from: &BranchPoint,
-        to: &BranchPoint,
-        parameter: f64,
-    ) -> Result<BranchPoint, OrbitError> {
-        let ends = [from, to].map(|end| self.shooting.scaled(end.state(), [end.parameter]));
-        let way = &ends[1] - &ends[0];
-        let share = (parameter - from.parameter) / (to.parameter - from.parameter);
-        let state = from.state().lerp(&to.state(), share);
-        if let Ok(node) = self.start(parameter, state) {
-            let along = way.dot(&(&node.at - &ends[0])) / way.norm_squared();
-            let off = &node.at - &ends[0] - along * &way;
-            let point = self.point_at(&node)?;
-            let same_side = from.fold_test().signum() * point.fold_test().signum() > 0.0;
-            if same_side && (0.0..=1.0).contains(&along) && off.norm() < ASIDE * way.norm() {
-                return Ok(point);
-            }
-        }
-        self.locate(from, to, |point| point.parameter - parameter)
     }
 
     /// The orbit at which a test vanishes, by Newton's method for orbit and parameter together.
@@ -286,4 +231,17 @@ impl<'a, F: Family> Follower<'a, F> {
         let here = self.shooting.evaluate(&at)?;
         Ok(Node { at, here })
     }
+}
+
+/// True if a step has not leapt to another piece of the branch: no test of the monodromy matrix changes much, and the
+/// parameter turns back where 1 - tr + det changes its sign. Its rate along a smooth curve is that test times a factor
+/// of one sign.
+fn is_same_piece<F: Family>(
+    walker: &Walker<'_, Shooting<'_, F, 1>>,
+    stride: &Stride<Round>,
+) -> bool {
+    let [from, to] = [&walker.node, &stride.node].map(|node| &node.here.point.monodromy);
+    let way = |direction: &DVector<f64>, matrix| Test::Fold.value(matrix) * direction[2];
+    Test::change_little(from, to)
+        && way(&walker.direction, from) * way(&stride.direction, to) >= 0.0
 }

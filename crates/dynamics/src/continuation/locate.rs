@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::arclength::{Care, Equations, Node, correct_with};
+use super::arclength::{Care, Equations, Node, bordered, correct_with, slopes_at, solved, tangent};
 use crate::orbit::OrbitError;
 use softstop::internals::narrow;
 
@@ -38,6 +38,72 @@ pub(crate) fn locate<E: Equations>(
         .min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     best.map(|(share, _, node)| (node, share))
         .ok_or(OrbitError::Diverged { residual: f64::NAN })
+}
+
+/// Most rounds, and nodes that the value of a test is followed back to zero through.
+const ROUNDS: usize = 12;
+const BACK: usize = 4;
+
+/// The node near the curve between two neighbours at which `test` vanishes. Each round is one evaluation: a step of
+/// Newton's method to the curve, and along the chord to where the last values of the test say that it vanishes.
+pub(crate) fn zero<E: Equations>(
+    equations: &E,
+    (from, to): (&Node<E::Point>, &Node<E::Point>),
+    width: f64,
+    test: impl Fn(&E::Point) -> f64,
+) -> Result<Node<E::Point>, OrbitError> {
+    let lost = |residual| OrbitError::Diverged { residual };
+    let chord = (&to.at - &from.at).normalize();
+    let along = |at: &DVector<f64>| chord.dot(&(at - &from.at));
+    let mut values = vec![
+        (0.0, test(&from.here.point)),
+        (along(&to.at), test(&to.here.point)),
+    ];
+    let mut at = cubic(equations, (from, to), vanishes(&values) / along(&to.at))?;
+    for _ in 0..ROUNDS {
+        let here = equations.evaluate(&at)?;
+        let (place, size) = (along(&at), here.residual.norm());
+        values.push((place, test(&here.point)));
+        values.drain(..values.len().saturating_sub(BACK));
+        let onward = vanishes(&values) - place;
+        if size <= here.tolerance && onward.abs() <= width {
+            return Ok(Node { at, here });
+        }
+        let slopes = slopes_at(equations, &at, &here, Care::Full)?;
+        let matrix = bordered(&equations.jacobian(&here, &slopes), &chord);
+        let step = solved(matrix, &(-here.residual).push(onward));
+        at += step.ok_or(lost(size))?;
+    }
+    Err(lost(f64::NAN))
+}
+
+/// Where a function with these values vanishes, as the polynomial through its inverse has it.
+fn vanishes(values: &[(f64, f64)]) -> f64 {
+    let weight = |index: usize| -> f64 {
+        let others = values
+            .iter()
+            .enumerate()
+            .filter(|(other, _)| *other != index);
+        let factors = others.map(|(_, (_, value))| value / (value - values[index].1));
+        factors.product()
+    };
+    let parts = values.iter().enumerate();
+    parts.map(|(index, (place, _))| place * weight(index)).sum()
+}
+
+/// The point at this share of the way on the cubic between two nodes along their directions.
+fn cubic<E: Equations>(
+    equations: &E,
+    (from, to): (&Node<E::Point>, &Node<E::Point>),
+    share: f64,
+) -> Result<DVector<f64>, OrbitError> {
+    let way = &to.at - &from.at;
+    let (begins, _) = tangent(equations, from, &way)?;
+    let (ends, _) = tangent(equations, to, &way)?;
+    let far = way.norm() * (1.0 + (&ends - &begins).norm_squared() / 24.0);
+    let (left, smooth) = (1.0 - share, share * share * (3.0 - 2.0 * share));
+    let bend = (begins * left - ends * share) * (far * share * left);
+    Ok(&from.at + way * smooth + bend)
 }
 
 /// Nodes that a guess between nodes is drawn through, and the shares of the way that they are apart at least.

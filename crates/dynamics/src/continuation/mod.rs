@@ -27,6 +27,7 @@
 
 mod along;
 mod arclength;
+mod between;
 mod branch;
 mod caution;
 mod corner;

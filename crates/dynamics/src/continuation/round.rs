@@ -1,10 +1,12 @@
 //! One round of an orbit: everything that its followers look at.
 
+use std::sync::Arc as Shared;
+
 use nalgebra::{Matrix2, Vector2};
 
 use super::face::{Face, Touch};
 use super::sequence::Sequence;
-use softstop::internals::{Detuning, Motion};
+use softstop::internals::{Detuning, Motion, Phases};
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Scene, Start,
 };
@@ -31,11 +33,17 @@ pub(crate) struct Round {
 }
 
 impl Round {
-    /// The round from a state.
-    pub fn of(scene: &Scene, periods: u64, state: Vector2<f64>) -> Result<Self, MotionError> {
+    /// The round of a valid scene, with its phases, from a state.
+    pub fn of(
+        (scene, phases): (&Scene, Shared<Phases>),
+        periods: u64,
+        state: Vector2<f64>,
+    ) -> Result<Self, MotionError> {
         let start = before_wall(scene, state);
         let at_wall = scene.wall().is_some_and(|wall| wall.position == start.x);
-        let mut motion = scene.motion(start.into())?;
+        let begin = Start::from(start);
+        begin.validate()?;
+        let mut motion = Motion::new(phases, scene.clock(), Clock::at_cycle(0), begin)?;
         let mut watch = Watch {
             scene,
             clock: *motion.clock(),

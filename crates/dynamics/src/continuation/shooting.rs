@@ -1,6 +1,8 @@
 //! The equations of a periodic orbit: P(s) = s over a number of drive periods.
 
+use std::cell::RefCell;
 use std::f64::consts::TAU;
+use std::sync::Arc as Shared;
 
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
@@ -9,6 +11,7 @@ use super::arclength::{DIFFERENCE, Equations, Evaluation};
 use super::round::Round;
 use super::test::Test;
 use crate::orbit::OrbitError;
+use softstop::internals::Phases;
 use softstop::{MotionError, Scene};
 
 /// Orbits of a family over a number of drive periods, in scaled unknowns: position, velocity,
@@ -20,6 +23,8 @@ pub(crate) struct Shooting<'a, F, const N: usize> {
     /// Drive periods from drive angle phi to the section.
     pub turn: f64,
     scales: DVector<f64>,
+    /// The phases at the last place, where all places differ by the drive's frequency alone.
+    lowered: RefCell<Option<Shared<Phases>>>,
 }
 
 impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
@@ -31,6 +36,7 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
             periods,
             turn: 0.0,
             scales: DVector::from_iterator(2 + N, scales),
+            lowered: RefCell::default(),
         }
     }
 
@@ -54,6 +60,22 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
         Ok(scene)
     }
 
+    /// What happens from a state of a scene on.
+    fn round(&self, scene: &Scene, state: Vector2<f64>) -> Result<Round, MotionError> {
+        let phases = match self.lowered.take() {
+            Some(mut phases) => {
+                Shared::make_mut(&mut phases).tune(scene.excitation.frequency);
+                phases
+            }
+            None => scene.phases().into(),
+        };
+        let round = Round::of((scene, phases.clone()), self.periods, state);
+        if self.family.by_frequency().iter().all(Option::is_some) {
+            self.lowered.replace(Some(phases));
+        }
+        round
+    }
+
     /// Typical size of the velocity in m/s.
     pub fn velocity_scale(&self) -> f64 {
         self.scales[1]
@@ -67,7 +89,7 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Round>, OrbitError> {
         let state = self.state(at);
         let scene = self.scene(at)?;
-        let round = Round::of(&scene, self.periods, state)?;
+        let round = self.round(&scene, state)?;
         let gap = round.end() - state;
         Ok(Evaluation {
             residual: DVector::from_vec(vec![gap.x / self.scales[0], gap.y / self.scales[1]]),
@@ -79,14 +101,11 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
     /// The exact Jacobian of the map, and the slopes.
     fn jacobian(&self, here: &Evaluation<Round>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
         let (m, ratio) = (&here.point.monodromy, self.scales[1] / self.scales[0]);
-        let own = DMatrix::from_row_slice(
-            2,
-            2,
-            &[m.m11 - 1.0, m.m12 * ratio, m.m21 / ratio, m.m22 - 1.0],
-        );
-        let mut jacobian = own.resize_horizontally(2 + N, 0.0);
-        jacobian.columns_mut(2, N).copy_from(slopes);
-        jacobian
+        let own = Matrix2::new(m.m11 - 1.0, m.m12 * ratio, m.m21 / ratio, m.m22 - 1.0);
+        DMatrix::from_fn(2, 2 + N, |row, column| match column {
+            0 | 1 => own[(row, column)],
+            _ => slopes[(row, column - 2)],
+        })
     }
 
     /// Near grazing the map bends within the square of the speed of the touch, or of what its Jacobian's reciprocal

@@ -31,6 +31,12 @@ impl Test {
         }
     }
 
+    /// True if no test changes much between two orbits, as on one short piece of a branch.
+    pub(crate) fn change_little(from: &Matrix2<f64>, to: &Matrix2<f64>) -> bool {
+        let change = |test: &Self| (test.value(from) - test.value(to)).abs();
+        Self::ALL.iter().all(|test| change(test) < LARGEST_CHANGE)
+    }
+
     /// True if the test passes zero between two orbits. Without damping the determinant is 1 to rounding
     /// all along: nothing passes there.
     pub(crate) fn passes(self, from: &Matrix2<f64>, to: &Matrix2<f64>) -> bool {
@@ -46,6 +52,9 @@ impl Test {
         }
     }
 }
+
+/// Largest change of a test on one short piece.
+const LARGEST_CHANGE: f64 = 0.3;
 
 /// Change of the determinant that rounding may bring.
 const CONSERVATIVE: f64 = 1e-9;

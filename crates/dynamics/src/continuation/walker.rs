@@ -14,9 +14,16 @@ const LARGEST_TURN: f64 = 0.96;
 const GENTLE_TURN: f64 = 0.995;
 /// Distance of the next node in steps beyond which it lies on another curve.
 const LONGEST_CHORD: f64 = 1.1;
-/// The former of these where guesses bend with the curve, and how many times as long the first step is there.
-const QUICK_TURN: f64 = 0.985;
-const QUICK_STEP: f64 = 2.5;
+/// By what steps grow up to it.
+const GROWTH: f64 = 1.6;
+
+/// The same on quick ways: first and largest step, largest turn, the turn that steps are meant to make, how far a
+/// guess is meant to be off (scaled), and the growth.
+const QUICK_STEPS: (f64, f64) = (0.05, 1.0);
+const QUICK_TURN: f64 = 0.85;
+const MEANT_TURN: f64 = 0.93;
+const MEANT_OFF: f64 = 5e-3;
+const QUICK_GROWTH: (f64, f64) = (0.5, 2.5);
 
 /// Goes along a curve with adaptive steps.
 pub(crate) struct Walker<'a, E: Equations> {
@@ -24,11 +31,9 @@ pub(crate) struct Walker<'a, E: Equations> {
     pub node: Node<E::Point>,
     pub direction: DVector<f64>,
     slopes: DMatrix<f64>,
-    /// Change of the direction by arclength, across it, where guesses take it.
-    bend: Option<DVector<f64>>,
+    /// The last node and the direction there.
+    last: Option<(DVector<f64>, DVector<f64>)>,
     care: Care,
-    /// Cosine of the turn of the direction per step up to which steps grow.
-    gentle: f64,
     pub step: f64,
     largest: f64,
 }
@@ -36,9 +41,9 @@ pub(crate) struct Walker<'a, E: Equations> {
 /// A step that can be taken.
 pub(crate) struct Stride<P> {
     pub node: Node<P>,
-    direction: DVector<f64>,
+    pub direction: DVector<f64>,
     slopes: DMatrix<f64>,
-    grows: bool,
+    growth: f64,
 }
 
 impl<'a, E: Equations> Walker<'a, E> {
@@ -52,9 +57,8 @@ impl<'a, E: Equations> Walker<'a, E> {
         let (direction, slopes) = tangent(equations, &node, along)?;
         Ok(Self {
             equations,
-            bend: None,
+            last: None,
             care: Care::Full,
-            gentle: GENTLE_TURN,
             node,
             direction,
             slopes,
@@ -63,53 +67,64 @@ impl<'a, E: Equations> Walker<'a, E> {
         })
     }
 
-    /// The same in fewer evaluations, with guesses that bend as the curve did: for smooth curves.
+    /// The same in few long steps, with guesses that bend as the curve did: for smooth curves.
     pub fn quick(self) -> Self {
+        let (step, largest) = QUICK_STEPS;
         Self {
-            bend: Some(DVector::zeros(self.direction.len())),
             care: Care::Quick,
-            gentle: QUICK_TURN,
-            step: (QUICK_STEP * self.step).min(self.largest),
+            step,
+            largest,
             ..self
         }
     }
 
     /// The next node at the present length of step.
     pub fn attempt(&self) -> Result<Stride<E::Point>, OrbitError> {
-        let mut guess = &self.node.at + self.step * &self.direction;
-        if let Some(bend) = &self.bend {
-            guess += 0.5 * self.step * self.step * bend;
-        }
+        let guess = self.guess();
         let mut slopes = Some(self.slopes.clone());
         let (equations, across) = (self.equations, Some(&self.direction));
         let node = correct_with(equations, &guess, across, &mut slopes, self.care)?;
         let (direction, slopes) = tangent_with(equations, &node, &self.direction, self.care)?;
         let turn = direction.dot(&self.direction);
         let leaps = (&node.at - &self.node.at).norm() > LONGEST_CHORD * self.step;
-        if turn <= LARGEST_TURN || leaps {
+        let (largest, growth) = match self.care {
+            Care::Quick => (QUICK_TURN, quick_growth(turn, (&node.at - guess).norm())),
+            _ if turn > GENTLE_TURN => (LARGEST_TURN, GROWTH),
+            _ => (LARGEST_TURN, 1.0),
+        };
+        if turn <= largest || leaps {
             return Err(OrbitError::Diverged { residual: 0.0 });
         }
         Ok(Stride {
             node,
             direction,
             slopes,
-            grows: turn > self.gentle,
+            growth,
         })
+    }
+
+    /// Where the curve may be after a step: on a quick way, on the cubic through the last two nodes and along their
+    /// directions.
+    fn guess(&self) -> DVector<f64> {
+        let straight = &self.node.at + self.step * &self.direction;
+        let Some((last, before)) = self.last.as_ref().filter(|_| self.care == Care::Quick) else {
+            return straight;
+        };
+        let (way, turn) = (&self.node.at - last, &self.direction - before);
+        let far = way.norm() * (1.0 + turn.norm_squared() / 24.0);
+        let mean = way / far;
+        let (ahead, share) = (&self.direction - mean, self.step / far);
+        let cubic = 2.0 * &ahead - &turn;
+        straight + self.step * share * ((&ahead + &cubic) + share * cubic)
     }
 
     /// Goes there.
     pub fn take(&mut self, stride: Stride<E::Point>) {
-        if let Some(bend) = &mut self.bend {
-            let far = (&stride.node.at - &self.node.at).norm();
-            let turn = (&stride.direction - &self.direction) / far;
-            *bend = &turn - turn.dot(&stride.direction) * &stride.direction;
-        }
-        self.node = stride.node;
-        self.direction = stride.direction;
+        let last = std::mem::replace(&mut self.node, stride.node);
+        let before = std::mem::replace(&mut self.direction, stride.direction);
+        self.last = Some((last.at, before));
         self.slopes = stride.slopes;
-        if stride.grows {
-            self.step = (1.6 * self.step).min(self.largest);
-        }
+        self.step = (stride.growth * self.step).min(self.largest);
     }
 
     /// Shortens the step; false if it is the shortest already.
@@ -118,4 +133,12 @@ impl<'a, E: Equations> Walker<'a, E> {
         self.step *= 0.4;
         possible
     }
+}
+
+/// By what a quick step grows, or shrinks, from one that turned so far (as a cosine) and whose guess was so far off.
+fn quick_growth(turn: f64, off: f64) -> f64 {
+    let (least, most) = QUICK_GROWTH;
+    let by_turn = ((1.0 - MEANT_TURN) / (1.0 - turn)).sqrt();
+    let by_guess = (MEANT_OFF / off).powf(0.25);
+    by_turn.min(by_guess).clamp(least, most)
 }

@@ -22,7 +22,7 @@ pub fn fixed_point(
     found.ok_or(OrbitError::Diverged { residual: f64::NAN })
 }
 
-/// The same; none as soon as a step leads to a state that is known.
+/// The same; none as soon as a whole step leads to a state that is known.
 pub(super) fn fixed_point_unless(
     map: &StroboscopicMap,
     start: Vector2<f64>,
@@ -38,14 +38,14 @@ pub(super) fn fixed_point_unless(
         let Some(step) = matrix.lu().solve(&residual) else {
             break;
         };
+        if known(state + step) {
+            return Ok(None);
+        }
         let (next, next_passage) = within_walls(map, state, step)?;
         let next_residual = next_passage.end - next;
         let shrinks = size(&next_residual) < size(&residual);
         if !shrinks && size(&residual) <= scales.rounding(&state, &passage.monodromy) {
             return Ok(Some((state, passage)));
-        }
-        if known(next) {
-            return Ok(None);
         }
         (state, passage, residual) = (next, next_passage, next_residual);
     }

@@ -7,8 +7,8 @@ use nalgebra::Vector2;
 
 use super::newton::fixed_point_unless;
 use super::periodic::STEEP;
-use super::scan::all_single;
-use super::{Orbit, OrbitError, Passage, StroboscopicMap, is_stable};
+use super::scan::{FAINTEST, all_single};
+use super::{Orbit, OrbitError, Passage, StroboscopicMap};
 use crate::watch::{Watcher, unwatched};
 use softstop::internals::Scales;
 use softstop::{Scene, Start};
@@ -25,6 +25,8 @@ const SETTLING: [&[u64]; 2] = [&[2, 12], &[60]];
 const RETURNS: f64 = 0.2;
 /// Distance, in the same scales, within which one state stands for another.
 const SAME: f64 = 0.02;
+/// Share of what a state moves within a period up to which it stands for another one in the search for an orbit.
+const STANDS_FOR: f64 = 0.5;
 /// Share of a before-impact velocity by which rounding may change it.
 const SAME_SPEED: f64 = 1e-9;
 
@@ -109,78 +111,64 @@ fn search(scenes: &[Scene], groups: usize, watcher: Watcher<'_>) -> Vec<Result<O
 /// The hardest of the stable z = 1 motions that states lead to.
 fn best(
     scene: &Scene,
-    candidates: [Vec<Vector2<f64>>; 2],
+    candidates: [Vec<Candidate>; 2],
     groups: usize,
     watcher: Watcher<'_>,
 ) -> Result<Option<Orbit>, OrbitError> {
     OrbitError::ask(watcher)?;
     let map = StroboscopicMap::new(scene, 1)?;
     let distance = Distance::of(scene);
-    let mut known: Vec<Fixed> = Vec::new();
-    for (group, states) in candidates.into_iter().enumerate() {
-        if group >= groups && known.iter().any(Fixed::is_single) {
+    let mut known: Vec<Orbit> = Vec::new();
+    let mut tried: Vec<Vector2<f64>> = Vec::new();
+    let faintest = FAINTEST * scene.motion_scales().speed();
+    let is_single =
+        |orbit: &Orbit| orbit.impacts.len() == 1 && orbit.before_impact_velocity() > faintest;
+    for (group, candidates) in candidates.into_iter().enumerate() {
+        if group >= groups && known.iter().any(is_single) {
             break;
         }
-        for state in states {
+        for (moves, state) in candidates {
             OrbitError::ask(watcher)?;
             let near = |state| {
-                let stands = |other: &Fixed| distance.between(other.state, state) < SAME;
-                known.iter().any(stands)
+                let is_same = |other: &Orbit| distance.between(other.state(), state) < SAME;
+                known.iter().any(is_same)
             };
-            if !near(state) {
-                known.extend(Fixed::beside(scene, &map, state, near));
+            let stands =
+                |other: &Vector2<f64>| distance.between(*other, state) < STANDS_FOR * moves;
+            if !near(state) && !tried.iter().any(stands) {
+                tried.push(state);
+                known.extend(beside(scene, &map, state, near));
             }
         }
     }
-    let single = known.into_iter().filter(Fixed::is_single);
-    let best = single.max_by(|a, b| a.velocity.total_cmp(&b.velocity));
-    best.map(|best| Orbit::near(scene, best.state)).transpose()
+    let single = known.into_iter().filter(is_single);
+    Ok(single.max_by(|a, b| {
+        let [a, b] = [a, b].map(Orbit::before_impact_velocity);
+        a.total_cmp(&b)
+    }))
 }
 
-/// A stable motion that repeats after one drive period.
-struct Fixed {
+/// How far a state has moved within the last period, and the state.
+type Candidate = (f64, Vector2<f64>);
+
+/// The stable motion of one drive period that Newton's method reaches from a state near it, unless it comes near one
+/// that is known.
+fn beside(
+    scene: &Scene,
+    map: &StroboscopicMap,
     state: Vector2<f64>,
-    impacts: usize,
-    /// Before-impact velocity in m/s of its hardest impact.
-    velocity: f64,
-}
-
-impl Fixed {
-    fn is_single(&self) -> bool {
-        self.impacts == 1
-    }
-
-    /// The one that Newton's method reaches from a state near it, unless it comes near one that is known.
-    fn beside(
-        scene: &Scene,
-        map: &StroboscopicMap,
-        state: Vector2<f64>,
-        known: impl Fn(Vector2<f64>) -> bool,
-    ) -> Option<Self> {
-        let steep = |passage: &Passage| map.scales().jacobian(&passage.monodromy).norm() > STEEP;
-        match fixed_point_unless(map, state, known) {
-            Ok(None) => None,
-            Ok(Some((state, passage))) if !steep(&passage) => {
-                is_stable(&passage.monodromy).then(|| Self {
-                    state,
-                    impacts: passage.impacts.len(),
-                    velocity: passage.impacts.iter().copied().fold(0.0, f64::max),
-                })
-            }
-            found => {
-                let orbit = match found {
-                    Ok(_) => Orbit::near(scene, state).ok()?,
-                    Err(_) => Orbit::by_guesses(scene, state, 1, 1)?,
-                };
-                let is_single = orbit.impacts.len() == 1 && orbit.periods == 1;
-                (is_single && orbit.is_stable()).then(|| Self {
-                    state: orbit.state(),
-                    impacts: 1,
-                    velocity: orbit.before_impact_velocity(),
-                })
-            }
+    known: impl Fn(Vector2<f64>) -> bool,
+) -> Option<Orbit> {
+    let steep = |passage: &Passage| map.scales().jacobian(&passage.monodromy).norm() > STEEP;
+    let orbit = match fixed_point_unless(map, state, known) {
+        Ok(None) => None,
+        Ok(Some((state, passage))) if !steep(&passage) => {
+            Orbit::on(scene, map, state, &passage).ok()
         }
-    }
+        Ok(_) => Orbit::near(scene, state).ok(),
+        Err(_) => Orbit::by_guesses(scene, state, 1, 1),
+    };
+    orbit.filter(|orbit| orbit.periods == 1 && orbit.is_stable())
 }
 
 /// Measures distances of states in scales of the motion.
@@ -201,18 +189,19 @@ impl Distance {
 
     fn between(self, a: Vector2<f64>, b: Vector2<f64>) -> f64 {
         let way = a - b;
-        (way.x / self.length).hypot(way.y / self.speed)
+        Vector2::new(way.x / self.length, way.y / self.speed).norm()
     }
 }
 
 /// For each scene: of each motion the state that moves least within a period with one impact, where it moves little,
-/// the least first; then where all motions are after each of these numbers of periods, in ascending order.
+/// the least first; then where all motions are after each of these numbers of periods, in ascending order, as if they
+/// did not move.
 fn returning(
     machines: &[Machine],
     scenes: &[&Scene],
     settling: &[u64],
     watcher: Watcher<'_>,
-) -> Vec<[Vec<Vector2<f64>>; 2]> {
+) -> Vec<[Vec<Candidate>; 2]> {
     let jobs: Vec<Job> = scenes
         .iter()
         .enumerate()
@@ -253,10 +242,9 @@ fn returning(
         let mut least = returns.least[jobs.clone()].to_vec();
         least.retain(|(moves, _)| *moves < RETURNS);
         least.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let near = least.into_iter().map(|(_, state)| state).collect();
         let settled = returns.settled.iter();
-        let settled = settled.flat_map(|after| after[jobs.clone()].iter().flatten().copied());
-        [near, settled.collect()]
+        let settled = settled.flat_map(|after| after[jobs.clone()].iter().flatten());
+        [least, settled.map(|state| (0.0, *state)).collect()]
     };
     (0..scenes.len()).map(of_scene).collect()
 }
@@ -271,7 +259,7 @@ struct Returns<'a> {
     last: Vec<Vector2<f64>>,
     /// Impacts in the present period.
     impacts: Vec<u64>,
-    least: Vec<(f64, Vector2<f64>)>,
+    least: Vec<Candidate>,
     /// After each of the numbers of periods, of each job.
     settled: Vec<Vec<Option<Vector2<f64>>>>,
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::{Frequencies, ZoneError, grazing_frequencies};
-use crate::continuation::{BranchPoint, Follower, Heading};
+use crate::continuation::{BranchPoint, Follower, Heading, Test};
 use crate::orbit::{Orbit, OrbitError, find_soon, find_watched};
 use crate::watch::{Watcher, stop_if, unwatched};
 use softstop::Scene;
@@ -113,7 +113,7 @@ fn from_start(
             stop_if(flipped || outside || ends_in_grazing || watcher(0, 0).is_break())
         })?;
     OrbitError::ask(watcher)?;
-    insert_folds(&follower, &mut branch)?;
+    insert_folds(&follower, &mut branch);
     let fold = branch
         .iter()
         .filter(|point| point.fold_test().abs() < AT_FOLD)
@@ -130,22 +130,17 @@ fn from_start(
     })
 }
 
-/// Adds the folds to a branch, between the neighbours where 1 - tr + det changes its sign.
-fn insert_folds(
-    follower: &Follower<'_, Frequencies<'_>>,
-    branch: &mut Vec<BranchPoint>,
-) -> Result<(), ZoneError> {
-    let mut index = 1;
-    while index < branch.len() {
+/// Adds the folds to a branch, between the neighbours where 1 - tr + det changes its sign; where it leaps over zero, in
+/// a border collision, there is none.
+fn insert_folds(follower: &Follower<'_, Frequencies<'_>>, branch: &mut Vec<BranchPoint>) {
+    for index in (1..branch.len()).rev() {
         let (from, to) = (&branch[index - 1], &branch[index]);
-        if from.fold_test() * to.fold_test() < 0.0 {
-            let fold = follower.locate(from, to, BranchPoint::fold_test)?;
+        if from.fold_test() * to.fold_test() < 0.0
+            && let Ok(fold) = follower.critical_between(from, to, Test::Fold)
+        {
             branch.insert(index, fold);
-            index += 1;
         }
-        index += 1;
     }
-    Ok(())
 }
 
 fn no_fold(branch: &[BranchPoint]) -> ZoneError {

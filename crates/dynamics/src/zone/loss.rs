@@ -30,7 +30,7 @@ pub fn loss_of_stability(
     let value = |point: &BranchPoint| test.value(&point.monodromy);
     match &branch[..] {
         [.., before, last] if value(before) > 0.0 && value(last) <= 0.0 => {
-            follower.locate(before, last, value).map(Some)
+            follower.critical_between(before, last, test).map(Some)
         }
         _ => Ok(None),
     }
