@@ -1,8 +1,10 @@
 //! Zones judged by brute force: what settles on z = 1 lies on a stretch.
 //!
 //! Random machines, lightly damped ones among them, run from many starts in the batch engine, at frequencies on their
-//! stretches and elsewhere. 100,000 machines, in about seven hours on two cores:
+//! stretches and elsewhere. 100,000 machines, in some three hours of processor time:
 //! `PROPTEST_CASES=100000 cargo test --release -p softstop-dynamics --test dynamics zone_judge -- --ignored --nocapture`
+
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -14,8 +16,9 @@ use softstop_dynamics::{BranchPoint, Orbit};
 use softstop_lanes::{Job, Machine, Watch};
 use softstop_testing::random;
 
-/// Machines of the test that runs every day.
+/// Machines of the test that runs every day; and after how many progress is shown.
 const MACHINES: u32 = 100;
+const REPORTED: u32 = 250;
 /// Frequencies of a machine; starts at each, and how long they run.
 const FREQUENCIES: usize = 3;
 const STARTS: usize = 32;
@@ -204,6 +207,15 @@ fn assert_judged(machines_count: u32) {
     let mut draw = || strategy.new_tree(&mut runner).expect("a machine").current();
     let cases: Vec<Case> = (0..count).map(|_| draw()).collect();
     let pool = rayon::ThreadPoolBuilder::new().build().expect("threads");
+    let done = AtomicU32::new(0);
+    let judge = |case| {
+        let judged = judge(case);
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        if done.is_multiple_of(REPORTED) || !judged.1.is_empty() {
+            eprintln!("{done} of {count} machines {:?}", judged.1);
+        }
+        judged
+    };
     let judged: Vec<(usize, Vec<String>)> = pool.install(|| cases.par_iter().map(judge).collect());
     let motions: usize = judged.iter().map(|one| one.0).sum();
     let wrong: Vec<&String> = judged.iter().flat_map(|one| &one.1).collect();

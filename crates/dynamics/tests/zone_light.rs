@@ -1,7 +1,7 @@
 //! Zones of lightly damped machines: long branches that meet surfaces at drive angle phi, and motions with small basins.
 
 use approx::assert_abs_diff_eq;
-use softstop::{Piercing, Ratios, Scene, SceneError};
+use softstop::{Piercing, Ratios, Scene, SceneError, Stop};
 use softstop_dynamics::Zone;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::{
@@ -158,6 +158,31 @@ fn an_isola() -> Outcome {
     assert!(second.low.frequency < first.high.frequency);
     for end in [&first.low, &first.high, &second.low, &second.high] {
         assert_eq!(end.loss, Loss::Fold);
+    }
+    Ok(())
+}
+
+/// No motion without impacts grazes a stop that the mass is pressed against, or just touches.
+#[test]
+fn without_a_grazing_boundary_there_are_stretches() -> Outcome {
+    for clearance in [-0.5, 0.0] {
+        let stop = Stop::Rigid { restitution: 0.7 };
+        let scene = Scene {
+            clearance,
+            stop,
+            ..Ratios::unloaded().scene()?
+        };
+        assert!(matches!(
+            hysteresis(&scene),
+            Err(ZoneError::NoGrazing { .. })
+        ));
+        let found = stretches(&scene)?;
+        assert!(!found.is_empty(), "{clearance}");
+        for one in &found {
+            let middle = 0.5 * (one.low.frequency + one.high.frequency);
+            let point = one.point_at(&scene, middle)?.ok_or("no motion")?;
+            assert!(point.is_stable() && point.impacts.len() == 1);
+        }
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use softstop::{Language, Machine, Piercing, Ratios, Scene, Stop, Units};
 use softstop_dynamics::continuation::{Heading, Test};
-use softstop_dynamics::zone::{ZoneError, hysteresis, loss_of_stability};
+use softstop_dynamics::zone::{BranchEnd, ZoneError, hysteresis, loss_of_stability};
 use softstop_testing::random;
 
 /// A machine by its clearance, its damping and which stop it has.
@@ -84,10 +84,16 @@ proptest! {
 fn a_zone_that_is_not_there_is_told_in_the_units_of_the_machine() {
     let mut machine = Machine::from(machine(10.0, 0.02, 0));
     let error = ZoneError::NoFold {
-        frequency: std::f64::consts::PI.into(),
+        from: (0.5 * std::f64::consts::PI).into(),
+        to: std::f64::consts::PI.into(),
+        end: BranchEnd::Regime,
     };
     let said = |machine: &Machine| error.clone().stated(machine).to_string();
-    assert!(said(&machine).contains("followed to excitation.frequency = 3.14159"));
+    assert!(said(&machine).contains("up to excitation.frequency = 3.14159"));
     machine.speaks = Language::Hertz;
-    assert!(said(&machine).contains("followed to excitation.frequency_hz = 0.5 without"));
+    assert_eq!(
+        said(&machine),
+        "no hysteresis: the hardest z = 1 motion at the grazing boundary, excitation.frequency_hz = 0.25, stays stable up \
+         to excitation.frequency_hz = 0.5, where it ends otherwise than by a fold"
+    );
 }

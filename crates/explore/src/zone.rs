@@ -58,13 +58,14 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
     arguments
         .machine
         .refuse(&machine, Parameter::Frequency, why)?;
-    let zone = match hysteresis_watched(&machine.scene, &interrupt::watch) {
-        Err(error @ ZoneError::NoGrazing { .. }) => return Err(Failure::usage(error.to_string())),
-        zone => zone.map_err(|error| error.stated(&machine)),
-    };
+    let zone = hysteresis_watched(&machine.scene, &interrupt::watch)
+        .map_err(|error| error.stated(&machine));
     let all =
         stretches_watched(&machine.scene, &interrupt::watch).map_err(|error| anyhow!(error))?;
     match zone {
+        Err(error @ ZoneError::NoGrazing { .. }) if all.is_empty() => {
+            Err(Failure::usage(error.to_string()))
+        }
         Err(error) if all.is_empty() => {
             let place = format!("no hysteresis zone found of {}", title(&machine));
             Err(Failure::Run(anyhow!(error).context(place)))

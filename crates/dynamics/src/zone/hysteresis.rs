@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{Frequencies, ZoneError, grazing_frequencies};
+use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{BranchPoint, Follower, Heading, Test};
 use crate::orbit::{Orbit, OrbitError, find_soon, find_watched};
 use crate::watch::{Watcher, stop_if, unwatched};
@@ -118,7 +118,7 @@ fn from_start(
         .iter()
         .filter(|point| point.fold_test().abs() < AT_FOLD)
         .max_by(|a, b| a.parameter.total_cmp(&b.parameter))
-        .ok_or_else(|| no_fold(&branch))?;
+        .ok_or_else(|| no_fold(frequency_g0, &branch))?;
     Ok(Zone {
         scene: scene.clone(),
         frequency_g0_below,
@@ -143,15 +143,23 @@ fn insert_folds(follower: &Follower<'_, Frequencies<'_>>, branch: &mut Vec<Branc
     }
 }
 
-fn no_fold(branch: &[BranchPoint]) -> ZoneError {
-    let frequency = branch
-        .last()
-        .map_or(f64::NAN, |point| point.parameter)
-        .into();
-    if branch.iter().all(BranchPoint::is_stable) {
-        ZoneError::NoFold { frequency }
-    } else {
-        ZoneError::Flip { frequency }
+fn no_fold(from: f64, branch: &[BranchPoint]) -> ZoneError {
+    let last = branch.last().map_or(f64::NAN, |point| point.parameter);
+    if !branch.iter().all(BranchPoint::is_stable) {
+        return ZoneError::Flip {
+            frequency: last.into(),
+        };
+    }
+    let end = match last {
+        _ if last < from => BranchEnd::Below,
+        _ if last > FARTHEST * from => BranchEnd::Range,
+        _ if branch.len() >= LONGEST_BRANCH => BranchEnd::Budget,
+        _ => BranchEnd::Regime,
+    };
+    ZoneError::NoFold {
+        from: from.into(),
+        to: last.into(),
+        end,
     }
 }
 

@@ -53,10 +53,16 @@ pub enum ZoneError {
         frequency: Stated,
     },
     /// The z = 1 branch goes on without a fold.
-    #[error("the z = 1 branch was followed to {frequency} without meeting a fold")]
+    #[error(
+        "no hysteresis: the hardest z = 1 motion at the grazing boundary, {from}, stays stable up to {to}, where {end}"
+    )]
     NoFold {
+        /// Frequency of the grazing boundary.
+        from: Stated,
         /// Frequency up to which it was followed.
-        frequency: Stated,
+        to: Stated,
+        /// Why no farther.
+        end: BranchEnd,
     },
     /// A place outside the zone was asked for.
     #[error("s = {share}: must lie in [0, 1], from g0 to s_SN")]
@@ -73,13 +79,41 @@ impl ZoneError {
     /// The same with its frequency as a machine states it.
     #[must_use]
     pub fn stated(mut self, machine: &Machine) -> Self {
-        if let Self::NoOrbit { frequency } | Self::Flip { frequency } | Self::NoFold { frequency } =
-            &mut self
-        {
+        let (one, other) = match &mut self {
+            Self::NoOrbit { frequency } | Self::Flip { frequency } => (Some(frequency), None),
+            Self::NoFold { from, to, .. } => (Some(from), Some(to)),
+            _ => (None, None),
+        };
+        for frequency in one.into_iter().chain(other) {
             frequency.key = machine.name(Parameter::Frequency);
             frequency.value = machine.to_own(Dimension::Frequency, frequency.value);
         }
         self
+    }
+}
+
+/// Why a stable branch is followed no farther.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum BranchEnd {
+    /// No motion with one impact of its kind goes on.
+    Regime,
+    /// It lies below the grazing boundary.
+    Below,
+    /// No fold is looked for beyond.
+    Range,
+    /// It has more points than are followed.
+    Budget,
+}
+
+impl Display for BranchEnd {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Regime => "it ends otherwise than by a fold",
+            Self::Below => "it has come back below the boundary",
+            Self::Range => "the search for a fold ends",
+            Self::Budget => "it has more points than are followed",
+        })
     }
 }
 
