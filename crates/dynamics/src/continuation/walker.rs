@@ -24,6 +24,8 @@ const QUICK_TURN: f64 = 0.85;
 const MEANT_TURN: f64 = 0.93;
 const MEANT_OFF: f64 = 5e-3;
 const QUICK_GROWTH: (f64, f64) = (0.5, 2.5);
+/// Quick step below which it is the node from which no step can be taken that is in doubt.
+const DOUBTFUL: f64 = 1e-3;
 
 /// Goes along a curve with adaptive steps.
 pub(crate) struct Walker<'a, E: Equations> {
@@ -34,6 +36,7 @@ pub(crate) struct Walker<'a, E: Equations> {
     /// The last node and the direction there.
     last: Option<(DVector<f64>, DVector<f64>)>,
     care: Care,
+    is_renewed: bool,
     pub step: f64,
     largest: f64,
 }
@@ -59,6 +62,7 @@ impl<'a, E: Equations> Walker<'a, E> {
             equations,
             last: None,
             care: Care::Full,
+            is_renewed: false,
             node,
             direction,
             slopes,
@@ -124,14 +128,30 @@ impl<'a, E: Equations> Walker<'a, E> {
         let before = std::mem::replace(&mut self.direction, stride.direction);
         self.last = Some((last.at, before));
         self.slopes = stride.slopes;
+        self.is_renewed = false;
         self.step = (stride.growth * self.step).min(self.largest);
     }
 
-    /// Shortens the step; false if it is the shortest already.
+    /// Shortens the step; false if it is the shortest already. A quick node, whose direction is that of the place one
+    /// Newton step before, perhaps beyond a corner, is looked at anew.
     pub fn shorten(&mut self) -> bool {
+        if self.care == Care::Quick && self.step < DOUBTFUL && !self.is_renewed {
+            self.is_renewed = true;
+            self.renew().unwrap_or_default();
+            return true;
+        }
         let possible = self.step > SMALLEST_STEP;
         self.step *= 0.4;
         possible
+    }
+
+    /// The node and the direction there to the last digit.
+    fn renew(&mut self) -> Result<(), OrbitError> {
+        let across = Some(&self.direction);
+        let node = correct_with(self.equations, &self.node.at, across, &mut None, Care::Full)?;
+        let (direction, slopes) = tangent(self.equations, &node, &self.direction)?;
+        (self.node, self.direction, self.slopes, self.last) = (node, direction, slopes, None);
+        Ok(())
     }
 }
 
