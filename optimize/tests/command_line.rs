@@ -129,6 +129,24 @@ fn an_isola_is_no_zone_and_is_listed() -> Outcome {
     Ok(())
 }
 
+/// A motion that always impacts grazes nothing: no g0, and stretches all the same.
+#[test]
+fn without_a_grazing_boundary_stretches_are_listed() -> Outcome {
+    let zone = json(&words("zone --clearance 0 --format json"))?;
+    let why = zone["no_zone"].as_str().ok_or("why")?;
+    assert!(why.contains("clearance = 0"), "{why}");
+    let stretches = zone["stretches"].as_array().ok_or("stretches")?;
+    for (frequency, is_stable) in [("2", true), ("2.7", false)] {
+        let at: f64 = frequency.parse()?;
+        let mut listed = stretches.iter();
+        let holds = |one: &Value| (number(one, "from")..number(one, "to")).contains(&at);
+        assert_eq!(listed.any(holds), is_stable);
+        let orbit = SOFTSTOP.run(&["orbit", "--clearance", "0", "--frequency", frequency]);
+        assert_eq!(orbit.status.success(), is_stable);
+    }
+    Ok(())
+}
+
 #[test]
 fn without_damping_motions_are_neutral() -> Outcome {
     let orbit = json(&[
