@@ -23,6 +23,8 @@ const CLOSE: f64 = 1e-3;
 const AHEAD: f64 = 1e-2;
 /// Scaled distances, ahead and behind, at which something is looked for that a branch without a grazing ends in.
 const JUST_AHEAD: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
+/// Monodromy beyond which an orbit is within rounding of a grazing: on which side of it, rounding decides.
+const WILD: f64 = 1e8;
 /// Length of the steps from which on all changes are taken.
 pub(super) const SHORT: f64 = 1e-5;
 
@@ -77,7 +79,7 @@ impl<F: Family> Follower<'_, F> {
         (now, ahead): (&Approach, &Approach),
     ) -> bool {
         let (from, to) = (&walker.node.here.point, &stride.node.here.point);
-        let same = from.sequence.agrees(&to.sequence);
+        let same = from.sequence.agrees(&to.sequence) && to.monodromy.norm() < WILD;
         if walker.step < SHORT {
             return same;
         }

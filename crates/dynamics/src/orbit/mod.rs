@@ -21,7 +21,7 @@ pub use newton::fixed_point;
 pub use pattern::{Count, ImpactPattern};
 pub use periodic::Orbit;
 pub use regime::Regime;
-pub(crate) use scan::all_single;
+pub(crate) use scan::{FAINTEST, all_single};
 pub(crate) use search::find_soon;
 pub use search::{find, find_watched};
 

@@ -123,7 +123,7 @@ impl Orbit {
     }
 
     /// Times in s and before-impact velocities in m/s of its impacts.
-    pub(super) fn timed_impacts(&self) -> Vec<(f64, f64)> {
+    pub(crate) fn timed_impacts(&self) -> Vec<(f64, f64)> {
         let clock = self.scene.clock();
         let timed = |touch: &Touch| (clock.time(touch.instant), touch.before_impact_velocity);
         self.impacts.iter().map(timed).collect()

@@ -16,7 +16,7 @@ const RATIO: f64 = 1.25;
 /// The slowest impact that is looked for, in units of the motion's speed.
 const SLOWEST: f64 = 0.005;
 /// Below that, in the same units, an impact is no more than rounding about grazing.
-pub(super) const FAINTEST: f64 = 1e-6;
+pub(crate) const FAINTEST: f64 = 1e-6;
 /// The fastest, in units of the speed at which free damping takes all that the drive gives to a harmonic motion.
 const FASTEST: f64 = 1.5;
 /// The same in units of the motion's speed, for machines with little damping or none.

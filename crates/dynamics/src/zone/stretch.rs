@@ -155,10 +155,9 @@ pub(super) fn lies_between(
 /// The stable stretches of a branch.
 pub(super) fn stable(branch: &Branch) -> Vec<Stretch> {
     let mut found = Vec::new();
-    let mut specials = branch.specials.iter().cycle().peekable();
     let mut part = Part::new(Loss::of(&branch.ends.0));
     for point in in_order(branch) {
-        let special = specials.next_if(|special| special.is_at(point));
+        let special = branch.special_at(point);
         let loss = special.map(|special| Loss::at(&special.kind));
         if let Some(loss) = loss.or_else(|| part.differs(point)) {
             part.points.push(point.clone());

@@ -1,9 +1,11 @@
 //! All stable z = 1 motions of a machine, as stretches of the drive's frequency.
 
+use std::collections::VecDeque;
+
 use super::stretch::{Stretch, lies_between, sizes, stable};
 use super::{Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{Branch, BranchPoint, End, Follower, Limits};
-use crate::orbit::{OrbitError, all_single};
+use crate::orbit::{FAINTEST, Orbit, OrbitError, all_single};
 use crate::watch::{Watcher, unwatched};
 use softstop::Scene;
 
@@ -16,7 +18,9 @@ const POINTS: usize = 5_000;
 
 /// Share of a frequency by which motions are looked for beside one at which the regime changes.
 const BESIDE: f64 = 2e-3;
-/// Most frequencies at which motions are looked for.
+/// The same where they are looked for by the impact that a branch ends with.
+const BEYOND: [f64; 3] = [1e-5, 1e-4, 1e-3];
+/// Most frequencies at which motions are looked for, and most branches.
 const MOST: usize = 160;
 
 /// All stretches of a scene, in rising order of frequency; the frequency of its drive plays no part.
@@ -46,7 +50,9 @@ pub fn stretches_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Stre
     let mut next = 0;
     while let Some(&frequency) = frequencies.get(next).filter(|_| next < MOST) {
         next += 1;
-        for orbit in all_single(&scene.at_frequency(frequency), watcher)? {
+        let mut met = VecDeque::from(all_single(&scene.at_frequency(frequency), watcher)?);
+        while let Some(orbit) = met.pop_front().filter(|_| branches.len() < MOST) {
+            let frequency = orbit.scene.excitation.frequency;
             let point = BranchPoint {
                 parameter: frequency,
                 position: orbit.position,
@@ -64,7 +70,10 @@ pub fn stretches_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Stre
             let go_on = |_: &BranchPoint| watcher(0, 0);
             if let Ok(branch) = follower.branch(frequency, orbit.state(), &limits, go_on) {
                 OrbitError::ask(watcher)?;
-                frequencies.extend(borders(&branch).into_iter().flat_map(beside));
+                for border in borders(&branch) {
+                    frequencies.extend(beside(border.parameter));
+                    met.extend(beyond(scene, &follower.orbit(border)));
+                }
                 branches.push(branch);
             }
         }
@@ -95,17 +104,33 @@ fn frequencies(scene: &Scene) -> Vec<f64> {
     above.into_iter().chain(grazing).chain(row).collect()
 }
 
-/// Frequencies at which a branch ends but does not leave the range.
-fn borders(branch: &Branch) -> Vec<f64> {
+/// Points at which a branch ends but does not leave the range.
+fn borders(branch: &Branch) -> Vec<&BranchPoint> {
     let ends = [
         (&branch.ends.0, branch.points.first()),
         (&branch.ends.1, branch.points.last()),
     ];
-    let border = |(end, point): (&End, Option<&BranchPoint>)| match end {
-        End::Grazing | End::Border(_) | End::Lost(_) => Some(point?.parameter),
+    let border = |(end, point): (&End, _)| match end {
+        End::Grazing | End::Border(_) | End::Lost(_) => point,
         _ => None,
     };
     ends.into_iter().filter_map(border).collect()
+}
+
+/// The motions beside a border with nearly the impact of the motion there.
+fn beyond(scene: &Scene, border: &Result<Orbit, OrbitError>) -> Vec<Orbit> {
+    let Ok(border) = border else {
+        return Vec::new();
+    };
+    let impacts = border.timed_impacts();
+    let shares = BEYOND.into_iter().flat_map(|share| [-share, share]);
+    let near = |share: f64| {
+        let there = scene.at_frequency(border.scene.excitation.frequency * (1.0 + share));
+        let orbit = Orbit::by_impacts(&there, 1, impacts.get(..1)?).ok()?;
+        let faintest = FAINTEST * scene.motion_scales().speed();
+        (orbit.before_impact_velocity() > faintest).then_some(orbit)
+    };
+    shares.filter_map(near).collect()
 }
 
 fn beside(frequency: f64) -> [f64; 2] {
