@@ -12,6 +12,11 @@ use softstop::Start;
 /// Largest step of the parameter on the way, as a share of it.
 const STRIDE: f64 = 2e-4;
 
+/// Standard deviations by which more or fewer than half of the motions last, or else more are asked, those that last
+/// going on; and so many times the motions of one look at most.
+const SURE: f64 = 4.0;
+const MOST: usize = 64;
+
 /// An end of chaos.
 pub(super) struct ChaosEnd {
     /// Within this, half of the motions on it settle in the time given.
@@ -31,10 +36,19 @@ impl<F: Family + Sync> Explorer<'_, F> {
     ) -> Result<Option<Vec<Start>>, TransitionError> {
         let of = ("lasting", self.family.scene([value])?, states);
         piece(self.kept, &of, || {
-            let arrivals = self.hold(value, &self.fill(states), self.rules.lifetime)?;
-            let wandering = arrivals.iter().filter(|it| it.orbit.is_none());
-            let wandering: Vec<Start> = wandering.map(|it| it.state).collect();
-            Ok((2 * wandering.len() >= arrivals.len()).then_some(wandering))
+            let (mut states, mut still, mut all) = (states.to_vec(), 0, 0);
+            loop {
+                let arrivals = self.hold(value, &self.fill(&states), self.rules.lifetime)?;
+                all += arrivals.len();
+                let wandering = arrivals.iter().filter(|it| it.orbit.is_none());
+                states = wandering.map(|it| it.state).collect();
+                still += states.len();
+                let lead = 2.0 * still as f64 - all as f64;
+                let is_clear = lead.abs() > SURE * (all as f64).sqrt();
+                if is_clear || states.is_empty() || all >= MOST * self.rules.motions {
+                    return Ok((lead >= 0.0 && !states.is_empty()).then_some(states));
+                }
+            }
         })
     }
 
