@@ -128,6 +128,8 @@ fn the_next_run_clears_up_after_a_killed_one() -> Outcome {
             .map(|entry| Ok(entry?.file_name()))
             .collect::<Result<_, std::io::Error>>()?;
         names.sort();
+        // The run that lives keeps what is done from some time on.
+        names.retain(|name| name != "basin.part");
         Ok(names)
     };
     let begun = |count: usize| -> Outcome {
@@ -151,6 +153,6 @@ fn the_next_run_clears_up_after_a_killed_one() -> Outcome {
     alive.kill()?;
     alive.wait()?;
     assert!(basin("20").status()?.success());
-    assert_eq!(names()?.len(), 3);
+    assert_eq!(fs::read_dir(folder.path())?.count(), 3);
     Ok(())
 }

@@ -4,11 +4,13 @@
 //! and, where there is dry friction, another for the way back. Nothing behind this module asks
 //! which stop it was.
 
+mod id;
 mod lower;
 mod plan;
 mod settle;
 mod store;
 
+pub use id::{PhaseId, SurfaceId};
 pub(crate) use settle::Threshold;
 pub use settle::{Hold, Mode};
 pub use store::{Spring, Store};
@@ -45,24 +47,6 @@ pub enum PhaseKind {
     /// by any force.
     Resting,
 }
-
-/// One of a scene's phases.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct PhaseId(usize);
-
-impl PhaseId {
-    /// The free phase.
-    pub const FREE: Self = Self(0);
-
-    /// Its place among [`Phases::phases`].
-    pub const fn index(self) -> usize {
-        self.0
-    }
-}
-
-/// One of the surfaces between a scene's phases.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct SurfaceId(usize);
 
 /// m x'' + `damping` x' + `stiffness` x = `force` + F0 cos(w t + phi) + f(t).
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -144,9 +144,10 @@ impl Keep {
                 state.is_open = false;
                 return Ok(());
             };
-            file.set_len(0)?;
-            file.write_all(&record(&[], &self.of)?)?;
+            let written = file.set_len(0);
+            let written = written.and_then(|()| file.write_all(&record(&[], &self.of)?));
             state.file = Some(file);
+            written?;
             under_way().close_with(KEPT);
         }
         let Some(file) = &mut state.file else {
@@ -197,6 +198,8 @@ fn locked(path: &Path, create: bool) -> io::Result<Option<File>> {
     let file = options.truncate(false).open(path)?;
     Ok(match file.try_lock() {
         Err(TryLockError::WouldBlock) => None,
+        // The other run has ended in between, and taken its file away.
+        _ if !path.exists() => None,
         // Where there are no locks, no other run is expected.
         _ => Some(file),
     })

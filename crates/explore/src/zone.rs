@@ -68,7 +68,7 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
         }
         Err(error) if all.is_empty() => {
             let place = format!("no hysteresis zone found of {}", title(&machine));
-            Err(Failure::Run(anyhow!(error).context(place)))
+            Err(anyhow!(error).context(place).into())
         }
         zone => export::print(&ZoneReport::new(&machine, &zone, &all), arguments.format),
     }

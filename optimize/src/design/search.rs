@@ -91,13 +91,16 @@ pub fn search(
         return Err(SearchError::Stopped);
     }
     let values = space.values(&best);
-    problem
+    let design = problem
         .at(&values)
-        .or_else(|_| problem.soon(std::slice::from_ref(&values)).remove(0))
-        .map_err(|infeasible| SearchError::NoDesign {
+        .or_else(|_| problem.soon(std::slice::from_ref(&values)).remove(0));
+    design.map_err(|infeasible| match watch.stop() {
+        true => SearchError::Stopped,
+        false => SearchError::NoDesign {
             place: place(problem, &values),
             reason: infeasible.reason,
-        })
+        },
+    })
 }
 
 /// Values in words.

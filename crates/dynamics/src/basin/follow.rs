@@ -15,8 +15,9 @@ use softstop_lanes::Job;
 const SMALL_TILE: usize = 16;
 /// Drive periods between two looks at where the motions are.
 const STRETCH: u64 = 16;
-/// How long cells are followed before what they have come to is kept.
+/// How long cells are followed before what they have come to is kept: at first, so much longer each time, and at most.
 const PIECE: Duration = Duration::from_millis(250);
+const LONGEST: Duration = Duration::from_secs(5);
 
 /// Cells that were followed together for some time.
 #[derive(Serialize, Deserialize)]
@@ -63,20 +64,30 @@ impl Survey<'_> {
         let of = ("tile", self.scene, self.grid, self.options, tile[0]);
         let left = tile.iter().map(|cell| (*cell, self.states[*cell]));
         let (mut periods, mut left) = (0, left.collect::<Vec<_>>());
-        let mut pieces = Vec::new();
+        let mut pieces: Vec<Followed> = Vec::new();
+        let mut time = PIECE;
         while periods < self.options.transient && !left.is_empty() {
-            let on = || self.follow_on(std::mem::take(&mut left), periods);
+            let on = || self.follow_on(std::mem::take(&mut left), periods, time);
             let next = piece(self.kept, &(of, periods), on)?;
             self.fleet.note(next.ended.len() as u64)?;
             periods = next.periods;
             left.clone_from(&next.left);
+            if let Some(last) = pieces.last_mut() {
+                last.left = Vec::new();
+            }
             pieces.push(next);
+            time = (time + PIECE).min(LONGEST);
         }
         Ok(pieces)
     }
 
-    /// Follows cells on from so many drive periods.
-    fn follow_on(&self, left: Vec<(usize, Start)>, periods: u64) -> Result<Followed, SurveyError> {
+    /// Follows cells on from so many drive periods for some time.
+    fn follow_on(
+        &self,
+        left: Vec<(usize, Start)>,
+        periods: u64,
+        time: Duration,
+    ) -> Result<Followed, SurveyError> {
         let begin = Instant::now();
         let mut all = Followed {
             periods,
@@ -84,9 +95,7 @@ impl Survey<'_> {
             left,
             lost: None,
         };
-        while all.periods < self.options.transient
-            && !all.left.is_empty()
-            && begin.elapsed() < PIECE
+        while all.periods < self.options.transient && !all.left.is_empty() && begin.elapsed() < time
         {
             let stretch = STRETCH.min(self.options.transient - all.periods);
             all.periods += stretch;

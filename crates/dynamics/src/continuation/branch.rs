@@ -224,15 +224,28 @@ impl<'a, F: Family> Follower<'a, F> {
                         self.give_up(way, &walker, &approach, limits, error);
                         return Ok(None);
                     };
-                    let specials = self.specials_of_corner(&walker.node, &node)?;
                     let step = (&walker.node, &node);
-                    if let Some(end) = self.record(way, step, specials, &origin, limits)? {
+                    let beyond = self
+                        .specials_of_corner(step.0, step.1)
+                        .and_then(|specials| {
+                            let ahead = Approach::of(&self.shooting, &node)?;
+                            let end = self.record(way, step, specials, &origin, limits)?;
+                            let next =
+                                Walker::new(&self.shooting, node.clone(), &along, self.largest)?;
+                            Ok((end, ahead, next))
+                        });
+                    let (end, ahead, next) = match beyond {
+                        Ok(beyond) => beyond,
+                        Err(error) => {
+                            self.give_up(way, &walker, &approach, limits, error);
+                            return Ok(None);
+                        }
+                    };
+                    if let Some(end) = end {
                         way.end = end;
                         return Ok(None);
                     }
-                    approach = Approach::of(&self.shooting, &node)?;
-                    walker = Walker::new(&self.shooting, node, &along, self.largest)?;
-                    goes_on = false;
+                    (approach, walker, goes_on) = (ahead, next, false);
                 }
             }
         }

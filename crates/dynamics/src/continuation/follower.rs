@@ -215,7 +215,10 @@ impl<'a, F: Family> Follower<'a, F> {
             let here = plain.shooting.evaluate(&at)?;
             return plain.point_at(&Node { at, here });
         }
-        let state = node.here.point.start;
+        // A quick node lies one step of Newton's method on from its round; beyond a wall a node lies by rounding alone.
+        let (own, start) = (self.shooting.state(&node.at), node.here.point.start);
+        let is_start = (own - start).norm() <= 4.0 * f64::EPSILON * start.norm();
+        let state = if is_start { start } else { own };
         let [parameter] = self.shooting.parameters(&node.at);
         Ok(BranchPoint {
             parameter,

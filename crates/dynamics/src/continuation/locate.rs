@@ -67,7 +67,8 @@ pub(crate) fn zero<E: Equations>(
         values.drain(..values.len().saturating_sub(BACK));
         let onward = vanishes(&values) - place;
         if size <= here.tolerance && onward.abs() <= width {
-            return Ok(Node { at, here });
+            let is_between = (0.0..=along(&to.at)).contains(&place);
+            return is_between.then_some(Node { at, here }).ok_or(lost(size));
         }
         let slopes = slopes_at(equations, &at, &here, Care::Full)?;
         let matrix = bordered(&equations.jacobian(&here, &slopes), &chord);

@@ -11,6 +11,7 @@ mod pattern;
 mod periodic;
 pub(crate) mod recurrence;
 pub(crate) mod regime;
+mod returning;
 mod scan;
 mod search;
 pub(crate) mod turn;

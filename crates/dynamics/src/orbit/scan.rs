@@ -31,6 +31,7 @@ const SAME: f64 = 1e-6;
 /// [`OrbitError::Motion`] if the scene is none; [`OrbitError::Stopped`].
 pub(crate) fn all_single(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Orbit>, OrbitError> {
     scene.validate()?;
+    OrbitError::ask(watcher)?;
     let Some(legs) = Legs::new(scene, 1) else {
         return Ok(Vec::new());
     };

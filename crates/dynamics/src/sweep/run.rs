@@ -56,7 +56,15 @@ impl Plan {
     /// What its chains come to follows from this.
     pub fn identity(&self, chains: &[Chain]) -> impl Serialize + use<> {
         let chains = chains.iter();
-        let chains = chains.map(|it| (it.machine.scene.clone(), it.direction.name()));
+        let chains = chains.map(
+            |Chain {
+                 machine, direction, ..
+             }| {
+                // What a value of the parameter means to the machine.
+                let meant = (machine.name(self.parameter), machine.preload_deflection);
+                (machine.scene.clone(), meant, direction.name())
+            },
+        );
         let plan = (self.range, self.steps, self.periods, self.tolerance);
         let chains: Vec<_> = chains.collect();
         (self.parameter.name(), plan, self.start, chains)

@@ -145,9 +145,10 @@ fn insert_folds(follower: &Follower<'_, Frequencies<'_>>, branch: &mut Vec<Branc
 
 fn no_fold(from: f64, branch: &[BranchPoint]) -> ZoneError {
     let last = branch.last().map_or(f64::NAN, |point| point.parameter);
-    if !branch.iter().all(BranchPoint::is_stable) {
+    let unstable = branch.iter().find(|point| !point.is_stable());
+    if let Some(flipped) = unstable.filter(|point| point.fold_test() > 0.0) {
         return ZoneError::Flip {
-            frequency: last.into(),
+            frequency: flipped.parameter.into(),
         };
     }
     let end = match last {
