@@ -1,7 +1,6 @@
-//! Taylor steps in time under a power law, away from its face.
+//! Taylor steps in time under a power law: away from its face, or with n = 2.
 //!
-//! With w = d^n, d w' = n d' w; and w d' is the derivative of d w / (n + 1). So the coefficients of both follow from
-//! the same two sums of products.
+//! With w = d^n, d w' = n d' w; the product d' w in it is the one that the dissipation needs, too.
 
 use super::expansion::{converges_densely, outgrown};
 use super::hertz::Hertz;

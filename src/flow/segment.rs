@@ -1,7 +1,8 @@
 //! One Taylor step.
 //!
 //! The deflection d from the face obeys d'' + 2 a d' + b (d + x0) + kappa d^n (1 + lambda d') = push. Away from
-//! the face it is followed in time itself ([`super::pressed`]). At the face d^n has a branch point. If n is a
+//! the face, and with n = 2, it is followed in time itself ([`super::pressed`]), but for n = 3/2 under a constant push
+//! ([`super::sphere`]). At the face d^n has a branch point unless n is whole. If n is a
 //! multiple of 1/m it goes away where the m-th root s of d is the unknown and a stretched time sigma,
 //! dt = s^(m-1) dsigma, the variable (as Levi-Civita did for collisions, 1920):
 //!

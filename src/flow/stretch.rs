@@ -1,4 +1,4 @@
-//! Taylor steps along a stretched time, at the face of a power law.
+//! Taylor steps along a stretched time, at the face of a power law, and of a sphere throughout.
 
 use super::expansion::{converges, outgrown, shell};
 use super::hertz::Hertz;

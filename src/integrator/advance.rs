@@ -213,7 +213,7 @@ impl Motion {
     ) -> Drive {
         let at = self.clock.after(self.start, elapsed);
         let drive = self.clock.drive(at);
-        let end = state.map(|state| (state, drive));
+        let end = state.map(|state| (elapsed, state, drive));
         observer.arc(&Arc { end, ..self.arc() }, elapsed);
         self.force.go_on(&self.clock, at, elapsed);
         (self.start, self.now) = (at, at);

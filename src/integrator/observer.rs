@@ -23,18 +23,18 @@ pub struct Arc<'a> {
     pub phase: Option<&'a Phase>,
     /// What the mass does on it.
     pub kind: PhaseKind,
-    /// State and drive at its end, where a crossing has told them.
-    pub(super) end: Option<(Start, Drive)>,
+    /// When it ends, in s after the start, with state and drive there, where a crossing has told them.
+    pub(super) end: Option<(f64, Start, Drive)>,
 }
 
 impl Arc<'_> {
     /// Where it has come to `elapsed` seconds after the start, at its end or on the way.
     pub(super) fn node(&self, elapsed: f64) -> Node {
         match self.end {
-            Some((Start { position, velocity }, drive)) => {
+            Some((at, Start { position, velocity }, drive)) if at == elapsed => {
                 self.course.placed(elapsed, drive, (position, velocity))
             }
-            None => self.course.node(elapsed),
+            _ => self.course.node(elapsed),
         }
     }
 

@@ -44,7 +44,7 @@ impl<U: Unit> Clone for Instance<U> {
         }
     }
 
-    /// Takes no memory anew: going back to a snapshot is asked for as often as a step.
+    /// Reuses the memory of values and signals: going back to a snapshot is asked for as often as a step.
     fn clone_from(&mut self, kept: &Self) {
         self.lifecycle = kept.lifecycle;
         self.values.clone_from(&kept.values);

@@ -99,6 +99,12 @@ impl Hum<'_> {
         law.force - law.stiffness * position
     }
 
+    /// What rounding may change of it, compared with another one there.
+    fn rounding(&self, phase: PhaseId, position: f64) -> f64 {
+        let law = &self.phases[phase].law;
+        8.0 * f64::EPSILON * (law.force.abs() + (law.stiffness * position).abs())
+    }
+
     fn is_at(&self, surface: &Surface) -> bool {
         let before = self.force(surface.below, surface.position);
         let mut beyond = [Some(surface.above), surface.above_unfed]
@@ -107,7 +113,8 @@ impl Hum<'_> {
         let elastic = beyond.any(|above| match above {
             Beyond::Phase(above) => {
                 let after = self.force(above, surface.position);
-                after < before.min(self.drive.amplitude)
+                let least = after + self.rounding(above, surface.position);
+                least < before && after < self.drive.amplitude
             }
             Beyond::Wall { restitution } => restitution > ELASTIC,
         });
