@@ -72,7 +72,9 @@ impl<S: Simd, const N: usize> Stretch<S, N> {
         let touches = (-grain).below(g0);
         let leaves = touches & d0.below(-slow) & g0.at_most(grain);
         let ends_there = (-grain).below(g1) & zero.below(d1);
-        self.judge(touches, leaves).clear.and_not(ends_there)
+        let slack = touches.choose(self.slack, self.slack + grain);
+        let stretch = Self { slack, ..*self };
+        stretch.judge(touches, leaves).clear.and_not(ends_there)
     }
 
     /// Judges all lanes. `touches`: the guard begins within rounding of zero; `leaves`: and it falls there.

@@ -24,11 +24,9 @@ impl<F: Family> Follower<'_, F> {
         to: &BranchPoint,
         test: impl Fn(&BranchPoint) -> f64,
     ) -> Result<BranchPoint, OrbitError> {
-        let ends = (self.node_at(from)?, self.node_at(to)?);
-        match self.clear_of(&ends.0).or_else(|| self.clear_of(&ends.1)) {
-            None => self.locate_between((&ends.0, &ends.1), test),
-            Some(clear) => clear.locate_between((&clear.node_at(from)?, &clear.node_at(to)?), test),
-        }
+        self.clearly(from, to, |follower, ends| {
+            follower.locate_between(ends, &test)
+        })
     }
 
     /// The point between two neighbours at which a test of the monodromy matrix vanishes.
@@ -41,10 +39,20 @@ impl<F: Family> Follower<'_, F> {
         to: &BranchPoint,
         test: Test,
     ) -> Result<BranchPoint, OrbitError> {
+        self.clearly(from, to, |follower, ends| follower.zero_between(ends, test))
+    }
+
+    /// What is found between two neighbours, seen at a drive angle with no crossing near.
+    fn clearly(
+        &self,
+        from: &BranchPoint,
+        to: &BranchPoint,
+        find: impl Fn(&Self, (&Node<Round>, &Node<Round>)) -> Result<BranchPoint, OrbitError>,
+    ) -> Result<BranchPoint, OrbitError> {
         let ends = (self.node_at(from)?, self.node_at(to)?);
         match self.clear_of(&ends.0).or_else(|| self.clear_of(&ends.1)) {
-            None => self.zero_between((&ends.0, &ends.1), test),
-            Some(clear) => clear.zero_between((&clear.node_at(from)?, &clear.node_at(to)?), test),
+            None => find(self, (&ends.0, &ends.1)),
+            Some(clear) => find(&clear, (&clear.node_at(from)?, &clear.node_at(to)?)),
         }
     }
 

@@ -16,7 +16,7 @@ use softstop_lanes::Machine;
 /// Drive periods after which Newton's method may take over: few, which finds motions with small basins, and more;
 /// and far more if neither finds any.
 const SETTLING: [&[u64]; 2] = [&[2, 12], &[60]];
-/// Distance, in the same scales, within which one state stands for another.
+/// Distance, in scales of the motion, within which one state stands for another.
 const SAME: f64 = 0.02;
 /// Share of what a state moves within a period up to which it stands for another one in the search for an orbit.
 const STANDS_FOR: f64 = 0.5;

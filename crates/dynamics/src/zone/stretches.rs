@@ -72,7 +72,8 @@ pub fn stretches_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Stre
                 OrbitError::ask(watcher)?;
                 for border in borders(&branch) {
                     frequencies.extend(beside(border.parameter));
-                    met.extend(beyond(scene, &follower.orbit(border)));
+                    let border = follower.orbit(border);
+                    met.extend(border.map_or(Vec::new(), |border| beyond(scene, &border)));
                 }
                 branches.push(branch);
             }
@@ -118,10 +119,7 @@ fn borders(branch: &Branch) -> Vec<&BranchPoint> {
 }
 
 /// The motions beside a border with nearly the impact of the motion there.
-fn beyond(scene: &Scene, border: &Result<Orbit, OrbitError>) -> Vec<Orbit> {
-    let Ok(border) = border else {
-        return Vec::new();
-    };
+fn beyond(scene: &Scene, border: &Orbit) -> Vec<Orbit> {
     let impacts = border.timed_impacts();
     let shares = BEYOND.into_iter().flat_map(|share| [-share, share]);
     let near = |share: f64| {
