@@ -8,6 +8,7 @@
 pub mod design;
 pub mod fmu;
 pub mod optimize;
+pub mod page;
 pub mod report;
 
 use std::process::ExitCode;

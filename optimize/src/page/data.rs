@@ -1,0 +1,319 @@
+//! What the report of a design tells, as plain data in the machine's own units.
+//!
+//! Whatever is absent (`None`, or an empty list) is left out of the page, with its heading. Symbols may have an index
+//! after an underscore (`s_SN`); the page sets it below the line.
+
+use serde::Serialize;
+
+/// The whole report.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Report {
+    /// Name of the machine.
+    pub machine: String,
+    /// What was asked, in a sentence.
+    pub task: String,
+    /// What the reader must know before the figures, each a sentence.
+    pub warnings: Vec<String>,
+    /// The figures that matter most, in large letters: the objective first.
+    pub highlights: Vec<Fact>,
+    /// The design beside other machines.
+    pub comparison: Option<Comparison>,
+    /// What limits the design, in a sentence.
+    pub limit: Option<String>,
+    /// What was required of it.
+    pub requirements: Vec<Requirement>,
+    /// Maps over two parameters.
+    pub maps: Vec<Map>,
+    /// The motion over the drive's frequency.
+    pub response: Option<Response>,
+    /// The motion in the phase plane.
+    pub portrait: Option<Portrait>,
+    /// Which start leads to which motion.
+    pub basin: Option<Basin>,
+    /// Share and integrity of the basin along the zone.
+    pub erosion: Option<Erosion>,
+    /// What more of one good costs of another.
+    pub fronts: Vec<Front>,
+    /// The objective over machines within the tolerances.
+    pub histogram: Option<Histogram>,
+    /// What each tolerance does to the objective.
+    pub sensitivities: Vec<Sensitivity>,
+    /// Ways to bring the machine into its motion.
+    pub run_up: Vec<RunUp>,
+    /// How all this was computed: version, command, seed, zones, samples, accuracy of the numbers.
+    pub computed: Vec<Fact>,
+}
+
+/// What an axis, a column or a row shows.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct Label {
+    /// In words.
+    pub name: String,
+    /// Its letter; may be empty.
+    pub symbol: String,
+    /// Its unit; empty for bare numbers.
+    pub unit: String,
+}
+
+/// A name and what stands behind it.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct Fact {
+    /// What it is.
+    pub name: String,
+    /// As it is to be read, with its unit.
+    pub value: String,
+}
+
+/// Machines side by side.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Comparison {
+    /// Names of the machines; the design first.
+    pub machines: Vec<String>,
+    /// Their quantities.
+    pub rows: Vec<Row>,
+}
+
+/// A quantity of machines side by side.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Row {
+    /// What it is.
+    pub label: Label,
+    /// True if the search chose it.
+    pub is_chosen: bool,
+    /// Its value for each machine; none where a machine does not have it.
+    pub values: Vec<Option<f64>>,
+}
+
+/// A requirement and how the design meets it.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Requirement {
+    /// As in the task file.
+    pub name: String,
+    /// What it is, in words.
+    pub meaning: String,
+    /// Unit of value and margin; empty for bare numbers.
+    pub unit: String,
+    /// What is required: `at least 0.5`.
+    pub required: String,
+    /// What the design has.
+    pub value: f64,
+    /// Distance to the limit, negative beyond it.
+    pub margin: f64,
+    /// Whether it is met.
+    pub met: bool,
+}
+
+/// What a line of a picture is; this decides how it looks.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// The design's own motion.
+    #[default]
+    Design,
+    /// A motion that no mass stays on.
+    Unstable,
+    /// Another machine, or the same one in other circumstances.
+    Beside,
+    /// The boundary g0 of the zone.
+    Grazing,
+    /// The boundary `s_SN` of the zone.
+    Fold,
+    /// The boundary `s_PD`: the period doubles.
+    Flip,
+}
+
+/// A line through points.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Curve {
+    /// What it is called in the legend; curves of one name share an entry.
+    pub name: String,
+    /// What it is.
+    pub role: Role,
+    /// Values across and upwards.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// The before-impact velocity over two parameters.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Map {
+    /// Axis across.
+    pub x: Label,
+    /// Axis upwards.
+    pub y: Label,
+    /// What is shaded.
+    pub shade: Label,
+    /// Ends of the axis across.
+    pub x_range: [f64; 2],
+    /// Ends of the axis upwards.
+    pub y_range: [f64; 2],
+    /// Cells in a row.
+    pub columns: usize,
+    /// The cells, row by row, the lowest row first; none where there is no such motion.
+    pub cells: Vec<Option<f64>>,
+    /// Boundaries.
+    pub curves: Vec<Curve>,
+    /// Where the design is.
+    pub design: [f64; 2],
+    /// Half widths of its tolerance, across and upwards.
+    pub tolerance: Option<[f64; 2]>,
+}
+
+/// The before-impact velocity over the drive's frequency.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Response {
+    /// Axis across.
+    pub x: Label,
+    /// Axis upwards.
+    pub y: Label,
+    /// Motions of the design and beside it.
+    pub curves: Vec<Curve>,
+    /// Names and frequencies of the ends of the zone.
+    pub ends: Vec<(String, f64)>,
+    /// Where the design is.
+    pub design: [f64; 2],
+    /// Lowest and highest frequency within the tolerance of the drive's speed.
+    pub tolerance: Option<[f64; 2]>,
+    /// Frequency with the least and greatest velocity of machines within the tolerances.
+    pub band: Vec<[f64; 3]>,
+}
+
+/// One period of motions in the phase plane.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Portrait {
+    /// Axis across.
+    pub x: Label,
+    /// Axis upwards.
+    pub y: Label,
+    /// The motions.
+    pub curves: Vec<Curve>,
+    /// Names and positions of what the mass meets.
+    pub faces: Vec<(String, f64)>,
+}
+
+/// Which initial state leads to which motion.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Basin {
+    /// Axis across.
+    pub x: Label,
+    /// Axis upwards.
+    pub y: Label,
+    /// Ends of the axis across.
+    pub x_range: [f64; 2],
+    /// Ends of the axis upwards.
+    pub y_range: [f64; 2],
+    /// Cells in a row.
+    pub columns: usize,
+    /// For each cell its motion, row by row, the lowest row first.
+    pub cells: Vec<u16>,
+    /// The motions.
+    pub motions: Vec<BasinMotion>,
+    /// Radius, in units of half of each axis, and middle of the largest ball inside the basin of the design's motion.
+    pub ball: Option<(f64, [f64; 2])>,
+    /// Where the design's motion passes the plane.
+    pub spots: Vec<[f64; 2]>,
+}
+
+/// A motion and the share of initial states that lead to it.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct BasinMotion {
+    /// Its name.
+    pub name: String,
+    /// Its colour, as in SVG.
+    pub color: String,
+    /// Share of the cells.
+    pub share: f64,
+    /// Its 95 % interval.
+    pub interval: [f64; 2],
+}
+
+/// Share and integrity of the basin of z = 1 along the zone.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Erosion {
+    /// From g0 to `s_SN`.
+    pub points: Vec<ErosionPoint>,
+    /// Place of the design.
+    pub design: Option<f64>,
+    /// Least share that is required.
+    pub required: Option<f64>,
+    /// From where motions were started, in words.
+    pub starts: String,
+}
+
+/// A place of the zone.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub struct ErosionPoint {
+    /// 0 at g0, 1 at `s_SN`.
+    pub place: f64,
+    /// Drive frequency there.
+    pub frequency: f64,
+    /// Share of initial states that lead to z = 1.
+    pub share: f64,
+    /// Its 95 % interval.
+    pub interval: [f64; 2],
+    /// Radius of the largest ball inside the basin, in units of half of each axis.
+    pub integrity: Option<f64>,
+}
+
+/// What more of one good costs of another.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Front {
+    /// What is traded.
+    pub title: String,
+    /// Axis across.
+    pub x: Label,
+    /// Axis upwards.
+    pub y: Label,
+    /// The best designs, in order.
+    pub points: Vec<[f64; 2]>,
+    /// Where the design is.
+    pub design: Option<[f64; 2]>,
+}
+
+/// How often a value occurs.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Histogram {
+    /// What is counted.
+    pub x: Label,
+    /// Lower end of the first bar and upper end of the last one; all are equally wide.
+    pub range: [f64; 2],
+    /// Machines in each bar.
+    pub counts: Vec<u64>,
+    /// The value of the design itself.
+    pub nominal: f64,
+    /// The worst within the tolerances.
+    pub worst: Option<f64>,
+    /// Machines that were looked at.
+    pub samples: u64,
+    /// Those of them without the motion.
+    pub lost: u64,
+}
+
+/// What the tolerance of a parameter does to the objective.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Sensitivity {
+    /// The parameter.
+    pub label: Label,
+    /// Its value.
+    pub value: f64,
+    /// Its tolerance, both ways.
+    pub tolerance: f64,
+    /// Change of the objective at the upper end of the tolerance.
+    pub effect: f64,
+    /// Unit of the effect.
+    pub effect_unit: String,
+    /// Share of the objective's variance that comes with it alone (first Sobol index).
+    pub share: Option<f64>,
+    /// The same together with all others (total Sobol index).
+    pub total: Option<f64>,
+}
+
+/// A way to bring the machine into its motion.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct RunUp {
+    /// What is done, in a few words.
+    pub way: String,
+    /// Whether the machine then moves as designed.
+    pub succeeds: bool,
+    /// What else is to be known of it; may be empty.
+    pub note: String,
+}

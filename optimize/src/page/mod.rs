@@ -1,0 +1,3 @@
+//! The report of a design: plain data ([`data`]) made into one page.
+
+pub mod data;
