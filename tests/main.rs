@@ -10,6 +10,7 @@ mod guarantee;
 mod limits;
 mod long_runs;
 mod machine;
+mod machine_files;
 mod machine_refusals;
 mod no_event_missed;
 mod rates;

@@ -11,9 +11,9 @@ pub(super) const VELOCITY: &str = "initial.velocity";
 pub(super) const FREQUENCY_HZ: &str = "excitation.frequency_hz";
 pub(super) const DEFLECTION: &str = "stop.preload_deflection";
 pub(super) const MODEL: &str = "stop.model";
-const RELEASE: &str = "stop.release";
-const LOADING: &str = "stop.loading";
-const UNLOADING: &str = "stop.unloading";
+pub(super) const RELEASE: &str = "stop.release";
+pub(super) const LOADING: &str = "stop.loading";
+pub(super) const UNLOADING: &str = "stop.unloading";
 
 /// Keys of the stop that are no numbers: they make a new stop.
 pub(super) const WORDS: [&str; 4] = [MODEL, RELEASE, LOADING, UNLOADING];

@@ -3,6 +3,7 @@
 mod change;
 mod file;
 mod keys;
+mod write;
 
 use crate::error::SceneError;
 use crate::integrator::Start;

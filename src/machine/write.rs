@@ -1,0 +1,150 @@
+//! Machines as TOML files that programs write.
+
+use toml::Value;
+
+use super::{Language, Machine, keys};
+use crate::scene::{Dimension, Release, Slope, Stop};
+
+/// Where the comments begin.
+const COMMENT: usize = 36;
+
+/// What is written, in order: a table, and the lines in it.
+type Section = (&'static str, Vec<Line>);
+
+/// A key, its value as in TOML, and what it is.
+struct Line(&'static str, String, String);
+
+impl Machine {
+    /// The text of a machine file in its own units, complete, each number with what it is. [`Machine::from_toml`]
+    /// makes the same machine of it, to the bit; but a drive frequency that no number of Hz gives, if it is to be
+    /// in Hz, is the nearest one that has such a number.
+    ///
+    /// ```
+    /// use softstop::Machine;
+    ///
+    /// let machine = Machine::named("loaded").expect("the paper's");
+    /// assert_eq!(Machine::from_toml(&machine.to_toml())?, machine);
+    /// # Ok::<(), softstop::MachineError>(())
+    /// ```
+    pub fn to_toml(&self) -> String {
+        let mut sections: Vec<Section> = vec![("", Vec::new())];
+        for line in self.lines() {
+            // A table of one key is not worth its heading.
+            let table = match line.0.split_once('.') {
+                None | Some(("contact", _)) => "",
+                Some((table, _)) => table,
+            };
+            match sections.iter_mut().find(|(name, _)| *name == table) {
+                Some((_, lines)) => lines.push(line),
+                None => sections.push((table, vec![line])),
+            }
+        }
+        let mut text = String::new();
+        for (key, value) in [("name", &self.name), ("description", &self.description)] {
+            if let Some(value) = value {
+                text += &format!("{key} = {}\n", Value::String(value.clone()));
+            }
+        }
+        for (table, lines) in sections {
+            let inside = self.speaks == Language::Ratios && table != "initial";
+            let heading = match (inside, table) {
+                (true, "") => "\n[ratios]\n".to_owned(),
+                (true, table) => format!("\n[ratios.{table}]\n"),
+                (false, "") => "\n".to_owned(),
+                (false, table) => format!("\n[{table}]\n"),
+            };
+            text += &heading;
+            for Line(key, value, meaning) in lines {
+                let key = key.strip_prefix(table).unwrap_or(key);
+                let stated = format!("{} = {value}", key.trim_start_matches('.'));
+                let line = match meaning.as_str() {
+                    "" => stated,
+                    _ => format!("{stated:COMMENT$}# {meaning}"),
+                };
+                text += &line;
+                text.push('\n');
+            }
+        }
+        text.trim_start().to_owned()
+    }
+
+    /// All that makes out the machine.
+    fn lines(&self) -> Vec<Line> {
+        let stop = &self.scene.stop;
+        let word = |word: &str| format!("\"{word}\"");
+        let mut lines = Vec::new();
+        for parameter in self.parameters() {
+            if let Some(value) = self.value(parameter) {
+                let value = number(match self.name(parameter) {
+                    keys::FREQUENCY_HZ => self.hertz(value),
+                    _ => value,
+                });
+                lines.push(Line(self.name(parameter), value, self.label_of(parameter)));
+            }
+        }
+        lines.push(Line(keys::MODEL, word(stop.model()), String::new()));
+        match stop {
+            Stop::KelvinVoigt { release, .. } => {
+                let name = match release {
+                    Release::Clearance => "clearance",
+                    Release::ZeroForce => "zeroForce",
+                };
+                let meaning = "when a mass that moves back is let go".to_owned();
+                lines.push(Line(keys::RELEASE, word(name), meaning));
+            }
+            Stop::PiecewiseLinear { loading, unloading } => {
+                let from = self.label("from this deflection", "", Dimension::Length);
+                let slope = self.label("this stiffness", "", Dimension::Stiffness);
+                let meaning = format!("{from} on {slope}");
+                lines.push(Line(keys::LOADING, slopes(loading), meaning.clone()));
+                if !unloading.is_empty() {
+                    lines.push(Line(keys::UNLOADING, slopes(unloading), meaning));
+                }
+            }
+            _ => {}
+        }
+        for (key, value, what, dimension) in [
+            (
+                keys::POSITION,
+                self.start.position,
+                "position",
+                Dimension::Length,
+            ),
+            (
+                keys::VELOCITY,
+                self.start.velocity,
+                "velocity",
+                Dimension::Velocity,
+            ),
+        ] {
+            let meaning = self.label(&format!("{what} at time 0"), "", dimension);
+            lines.push(Line(key, number(value), meaning));
+        }
+        lines
+    }
+
+    /// The number of Hz near this one that gives the drive's frequency to the bit, if there is one.
+    fn hertz(&self, near: f64) -> f64 {
+        let exact = |hertz: &f64| {
+            self.to_si(Dimension::Frequency, *hertz) == self.scene.excitation.frequency
+        };
+        let around = [near, near.next_down(), near.next_up()];
+        around.into_iter().find(exact).unwrap_or(near)
+    }
+}
+
+/// The shortest text that reads back as the same number.
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}
+
+fn slopes(slopes: &[Slope]) -> String {
+    let slope = |slope: &Slope| {
+        let (from, stiffness) = (number(slope.from), number(slope.stiffness));
+        format!("{{ from = {from}, stiffness = {stiffness} }}")
+    };
+    format!(
+        "[{}]",
+        slopes.iter().map(slope).collect::<Vec<_>>().join(", ")
+    )
+}
