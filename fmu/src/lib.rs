@@ -13,7 +13,7 @@ mod units;
 pub use machine::Machine;
 use softstop::Sensitivity;
 use softstop_fmi::Unit;
-pub use softstop_fmi::{description, guid_of, package};
+pub use softstop_fmi::{description, guid_of, package, parameter_set};
 pub use start::{NotServed, StartValues, slot};
 
 /// The C functions of the standard, behind the feature `c-functions`: without it a program can link this unit

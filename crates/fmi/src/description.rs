@@ -15,12 +15,12 @@ use crate::variable::{Access, Kind, RealKind};
 /// The tool that writes units, and its version.
 const TOOL: &str = "softstop";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
-const GENERATOR: &str = concat!("softstop ", env!("CARGO_PKG_VERSION"));
+pub(crate) const GENERATOR: &str = concat!("softstop ", env!("CARGO_PKG_VERSION"));
 const INDENT: usize = 2;
 
-type Xml = Writer<Vec<u8>>;
+pub(crate) type Xml = Writer<Vec<u8>>;
 type Attributes = Vec<(&'static str, String)>;
-const NONE: [(&str, &str); 0] = [];
+pub(crate) const NONE: [(&str, &str); 0] = [];
 
 /// The XML of the FMU with this imprint and this GUID.
 ///
@@ -44,7 +44,10 @@ pub fn write<U: Unit>(imprint: &Imprint<U>, guid: &str) -> io::Result<String> {
     element(&mut xml, "fmiModelDescription", root, |xml| {
         empty(xml, "CoSimulation", capabilities(about))?;
         element(xml, "UnitDefinitions", NONE, |xml| {
-            about.quantities.iter().try_for_each(|of| unit(xml, of))
+            about
+                .quantities
+                .iter()
+                .try_for_each(|of| unit(xml, ["Unit", "BaseUnit"], of, |xml| shown(xml, of)))
         })?;
         element(xml, "TypeDefinitions", NONE, |xml| {
             let mut quantities = about.quantities.iter();
@@ -76,7 +79,7 @@ pub fn write<U: Unit>(imprint: &Imprint<U>, guid: &str) -> io::Result<String> {
     String::from_utf8(bytes).map_err(io::Error::other)
 }
 
-fn element<'a, V: Into<Cow<'a, str>>>(
+pub(crate) fn element<'a, V: Into<Cow<'a, str>>>(
     xml: &mut Xml,
     name: &'static str,
     attributes: impl IntoIterator<Item = (&'static str, V)>,
@@ -89,7 +92,7 @@ fn element<'a, V: Into<Cow<'a, str>>>(
     Ok(())
 }
 
-fn empty<'a, V: Into<Cow<'a, str>>>(
+pub(crate) fn empty<'a, V: Into<Cow<'a, str>>>(
     xml: &mut Xml,
     name: &'static str,
     attributes: impl IntoIterator<Item = (&'static str, V)>,
@@ -129,15 +132,26 @@ fn log_categories<U: Unit>(xml: &mut Xml, about: &About<U>) -> io::Result<()> {
     })
 }
 
-fn unit(xml: &mut Xml, quantity: &Quantity) -> io::Result<()> {
-    element(xml, "Unit", [("name", quantity.unit)], |xml| {
-        let base = quantity.base.iter();
-        let base = base.map(|(name, exponent)| (*name, exponent.to_string()));
-        empty(xml, "BaseUnit", base)?;
-        quantity.display.iter().try_for_each(|(name, factor)| {
-            let shown = [("name", *name), ("factor", &number(*factor))];
-            empty(xml, "DisplayUnit", shown)
-        })
+/// A unit and its base units, in elements of these names.
+pub(crate) fn unit(
+    xml: &mut Xml,
+    [name, base]: [&'static str; 2],
+    quantity: &Quantity,
+    more: impl FnOnce(&mut Xml) -> io::Result<()>,
+) -> io::Result<()> {
+    element(xml, name, [("name", quantity.unit)], |xml| {
+        let exponents = quantity.base.iter();
+        let exponents = exponents.map(|(name, exponent)| (*name, exponent.to_string()));
+        empty(xml, base, exponents)?;
+        more(xml)
+    })
+}
+
+/// The units in which a quantity may be shown.
+fn shown(xml: &mut Xml, quantity: &Quantity) -> io::Result<()> {
+    quantity.display.iter().try_for_each(|(name, factor)| {
+        let shown = [("name", *name), ("factor", &number(*factor))];
+        empty(xml, "DisplayUnit", shown)
     })
 }
 
@@ -147,14 +161,11 @@ fn real_type(xml: &mut Xml, quantity: &Quantity) -> io::Result<()> {
     element(xml, "SimpleType", named, |xml| empty(xml, "Real", real))
 }
 
-fn enumeration_type(xml: &mut Xml, items: &Enumeration) -> io::Result<()> {
-    let named = [
-        ("name", items.type_name),
-        ("description", items.description),
-    ];
+fn enumeration_type(xml: &mut Xml, of: &Enumeration) -> io::Result<()> {
+    let named = [("name", of.type_name), ("description", of.description)];
     element(xml, "SimpleType", named, |xml| {
         element(xml, "Enumeration", NONE, |xml| {
-            items.items.iter().try_for_each(|item| {
+            of.items.iter().try_for_each(|item| {
                 let value = item.value.to_string();
                 let named = [
                     ("name", item.name),
@@ -237,7 +248,7 @@ pub(crate) fn start_value<U: Unit>(variable: &Row<U>, imprint: &Imprint<U>) -> O
 }
 
 /// Shortest text that reads back as the same number.
-fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     format!("{value:?}")
 }
 

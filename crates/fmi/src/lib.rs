@@ -1,7 +1,8 @@
 //! The boundary of FMI 2.0 co-simulation for any unit, and the packager that writes its FMU.
 //!
 //! A [`Unit`] is a table of variables ([`variable`]) and a motion that can be advanced. The XML
-//! ([`description`]), the documentation and the package ([`package`]) follow from the table, and
+//! ([`description`]), the documentation, the package ([`package`]) and its parameters as a file of their own
+//! ([`parameter_set`]) follow from the table, and
 //! [`export`] gives the unit the C functions of the standard ([`v2`]). `Instance` is one running unit
 //! in safe Rust; `v2` and the block of start values are the only unsafe code.
 
@@ -17,6 +18,7 @@ mod instance;
 mod lifecycle;
 mod log;
 pub mod package;
+pub mod parameter_set;
 mod quantity;
 mod reading;
 mod sensitivity;

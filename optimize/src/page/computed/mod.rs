@@ -1,0 +1,138 @@
+//! What pictures show of a design, computed from its machine, its zone and its motion alone.
+
+mod basin;
+mod comparison;
+mod map;
+mod portrait;
+mod response;
+
+pub use basin::basin;
+pub use comparison::comparison;
+pub use map::map;
+pub use portrait::portrait;
+pub use response::response;
+
+use softstop::{Dimension, Language, Machine, Parameter, Scene};
+use softstop_console::interrupt;
+use softstop_dynamics::continuation::{Follower, Heading, Test};
+use softstop_dynamics::watch::stop_if;
+use softstop_dynamics::{Along, BranchPoint, Orbit, Zone};
+
+use super::data::Label;
+
+/// The label of a parameter of a machine.
+fn label_of(machine: &Machine, parameter: Parameter) -> Label {
+    let about = parameter.about();
+    match machine.speaks {
+        Language::Ratios => Label::new(about.meaning, about.symbol, ""),
+        _ if parameter == Parameter::Preload && machine.preload_deflection.is_some() => Label::new(
+            "preload of the stop as a deflection",
+            "",
+            Dimension::Length.unit(),
+        ),
+        _ if parameter == Parameter::StopStiffness
+            && Parameter::Exponent.get(&machine.scene).is_some() =>
+        {
+            Label::new(about.meaning, "", "N/m^exponent")
+        }
+        _ => Label::new(about.meaning, "", machine.unit(about.dimension)),
+    }
+}
+
+/// The label of a quantity in a machine's own units, with its letter if it speaks ratios.
+fn label(machine: &Machine, name: &str, symbol: &str, dimension: Dimension) -> Label {
+    match machine.speaks {
+        Language::Ratios => Label::new(name, symbol, ""),
+        _ => Label::new(name, "", machine.unit(dimension)),
+    }
+}
+
+/// The label of the before-impact velocity.
+fn velocity(machine: &Machine) -> Label {
+    label(
+        machine,
+        "before-impact velocity",
+        "X′₋",
+        Dimension::Velocity,
+    )
+}
+
+/// The machine's scene with nothing to pierce where its strip was.
+fn unfed(scene: &Scene) -> Option<Scene> {
+    let mut scene = scene.clone();
+    let strip = scene.piercing.as_mut()?;
+    (strip.stiffness, strip.friction) = (0.0, 0.0);
+    Some(scene)
+}
+
+/// The z = 1 motions of a zone: those above g0, and those below, from g0 down.
+struct Motions {
+    above: Vec<BranchPoint>,
+    below: Vec<BranchPoint>,
+    /// Frequency in rad/s at which the period doubles below g0.
+    flip: Option<f64>,
+}
+
+/// Points after which the motions below g0 are given up, and how far they are looked for.
+const LONGEST: usize = 400;
+const FARTHEST: f64 = 4.0;
+
+impl Motions {
+    fn of(zone: &Zone) -> Self {
+        let (below, flip) = below(zone).unwrap_or_default();
+        Self {
+            above: zone.branch.clone(),
+            below,
+            flip,
+        }
+    }
+
+    /// The highest velocity of a stable motion at a frequency in rad/s, between neighbours along a straight line.
+    fn velocity_at(&self, frequency: f64) -> Option<f64> {
+        let at = |pair: &[BranchPoint]| {
+            let (from, to) = (&pair[0], &pair[1]);
+            let share = (frequency - from.parameter) / (to.parameter - from.parameter);
+            let (a, b) = (from.before_impact_velocity(), to.before_impact_velocity());
+            (is_shown(from) && is_shown(to) && (0.0..=1.0).contains(&share))
+                .then_some(a + share * (b - a))
+        };
+        let pairs = self.above.windows(2).chain(self.below.windows(2));
+        pairs.filter_map(at).max_by(f64::total_cmp)
+    }
+}
+
+/// Stable, or at the end of what is stable.
+fn is_shown(point: &BranchPoint) -> bool {
+    let end = point
+        .fold_test()
+        .abs()
+        .min(Test::Flip.value(&point.monodromy).abs());
+    point.is_stable() || end < 1e-6
+}
+
+/// The stable motions from g0 down, and where their period doubles.
+fn below(zone: &Zone) -> Option<(Vec<BranchPoint>, Option<f64>)> {
+    let first = zone.branch.first()?;
+    let start: Orbit = zone.orbit(first).ok()?;
+    let family = Along::new(
+        zone.scene.at_frequency(first.parameter),
+        [Parameter::Frequency],
+    )
+    .ok()?;
+    let follower = Follower::new(&family, 1);
+    let least = first.parameter / FARTHEST;
+    let mut points = follower
+        .follow(&start, first.parameter, Heading::Down, LONGEST, |point| {
+            let stop = !point.is_stable() || point.parameter < least;
+            stop_if(stop || interrupt::watch(0, 0).is_break())
+        })
+        .ok()?;
+    let flips = |point: &BranchPoint| Test::Flip.value(&point.monodromy) <= 0.0;
+    let last = points.pop_if(|point| !point.is_stable());
+    let flip = last
+        .filter(flips)
+        .and_then(|last| follower.critical(&last, Test::Flip).ok());
+    let at = flip.as_ref().map(|flip| flip.parameter);
+    points.extend(flip);
+    Some((points, at))
+}

@@ -1,0 +1,93 @@
+//! The before-impact velocity over the drive's frequency.
+
+use softstop::{Dimension, Machine, Parameter};
+use softstop_console::interrupt;
+use softstop_dynamics::{BranchPoint, Zone, zone};
+
+use super::{Motions, is_shown, label_of, velocity};
+use crate::design::Design;
+use crate::page::data::{Curve, Response, Role};
+
+/// Places along the zone, for a curve without visible corners.
+const PLACES: u32 = 160;
+
+/// The motions of the design's machine, and those of other machines under their names. No tolerance.
+pub fn response(design: &Design, beside: &[(String, Machine)]) -> Response {
+    let machine = &design.machine;
+    let own = |frequency: f64| machine.to_own(Dimension::Frequency, frequency);
+    let motions = Motions::of(&design.zone);
+    let mut curves = stable(
+        machine,
+        &design.zone,
+        &motions,
+        "design, stable",
+        Role::Design,
+    );
+    let unstable = motions.above.chunk_by(|a, b| is_lost(a) && is_lost(b));
+    curves.extend(unstable.filter(|piece| piece.len() > 1).map(|piece| Curve {
+        name: "design, unstable".to_owned(),
+        role: Role::Unstable,
+        points: points(machine, piece),
+    }));
+    for (name, other) in beside {
+        if let Ok(zone) = zone::hysteresis_watched(&other.scene, &interrupt::watch) {
+            curves.extend(stable(
+                other,
+                &zone,
+                &Motions::of(&zone),
+                name,
+                Role::Beside,
+            ));
+        }
+    }
+    let mut ends = vec![
+        ("g₀".to_owned(), own(design.zone.frequency_g0)),
+        ("s_SN".to_owned(), own(design.zone.frequency_sn)),
+    ];
+    ends.extend(motions.flip.map(|flip| ("s_PD".to_owned(), own(flip))));
+    Response {
+        x: label_of(machine, Parameter::Frequency),
+        y: velocity(machine),
+        curves,
+        ends,
+        design: [design.frequency(), design.before_impact_velocity()],
+        tolerance: None,
+        band: Vec::new(),
+    }
+}
+
+/// Unstable, or a fold, where an unstable piece begins.
+fn is_lost(point: &BranchPoint) -> bool {
+    !point.is_stable() || point.fold_test().abs() < 1e-6
+}
+
+/// The stable motions of a zone and below it.
+fn stable(machine: &Machine, zone: &Zone, motions: &Motions, name: &str, role: Role) -> Vec<Curve> {
+    let place = |k: u32| f64::from(k) / f64::from(PLACES);
+    let places = (0..=PLACES).map(|k| zone.point_at(place(k)).ok());
+    let above: Vec<Option<BranchPoint>> = places.collect();
+    let shown = |point: &Option<BranchPoint>| point.as_ref().is_some_and(is_shown);
+    let pieces = above.chunk_by(|a, b| shown(a) && shown(b));
+    let pieces = pieces.map(|piece| piece.iter().flatten().cloned().collect::<Vec<_>>());
+    let below = motions
+        .below
+        .iter()
+        .filter(|point| is_shown(point))
+        .cloned();
+    let all = [below.collect::<Vec<_>>()].into_iter().chain(pieces);
+    let all = all.filter(|piece| piece.len() > 1);
+    all.map(|piece| Curve {
+        name: name.to_owned(),
+        role,
+        points: points(machine, &piece),
+    })
+    .collect()
+}
+
+fn points(machine: &Machine, piece: &[BranchPoint]) -> Vec<[f64; 2]> {
+    let own = |frequency: f64| machine.to_own(Dimension::Frequency, frequency);
+    piece
+        .iter()
+        .map(|point| [own(point.parameter), point.before_impact_velocity()])
+        .collect()
+}

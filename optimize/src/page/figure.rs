@@ -1,0 +1,181 @@
+//! Pictures inside the page: their sizes, their legends, and how a drawing becomes a part of the page.
+
+use softstop_draw::panel::Panel;
+use softstop_draw::pen::{Align, Pen, Stroke, width};
+use softstop_draw::shapes::Sign;
+use softstop_draw::style;
+
+use super::words::indexed;
+
+/// Letters of all pictures.
+pub(super) const LETTERS: u32 = 14;
+/// From line to line.
+pub(super) const LINE: f64 = 19.0;
+/// Room left of a panel for numbers and name, and below it.
+pub(super) const ROOM: (f64, f64) = (80.0, 50.0);
+/// Room above and at the right.
+pub(super) const EDGE: f64 = 16.0;
+/// What stands for a colour of a drawing in the page, light or dark.
+const COLORS: [(&str, &str); 7] = [
+    ("#222222", "var(--ink)"),
+    ("#ffffff", "var(--card)"),
+    ("#e9e9e9", "var(--grid)"),
+    ("#777777", "var(--aside)"),
+    ("#0072b2", "var(--design)"),
+    ("#000000", "var(--ink)"),
+    ("#d55e00", "var(--mark)"),
+];
+
+/// The size of a picture, in its own pixels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Size {
+    pub(super) width: f64,
+    pub(super) height: f64,
+}
+
+/// A whole line of the page.
+pub(super) const WIDE: Size = Size {
+    width: 980.0,
+    height: 460.0,
+};
+/// Two in a line.
+pub(super) const HALF: Size = Size {
+    width: 480.0,
+    height: 400.0,
+};
+
+/// A picture with its words.
+#[derive(Debug, Clone, serde::Serialize)]
+pub(super) struct Figure {
+    /// Above it.
+    pub(super) title: String,
+    /// The picture as SVG elements.
+    pub(super) svg: String,
+    /// What it shows, in a sentence or two.
+    pub(super) caption: String,
+    /// Whether it takes a whole line.
+    pub(super) is_wide: bool,
+}
+
+impl Figure {
+    /// A drawing of this size; its title is told to those who cannot see it, too.
+    pub(super) fn new(pen: &Pen, size: Size, title: &str, caption: String) -> Self {
+        Self {
+            title: title.to_owned(),
+            svg: inline(&pen.svg(), size, title),
+            caption,
+            is_wide: size == WIDE,
+        }
+    }
+}
+
+/// The elements of a document, in colours of the page and with indices below the line.
+fn inline(document: &str, size: Size, title: &str) -> String {
+    let body = document
+        .split_once("fill=\"white\" />")
+        .map_or(document, |(_, body)| body);
+    let body = body.replace("</svg>", "");
+    let body: String = body.lines().map(|line| lowered(line.trim())).collect();
+    let body = COLORS
+        .iter()
+        .fold(body, |body, (from, to)| body.replace(from, to));
+    let Size { width, height } = size;
+    let title = super::words::html(title)
+        .replace("<sub>", "")
+        .replace("</sub>", "");
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\">{body}</svg>"
+    )
+}
+
+/// A line of a document, the indices in its text below the line.
+fn lowered(line: &str) -> String {
+    let Some((tag, text)) = line
+        .strip_prefix("<text")
+        .and_then(|rest| rest.split_once('>'))
+    else {
+        return line.to_owned();
+    };
+    let Some(text) = text.strip_suffix("</text>") else {
+        return line.to_owned();
+    };
+    let size = tag
+        .split_once("font-size=\"")
+        .and_then(|(_, rest)| rest.split_once('"'));
+    let size: f64 = size
+        .and_then(|(size, _)| size.parse().ok())
+        .unwrap_or(f64::from(LETTERS));
+    let (drop, small) = (0.22 * size, 0.75 * size);
+    let index = |index: &str| {
+        format!(
+            "<tspan dy=\"{drop:.1}\" font-size=\"{small:.1}\">{index}</tspan><tspan dy=\"{:.1}\">\u{200b}</tspan>",
+            -drop
+        )
+    };
+    format!("<text{tag}>{}</text>", indexed(text, index, str::to_owned))
+}
+
+/// Signs and what they mean, in lines from the left end on; where the next line would be.
+pub(super) fn legend(
+    pen: &mut Pen,
+    (left, top): (f64, f64),
+    right: f64,
+    entries: &[(Sign, String)],
+) -> f64 {
+    let size = f64::from(LETTERS);
+    let (mut x, mut y) = (left, top);
+    for (sign, text) in entries {
+        let wide = 2.8 * size + 0.86 * width(LETTERS, text);
+        if x > left && x + wide > right {
+            (x, y) = (left, y + LINE);
+        }
+        pen.legend((x, y), LETTERS, &[(*sign, text.clone())]);
+        x += wide + 20.0;
+    }
+    if entries.is_empty() { top } else { y + LINE }
+}
+
+/// Lines upwards through a panel with names above it, no two of them over each other.
+pub(super) fn uprights(pen: &mut Pen, panel: &Panel, names: &[(String, f64)], stroke: Stroke) {
+    let mut ends: Vec<f64> = Vec::new();
+    let mut names: Vec<&(String, f64)> = names
+        .iter()
+        .filter(|it| panel.holds((it.1, panel.y.0)))
+        .collect();
+    names.sort_by(|a, b| a.1.total_cmp(&b.1));
+    for (name, at) in names {
+        let x = panel.across(*at);
+        let half = 0.45 * width(LETTERS, name);
+        let middle = x
+            .min(panel.right() + EDGE - half - 2.0)
+            .max(panel.area.0 + half - ROOM.0);
+        let free = ends.iter().position(|end| middle - half > *end + 6.0);
+        let row = free.unwrap_or(ends.len());
+        if row == ends.len() {
+            ends.push(0.0);
+        }
+        ends[row] = middle + half;
+        let y = panel.area.1 - 7.0 - LINE * row as f64;
+        pen.line(
+            &[(x, y + 3.0), (x, panel.area.1)],
+            Stroke {
+                dashes: None,
+                width: 1.0,
+                ..stroke
+            },
+        );
+        panel.curve(pen, &[(*at, panel.y.0), (*at, panel.y.1)], stroke);
+        pen.text((middle, y), LETTERS, Align::Middle, name);
+    }
+}
+
+/// The line of what bounds something.
+pub(super) const BOUND: Stroke = Stroke::dashed(style::ASIDE, 1.3, (5.0, 4.0));
+
+/// Points that have a place.
+pub(super) fn finite(points: &[[f64; 2]]) -> Vec<(f64, f64)> {
+    let points = points.iter().map(|[x, y]| (*x, *y));
+    points
+        .filter(|(x, y)| x.is_finite() && y.is_finite())
+        .collect()
+}

@@ -1,0 +1,108 @@
+//! The before-impact velocity over the drive's frequency.
+
+use softstop_draw::panel::{Axes, Panel};
+use softstop_draw::pen::Pen;
+use softstop_draw::scale::around;
+use softstop_draw::shapes::{Mark, Sign};
+use softstop_draw::style;
+
+use super::stroke;
+use crate::page::data::{Response, Role};
+use crate::page::figure::{
+    BOUND, EDGE, Figure, LETTERS, LINE, ROOM, WIDE, finite, legend, uprights,
+};
+use crate::page::words::quantity;
+
+/// Half the size of the design's mark.
+const MARK: f64 = 8.0;
+
+/// The picture.
+pub(in crate::page) fn figure(response: &Response) -> Figure {
+    let mut pen = Pen::new(WIDE.width, WIDE.height);
+    let right = WIDE.width - EDGE;
+    let mark = Sign::Mark(Mark::Triangle, style::OPTIMUM);
+    let mut entries = vec![(mark, "design".to_owned())];
+    for curve in &response.curves {
+        if !entries.iter().any(|(_, name)| *name == curve.name) {
+            entries.push((Sign::Line(stroke(curve.role)), curve.name.clone()));
+        }
+    }
+    if response.tolerance.is_some() {
+        let patch = Sign::Patch(style::ALLOWED);
+        entries.push((patch, "tolerance of the frequency".to_owned()));
+    }
+    if !response.band.is_empty() {
+        let patch = Sign::Patch("#9fd3ee");
+        entries.push((patch, "machines within the tolerances".to_owned()));
+    }
+    let top = legend(&mut pen, (ROOM.0, EDGE + 4.0), right, &entries) + 2.0 * LINE - 12.0;
+    let points = || {
+        response
+            .curves
+            .iter()
+            .flat_map(|curve| finite(&curve.points))
+    };
+    let ends = response.ends.iter().map(|end| end.1);
+    let across = around(points().map(|it| it.0).chain(ends), 0.03);
+    let highest = points()
+        .map(|it| it.1)
+        .chain([response.design[1]])
+        .fold(0.0, f64::max);
+    let area = (ROOM.0, top, right - ROOM.0, WIDE.height - top - ROOM.1);
+    let panel = Panel::new(
+        area,
+        across,
+        (0.0, if highest > 0.0 { 1.1 * highest } else { 1.0 }),
+    );
+    let names = (response.x.line(), response.y.line());
+    let axes = Axes::new(LETTERS, Some(&names.0), &names.1, (8, 6));
+    if let Some(ends) = response.tolerance {
+        let [low, high] = ends.map(|at| panel.across(at.clamp(across.0, across.1)));
+        pen.tint(
+            (low, area.1, (high - low).max(1.0), area.3),
+            style::ALLOWED,
+            0.3,
+        );
+    }
+    panel.ground(&mut pen, &axes);
+    let inside =
+        |it: &&[f64; 3]| it.iter().all(|value| value.is_finite()) && panel.holds((it[0], it[2]));
+    let band: Vec<(f64, [f64; 2])> = response
+        .band
+        .iter()
+        .filter(inside)
+        .map(|[x, low, high]| (*x, [*low, *high]))
+        .collect();
+    if band.len() > 1 {
+        panel.band(&mut pen, &band, "#9fd3ee", 0.7);
+    }
+    uprights(&mut pen, &panel, &response.ends, BOUND);
+    for role in [Role::Unstable, Role::Beside, Role::Design] {
+        for curve in response.curves.iter().filter(|curve| curve.role == role) {
+            panel.curve(&mut pen, &finite(&curve.points), stroke(role));
+        }
+    }
+    let [x, y] = response.design;
+    if panel.holds((x, y)) {
+        pen.mark(panel.place((x, y)), Mark::Triangle, MARK, style::OPTIMUM);
+    }
+    panel.axes(&mut pen, &axes);
+    let title = format!(
+        "{} over the {}",
+        "How hard the mass strikes", response.x.name
+    );
+    let mut caption = format!(
+        "The design runs at {} and strikes with {}.",
+        quantity(x, &response.x.unit),
+        quantity(y, &response.y.unit)
+    );
+    for (name, at) in &response.ends {
+        let away = 100.0 * (at / x - 1.0);
+        caption += &format!(
+            " {name} lies {:.1} % {}.",
+            away.abs(),
+            if away < 0.0 { "below" } else { "above" }
+        );
+    }
+    Figure::new(&pen, WIDE, &title, caption)
+}

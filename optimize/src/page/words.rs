@@ -1,0 +1,157 @@
+//! Numbers and symbols as people read them.
+
+use softstop_draw::scale::power_of_ten;
+
+use super::data::Label;
+
+/// Significant digits of numbers in the page.
+const DIGITS: i32 = 5;
+/// From here on powers of ten are split off.
+const ENDS: (f64, f64) = (1e-3, 1e6);
+
+/// A number with five digits, without zeros that say nothing: `0.0215`, `12 500`, `2.4 × 10⁶`.
+pub(super) fn number(value: f64) -> String {
+    if !value.is_finite() {
+        return "–".to_owned();
+    }
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let size = value.abs();
+    let mut power = size.log10().floor() as i32;
+    // Rounding may lead to the next power.
+    if (size / 10f64.powi(power) * 10f64.powi(DIGITS - 1)).round() >= 10f64.powi(DIGITS) {
+        power += 1;
+    }
+    let text = if (ENDS.0..ENDS.1).contains(&size) {
+        grouped(&fixed(size, DIGITS - 1 - power))
+    } else {
+        let mantissa = fixed(size / 10f64.powi(power), DIGITS - 1);
+        format!("{mantissa} × {}", power_of_ten(power))
+    };
+    let sign = if value < 0.0 { "−" } else { "" };
+    format!("{sign}{text}")
+}
+
+/// A number with its unit.
+pub(super) fn quantity(value: f64, unit: &str) -> String {
+    match unit {
+        "" => number(value),
+        _ => format!("{}\u{a0}{unit}", number(value)),
+    }
+}
+
+fn fixed(value: f64, places: i32) -> String {
+    let text = format!("{value:.*}", places.max(0) as usize);
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+/// Digits before the point in groups of three, from five digits on.
+fn grouped(text: &str) -> String {
+    let (whole, rest) = text.split_once('.').unwrap_or((text, ""));
+    let split = whole.len().saturating_sub(3);
+    match (whole.len() > 4, rest) {
+        (true, "") => format!("{}\u{202f}{}", &whole[..split], &whole[split..]),
+        (true, rest) => format!("{}\u{202f}{}.{rest}", &whole[..split], &whole[split..]),
+        (false, _) => text.to_owned(),
+    }
+}
+
+/// A text with its indices below the line, as HTML: `s_SN` becomes s with SN as its index. What a text holds besides
+/// is escaped.
+pub(super) fn html(text: &str) -> String {
+    indexed(
+        text,
+        |index| format!("<sub>{}</sub>", escaped(index)),
+        escaped,
+    )
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+/// Puts a text together again whose indices and other pieces are written anew. An index is up to three letters or
+/// digits behind the underscore of a single letter.
+pub(super) fn indexed(
+    text: &str,
+    index: impl Fn(&str) -> String,
+    other: impl Fn(&str) -> String,
+) -> String {
+    let mut done = String::new();
+    let mut rest = text;
+    while let Some((head, tail)) = rest.split_once('_') {
+        let mut before = head.chars().rev();
+        let is_letter = before.next().is_some_and(char::is_alphabetic)
+            && !before.next().is_some_and(char::is_alphanumeric);
+        let end = tail
+            .find(|letter: char| !letter.is_alphanumeric())
+            .unwrap_or(tail.len());
+        done += &other(head);
+        if is_letter && (1..=3).contains(&end) {
+            done += &index(&tail[..end]);
+            rest = &tail[end..];
+        } else {
+            done += &other("_");
+            rest = tail;
+        }
+    }
+    done + &other(rest)
+}
+
+impl Label {
+    /// With this name, letter and unit.
+    pub fn new(name: &str, symbol: &str, unit: &str) -> Self {
+        let [name, symbol, unit] = [name, symbol, unit].map(str::to_owned);
+        Self { name, symbol, unit }
+    }
+
+    /// In one line: name, letter, and the unit in brackets.
+    pub(super) fn line(&self) -> String {
+        let mut line = self.name.clone();
+        if !self.symbol.is_empty() {
+            line += &format!(" {}", self.symbol);
+        }
+        if !self.unit.is_empty() {
+            line += &format!(" ({})", self.unit);
+        }
+        line
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{html, number};
+
+    #[test]
+    fn numbers_have_five_digits_and_no_idle_zeros() {
+        let cases = [
+            (0.0, "0"),
+            (0.0215, "0.0215"),
+            (12.813_44, "12.813"),
+            (99_999.7, "100\u{202f}000"),
+            (12_500.0, "12\u{202f}500"),
+            (-9000.0, "−9000"),
+            (2.4e6, "2.4 × 10⁶"),
+            (-1.23456e-7, "−1.2346 × 10⁻⁷"),
+            (999_999.9, "1 × 10⁶"),
+            (f64::NAN, "–"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn indices_go_below_and_all_else_is_escaped() {
+        assert_eq!(html("from g₀ to s_SN <"), "from g₀ to s<sub>SN</sub> &lt;");
+        assert_eq!(html("missing_strips"), "missing_strips");
+        assert_eq!(html("X_m, a_b_c"), "X<sub>m</sub>, a<sub>b</sub>_c");
+    }
+}

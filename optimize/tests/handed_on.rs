@@ -1,0 +1,174 @@
+//! What a machine is handed on as: the FMU and the parameter set tell the same of it.
+
+use std::collections::BTreeMap;
+use std::io::{Cursor, Read};
+
+use proptest::prelude::*;
+use quick_xml::Reader;
+use quick_xml::events::{BytesStart, Event};
+use softstop::{Machine, Parameter, Start, Units};
+use softstop_fmu::{Imprint, StartValues, description, guid_of, parameter_set};
+use softstop_optimize::fmu;
+use softstop_testing::machines::machines;
+use softstop_testing::random::cases;
+
+type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
+type Attributes = BTreeMap<String, String>;
+/// The elements of a file in order, each with how deep it stands.
+type Elements = Vec<(usize, String, Attributes)>;
+
+/// Reads a file to its end; all its elements are closed.
+fn elements(xml: &str) -> Outcome<Elements> {
+    let mut reader = Reader::from_str(xml);
+    let mut found = Vec::new();
+    let mut depth = 0;
+    let element = |depth, tag: &BytesStart<'_>| -> Outcome<_> {
+        let name = tag.name().as_ref().to_owned();
+        let mut attributes = Attributes::new();
+        for attribute in tag.attributes() {
+            let attribute = attribute?;
+            let key = attribute.key.as_ref().to_owned();
+            let value = attribute.value.into_owned();
+            attributes.insert(key, quick_xml::escape::unescape(&value)?.into_owned());
+        }
+        Ok((depth, name, attributes))
+    };
+    loop {
+        match reader.read_event()? {
+            Event::Start(tag) => {
+                found.push(element(depth, &tag)?);
+                depth += 1;
+            }
+            Event::Empty(tag) => found.push(element(depth, &tag)?),
+            Event::End(_) => depth -= 1,
+            Event::Eof => break,
+            _ => {}
+        }
+    }
+    assert_eq!(depth, 0, "all is closed");
+    Ok(found)
+}
+
+/// Start value and unit of each variable of a model description.
+fn described(xml: &str) -> Outcome<BTreeMap<String, (String, Option<String>, bool)>> {
+    let mut variables = BTreeMap::new();
+    let all = elements(xml)?;
+    for pair in all.windows(2) {
+        let ((_, name, variable), (_, _, kind)) = (&pair[0], &pair[1]);
+        if name == "ScalarVariable" {
+            let start = kind.get("start").cloned().unwrap_or_default();
+            let is_parameter = variable["causality"] == "parameter";
+            let told = (start, kind.get("unit").cloned(), is_parameter);
+            variables.insert(variable["name"].clone(), told);
+        }
+    }
+    Ok(variables)
+}
+
+/// The parameter set names each parameter of the model description once, with its start value and unit.
+fn agree(imprint: &Imprint) -> Outcome {
+    let set = elements(&parameter_set::write(imprint)?)?;
+    let described = described(&description::write(imprint, &guid_of(imprint)?)?)?;
+    let parts: Vec<&str> = set
+        .iter()
+        .filter(|it| it.0 == 1)
+        .map(|it| it.1.as_str())
+        .collect();
+    assert_eq!(parts, ["ssv:Parameters", "ssv:Enumerations", "ssv:Units"]);
+    let named = |element: &str| -> Vec<&str> {
+        let of = set.iter().filter(|it| it.1 == element);
+        of.filter_map(|it| it.2.get("name").map(String::as_str))
+            .collect()
+    };
+    let (units, types) = (named("ssc:Unit"), named("ssc:Enumeration"));
+    let mut seen = Vec::new();
+    for pair in set.windows(2) {
+        let ((_, name, parameter), (_, kind, told)) = (&pair[0], &pair[1]);
+        if name != "ssv:Parameter" {
+            continue;
+        }
+        let name = &parameter["name"];
+        let (start, unit, is_parameter) = described.get(name).ok_or(name.as_str())?;
+        assert!(is_parameter, "{name}");
+        match kind.as_str() {
+            "ssv:Enumeration" => assert!(types.contains(&told["name"].as_str()), "{name}"),
+            _ => assert_eq!(&told["value"], start, "{name}"),
+        }
+        assert_eq!(told.get("unit"), unit.as_ref(), "{name}");
+        assert!(
+            unit.as_ref()
+                .is_none_or(|unit| units.contains(&unit.as_str())),
+            "{name}"
+        );
+        seen.push(name.clone());
+    }
+    let expected: Vec<_> = described
+        .iter()
+        .filter(|it| it.1.2)
+        .map(|it| it.0.clone())
+        .collect();
+    seen.sort();
+    assert_eq!(seen, expected);
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(cases(200))]
+
+    #[test]
+    fn parameter_sets_agree_with_the_model_description(scene in machines(), stiffness in 1e3..1e7f64) {
+        let scene = scene.in_units(Units { mass: 120.0, stiffness, force: 9e3 })?;
+        if let Ok(values) = StartValues::from_scene(&scene, Start::new(0.0, 1.0)) {
+            let imprint = Imprint::from(values).named("a <press> & \"its\" stop")?;
+            agree(&imprint).map_err(|error| TestCaseError::fail(error.to_string()))?;
+        }
+    }
+}
+
+/// A press in SI units, its drive in Hz.
+const PRESS: &str = "
+name = \"press 7\"
+description = \"Press for 2 mm strip\"
+mass = 120.0
+stiffness = 2.4e6
+damping = 600.0
+clearance = 0.02
+contact.damping = 2500.0
+excitation = { amplitude = 9e3, frequency_hz = 24.5 }
+stop = { model = \"kelvinVoigt\", stiffness = 4e7 }
+piercing = { stiffness = 5e7, friction = 5.5e7, thickness = 0.002, travel = 0.002 }
+";
+
+#[test]
+fn the_fmu_of_a_press_has_its_name_and_si_start_values() -> Outcome {
+    let press = Machine::from_toml(PRESS)?;
+    let archive = fmu::archive(&fmu::library()?, &press, Start::new(0.001, 2.5))?;
+    let mut archive = zip::ZipArchive::new(Cursor::new(archive))?;
+    let mut xml = String::new();
+    archive
+        .by_name("modelDescription.xml")?
+        .read_to_string(&mut xml)?;
+    let all = elements(&xml)?;
+    assert_eq!(all[0].2["modelName"], "press 7");
+    assert_eq!(all[0].2["description"], "Press for 2 mm strip");
+    let variables = described(&xml)?;
+    for parameter in press.parameters() {
+        let (start, unit, _) = &variables[parameter.name()];
+        let value = parameter.get(&press.scene).ok_or("a value")?;
+        assert_eq!(
+            start.parse::<f64>()?.to_bits(),
+            value.to_bits(),
+            "{}",
+            parameter.name()
+        );
+        let si = parameter.about().dimension.unit().replace(' ', ".");
+        assert_eq!(unit.clone().unwrap_or_default(), si);
+    }
+    assert_eq!(variables["stop.model"].0, "2");
+    assert_eq!(variables["initial.velocity"].0, "2.5");
+    assert_eq!(
+        Parameter::Frequency.get(&press.scene),
+        Some(24.5 * std::f64::consts::TAU)
+    );
+    Ok(())
+}
