@@ -49,8 +49,11 @@ fn elements(xml: &str) -> Outcome<Elements> {
     Ok(found)
 }
 
-/// Start value and unit of each variable of a model description.
-fn described(xml: &str) -> Outcome<BTreeMap<String, (String, Option<String>, bool)>> {
+/// A variable's start value and unit, and whether it is a parameter.
+type Told = (String, Option<String>, bool);
+
+/// The variables of a model description by their names.
+fn described(xml: &str) -> Outcome<BTreeMap<String, Told>> {
     let mut variables = BTreeMap::new();
     let all = elements(xml)?;
     for pair in all.windows(2) {

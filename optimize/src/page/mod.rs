@@ -40,11 +40,11 @@ pub fn html(report: &Report) -> Result<String, Error> {
         Some(share) if share.is_finite() => format!("{:.1} %", 100.0 * share),
         _ => "–".to_owned(),
     });
-    environment.add_template("page.html", include_str!("page.html"))?;
-    let template = environment.get_template("page.html")?;
+    environment.add_template("report.html", include_str!("../../assets/report.html"))?;
+    let template = environment.get_template("report.html")?;
     let page = template.render(context! {
         version => env!("CARGO_PKG_VERSION"),
-        style => include_str!("page.css"),
+        style => include_str!("../../assets/report.css"),
         sections => Serde(sections(report)),
         glossary => Serde(glossary::of(report)),
         report => Serde(report),
