@@ -10,6 +10,7 @@ pub mod fmu;
 pub mod optimize;
 pub mod page;
 pub mod report;
+pub mod robust;
 
 use std::process::ExitCode;
 

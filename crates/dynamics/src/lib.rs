@@ -30,6 +30,7 @@ pub mod models;
 pub mod motion;
 pub mod orbit;
 mod peak;
+pub mod spread;
 pub mod sweep;
 pub mod transitions;
 pub mod watch;

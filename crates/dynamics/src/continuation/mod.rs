@@ -55,6 +55,7 @@ pub use curve::{Curve, CurveEnd, CurvePoint, Region, curve};
 pub use face::Face;
 pub use follower::{Follower, Heading};
 pub use point::{BranchPoint, Graze, Special, SpecialKind};
+pub(crate) use round::carry_on;
 pub use test::Test;
 pub use way::{Border, End, Limits};
 

@@ -246,11 +246,9 @@ impl StretchEnd {
 
 impl Loss {
     /// At a special point.
-    fn at(kind: &SpecialKind) -> Self {
+    pub(crate) fn at(kind: &SpecialKind) -> Self {
         match kind {
-            SpecialKind::Critical(Test::Fold) => Self::Fold,
-            SpecialKind::Critical(Test::Flip) => Self::Flip,
-            SpecialKind::Critical(Test::NeimarkSacker) => Self::NeimarkSacker,
+            SpecialKind::Critical(test) => Self::from(*test),
             SpecialKind::Grazing(graze) => match graze.face {
                 Face::Clearance if graze.impacts == 0 => Self::Grazing,
                 Face::Clearance => Self::AnotherImpact,
@@ -260,12 +258,22 @@ impl Loss {
     }
 
     /// Where a branch ends otherwise; at a grazing its special point says which.
-    fn of(end: &End) -> Self {
+    pub(crate) fn of(end: &End) -> Self {
         match end {
             End::Points => Self::Budget,
             End::Border(border) => Self::Border(*border),
             End::Lost(error) => Self::Lost(error.clone()),
             _ => Self::Range,
+        }
+    }
+}
+
+impl From<Test> for Loss {
+    fn from(test: Test) -> Self {
+        match test {
+            Test::Fold => Self::Fold,
+            Test::Flip => Self::Flip,
+            Test::NeimarkSacker => Self::NeimarkSacker,
         }
     }
 }

@@ -1,0 +1,122 @@
+//! One machine, one period: where a state goes, and where the z = 1 motion near it is.
+
+use std::sync::Arc as Shared;
+
+use nalgebra::{Matrix2, RowVector2, Vector2};
+
+use crate::continuation::{BranchPoint, Test, carry_on};
+use crate::orbit::{OrbitError, is_stable, multipliers};
+use softstop::internals::Motion;
+use softstop::{Arc, Clock, Crossing, Observer, Scene, Start, Tangent};
+
+/// Periods that are looked at before a motion is given up.
+const LOOKS: usize = 6;
+/// Length of a step, in the scales of the motion, after which what is left of the way is its square.
+const SHORT: f64 = 1e-5;
+/// How many times longer than the last step the way to a loss of stability has to be.
+const CLEAR: f64 = 1e3;
+
+/// A period from a state on.
+#[derive(Debug, Clone, Default)]
+#[non_exhaustive]
+pub struct Look {
+    /// The state after it.
+    pub end: Vector2<f64>,
+    /// The exact Jacobian.
+    pub tangent: Tangent,
+    /// Impacts on the way.
+    pub impacts: usize,
+    /// Before-impact velocity in m/s of the last of them.
+    pub velocity: f64,
+    /// How that changes with the state at the beginning.
+    pub by_state: RowVector2<f64>,
+}
+
+impl Look {
+    /// The period of a machine from a state on.
+    ///
+    /// # Errors
+    /// [`OrbitError::Motion`] for a scene that is none, or a motion that cannot be computed.
+    pub fn at(scene: &Scene, state: Vector2<f64>) -> Result<Self, OrbitError> {
+        scene.validate()?;
+        let start = Start::from(state);
+        start.validate()?;
+        let phases = Shared::new(scene.phases());
+        let mut motion = Motion::new(phases, scene.clock(), Clock::at_cycle(0), start)?;
+        let mut look = Self::default();
+        carry_on(&mut motion, Clock::at_cycle(1), &mut look)?;
+        motion.tell_arc(&mut look);
+        look.end = motion.state().into();
+        Ok(look)
+    }
+
+    /// From the state to the fixed point, as the Jacobian has it.
+    fn step(&self, state: Vector2<f64>) -> Option<Vector2<f64>> {
+        let inverse = (Matrix2::identity() - self.tangent.matrix).try_inverse()?;
+        Some(inverse * (self.end - state))
+    }
+}
+
+impl Observer for Look {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.tangent.arc(arc, elapsed);
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        if let Some(velocity) = crossing.impact_velocity() {
+            let [position, rate] = [0, 1].map(|row| self.tangent.matrix.row(row).into_owned());
+            self.impacts += 1;
+            self.velocity = velocity;
+            // The face is met sooner by as much as the mass is ahead.
+            self.by_state = rate - crossing.acceleration_before / velocity * position;
+        }
+        self.tangent.crossing(crossing);
+    }
+}
+
+/// A stable z = 1 motion.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct Settled {
+    /// Position in m and velocity in m/s at time 0.
+    pub state: Vector2<f64>,
+    /// Before-impact velocity in m/s.
+    pub velocity: f64,
+    /// Modulus of its largest multiplier.
+    pub multiplier: f64,
+}
+
+impl Settled {
+    /// That of a point of a branch.
+    pub(super) fn of(point: &BranchPoint) -> Self {
+        Self {
+            state: point.state(),
+            velocity: point.before_impact_velocity(),
+            multiplier: multipliers(&point.monodromy)[0].norm(),
+        }
+    }
+
+    /// The stable z = 1 motion of a machine to which a few steps of Newton's method lead from a state near it; none where
+    /// that is in any doubt.
+    pub fn near(scene: &Scene, state: Vector2<f64>) -> Option<Self> {
+        let scales = scene.motion_scales();
+        let mut state = state;
+        for _ in 0..LOOKS {
+            let look = Look::at(scene, state).ok()?;
+            let step = look.step(state).filter(|_| look.impacts == 1)?;
+            state += step;
+            let far = (step.x / scales.length).hypot(step.y / scales.speed());
+            let matrix = &look.tangent.matrix;
+            let clear = |test: Test| test.value(matrix) > CLEAR * far;
+            let sure = far <= SHORT && clear(Test::Fold) && clear(Test::Flip);
+            if sure && is_stable(matrix) {
+                return Some(Self {
+                    state,
+                    velocity: look.velocity + (look.by_state * step).x,
+                    multiplier: multipliers(matrix)[0].norm(),
+                });
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,29 @@
+//! Machines spread about a nominal one, as makers and wear leave them: does the z = 1 motion that goes on from the
+//! nominal machine's still exist there, is it stable, and how hard does it strike?
+//!
+//! A [`Spread`] makes machines from coordinates: 0 is the nominal one, -1 and 1 are the bounds of each. [`along`]
+//! follows the motion on a straight way out from the nominal machine, to the first fold, flip or grazing; that is what
+//! it means to go on. A [`Guide`] knows some of these motions and tells in a step or two of Newton's method what
+//! becomes of any other machine between the bounds.
+
+mod guide;
+mod look;
+mod model;
+mod ray;
+
+pub use guide::{Fate, Guide};
+pub use look::{Look, Settled};
+pub use model::Model;
+pub use ray::{Reached, along};
+
+use softstop::Scene;
+
+/// Machines spread about a nominal one.
+pub trait Spread: Sync {
+    /// How many coordinates there are.
+    fn dimensions(&self) -> usize;
+
+    /// The machine at some coordinates, its drive included: the nominal one at 0; between -1 and 1 in each lie those that
+    /// are within the bounds. It need not be valid.
+    fn scene(&self, at: &[f64]) -> Scene;
+}

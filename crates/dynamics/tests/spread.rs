@@ -1,0 +1,98 @@
+//! Machines spread about a nominal one.
+
+use approx::assert_relative_eq;
+use softstop::{Parameter, Ratios, Scene};
+use softstop_dynamics::orbit::find;
+use softstop_dynamics::spread::{Model, Settled, Spread, along};
+use softstop_dynamics::zone::{Loss, hysteresis};
+use softstop_dynamics::{Follower, Limits, Orbit};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// Other frequencies and clearances, by so large a share each.
+struct Shares(Scene, f64);
+
+impl Spread for Shares {
+    fn dimensions(&self) -> usize {
+        2
+    }
+
+    fn scene(&self, at: &[f64]) -> Scene {
+        let mut scene = self.0.clone();
+        scene.excitation.frequency *= 1.0 + self.1 * at[0];
+        scene.clearance *= 1.0 + self.1 * at[1];
+        scene
+    }
+}
+
+#[test]
+fn a_way_out_ends_at_the_fold_of_the_machine_there() -> Outcome {
+    for ratios in [Ratios::unloaded(), Ratios::loaded()] {
+        let spread = Shares(ratios.scene()?, 0.3);
+        let nominal = find(&spread.0)?;
+        for to in [[1.0, 0.0], [1.0, 0.1], [1.0, -0.2], [0.9, 0.5]] {
+            let reached = along(&spread, &nominal, &to, 1.0)?;
+            assert_eq!(reached.loss, Some(Loss::Fold));
+            let there = spread.scene(&to.map(|to| reached.share * to));
+            let fold = hysteresis(&there)?.frequency_sn;
+            assert_relative_eq!(there.excitation.frequency, fold, max_relative = 1e-8);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_way_out_that_ends_in_a_flip_ends_at_that_of_its_branch() -> Outcome {
+    let spread = Shares(Ratios::loaded().scene()?, 0.5);
+    let nominal = find(&spread.0)?;
+    let reached = along(&spread, &nominal, &[-1.0, 0.0], 1.0)?;
+    assert_eq!(reached.loss, Some(Loss::Flip));
+    let family = softstop_dynamics::Along::new(spread.0.clone(), [Parameter::Frequency])?;
+    let limits = Limits {
+        range: (0.5, 1.2),
+        points: 500,
+    };
+    let go_on = |_: &_| std::ops::ControlFlow::Continue(());
+    let branch = Follower::new(&family, 1).branch(1.15, nominal.state(), &limits, go_on)?;
+    let test = softstop_dynamics::continuation::Test::Flip;
+    let flip = branch.critical(test).last().ok_or("a flip")?;
+    let frequency = 1.15 * (1.0 - 0.5 * reached.share);
+    assert_relative_eq!(frequency, flip.parameter, max_relative = 1e-8);
+    Ok(())
+}
+
+#[test]
+fn what_settles_is_the_orbit() -> Outcome {
+    for ratios in [Ratios::unloaded(), Ratios::loaded()] {
+        let spread = Shares(ratios.scene()?, 0.01);
+        let nominal = find(&spread.0)?;
+        for to in [[0.0, 0.0], [1.0, -1.0], [-0.3, 0.8]] {
+            let scene = spread.scene(&to);
+            let settled = Settled::near(&scene, nominal.state()).ok_or("a motion")?;
+            let orbit = Orbit::near(&scene, nominal.state())?;
+            let velocity = orbit.before_impact_velocity();
+            assert_relative_eq!(settled.velocity, velocity, max_relative = 1e-9);
+            let multiplier = orbit.multipliers()[0].norm();
+            assert_relative_eq!(settled.multiplier, multiplier, max_relative = 1e-6);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_model_of_a_polynomial_is_that_polynomial() -> Outcome {
+    let values = |at: &[f64]| [1.0 - 2.0 * at[0] * at[1] + at[2].powi(3), at[1] * at[1]];
+    let place = |index: usize| -> Vec<f64> {
+        let turn = |step: f64| 2.0 * (step * index as f64).fract() - 1.0;
+        [0.618_034, 0.754_878, 0.569_840].map(turn).to_vec()
+    };
+    let places: Vec<Vec<f64>> = (0..Model::<2>::wanted(3)).map(place).collect();
+    let known: Vec<[f64; 2]> = places.iter().map(|at| values(at)).collect();
+    let model = Model::fit(&places, &known).ok_or("a model")?;
+    for at in [[0.3, -0.9, 0.5], [1.0, 1.0, -1.0]] {
+        for (found, value) in model.at(&at).into_iter().zip(values(&at)) {
+            assert_relative_eq!(found, value, epsilon = 1e-10);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,81 @@
+//! Robust design: what tolerances do to a z = 1 motion.
+//!
+//! A machine is made with [`Tolerance`]s about its design; together they are a box about it ([`Tolerances`]), in which
+//! coordinates run from -1 to 1. [`verify`] looks at a million machines of the box.
+
+mod points;
+mod verify;
+
+pub use points::{BLOCK, place};
+pub use verify::{Bin, LostMachine, Settings, Verdict, verify};
+
+use softstop::{Allowed, Machine, Parameter, Scene, SceneError};
+use softstop_dynamics::spread::Spread;
+
+/// How far a parameter may lie from its design value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// Which one; the drive's frequency may be one of them.
+    pub parameter: Parameter,
+    /// By so much to either side, in SI units: in m for a preload that is stated as a deflection.
+    pub half_width: f64,
+}
+
+/// A machine with its tolerances. What is linked stays so: a preload stated as a deflection follows the stiffness.
+#[derive(Debug, Clone)]
+pub struct Tolerances {
+    machine: Machine,
+    tolerances: Vec<Tolerance>,
+}
+
+impl Tolerances {
+    /// Tolerances about a machine whose drive runs at its design frequency.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a machine that is none or lacks one of the parameters, or a half-width that is not positive.
+    pub fn new(machine: &Machine, tolerances: &[Tolerance]) -> Result<Self, SceneError> {
+        machine.validate()?;
+        for tolerance in tolerances {
+            let name = machine.name(tolerance.parameter);
+            let value = machine.value(tolerance.parameter);
+            value.ok_or(SceneError::Lacks(name))?;
+            Allowed::Positive.check(name, tolerance.half_width)?;
+        }
+        Ok(Self {
+            machine: Machine {
+                name: None,
+                description: None,
+                ..machine.clone()
+            },
+            tolerances: tolerances.to_vec(),
+        })
+    }
+
+    /// The tolerances, in the order of the coordinates.
+    pub fn all(&self) -> &[Tolerance] {
+        &self.tolerances
+    }
+
+    /// The machine at some coordinates.
+    pub fn machine(&self, at: &[f64]) -> Machine {
+        let mut machine = self.machine.clone();
+        for (tolerance, at) in self.tolerances.iter().zip(at) {
+            let parameter = tolerance.parameter;
+            let change = machine.to_own(parameter.about().dimension, at * tolerance.half_width);
+            if let Some(value) = machine.value(parameter) {
+                machine.set(parameter, value + change);
+            }
+        }
+        machine
+    }
+}
+
+impl Spread for Tolerances {
+    fn dimensions(&self) -> usize {
+        self.tolerances.len()
+    }
+
+    fn scene(&self, at: &[f64]) -> Scene {
+        self.machine(at).scene
+    }
+}

@@ -1,0 +1,232 @@
+//! Machines of a box, one by one: how many lose the z = 1 motion, and how hard the others strike.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use rayon::prelude::*;
+use softstop_dynamics::Orbit;
+use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::spread::{Fate, Guide, Model, Settled, Spread};
+use softstop_dynamics::watch::Watcher;
+use softstop_dynamics::zone::Loss;
+
+use super::points::{BLOCK, place};
+
+/// Machines between two looks at how many are lost, and those that one thread looks at in a row.
+const GROUP: usize = 1 << 14;
+const ROW: usize = 1 << 8;
+/// Lost machines that are told of one by one.
+const TOLD: usize = 8;
+
+/// How many machines are looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Settings {
+    /// As many.
+    pub machines: usize,
+    /// With so many lost it is enough: each of them has to be followed.
+    pub enough: usize,
+}
+
+impl Default for Settings {
+    /// 16 sequences of 65,536 points, and no more than a thousand lost.
+    fn default() -> Self {
+        Self {
+            machines: 16 * BLOCK,
+            enough: 1000,
+        }
+    }
+}
+
+/// A machine that has lost the motion.
+#[derive(Debug, Clone)]
+pub struct LostMachine {
+    /// Its coordinates in the box.
+    pub at: Vec<f64>,
+    /// Share of the way there from the nominal machine up to which the motion goes on.
+    pub share: f64,
+    /// What ends it there.
+    pub loss: Loss,
+}
+
+/// A range of velocities and how many machines lie in it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bin {
+    /// Its lower end in m/s.
+    pub low: f64,
+    /// Its upper end.
+    pub high: f64,
+    /// Machines.
+    pub machines: usize,
+}
+
+/// What the machines have shown.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Verdict {
+    /// Machines looked at: fewer than asked for if enough were lost, or somebody asked to stop.
+    pub machines: usize,
+    /// Those without a stable z = 1 motion that goes on from the nominal one.
+    pub lost: usize,
+    /// The first of them.
+    pub examples: Vec<LostMachine>,
+    /// Where the slowest impact was, if all are not lost.
+    pub slowest: Option<(Vec<f64>, Settled)>,
+    /// Where the largest multiplier was.
+    pub least_stable: Option<(Vec<f64>, Settled)>,
+    /// Before-impact velocities in m/s of all that are not lost, in rising order.
+    velocities: Vec<f64>,
+    /// The same of each sequence of points.
+    sequences: Vec<Vec<f64>>,
+}
+
+impl Verdict {
+    /// The velocity in m/s that this share of the machines stays below, with its standard error, which is none for
+    /// fewer than two sequences of points; none if all are lost.
+    pub fn quantile(&self, share: f64) -> Option<(f64, Option<f64>)> {
+        let of = |velocities: &[f64]| {
+            let last = velocities.len().checked_sub(1)?;
+            let index = (share.clamp(0.0, 1.0) * last as f64).round() as usize;
+            velocities.get(index).copied()
+        };
+        self.figure(of)
+    }
+
+    /// The mean velocity in m/s, and its standard error.
+    pub fn mean(&self) -> Option<(f64, Option<f64>)> {
+        let of = |velocities: &[f64]| {
+            let sum: f64 = velocities.iter().sum();
+            (!velocities.is_empty()).then(|| sum / velocities.len() as f64)
+        };
+        self.figure(of)
+    }
+
+    fn figure(&self, of: impl Fn(&[f64]) -> Option<f64>) -> Option<(f64, Option<f64>)> {
+        let whole = of(&self.velocities)?;
+        let each: Vec<f64> = self.sequences.iter().filter_map(|one| of(one)).collect();
+        let count = each.len() as f64;
+        let mean = each.iter().sum::<f64>() / count;
+        let squares: f64 = each.iter().map(|one| (one - mean).powi(2)).sum();
+        let error = (squares / (count - 1.0) / count).sqrt();
+        Some((whole, (each.len() > 1).then_some(error)))
+    }
+
+    /// How many machines lie in each of so many equal ranges of the velocity.
+    pub fn histogram(&self, bins: usize) -> Vec<Bin> {
+        let (Some(low), Some(high)) = (self.velocities.first(), self.velocities.last()) else {
+            return Vec::new();
+        };
+        let end = |index: usize| low + (high - low) * index as f64 / bins as f64;
+        let mut counted = 0;
+        let bin = |index: usize| {
+            let (low, high) = (end(index), end(index + 1));
+            let until = match index + 1 == bins {
+                true => self.velocities.len(),
+                false => self.velocities.partition_point(|velocity| *velocity < high),
+            };
+            let machines = until - std::mem::replace(&mut counted, until);
+            Bin {
+                low,
+                high,
+                machines,
+            }
+        };
+        (0..bins).map(bin).collect()
+    }
+}
+
+/// Looks at machines all over a box, about the z = 1 motion of its nominal machine. The watcher is told how many are
+/// done; the verdict does not depend on the number of threads.
+///
+/// # Errors
+/// [`OrbitError`] if the nominal motion is not one to start from.
+pub fn verify(
+    spread: &(impl Spread + ?Sized),
+    nominal: &Orbit,
+    settings: Settings,
+    watcher: Watcher<'_>,
+) -> Result<Verdict, OrbitError> {
+    let dimensions = spread.dimensions();
+    // A sequence of their own: the first that the machines do not use.
+    let first = settings.machines.next_multiple_of(BLOCK);
+    let known = first..first + Model::<2>::wanted(dimensions);
+    let known: Vec<Vec<f64>> = known.map(|index| place(index, dimensions)).collect();
+    let guide = Guide::new(spread, nominal, &known)?;
+    let mut verdict = Verdict {
+        machines: 0,
+        lost: 0,
+        examples: Vec::new(),
+        slowest: None,
+        least_stable: None,
+        velocities: Vec::new(),
+        sequences: Vec::new(),
+    };
+    let done = AtomicU64::new(0);
+    while verdict.machines < settings.machines && verdict.lost < settings.enough {
+        let machines = verdict.machines..(verdict.machines + GROUP).min(settings.machines);
+        let rows: Vec<Range<usize>> = rows(machines.clone()).collect();
+        let fates = rows.into_par_iter().map(|row| {
+            let fates: Vec<Fate> = row
+                .clone()
+                .map(|index| guide.fate(&place(index, dimensions)))
+                .collect();
+            let done = done.fetch_add(row.len() as u64, Ordering::Relaxed) + row.len() as u64;
+            let go_on = watcher(done, settings.machines as u64);
+            go_on.is_continue().then_some(fates)
+        });
+        let Some(fates) = fates.collect::<Option<Vec<_>>>() else {
+            break;
+        };
+        for (index, fate) in machines.zip(fates.into_iter().flatten()) {
+            verdict.take(index, dimensions, fate);
+        }
+    }
+    verdict.velocities = verdict.sequences.concat();
+    verdict.velocities.sort_by(f64::total_cmp);
+    for sequence in &mut verdict.sequences {
+        sequence.sort_by(f64::total_cmp);
+    }
+    Ok(verdict)
+}
+
+/// The machines in rows.
+fn rows(machines: Range<usize>) -> impl Iterator<Item = Range<usize>> {
+    let end = machines.end;
+    machines
+        .step_by(ROW)
+        .map(move |from| from..(from + ROW).min(end))
+}
+
+impl Verdict {
+    fn take(&mut self, index: usize, dimensions: usize, fate: Fate) {
+        if index.is_multiple_of(BLOCK) {
+            self.sequences.push(Vec::new());
+        }
+        self.machines += 1;
+        let here = || place(index, dimensions);
+        match fate {
+            Fate::Lost { share, loss } => {
+                self.lost += 1;
+                if self.examples.len() < TOLD {
+                    let at = here();
+                    self.examples.push(LostMachine { at, share, loss });
+                }
+            }
+            Fate::Kept(settled) => {
+                let is_least = |known: &Option<(Vec<f64>, Settled)>, less: fn(&Settled) -> f64| {
+                    known
+                        .as_ref()
+                        .is_none_or(|(_, known)| less(&settled) < less(known))
+                };
+                if is_least(&self.slowest, |motion| motion.velocity) {
+                    self.slowest = Some((here(), settled));
+                }
+                if is_least(&self.least_stable, |motion| -motion.multiplier) {
+                    self.least_stable = Some((here(), settled));
+                }
+                if let Some(sequence) = self.sequences.last_mut() {
+                    sequence.push(settled.velocity);
+                }
+            }
+        }
+    }
+}
