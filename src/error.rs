@@ -251,6 +251,12 @@ pub enum MotionError {
         /// What is wrong with it.
         what: &'static str,
     },
+    /// A motion on a border, or at the end of what is summed: its neighbours do not change smoothly.
+    #[error("the motion has no derivative by {name}")]
+    NoDerivative {
+        /// The parameter's name.
+        name: &'static str,
+    },
     /// The parameters are not those of a machine.
     #[error(transparent)]
     Scene(#[from] SceneError),

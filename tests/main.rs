@@ -7,6 +7,7 @@ mod flow_reference;
 mod force;
 mod force_reference;
 mod guarantee;
+mod influences;
 mod limits;
 mod long_runs;
 mod machine;

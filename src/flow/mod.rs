@@ -8,10 +8,12 @@
 //! degree, and in a phase with a power law ([`Hertz`]), the motion is followed in Taylor steps, each a course
 //! of its own.
 
+mod answers;
 mod change;
 mod chatter;
 mod course;
 mod creep;
+mod doubled;
 mod expansion;
 mod gauss;
 mod hertz;
@@ -32,7 +34,9 @@ mod soon;
 mod sphere;
 mod stretch;
 mod taylor;
+mod variation;
 
+pub(crate) use answers::{Answer, Forces, Source};
 pub(crate) use change::Change;
 pub(crate) use chatter::{Chatter, Pressing};
 pub use course::Course;

@@ -72,11 +72,11 @@ pub(super) struct Stretch {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Moved {
     /// Deflection in m.
-    deflection: f64,
+    pub deflection: f64,
     /// What rounding took from it, in m.
     low: f64,
     /// Velocity in m/s.
-    velocity: f64,
+    pub velocity: f64,
 }
 
 /// A position more sharply than by its rounded value: where it counts from a nonlinear face, by the

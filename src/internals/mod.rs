@@ -9,4 +9,4 @@ pub use crate::integrator::{Evaluations, Motion, Walk, mechanical_energy, work};
 pub use crate::phases::{Beyond, Exit, Mode, Phase, PhaseId, Phases, Surface, SurfaceId};
 pub use crate::root::narrow;
 pub use crate::scene::{FASTEST, HEAVIEST, Scales, force_of};
-pub use crate::tangent::{Detuning, saltation};
+pub use crate::tangent::{Detuning, Influence, Lowered, saltation};

@@ -54,6 +54,7 @@ impl Builder<'_> {
         let (scene, drive) = (self.scene, self.scene.excitation);
         let id = PhaseId(self.phases.len());
         self.phases.push(Phase {
+            id,
             kind,
             law,
             contact: Law {

@@ -62,6 +62,8 @@ pub struct Law {
 /// One smooth law and what ends it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phase {
+    /// Which one.
+    pub id: PhaseId,
     /// What it is.
     pub kind: PhaseKind,
     /// Its law, or the linear part of it.

@@ -1,9 +1,13 @@
 //! The exact Jacobian of a motion: free transitions joined by saltation matrices.
 
 mod detuning;
+mod influence;
+mod lowered;
 mod sensitivity;
 
 pub use detuning::Detuning;
+pub use influence::Influence;
+pub use lowered::Lowered;
 pub use sensitivity::{Perturbation, Sensitivity};
 
 use nalgebra::Matrix2;

@@ -30,6 +30,7 @@ pub mod models;
 pub mod motion;
 pub mod orbit;
 mod peak;
+pub mod slopes;
 pub mod spread;
 pub mod sweep;
 pub mod transitions;
@@ -41,6 +42,7 @@ pub use basin::{Axis, Basins, Grid};
 pub use continuation::{Along, Branch, BranchPoint, Follower, Limits};
 pub use motion::MotionKind;
 pub use orbit::{Exponents, Orbit, Regime, StroboscopicMap};
+pub use slopes::Slopes;
 pub use sweep::{Chain, Direction, Plan, Step};
 pub use zone::Zone;
 

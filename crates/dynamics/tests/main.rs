@@ -12,6 +12,7 @@ mod grazing;
 mod invariants;
 mod limits;
 mod machine_reference;
+mod slopes;
 mod spread;
 mod stop_invariants;
 mod sweep;

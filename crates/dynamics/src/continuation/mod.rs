@@ -57,6 +57,7 @@ pub use follower::{Follower, Heading};
 pub use point::{BranchPoint, Graze, Special, SpecialKind};
 pub(crate) use round::carry_on;
 pub use test::Test;
+pub(crate) use touching::LastArc;
 pub use way::{Border, End, Limits};
 
 use softstop::{MotionError, Scene};

@@ -94,29 +94,20 @@ impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
         let (scene, touch) = self.scene(at)?;
         let mut motion = scene.motion(touch.into())?;
         let until = Clock::at_cycle(self.periods);
-        let mut watch = LastArc {
-            clock: *motion.clock(),
-            left: self.crossings,
-            tangent: Tangent::default(),
-            impacts: Vec::new(),
-            until,
-            found: None,
-        };
+        let mut watch = LastArc::new(*motion.clock(), self.crossings, until, Seen::default());
         // What comes after the last crossing of the orbit is not looked at: without the touch the mass may
         // bounce without end.
         motion.advance(until, &mut watch)?;
         motion.tell_arc(&mut watch);
         let end = watch.found.ok_or(LOST)?;
-        let monodromy = watch.tangent.matrix;
+        let Seen { tangent, impacts } = watch.seen;
+        let monodromy = tangent.matrix;
         let drift = end - touch;
         let [length, speed] = self.family.state_scales();
         Ok(Evaluation {
             residual: DVector::from_vec(vec![drift.x / length, drift.y / speed]),
             tolerance: round_off(&scene, &touch, &monodromy, [length, speed]),
-            point: Contact {
-                monodromy,
-                impacts: watch.impacts,
-            },
+            point: Contact { monodromy, impacts },
         })
     }
 
@@ -125,40 +116,67 @@ impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
     }
 }
 
-/// Takes the arc after a number of crossings on to the end, whether or not something comes in between.
-struct LastArc {
-    clock: Clock,
-    left: usize,
+/// What a grazing orbit shows.
+#[derive(Default)]
+struct Seen {
     tangent: Tangent,
     impacts: Vec<f64>,
-    until: Instant,
-    /// State in the end.
-    found: Option<Vector2<f64>>,
 }
 
-impl LastArc {
+impl Observer for Seen {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.tangent.arc(arc, elapsed);
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.tangent.crossing(crossing);
+        self.impacts.extend(crossing.impact_velocity());
+    }
+}
+
+/// Takes the arc after a number of crossings on to the end, whether or not something comes in between, and lets another
+/// observer see the motion so.
+pub(crate) struct LastArc<O> {
+    clock: Clock,
+    left: usize,
+    until: Instant,
+    pub seen: O,
+    /// State in the end.
+    pub found: Option<Vector2<f64>>,
+}
+
+impl<O: Observer> LastArc<O> {
+    pub fn new(clock: Clock, crossings: usize, until: Instant, seen: O) -> Self {
+        Self {
+            clock,
+            left: crossings,
+            until,
+            seen,
+            found: None,
+        }
+    }
+
     fn extend(&mut self, arc: &Arc<'_>) {
         let elapsed = self.clock.elapsed(arc.start, self.until);
         let drive = self.clock.drive(self.until);
         let (position, velocity) = arc.course.at(elapsed, drive);
-        self.tangent.arc(arc, elapsed);
+        self.seen.arc(arc, elapsed);
         self.found = Some(Vector2::new(position, velocity));
     }
 }
 
-impl Observer for LastArc {
+impl<O: Observer> Observer for LastArc<O> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         match (self.left, self.found) {
             (0, None) => self.extend(arc),
             (0, Some(_)) => {}
-            _ => self.tangent.arc(arc, elapsed),
+            _ => self.seen.arc(arc, elapsed),
         }
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
         if self.found.is_none() {
-            self.tangent.crossing(crossing);
-            self.impacts.extend(crossing.impact_velocity());
+            self.seen.crossing(crossing);
             self.left = self.left.saturating_sub(1);
         }
     }

@@ -1,0 +1,260 @@
+//! Borders of a motion over all parameters of its machine, with their normals.
+//!
+//! A border is a manifold in the space of the parameters; seen along the drive's frequency w it stands at w_b(p). Its normal,
+//! d(w - w_b)/dp, needs first derivatives alone at a fold, -w.dP/dp / w.dP/dw with w the left null vector of M - 1, and
+//! where a surface is touched; at a flip it needs those of the trace of M, which are differences along the orbit.
+//! (Normal vectors on manifolds: Otten and Moennigmann 2019, arXiv 1903.05562.)
+
+use nalgebra::{Matrix2, Vector2};
+
+use softstop::internals::{Influence, Motion};
+use softstop::{Clock, Parameter, Scene, SceneError, Start};
+
+use super::round::{Round, lowered, none};
+use crate::continuation::{BranchPoint, Graze, LastArc, Special, SpecialKind, Test};
+use crate::orbit::{OrbitError, StroboscopicMap};
+use crate::zone::{ZoneError, grazing_frequencies};
+
+/// What a border is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum BorderKind {
+    /// g0: the motion without impacts grazes the stop, above resonance or below it.
+    Free {
+        /// Above resonance.
+        above: bool,
+    },
+    /// A fold, flip or grazing of the motion.
+    Motion(SpecialKind),
+}
+
+/// A border of a motion at one machine.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Border {
+    /// What it is.
+    pub kind: BorderKind,
+    /// The machine, at the border: its drive has the border's frequency.
+    pub scene: Scene,
+    /// The motion there; none for g0.
+    pub point: Option<BranchPoint>,
+    /// What the normal is by.
+    pub parameters: Vec<Parameter>,
+    /// d(w - w_b)/d(parameter) in SI units, w_b the border's frequency in rad/s: 1 for the frequency itself. Where it is
+    /// positive, a larger parameter brings the border to lower frequencies.
+    pub normal: Vec<f64>,
+}
+
+impl Border {
+    /// The border's frequency in rad/s.
+    pub fn frequency(&self) -> f64 {
+        self.scene.excitation.frequency
+    }
+
+    /// The normal along one of its parameters instead of the frequency: d(q - q_b)/d(parameter), q_b the value of q at
+    /// which the border stands while the others are as they are; none if it is not among the parameters.
+    pub fn along(&self, parameter: Parameter) -> Option<Vec<f64>> {
+        let index = self.parameters.iter().position(|own| *own == parameter)?;
+        let own = self.normal[index];
+        Some(self.normal.iter().map(|part| part / own).collect())
+    }
+
+    /// g0, or its counterpart below resonance.
+    ///
+    /// # Errors
+    /// [`ZoneError`] if the motion without impacts does not graze there; [`ZoneError::Orbit`] for a parameter that the scene
+    /// does not have.
+    pub fn free(scene: &Scene, above: bool, parameters: &[Parameter]) -> Result<Self, ZoneError> {
+        let (below, upper) = grazing_frequencies(scene)?;
+        let frequency = if above { Some(upper) } else { below };
+        let w = frequency.ok_or(ZoneError::NoGrazing {
+            clearance: scene.clearance,
+            largest: f64::NAN,
+        })?;
+        let (m, k, b) = (scene.mass, scene.stiffness, scene.damping);
+        let (r, drive) = (scene.clearance, scene.excitation.amplitude);
+        // r^2 ((k - m w^2)^2 + b^2 w^2) - F0^2, by the parameters.
+        let spring = k - m * w * w;
+        let by = |parameter: &Parameter| match parameter {
+            Parameter::Mass => -2.0 * r * r * spring * w * w,
+            Parameter::Suspension => 2.0 * r * r * spring,
+            Parameter::Damping => 2.0 * r * r * b * w * w,
+            Parameter::Amplitude => -2.0 * drive,
+            Parameter::Clearance => 2.0 * drive * drive / r,
+            Parameter::Frequency => r * r * (2.0 * b * b * w - 4.0 * m * w * spring),
+            _ => 0.0,
+        };
+        for parameter in parameters {
+            let lacks = || SceneError::Lacks(parameter.name());
+            parameter.get(scene).ok_or_else(lacks)?;
+        }
+        let own = by(&Parameter::Frequency);
+        Ok(Self {
+            kind: BorderKind::Free { above },
+            scene: scene.at_frequency(w),
+            point: None,
+            parameters: parameters.to_vec(),
+            normal: parameters
+                .iter()
+                .map(|parameter| by(parameter) / own)
+                .collect(),
+        })
+    }
+
+    /// The border at a special point of a branch of z = p/n over the frequency; the frequency of the scene's drive plays no
+    /// part.
+    ///
+    /// # Errors
+    /// [`OrbitError`] where the motion has no derivatives.
+    pub fn at(
+        scene: &Scene,
+        periods: u64,
+        special: &Special,
+        parameters: &[Parameter],
+    ) -> Result<Self, OrbitError> {
+        Self::of(scene, periods, (special.kind, &special.point), parameters)
+    }
+
+    /// The border where a test of the monodromy matrix vanishes, at an orbit there: a fold, as that of a
+    /// [`Zone`](crate::Zone), or a flip.
+    ///
+    /// # Errors
+    /// As [`Border::at`].
+    pub fn critical(
+        scene: &Scene,
+        periods: u64,
+        (test, point): (Test, &BranchPoint),
+        parameters: &[Parameter],
+    ) -> Result<Self, OrbitError> {
+        Self::of(
+            scene,
+            periods,
+            (SpecialKind::Critical(test), point),
+            parameters,
+        )
+    }
+
+    fn of(
+        scene: &Scene,
+        periods: u64,
+        (kind, point): (SpecialKind, &BranchPoint),
+        parameters: &[Parameter],
+    ) -> Result<Self, OrbitError> {
+        let scene = scene.at_frequency(point.parameter);
+        let all = [parameters, &[Parameter::Frequency]].concat();
+        let rates = match kind {
+            SpecialKind::Critical(Test::Fold) => fold(&scene, periods, point, &all)?,
+            SpecialKind::Critical(test) => test_rates(&scene, periods, (test, point), &all)?,
+            SpecialKind::Grazing(graze) => touch(&scene, periods, &graze, &all)?,
+        };
+        let own = rates[parameters.len()];
+        let normal: Vec<f64> = rates[..parameters.len()]
+            .iter()
+            .map(|rate| rate / own)
+            .collect();
+        if !normal.iter().all(|part| part.is_finite()) {
+            return Err(none(parameters));
+        }
+        Ok(Self {
+            kind: BorderKind::Motion(kind),
+            scene,
+            point: Some(point.clone()),
+            parameters: parameters.to_vec(),
+            normal,
+        })
+    }
+}
+
+/// w . dP/dp with w the left null vector of M - 1.
+fn fold(
+    scene: &Scene,
+    periods: u64,
+    point: &BranchPoint,
+    parameters: &[Parameter],
+) -> Result<Vec<f64>, OrbitError> {
+    let round = Round::of(scene, point.state(), periods, parameters)?;
+    let a = round.monodromy() - Matrix2::identity();
+    let candidates = [Vector2::new(a.m21, -a.m11), Vector2::new(a.m22, -a.m12)];
+    let speed = scene.scales().rate;
+    let size = |w: &Vector2<f64>| w.x.hypot(w.y * speed);
+    let [first, second] = candidates;
+    let null = if size(&first) > size(&second) {
+        first
+    } else {
+        second
+    };
+    let forced = round.columns[2..].iter();
+    Ok(forced.map(|column| null.dot(&column.xy())).collect())
+}
+
+/// Shares of a parameter over which a test is differenced, the next where the orbit beside crosses something else.
+const WIDTHS: [f64; 3] = [1e-4, 1e-5, 1e-6];
+
+/// Derivatives of a test along the orbit, by differences of the fourth order of the exact monodromy matrix along the
+/// orbit's own exact derivative.
+fn test_rates(
+    scene: &Scene,
+    periods: u64,
+    (test, point): (Test, &BranchPoint),
+    parameters: &[Parameter],
+) -> Result<Vec<f64>, OrbitError> {
+    let round = Round::of(scene, point.state(), periods, parameters)?;
+    let starts = round.starts()?;
+    let (positions, velocities) = round.state(&starts);
+    let impacts = point.impacts.len();
+    let rate = |index: usize| {
+        let parameter = parameters[index];
+        let along = Vector2::new(positions.by[index], velocities.by[index]);
+        let value = parameter.get(scene)?;
+        let size = if value == 0.0 { 1.0 } else { value.abs() };
+        WIDTHS.iter().find_map(|share| {
+            let width = share * size;
+            let beside = |width: f64| {
+                let mut scene = scene.clone();
+                parameter.set(&mut scene, value + width);
+                let map = StroboscopicMap::new(&scene, periods).ok()?;
+                let passage = map.apply(point.state() + width * along).ok()?;
+                (passage.impacts.len() == impacts).then(|| test.value(&passage.monodromy))
+            };
+            let central = |width: f64| Some((beside(width)? - beside(-width)?) / (2.0 * width));
+            let (wide, narrow) = (central(2.0 * width)?, central(width)?);
+            let found = (4.0 * narrow - wide) / 3.0;
+            ((wide - narrow).abs() <= 0.01 * found.abs()).then_some(found)
+        })
+    };
+    let rates: Option<Vec<f64>> = (0..parameters.len()).map(rate).collect();
+    rates.ok_or_else(|| none(parameters))
+}
+
+/// -dw/dp of a grazing orbit, from rest at the surface to rest there: angle of the touch and frequency are unknown.
+fn touch(
+    scene: &Scene,
+    periods: u64,
+    graze: &Graze,
+    parameters: &[Parameter],
+) -> Result<Vec<f64>, OrbitError> {
+    let missing = || none(parameters);
+    let mut scene = scene.clone();
+    scene.excitation.phase = graze.angle;
+    let place = graze.face.position(&scene).ok_or_else(missing)?;
+    let phases = std::sync::Arc::new(scene.phases());
+    let all = [parameters, &[Parameter::Phase]].concat();
+    let by = lowered(&scene, &phases, &all)?;
+    let clock = scene.clock();
+    let start = Start::new(place, 0.0);
+    let mut motion = Motion::new(phases.clone(), clock, Clock::at_cycle(0), start)?;
+    let until = Clock::at_cycle(periods);
+    let mut watch = LastArc::new(clock, graze.crossings, until, Influence::new(&phases, &by));
+    motion.advance(until, &mut watch)?;
+    motion.tell_arc(&mut watch);
+    let columns = watch.seen.columns().ok_or_else(missing)?;
+    let drift = |index: usize| {
+        let moved = by[index].place(&phases, place);
+        columns[2 + index].xy() + moved * (columns[0].xy() - Vector2::x())
+    };
+    let last = parameters.len();
+    let (by_angle, by_frequency) = (drift(last), drift(last - 1));
+    let matrix = Matrix2::from_columns(&[by_angle, by_frequency]);
+    let inverse = matrix.try_inverse().ok_or_else(missing)?;
+    Ok((0..last).map(|index| (inverse * drift(index)).y).collect())
+}

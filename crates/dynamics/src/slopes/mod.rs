@@ -1,0 +1,87 @@
+//! Exact derivatives by the parameters of a machine: of a periodic motion's figures ([`of`]), and of where it ends
+//! ([`Border`]).
+//!
+//! The motion x(0) = P(x(0), p) is followed by the implicit function theorem, (1 - M) dx/dp = dP/dp; M and dP/dp come from
+//! the variational equation along the motion, with the saltation of each crossing. The drive angle at time 0 is held.
+//!
+//! ```
+//! use softstop::{Parameter, Ratios};
+//! use softstop_dynamics::{orbit, slopes};
+//!
+//! let orbit = orbit::find(&Ratios::unloaded().scene()?)?;
+//! let slopes = slopes::of(&orbit, &[Parameter::Clearance, Parameter::Frequency])?;
+//! let velocity = &slopes.impacts[0].velocity;
+//! assert!((velocity.value - 6.494_627_429_363).abs() < 1e-9);
+//! assert!(velocity.by[1] > 0.0, "a faster drive strikes harder");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod border;
+mod figure;
+mod peak;
+mod round;
+mod watch;
+
+pub use border::{Border, BorderKind};
+pub use figure::{Figure, Strike};
+
+use softstop::Parameter;
+
+use crate::orbit::{Orbit, OrbitError};
+use round::Round;
+
+/// The figures of a periodic motion with their derivatives.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Slopes {
+    /// What they are derivatives by.
+    pub parameters: Vec<Parameter>,
+    /// Position in m at time 0.
+    pub position: Figure,
+    /// Velocity in m/s at time 0.
+    pub velocity: Figure,
+    /// Its impacts within the period, in order of time from 0 on.
+    pub impacts: Vec<Strike>,
+    /// Largest position in m: X_m.
+    pub max_position: Figure,
+    /// Lowest position in m.
+    pub min_position: Figure,
+    /// Largest force in N of stop and strip, impacts on a rigid stop left out; none where nothing is touched.
+    pub peak_force: Option<Figure>,
+    /// Energy in J that the drive supplies in the motion's period, and that is dissipated in it.
+    pub supplied: Figure,
+}
+
+/// The derivatives of a periodic motion, stable or not, by parameters of its machine.
+///
+/// # Errors
+/// [`OrbitError::Motion`] with [`MotionError::NoDerivative`](softstop::MotionError) or [`SceneError::Lacks`](softstop::SceneError)
+/// where there is no derivative, or no parameter; [`OrbitError::NotIsolated`] at a fold.
+pub fn of(orbit: &Orbit, parameters: &[Parameter]) -> Result<Slopes, OrbitError> {
+    let round = Round::of(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
+    let starts = round.starts()?;
+    let figure = |found: &watch::Row| Figure {
+        value: found.value,
+        by: round.along(found, &starts),
+    };
+    let missing = || round.none();
+    let watched = &round.watched;
+    let (position, velocity) = round.state(&starts);
+    Ok(Slopes {
+        parameters: parameters.to_vec(),
+        position,
+        velocity,
+        impacts: watched
+            .impacts
+            .iter()
+            .map(|[time, velocity]| Strike {
+                time: figure(time),
+                velocity: figure(velocity),
+            })
+            .collect(),
+        max_position: watched.highest.as_ref().map(figure).ok_or_else(missing)?,
+        min_position: watched.lowest.as_ref().map(figure).ok_or_else(missing)?,
+        peak_force: watched.force.as_ref().map(figure),
+        supplied: figure(&round.supplied),
+    })
+}

@@ -1,0 +1,49 @@
+//! Where the contact force peaks along an arc.
+
+use softstop::Arc;
+use softstop::internals::{Phase, PhaseId, Phases, narrow};
+
+/// Pieces in which peaks are looked for: for each rad of the fastest rate, at least and at most.
+const PIECES: (f64, f64, f64) = (2.0, 4.0, 4096.0);
+/// Share of a piece to which a peak is located; its height is known to the square of that.
+const WIDTH: f64 = 1e-9;
+
+/// Times in s since the start of an arc at which the contact force is highest, with position, velocity and acceleration.
+pub(super) fn peaks<'a>(
+    phases: &'a Phases,
+    phase: &'a Phase,
+    arc: &'a Arc<'_>,
+    elapsed: f64,
+) -> impl Iterator<Item = (f64, [f64; 3])> + 'a {
+    let free = &phases[PhaseId::FREE].law;
+    let state = move |time: f64| {
+        let at = arc.at(time);
+        let push = phases.held.amplitude * arc.drive(time).cos;
+        let (x, v) = (at.position, at.velocity);
+        [x, v, phases.acceleration(phase.id, x, v, push)]
+    };
+    let rate = move |time: f64| {
+        let [x, v, a] = state(time);
+        let (stiffness, damping) = phase.slopes(x, v);
+        (stiffness - free.stiffness) * v + (damping - free.damping) * a
+    };
+    let (each, least, most) = PIECES;
+    let fastest = phase.flow.modes.fastest_rate().max(phases.held.frequency);
+    let pieces = (each * fastest * elapsed).ceil().clamp(least, most);
+    let piece = elapsed / pieces;
+    let mut before = rate(0.0);
+    (1..=pieces as u32).filter_map(move |index| {
+        let time = piece * f64::from(index);
+        let here = rate(time);
+        let last = std::mem::replace(&mut before, here);
+        if !(last > 0.0 && here <= 0.0) {
+            return None;
+        }
+        let ends = ((time - piece, last), (time, here));
+        let found = narrow(ends.0, ends.1, WIDTH * piece, |time| {
+            Ok::<_, ()>(rate(time))
+        });
+        let time = found.ok()?.middle();
+        Some((time, state(time)))
+    })
+}

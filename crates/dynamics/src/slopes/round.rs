@@ -1,0 +1,126 @@
+//! One round of a motion with all its derivatives.
+
+use nalgebra::{Matrix2, Vector2, Vector3};
+
+use softstop::internals::{Lowered, Motion, Phases};
+use softstop::{Clock, MotionError, Parameter, Scene, Start};
+
+use super::figure::Figure;
+use super::watch::{Row, Watch, Watched};
+use crate::orbit::OrbitError;
+
+/// 1 - tr + det in units of the size of the monodromy matrix up to which a motion is at a fold to rounding.
+const SINGULAR: f64 = 1e-11;
+
+/// A motion from time 0 over some drive periods.
+pub(super) struct Round {
+    parameters: Vec<Parameter>,
+    start: Vector2<f64>,
+    frequency: f64,
+    /// As [`Influence`](softstop::internals::Influence) has them in the end.
+    pub columns: Vec<Vector3<f64>>,
+    pub watched: Watched,
+    pub supplied: Row,
+}
+
+/// The changes of a scene's phases with each parameter.
+pub(super) fn lowered(
+    scene: &Scene,
+    phases: &Phases,
+    parameters: &[Parameter],
+) -> Result<Vec<Lowered>, MotionError> {
+    let each = parameters.iter();
+    each.map(|parameter| Lowered::by(*parameter, scene, phases))
+        .collect()
+}
+
+/// Where there are no derivatives.
+pub(super) fn none(parameters: &[Parameter]) -> OrbitError {
+    let name = parameters.first().map_or("state", |first| first.name());
+    MotionError::NoDerivative { name }.into()
+}
+
+impl Round {
+    pub fn of(
+        scene: &Scene,
+        start: Vector2<f64>,
+        periods: u64,
+        parameters: &[Parameter],
+    ) -> Result<Self, OrbitError> {
+        scene.validate()?;
+        let phases = std::sync::Arc::new(scene.phases());
+        let by = lowered(scene, &phases, parameters)?;
+        let clock = scene.clock();
+        let begin = Start::from(start);
+        begin.validate()?;
+        let mut motion = Motion::new(phases.clone(), clock, Clock::at_cycle(0), begin)?;
+        let mut watch = Watch::new(&phases, &by, clock);
+        motion.advance(Clock::at_cycle(periods), &mut watch)?;
+        motion.tell_arc(&mut watch);
+        let columns = watch.influence.columns().ok_or_else(|| none(parameters))?;
+        let supplied = Row {
+            value: watch.influence.supplied,
+            by: columns.iter().map(|column| column.z).collect(),
+        };
+        Ok(Self {
+            parameters: parameters.to_vec(),
+            start,
+            frequency: scene.excitation.frequency,
+            columns: columns.to_vec(),
+            supplied,
+            watched: watch.watched,
+        })
+    }
+
+    pub fn none(&self) -> OrbitError {
+        none(&self.parameters)
+    }
+
+    /// The Jacobian of the map, with the drive's frequency held.
+    pub fn monodromy(&self) -> Matrix2<f64> {
+        Matrix2::from_columns(&[self.columns[0].xy(), self.columns[1].xy()])
+    }
+
+    /// Changes of the state at time 0 with each parameter, velocities with the drive's frequency held.
+    pub fn starts(&self) -> Result<Vec<Vector2<f64>>, OrbitError> {
+        let monodromy = self.monodromy();
+        let matrix = Matrix2::identity() - monodromy;
+        let size = 1.0 + monodromy.trace().abs() + monodromy.determinant().abs();
+        let inverse = (matrix.determinant().abs() > SINGULAR * size)
+            .then(|| matrix.try_inverse())
+            .flatten()
+            .ok_or(OrbitError::NotIsolated)?;
+        let forced = self.columns[2..].iter();
+        Ok(forced.map(|column| inverse * column.xy()).collect())
+    }
+
+    /// A figure's derivatives along the motion.
+    pub fn along(&self, row: &Row, starts: &[Vector2<f64>]) -> Vec<f64> {
+        let own = row.by[2..].iter().zip(starts);
+        own.map(|(own, start)| own + row.by[0] * start.x + row.by[1] * start.y)
+            .collect()
+    }
+
+    /// The state at time 0.
+    pub fn state(&self, starts: &[Vector2<f64>]) -> (Figure, Figure) {
+        let faster = |parameter: &Parameter| match parameter {
+            Parameter::Frequency => self.start.y / self.frequency,
+            _ => 0.0,
+        };
+        let own = self.parameters.iter().map(faster);
+        (
+            Figure {
+                value: self.start.x,
+                by: starts.iter().map(|start| start.x).collect(),
+            },
+            Figure {
+                value: self.start.y,
+                by: starts
+                    .iter()
+                    .zip(own)
+                    .map(|(start, own)| start.y + own)
+                    .collect(),
+            },
+        )
+    }
+}

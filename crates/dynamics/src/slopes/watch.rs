@@ -1,0 +1,196 @@
+//! What a motion shows on its way, with its derivatives.
+
+use nalgebra::Vector3;
+
+use softstop::internals::{Influence, Lowered, Phase, PhaseId, Phases};
+use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, Parameter, PhaseKind};
+
+use super::peak::peaks;
+use crate::orbit::turn::turns;
+
+/// A figure with its derivatives by position and velocity at time 0, then by the parameters.
+#[derive(Debug, Clone)]
+pub(super) struct Row {
+    pub value: f64,
+    pub by: Vec<f64>,
+}
+
+/// What was seen.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Watched {
+    /// Times and before-impact velocities.
+    pub impacts: Vec<[Row; 2]>,
+    pub highest: Option<Row>,
+    pub lowest: Option<Row>,
+    pub force: Option<Row>,
+}
+
+/// Watches a motion.
+pub(super) struct Watch<'a> {
+    pub influence: Influence<'a>,
+    pub watched: Watched,
+    phases: &'a Phases,
+    by: &'a [Lowered],
+    clock: Clock,
+    frequency: f64,
+    /// The phase of the last arc.
+    phase: Option<PhaseId>,
+    /// By how much the last crossing is later, and the acceleration in m/s^2 after it.
+    edge: Option<(Vec<f64>, f64)>,
+}
+
+impl<'a> Watch<'a> {
+    pub fn new(phases: &'a Phases, by: &'a [Lowered], clock: Clock) -> Self {
+        Self {
+            influence: Influence::new(phases, by),
+            watched: Watched::default(),
+            phases,
+            by,
+            clock,
+            frequency: phases.held.frequency,
+            phase: None,
+            edge: None,
+        }
+    }
+
+    /// A row, with what it changes by with the drive's frequency where the drive angle is held, too.
+    fn row(&self, value: f64, mut by: Vec<f64>, with_time: f64) -> Row {
+        for (part, by) in by.iter_mut().skip(2).zip(self.by) {
+            if by.parameter == Parameter::Frequency {
+                *part += with_time / self.frequency;
+            }
+        }
+        Row { value, by }
+    }
+
+    fn sees_position(&mut self, value: f64, by: impl FnOnce(&Self) -> Option<Vec<f64>>) {
+        let beats = |known: &Option<Row>, sign: f64| {
+            known
+                .as_ref()
+                .is_none_or(|known| sign * (value - known.value) > 0.0)
+        };
+        let (high, low) = (
+            beats(&self.watched.highest, 1.0),
+            beats(&self.watched.lowest, -1.0),
+        );
+        if !(high || low) {
+            return;
+        }
+        let by = by(self).unwrap_or_else(|| vec![f64::NAN; 2 + self.by.len()]);
+        let row = Row { value, by };
+        if high {
+            self.watched.highest = Some(row.clone());
+        }
+        if low {
+            self.watched.lowest = Some(row);
+        }
+    }
+
+    /// The contact force in a phase at a state (position, velocity, acceleration), which comes by `delays` later.
+    fn sees_force(
+        &mut self,
+        phase: PhaseId,
+        [x, v, a]: [f64; 3],
+        columns: impl FnOnce(&Self) -> Option<Vec<Vector3<f64>>>,
+        delays: Option<&[f64]>,
+    ) {
+        let phase = &self.phases[phase];
+        let value = phase.contact_force(x, v);
+        let known = self.watched.force.as_ref();
+        if known.is_some_and(|known| known.value >= value) {
+            return;
+        }
+        let (stiffness, damping) = contact_slopes(self.phases, phase, x, v);
+        let missing = || vec![Vector3::repeat(f64::NAN); 2 + self.by.len()];
+        let columns = columns(self).unwrap_or_else(missing);
+        let parts = columns.iter().enumerate().map(|(index, column)| {
+            let delay = delays.map_or(0.0, |delays| delays[index]);
+            let own = index
+                .checked_sub(2)
+                .map_or(0.0, |index| self.by[index].contact_force(phase, x, v));
+            stiffness * (column.x + v * delay) + damping * (column.y + a * delay) + own
+        });
+        let row = Row {
+            value,
+            by: parts.collect(),
+        };
+        self.watched.force = Some(row);
+    }
+
+    fn columns(&self) -> Option<Vec<Vector3<f64>>> {
+        self.influence.columns().map(<[_]>::to_vec)
+    }
+}
+
+/// d(contact force)/d(position) in N/m and d(contact force)/d(velocity) in N s/m.
+pub(super) fn contact_slopes(phases: &Phases, phase: &Phase, x: f64, v: f64) -> (f64, f64) {
+    let (stiffness, damping) = phase.slopes(x, v);
+    let free = &phases[PhaseId::FREE].law;
+    (stiffness - free.stiffness, damping - free.damping)
+}
+
+impl Observer for Watch<'_> {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        let along = (arc.course, arc.phase);
+        let within = |watch: &Self, elapsed: f64| watch.influence.within(along, elapsed);
+        let back = arc.course.departure.velocity > 0.0;
+        for turn in turns(arc.course, elapsed, back) {
+            self.sees_position(turn.position, |watch| {
+                let columns = within(watch, turn.elapsed)?;
+                Some(columns.iter().map(|column| column.x).collect())
+            });
+        }
+        let edge = self.edge.take();
+        self.phase = arc.phase.map(|phase| phase.id);
+        if let Some(phase) = arc.phase.filter(|phase| phase.kind != PhaseKind::Free) {
+            if let Some((delays, a)) = &edge {
+                let from = &arc.course.departure;
+                let state = [from.position, from.velocity, *a];
+                self.sees_force(phase.id, state, Self::columns, Some(delays));
+            }
+            for (time, state) in peaks(self.phases, phase, arc, elapsed) {
+                self.sees_force(phase.id, state, |watch| within(watch, time), None);
+            }
+        }
+        self.influence.arc(arc, elapsed);
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        let (x, v, a) = (
+            crossing.position,
+            crossing.velocity,
+            crossing.acceleration_before,
+        );
+        let delays = self.influence.delays(crossing);
+        let columns = self.columns();
+        let each = |part: &dyn Fn(&Vector3<f64>, f64) -> f64| match &columns {
+            Some(columns) => columns
+                .iter()
+                .zip(&delays)
+                .map(|(c, d)| part(c, *d))
+                .collect(),
+            None => vec![f64::NAN; delays.len()],
+        };
+        if crossing.kind.is_impact() {
+            let time = self.clock.time(crossing.instant);
+            let times = self.row(time, delays.clone(), -time);
+            let velocities = self.row(v, each(&|column, delay| column.y + a * delay), v);
+            self.watched.impacts.push([times, velocities]);
+        }
+        let turns = match crossing.kind {
+            CrossingKind::Rebound { .. } | CrossingKind::Reversal => true,
+            CrossingKind::Surface { .. } => crossing.velocity_after == 0.0,
+            CrossingKind::Switch | CrossingKind::Rest | CrossingKind::Release => false,
+        };
+        if turns {
+            let by = each(&|column, delay| column.x + v * delay);
+            self.sees_position(x, |_| Some(by));
+        }
+        if let Some(phase) = self.phase.take().filter(|phase| *phase != PhaseId::FREE) {
+            let known = columns.clone();
+            self.sees_force(phase, [x, v, a], |_| known, Some(&delays));
+        }
+        self.influence.crossing(crossing);
+        self.edge = Some((delays, crossing.acceleration_after));
+    }
+}

@@ -1,0 +1,174 @@
+//! How a motion changes with its start and with any parameters of its machine: exact, across crossings whose surfaces and
+//! resets change, too.
+
+use super::lowered::Lowered;
+use crate::flow::{Answer, Course, Source};
+use crate::integrator::{Arc, Crossing, CrossingKind, Observer};
+use crate::phases::{Phase, Phases};
+
+/// The variational equation (Leine and Nijmeijer 2004, ch. 7). Watches a motion under its drive alone, with a strip fed, and gathers its derivatives at fixed drive angles: columns of
+/// position in m, of velocity in m/s, as it were with the drive's frequency held, and of the energy in J that the drive
+/// has supplied. The first two columns are those by position and velocity at the start, then come the parameters.
+#[derive(Debug, Clone)]
+pub struct Influence<'a> {
+    phases: &'a Phases,
+    drive: f64,
+    by: &'a [Lowered],
+    columns: Vec<Answer>,
+    /// Energy in J that the drive has supplied.
+    pub supplied: f64,
+    /// Cosine of the drive angle at the end of the last arc.
+    cos: f64,
+    is_known: bool,
+}
+
+impl<'a> Influence<'a> {
+    /// At the start of a motion of `phases`.
+    pub fn new(phases: &'a Phases, by: &'a [Lowered]) -> Self {
+        let mut columns = vec![Answer::zeros(); 2 + by.len()];
+        (columns[0].x, columns[1].y) = (1.0, 1.0);
+        Self {
+            phases,
+            drive: phases.held.amplitude * phases.mass,
+            by,
+            columns,
+            supplied: 0.0,
+            cos: 1.0,
+            is_known: true,
+        }
+    }
+
+    /// The columns after the arc or the crossing told last; none where the motion has no derivatives.
+    pub fn columns(&self) -> Option<&[Answer]> {
+        let finite = |column: &Answer| column.iter().all(|part| part.is_finite());
+        (self.is_known && self.columns.iter().all(finite)).then_some(&self.columns)
+    }
+
+    /// The columns `elapsed` seconds after the start of an arc that is not told yet.
+    pub fn within(
+        &self,
+        (course, phase): (&Course, Option<&Phase>),
+        elapsed: f64,
+    ) -> Option<Vec<Answer>> {
+        self.along((course, phase), elapsed).map(|found| found.0)
+    }
+
+    /// The same, with the energy supplied meanwhile.
+    fn along(
+        &self,
+        (course, phase): (&Course, Option<&Phase>),
+        elapsed: f64,
+    ) -> Option<(Vec<Answer>, f64)> {
+        let mass = self.phases.mass;
+        let Some(phase) = phase else {
+            let held = self
+                .columns
+                .iter()
+                .map(|start| Answer::new(start.x, 0.0, start.z));
+            return Some((held.collect(), 0.0));
+        };
+        let origin = match &phase.hertz {
+            Some(hertz) => hertz.origin,
+            None => course.departure.position,
+        };
+        let forces: Vec<_> = self
+            .by
+            .iter()
+            .map(|by| by.forces(phase, mass, self.drive, origin))
+            .collect();
+        let logarithm = forces
+            .iter()
+            .any(|forces| forces[Source::Logarithm as usize] != 0.0);
+        let answers = course.answers(elapsed, logarithm)?;
+        let columns = self.columns.iter().enumerate().map(|(index, start)| {
+            // Energies are in J, answers in m.
+            let from = Answer::new(start.x, start.y, 0.0);
+            let mut end = match index.checked_sub(2) {
+                None => answers.to(&from, &[0.0; 9]),
+                Some(index) => answers.to(&from, &forces[index]),
+            };
+            end.z = start.z + self.drive * end.z;
+            if let Some(by) = index.checked_sub(2).map(|index| &self.by[index]) {
+                end.z += by.amplitude * answers.travel.0;
+                end.z -= self.drive * by.angle * answers.travel.1;
+            }
+            end
+        });
+        Some((columns.collect(), self.drive * answers.travel.0))
+    }
+
+    /// How much later a crossing of a surface, or a turn under dry friction, happens, in s by each column, before it is
+    /// told.
+    pub fn delays(&self, crossing: &Crossing) -> Vec<f64> {
+        let (v, a) = (crossing.velocity, crossing.acceleration_before);
+        let places = self.surfaces_at(crossing);
+        let delay = |(column, (place, _)): (&Answer, (f64, f64))| match crossing.kind {
+            CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } => (place - column.x) / v,
+            CrossingKind::Reversal => -column.y / a,
+            CrossingKind::Switch | CrossingKind::Rest | CrossingKind::Release => 0.0,
+        };
+        self.columns.iter().zip(places).map(delay).collect()
+    }
+
+    /// Changes of position and restitution of the surface that is crossed, by each column.
+    fn surfaces_at(&self, crossing: &Crossing) -> Vec<(f64, f64)> {
+        let mut surfaces = self.phases.surfaces.iter();
+        let found = surfaces.position(|surface| surface.position == crossing.position);
+        let change = |by: &Lowered| found.map_or((0.0, 0.0), |index| by.surfaces[index]);
+        let starts = [(0.0, 0.0); 2].into_iter();
+        starts.chain(self.by.iter().map(change)).collect()
+    }
+}
+
+impl Observer for Influence<'_> {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.cos = arc.drive(elapsed).cos;
+        if arc.course.is_chattering() {
+            // Known again at rest.
+            self.is_known = false;
+            return;
+        }
+        match self.along((arc.course, arc.phase), elapsed) {
+            Some((columns, supplied)) => {
+                self.columns = columns;
+                self.supplied += supplied;
+            }
+            None => self.columns.fill(Answer::repeat(f64::NAN)),
+        }
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        let (v, a) = (crossing.velocity, crossing.acceleration_before);
+        let (v_after, a_after) = (crossing.velocity_after, crossing.acceleration_after);
+        let push = self.drive * self.cos;
+        let is_held = v_after == 0.0 && a_after == 0.0;
+        let delays = self.delays(crossing);
+        let surfaces = self.surfaces_at(crossing);
+        let columns = self.columns.iter_mut().zip(delays).zip(surfaces);
+        for ((column, delay), (place, restitution)) in columns {
+            match crossing.kind {
+                CrossingKind::Surface { .. }
+                | CrossingKind::Rebound { .. }
+                | CrossingKind::Rest
+                    if is_held =>
+                {
+                    column.z += push * (place - column.x);
+                    (column.x, column.y) = (place, 0.0);
+                }
+                CrossingKind::Surface { .. } => column.y += (a - a_after) * delay,
+                CrossingKind::Rebound { .. } => {
+                    let kept = v_after / v;
+                    column.x += (v - v_after) * delay;
+                    column.y = kept * (column.y + a * delay) - restitution * v - a_after * delay;
+                    column.z += push * (v - v_after) * delay;
+                }
+                CrossingKind::Reversal => column.y += (a - a_after) * delay,
+                CrossingKind::Rest => column.x = f64::NAN,
+                CrossingKind::Switch | CrossingKind::Release => {}
+            }
+        }
+        if crossing.kind == CrossingKind::Rest {
+            self.is_known = is_held;
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Derivatives of a motion by every parameter of its machine, across impacts, against differences of the motion itself.
+
+use nalgebra::Vector3;
+use proptest::prelude::*;
+use softstop::internals::{Influence, Lowered};
+use softstop::{Clock, CrossingKind, Parameter, Scene, Start, Trajectory};
+use softstop_testing::tolerance::DIFFERENCED;
+use softstop_testing::{Meets, cases, machines, start_below};
+
+/// Share of a parameter, or of 1, over which differences are taken.
+const WIDTH: f64 = 2e-4;
+
+/// State and energy supplied after some drive periods, and what happened.
+fn after(scene: &Scene, start: Start, periods: u64) -> Option<(Vector3<f64>, Vec<CrossingKind>)> {
+    scene.validate().ok()?;
+    let Trajectory {
+        end,
+        work,
+        crossings,
+        ..
+    } = scene.trajectory(start, periods).ok()?;
+    let kinds = crossings.iter().map(|crossing| crossing.kind).collect();
+    Some((
+        Vector3::new(end.position, end.velocity, work.supplied),
+        kinds,
+    ))
+}
+
+/// The exact derivative of the same by a parameter.
+fn exact(scene: &Scene, start: Start, periods: u64, parameter: Parameter) -> Option<Vector3<f64>> {
+    let phases = scene.phases();
+    let by = [Lowered::by(parameter, scene, &phases).ok()?];
+    let mut influence = Influence::new(&phases, &by);
+    let mut motion = scene.motion(start).ok()?;
+    motion
+        .advance(Clock::at_cycle(periods), &mut influence)
+        .ok()?;
+    motion.tell_arc(&mut influence);
+    let columns = influence.columns()?;
+    let mut change = columns[2];
+    if parameter == Parameter::Frequency {
+        let w = scene.excitation.frequency;
+        change -= columns[1] * (start.velocity / w);
+        change.y += motion.state().velocity / w;
+    }
+    Some(change)
+}
+
+/// Differences of the sixth order, with an estimate of their error; none where the motion meets something else beside.
+fn differences(
+    scene: &Scene,
+    start: Start,
+    periods: u64,
+    parameter: Parameter,
+) -> Option<(Vector3<f64>, f64)> {
+    let value = parameter.get(scene)?;
+    let width = WIDTH * value.abs().max(0.05);
+    let (_, kinds) = after(scene, start, periods)?;
+    let beside = |shift: f64| {
+        let mut scene = scene.clone();
+        parameter.set(&mut scene, value + shift);
+        let (end, others) = after(&scene, start, periods)?;
+        (others == kinds).then_some(end)
+    };
+    let central = |width: f64| Some((beside(width)? - beside(-width)?) / (2.0 * width));
+    let (far, wide, narrow) = (
+        central(3.0 * width)?,
+        central(2.0 * width)?,
+        central(width)?,
+    );
+    let fourth = (4.0 * narrow - wide) / 3.0;
+    let sixth = 1.5 * narrow - 0.6 * wide + 0.1 * far;
+    Some((sixth, (sixth - fourth).norm()))
+}
+
+proptest! {
+    #![proptest_config(cases(400))]
+
+    #[test]
+    fn influences_of_parameters_are_derivatives(
+        scene in machines(),
+        depth in -0.5..6.0f64,
+        velocity in -6.0..6.0f64,
+        periods in 1..3u64,
+    ) {
+        let scene = Scene { clearance: 0.3 * scene.clearance, ..scene };
+        let start = start_below(&scene, depth, velocity);
+        prop_assume!(scene.motion(start).is_ok());
+        let meets = Meets::until(&scene, start, Clock::at_cycle(periods));
+        prop_assume!(meets.slowest > 0.1 && meets.crossings.len() < 16);
+        for parameter in Parameter::ALL {
+            let Some((found, error)) = differences(&scene, start, periods, parameter) else { continue };
+            let size = 1.0 + found.norm();
+            if error > 1e-4 * size { continue }
+            let Some(exact) = exact(&scene, start, periods, parameter) else { continue };
+            let off = (found - exact).norm();
+            prop_assert!(off <= DIFFERENCED * size + error, "{parameter:?}: {found} {exact} {error:e} {:?}", meets.crossings);
+        }
+    }
+}
