@@ -16,6 +16,8 @@ pub(crate) struct Power {
     pub supplied: f64,
     /// Work lost in the phase's damper, the integral of 2 a v^2.
     pub lost: f64,
+    /// Work that a power law takes by its own dissipation.
+    pub pressed: f64,
 }
 
 impl Course {
@@ -56,6 +58,7 @@ impl Course {
         Power {
             supplied,
             lost: 2.0 * self.flow.modes.decay * square,
+            pressed: 0.0,
         }
     }
 
@@ -107,6 +110,7 @@ impl Course {
         Power {
             supplied: steady + self.flow.amplitude * (cross.re + drive_u),
             lost: energy(start) - energy(end) + 2.0 * a * (2.0 * mixed + square_u),
+            pressed: 0.0,
         }
     }
 
@@ -160,18 +164,17 @@ impl Segment {
         let kappa = self.hertz.rate() * self.hertz.dissipation;
         let (velocities, rate) = (self.velocity(), self.rate());
         let power = if kappa > 0.0 { self.power() } else { ZERO };
-        let (mut supplied, mut lost) = (0.0, 0.0);
+        let mut done = Power::default();
         for (sigma, weight) in gauss_nodes(self.parameter_at(elapsed)) {
             let velocity = value(&velocities, sigma);
             let travel = weight * value(&rate, sigma) * velocity;
-            let mut damping = self.damping;
+            done.supplied += travel * (value(&self.push, sigma) - law);
+            done.lost += travel * self.damping * velocity;
             if kappa > 0.0 {
-                damping += kappa * value(&power, sigma);
+                done.pressed += travel * kappa * value(&power, sigma) * velocity;
             }
-            supplied += travel * (value(&self.push, sigma) - law);
-            lost += travel * damping * velocity;
         }
-        Power { supplied, lost }
+        done
     }
 
     /// The same of a linear law: the integrals of the very polynomials, whatever their degree.
@@ -181,7 +184,11 @@ impl Segment {
         let velocity = self.velocity();
         let supplied = integral_of_product(&force, &velocity, elapsed);
         let lost = self.damping * integral_of_product(&velocity, &velocity, elapsed);
-        Power { supplied, lost }
+        Power {
+            supplied,
+            lost,
+            pressed: 0.0,
+        }
     }
 }
 

@@ -34,4 +34,4 @@ pub use simulation::{Begin, Simulation};
 pub use snapshot::Snapshot;
 pub use start::Start;
 pub use walk::Walk;
-pub use work::{Work, work};
+pub use work::{Shares, Work, shares, work};

@@ -21,25 +21,49 @@ impl std::ops::AddAssign for Work {
     }
 }
 
+/// Energies in J that crossed the machine's boundary along an arc, by what took them.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Shares {
+    /// Work of the drive and the external force.
+    pub supplied: f64,
+    /// Lost in the damper that holds on the arc.
+    pub damper: f64,
+    /// Lost in stop or strip by their own law: friction, hysteresis, what a deflected stop does not give back.
+    pub law: f64,
+    /// Lost by bounces that are summed.
+    pub bounces: f64,
+}
+
 /// Work from the start of an arc to `elapsed` seconds later, for a machine with mass `mass`.
 pub fn work(arc: &Arc<'_>, mass: f64, elapsed: f64) -> Work {
+    let of = shares(arc, mass, elapsed);
+    Work {
+        supplied: of.supplied,
+        dissipated: of.damper + of.law + of.bounces,
+    }
+}
+
+/// The same in its shares.
+pub fn shares(arc: &Arc<'_>, mass: f64, elapsed: f64) -> Shares {
     if let Some(chatter) = arc.course.chatter() {
         let (_, velocity) = chatter.at(elapsed);
         let lost = (chatter.speed - velocity) * (chatter.speed + velocity);
-        return Work {
-            supplied: 0.0,
-            dissipated: 0.5 * mass * lost,
+        return Shares {
+            bounces: 0.5 * mass * lost,
+            ..Shares::default()
         };
     }
     let Some(phase) = arc.phase else {
-        return Work::default();
+        return Shares::default();
     };
     let end = arc.node(elapsed);
     let power = arc.course.power(&end, phase.law.force / mass);
     let (low, high) = (arc.course.departure.position, end.position);
     let stored = phase.store.energy_at(high) - phase.store.energy_at(low);
-    Work {
+    Shares {
         supplied: mass * power.supplied,
-        dissipated: mass * power.lost + phase.elastic_work(low, high) - stored,
+        damper: mass * power.lost,
+        law: mass * power.pressed + phase.elastic_work(low, high) - stored,
+        bounces: 0.0,
     }
 }

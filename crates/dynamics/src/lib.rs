@@ -32,6 +32,7 @@ pub mod orbit;
 mod peak;
 pub mod slopes;
 pub mod spread;
+pub mod stroke;
 pub mod sweep;
 pub mod transitions;
 pub mod watch;
@@ -43,6 +44,7 @@ pub use continuation::{Along, Branch, BranchPoint, Follower, Limits};
 pub use motion::MotionKind;
 pub use orbit::{Exponents, Orbit, Regime, StroboscopicMap};
 pub use slopes::Slopes;
+pub use stroke::Stroke;
 pub use sweep::{Chain, Direction, Plan, Step};
 pub use zone::Zone;
 

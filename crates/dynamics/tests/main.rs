@@ -15,6 +15,7 @@ mod machine_reference;
 mod slopes;
 mod spread;
 mod stop_invariants;
+mod stroke;
 mod sweep;
 mod zone_judge;
 mod zone_light;

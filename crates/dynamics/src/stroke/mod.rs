@@ -1,0 +1,130 @@
+//! What one period of a periodic motion does: how far it goes, how hard it hits, what it presses, what it costs.
+
+mod record;
+
+use serde::{Deserialize, Serialize};
+
+use crate::orbit::Orbit;
+use record::Recorder;
+use softstop::{Clock, MotionError, Stop};
+
+/// Figures of one period of a periodic motion, in SI units; of z = 1 it is one drive period, one stroke.
+///
+/// All follow from the exact motion: positions from its turning points, energies from integrals along its arcs,
+/// forces and powers from their peaks on each arc.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Stroke {
+    /// How long it lasts, in s: the drive periods after which the motion repeats.
+    pub duration: f64,
+    /// Before-impact velocity of the hardest impact, in m/s; 0 without impacts.
+    pub impact_velocity: f64,
+    /// Kinetic energy m v^2/2 of the mass right before that impact, in J.
+    pub impact_energy: f64,
+    /// The same of all impacts together, per second, in W. Of complete chatter, the summed bounces are left out.
+    pub impact_power: f64,
+    /// Largest position X_m, in m.
+    pub highest: f64,
+    /// Lowest position, in m.
+    pub lowest: f64,
+    /// Way from the lowest position to the largest, in m.
+    pub length: f64,
+    /// The largest position less that of the strip's far side, clearance + thickness, in m: above zero the strip is
+    /// cut through. None without a strip.
+    pub beyond_strip: Option<f64>,
+    /// Strips cut through.
+    pub strips: u64,
+    /// Way left from the largest position to a rigid stop behind the stop or the strip, in m; 0 if it is hit. None if
+    /// there is no such stop.
+    pub before_wall: Option<f64>,
+    /// Largest force of contact, of strip or stop with what contact adds to the damping, in N: F in
+    /// m x'' + b1 x' + k1 x + F = F0 cos(w t). Blows of rigid stops, which last no time, are not in it.
+    pub contact_force: f64,
+    /// The same while the stop is touched, its preload included.
+    pub stop_force: f64,
+    /// The same without the stop's preload, by which the force jumps at first touch.
+    pub stop_force_above_preload: f64,
+    /// The same while the strip is touched: the force with which it is cut.
+    pub strip_force: f64,
+    /// Largest change of momentum by a blow on a rigid stop, in N s; 0 without any.
+    pub impulse: f64,
+    /// Work of the drive, in J.
+    pub supplied: f64,
+    /// Where it goes.
+    pub losses: Losses,
+    /// Mean power of the drive, in W.
+    pub mean_power: f64,
+    /// Largest power of the drive, F0 cos(w t + phi) x', in W.
+    pub peak_power: f64,
+}
+
+/// Energies in J that a period dissipates.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Losses {
+    /// In the suspension's damper b1, while nothing is touched.
+    pub free_damping: f64,
+    /// In the damper of contact, which replaces it there.
+    pub contact_damping: f64,
+    /// By restitution, in blows on rigid stops.
+    pub impacts: f64,
+    /// In the strip: the work done on it.
+    pub strip: f64,
+    /// In the stop by its own law: hysteresis, Hunt and Crossley's dissipation, a deflection that is not given back.
+    pub stop: f64,
+}
+
+impl Losses {
+    /// All together, in J.
+    pub fn total(&self) -> f64 {
+        self.free_damping + self.contact_damping + self.impacts + self.strip + self.stop
+    }
+}
+
+impl Stroke {
+    /// The figures of an orbit.
+    ///
+    /// # Errors
+    /// [`MotionError`] if its motion cannot be computed.
+    pub fn of(orbit: &Orbit) -> Result<Self, MotionError> {
+        let scene = &orbit.scene;
+        let mut motion = scene.motion(orbit.state().into())?;
+        let mut seen = Recorder::new(scene, orbit.position);
+        motion.advance(Clock::at_cycle(orbit.periods), &mut seen)?;
+        motion.tell_arc(&mut seen);
+        let duration = scene.period() * orbit.periods as f64;
+        let energy = |velocity: f64| 0.5 * scene.mass * velocity * velocity;
+        let hardest = orbit.before_impact_velocity();
+        let highest = orbit.max_position;
+        let preload = match scene.stop {
+            Stop::Preloaded { preload, .. } => preload,
+            _ => 0.0,
+        };
+        let behind = scene
+            .wall()
+            .filter(|_| !matches!(scene.stop, Stop::Rigid { .. }));
+        Ok(Self {
+            duration,
+            impact_velocity: hardest,
+            impact_energy: energy(hardest),
+            impact_power: orbit.before_impact_velocities().map(energy).sum::<f64>() / duration,
+            highest,
+            lowest: seen.lowest,
+            length: highest - seen.lowest,
+            beyond_strip: scene
+                .piercing
+                .map(|strip| highest - (scene.clearance + strip.thickness)),
+            strips: seen.strips,
+            before_wall: behind.map(|wall| wall.position - highest),
+            contact_force: seen.contact_force,
+            stop_force: seen.stop_force,
+            stop_force_above_preload: (seen.stop_force - preload).max(0.0),
+            strip_force: seen.strip_force,
+            impulse: seen.impulse,
+            supplied: seen.supplied,
+            losses: seen.losses,
+            mean_power: seen.supplied / duration,
+            peak_power: seen.power,
+        })
+    }
+}

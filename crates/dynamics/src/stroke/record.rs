@@ -1,0 +1,133 @@
+//! What is recorded along the arcs of a period.
+
+use std::f64::consts::TAU;
+
+use super::Losses;
+use crate::orbit::turn::turns;
+use crate::peak::highest;
+use softstop::internals::{Phase, shares};
+use softstop::{Arc, Crossing, CrossingKind, Observer, PhaseKind, Scene, Start};
+
+/// Looks at a force or a power in the time of its fastest oscillation, at least on an arc, and at most on one.
+const LOOKS: f64 = 24.0;
+const FEWEST: f64 = 6.0;
+const MOST: f64 = 4096.0;
+/// Share of the time between two looks to which a peak is known; being flat it is known to rounding then.
+const WIDTH: f64 = 1e-8;
+
+/// What is seen of a period.
+pub(super) struct Recorder<'a> {
+    scene: &'a Scene,
+    pub lowest: f64,
+    pub strips: u64,
+    pub contact_force: f64,
+    pub stop_force: f64,
+    pub strip_force: f64,
+    pub impulse: f64,
+    pub supplied: f64,
+    pub power: f64,
+    pub losses: Losses,
+}
+
+impl<'a> Recorder<'a> {
+    pub(super) fn new(scene: &'a Scene, position: f64) -> Self {
+        Self {
+            scene,
+            lowest: position,
+            strips: 0,
+            contact_force: 0.0,
+            stop_force: 0.0,
+            strip_force: 0.0,
+            impulse: 0.0,
+            supplied: 0.0,
+            power: 0.0,
+            losses: Losses::default(),
+        }
+    }
+
+    /// Force of the drive in N.
+    fn drive(&self, arc: &Arc<'_>, elapsed: f64) -> f64 {
+        self.scene.excitation.amplitude * arc.drive(elapsed).cos
+    }
+
+    /// Force of contact in N on an arc; a mass that is held is pressed by what would move it.
+    fn contact(&self, arc: &Arc<'_>, elapsed: f64) -> f64 {
+        let Start { position, velocity } = arc.at(elapsed);
+        match arc.phase {
+            Some(phase) => phase.contact_force(position, velocity),
+            None => self.drive(arc, elapsed) - self.scene.stiffness * position,
+        }
+    }
+
+    fn press(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        let of_kind = match arc.kind {
+            PhaseKind::Free | PhaseKind::Chatter => return,
+            PhaseKind::Pierce | PhaseKind::Cut | PhaseKind::Stuck => Some(true),
+            PhaseKind::Stop | PhaseKind::Released | PhaseKind::Resting => Some(false),
+            PhaseKind::Gap => None,
+        };
+        let force = self.peak(arc, elapsed, |elapsed| self.contact(arc, elapsed));
+        self.contact_force = self.contact_force.max(force);
+        match of_kind {
+            Some(true) => self.strip_force = self.strip_force.max(force),
+            Some(false) => self.stop_force = self.stop_force.max(force),
+            None => {}
+        }
+    }
+
+    /// The largest value of a quantity on an arc.
+    fn peak(&self, arc: &Arc<'_>, elapsed: f64, value: impl Fn(f64) -> f64) -> f64 {
+        let rate = |phase: &Phase| (phase.law.stiffness.abs() / self.scene.mass).sqrt();
+        let rate = self.scene.excitation.frequency + arc.phase.map_or(0.0, rate);
+        let looks = (LOOKS * rate * elapsed / TAU).clamp(FEWEST, MOST).ceil();
+        let at = |look: f64| elapsed * (look / looks);
+        let all: Vec<f64> = (0..=looks as u32)
+            .map(|look| value(at(look.into())))
+            .collect();
+        let before = |look: usize| all[look.saturating_sub(1)];
+        let after = |look: usize| all[(look + 1).min(all.len() - 1)];
+        let tops = (0..all.len()).filter(|&look| all[look] >= before(look).max(after(look)));
+        let tops = tops.map(|look| {
+            let ends = [look as f64 - 1.0, look as f64 + 1.0].map(|end| at(end.clamp(0.0, looks)));
+            let (_, top) = highest(ends[0], ends[1], WIDTH * at(1.0), &value);
+            top.max(all[look])
+        });
+        tops.fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+impl Observer for Recorder<'_> {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        let lasting = shares(arc, self.scene.mass, elapsed);
+        let losses = &mut self.losses;
+        self.supplied += lasting.supplied;
+        losses.impacts += lasting.bounces;
+        let is_undamped = |phase: &Phase| phase.law.damping == self.scene.damping;
+        *match arc.kind {
+            PhaseKind::Free => &mut losses.free_damping,
+            PhaseKind::Released if arc.phase.is_some_and(is_undamped) => &mut losses.free_damping,
+            _ => &mut losses.contact_damping,
+        } += lasting.damper;
+        *match arc.kind {
+            PhaseKind::Pierce | PhaseKind::Cut => &mut losses.strip,
+            _ => &mut losses.stop,
+        } += lasting.law;
+        for back in [true, false] {
+            let turns = turns(arc.course, elapsed, back).map(|turn| turn.position);
+            self.lowest = turns.fold(self.lowest, f64::min);
+        }
+        let power = |elapsed| self.drive(arc, elapsed) * arc.at(elapsed).velocity;
+        self.power = self.power.max(self.peak(arc, elapsed, power));
+        self.press(arc, elapsed);
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.lowest = self.lowest.min(crossing.position);
+        self.strips += u64::from(crossing.pierces());
+        self.losses.impacts += crossing.lost_energy(self.scene.mass);
+        if let CrossingKind::Rebound { .. } = crossing.kind {
+            let change = crossing.velocity - crossing.velocity_after;
+            self.impulse = self.impulse.max(self.scene.mass * change);
+        }
+    }
+}
