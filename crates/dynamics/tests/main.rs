@@ -9,6 +9,7 @@ mod examples;
 mod exponents;
 mod fidelity;
 mod grazing;
+mod in_service;
 mod invariants;
 mod limits;
 mod machine_reference;

@@ -1,11 +1,13 @@
 //! Where starts lie.
 
+use serde::{Deserialize, Serialize};
+
 use crate::extremes::extremes;
 use softstop::internals::Scales;
 use softstop::{Scene, Start, Wall};
 
 /// A rectangle of states at drive angle phi.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Region {
     /// Least and largest position in m.
     pub position: [f64; 2],
@@ -101,7 +103,7 @@ impl Region {
     }
 
     /// Quasi-random starts.
-    pub(super) fn starts(&self, count: usize, seed: u64) -> Vec<Start> {
+    pub(crate) fn starts(&self, count: usize, seed: u64) -> Vec<Start> {
         let shifts = [scramble(seed), scramble(!seed)];
         let within = |[low, high]: [f64; 2], share: f64| low + share * (high - low);
         let start = |index| {

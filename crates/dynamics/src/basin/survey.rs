@@ -1,18 +1,16 @@
 //! The survey of a grid: scouts, the motions of all cells, and a look at what is left.
 
-use std::f64::consts::TAU;
-
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::ball::Ball;
+use super::section::at_section;
 use super::{Basins, Grid, Options};
 use crate::attractors::SurveyError;
 use crate::attractors::fleet::{Fleet, Voyage};
 use crate::attractors::known::{Book, Standing};
 use crate::watch::{Kept, Watcher, piece, stop_if};
-use softstop::internals::Motion;
-use softstop::{Clock, MotionError, Scene, Start};
+use softstop::{MotionError, Scene, Start};
 
 /// Cells that go together: enough for all lanes to be busy. The tiles may not depend on how many threads
 /// there are.
@@ -126,17 +124,8 @@ impl Survey<'_> {
     /// The state of a cell when the drive angle next is phi.
     fn at_section(&self, cell: usize) -> Result<Start, MotionError> {
         let (start, angle) = self.grid.start(cell);
-        start.validate()?;
-        let drive = self.scene.excitation;
-        let turn = (drive.phase - angle).rem_euclid(TAU);
-        if turn == 0.0 {
-            return Ok(start);
-        }
-        let clock = Clock::new(drive.frequency, angle);
         let phases = self.fleet.machine[0].shared_phases();
-        let mut motion = Motion::new(phases, clock, Clock::at_cycle(0), start)?;
-        motion.advance(clock.instant(turn / drive.frequency), &mut ())?;
-        Ok(motion.state())
+        at_section(&phases, self.scene.excitation, start, angle)
     }
 
     /// A few cells, spread over the grid, fill the book.

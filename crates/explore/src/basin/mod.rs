@@ -11,7 +11,8 @@ use std::path::PathBuf;
 use anyhow::{Context, Error, anyhow};
 use clap::Args;
 use softstop::{Machine, Parameter};
-use softstop_dynamics::basin::{Options, basins, establishing};
+use softstop_dynamics::attractors::starting_box;
+use softstop_dynamics::basin::{Options, basins, establishing, zone_box};
 use softstop_dynamics::watch::Kept;
 use softstop_dynamics::zone;
 
@@ -154,7 +155,7 @@ fn picture(
 ) -> Result<(), Failure> {
     let scene = &machine.scene;
     let export = Export::open(&arguments.output, &PICTURE)?;
-    let grid = plane::grid(arguments, std::slice::from_ref(scene))?;
+    let grid = plane::grid(arguments, scene, || starting_box(scene, &interrupt::watch))?;
     let of = (scene, grid, options);
     let keep = Keep::open(&arguments.output, "basin", &of, arguments.keep)?;
     let progress = Progress::new(grid.cells() as u64, "cells");
@@ -174,9 +175,6 @@ fn picture(
     Ok(())
 }
 
-/// Places of a zone that its box of starts is made for.
-const BOXED: [f64; 3] = [0.0, 0.5, 0.99];
-
 /// The certainty of z = 1 along the hysteresis zone.
 fn along(
     arguments: &BasinArguments,
@@ -186,7 +184,8 @@ fn along(
 ) -> Result<(), Failure> {
     let zone = zone::hysteresis_watched(&machine.scene, &interrupt::watch)
         .with_context(|| format!("no hysteresis zone found of {}", title(machine)))?;
-    let grid = plane::grid(arguments, &BOXED.map(|place| zone.scene_at(place)))?;
+    let region = || zone_box(&zone, &interrupt::watch);
+    let grid = plane::grid(arguments, &zone.scene, region)?;
     let export = Export::open(&arguments.output, &ALONG)?;
     let shares: Vec<f64> = (0..places)
         .map(|k| k as f64 / (places - 1) as f64)

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use anyhow::Error;
 use softstop::{Allowed, Dimension, Machine, Scene};
-use softstop_dynamics::attractors::{Region, starting_box};
+use softstop_dynamics::attractors::{Region, SurveyError};
 use softstop_dynamics::basin::Quantity;
 use softstop_dynamics::{Axis, Grid, orbit};
 
@@ -39,8 +39,12 @@ impl FromStr for Plane {
     }
 }
 
-/// The grid for scenes that differ in their frequency: one box for all of them.
-pub(super) fn grid(arguments: &BasinArguments, scenes: &[Scene]) -> Result<Grid, Failure> {
+/// The grid in the box of starts, unless the arguments say it all.
+pub(super) fn grid(
+    arguments: &BasinArguments,
+    scene: &Scene,
+    region: impl FnOnce() -> Result<Region, SurveyError>,
+) -> Result<Grid, Failure> {
     Allowed::Finite.check("at", arguments.at)?;
     let Plane { across, up } = arguments.plane;
     let shows = |quantity| across == quantity || up == quantity;
@@ -58,7 +62,7 @@ pub(super) fn grid(arguments: &BasinArguments, scenes: &[Scene]) -> Result<Grid,
     }
     let is_left = |(_, range, quantity): &(_, Option<_>, _)| range.is_none() && shows(*quantity);
     let region = match given[..2].iter().any(is_left) {
-        true => common_box(scenes)?,
+        true => Some(region().map_err(Error::from)?),
         false => None,
     };
     let axis = |quantity| {
@@ -73,8 +77,7 @@ pub(super) fn grid(arguments: &BasinArguments, scenes: &[Scene]) -> Result<Grid,
             cells: arguments.size,
         }
     };
-    let phase = scenes.first().map_or(0.0, |scene| scene.excitation.phase);
-    let mut grid = Grid::states(axis(across), axis(up), phase);
+    let mut grid = Grid::states(axis(across), axis(up), scene.excitation.phase);
     if !shows(Quantity::Position) {
         grid.state.position = arguments.at;
     } else if !shows(Quantity::Velocity) {
@@ -83,16 +86,6 @@ pub(super) fn grid(arguments: &BasinArguments, scenes: &[Scene]) -> Result<Grid,
         grid.angle = arguments.at;
     }
     Ok(grid)
-}
-
-/// The box of starts that holds those of all these scenes.
-fn common_box(scenes: &[Scene]) -> Result<Option<Region>, Failure> {
-    let mut all: Option<Region> = None;
-    for scene in scenes {
-        let own = starting_box(scene, &|_, _| interrupt::go_on()).map_err(Error::from)?;
-        all = Some(all.map_or(own, |all| all.with(&own)));
-    }
-    Ok(all)
 }
 
 /// A word of warning if the machine's own z = 1 motion does not pass the plane at its drive angle: then the shares say

@@ -12,9 +12,10 @@ use nalgebra::Vector2;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use serde::{Deserialize, Serialize};
-use softstop::{Piercing, Ratios};
+use softstop::Ratios;
 use softstop_dynamics::StroboscopicMap;
 use softstop_dynamics::orbit::find;
+use softstop_dynamics::supply::Reading;
 use softstop_dynamics::zone::hysteresis;
 
 use crate::figure::{Drawn, Figure, Findings, Studio};
@@ -34,17 +35,6 @@ const RUNS: [f64; 3] = [2.0, 5.0, 25.0];
 const CLOSE: (usize, usize) = (250, 64);
 /// Shares of the range from g0 to the loaded machine's fold, that fold being 1; the unloaded one's lies beyond.
 const SHARES: (f64, f64) = (0.02, 1.1);
-
-/// Where the stop stands while there is no strip.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-enum Reading {
-    /// At rho, as in the paper's unloaded machine.
-    #[serde(rename = "rho")]
-    Near,
-    /// At rho + sigma + nu, where it stands behind a strip: it is fixed.
-    #[serde(rename = "rho + sigma + nu")]
-    Fixed,
-}
 
 const READINGS: [(Reading, &str); 2] = [
     (Reading::Near, "stop at rho without a strip"),
@@ -166,19 +156,8 @@ fn survey(
 impl Press {
     fn new(reading: Reading, frequency: f64, is_supplied: bool) -> Result<Self> {
         let machine = Ratios::loaded().at_frequency(frequency);
-        let without = match reading {
-            Reading::Near => None,
-            Reading::Fixed => Some(Piercing {
-                stiffness: 0.0,
-                friction: 0.0,
-                ..Piercing::PAPER
-            }),
-        };
-        let without = Ratios {
-            piercing: without,
-            ..machine
-        };
-        let scenes = [without.scene()?, machine.scene()?];
+        let scene = machine.scene()?;
+        let scenes = [reading.without(&scene), scene];
         let map = |scene| StroboscopicMap::new(scene, 1);
         Ok(Self {
             clearance: machine.clearance,

@@ -1,0 +1,232 @@
+//! Integrity along the hysteresis zone: how the basin of z = 1 is eaten away from g0 to s_SN (Thompson 1989; Rega and
+//! Lenci 2005).
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector2;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::certainty::CertaintyError;
+use super::home::Home;
+use super::share::wilson;
+use crate::attractors::starts::evenly;
+use crate::attractors::{Region, SurveyError, starting_box};
+use crate::orbit::Orbit;
+use crate::watch::Watcher;
+use crate::zone::Zone;
+use softstop::Start;
+
+/// How certainly a motion establishes itself: the share of starts in a box that settle on it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Establishment {
+    /// The share.
+    pub share: f64,
+    /// Wilson's 95 % interval of it, as if the starts were drawn at random; they lie more evenly, so that it is wide.
+    pub interval: [f64; 2],
+    /// How many starts there were.
+    pub starts: usize,
+    /// The box in which they lie, at drive angle phi.
+    pub region: Region,
+}
+
+impl Establishment {
+    /// That of a stable motion, in the box that all commands take starts from ([`starting_box`]).
+    ///
+    /// # Errors
+    /// [`SurveyError::Motion`] if the motion cannot be computed; [`SurveyError::Stopped`].
+    pub fn of(orbit: &Orbit, starts: usize, watcher: Watcher<'_>) -> Result<Self, SurveyError> {
+        let region = starting_box(&orbit.scene, watcher)?;
+        Self::within(orbit, &region, starts, watcher)
+    }
+
+    /// The same in another box.
+    ///
+    /// # Errors
+    /// As [`Establishment::of`].
+    pub fn within(
+        orbit: &Orbit,
+        region: &Region,
+        starts: usize,
+        watcher: Watcher<'_>,
+    ) -> Result<Self, SurveyError> {
+        let states = region.starts(starts, SEED);
+        let reached = Home::of(orbit)?.reached(&states, watcher)?;
+        Ok(Self::counted(&reached, region))
+    }
+
+    fn counted(reached: &[bool], region: &Region) -> Self {
+        let own = reached.iter().filter(|reached| **reached).count();
+        Self {
+            share: own as f64 / reached.len().max(1) as f64,
+            interval: wilson(own, reached.len()),
+            starts: reached.len(),
+            region: *region,
+        }
+    }
+}
+
+/// Shifts the starts.
+const SEED: u64 = 0;
+/// Places of a zone that its box of starts is made for.
+const BOXED: [f64; 3] = [0.0, 0.5, 0.99];
+/// Part of the starts with which a ball is filled anew, and least number of them.
+const PART: usize = 8;
+const FEWEST: usize = 64;
+/// Most fillings.
+const FILLINGS: usize = 24;
+
+/// One box of starts for a whole hysteresis zone: it holds those of the machine ([`starting_box`]) at both ends and in
+/// the middle.
+///
+/// # Errors
+/// As [`starting_box`].
+pub fn zone_box(zone: &Zone, watcher: Watcher<'_>) -> Result<Region, SurveyError> {
+    let [first, others @ ..] = BOXED.map(|place| zone.scene_at(place));
+    let mut all = starting_box(&first, watcher)?;
+    for scene in &others {
+        all = all.with(&starting_box(scene, watcher)?);
+    }
+    Ok(all)
+}
+
+/// The integrity of z = 1 at one place of the zone.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Integrity {
+    /// Place s: 0 at g0, 1 at s_SN.
+    pub place: f64,
+    /// Frequency in rad/s.
+    pub frequency: f64,
+    /// Before-impact velocity of the motion in m/s.
+    pub velocity: f64,
+    /// Share of the box that leads to it.
+    pub certainty: Establishment,
+    /// Radius of the largest ball about the motion's state at drive angle phi that lies in the box and all of whose
+    /// starts lead to it: the local integrity measure. In units of half of each axis of the box, so that on the plane
+    /// of states it is an ellipse. The ball is filled with starts until all lead there.
+    pub radius: f64,
+}
+
+/// The integrity of z = 1 along its hysteresis zone.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct ErosionProfile {
+    /// The box of starts, one for all places.
+    pub region: Region,
+    /// The places, as they were asked for.
+    pub places: Vec<Integrity>,
+}
+
+impl ErosionProfile {
+    /// The profile at places s in [0, 1] of a zone, with so many starts at each. At s_SN itself, where the motion
+    /// ceases to be stable, nothing is left. The same for any number of threads.
+    ///
+    /// # Errors
+    /// [`CertaintyError`] if a place lies outside the zone, a motion is lost or the watcher says stop.
+    pub fn of(
+        zone: &Zone,
+        places: &[f64],
+        starts: usize,
+        watcher: Watcher<'_>,
+    ) -> Result<Self, CertaintyError> {
+        let region = zone_box(zone, watcher)?;
+        let states = region.starts(starts, SEED);
+        let place = |place: &f64| -> Result<Integrity, CertaintyError> {
+            let orbit = zone.orbit_at(*place)?;
+            let (certainty, radius) = integrity(&orbit, &region, &states, watcher)?;
+            Ok(Integrity {
+                place: *place,
+                frequency: orbit.scene.excitation.frequency,
+                velocity: orbit.before_impact_velocity(),
+                certainty,
+                radius,
+            })
+        };
+        let places = places.par_iter().map(place);
+        Ok(Self {
+            region,
+            places: places.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// So many places from g0 to s_SN, both of them included.
+    pub fn evenly(count: usize) -> Vec<f64> {
+        let last = count.saturating_sub(1).max(1) as f64;
+        (0..count).map(|place| place as f64 / last).collect()
+    }
+}
+
+/// The certainty of a motion, and the radius of the largest ball about it.
+fn integrity(
+    orbit: &Orbit,
+    region: &Region,
+    states: &[Start],
+    watcher: Watcher<'_>,
+) -> Result<(Establishment, f64), SurveyError> {
+    let home = Home::of(orbit)?;
+    let reached = home.reached(states, watcher)?;
+    let certainty = Establishment::counted(&reached, region);
+    if certainty.share == 0.0 {
+        return Ok((certainty, 0.0));
+    }
+    let ball = Ball::new(orbit, region);
+    let mut radius = ball.nearest_lost(states, &reached, ball.edge(region));
+    for _ in 0..FILLINGS {
+        let filling = ball.filling(radius, (states.len() / PART).max(FEWEST));
+        let reached = home.reached(&filling, watcher)?;
+        let smaller = ball.nearest_lost(&filling, &reached, radius);
+        if smaller == radius {
+            break;
+        }
+        radius = smaller;
+    }
+    Ok((certainty, radius))
+}
+
+/// Balls about a state, in units of half of each axis of a box.
+struct Ball {
+    centre: Vector2<f64>,
+    half: Vector2<f64>,
+}
+
+impl Ball {
+    fn new(orbit: &Orbit, region: &Region) -> Self {
+        let half = [region.position, region.velocity].map(|[low, high]| 0.5 * (high - low));
+        Self {
+            centre: orbit.state(),
+            half: half.into(),
+        }
+    }
+
+    /// From the centre to the nearest edge of the box; 0 if it is not in it.
+    fn edge(&self, region: &Region) -> f64 {
+        let sides = [region.position, region.velocity].into_iter().enumerate();
+        let sides = sides.flat_map(|(axis, [low, high])| {
+            [self.centre[axis] - low, high - self.centre[axis]].map(|way| way / self.half[axis])
+        });
+        sides.fold(f64::INFINITY, f64::min).max(0.0)
+    }
+
+    /// From the centre to the nearest start that does not lead to the motion, if that is nearer than `radius`.
+    fn nearest_lost(&self, starts: &[Start], reached: &[bool], radius: f64) -> f64 {
+        let lost = starts.iter().zip(reached).filter(|(_, reached)| !**reached);
+        let ways = lost.map(|(start, _)| {
+            let way = Vector2::new(start.position, start.velocity) - self.centre;
+            way.component_div(&self.half).norm()
+        });
+        ways.fold(radius, f64::min)
+    }
+
+    /// Starts that fill a ball evenly.
+    fn filling(&self, radius: f64, count: usize) -> Vec<Start> {
+        let start = |index| {
+            let [area, turn] = evenly([0.5; 2], index);
+            let (sin, cos) = (TAU * turn).sin_cos();
+            let way = radius * area.sqrt() * Vector2::new(cos, sin);
+            Start::from(self.centre + way.component_mul(&self.half))
+        };
+        (0..count).map(start).collect()
+    }
+}

@@ -1,0 +1,242 @@
+//! Which motions come to one stable orbit: all others are not told apart, which costs far less than a survey.
+
+use std::f64::consts::TAU;
+
+use rayon::prelude::*;
+
+use super::ball::Ball;
+use super::section::at_section;
+use crate::attractors::SurveyError;
+use crate::orbit::recurrence::{distance, size};
+use crate::orbit::{Orbit, multipliers};
+use crate::watch::Watcher;
+use crate::zone::free_amplitude;
+use nalgebra::{Complex, Vector2};
+use softstop::{Excitation, MotionError, Scene, Start};
+use softstop_lanes::{Job, Machine, Watch};
+
+/// Motions that go together: enough for all lanes to be busy. It may not depend on how many threads there are.
+const TOGETHER: usize = 512;
+/// Drive periods between two looks at where the motions are.
+const STRETCH: u64 = 16;
+/// Drive periods that motions may take before they come near: this many, and as many as the slowest multiplier needs
+/// to take away all but this exponent of e; and never more than the last.
+const PATIENCE: u64 = 256;
+const SHRUNK: f64 = 28.0;
+const LONGEST: f64 = 20_000.0;
+/// Decay a drive period, as an exponent, below which an orbit attracts nothing: it is neutral, or a fold to rounding.
+const SLOWEST: f64 = 1e-5;
+/// Distance from the orbit, in units of its size, at which a motion has arrived that no ball holds.
+const ARRIVED: f64 = 1e-6;
+
+/// A stable orbit with balls about its points in which its map contracts: what lies in one of them comes to it.
+pub struct Home {
+    machine: [Machine; 1],
+    drive: Excitation,
+    states: Vec<Start>,
+    size: f64,
+    balls: Vec<Ball>,
+    /// Those of the motion without impacts, if it is another one: what lies there is lost.
+    away: Vec<Ball>,
+    patience: u64,
+}
+
+/// A motion on its way, at a drive angle in rad that its machine starts with.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Guest {
+    pub machine: usize,
+    pub angle: f64,
+    pub state: Start,
+    /// When that is, in drive periods.
+    pub time: f64,
+    /// Its strokes so far.
+    pub strokes: Strokes,
+}
+
+/// Strokes that are missed: what is longer between two impacts than a drive period.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Strokes {
+    /// When the last impact was, in drive periods.
+    pub last: f64,
+    pub missed: u64,
+}
+
+impl Strokes {
+    /// An impact happens.
+    pub(crate) fn strike(&mut self, time: f64) {
+        self.missed += self.missing(time);
+        self.last = time;
+    }
+
+    /// Strokes that are missing since the last one.
+    fn missing(&self, time: f64) -> u64 {
+        ((time - self.last).round() as u64).saturating_sub(1)
+    }
+}
+
+/// What became of a guest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Coming {
+    /// It came to the orbit.
+    pub comes: bool,
+    /// Strokes missed on its way, if they were counted.
+    pub missed: u64,
+}
+
+impl Home {
+    /// That of an orbit; nothing comes to one that is not stable, or as good as at a fold.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the orbit cannot be computed.
+    pub fn of(orbit: &Orbit) -> Result<Self, MotionError> {
+        let scene = &orbit.scene;
+        let states: Vec<Start> = orbit.states()?.into_iter().map(Start::from).collect();
+        let size = size(scene.excitation.frequency, &states);
+        let slowest = multipliers(&orbit.monodromy)[0].norm();
+        let decay = -slowest.ln() / orbit.periods as f64;
+        let away = match without_impacts(scene).filter(|_| !orbit.impacts.is_empty()) {
+            Some(other) => Ball::all(&other)?,
+            None => Vec::new(),
+        };
+        Ok(Self {
+            machine: [Machine::new(scene)?],
+            drive: scene.excitation,
+            states,
+            size,
+            balls: Ball::all(orbit)?,
+            away,
+            patience: match decay > SLOWEST {
+                true => PATIENCE + (SHRUNK / decay).min(LONGEST) as u64,
+                false => 0,
+            },
+        })
+    }
+
+    /// Which of the motions from these states at drive angle phi come to the orbit; a motion that cannot be computed
+    /// does not. The same for any number of threads. The watcher is not told how much is done.
+    ///
+    /// # Errors
+    /// [`SurveyError::Stopped`].
+    pub fn reached(
+        &self,
+        starts: &[Start],
+        watcher: Watcher<'_>,
+    ) -> Result<Vec<bool>, SurveyError> {
+        let guest = |state: &Start| Guest {
+            machine: 0,
+            angle: self.drive.phase,
+            state: *state,
+            time: 0.0,
+            strokes: Strokes {
+                last: 0.0,
+                missed: 0,
+            },
+        };
+        let chunks = starts.par_chunks(TOGETHER).map(|starts| {
+            let guests: Vec<Guest> = starts.iter().map(guest).collect();
+            self.receive::<false>(&self.machine, guests, watcher)
+        });
+        let chunks = chunks.collect::<Result<Vec<_>, SurveyError>>()?;
+        Ok(chunks.concat().iter().map(|coming| coming.comes).collect())
+    }
+
+    /// Follows guests until they have come or are given up. The machines differ from the orbit's in the drive angle
+    /// alone with which they start.
+    pub(crate) fn receive<const COUNTS: bool>(
+        &self,
+        machines: &[Machine],
+        mut guests: Vec<Guest>,
+        watcher: Watcher<'_>,
+    ) -> Result<Vec<Coming>, SurveyError> {
+        let period = TAU / self.drive.frequency;
+        let mut home = vec![false; guests.len()];
+        let mut left: Vec<usize> = (0..guests.len()).collect();
+        let mut periods = 0;
+        while !left.is_empty() && periods < self.patience {
+            if watcher(0, 0).is_break() {
+                return Err(SurveyError::Stopped);
+            }
+            let job = |guest: &usize| Job {
+                machine: guests[*guest].machine,
+                start: guests[*guest].state,
+                periods: STRETCH,
+            };
+            let jobs: Vec<Job> = left.iter().map(job).collect();
+            let mut counter = Counter::<COUNTS> {
+                period,
+                guests: &mut guests,
+                afloat: &left,
+            };
+            let outcomes = softstop_lanes::run(machines, &jobs, &mut counter);
+            periods += STRETCH;
+            let ends = left.into_iter().zip(outcomes);
+            left = ends
+                .filter_map(|(guest, outcome)| {
+                    let it = &mut guests[guest];
+                    it.state = outcome.end;
+                    it.time += STRETCH as f64;
+                    let fate = match outcome.error {
+                        Some(_) => Some(false),
+                        None => self.is_home(it, periods >= self.patience),
+                    };
+                    home[guest] = fate == Some(true);
+                    fate.is_none().then_some(guest)
+                })
+                .collect();
+        }
+        let ends = guests.iter().zip(home);
+        let coming = |(guest, comes): (&Guest, bool)| Coming {
+            comes,
+            missed: guest.strokes.missed + guest.strokes.missing(guest.time),
+        };
+        Ok(ends.map(coming).collect())
+    }
+
+    /// Whether a motion has come to the orbit, or never will; none if that is open still.
+    fn is_home(&self, guest: &Guest, is_last: bool) -> Option<bool> {
+        let phases = self.machine[0].shared_phases();
+        let Ok(state) = at_section(&phases, self.drive, guest.state, guest.angle) else {
+            return Some(false);
+        };
+        let holds = |balls: &[Ball]| balls.iter().any(|ball| ball.holds(state));
+        let is_near =
+            |own: &Start| distance(self.drive.frequency, own, &state) <= ARRIVED * self.size;
+        match () {
+            () if holds(&self.balls) => Some(true),
+            () if holds(&self.away) => Some(false),
+            () if is_last => Some(self.states.iter().any(is_near)),
+            () => None,
+        }
+    }
+}
+
+/// The motion without impacts, if there is one.
+fn without_impacts(scene: &Scene) -> Option<Orbit> {
+    let drive = scene.excitation;
+    if free_amplitude(scene, drive.frequency) >= scene.clearance {
+        return None;
+    }
+    let spring = scene.stiffness - scene.mass * drive.frequency * drive.frequency;
+    let swing = drive.amplitude / Complex::new(spring, scene.damping * drive.frequency);
+    let swing = swing * Complex::from_polar(1.0, drive.phase);
+    let state = Vector2::new(swing.re, -drive.frequency * swing.im);
+    let orbit = Orbit::periodic(scene, state, 1).ok()?;
+    orbit.impacts.is_empty().then_some(orbit)
+}
+
+/// Counts the strokes of those guests that are afloat.
+struct Counter<'a, const COUNTS: bool> {
+    period: f64,
+    guests: &'a mut [Guest],
+    afloat: &'a [usize],
+}
+
+impl<const COUNTS: bool> Watch for Counter<'_, COUNTS> {
+    const IMPACTS: bool = COUNTS;
+
+    fn impact(&mut self, job: usize, cycle: u64, offset: f64, _: f64) {
+        let guest = &mut self.guests[self.afloat[job]];
+        let time = guest.time + cycle as f64 + offset / self.period;
+        guest.strokes.strike(time);
+    }
+}

@@ -1,0 +1,277 @@
+//! Ways to bring a machine into its motion with impacts, each tried: in the hysteresis zone the machine may as well
+//! stay without impacts, and which of the two it does depends on how it came there.
+
+use std::f64::consts::TAU;
+use std::fmt::{self, Display, Formatter};
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::attractors::SurveyError;
+use crate::basin::{Home, at_section};
+use crate::motion::MotionKind;
+use crate::orbit::{Orbit, Regime};
+use crate::sweep::{Chain, Direction, Plan};
+use crate::watch::{Watcher, stop_if};
+use crate::zone::free_amplitude;
+use softstop::{Parameter, Scene, Start};
+
+/// A way to bring a machine into a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Way {
+    /// The mass rests, and the drive is switched on at once, at its working frequency.
+    SwitchedOn,
+    /// The frequency rises slowly from well below.
+    FrequencyRaised,
+    /// The frequency falls slowly from well above.
+    FrequencyLowered,
+    /// The clearance is opened slowly from a small one.
+    ClearanceOpened,
+    /// The amplitude of the drive rises slowly from next to nothing.
+    AmplitudeRaised,
+    /// The amplitude of the drive falls slowly from one with which the free mass would meet the stop.
+    AmplitudeLowered,
+}
+
+impl Way {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::SwitchedOn,
+        Self::FrequencyRaised,
+        Self::FrequencyLowered,
+        Self::ClearanceOpened,
+        Self::AmplitudeRaised,
+        Self::AmplitudeLowered,
+    ];
+
+    /// In words.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::SwitchedOn => "switching the drive on at its working frequency",
+            Self::FrequencyRaised => "raising the frequency slowly from below",
+            Self::FrequencyLowered => "lowering the frequency slowly from above",
+            Self::ClearanceOpened => "opening the clearance slowly from a small one",
+            Self::AmplitudeRaised => "raising the drive's amplitude slowly from rest",
+            Self::AmplitudeLowered => "lowering the drive's amplitude slowly from a larger one",
+        }
+    }
+
+    /// What changes on the way, from which value in SI units, and whether up or down; none where nothing does, or where
+    /// there is no such way.
+    fn change(self, scene: &Scene) -> Option<(Parameter, f64, Direction)> {
+        let w = scene.excitation.frequency;
+        let (amplitude, clearance) = (scene.excitation.amplitude, scene.clearance);
+        let own = (scene.stiffness / scene.mass).sqrt();
+        match self {
+            Self::SwitchedOn => None,
+            Self::FrequencyRaised => {
+                let slow = if own > 0.0 { own.min(w) } else { w };
+                Some((Parameter::Frequency, BELOW * slow, Direction::Up))
+            }
+            Self::FrequencyLowered => {
+                Some((Parameter::Frequency, ABOVE * own.max(w), Direction::Down))
+            }
+            Self::ClearanceOpened => (clearance > 0.0).then_some((
+                Parameter::Clearance,
+                SMALL * clearance,
+                Direction::Up,
+            )),
+            Self::AmplitudeRaised => (amplitude > 0.0).then_some((
+                Parameter::Amplitude,
+                FAINT * amplitude,
+                Direction::Up,
+            )),
+            Self::AmplitudeLowered => {
+                let free = free_amplitude(scene, w);
+                let enough = amplitude * (STRONG * clearance / free).max(ABOVE);
+                (amplitude > 0.0 && enough.is_finite()).then_some((
+                    Parameter::Amplitude,
+                    enough,
+                    Direction::Down,
+                ))
+            }
+        }
+    }
+}
+
+/// Where ways begin: a frequency below and above, in units of the lower and the higher one of the drive's and the mass's
+/// own; a clearance and an amplitude, in units of those at work; an amplitude, in units of that of grazing.
+const BELOW: f64 = 0.5;
+const ABOVE: f64 = 2.0;
+const SMALL: f64 = 0.05;
+const FAINT: f64 = 0.01;
+const STRONG: f64 = 1.5;
+/// Steps of a slow way, drive periods of each, and the distance within which a state has returned in them, in units of
+/// the motion's size.
+const STEPS: usize = 256;
+const PERIODS: u64 = 64;
+const RETURN: f64 = 1e-2;
+
+/// What came of a way.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Attempt {
+    /// Which way.
+    pub way: Way,
+    /// Share of the runs that end on the motion: of the drive angles at which the drive is switched on; of a slow way 0
+    /// or 1.
+    pub share: f64,
+    /// Drive angle in rad in the middle of the widest range of those at which the drive may be switched on.
+    pub angle: Option<f64>,
+    /// Value at which a slow way begins, in SI units of what changes on it.
+    pub from: Option<f64>,
+    /// The motion in which a slow way ends, if it comes to its end.
+    pub ends: Option<MotionKind>,
+    /// Value at which a slow way that does not lead there showed z = 1 last, in SI units; none if it never did.
+    pub lost: Option<f64>,
+}
+
+/// All ways that were tried.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct RunUp {
+    /// They, in the order of [`Way::ALL`]; those that a machine does not have are left out.
+    pub ways: Vec<Attempt>,
+}
+
+impl RunUp {
+    /// Tries all ways into a stable motion; the drive is switched on at so many drive angles.
+    ///
+    /// # Errors
+    /// [`SurveyError::Motion`] if the motion cannot be computed; [`SurveyError::Stopped`].
+    pub fn of(orbit: &Orbit, angles: usize, watcher: Watcher<'_>) -> Result<Self, SurveyError> {
+        let home = Home::of(orbit)?;
+        let tried = Way::ALL.par_iter().map(|way| match way {
+            Way::SwitchedOn => switched_on(orbit, &home, angles, watcher).map(Some),
+            _ => slowly(orbit, &home, *way, watcher),
+        });
+        let tried = tried.collect::<Result<Vec<Option<Attempt>>, SurveyError>>()?;
+        Ok(Self {
+            ways: tried.into_iter().flatten().collect(),
+        })
+    }
+
+    /// The ways that lead to the motion for sure.
+    pub fn works(&self) -> impl Iterator<Item = &Attempt> {
+        self.ways.iter().filter(|attempt| attempt.share == 1.0)
+    }
+
+    /// What came of one way.
+    pub fn by(&self, way: Way) -> Option<&Attempt> {
+        self.ways.iter().find(|attempt| attempt.way == way)
+    }
+}
+
+impl Display for RunUp {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let mut works = self.works().map(|attempt| attempt.way.name());
+        match works.next() {
+            Some(first) => {
+                write!(f, "the motion is reached by {first}")?;
+                works.try_for_each(|way| write!(f, ", or by {way}"))?;
+            }
+            None => f.write_str("no way that was tried reaches the motion for sure")?,
+        }
+        let mut some = self
+            .ways
+            .iter()
+            .filter(|it| it.share > 0.0 && it.share < 1.0);
+        some.try_for_each(|it| {
+            let percent = 100.0 * it.share;
+            write!(
+                f,
+                "; {} does so at {percent:.0} % of the drive angles",
+                it.way.name()
+            )
+        })
+    }
+}
+
+/// Where the mass is before the drive runs: at the suspension's rest, or at the stop's face if that stands before it.
+fn at_rest(scene: &Scene) -> Start {
+    Start::new(scene.clearance.min(0.0), 0.0)
+}
+
+fn switched_on(
+    orbit: &Orbit,
+    home: &Home,
+    angles: usize,
+    watcher: Watcher<'_>,
+) -> Result<Attempt, SurveyError> {
+    let (scene, rest) = (&orbit.scene, at_rest(&orbit.scene));
+    let (phases, angles) = (scene.phases().into(), angles.max(1));
+    let angles: Vec<f64> = (0..angles)
+        .map(|index| TAU * index as f64 / angles as f64)
+        .collect();
+    let states = angles.iter();
+    let states = states.map(|angle| at_section(&phases, scene.excitation, rest, *angle));
+    let reached = home.reached(&states.collect::<Result<Vec<_>, _>>()?, watcher)?;
+    let all = reached.iter().filter(|reached| **reached).count();
+    Ok(Attempt {
+        way: Way::SwitchedOn,
+        share: all as f64 / angles.len() as f64,
+        angle: middle(&reached).map(|place| (TAU * place / angles.len() as f64).rem_euclid(TAU)),
+        from: None,
+        ends: None,
+        lost: None,
+    })
+}
+
+/// The middle of the longest row of those that are true on a circle, the first one of equals.
+fn middle(circle: &[bool]) -> Option<f64> {
+    let count = circle.len();
+    let row = |first: usize| {
+        let row = (0..count).take_while(|further| circle[(first + further) % count]);
+        (row.count(), first)
+    };
+    let longest = (0..count)
+        .map(row)
+        .max_by_key(|(length, first)| (*length, count - first))?;
+    let (length, first) = longest;
+    (length > 0).then_some(first as f64 + 0.5 * (length as f64 - 1.0))
+}
+
+fn slowly(
+    orbit: &Orbit,
+    home: &Home,
+    way: Way,
+    watcher: Watcher<'_>,
+) -> Result<Option<Attempt>, SurveyError> {
+    let scene = &orbit.scene;
+    let Some((parameter, from, direction)) = way.change(scene) else {
+        return Ok(None);
+    };
+    let Some(at_work) = parameter.get(scene) else {
+        return Ok(None);
+    };
+    let range = (from.min(at_work), from.max(at_work));
+    let Ok(plan) = Plan::new(parameter, range, STEPS, PERIODS) else {
+        return Ok(None);
+    };
+    let plan = Plan {
+        tolerance: RETURN,
+        start: at_rest(scene),
+        ..plan
+    };
+    let mut chains = [Chain::new(scene.clone(), direction)];
+    if !plan.run(&mut chains, &|_, _| stop_if(watcher(0, 0).is_break())) {
+        return Err(SurveyError::Stopped);
+    }
+    let [chain] = chains;
+    let last = chain.steps.last().filter(|_| chain.error.is_none());
+    let reached = match last {
+        Some(last) => home.reached(&[last.end], watcher)?[0],
+        None => false,
+    };
+    let is_one = |motion: &MotionKind| motion.regime() == Some(Regime::ONE);
+    let mut ones = chain.steps.iter().rev().filter(|step| is_one(&step.motion));
+    Ok(Some(Attempt {
+        way,
+        share: f64::from(u8::from(reached)),
+        angle: None,
+        from: Some(from),
+        ends: last.map(|last| last.motion.clone()),
+        lost: ones.next().map(|step| step.value).filter(|_| !reached),
+    }))
+}

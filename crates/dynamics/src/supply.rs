@@ -1,0 +1,265 @@
+//! Missing strips: what becomes of the z = 1 motion of a loaded machine while strips fail to come, and after.
+
+use std::f64::consts::TAU;
+use std::ops::ControlFlow;
+use std::sync::Arc as Shared;
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::attractors::SurveyError;
+use crate::basin::{Coming, Guest, Home, Strokes};
+use crate::orbit::Orbit;
+use crate::watch::{Watcher, stop_if};
+use softstop::internals::{Motion, Phases};
+use softstop::{Clock, Crossing, Instant, MotionError, Observer, Piercing, Scene};
+use softstop_lanes::Machine;
+
+/// Where the stop stands while there is no strip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Reading {
+    /// At the clearance, as in the paper's unloaded machine.
+    #[serde(rename = "rho")]
+    Near,
+    /// Where it stands behind a strip: it is fixed, as on a press.
+    #[serde(rename = "rho + sigma + nu")]
+    Fixed,
+}
+
+impl Reading {
+    /// The same machine without a strip.
+    pub fn without(self, scene: &Scene) -> Scene {
+        let mut without = scene.clone();
+        without.piercing = match self {
+            Self::Near => None,
+            Self::Fixed => scene.piercing.map(|strip| Piercing {
+                stiffness: 0.0,
+                friction: 0.0,
+                ..strip
+            }),
+        };
+        without
+    }
+}
+
+/// A run of missing strips that began at one drive angle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Gap {
+    /// Drive angle in rad at which the strip is missing first and is there again some drive periods later; where a
+    /// strip or stop is touched just then, it is so from the next stroke on.
+    pub angle: f64,
+    /// Whether the motion came back.
+    pub comes_back: bool,
+    /// Strokes missed until the motion has come back or is given up: an impact that comes after n drive periods and not
+    /// after one has missed n - 1.
+    pub missed: u64,
+}
+
+/// What became of a motion after runs of missing strips.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Outlasting {
+    /// Strips missing in a row, one for each drive period.
+    pub missing: u32,
+    /// The runs, by the drive angle at which they begin.
+    pub gaps: Vec<Gap>,
+}
+
+impl Outlasting {
+    /// Share of the drive angles after which the motion comes back.
+    pub fn share(&self) -> f64 {
+        let back = self.gaps.iter().filter(|gap| gap.comes_back).count();
+        back as f64 / self.gaps.len() as f64
+    }
+
+    /// Most strokes missed in those runs after which the motion comes back.
+    pub fn missed(&self) -> u64 {
+        let back = self.gaps.iter().filter(|gap| gap.comes_back);
+        back.map(|gap| gap.missed).max().unwrap_or(0)
+    }
+}
+
+/// Drive periods for which the mass may stay beyond the clearance before strips change all the same.
+const LONGEST: u64 = 16;
+/// Runs that are followed together; it may not depend on how many threads there are.
+const TOGETHER: usize = 256;
+
+/// A stable motion of a loaded machine from which `missing` strips are taken in a row: it runs as it does until one of
+/// so many drive angles, evenly spread over its period, then goes on without strips for as many drive periods, then
+/// with them. Whether it comes back each time, and what it misses. Without a strip in the scene nothing is missing.
+///
+/// # Errors
+/// [`SurveyError::Motion`] if the motion cannot be computed; [`SurveyError::Stopped`].
+pub fn outlasts(
+    orbit: &Orbit,
+    missing: u32,
+    reading: Reading,
+    angles: usize,
+    watcher: Watcher<'_>,
+) -> Result<Outlasting, SurveyError> {
+    let home = Home::of(orbit)?;
+    let line = Line::new(&orbit.scene, reading)?;
+    let (turn, angles) = (TAU * orbit.periods as f64, angles.max(1));
+    let angles: Vec<f64> = (0..angles)
+        .map(|index| turn * index as f64 / angles as f64)
+        .collect();
+    let gaps = angles
+        .par_chunks(TOGETHER)
+        .map(|angles| -> Result<_, SurveyError> {
+            let (mut machines, mut guests, mut starts) = (Vec::new(), Vec::new(), Vec::new());
+            for (machine, turned) in angles.iter().enumerate() {
+                let run = line.run(orbit, *turned, missing)?;
+                let mut turned_by = orbit.scene.clone();
+                turned_by.excitation.phase =
+                    (orbit.scene.excitation.phase + turned).rem_euclid(TAU);
+                let angle = turned_by.excitation.phase;
+                machines.push(Machine::new(&turned_by)?);
+                guests.push(Guest {
+                    machine,
+                    angle,
+                    state: run.motion.state(),
+                    time: turned / TAU + run.periods as f64,
+                    strokes: run.strokes,
+                });
+                starts.push(angle);
+            }
+            let comings = home.receive::<true>(&machines, guests, watcher)?;
+            let gap = |(angle, coming): (f64, Coming)| Gap {
+                angle,
+                comes_back: coming.comes,
+                missed: coming.missed,
+            };
+            Ok(starts.into_iter().zip(comings).map(gap).collect::<Vec<_>>())
+        });
+    Ok(Outlasting {
+        missing,
+        gaps: gaps
+            .collect::<Result<Vec<Vec<Gap>>, SurveyError>>()?
+            .concat(),
+    })
+}
+
+/// A machine with and without strips.
+struct Line<'a> {
+    scene: &'a Scene,
+    with: Shared<Phases>,
+    without: Shared<Phases>,
+}
+
+impl<'a> Line<'a> {
+    fn new(scene: &'a Scene, reading: Reading) -> Result<Self, MotionError> {
+        let without = reading.without(scene);
+        without.validate()?;
+        Ok(Self {
+            scene,
+            with: scene.phases().into(),
+            without: without.phases().into(),
+        })
+    }
+
+    /// The run that begins when the drive has turned by `turned` rad since the orbit's time 0, to the end of the drive
+    /// period in which strips are there again.
+    fn run(&self, orbit: &Orbit, turned: f64, missing: u32) -> Result<Run, MotionError> {
+        let clock = self.scene.clock();
+        let start = orbit.state().into();
+        let motion = Motion::new(self.with.clone(), clock, Clock::at_cycle(0), start)?;
+        let before = orbit
+            .timed_impacts()
+            .last()
+            .map_or(0.0, |last| last.0 / clock.period());
+        let mut run = Run {
+            motion,
+            clearance: self.scene.clearance,
+            begin: clock.instant(turned / self.scene.excitation.frequency),
+            periods: 0,
+            strokes: Strokes {
+                last: before - orbit.periods as f64,
+                missed: 0,
+            },
+        };
+        run.go_to(run.begin, false)?;
+        run.change(&self.without)?;
+        while run.periods < u64::from(missing) {
+            run.go_on(false)?;
+        }
+        run.change(&self.with)?;
+        run.go_on(false)?;
+        Ok(run)
+    }
+}
+
+/// A motion under way, in drive periods from where its run began.
+struct Run {
+    motion: Motion,
+    clearance: f64,
+    begin: Instant,
+    /// Whole ones so far.
+    periods: u64,
+    /// Its strokes, by times since the orbit's time 0.
+    strokes: Strokes,
+}
+
+impl Run {
+    /// Goes on with or without strips from where the mass is clear of them.
+    fn change(&mut self, to: &Shared<Phases>) -> Result<(), MotionError> {
+        let last = self.periods + LONGEST;
+        while self.motion.state().position >= self.clearance && self.periods < last {
+            if self.go_on(true)? {
+                break;
+            }
+        }
+        let (clock, now, state) = (*self.motion.clock(), self.motion.now(), self.motion.state());
+        self.motion = Motion::new(to.clone(), clock, now, state)?;
+        Ok(())
+    }
+
+    /// Goes on to the end of the drive period, or, if that `stops` it, to where the mass leaves what it touches; true
+    /// if it has left.
+    fn go_on(&mut self, stops: bool) -> Result<bool, MotionError> {
+        let cycles = self.begin.cycles + (self.periods + 1) as f64;
+        let left = self.go_to(
+            Instant {
+                cycles,
+                ..self.begin
+            },
+            stops,
+        )?;
+        self.periods += u64::from(!left);
+        Ok(left)
+    }
+
+    fn go_to(&mut self, until: Instant, stops: bool) -> Result<bool, MotionError> {
+        let mut watch = Strike {
+            clearance: self.clearance,
+            period: self.motion.clock().period(),
+            strokes: &mut self.strokes,
+            stops,
+            left: false,
+        };
+        Ok(self.motion.watch(until, &mut watch)?.is_break())
+    }
+}
+
+/// Counts strokes, and stops a motion where it leaves what it touches.
+struct Strike<'a> {
+    clearance: f64,
+    period: f64,
+    strokes: &'a mut Strokes,
+    stops: bool,
+    left: bool,
+}
+
+impl Observer for Strike<'_> {
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.left |= crossing.position == self.clearance && crossing.velocity_after < 0.0;
+        if crossing.kind.is_impact() {
+            let Instant { cycles, offset } = crossing.instant;
+            self.strokes.strike(cycles + offset / self.period);
+        }
+    }
+
+    fn progress(&mut self, _: u64) -> ControlFlow<()> {
+        stop_if(self.stops && self.left)
+    }
+}

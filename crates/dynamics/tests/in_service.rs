@@ -1,0 +1,186 @@
+//! What a machine does in service: missing strips, run-up, certainty and integrity along the zone.
+
+use rayon::ThreadPoolBuilder;
+use softstop::Scene;
+use softstop_dynamics::attractors::Region;
+use softstop_dynamics::basin::{ErosionProfile, Establishment, Home, Options, basins, zone_box};
+use softstop_dynamics::run_up::{RunUp, Way};
+use softstop_dynamics::supply::{Reading, outlasts};
+use softstop_dynamics::watch::{stop_if, unwatched};
+use softstop_dynamics::{Axis, Grid, Orbit, Regime, Zone, orbit, zone};
+use softstop_testing::{loaded, unloaded};
+
+fn one(scene: &Scene) -> Orbit {
+    orbit::find(scene).expect("z = 1")
+}
+
+fn zone_of(scene: &Scene) -> Zone {
+    zone::hysteresis(scene).expect("a zone")
+}
+
+fn cells(region: &Region, size: usize) -> Grid {
+    let ([left, right], [low, high]) = (region.position, region.velocity);
+    let axes = (
+        Axis::position(left, right, size),
+        Axis::velocity(low, high, size),
+    );
+    Grid::states(axes.0, axes.1, 0.0)
+}
+
+/// Basins tell all motions apart, by scouts that know none: another way to the same.
+#[test]
+fn who_comes_home_is_in_the_basin_of_z_1() {
+    for scene in [unloaded(1.15), loaded()] {
+        let zone = zone_of(&scene);
+        let region = zone_box(&zone, &unwatched).expect("a box");
+        for place in [0.01, 0.3, 0.6, 0.97] {
+            let orbit = zone.orbit_at(place).expect("z = 1");
+            let grid = cells(&region, 40);
+            let options = Options::default();
+            let found = basins(&orbit.scene, &grid, &options, &unwatched, None).expect("basins");
+            let starts: Vec<_> = (0..grid.cells()).map(|cell| grid.start(cell).0).collect();
+            let reached = Home::of(&orbit).and_then(|home| Ok(home.reached(&starts, &unwatched)));
+            let reached = reached.expect("computed").expect("not stopped");
+            for (cell, reached) in reached.into_iter().enumerate() {
+                let class = &found.classes[usize::from(found.cells[cell])];
+                let is_one = class.motion.regime() == Some(Regime::ONE);
+                assert_eq!(is_one, reached, "s = {place}, cell {cell}");
+            }
+        }
+    }
+}
+
+/// docs/paper.md: at A z = 1 takes 54.1 % of |X|, |X'| < 20 at drive angle 0.
+#[test]
+fn the_certainty_at_a_is_that_of_the_paper_room() {
+    let square = Region {
+        position: [-20.0, 20.0],
+        velocity: [-20.0, 20.0],
+    };
+    let of = |starts| Establishment::within(&one(&unloaded(1.15)), &square, starts, &unwatched);
+    let found = of(40_000).expect("computed");
+    assert!((found.share - 0.541).abs() < 0.002, "{}", found.share);
+    assert!(found.interval[0] < 0.541 && found.interval[1] > 0.541);
+    let own = Establishment::of(&one(&unloaded(1.15)), 1000, &unwatched).expect("computed");
+    assert_eq!((own.starts, own.region.position), (1000, [-20.0, 20.0]));
+}
+
+/// docs/paper.md: at B an interrupted supply ends no motion.
+#[test]
+fn b_outlasts_missing_strips() {
+    let b = one(&loaded());
+    for missing in [0, 1, 2, 5, 25] {
+        for reading in [Reading::Near, Reading::Fixed] {
+            let found = outlasts(&b, missing, reading, 64, &unwatched).expect("computed");
+            assert_eq!((found.share(), found.gaps.len()), (1.0, 64));
+            assert_eq!(found.missed(), 0, "{missing} {reading:?}");
+        }
+    }
+}
+
+/// Beyond the loaded machine's fold nothing is left to come back to; near it long runs end the motion.
+#[test]
+fn near_the_fold_missing_strips_end_the_motion() {
+    let zone = zone_of(&loaded());
+    let near = zone.orbit_at(0.995).expect("z = 1");
+    let found = outlasts(&near, 25, Reading::Near, 32, &unwatched).expect("computed");
+    assert!(found.share() < 0.5, "{}", found.share());
+    let lost = found.gaps.iter().filter(|gap| !gap.comes_back);
+    assert!(lost.clone().count() > 0 && lost.clone().all(|gap| gap.missed > 3));
+}
+
+/// The paper: impacts in the hysteresis zone are reached from impacts, not from rest.
+#[test]
+fn a_and_b_are_run_up_from_impacts() {
+    for scene in [unloaded(1.15), loaded()] {
+        let run_up = RunUp::of(&one(&scene), 64, &unwatched).expect("computed");
+        let works: Vec<Way> = run_up.works().map(|attempt| attempt.way).collect();
+        let ways = [
+            Way::FrequencyRaised,
+            Way::ClearanceOpened,
+            Way::AmplitudeLowered,
+        ];
+        assert_eq!(works, ways, "{run_up}");
+        assert_eq!(
+            run_up.by(Way::SwitchedOn).map(|attempt| attempt.share),
+            Some(0.0)
+        );
+        let lowered = run_up.by(Way::FrequencyLowered).expect("tried");
+        assert_eq!((lowered.lost, lowered.from), (None, Some(2.3)));
+        assert!(
+            run_up
+                .to_string()
+                .starts_with("the motion is reached by raising the frequency")
+        );
+    }
+}
+
+#[test]
+fn a_way_says_where_it_loses_the_motion() {
+    // A narrow stretch of z = 1 above a gap: at rho = 22, loaded, the flip ends it at 1.016794.
+    let mut scene = loaded();
+    (scene.clearance, scene.excitation.frequency) = (22.0, 1.005);
+    let run_up = RunUp::of(&one(&scene), 64, &unwatched).expect("computed");
+    for attempt in &run_up.ways {
+        let is_lost = attempt.lost.is_some_and(|lost| Some(lost) != attempt.from);
+        assert!(attempt.share == 0.0 || !is_lost, "{attempt:?}");
+    }
+}
+
+#[test]
+fn integrity_falls_to_nothing_at_the_fold() {
+    let zone = zone_of(&unloaded(1.15));
+    let places = ErosionProfile::evenly(5);
+    let profile = ErosionProfile::of(&zone, &places, 1024, &unwatched).expect("computed");
+    let at = |place: usize| &profile.places[place];
+    assert!(at(0).certainty.share > 0.99 && at(4).certainty.share == 0.0 && at(4).radius == 0.0);
+    let grid = cells(&profile.region, 60);
+    for place in &profile.places[..4] {
+        let orbit = zone.orbit_at(place.place).expect("z = 1");
+        assert_eq!(place.velocity, orbit.before_impact_velocity());
+        // No cell of a survey lies in the ball but not in the basin, and one just outside of it is lost.
+        let options = Options::default();
+        let found = basins(&orbit.scene, &grid, &options, &unwatched, None).expect("basins");
+        let largest = found.largest_ball_of(Regime::ONE).expect("a basin").radius;
+        assert!(
+            place.radius > 0.05 && place.radius < largest + 0.04,
+            "{} {largest}",
+            place.radius
+        );
+        let half = [grid.across, grid.up].map(|axis| 0.5 * (axis.range[1] - axis.range[0]));
+        for cell in 0..grid.cells() {
+            let start = grid.start(cell).0;
+            let gap = [
+                start.position - orbit.position,
+                start.velocity - orbit.velocity,
+            ];
+            if (gap[0] / half[0]).hypot(gap[1] / half[1]) < 0.97 * place.radius {
+                let class = &found.classes[usize::from(found.cells[cell])];
+                assert_eq!(class.motion.regime(), Some(Regime::ONE), "{place:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn threads_and_watchers() {
+    let all = || {
+        let (a, b) = (one(&unloaded(1.15)), one(&loaded()));
+        let zone = zone_of(&a.scene);
+        (
+            Establishment::of(&a, 2000, &unwatched).expect("computed"),
+            outlasts(&b, 3, Reading::Near, 300, &unwatched).expect("computed"),
+            RunUp::of(&a, 32, &unwatched).expect("computed"),
+            ErosionProfile::of(&zone, &[0.2, 0.8], 700, &unwatched).expect("computed"),
+        )
+    };
+    let on = |threads| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("a pool").install(all)
+    };
+    assert_eq!(on(1), on(3));
+    let a = one(&unloaded(1.15));
+    let stop = |_, _| stop_if(true);
+    assert!(Establishment::of(&a, 10, &stop).is_err() && RunUp::of(&a, 4, &stop).is_err());
+    assert!(outlasts(&a, 1, Reading::Fixed, 4, &stop).is_err());
+}
