@@ -39,7 +39,7 @@ fn who_comes_home_is_in_the_basin_of_z_1() {
             let options = Options::default();
             let found = basins(&orbit.scene, &grid, &options, &unwatched, None).expect("basins");
             let starts: Vec<_> = (0..grid.cells()).map(|cell| grid.start(cell).0).collect();
-            let reached = Home::of(&orbit).and_then(|home| Ok(home.reached(&starts, &unwatched)));
+            let reached = Home::of(&orbit).map(|home| home.reached(&starts, &unwatched));
             let reached = reached.expect("computed").expect("not stopped");
             for (cell, reached) in reached.into_iter().enumerate() {
                 let class = &found.classes[usize::from(found.cells[cell])];
