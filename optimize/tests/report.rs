@@ -10,9 +10,10 @@ use softstop_optimize::design::search::{Settings, Unwatched, search};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
 use softstop_optimize::page::data::{
-    Erosion, ErosionPoint, Fact, Front, Histogram, Label, Report, Requirement, RunUp, Sensitivity,
+    Basin, Curve, Erosion, ErosionPoint, Fact, Front, Histogram, Label, Map, Portrait, Report,
+    Requirement, Response, Role, RunUp, Sensitivity,
 };
-use softstop_optimize::page::{computed, html};
+use softstop_optimize::page::{computed, csv, html};
 
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
@@ -185,7 +186,10 @@ fn stands_alone(page: &str) {
     for foreign in [
         "http:", "https:", "src=", "href=", "@import", "url(", "<script", "NaN", "inf",
     ] {
-        assert!(!without.contains(foreign), "{foreign}");
+        let place = without.find(foreign);
+        let around = place.map(|at| without[..at].chars().rev().take(300).collect::<Vec<_>>());
+        let around = around.map(|letters| letters.into_iter().rev().collect::<String>());
+        assert_eq!(around, None, "{foreign}");
     }
 }
 
@@ -209,5 +213,106 @@ fn a_report_of_a_press_is_whole_and_stands_alone() -> Outcome {
     assert_eq!(count(&page, "svg")?, count(&page, "figure")?);
     assert!(page.contains("press &lt;1&gt; &amp; co"));
     assert!(page.contains("s<sub>SN</sub>"));
+    tables(&report)
+}
+
+/// All rows of a table have its columns, and numbers in them are numbers.
+fn tables(report: &Report) -> Outcome {
+    let tables = csv(report)?;
+    let names: Vec<&str> = tables.iter().map(|it| it.0.as_str()).collect();
+    let front = [
+        "comparison.csv",
+        "requirements.csv",
+        "map-1.csv",
+        "map-1-boundaries.csv",
+    ];
+    assert_eq!(names[..4], front);
+    assert_eq!(names.len(), 13);
+    for (name, bytes) in &tables {
+        let mut reader = ::csv::Reader::from_reader(bytes.as_slice());
+        let rows = reader.records().collect::<Result<Vec<_>, _>>()?;
+        assert!(!rows.is_empty(), "{name}");
+        let text = String::from_utf8(bytes.clone())?;
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{name}");
+    }
+    Ok(())
+}
+
+#[test]
+fn what_is_absent_is_left_out_with_its_heading() -> Outcome {
+    let page = html(&Report {
+        machine: "press".to_owned(),
+        ..Report::default()
+    })?;
+    stands_alone(&page);
+    for element in ["section", "h2", "table", "figure", "ul", "dl"] {
+        assert_eq!(count(&page, element)?, 0, "{element}");
+    }
+    assert_eq!(csv(&Report::default())?, []);
+    Ok(())
+}
+
+/// Figures that are no numbers come to nothing worse than a dash.
+#[test]
+fn what_is_no_number_is_a_dash() -> Outcome {
+    let nan = f64::NAN;
+    let curve = |points: Vec<[f64; 2]>| Curve {
+        name: "design".to_owned(),
+        role: Role::Design,
+        points,
+    };
+    let report = Report {
+        requirements: vec![Requirement {
+            value: nan,
+            margin: f64::INFINITY,
+            ..Requirement::default()
+        }],
+        maps: vec![Map {
+            columns: 2,
+            cells: vec![Some(nan), None],
+            design: [nan, nan],
+            ..Map::default()
+        }],
+        response: Some(Response {
+            curves: vec![curve(vec![[1.0, nan], [nan, nan]]), curve(Vec::new())],
+            design: [nan, nan],
+            tolerance: Some([nan, nan]),
+            band: vec![[nan; 3], [1.0, nan, 2.0]],
+            ..Response::default()
+        }),
+        portrait: Some(Portrait {
+            faces: vec![("stop".to_owned(), nan)],
+            ..Portrait::default()
+        }),
+        basin: Some(Basin::default()),
+        erosion: Some(Erosion {
+            points: vec![ErosionPoint {
+                share: nan,
+                ..ErosionPoint::default()
+            }],
+            ..Erosion::default()
+        }),
+        fronts: vec![Front {
+            points: vec![[nan, 1.0]],
+            design: Some([nan, nan]),
+            ..Front::default()
+        }],
+        histogram: Some(Histogram {
+            nominal: nan,
+            worst: Some(nan),
+            range: [nan, nan],
+            counts: vec![0, 3],
+            ..Histogram::default()
+        }),
+        sensitivities: vec![Sensitivity {
+            effect: nan,
+            share: Some(nan),
+            ..Sensitivity::default()
+        }],
+        ..Report::default()
+    };
+    let page = html(&report)?;
+    stands_alone(&page);
+    count(&page, "svg")?;
     Ok(())
 }

@@ -32,16 +32,34 @@ pub(crate) fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)>
         .into_iter()
         .find(|factor| factor * power >= 0.999 * rough);
     let step = factor.unwrap_or(10.0) * power;
-    let decimals = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
     let (first, last) = (
         (low / step - 1e-6).ceil() as i64,
         (high / step + 1e-6).floor() as i64,
     );
+    let split = split_off(low.abs().max(high.abs()));
+    let decimals = (f64::from(split) - (step.log10() + 1e-9).floor()).max(0.0) as usize;
     let written = |index: i64| {
         let value = index as f64 * step;
-        (value, format!("{value:.decimals$}").replace('-', "−"))
+        let digits = format!("{:.decimals$}", value / 10f64.powi(split)).replace('-', "−");
+        let name = match (split, index) {
+            (0, _) => digits,
+            (_, 0) => "0".to_owned(),
+            (split, _) => format!("{digits}×{}", power_of_ten(split)),
+        };
+        (value, name)
     };
     (first..=last).map(written).collect()
+}
+
+/// Numbers from here to there are written without a power of ten.
+const PLAIN: (f64, f64) = (1e-3, 1e5);
+
+/// The power of ten, a multiple of three, that numbers of this size are written in units of.
+fn split_off(size: f64) -> i32 {
+    match (PLAIN.0..PLAIN.1).contains(&size) {
+        true => 0,
+        false => 3 * (size.log10() / 3.0).floor() as i32,
+    }
 }
 
 /// A power of ten in print: 10 with a raised exponent.
@@ -78,6 +96,8 @@ mod tests {
         );
         assert_eq!(names((-1.0, 1.0), 4), ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
         assert_eq!(names((0.0, 25.0), 5), ["0", "5", "10", "15", "20", "25"]);
+        assert_eq!(names((0.0, 8e7), 2), ["0", "50×10⁶"]);
+        assert_eq!(names((-2e-4, 2e-4), 2), ["−200×10⁻⁶", "0", "200×10⁻⁶"]);
     }
 
     #[test]

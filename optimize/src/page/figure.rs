@@ -135,42 +135,69 @@ pub(super) fn legend(
     if entries.is_empty() { top } else { y + LINE }
 }
 
-/// Lines upwards through a panel with names above it, no two of them over each other.
-pub(super) fn uprights(pen: &mut Pen, panel: &Panel, names: &[(String, f64)], stroke: Stroke) {
-    let mut ends: Vec<f64> = Vec::new();
-    let mut names: Vec<&(String, f64)> = names
-        .iter()
-        .filter(|it| panel.holds((it.1, panel.y.0)))
-        .collect();
-    names.sort_by(|a, b| a.1.total_cmp(&b.1));
-    for (name, at) in names {
-        let x = panel.across(*at);
-        let half = 0.45 * width(LETTERS, name);
-        let middle = x
-            .min(panel.right() + EDGE - half - 2.0)
-            .max(panel.area.0 + half - ROOM.0);
-        let free = ends.iter().position(|end| middle - half > *end + 6.0);
-        let row = free.unwrap_or(ends.len());
-        if row == ends.len() {
-            ends.push(0.0);
+/// Names of places along the axis across, to stand above a panel: each begins at its place, in a line so high that no
+/// other one's way down crosses it.
+pub(super) struct Names {
+    placed: Vec<(String, f64, usize)>,
+    lines: usize,
+}
+
+impl Names {
+    /// Those inside a panel, whose height plays no part.
+    pub(super) fn new(panel: &Panel, names: &[(String, f64)]) -> Self {
+        let inside = |it: &&(String, f64)| panel.holds((it.1, panel.y.0));
+        let mut names: Vec<&(String, f64)> = names.iter().filter(inside).collect();
+        names.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let mut placed: Vec<(String, f64, usize)> = Vec::new();
+        for (name, at) in names {
+            let end = panel.across(*at) + 0.86 * width(LETTERS, name) + 8.0;
+            let crossed = placed.iter().filter(|it| panel.across(it.1) < end);
+            let line = crossed.map(|it| it.2 + 1).max().unwrap_or(0);
+            placed.push((name.clone(), *at, line));
         }
-        ends[row] = middle + half;
-        let y = panel.area.1 - 7.0 - LINE * row as f64;
-        pen.line(
-            &[(x, y + 3.0), (x, panel.area.1)],
-            Stroke {
+        let lines = placed.iter().map(|it| it.2 + 1).max().unwrap_or(0);
+        Self { placed, lines }
+    }
+
+    /// The panel with room above it for the names.
+    pub(super) fn room(&self, panel: Panel) -> Panel {
+        let room = LINE * self.lines as f64;
+        let (left, top, wide, tall) = panel.area;
+        let area = (left, top + room, wide, tall - room);
+        Panel { area, ..panel }
+    }
+
+    /// The names, and their lines down through the panel.
+    pub(super) fn draw(&self, pen: &mut Pen, panel: &Panel, stroke: Stroke) {
+        for (name, at, line) in &self.placed {
+            let x = panel.across(*at);
+            let y = panel.area.1 - 6.0 - LINE * *line as f64;
+            let whole = Stroke {
                 dashes: None,
                 width: 1.0,
                 ..stroke
-            },
-        );
-        panel.curve(pen, &[(*at, panel.y.0), (*at, panel.y.1)], stroke);
-        pen.text((middle, y), LETTERS, Align::Middle, name);
+            };
+            pen.line(&[(x, y - 10.0), (x, panel.area.1)], whole);
+            panel.curve(pen, &[(*at, panel.y.0), (*at, panel.y.1)], stroke);
+            let room = panel.right() + EDGE - 0.86 * width(LETTERS, name);
+            match x + 4.0 < room {
+                true => pen.text((x + 4.0, y), LETTERS, Align::Left, name),
+                false => pen.text((x - 4.0, y), LETTERS, Align::Right, name),
+            }
+        }
     }
 }
 
 /// The line of what bounds something.
 pub(super) const BOUND: Stroke = Stroke::dashed(style::ASIDE, 1.3, (5.0, 4.0));
+
+/// The ends of an axis; from 0 to 1 if they are none.
+pub(super) fn ends([low, high]: [f64; 2]) -> (f64, f64) {
+    match low.is_finite() && high.is_finite() && low < high {
+        true => (low, high),
+        false => (0.0, 1.0),
+    }
+}
 
 /// Points that have a place.
 pub(super) fn finite(points: &[[f64; 2]]) -> Vec<(f64, f64)> {

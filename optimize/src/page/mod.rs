@@ -5,7 +5,10 @@ pub mod data;
 mod figure;
 mod glossary;
 mod pictures;
+mod tables;
 mod words;
+
+pub use tables::csv;
 
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, Error, UndefinedBehavior, context};

@@ -33,6 +33,19 @@ pub(super) fn number(value: f64) -> String {
     format!("{sign}{text}")
 }
 
+/// A whole number, its digits in groups of three.
+pub(super) fn count(value: u64) -> String {
+    let digits = value.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index) % 3 == 0 {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
 /// A number with its unit.
 pub(super) fn quantity(value: f64, unit: &str) -> String {
     match unit {
@@ -84,8 +97,9 @@ pub(super) fn indexed(
     index: impl Fn(&str) -> String,
     other: impl Fn(&str) -> String,
 ) -> String {
+    let text = text.replace('₀', "_0");
     let mut done = String::new();
-    let mut rest = text;
+    let mut rest = text.as_str();
     while let Some((head, tail)) = rest.split_once('_') {
         let mut before = head.chars().rev();
         let is_letter = before.next().is_some_and(char::is_alphabetic)
@@ -127,7 +141,7 @@ impl Label {
 
 #[cfg(test)]
 mod tests {
-    use super::{html, number};
+    use super::{count, html, number};
 
     #[test]
     fn numbers_have_five_digits_and_no_idle_zeros() {
@@ -149,8 +163,17 @@ mod tests {
     }
 
     #[test]
+    fn counts_are_grouped() {
+        assert_eq!(count(1_000_000), "1\u{202f}000\u{202f}000");
+        assert_eq!(count(123), "123");
+    }
+
+    #[test]
     fn indices_go_below_and_all_else_is_escaped() {
-        assert_eq!(html("from g₀ to s_SN <"), "from g₀ to s<sub>SN</sub> &lt;");
+        assert_eq!(
+            html("from g₀ to s_SN <"),
+            "from g<sub>0</sub> to s<sub>SN</sub> &lt;"
+        );
         assert_eq!(html("missing_strips"), "missing_strips");
         assert_eq!(html("X_m, a_b_c"), "X<sub>m</sub>, a<sub>b</sub>_c");
     }

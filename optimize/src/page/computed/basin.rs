@@ -4,7 +4,7 @@ use softstop::Dimension;
 use softstop_console::interrupt;
 use softstop_dynamics::attractors::{SurveyError, starting_box};
 use softstop_dynamics::basin::{Options, basins};
-use softstop_dynamics::{Axis, Grid, Regime};
+use softstop_dynamics::{Axis, Grid, Orbit};
 use softstop_explore::basin::cells::color;
 
 use super::label;
@@ -13,6 +13,11 @@ use crate::page::data::{Basin, BasinMotion};
 
 /// Cells on each side.
 const CELLS: usize = 64;
+
+/// Colours of motions whose own colour is taken.
+const OTHERS: [&str; 5] = ["#E69F00", "#009E73", "#CC79A7", "#F0E442", "#D55E00"];
+/// Distance of states of one motion, in units of their size.
+const SAME: f64 = 1e-6;
 
 /// The basins over the box of starts that all commands take.
 ///
@@ -30,13 +35,30 @@ pub fn basin(design: &Design) -> Result<Basin, SurveyError> {
         scene.excitation.phase,
     );
     let found = basins(scene, &grid, &Options::default(), &interrupt::watch, None)?;
-    let motions = found.classes.iter().map(|class| BasinMotion {
-        name: class.motion.to_string(),
-        color: color(class.motion.class()).to_owned(),
-        share: class.share,
-        interval: class.interval,
-    });
-    let ball = found.largest_ball_of(Regime::ONE);
+    let own = found
+        .classes
+        .iter()
+        .position(|class| is_own(class.orbit.as_deref(), &design.orbit));
+    let mut motions: Vec<BasinMotion> = Vec::new();
+    for (index, class) in found.classes.iter().enumerate() {
+        let is_free = |color: &&str| motions.iter().all(|other| other.color != **color);
+        let color = [color(class.motion.class())]
+            .into_iter()
+            .chain(OTHERS)
+            .find(is_free);
+        let whose = if own == Some(index) {
+            ", the design"
+        } else {
+            ""
+        };
+        motions.push(BasinMotion {
+            name: format!("{}{whose}", class.motion),
+            color: color.unwrap_or(OTHERS[0]).to_owned(),
+            share: class.share,
+            interval: class.interval,
+        });
+    }
+    let ball = own.and_then(|own| found.largest_ball(own));
     Ok(Basin {
         x: label(machine, "initial position", "X", Dimension::Length),
         y: label(machine, "initial velocity", "X′", Dimension::Velocity),
@@ -44,8 +66,16 @@ pub fn basin(design: &Design) -> Result<Basin, SurveyError> {
         y_range: region.velocity,
         columns: CELLS,
         cells: found.cells.clone(),
-        motions: motions.collect(),
+        motions,
         ball: ball.map(|ball| (ball.radius, ball.centre)),
         spots: vec![[design.orbit.position, design.orbit.velocity]],
+    })
+}
+
+/// Whether an orbit is the design's.
+fn is_own(orbit: Option<&Orbit>, design: &Orbit) -> bool {
+    orbit.is_some_and(|orbit| {
+        let away = orbit.state() - design.state();
+        orbit.periods == design.periods && away.norm() <= SAME * design.state().norm()
     })
 }

@@ -76,6 +76,8 @@ struct Motions {
 /// Points after which the motions below g0 are given up, and how far they are looked for.
 const LONGEST: usize = 400;
 const FARTHEST: f64 = 4.0;
+/// Points put in between two of a branch, for a curve without visible corners.
+const BETWEEN: u32 = 8;
 
 impl Motions {
     fn of(zone: &Zone) -> Self {
@@ -112,19 +114,14 @@ fn is_shown(point: &BranchPoint) -> bool {
 
 /// The stable motions from g0 down, and where their period doubles.
 fn below(zone: &Zone) -> Option<(Vec<BranchPoint>, Option<f64>)> {
-    let first = zone.branch.first()?;
-    let start: Orbit = zone.orbit(first).ok()?;
-    let family = Along::new(
-        zone.scene.at_frequency(first.parameter),
-        [Parameter::Frequency],
-    )
-    .ok()?;
+    let start: Orbit = zone.orbit(zone.branch.first()?).ok()?;
+    let family = Along::new(start.scene.clone(), [Parameter::Frequency]).ok()?;
     let follower = Follower::new(&family, 1);
-    let least = first.parameter / FARTHEST;
+    let from = start.scene.excitation.frequency;
     let mut points = follower
-        .follow(&start, first.parameter, Heading::Down, LONGEST, |point| {
-            let stop = !point.is_stable() || point.parameter < least;
-            stop_if(stop || interrupt::watch(0, 0).is_break())
+        .follow(&start, from, Heading::Down, LONGEST, |point| {
+            let ends = !point.is_stable() || point.parameter < from / FARTHEST;
+            stop_if(ends || interrupt::watch(0, 0).is_break())
         })
         .ok()?;
     let flips = |point: &BranchPoint| Test::Flip.value(&point.monodromy) <= 0.0;
@@ -135,4 +132,27 @@ fn below(zone: &Zone) -> Option<(Vec<BranchPoint>, Option<f64>)> {
     let at = flip.as_ref().map(|flip| flip.parameter);
     points.extend(flip);
     Some((points, at))
+}
+
+/// The same motions with others between them, where Newton's method stays between its neighbours.
+fn refined(scene: &Scene, points: &[BranchPoint]) -> Vec<BranchPoint> {
+    let Ok(family) = Along::new(scene.clone(), [Parameter::Frequency]) else {
+        return points.to_vec();
+    };
+    let follower = Follower::new(&family, 1);
+    let mut all: Vec<BranchPoint> = points.first().cloned().into_iter().collect();
+    for pair in points.windows(2) {
+        let (from, to) = (&pair[0], &pair[1]);
+        let shares = (1..=BETWEEN).map(|step| f64::from(step) / f64::from(BETWEEN + 1));
+        let new = shares.filter_map(|share| {
+            let frequency = from.parameter + share * (to.parameter - from.parameter);
+            let state = from.state() + share * (to.state() - from.state());
+            let point = follower.point(frequency, state).ok()?;
+            let inside = |value: f64, a: f64, b: f64| value >= a.min(b) && value <= a.max(b);
+            inside(point.position, from.position, to.position).then_some(point)
+        });
+        all.extend(new);
+        all.push(to.clone());
+    }
+    all
 }

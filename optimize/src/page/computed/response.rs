@@ -4,12 +4,9 @@ use softstop::{Dimension, Machine, Parameter};
 use softstop_console::interrupt;
 use softstop_dynamics::{BranchPoint, Zone, zone};
 
-use super::{Motions, is_shown, label_of, velocity};
+use super::{Motions, is_shown, label_of, refined, velocity};
 use crate::design::Design;
 use crate::page::data::{Curve, Response, Role};
-
-/// Places along the zone, for a curve without visible corners.
-const PLACES: u32 = 160;
 
 /// The motions of the design's machine, and those of other machines under their names. No tolerance.
 pub fn response(design: &Design, beside: &[(String, Machine)]) -> Response {
@@ -27,7 +24,7 @@ pub fn response(design: &Design, beside: &[(String, Machine)]) -> Response {
     curves.extend(unstable.filter(|piece| piece.len() > 1).map(|piece| Curve {
         name: "design, unstable".to_owned(),
         role: Role::Unstable,
-        points: points(machine, piece),
+        points: points(machine, &refined(&design.zone.scene, piece)),
     }));
     for (name, other) in beside {
         if let Ok(zone) = zone::hysteresis_watched(&other.scene, &interrupt::watch) {
@@ -63,25 +60,15 @@ fn is_lost(point: &BranchPoint) -> bool {
 
 /// The stable motions of a zone and below it.
 fn stable(machine: &Machine, zone: &Zone, motions: &Motions, name: &str, role: Role) -> Vec<Curve> {
-    let place = |k: u32| f64::from(k) / f64::from(PLACES);
-    let places = (0..=PLACES).map(|k| zone.point_at(place(k)).ok());
-    let above: Vec<Option<BranchPoint>> = places.collect();
-    let shown = |point: &Option<BranchPoint>| point.as_ref().is_some_and(is_shown);
-    let pieces = above.chunk_by(|a, b| shown(a) && shown(b));
-    let pieces = pieces.map(|piece| piece.iter().flatten().cloned().collect::<Vec<_>>());
-    let below = motions
-        .below
-        .iter()
-        .filter(|point| is_shown(point))
-        .cloned();
-    let all = [below.collect::<Vec<_>>()].into_iter().chain(pieces);
-    let all = all.filter(|piece| piece.len() > 1);
-    all.map(|piece| Curve {
+    let above = motions.above.chunk_by(|a, b| is_shown(a) && is_shown(b));
+    let below = motions.below.chunk_by(|a, b| is_shown(a) && is_shown(b));
+    let pieces = below.chain(above).filter(|piece| piece.len() > 1);
+    let curve = |piece: &[BranchPoint]| Curve {
         name: name.to_owned(),
         role,
-        points: points(machine, &piece),
-    })
-    .collect()
+        points: points(machine, &refined(&zone.scene, piece)),
+    };
+    pieces.map(curve).collect()
 }
 
 fn points(machine: &Machine, piece: &[BranchPoint]) -> Vec<[f64; 2]> {

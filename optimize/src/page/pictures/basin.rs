@@ -4,7 +4,7 @@ use softstop_draw::panel::{Axes, Panel};
 use softstop_draw::pen::{Area, Pen, width};
 
 use crate::page::data::Basin;
-use crate::page::figure::{EDGE, Figure, HALF, LETTERS, LINE, ROOM};
+use crate::page::figure::{EDGE, Figure, HALF, LETTERS, LINE, ROOM, ends};
 
 /// Radius of the spot where a motion passes the plane.
 const SPOT: f64 = 4.5;
@@ -15,7 +15,7 @@ pub(in crate::page) fn figure(basin: &Basin) -> Figure {
     let right = HALF.width - EDGE;
     let top = key(&mut pen, basin, right);
     let area = (ROOM.0, top, right - ROOM.0, HALF.height - top - ROOM.1);
-    let panel = Panel::new(area, basin.x_range.into(), basin.y_range.into());
+    let panel = Panel::new(area, ends(basin.x_range), ends(basin.y_range));
     let columns = basin.columns.max(1);
     let rows = (basin.cells.len() / columns).max(1);
     let (wide, tall) = (area.2 / columns as f64, area.3 / rows as f64);

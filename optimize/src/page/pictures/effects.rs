@@ -6,7 +6,7 @@ use softstop_draw::style;
 
 use crate::page::data::Sensitivity;
 use crate::page::figure::{EDGE, Figure, HALF, LETTERS, ROOM, Size};
-use crate::page::words::number;
+use crate::page::words::quantity;
 
 /// From bar to bar, and the thickness of one.
 const STEP: f64 = 42.0;
@@ -58,17 +58,9 @@ pub(in crate::page) fn figure(effects: &[Sensitivity]) -> Figure {
             (place, y + 32.0),
             LETTERS,
             align,
-            &format!("{sign}{}", number(it.effect)),
+            &format!("{sign}{}", quantity(it.effect, &it.effect_unit)),
         );
     }
-    let unit = effects.first().map_or("", |it| it.effect_unit.as_str());
-    let in_unit = if unit.is_empty() {
-        String::new()
-    } else {
-        format!(" in {unit}")
-    };
-    let caption = format!(
-        "Change of the objective{in_unit} when each value goes from its nominal one to the upper end of its tolerance."
-    );
-    Figure::new(&pen, size, "Which tolerance counts", caption)
+    let caption = "Change of the objective when each value goes from its nominal one to the upper end of its tolerance.";
+    Figure::new(&pen, size, "Which tolerance counts", caption.to_owned())
 }

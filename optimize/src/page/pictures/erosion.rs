@@ -6,7 +6,7 @@ use softstop_draw::shapes::Sign;
 use softstop_draw::style;
 
 use crate::page::data::Erosion;
-use crate::page::figure::{EDGE, Figure, HALF, LETTERS, LINE, ROOM, legend, uprights};
+use crate::page::figure::{EDGE, Figure, HALF, LETTERS, LINE, Names, ROOM, legend};
 
 const SHARE: Stroke = Stroke::solid(style::DESIGN, 2.5);
 const INTEGRITY: Stroke = Stroke::dashed(style::REFERENCE, 2.5, (9.0, 4.0));
@@ -28,22 +28,25 @@ pub(in crate::page) fn figure(erosion: &Erosion) -> Figure {
     if erosion.required.is_some() {
         entries.push((Sign::Line(REQUIRED), "share required".to_owned()));
     }
-    let top = legend(&mut pen, (ROOM.0, EDGE + 4.0), right, &entries) + LINE - 9.0;
+    let top = legend(&mut pen, (ROOM.0, EDGE + 4.0), right, &entries) - LINE + 14.0;
     let area = (ROOM.0, top, right - ROOM.0, HALF.height - top - ROOM.1);
     let panel = Panel::new(area, (0.0, 1.0), (0.0, 1.02));
+    let design = erosion.design.map(|place| ("design".to_owned(), place));
+    let names = Names::new(&panel, design.as_slice());
+    let panel = names.room(panel);
     let across = "place s in the zone: 0 at g₀, 1 at s_SN";
     let axes = Axes::new(LETTERS, Some(across), "share, integrity", (5, 5));
     panel.ground(&mut pen, &axes);
-    let sure: Vec<(f64, [f64; 2])> = points().map(|it| (it.place, it.interval)).collect();
+    let sure: Vec<(f64, [f64; 2])> = points()
+        .map(|it| (it.place, it.interval.map(|end| end.clamp(0.0, 1.0))))
+        .collect();
     if sure.len() > 1 {
         panel.band(&mut pen, &sure, style::DESIGN, 0.2);
     }
     if let Some(required) = erosion.required {
         panel.curve(&mut pen, &[(0.0, required), (1.0, required)], REQUIRED);
     }
-    if let Some(place) = erosion.design {
-        uprights(&mut pen, &panel, &[("design".to_owned(), place)], DESIGN);
-    }
+    names.draw(&mut pen, &panel, DESIGN);
     panel.curve(&mut pen, &integrity, INTEGRITY);
     panel.curve(&mut pen, &shares, SHARE);
     panel.axes(&mut pen, &axes);

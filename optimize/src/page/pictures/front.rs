@@ -25,7 +25,10 @@ pub(in crate::page) fn figure(front: &Front) -> Figure {
     }
     let top = legend(&mut pen, (ROOM.0, EDGE + 4.0), right, &entries) - LINE + 14.0;
     let points = finite(&front.points);
-    let design = front.design.map(|[x, y]| (x, y));
+    let design = front.design.iter();
+    let design = design
+        .flat_map(|point| finite(std::slice::from_ref(point)))
+        .next();
     let all = || points.iter().copied().chain(design);
     let area = (ROOM.0, top, right - ROOM.0, HALF.height - top - ROOM.1);
     let panel = Panel::new(
@@ -44,9 +47,6 @@ pub(in crate::page) fn figure(front: &Front) -> Figure {
         pen.mark(panel.place(design), Mark::Triangle, 8.0, style::OPTIMUM);
     }
     panel.axes(&mut pen, &axes);
-    let caption = format!(
-        "Each point is the best design for its {}; no design has more of both.",
-        front.x.name
-    );
-    Figure::new(&pen, HALF, &front.title, caption)
+    let caption = "Each point is a design that cannot be bettered in one of the two without loss in the other.";
+    Figure::new(&pen, HALF, &front.title, caption.to_owned())
 }

@@ -6,8 +6,8 @@ use softstop_draw::scale::around;
 use softstop_draw::style;
 
 use crate::page::data::Histogram;
-use crate::page::figure::{EDGE, Figure, HALF, LETTERS, LINE, ROOM, uprights};
-use crate::page::words::quantity;
+use crate::page::figure::{EDGE, Figure, HALF, LETTERS, Names, ROOM, ends};
+use crate::page::words::{count, quantity};
 
 const AT: Stroke = Stroke::dashed(style::OPTIMUM, 1.8, (5.0, 4.0));
 
@@ -17,10 +17,8 @@ pub(in crate::page) fn figure(histogram: &Histogram) -> Figure {
     let right = HALF.width - EDGE;
     let mut marks = vec![("design".to_owned(), histogram.nominal)];
     marks.extend(histogram.worst.map(|worst| ("worst".to_owned(), worst)));
-    let ends = histogram
-        .range
-        .into_iter()
-        .chain(marks.iter().map(|it| it.1));
+    let (low, high) = ends(histogram.range);
+    let places = [low, high].into_iter().chain(marks.iter().map(|it| it.1));
     let all = histogram.counts.iter().sum::<u64>().max(1) as f64;
     let shares = histogram
         .counts
@@ -28,38 +26,34 @@ pub(in crate::page) fn figure(histogram: &Histogram) -> Figure {
         .map(|count| 100.0 * *count as f64 / all);
     let shares: Vec<f64> = shares.collect();
     let highest = shares.iter().copied().fold(0.0, f64::max);
-    let top = EDGE + 2.0 * LINE - 6.0;
-    let area = (ROOM.0, top, right - ROOM.0, HALF.height - top - ROOM.1);
+    let area = (ROOM.0, EDGE, right - ROOM.0, HALF.height - EDGE - ROOM.1);
     let panel = Panel::new(
         area,
-        around(ends, 0.04),
+        around(places, 0.04),
         (0.0, if highest > 0.0 { 1.08 * highest } else { 1.0 }),
     );
+    let names = Names::new(&panel, &marks);
+    let panel = names.room(panel);
     let name = histogram.x.line();
     let axes = Axes::new(LETTERS, Some(&name), "machines in each bar (%)", (5, 5));
     panel.ground(&mut pen, &axes);
-    let [low, high] = histogram.range;
     let step = (high - low) / shares.len().max(1) as f64;
     let bars = shares.iter().enumerate().filter(|(_, share)| **share > 0.0);
     let bars: Vec<Area> = bars
         .map(|(index, share)| {
             let from = panel.place((low + step * index as f64, *share));
             let wide = panel.across(low + step * (index + 1) as f64) - from.0;
-            (
-                from.0,
-                from.1,
-                (0.9 * wide).max(0.5),
-                panel.bottom() - from.1,
-            )
+            (from.0, from.1, wide.max(0.5), panel.bottom() - from.1)
         })
         .collect();
     pen.fill(&bars, style::ALLOWED);
-    uprights(&mut pen, &panel, &marks, AT);
+    names.draw(&mut pen, &panel, AT);
     panel.axes(&mut pen, &axes);
     let unit = &histogram.x.unit;
     let lost = match histogram.lost {
         0 => "none of them loses the motion".to_owned(),
-        lost => format!("{lost} of them lose the motion"),
+        1 => "one of them loses the motion".to_owned(),
+        lost => format!("{} of them lose the motion", count(lost)),
     };
     let worst = histogram.worst.map_or(String::new(), |worst| {
         format!(
@@ -69,7 +63,7 @@ pub(in crate::page) fn figure(histogram: &Histogram) -> Figure {
     });
     let caption = format!(
         "{} machines drawn from the tolerances: {lost}. The design has {}{worst}.",
-        crate::page::words::number(histogram.samples as f64),
+        count(histogram.samples),
         quantity(histogram.nominal, unit)
     );
     Figure::new(&pen, HALF, "The machines as they will be built", caption)

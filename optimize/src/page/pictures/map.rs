@@ -8,7 +8,7 @@ use softstop_draw::style;
 
 use super::stroke;
 use crate::page::data::Map;
-use crate::page::figure::{EDGE, Figure, LETTERS, LINE, ROOM, Size, finite, legend};
+use crate::page::figure::{EDGE, Figure, LETTERS, LINE, ROOM, Size, ends, finite, legend};
 use crate::page::words::quantity;
 
 /// Colours of viridis, evenly spaced (van der Walt and Smith 2015).
@@ -44,7 +44,7 @@ pub(in crate::page) fn figure(map: &Map, size: Size) -> Figure {
     let top = legend(&mut pen, (ROOM.0, EDGE + 4.0), right, &entries) - LINE + 14.0;
     let wide = right - ROOM.0 - SCALE.0 - SCALE.1;
     let area = (ROOM.0, top, wide, size.height - top - ROOM.1);
-    let panel = Panel::new(area, map.x_range.into(), map.y_range.into());
+    let panel = Panel::new(area, ends(map.x_range), ends(map.y_range));
     let axes = (map.x.line(), map.y.line());
     let axes = Axes::new(LETTERS, Some(&axes.0), &axes.1, (5, 5));
     panel.ground(&mut pen, &axes);
@@ -115,7 +115,7 @@ fn caption(map: &Map) -> String {
         )
     });
     format!(
-        "Colour: {} of the stable motion with one impact a period; no colour: there is none that coexists with rest. {place}{tolerance}",
+        "Colour: {} of the stable motion with one impact a period, in the hysteresis zone (from g₀ to s_SN) and below it; no colour: no such motion. {place}{tolerance}",
         map.shade.line()
     )
 }

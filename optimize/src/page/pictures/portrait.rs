@@ -7,9 +7,7 @@ use softstop_draw::shapes::Sign;
 
 use super::stroke;
 use crate::page::data::Portrait;
-use crate::page::figure::{
-    BOUND, EDGE, Figure, LETTERS, LINE, ROOM, WIDE, finite, legend, uprights,
-};
+use crate::page::figure::{BOUND, EDGE, Figure, LETTERS, LINE, Names, ROOM, WIDE, finite, legend};
 
 /// How far before the first face the near part begins, in units of how far the mass goes beyond it.
 const BEFORE: f64 = 0.8;
@@ -24,8 +22,7 @@ pub(in crate::page) fn figure(portrait: &Portrait) -> Figure {
             entries.push((Sign::Line(stroke(curve.role)), curve.name.clone()));
         }
     }
-    let rows = portrait.faces.len().clamp(1, 3) as f64;
-    let top = legend(&mut pen, (ROOM.0, EDGE + 4.0), right, &entries) + LINE * (rows - 1.0) + 8.0;
+    let top = legend(&mut pen, (ROOM.0, EDGE + 4.0), right, &entries) - LINE + 14.0;
     let points: Vec<(f64, f64)> = portrait
         .curves
         .iter()
@@ -61,15 +58,21 @@ pub(in crate::page) fn figure(portrait: &Portrait) -> Figure {
         let area = (right - wide, top, wide, tall);
         panels.push((Panel::new(area, near, up), &near_name, true));
     }
+    let last = panels.last().map(|(panel, ..)| *panel);
+    let faces = last.map(|panel| Names::new(&panel, &portrait.faces));
     for (panel, name, is_near) in panels {
+        let panel = faces.as_ref().map_or(panel, |faces| faces.room(panel));
         let axes = Axes::new(LETTERS, Some(name), &names.1, (4, 6));
         panel.ground(&mut pen, &axes);
-        if is_near {
-            uprights(&mut pen, &panel, &portrait.faces, BOUND);
-        } else {
-            for (_, at) in &portrait.faces {
-                panel.curve(&mut pen, &[(*at, up.0), (*at, up.1)], BOUND);
-            }
+        match &faces {
+            Some(faces) if is_near => faces.draw(&mut pen, &panel, BOUND),
+            _ => portrait
+                .faces
+                .iter()
+                .filter(|face| face.1.is_finite())
+                .for_each(|(_, at)| {
+                    panel.curve(&mut pen, &[(*at, up.0), (*at, up.1)], BOUND);
+                }),
         }
         for curve in &portrait.curves {
             panel.curve(&mut pen, &finite(&curve.points), stroke(curve.role));

@@ -8,9 +8,7 @@ use softstop_draw::style;
 
 use super::stroke;
 use crate::page::data::{Response, Role};
-use crate::page::figure::{
-    BOUND, EDGE, Figure, LETTERS, LINE, ROOM, WIDE, finite, legend, uprights,
-};
+use crate::page::figure::{BOUND, EDGE, Figure, LETTERS, LINE, Names, ROOM, WIDE, finite, legend};
 use crate::page::words::quantity;
 
 /// Half the size of the design's mark.
@@ -35,7 +33,7 @@ pub(in crate::page) fn figure(response: &Response) -> Figure {
         let patch = Sign::Patch("#9fd3ee");
         entries.push((patch, "machines within the tolerances".to_owned()));
     }
-    let top = legend(&mut pen, (ROOM.0, EDGE + 4.0), right, &entries) + 2.0 * LINE - 12.0;
+    let top = legend(&mut pen, (ROOM.0, EDGE + 4.0), right, &entries) - LINE + 14.0;
     let points = || {
         response
             .curves
@@ -54,9 +52,15 @@ pub(in crate::page) fn figure(response: &Response) -> Figure {
         across,
         (0.0, if highest > 0.0 { 1.1 * highest } else { 1.0 }),
     );
-    let names = (response.x.line(), response.y.line());
-    let axes = Axes::new(LETTERS, Some(&names.0), &names.1, (8, 6));
-    if let Some(ends) = response.tolerance {
+    let names = Names::new(&panel, &response.ends);
+    let panel = names.room(panel);
+    let area = panel.area;
+    let labels = (response.x.line(), response.y.line());
+    let axes = Axes::new(LETTERS, Some(&labels.0), &labels.1, (8, 6));
+    let tolerance = response
+        .tolerance
+        .filter(|ends| ends.iter().all(|end| end.is_finite()));
+    if let Some(ends) = tolerance {
         let [low, high] = ends.map(|at| panel.across(at.clamp(across.0, across.1)));
         pen.tint(
             (low, area.1, (high - low).max(1.0), area.3),
@@ -76,7 +80,7 @@ pub(in crate::page) fn figure(response: &Response) -> Figure {
     if band.len() > 1 {
         panel.band(&mut pen, &band, "#9fd3ee", 0.7);
     }
-    uprights(&mut pen, &panel, &response.ends, BOUND);
+    names.draw(&mut pen, &panel, BOUND);
     for role in [Role::Unstable, Role::Beside, Role::Design] {
         for curve in response.curves.iter().filter(|curve| curve.role == role) {
             panel.curve(&mut pen, &finite(&curve.points), stroke(role));
@@ -96,13 +100,13 @@ pub(in crate::page) fn figure(response: &Response) -> Figure {
         quantity(x, &response.x.unit),
         quantity(y, &response.y.unit)
     );
-    for (name, at) in &response.ends {
+    let away = response.ends.iter().map(|(name, at)| {
         let away = 100.0 * (at / x - 1.0);
-        caption += &format!(
-            " {name} lies {:.1} % {}.",
-            away.abs(),
-            if away < 0.0 { "below" } else { "above" }
-        );
+        let side = if away < 0.0 { "below" } else { "above" };
+        format!("{name} lies {:.1} % {side} that frequency", away.abs())
+    });
+    for away in away {
+        caption += &format!(" {away}.");
     }
     Figure::new(&pen, WIDE, &title, caption)
 }
