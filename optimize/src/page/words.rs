@@ -6,8 +6,8 @@ use super::data::Label;
 
 /// Significant digits of numbers in the page.
 const DIGITS: i32 = 5;
-/// From here on powers of ten are split off.
-const ENDS: (f64, f64) = (1e-3, 1e6);
+/// Powers of ten that are not split off.
+const PLAIN: std::ops::Range<i32> = -3..6;
 
 /// A number with five digits, without zeros that say nothing: `0.0215`, `12 500`, `2.4 × 10⁶`.
 pub(super) fn number(value: f64) -> String {
@@ -23,7 +23,7 @@ pub(super) fn number(value: f64) -> String {
     if (size / 10f64.powi(power) * 10f64.powi(DIGITS - 1)).round() >= 10f64.powi(DIGITS) {
         power += 1;
     }
-    let text = if (ENDS.0..ENDS.1).contains(&size) {
+    let text = if PLAIN.contains(&power) {
         grouped(&fixed(size, DIGITS - 1 - power))
     } else {
         let mantissa = fixed(size / 10f64.powi(power), DIGITS - 1);
@@ -38,7 +38,7 @@ pub(super) fn count(value: u64) -> String {
     let digits = value.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index) % 3 == 0 {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
             text.push('\u{202f}');
         }
         text.push(digit);
