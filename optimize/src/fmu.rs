@@ -11,7 +11,7 @@ use softstop_console::arguments::MachineArguments;
 use softstop_console::failure::Failure;
 use softstop_console::output::{self, Folder};
 use softstop_fmu::package::{self, HOST_PLATFORM, Library};
-use softstop_fmu::{Imprint, StartValues};
+use softstop_fmu::{Imprint, StartValues, parameter_set};
 
 /// Compiled along with this program, from the same engine.
 static BYTES: &[u8] = include_bytes!(env!("SOFTSTOP_FMU_LIBRARY"));
@@ -38,6 +38,19 @@ pub fn library() -> Result<Library> {
 /// # Errors
 /// If the FMU has no parameters for such a machine, or its name or description is too long.
 pub fn archive(library: &Library, machine: &Machine, start: Start) -> Result<Vec<u8>> {
+    package::archive(&imprint(machine, start)?, slice::from_ref(library))
+        .context("cannot make the FMU")
+}
+
+/// Its parameters as a parameter set of SSP 1.0 (SSV).
+///
+/// # Errors
+/// As [`archive`].
+pub fn parameters(machine: &Machine, start: Start) -> Result<String> {
+    parameter_set::write(&imprint(machine, start)?).context("cannot make the parameter set")
+}
+
+fn imprint(machine: &Machine, start: Start) -> Result<Imprint> {
     let values = StartValues::from_scene(&machine.scene, start)?;
     let mut imprint = Imprint::from(values);
     if let Some(name) = &machine.name {
@@ -46,7 +59,7 @@ pub fn archive(library: &Library, machine: &Machine, start: Start) -> Result<Vec
     if let Some(description) = &machine.description {
         imprint = imprint.described(description)?;
     }
-    package::archive(&imprint, slice::from_ref(library)).context("cannot make the FMU")
+    Ok(imprint)
 }
 
 const EXAMPLES: &str = "\

@@ -14,8 +14,12 @@ use softstop_console::table::{heading, number};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::zone::{Stretch, stretches_watched};
 
+use crate::design::judge::{Met, bound};
+use crate::design::problem::Objective;
 use crate::design::{Design, Problem};
+use crate::optimize::outcome::Outcome;
 use crate::optimize::reference::Reference;
+use crate::verdict;
 
 /// A motion and its machine, in the machine's own units.
 #[derive(Debug, Serialize)]
@@ -46,6 +50,12 @@ pub struct OptimizeReport {
     design: Found,
     /// The motions beside it, the paper's points A and B or the machine as it was given, with the gain in velocity.
     reference: BTreeMap<&'static str, Found>,
+    /// What was required, and what the design has of it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    requirements: Vec<Record>,
+    /// Designs far from this one in the box and nearly as good.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    rivals: Vec<Record>,
     /// Stretches of stable z = 1 of the same machine outside its zone: the search leaves them out.
     left_out: Vec<Record>,
     search: SearchReport,
@@ -58,25 +68,46 @@ impl OptimizeReport {
     /// The report on the solution of this problem.
     pub fn new(
         problem: &Problem,
-        design: &Design,
+        found: &Outcome,
         references: &[Reference],
         search: SearchReport,
     ) -> Self {
-        let limits = at_limits(problem, design);
-        let found = |machine: &Machine, orbit: &Orbit, more: Record| Found {
+        let design = &found.design;
+        let limits = at_limits(problem, found);
+        let one = |machine: &Machine, orbit: &Orbit, more: Record| Found {
             machine: Stated::of(machine),
             motion: motion(machine, orbit).and(more),
         };
         let left_out = left_out(design);
-        let reference = |it: &Reference| (it.name, found(&it.machine, &it.orbit, gain(design, it)));
+        let reference = |it: &Reference| (it.name, one(&it.machine, &it.orbit, gain(design, it)));
+        let requirement = |it: &Met| verdict::required(&design.machine, it);
+        let requirements: Vec<Record> = found.met.iter().map(requirement).collect();
+        let rivals = found.rivals.iter();
+        let rivals: Vec<Record> = rivals.map(|it| verdict::rival(problem, it)).collect();
+        let units = Units::of(&design.machine);
+        let told = [
+            ("What was required", &requirements),
+            (
+                "Nearly as good, but far from it: a small change of the task may lead there",
+                &rivals,
+            ),
+            (
+                "Left out, for they are no part of the zone: stable z = 1",
+                &left_out,
+            ),
+        ];
+        let told = told.iter().filter(|(_, records)| !records.is_empty());
+        let told = told.map(|(what, records)| format!("{what}\n{}", below(records, &units)));
         Self {
-            design: found(
+            design: one(
                 &design.machine,
                 &design.orbit,
                 Record::of(&place(), &(problem, design, &limits)),
             ),
             reference: references.iter().map(reference).collect(),
-            text: text(problem, design, references, &limits) + &told(&left_out, design),
+            text: text(problem, design, references, &limits) + &told.collect::<String>(),
+            requirements,
+            rivals,
             left_out,
             search,
         }
@@ -118,14 +149,6 @@ fn stretch<'a>() -> [Column<(&'a Design, &'a Stretch)>; 3] {
     }
 }
 
-fn told(left_out: &[Record], design: &Design) -> String {
-    if left_out.is_empty() {
-        return String::new();
-    }
-    let table = below(left_out, &Units::of(&design.machine));
-    format!("Left out, for they are no part of the zone: stable z = 1\n{table}")
-}
-
 /// Before-impact velocity of the design over that of a reference.
 fn gain(design: &Design, reference: &Reference) -> Record {
     let gain = design.before_impact_velocity() / reference.orbit.before_impact_velocity();
@@ -148,8 +171,12 @@ pub fn key(parameter: Parameter) -> String {
 
 /// Distance in s within which a design stands at the end of the allowed window.
 const AT_MARGIN: f64 = 1e-9;
+/// Share of a bound within which it holds a design back.
+const AT_BOUND: f64 = 1e-6;
 
-fn at_limits(problem: &Problem, design: &Design) -> Vec<String> {
+/// What holds a design back, each in a few words.
+pub fn at_limits(problem: &Problem, found: &Outcome) -> Vec<String> {
+    let design = &found.design;
     let mut limits: Vec<String> = problem
         .axes
         .iter()
@@ -158,6 +185,12 @@ fn at_limits(problem: &Problem, design: &Design) -> Vec<String> {
             Some(format!("{}: {end} bound", key(axis.parameter)))
         })
         .collect();
+    let is_bound = |it: &&Met| it.margin() <= AT_BOUND * (it.value - it.margin()).abs();
+    let held = found.met.iter().filter(is_bound);
+    limits.extend(held.map(|it| {
+        let required = bound(&design.machine, &it.requirement);
+        format!("{}: {required}", it.requirement.figure.name())
+    }));
     if design.place <= problem.margin + AT_MARGIN {
         limits.push("margin from g0".to_owned());
     }
@@ -188,10 +221,15 @@ fn text(
     at_limits: &[String],
 ) -> String {
     let name = problem.machine.name.as_deref().unwrap_or("given");
-    let mut text = heading(&format!(
-        "Hardest impact of the {name} machine, margin M = {} from both ends of the zone",
-        problem.margin
-    ));
+    let what = match problem.objective == Objective::default() {
+        true => format!("Hardest impact of the {name} machine"),
+        false => format!("The {name} machine with the {}", problem.objective.words()),
+    };
+    let margin = match problem.margin {
+        0.0 => String::new(),
+        margin => format!(", margin M = {margin} from both ends of the zone"),
+    };
+    let mut text = heading(&(what + &margin));
     text += &comparison(problem, design, references);
     text += &format!(
         "\nZone of the design: g0 = {} to s_SN = {}; the design stands at s = {} of it.\n",
@@ -202,7 +240,7 @@ fn text(
     if !at_limits.is_empty() {
         text += &format!("Held back by: {}.\n", at_limits.join(", "));
     }
-    text
+    text + "\n"
 }
 
 fn comparison(problem: &Problem, design: &Design, references: &[Reference]) -> String {

@@ -4,6 +4,8 @@
 mod optimize;
 #[path = "command_line/refusals.rs"]
 mod refusals;
+#[path = "command_line/tasks.rs"]
+mod tasks;
 
 use std::fs;
 

@@ -24,16 +24,16 @@ const STIFFNESS: Interval = Interval {
 };
 
 fn problem(margin: f64) -> Problem {
+    let machine = Machine::named("unloaded").expect("the paper's machine");
     Problem {
-        machine: Machine::named("unloaded").expect("the paper's machine"),
         margin,
-        axes: axes(Interval::held(7.0), CLEARANCE),
         frequency: ANY,
+        ..Problem::of(machine, axes(Interval::held(7.0), CLEARANCE))
     }
 }
 
 fn axes(stiffness: Interval, clearance: Interval) -> Vec<Axis> {
-    let axis = |(parameter, range)| Axis { parameter, range };
+    let axis = |(parameter, range)| Axis::new(parameter, range);
     [
         (Parameter::StopStiffness, stiffness),
         (Parameter::Clearance, clearance),
@@ -61,6 +61,7 @@ fn solve(problem: &Problem, evaluations: u64) -> Result<Design, SearchError> {
         &Unwatched,
         None,
     )
+    .map(|found| found.design)
 }
 
 /// `count` points of an interval, both ends among them.
@@ -162,7 +163,8 @@ fn a_narrow_ridge_is_found_with_any_seed() -> Outcome {
             },
             &Unwatched,
             None,
-        )?;
+        )?
+        .design;
         let velocity = design.before_impact_velocity();
         println!("seed {seed}");
         assert_abs_diff_eq!(velocity, 16.28637, epsilon = 1e-3);
@@ -186,8 +188,8 @@ fn the_same_seed_gives_the_same_design() -> Outcome {
         seed: 42,
         evaluations: 200,
     };
-    let first = search(&problem, settings, &Unwatched, None)?;
-    let second = search(&problem, settings, &Unwatched, None)?;
+    let first = search(&problem, settings, &Unwatched, None)?.design;
+    let second = search(&problem, settings, &Unwatched, None)?.design;
     assert_eq!(first.machine, second.machine);
     assert_eq!(
         first.before_impact_velocity().to_bits(),
@@ -289,10 +291,7 @@ fn a_rigid_stop_has_an_optimum_too() -> Outcome {
     machine.apply([("stop.model", "rigid"), ("stop.restitution", "0.6")])?;
     let problem = Problem {
         machine,
-        axes: vec![Axis {
-            parameter: Parameter::Clearance,
-            range: CLEARANCE,
-        }],
+        axes: vec![Axis::new(Parameter::Clearance, CLEARANCE)],
         ..problem(0.25)
     };
     let design = solve(&problem, 300)?;

@@ -32,27 +32,24 @@ piercing = { stiffness = 5e7, friction = 5.5e7, thickness = 0.002, travel = 0.00
 
 /// A design of it, found quickly.
 fn design() -> Outcome<Design> {
-    let axis = |parameter, low, high| Axis {
-        parameter,
-        range: Interval { low, high },
-    };
+    let axis = |parameter, low, high| Axis::new(parameter, Interval { low, high });
+    let axes = vec![
+        axis(Parameter::StopStiffness, 5e6, 8e7),
+        axis(Parameter::Clearance, 0.005, 0.04),
+    ];
     let problem = Problem {
-        machine: Machine::from_toml(PRESS)?,
         margin: 0.25,
-        axes: vec![
-            axis(Parameter::StopStiffness, 5e6, 8e7),
-            axis(Parameter::Clearance, 0.005, 0.04),
-        ],
         frequency: Interval {
             low: 10.0,
             high: 40.0,
         },
+        ..Problem::of(Machine::from_toml(PRESS)?, axes)
     };
     let settings = Settings {
         seed: 0,
         evaluations: 300,
     };
-    Ok(search(&problem, settings, &Unwatched, None)?)
+    Ok(search(&problem, settings, &Unwatched, None)?.design)
 }
 
 /// A report with all that can be computed of a design alone, and one of everything else.

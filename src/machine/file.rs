@@ -33,6 +33,9 @@ struct Place {
 }
 
 impl Machine {
+    /// Tables of a machine file that say what `softstop optimize` is to do with the machine; they play no part in it.
+    pub const TASK: [&str; 5] = keys::TASK;
+
     /// Reads the text of a machine file: SI units, or a table `[ratios]`.
     ///
     /// # Errors
@@ -42,7 +45,10 @@ impl Machine {
             error.set_input(Some(text));
             MachineError::Syntax(error.to_string().trim_end().to_owned())
         };
-        let table = DeTable::parse(text).map_err(syntax)?;
+        let mut table = DeTable::parse(text).map_err(syntax)?;
+        for task in Self::TASK {
+            table.get_mut().remove(task);
+        }
         let language = match table.get_ref().get(RATIOS) {
             Some(_) => Language::Ratios,
             None => Language::Si,

@@ -32,6 +32,9 @@ pub(super) const FURTHER: [&str; 10] = [
     "description",
 ];
 
+/// Tables of a file that are no part of the machine: what `softstop optimize` is to do with it.
+pub(super) const TASK: [&str; 5] = ["vary", "tolerance", "objective", "require", "search"];
+
 /// All keys of a file in a language.
 pub(super) fn all(speaks: Language) -> Vec<&'static str> {
     let ratios = speaks == Language::Ratios;

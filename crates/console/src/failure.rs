@@ -1,6 +1,7 @@
 //! The ways in which a run ends without its result, and their exit codes.
 
 use std::fmt;
+use std::path::Path;
 use std::process::ExitCode;
 
 use softstop::{MotionError, SceneError};
@@ -22,6 +23,15 @@ impl Failure {
     /// A usage failure with this message.
     pub fn usage(message: impl Into<String>) -> Self {
         Self::Usage(message.into())
+    }
+
+    /// The same, a usage failure with the name of the file in which the user said so.
+    #[must_use]
+    pub fn in_file(self, path: &Path) -> Self {
+        match self {
+            Self::Usage(message) => Self::Usage(format!("{}: {message}", path.display())),
+            other => other,
+        }
     }
 
     /// 2 for bad usage (as clap does), 1 for a failed run, 130 for an interrupt (128 + SIGINT).

@@ -57,6 +57,16 @@ impl Way {
         }
     }
 
+    /// The parameter that changes on the way, if one does.
+    pub const fn changes(self) -> Option<Parameter> {
+        match self {
+            Self::SwitchedOn => None,
+            Self::FrequencyRaised | Self::FrequencyLowered => Some(Parameter::Frequency),
+            Self::ClearanceOpened => Some(Parameter::Clearance),
+            Self::AmplitudeRaised | Self::AmplitudeLowered => Some(Parameter::Amplitude),
+        }
+    }
+
     /// What changes on the way, from which value in SI units, and whether up or down; none where nothing does, or where
     /// there is no such way.
     fn change(self, scene: &Scene) -> Option<(Parameter, f64, Direction)> {

@@ -4,10 +4,13 @@ use std::cell::RefCell;
 
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentOpt;
+use softstop::Machine;
 use softstop_dynamics::orbit::multipliers;
 use softstop_dynamics::{BranchPoint, Orbit, Zone};
 
 use super::Infeasible;
+use super::judge::{Judged, conflict, violation};
+use super::problem::Problem;
 use super::space::Interval;
 
 /// Places that are looked at before the best one is refined.
@@ -18,18 +21,26 @@ const REFINEMENTS: u64 = 60;
 /// Accuracy of a best place inside the window: the velocity is flat there.
 const TOLERANCE: f64 = 1e-8;
 
-/// The stable motion with the highest before-impact velocity in the window of places.
+/// The stable motion in the window of places that is best by the problem's objective and meets its requirements.
 ///
 /// # Errors
-/// [`Infeasible`] if none of the motions looked at is found and stable.
-pub fn best(zone: &Zone, window: Interval) -> Result<(f64, Orbit), Infeasible> {
+/// [`Infeasible`] if none of the motions looked at is found, stable and as required.
+pub fn best(
+    problem: &Problem,
+    machine: &Machine,
+    zone: &Zone,
+    window: Interval,
+) -> Result<Best, Infeasible> {
     let line = Line {
+        problem,
+        machine,
         zone,
         best: RefCell::new(None),
-        reason: RefCell::new(None),
+        reason: RefCell::default(),
     };
     if window.is_held() {
-        return line.result(line.cost_at(window.low));
+        line.cost_at(window.low);
+        return line.result();
     }
     let places = samples(window);
     let costs = places.map(|place| line.cost_at(place));
@@ -43,45 +54,106 @@ pub fn best(zone: &Zone, window: Interval) -> Result<(f64, Orbit), Infeasible> {
         );
         line.refine(bracket);
     }
-    line.result(costs[least])
+    line.result()
 }
 
 fn samples(window: Interval) -> [f64; SAMPLES] {
     std::array::from_fn(|index| window.at(index as f64 / (SAMPLES - 1) as f64))
 }
 
+/// The best motion along a zone.
+#[derive(Debug, Clone)]
+pub struct Best {
+    /// Its place.
+    pub place: f64,
+    /// The motion.
+    pub orbit: Orbit,
+    /// What is sought, in SI units.
+    pub value: f64,
+}
+
 /// The motions along a zone and the best that was met.
 struct Line<'zone> {
+    problem: &'zone Problem,
+    machine: &'zone Machine,
     zone: &'zone Zone,
-    best: RefCell<Option<(f64, BranchPoint)>>,
-    reason: RefCell<Option<String>>,
+    best: RefCell<Option<Met>>,
+    /// The least gap to feasible ones, and why.
+    reason: RefCell<(f64, String)>,
+}
+
+/// The best so far.
+struct Met {
+    place: f64,
+    point: BranchPoint,
+    value: f64,
+    cost: f64,
 }
 
 impl Line<'_> {
-    /// Minus the velocity of the stable motion; for others a finite grade above all of those.
+    /// Minus the score of the stable motion that is as required; for others a finite grade above all of those.
     fn cost_at(&self, place: f64) -> f64 {
         let point = match self.zone.point_at(place) {
             Ok(point) => point,
-            Err(error) => {
-                self.reason.replace(Some(error.to_string()));
-                return LOST;
-            }
+            Err(error) => return self.fails(LOST, || error.to_string()),
         };
         let velocity = point.before_impact_velocity();
         // At the fold itself a multiplier is 1: the limit of the stable motions, wanted for M = 0.
         if !(point.is_stable() || place >= 1.0) || !velocity.is_finite() {
-            self.reason
-                .replace(Some("the z = 1 motion is not stable there".to_owned()));
-            return instability(&point);
+            return self.fails(instability(&point), || {
+                "the z = 1 motion is not stable there".to_owned()
+            });
         }
+        let value = match self.problem.is_plain() {
+            true => Ok(velocity),
+            false => self.judged(place, &point),
+        };
+        let value = match value {
+            Ok(value) => value,
+            Err(Infeasible { gap, reason }) => return self.fails(gap, || reason),
+        };
+        let cost = -self.problem.objective.score(value);
         let mut best = self.best.borrow_mut();
-        if best
-            .as_ref()
-            .is_none_or(|(_, known)| velocity > known.before_impact_velocity())
-        {
-            *best = Some((place, point));
+        if best.as_ref().is_none_or(|known| cost < known.cost) {
+            *best = Some(Met {
+                place,
+                point,
+                value,
+                cost,
+            });
         }
-        -velocity
+        cost
+    }
+
+    /// What is sought, of a motion that is as required.
+    fn judged(&self, place: f64, point: &BranchPoint) -> Result<f64, Infeasible> {
+        let lost = |reason| Infeasible { gap: LOST, reason };
+        let orbit = self
+            .zone
+            .orbit(point)
+            .map_err(|error| lost(error.to_string()))?;
+        let motion = Judged::new(self.machine, self.zone, place, &orbit)
+            .map_err(|error| lost(error.to_string()))?;
+        let met = self.problem.met(&motion);
+        match violation(&met) {
+            0.0 => self.problem.sought(&motion).ok_or_else(|| {
+                let name = self.problem.objective.figure.name();
+                lost(format!("{name} has no value"))
+            }),
+            gap => Err(Infeasible {
+                gap,
+                reason: conflict(self.machine, &met),
+            }),
+        }
+    }
+
+    /// Notes why a motion is none to take.
+    fn fails(&self, gap: f64, reason: impl FnOnce() -> String) -> f64 {
+        let mut known = self.reason.borrow_mut();
+        if known.1.is_empty() || gap < known.0 {
+            *known = (gap, reason());
+        }
+        gap
     }
 
     /// Whether the best sample is an end of the window with the velocity rising right to it.
@@ -103,15 +175,20 @@ impl Line<'_> {
             .run();
     }
 
-    fn result(&self, gap: f64) -> Result<(f64, Orbit), Infeasible> {
-        let lost = |reason| Infeasible {
-            gap: gap.max(0.0),
-            reason,
+    fn result(&self) -> Result<Best, Infeasible> {
+        let Some(best) = self.best.take() else {
+            let (gap, reason) = self.reason.take();
+            return Err(Infeasible { gap, reason });
         };
-        let best = self.best.take();
-        let (place, point) = best.ok_or_else(|| lost(self.reason.take().unwrap_or_default()))?;
-        let orbit = self.zone.orbit(&point);
-        Ok((place, orbit.map_err(|error| lost(error.to_string()))?))
+        let orbit = self.zone.orbit(&best.point).map_err(|error| Infeasible {
+            gap: LOST,
+            reason: error.to_string(),
+        })?;
+        Ok(Best {
+            place: best.place,
+            orbit,
+            value: best.value,
+        })
     }
 }
 

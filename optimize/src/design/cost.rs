@@ -14,8 +14,8 @@ use super::space::Space;
 
 /// Who watches the search, from several threads at once.
 pub trait Watch: Sync {
-    /// One more zone has been computed; the velocity is that of its best motion, if any.
-    fn evaluated(&self, velocity: Option<f64>);
+    /// One more zone has been computed; the value is what its best motion, if any, has of what is sought.
+    fn evaluated(&self, value: Option<f64>);
     /// Whether to give up.
     fn stop(&self) -> bool;
 }
@@ -38,7 +38,7 @@ pub(super) struct Point {
     pub cost: f64,
 }
 
-/// What the optimisers minimise: minus the velocity, or a finite grade above every velocity.
+/// What the optimisers minimise: minus the score of what is sought, or a finite grade above every score.
 pub(super) struct Cost<'search> {
     pub problem: &'search Problem,
     pub space: Space<'search>,
@@ -52,7 +52,7 @@ pub(super) struct Cost<'search> {
 const BLOCK: usize = 512;
 /// Those of them that are kept together: groups of zones that are computed together.
 const PIECE: usize = 16;
-/// What a point costs, and the velocity of its best motion, if there is one.
+/// What a point costs, and what its best motion has of what is sought, if there is one.
 type Found = (f64, Option<f64>);
 
 impl Cost<'_> {
@@ -67,8 +67,8 @@ impl Cost<'_> {
             let Ok(found) = piece(self.kept, &(call, index), || {
                 Ok::<_, Infallible>(self.found(units))
             });
-            for (_, velocity) in &found {
-                self.watch.evaluated(*velocity);
+            for (_, value) in &found {
+                self.watch.evaluated(*value);
             }
             found.into_iter().map(|(cost, _)| cost)
         });
@@ -80,8 +80,8 @@ impl Cost<'_> {
         let outcomes = self.problem.soon(&points).into_iter();
         let found = outcomes.map(|outcome| match outcome {
             Ok(design) => {
-                let velocity = design.before_impact_velocity();
-                (-velocity, Some(velocity))
+                let score = self.problem.objective.score(design.value);
+                (-score, Some(design.value))
             }
             Err(infeasible) => (1.0 + infeasible.gap, None),
         });

@@ -6,32 +6,37 @@
 //! then found along it ([`along`]). [`search`] drives the outer search.
 
 pub mod along;
+mod box_window;
+mod coordinates;
 mod cost;
+mod exact;
+pub mod figure;
+pub mod front;
+mod gradient;
+pub mod here;
+pub mod judge;
+pub mod local;
 mod polish;
+pub mod problem;
+pub mod requirement;
 pub mod search;
+pub mod slope;
 pub mod space;
 mod survey;
+pub mod trial;
 
+use std::slice;
+
+use box_window::BoxWindow;
+use judge::Judged;
 use rayon::prelude::*;
-use softstop::{Dimension, Machine, Parameter, Scene};
+use softstop::{Dimension, Machine, MotionError, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_dynamics::zone::ZoneError;
 use softstop_dynamics::{Orbit, Zone, zone};
 
-use space::{Axis, Interval};
-
-/// What is searched, and where. All values are in the machine's own units.
-#[derive(Debug, Clone)]
-pub struct Problem {
-    /// The machine; what is searched of it plays no part.
-    pub machine: Machine,
-    /// Least distance M of s from 0 and 1, in [0, 0.5].
-    pub margin: f64,
-    /// The parameters that the search may choose, but the drive's frequency.
-    pub axes: Vec<Axis>,
-    /// Drive frequency, intersected with the zone.
-    pub frequency: Interval,
-}
+pub use problem::Problem;
+use space::Interval;
 
 /// A feasible point and the motion there.
 #[derive(Debug, Clone)]
@@ -44,12 +49,22 @@ pub struct Design {
     pub zone: Zone,
     /// The z = 1 motion.
     pub orbit: Orbit,
+    /// What was sought, in SI units.
+    pub value: f64,
 }
 
 impl Design {
     /// Velocity in m/s at which the mass reaches the clearance.
     pub fn before_impact_velocity(&self) -> f64 {
         self.orbit.before_impact_velocity()
+    }
+
+    /// Its motion, to be judged.
+    ///
+    /// # Errors
+    /// [`MotionError`] if it cannot be computed.
+    pub fn judged(&self) -> Result<Judged<'_>, MotionError> {
+        Judged::new(&self.machine, &self.zone, self.place, &self.orbit)
     }
 
     /// Drive frequency in the machine's own units.
@@ -69,15 +84,6 @@ pub struct Infeasible {
 }
 
 impl Problem {
-    /// The machine with these values of the axes.
-    pub fn machine_at(&self, values: &[f64]) -> Machine {
-        let mut machine = self.machine.clone();
-        for (axis, value) in self.axes.iter().zip(values) {
-            machine.set(axis.parameter, *value);
-        }
-        machine
-    }
-
     /// The best frequency at these values of the axes.
     ///
     /// # Errors
@@ -86,6 +92,12 @@ impl Problem {
         let machine = self.machine_at(values);
         let zone = zone::hysteresis_watched(&machine.scene, &interrupt::watch);
         self.best_of(machine, zone)
+    }
+
+    /// The zone of a machine, on the way of a search.
+    fn zone(&self, machine: &Machine) -> Result<Zone, ZoneError> {
+        let scenes = slice::from_ref(&machine.scene);
+        zone::hysteresis_soon(scenes, &interrupt::watch).remove(0)
     }
 
     /// The same at many points on the way of a search.
@@ -108,35 +120,48 @@ impl Problem {
             gap: distance_from_zones(&machine.scene, &error),
             reason: error.to_string(),
         })?;
-        let window = self.window(&zone)?;
-        let (place, orbit) = along::best(&zone, window)?;
+        let window = self.window(&machine, &zone)?;
+        let along::Best {
+            place,
+            orbit,
+            value,
+        } = along::best(self, &machine, &zone, window)?;
         Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(place));
         Ok(Design {
             machine,
             place,
             zone,
             orbit,
+            value,
         })
     }
 
-    /// The places s that margin and frequency bounds leave of a zone.
-    fn window(&self, zone: &Zone) -> Result<Interval, Infeasible> {
+    /// The places s that margin, frequency bounds and tolerances leave of a zone.
+    fn window(&self, machine: &Machine, zone: &Zone) -> Result<Interval, Infeasible> {
         let width = zone.frequency_sn - zone.frequency_g0;
         let own = |frequency: f64| self.machine.to_own(Dimension::Frequency, frequency);
         let si = |frequency: f64| self.machine.to_si(Dimension::Frequency, frequency);
-        let place = |frequency: f64| (si(frequency) - zone.frequency_g0) / width;
-        let low = self.margin.max(place(self.frequency.low));
-        let high = (1.0 - self.margin).min(place(self.frequency.high));
+        let place = |frequency: f64| (frequency - zone.frequency_g0) / width;
+        let mut low = self.margin.max(place(si(self.frequency.low)));
+        let mut high = (1.0 - self.margin).min(place(si(self.frequency.high)));
+        if !self.tolerances.is_empty() {
+            let tolerated = BoxWindow::of(self, machine, zone)?;
+            low = low.max(place(tolerated.low.frequency));
+            high = high.min(place(tolerated.high.frequency));
+        }
         if low <= high {
             return Ok(Interval { low, high });
         }
         Err(Infeasible {
             gap: finite_or(low - high, DISTANT),
             reason: format!(
-                "the frequencies allowed by bounds and margin ({}) lie outside the zone {:.6} to {:.6}",
+                "bounds ({}), margin and tolerances leave no frequency in the zone {:.6} to {:.6}: it would have to be \
+                 at least {:.6} and at most {:.6}",
                 self.frequency,
                 own(zone.frequency_g0),
-                own(zone.frequency_sn)
+                own(zone.frequency_sn),
+                own(zone.frequency_at(low)),
+                own(zone.frequency_at(high))
             ),
         })
     }

@@ -1,12 +1,13 @@
-//! The outer search over stiffness and clearance: a survey on a lattice, a particle swarm that
-//! starts from it until it gains little, then Nelder-Mead from the best particle, restarted with a
-//! fresh, smaller simplex until nothing is gained. The survey is there because the best velocity can
-//! stand on a narrow ridge that a random swarm misses: where a zone gains a second fold inside it,
-//! the velocity jumps.
+//! The outer search over the axes: a survey on a lattice, a particle swarm that starts from it until it gains little,
+//! gradients ([`gradient`](super::gradient)) from the best particle and from the best points far from it, then
+//! Nelder-Mead from the best of them, restarted with a fresh, smaller simplex until nothing is gained. The survey is
+//! there because the best design can stand on a narrow ridge that a random swarm misses; Nelder-Mead is, because it can
+//! stand where gradients end: where a zone gains a second fold inside it, the velocity jumps.
 //!
 //! All see the unit cube. The swarm keeps to it by itself; Nelder-Mead does not, so points
 //! outside are pulled in, and an optimum on the boundary (common here) is met exactly.
 
+use std::slice;
 use std::sync::atomic::AtomicU64;
 
 use argmin::core::{Error, Executor, State};
@@ -14,14 +15,18 @@ use argmin::solver::particleswarm::{Particle, ParticleSwarm};
 use argmin_math::ArgminRandom;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
+use rayon::prelude::*;
 use softstop_dynamics::watch::Kept;
 
+use super::coordinates::Summit;
 use super::cost::{Cost, Point, Stoppable};
 pub use super::cost::{Unwatched, Watch};
+use super::gradient::ascend;
 use super::polish::polish;
 use super::space::Space;
 use super::survey::survey;
-use super::{Design, Problem};
+use super::trial::pass;
+use super::{Design, Infeasible, Problem};
 
 /// Fewest zones a search makes sense with.
 pub const LEAST_EVALUATIONS: u64 = 100;
@@ -34,6 +39,14 @@ const SWARM_ROUNDS: u64 = 3;
 const SWARM_GAIN: f64 = 1e-3;
 /// Greatest velocity of a particle at the start, in edges of the cube per round.
 const FASTEST: f64 = 0.2;
+
+/// Points from which gradients are followed, how far apart along an axis they are at least, and the gap of a point that
+/// has no motion to begin with.
+const STARTS: usize = 4;
+const APART: f64 = 0.12;
+const DISTANT: f64 = 10.0;
+/// Share of the best score from which another design is a rival.
+const RIVAL: f64 = 0.97;
 
 /// How to search.
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +62,7 @@ pub struct Settings {
 pub enum SearchError {
     /// Nothing within the bounds is feasible.
     #[error(
-        "no stable z = 1 motion in a hysteresis zone was met within the bounds; nearest try, at {place}: {reason}"
+        "no stable z = 1 motion in a hysteresis zone is as the task asks within the bounds; nearest try, at {place}: {reason}"
     )]
     NoDesign {
         /// The least infeasible point: names and values.
@@ -65,7 +78,18 @@ pub enum SearchError {
     Optimizer(Error),
 }
 
-/// The feasible design with the highest before-impact velocity. What is known of the search is recalled.
+/// What a search has found.
+#[derive(Debug, Clone)]
+pub struct Found {
+    /// The best design.
+    pub design: Design,
+    /// Its point of the unit cube.
+    pub unit: Vec<f64>,
+    /// Others, far from it and nearly as good: a small change of the task can make one of them the best.
+    pub rivals: Vec<Design>,
+}
+
+/// The feasible design that is best by the problem's objective. What is known of the search is recalled.
 ///
 /// # Errors
 /// [`SearchError`] if nothing feasible was met or the watcher stopped the search.
@@ -74,7 +98,7 @@ pub fn search(
     settings: Settings,
     watch: &dyn Watch,
     kept: Kept<'_>,
-) -> Result<Design, SearchError> {
+) -> Result<Found, SearchError> {
     let space = Space(&problem.axes);
     let cost = Cost {
         problem,
@@ -83,7 +107,7 @@ pub fn search(
         kept,
         calls: AtomicU64::new(0),
     };
-    let best = match outer(&cost, settings) {
+    let (best, summits) = match outer(&cost, settings) {
         Err(error) if !watch.stop() => return Err(SearchError::Optimizer(error)),
         outcome => outcome.unwrap_or_default(),
     };
@@ -91,16 +115,38 @@ pub fn search(
         return Err(SearchError::Stopped);
     }
     let values = space.values(&best);
-    let design = problem
+    let polished = problem
         .at(&values)
-        .or_else(|_| problem.soon(std::slice::from_ref(&values)).remove(0));
-    design.map_err(|infeasible| match watch.stop() {
+        .or_else(|_| problem.soon(slice::from_ref(&values)).remove(0));
+    let lost = |infeasible: Infeasible| match watch.stop() {
         true => SearchError::Stopped,
         false => SearchError::NoDesign {
             place: place(problem, &values),
             reason: infeasible.reason,
         },
+    };
+    let score = |it: &Summit| problem.objective.score(it.design.value);
+    let polished = polished.map(|design| Summit { unit: best, design });
+    let best = match (polished, summits.first()) {
+        (Ok(polished), Some(summit)) if score(&polished) < score(summit) => summit.clone(),
+        (Ok(polished), _) => polished,
+        (Err(_), Some(summit)) => summit.clone(),
+        (Err(infeasible), None) => return Err(lost(infeasible)),
+    };
+    let best = pass(problem, &best).map_err(lost)?;
+    let is_rival = |it: &Summit| is_apart(&it.unit, &best.unit) && score(it) > RIVAL * score(&best);
+    let rivals = summits.into_iter().filter(is_rival).map(|it| it.design);
+    Ok(Found {
+        rivals: rivals.collect(),
+        design: best.design,
+        unit: best.unit,
     })
+}
+
+/// True if two points of the cube are not one hill's.
+fn is_apart(one: &[f64], other: &[f64]) -> bool {
+    let far = |(a, b): (&f64, &f64)| (a - b).abs() > APART;
+    one.iter().zip(other).any(far)
 }
 
 /// Values in words.
@@ -110,18 +156,41 @@ fn place(problem: &Problem, values: &[f64]) -> String {
     said.collect::<Vec<_>>().join(", ")
 }
 
-/// The best point of the unit cube.
-fn outer(cost: &Cost<'_>, settings: Settings) -> Result<Vec<f64>, Error> {
-    if cost.space.dimension() == 0 {
+/// The best point of the unit cube, and what gradients have found, the best first.
+fn outer(cost: &Cost<'_>, settings: Settings) -> Result<(Vec<f64>, Vec<Summit>), Error> {
+    let dimension = cost.space.dimension();
+    if dimension == 0 {
         cost.watch.evaluated(None);
-        return Ok(Vec::new());
+        return Ok((Vec::new(), Vec::from_iter(ascend(cost.problem, &[]))));
     }
-    let share = (cost.space.dimension() as u64 * settings.evaluations) / SURVEY;
+    let share = (dimension as u64 * settings.evaluations) / SURVEY;
     let survey = survey(cost, share.min(settings.evaluations / 3))?;
     let left = settings.evaluations - survey.len() as u64;
     let swarm = left * 2 / 3;
-    let start = swarm_best(cost, &survey, settings.seed, swarm)?;
-    Ok(polish(cost, start, left - swarm)?.unit)
+    let best = swarm_best(cost, &survey, settings.seed, swarm)?;
+    let mut starts = vec![best.clone()];
+    for point in &survey {
+        let is_new = starts
+            .iter()
+            .all(|start| is_apart(&start.unit, &point.unit));
+        if starts.len() < STARTS && is_new && point.cost < DISTANT {
+            starts.push(point.clone());
+        }
+    }
+    let ascents = starts
+        .par_iter()
+        .map(|start| ascend(cost.problem, &start.unit));
+    let mut summits: Vec<Summit> = ascents.collect::<Vec<_>>().into_iter().flatten().collect();
+    let score = |it: &Summit| cost.problem.objective.score(it.design.value);
+    summits.sort_by(|a, b| score(b).total_cmp(&score(a)));
+    let summit = summits.first().map(|it| Point {
+        unit: it.unit.clone(),
+        cost: -score(it),
+    });
+    let start = [Some(best), summit].into_iter().flatten();
+    let start = start.min_by(|a, b| a.cost.total_cmp(&b.cost));
+    let start = start.ok_or_else(|| Error::msg("the swarm is empty"))?;
+    Ok((polish(cost, start, left - swarm)?.unit, summits))
 }
 
 /// The swarm: one half the best of the survey, the other spread over the rest of it.

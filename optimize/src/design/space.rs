@@ -65,12 +65,47 @@ impl fmt::Display for Interval {
 }
 
 /// A parameter that is searched, and where, in the machine's own units.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// Which.
     pub parameter: Parameter,
-    /// Its values.
+    /// Its values, or their ends.
     pub range: Interval,
+    /// The only values that can be had, in rising order; empty if all of the range can.
+    pub catalogue: Vec<f64>,
+}
+
+impl Axis {
+    /// All values of a range.
+    pub const fn new(parameter: Parameter, range: Interval) -> Self {
+        Self {
+            parameter,
+            range,
+            catalogue: Vec::new(),
+        }
+    }
+
+    /// The values of a catalogue, in rising order.
+    pub fn of_catalogue(parameter: Parameter, catalogue: Vec<f64>) -> Self {
+        let end = |value: Option<&f64>| value.copied().unwrap_or(f64::NAN);
+        let range = Interval {
+            low: end(catalogue.first()),
+            high: end(catalogue.last()),
+        };
+        Self {
+            parameter,
+            range,
+            catalogue,
+        }
+    }
+
+    /// The value at a coordinate in [0, 1]: in a catalogue, each has an equal part of it.
+    fn at(&self, unit: f64) -> f64 {
+        let part = (unit.clamp(0.0, 1.0) * self.catalogue.len() as f64) as usize;
+        let last = self.catalogue.len().saturating_sub(1);
+        let listed = self.catalogue.get(part.min(last)).copied();
+        listed.unwrap_or_else(|| self.range.at(unit))
+    }
 }
 
 /// The axes of the outer search, of which those that are held are taken out of the optimiser's sight.
@@ -88,7 +123,7 @@ impl Space<'_> {
         let mut coordinates = unit.iter().copied();
         let value = |axis: &Axis| match axis.range.is_held() {
             true => axis.range.low,
-            false => axis.range.at(coordinates.next().unwrap_or(0.5)),
+            false => axis.at(coordinates.next().unwrap_or(0.5)),
         };
         self.0.iter().map(value).collect()
     }
@@ -108,7 +143,7 @@ mod tests {
             (Parameter::StopStiffness, Interval::held(7.0)),
             (Parameter::Clearance, range),
         ]
-        .map(|(parameter, range)| Axis { parameter, range });
+        .map(|(parameter, range)| Axis::new(parameter, range));
         let space = Space(&axes);
         assert_eq!(space.dimension(), 1);
         assert_eq!(space.values(&[0.0]), [7.0, 0.1]);
@@ -121,5 +156,16 @@ mod tests {
         assert_eq!(range.end(0.3), Some("upper"));
         assert_eq!(range.end(0.2), None);
         assert_eq!(Interval::held(2.0).end(2.0), None);
+    }
+
+    #[test]
+    fn catalogues_hold_their_values_alone() {
+        let axes = [Axis::of_catalogue(
+            Parameter::StopStiffness,
+            vec![3.0, 5.0, 9.0],
+        )];
+        let space = Space(&axes);
+        let found = [-0.5, 0.0, 0.33, 0.34, 0.66, 0.67, 1.0].map(|unit| space.values(&[unit])[0]);
+        assert_eq!(found, [3.0, 3.0, 3.0, 5.0, 5.0, 9.0, 9.0]);
     }
 }

@@ -4,13 +4,17 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 use serde_json::json;
+use softstop::Machine;
 use softstop_console::failure::Failure;
 use softstop_console::machine::{Regime, SceneSettings};
 use softstop_console::output::Format;
 use softstop_console::schema;
 use toml::{Table, Value};
 
+use super::leaves::{flatten, number, range};
 use super::named::Named;
+use super::wishes::Goal;
+use crate::design::figure::Figure;
 use crate::design::search::LEAST_EVALUATIONS;
 
 /// The keys of a file with their types, what the schema says of them, and what they are.
@@ -59,6 +63,29 @@ task! {
     bounds: Table, schema::keyed(json!({
         "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2
     }));
+    /// What is searched instead of the usual parameters: `clearance = [2, 22]`, `{ values = [5, 7, 9] }` of a
+    /// catalogue, `{ follows = "stop.stiffness", factor = 10 }`.
+    vary: Table, json!({ "type": "object" });
+    /// Half-widths of what cannot be made exactly: `clearance = 0.1` or `"2 %"`.
+    tolerance: Table, json!({ "type": "object" });
+    /// What is sought: `maximise` or `minimise` a figure.
+    objective: Goal, json!({
+        "type": "object",
+        "properties": { "maximise": { "type": "string" }, "minimise": { "type": "string" } },
+        "additionalProperties": false,
+        "maxProperties": 1
+    });
+    /// What must hold: a number, or `{ least = 10, most = 12 }`, for each figure.
+    require: Table, requirements_schema();
+    /// How to search.
+    search: Search, json!({
+        "type": "object",
+        "properties": {
+            "seed": { "type": "integer", "minimum": 0 },
+            "evaluations": { "type": "integer", "minimum": LEAST_EVALUATIONS }
+        },
+        "additionalProperties": false
+    });
     /// The rest of the paper's machine.
     scene: SceneSettings, schema::shorthands();
     /// Seed of the search.
@@ -71,7 +98,57 @@ task! {
     format: Option<Format>, schema::words::<Format>();
 }
 
+/// The table `[search]`.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Search {
+    /// Seed of the search.
+    pub seed: Option<u64>,
+    /// Zones that the search may compute.
+    pub evaluations: Option<u64>,
+}
+
+/// A bound of each figure.
+fn requirements_schema() -> serde_json::Value {
+    let bound = |figure: &Figure| {
+        let number = json!({ "type": "number" });
+        let bounds = json!({
+            "type": "object",
+            "properties": { "least": number, "most": number },
+            "additionalProperties": false,
+            "minProperties": 1
+        });
+        let value = match figure {
+            Figure::RunUp => json!({ "type": "boolean", "description": figure.meaning() }),
+            _ => json!({ "anyOf": [number, bounds], "description": figure.meaning() }),
+        };
+        (figure.name().to_owned(), value)
+    };
+    let figures: serde_json::Map<_, _> = Figure::ALL.iter().map(bound).collect();
+    json!({ "type": "object", "properties": figures, "additionalProperties": false })
+}
+
 impl Task {
+    /// The task that stands in a machine's file.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] naming the key.
+    pub(super) fn beside_machine(text: &str) -> Result<Self, Failure> {
+        let mut file: Table =
+            toml::from_str(text).map_err(|error| Failure::usage(error.to_string()))?;
+        file.retain(|key, _| Machine::TASK.contains(&key));
+        file.try_into()
+            .map_err(|error: toml::de::Error| Failure::usage(error.to_string()))
+    }
+
+    /// True if a machine's file says anything of a task.
+    pub(super) fn is_any(&self) -> bool {
+        let tables = [&self.vary, &self.tolerance, &self.require];
+        tables.iter().any(|table| !table.is_empty())
+            || self.objective != Goal::default()
+            || self.search != Search::default()
+    }
+
     /// What it says of the searched values, each as a range.
     pub(super) fn words(&self) -> Result<Vec<Named<[f64; 2]>>, Failure> {
         let mut words = Vec::new();
@@ -79,7 +156,7 @@ impl Task {
             (&self.fix, value as fn(&Value) -> Option<[f64; 2]>),
             (&self.bounds, range),
         ] {
-            flatten(table, "", &mut |name, value| {
+            flatten(table, "", &|_| false, &mut |name, value| {
                 let value = read(value).ok_or_else(|| {
                     Failure::usage(format!(
                         "{name} = {value}: fix holds a number, bounds a range [low, high]"
@@ -93,37 +170,8 @@ impl Task {
     }
 }
 
-/// Visits the values of a table and of those in it, by their dotted names.
-fn flatten(
-    table: &Table,
-    path: &str,
-    visit: &mut impl FnMut(String, &Value) -> Result<(), Failure>,
-) -> Result<(), Failure> {
-    for (key, value) in table {
-        let name = format!("{path}{key}");
-        match value {
-            Value::Table(inner) => flatten(inner, &format!("{name}."), visit)?,
-            value => visit(name, value)?,
-        }
-    }
-    Ok(())
-}
-
-fn number(value: &Value) -> Option<f64> {
-    value
-        .as_float()
-        .or_else(|| value.as_integer().map(|integer| integer as f64))
-}
-
 fn value(value: &Value) -> Option<[f64; 2]> {
     number(value).map(|number| [number, number])
-}
-
-fn range(value: &Value) -> Option<[f64; 2]> {
-    match value.as_array()?.as_slice() {
-        [low, high] => Some([number(low)?, number(high)?]),
-        _ => None,
-    }
 }
 
 #[cfg(test)]

@@ -3,10 +3,16 @@
 mod branch;
 mod chart;
 mod configuration;
+mod fill;
+mod layers;
+mod leaves;
 mod named;
+pub mod outcome;
 mod progress;
 pub mod reference;
+mod study;
 mod task;
+mod wishes;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -16,14 +22,19 @@ use softstop::{Dimension, Machine, Parameter, Start};
 use softstop_console::arguments::MachineArguments;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
+use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::Format;
+use softstop_dynamics::basin::ErosionProfile;
+use softstop_dynamics::run_up::RunUp;
 
 use crate::design::search::{self, SearchError};
 use crate::design::{Design, Problem};
-use crate::fmu::{archive, library};
+use crate::fmu::{archive, library, parameters};
+use crate::page::html;
 use crate::report::{self, OptimizeReport, SearchReport};
 use named::Named;
+use outcome::{ANGLES, EROSION_STARTS, Outcome, PLACES};
 use progress::Best;
 use task::Job;
 
@@ -91,6 +102,12 @@ pub struct OptimizeArguments {
     /// Zones to compute at most, at least 100; the search ends before when it gains nothing [default: 1200]
     #[arg(long, value_name = "N")]
     pub evaluations: Option<u64>,
+    /// Machines looked at within the tolerances
+    #[arg(long, value_name = "N", default_value_t = 1 << 20)]
+    pub samples: usize,
+    /// Search alone: without report.html, the basin along the zone and the trade-offs
+    #[arg(long)]
+    pub no_report: bool,
     /// Whether it goes on with an earlier one.
     #[command(flatten)]
     pub keep: KeepArguments,
@@ -106,8 +123,12 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         ("json", "design.json"),
         ("svg", "design.svg"),
         ("fmu", "design.fmu"),
+        ("toml", "design.toml"),
+        ("ssv", "design.ssv"),
+        ("html", "report.html"),
     ];
-    let export = Export::open(&job.output, &files)?;
+    let files = &files[..files.len() - usize::from(!job.report)];
+    let export = Export::open(&job.output, files)?;
     let library = library()?;
     let keep = Keep::open(&job.output, "optimize", &job.identity(), arguments.keep)?;
     let outcome = match solve(&job, &keep) {
@@ -123,14 +144,25 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let chart = chart::svg(design, job.problem.margin, beside);
     export.file("svg", chart.as_bytes())?;
     let start = Start::from(design.orbit.state());
-    export.file("fmu", &archive(&library, &named(design), start)?)?;
+    let machine = Machine {
+        start,
+        ..named(design)
+    };
+    export.file("fmu", &archive(&library, &machine, start)?)?;
+    export.file("toml", machine.to_toml().as_bytes())?;
+    export.file("ssv", parameters(&machine, start)?.as_bytes())?;
+    let study = study::study(&job.problem, design, job.samples)?;
+    if job.report {
+        let page = fill::report(&job, &outcome, &references, study.as_ref());
+        export.file("html", html(&page).map_err(anyhow::Error::from)?.as_bytes())?;
+    }
     let search = SearchReport {
         bounds: bounds(&job.problem),
         seed: job.settings.seed,
         evaluations: job.settings.evaluations,
         evaluations_used: outcome.evaluations,
     };
-    let report = OptimizeReport::new(&job.problem, design, &references, search);
+    let report = OptimizeReport::new(&job.problem, &outcome, &references, search);
     export.finish(&report, job.format)?;
     keep.forget();
     Ok(())
@@ -154,24 +186,44 @@ fn named(design: &Design) -> Machine {
     }
 }
 
-/// What came of a search.
-struct Outcome {
-    design: Design,
-    /// Zones that were computed.
-    evaluations: u64,
-}
-
 fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
-    let best = Best::new(&job.problem.machine, job.settings.evaluations);
+    let best = Best::new(&job.problem, job.settings.evaluations);
     let outcome = search::search(&job.problem, job.settings, &best, Some(keep));
     let evaluations = best.evaluations();
     drop(best);
-    let design = outcome.map_err(|error| match error {
+    let found = outcome.map_err(|error| match error {
         SearchError::Stopped => Failure::Interrupted,
         error => Failure::Run(error.into()),
     })?;
+    let design = &found.design;
+    let motion = design.judged().map_err(anyhow::Error::from)?;
+    let mut met = job.problem.met(&motion);
+    met.extend(
+        job.problem
+            .tried(&design.orbit)
+            .map_err(anyhow::Error::from)?,
+    );
+    let watcher = &interrupt::watch;
+    let (erosion, run_up) = match job.report {
+        false => (None, None),
+        true => rayon::join(
+            || {
+                let places = ErosionProfile::evenly(PLACES);
+                ErosionProfile::of(&design.zone, &places, EROSION_STARTS, watcher).ok()
+            },
+            || RunUp::of(&design.orbit, ANGLES, watcher).ok(),
+        ),
+    };
+    if interrupt::requested() {
+        return Err(Failure::Interrupted);
+    }
     Ok(Outcome {
-        design,
+        met,
+        design: found.design,
+        unit: found.unit,
+        erosion,
+        run_up,
+        rivals: found.rivals,
         evaluations,
     })
 }

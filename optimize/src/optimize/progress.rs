@@ -1,28 +1,32 @@
-//! The progress of a search: how many zones it has seen, the best velocity so far, and when it ends.
+//! The progress of a search: how many zones it has seen, the best so far, and when it ends.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crate::design::Problem;
+use crate::design::problem::Objective;
 use crate::design::search::Watch;
-use softstop::{Dimension, Machine};
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
 /// Watches a search.
 pub(super) struct Best {
     progress: Progress,
-    velocity: Mutex<f64>,
+    best: Mutex<Option<f64>>,
     evaluations: AtomicU64,
+    objective: Objective,
     unit: &'static str,
 }
 
 impl Best {
-    pub(super) fn new(machine: &Machine, evaluations: u64) -> Self {
+    pub(super) fn new(problem: &Problem, evaluations: u64) -> Self {
+        let objective = problem.objective;
         Self {
             progress: Progress::new(evaluations, "zones"),
-            velocity: Mutex::new(f64::NEG_INFINITY),
+            best: Mutex::new(None),
             evaluations: AtomicU64::new(0),
-            unit: machine.unit(Dimension::Velocity),
+            objective,
+            unit: problem.machine.unit(objective.figure.dimension()),
         }
     }
 
@@ -33,18 +37,19 @@ impl Best {
 }
 
 impl Watch for Best {
-    fn evaluated(&self, velocity: Option<f64>) {
+    fn evaluated(&self, value: Option<f64>) {
         self.evaluations.fetch_add(1, Ordering::Relaxed);
         self.progress.more(1);
-        let Some(velocity) = velocity else { return };
-        let Ok(mut best) = self.velocity.lock() else {
+        let Some(value) = value else { return };
+        let Ok(mut best) = self.best.lock() else {
             return;
         };
-        if velocity > *best {
-            *best = velocity;
-            let unit = self.unit;
+        let score = |value| self.objective.score(value);
+        if best.is_none_or(|best| score(value) > score(best)) {
+            *best = Some(value);
+            let (what, unit) = (self.objective.words(), self.unit);
             self.progress
-                .say(format!("best velocity {velocity:.4} {unit}").trim_end());
+                .say(format!("{what} {value:.4} {unit}").trim_end());
         }
     }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
-use softstop::{Dimension, Machine, Parameter};
+use softstop::Machine;
 use softstop_console::failure::Failure;
 use softstop_console::machine::{Regime, SceneSettings};
 use softstop_console::output::Format;
@@ -13,34 +13,13 @@ use softstop_console::scene_file;
 
 use super::OptimizeArguments;
 use super::configuration::Task;
-use super::named::Named;
+use super::layers;
+use super::wishes::{objective, requirements, tolerances};
 use crate::design::Problem;
+use crate::design::figure::Figure;
 use crate::design::search::{LEAST_EVALUATIONS, Settings};
-use crate::design::space::{Axis, Interval};
 
 const MARGIN: f64 = 0.25;
-/// What is searched if nothing else is said, in units of k1 and of F0/k1.
-const DEFAULTS: [(Parameter, Interval); 2] = [
-    (
-        Parameter::StopStiffness,
-        Interval {
-            low: 1.0,
-            high: 30.0,
-        },
-    ),
-    (
-        Parameter::Clearance,
-        Interval {
-            low: 2.0,
-            high: 22.0,
-        },
-    ),
-];
-/// No bound: the zone itself and the margin limit the frequency.
-const ANY: Interval = Interval {
-    low: f64::MIN_POSITIVE,
-    high: f64::INFINITY,
-};
 /// Zones to compute at most, unless that is said.
 const EVALUATIONS: u64 = 1200;
 const OUTPUT: &str = "softstop-design";
@@ -50,6 +29,10 @@ const OUTPUT: &str = "softstop-design";
 pub(super) struct Job {
     pub problem: Problem,
     pub settings: Settings,
+    /// Machines looked at within the tolerances.
+    pub samples: usize,
+    /// Whether there is to be a report.
+    pub report: bool,
     pub output: PathBuf,
     pub format: Format,
 }
@@ -57,22 +40,33 @@ pub(super) struct Job {
 impl Job {
     /// Joins command line, file and defaults.
     pub(super) fn new(arguments: &OptimizeArguments) -> Result<Self, Failure> {
-        let task: Task = match &arguments.config {
-            Some(path) => scene_file::read_toml(path)?,
-            None => Task::default(),
-        };
+        let task = task(arguments)?;
         let machine = machine(arguments, &task)?;
-        let margin = arguments.margin.or(task.margin).unwrap_or(MARGIN);
+        let tolerances = tolerances(&machine, &task.tolerance)?;
+        let mut requirements = requirements(&machine, &task.require)?;
+        let share = requirements.iter().find(|it| it.figure == Figure::Share);
+        let share = share.and_then(|it| it.least);
+        let says_where = tolerances.iter().any(|it| !it.is_exact())
+            || requirements.iter().any(|it| it.figure.is_margin());
+        let usual = if says_where { 0.0 } else { MARGIN };
+        let margin = arguments.margin.or(task.margin).or(share).unwrap_or(usual);
+        requirements.retain(|it| it.figure != Figure::Share);
         require(
             (0.0..=0.5).contains(&margin),
             "margin",
             margin,
             "in [0, 0.5]",
         )?;
-        let (axes, frequency) = axes(&machine, &[spoken(arguments), written(&task)?])?;
+        let (variables, links) = layers::variables(&machine, &task.vary)?;
+        let said = [
+            layers::spoken(arguments),
+            layers::written(&task, variables)?,
+        ];
+        let (axes, frequency) = layers::axes(&machine, &said, task.vary.is_empty())?;
         let evaluations = arguments
             .evaluations
             .or(task.evaluations)
+            .or(task.search.evaluations)
             .unwrap_or(EVALUATIONS);
         if evaluations < LEAST_EVALUATIONS {
             let message = format!("evaluations = {evaluations}: must be >= {LEAST_EVALUATIONS}");
@@ -84,11 +78,21 @@ impl Job {
                 margin,
                 axes,
                 frequency,
+                links,
+                tolerances,
+                objective: objective(&task.objective)?,
+                requirements,
             },
             settings: Settings {
-                seed: arguments.seed.or(task.seed).unwrap_or(0),
+                seed: arguments
+                    .seed
+                    .or(task.seed)
+                    .or(task.search.seed)
+                    .unwrap_or(0),
                 evaluations,
             },
+            samples: arguments.samples,
+            report: !arguments.no_report,
             output: arguments
                 .output
                 .clone()
@@ -107,9 +111,21 @@ impl Job {
             margin,
             axes,
             frequency,
+            links,
+            tolerances,
+            objective,
+            requirements,
         } = &self.problem;
+        let wishes = format!("{links:?} {tolerances:?} {objective:?} {requirements:?}");
         let axes = axes.iter();
-        let axes = axes.map(|axis| (axis.parameter.name(), axis.range.low, axis.range.high));
+        let axes = axes.map(|it| {
+            (
+                it.parameter.name(),
+                it.range.low,
+                it.range.high,
+                &it.catalogue,
+            )
+        });
         let axes: Vec<_> = axes.collect();
         let settings = (self.settings.seed, self.settings.evaluations);
         let frequency = (frequency.low, frequency.high);
@@ -120,8 +136,31 @@ impl Job {
             axes,
             frequency,
             settings,
+            wishes,
         )
     }
+}
+
+/// The task of `--config`, or the one that stands beside the machine in its file.
+fn task(arguments: &OptimizeArguments) -> Result<Task, Failure> {
+    let machine = arguments.machine.machine.as_ref();
+    let file = machine.filter(|path| Regime::called(path).is_none());
+    let beside = match file {
+        Some(path) => {
+            Task::beside_machine(&scene_file::text(path)?).map_err(|error| error.in_file(path))?
+        }
+        None => Task::default(),
+    };
+    let Some(path) = &arguments.config else {
+        return Ok(beside);
+    };
+    if beside.is_any() {
+        return Err(Failure::usage(format!(
+            "--config {}: the machine's file has a task of its own; only one of the two can be given",
+            path.display()
+        )));
+    }
+    scene_file::read_toml(path)
 }
 
 /// The command line's machine, or else the file's.
@@ -155,123 +194,4 @@ fn scene(task: &Task) -> Result<SceneSettings, Failure> {
     }
     scene.regime = task.regime.or(scene.regime);
     Ok(scene)
-}
-
-/// What one layer says about searched values. One that only states the machine's value has no range.
-struct Words {
-    ranges: Vec<Named<[f64; 2]>>,
-    stated: Vec<String>,
-}
-
-fn spoken(arguments: &OptimizeArguments) -> Words {
-    let held = arguments.fix.iter().map(|word| Named {
-        name: word.name.clone(),
-        value: [word.value, word.value],
-    });
-    Words {
-        ranges: arguments.bounds.iter().cloned().chain(held).collect(),
-        stated: arguments.machine.keys(),
-    }
-}
-
-fn written(task: &Task) -> Result<Words, Failure> {
-    let stated = task.scene.given().into_iter();
-    Ok(Words {
-        ranges: task.words()?,
-        stated: stated.map(|(name, _)| name.to_owned()).collect(),
-    })
-}
-
-/// The axes and the range of the drive's frequency. The first layer that speaks of a parameter decides; it
-/// may do so only once.
-fn axes(machine: &Machine, layers: &[Words]) -> Result<(Vec<Axis>, Interval), Failure> {
-    let mut ranges: Vec<(Parameter, Interval)> = Vec::new();
-    for words in layers {
-        let above = ranges.len();
-        for word in &words.ranges {
-            let stated = machine.stated(&word.name);
-            let (parameter, unit) = stated.map_err(|error| Failure::usage(error.to_string()))?;
-            if ranges[above..].iter().any(|(other, _)| *other == parameter) {
-                return Err(only_one(machine, parameter));
-            }
-            ranges.push((
-                parameter,
-                interval(machine, parameter, word.value.map(|end| end * unit))?,
-            ));
-        }
-        for name in &words.stated {
-            // What is stated of the machine is held, if the search would choose it.
-            let Ok(parameter) = machine.parameter(name) else {
-                continue;
-            };
-            let usual = DEFAULTS.iter().any(|(usual, _)| *usual == parameter);
-            let (true, Some(value)) = (
-                usual || parameter == Parameter::Frequency,
-                machine.value(parameter),
-            ) else {
-                continue;
-            };
-            if ranges[above..].iter().any(|(other, _)| *other == parameter) {
-                return Err(only_one(machine, parameter));
-            }
-            ranges.push((parameter, Interval::held(value)));
-        }
-    }
-    let first = |parameter| {
-        let mut all = ranges.iter();
-        all.find(|(other, _)| *other == parameter)
-            .map(|(_, range)| *range)
-    };
-    let frequency = first(Parameter::Frequency).unwrap_or(ANY);
-    let usual = DEFAULTS
-        .into_iter()
-        .filter(|(parameter, _)| machine.value(*parameter).is_some())
-        .map(|(parameter, range)| (parameter, scaled(machine, parameter, range)));
-    let mut axes: Vec<Axis> = Vec::new();
-    for (parameter, range) in usual.chain(ranges.iter().copied()) {
-        let known = axes.iter().any(|axis| axis.parameter == parameter);
-        if parameter != Parameter::Frequency && !known {
-            let range = first(parameter).unwrap_or(range);
-            axes.push(Axis { parameter, range });
-        }
-    }
-    Ok((axes, frequency))
-}
-
-fn only_one(machine: &Machine, parameter: Parameter) -> Failure {
-    let name = machine.name(parameter);
-    Failure::usage(format!(
-        "{name}: only one value to hold or one range can be given"
-    ))
-}
-
-fn interval(
-    machine: &Machine,
-    parameter: Parameter,
-    [low, high]: [f64; 2],
-) -> Result<Interval, Failure> {
-    let name = machine.name(parameter);
-    let allowed = parameter.about().allowed;
-    for value in [low, high] {
-        let checked = allowed.check(name, value);
-        checked.map_err(|error| Failure::usage(error.to_string()))?;
-    }
-    if low > high {
-        let message = format!("bounds {name} = {low}:{high}: low must be <= high");
-        return Err(Failure::usage(message));
-    }
-    Ok(Interval { low, high })
-}
-
-/// A range in units of k1 or F0/k1 in the machine's own units.
-fn scaled(machine: &Machine, parameter: Parameter, range: Interval) -> Interval {
-    let scene = &machine.scene;
-    let unit = match parameter.about().dimension {
-        Dimension::Stiffness => scene.stiffness,
-        _ => scene.excitation.amplitude / scene.stiffness,
-    };
-    Interval {
-        low: range.low * unit,
-        high: range.high * unit,
-    }
 }

@@ -1,13 +1,13 @@
-//! Where a motion loses its stability as the drive's frequency changes.
+//! Where a motion loses its stability as the drive's frequency, or another parameter, changes.
 
 use super::Frequencies;
-use crate::continuation::{BranchPoint, Follower, Heading, Test};
+use crate::continuation::{BranchPoint, Family, Follower, Heading, Test};
 use crate::orbit::{Orbit, OrbitError};
 use crate::watch::stop_if;
 
 /// Points after which a branch is given up.
 const LONGEST: usize = 400;
-/// How far from the scene's frequency a loss is looked for, as a factor.
+/// How far from the orbit's own value a loss is looked for, as a factor.
 const FARTHEST: f64 = 4.0;
 
 /// The first orbit, up or down from a stable z = 1 orbit, at which a test passes zero: s_SN by
@@ -20,9 +20,22 @@ pub fn loss_of_stability(
     heading: Heading,
     test: Test,
 ) -> Result<Option<BranchPoint>, OrbitError> {
-    let family = Frequencies(&orbit.scene);
-    let follower = Follower::new(&family, 1);
     let from = orbit.scene.excitation.frequency;
+    loss_along(&Frequencies(&orbit.scene), from, orbit, heading, test)
+}
+
+/// The same along the parameter of any family, of which the orbit has the value `from`.
+///
+/// # Errors
+/// As [`loss_of_stability`].
+pub fn loss_along<F: Family>(
+    family: &F,
+    from: f64,
+    orbit: &Orbit,
+    heading: Heading,
+    test: Test,
+) -> Result<Option<BranchPoint>, OrbitError> {
+    let follower = Follower::new(family, 1);
     let branch = follower.follow(orbit, from, heading, LONGEST, |point| {
         let ratio = point.parameter / from;
         stop_if(!point.is_stable() || !(1.0 / FARTHEST..=FARTHEST).contains(&ratio))

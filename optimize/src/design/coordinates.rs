@@ -1,0 +1,75 @@
+//! What the last stages of a search move: the axes that are no catalogues, and the place in the zone.
+
+use super::Design;
+use super::here::At;
+use super::problem::Problem;
+
+/// A design and its point of the unit cube.
+#[derive(Debug, Clone)]
+pub(super) struct Summit {
+    pub unit: Vec<f64>,
+    pub design: Design,
+}
+
+/// The coordinates that are moved.
+#[derive(Debug)]
+pub(super) struct Coordinates {
+    /// A point of the unit cube, of which those of catalogues stay.
+    unit: Vec<f64>,
+    /// Which are moved.
+    moved: Vec<usize>,
+    /// Whether the place is, too: the frequency is not held.
+    with_place: bool,
+}
+
+impl Coordinates {
+    /// Those about a point of the unit cube.
+    pub(super) fn new(problem: &Problem, unit: &[f64]) -> Self {
+        let free = problem.axes.iter().filter(|axis| !axis.range.is_held());
+        let moved = free
+            .enumerate()
+            .filter(|(_, axis)| axis.catalogue.is_empty());
+        Self {
+            unit: unit.to_vec(),
+            moved: moved.map(|(index, _)| index).collect(),
+            with_place: !problem.frequency.is_held(),
+        }
+    }
+
+    /// Those of a point of the cube and a place.
+    pub(super) fn start(&self, place: f64) -> Vec<f64> {
+        let moved = self.moved.iter().map(|index| self.unit[*index]);
+        moved.chain(self.with_place.then_some(place)).collect()
+    }
+
+    /// Those of a design.
+    pub(super) fn of(&self, summit: &Summit) -> Vec<f64> {
+        self.start(summit.design.place)
+    }
+
+    /// The ends of each.
+    pub(super) fn bounds(&self, problem: &Problem) -> Vec<(f64, f64)> {
+        let margin = problem.margin;
+        let place = self.with_place.then_some((margin, 1.0 - margin));
+        let moved = self.moved.iter().map(|_| (0.0, 1.0));
+        moved.chain(place).collect()
+    }
+
+    /// The point of the unit cube.
+    pub(super) fn unit(&self, at: &[f64]) -> Vec<f64> {
+        let mut unit = self.unit.clone();
+        for (index, coordinate) in self.moved.iter().zip(at) {
+            unit[*index] = *coordinate;
+        }
+        unit
+    }
+
+    /// The same for what computes there.
+    pub(super) fn at<'a>(&'a self, unit: &'a [f64], at: &[f64]) -> At<'a> {
+        At {
+            unit,
+            moved: &self.moved,
+            place: at.get(self.moved.len()).copied(),
+        }
+    }
+}

@@ -1,0 +1,231 @@
+//! Exact derivatives of figures by the coordinates of the search: the implicit function theorem on the motion and on the
+//! ends of its zone, and the chain rule through links and the place in the zone.
+
+use std::f64::consts::TAU;
+
+use softstop::Parameter;
+use softstop_dynamics::continuation::{Heading, Test};
+use softstop_dynamics::slopes::{self, Border, Slopes};
+use softstop_dynamics::zone::loss_of_stability;
+
+use super::box_window::Edge;
+use super::figure::Figure;
+use super::here::{At, Here};
+use super::judge::Judged;
+use super::problem::Problem;
+use super::slope::Slope;
+use super::space::Space;
+
+/// Derivatives at a point.
+pub(super) struct Exact {
+    slopes: Slopes,
+    /// By each coordinate, what changes of the parameters of `slopes`, in SI units.
+    directions: Vec<Vec<f64>>,
+    /// Derivatives of the drive's frequency by the coordinates, and of the ends of the zone.
+    pub(super) frequency: Vec<f64>,
+    g0: Vec<f64>,
+    sn: Vec<f64>,
+    /// The same of the place in the zone.
+    place: Vec<f64>,
+    /// By each coordinate, what changes of all parameters.
+    all: Vec<Vec<f64>>,
+}
+
+/// Distance, relative, within which two figures are the same one.
+const SAME: f64 = 1e-9;
+/// Change of a parameter, as a share of its range, by which what follows it is told: links are linear in what they
+/// follow, or its product with one more parameter.
+const CHANGE: f64 = 1e-2;
+
+impl Exact {
+    /// None where the motion has no derivatives.
+    pub(super) fn of(problem: &Problem, at: &At<'_>, here: &Here) -> Option<Self> {
+        let scene = &here.orbit.scene;
+        let mut parameters: Vec<Parameter> = Parameter::ALL.to_vec();
+        let all = directions(problem, at);
+        parameters.retain(|it| *it != Parameter::Frequency);
+        let is_moved =
+            |parameter: &Parameter| all.iter().any(|row| row[*parameter as usize] != 0.0);
+        parameters.retain(is_moved);
+        let part = |row: &Vec<f64>| {
+            parameters
+                .iter()
+                .map(|it| row[*it as usize])
+                .collect::<Vec<f64>>()
+        };
+        let mut directions: Vec<Vec<f64>> = all.iter().map(part).collect();
+        let g0 = Border::free(scene, true, &parameters).ok()?;
+        let sn = Border::critical(
+            &here.zone.scene,
+            1,
+            (Test::Fold, &here.zone.fold),
+            &parameters,
+        )
+        .ok()?;
+        let along = |border: &Border, row: &Vec<f64>| -dot(&border.normal, row);
+        let mut ends: Vec<[f64; 2]> = directions
+            .iter()
+            .map(|row| [along(&g0, row), along(&sn, row)])
+            .collect();
+        let width = here.zone.frequency_sn - here.zone.frequency_g0;
+        let share = here.place;
+        let mut place: Vec<f64> = Vec::new();
+        let mut frequency: Vec<f64> = Vec::new();
+        for [g0, sn] in &ends {
+            let moved = g0 + share * (sn - g0);
+            let is_placed = at.place.is_some();
+            frequency.push(if is_placed { moved } else { 0.0 });
+            place.push(if is_placed { 0.0 } else { -moved / width });
+        }
+        if at.place.is_some() {
+            directions.push(vec![0.0; parameters.len()]);
+            ends.push([0.0; 2]);
+            frequency.push(width);
+            place.push(1.0);
+        }
+        for (row, frequency) in directions.iter_mut().zip(&frequency) {
+            row.push(*frequency);
+        }
+        parameters.push(Parameter::Frequency);
+        Some(Self {
+            slopes: slopes::of(&here.orbit, &parameters).ok()?,
+            directions,
+            frequency,
+            g0: ends.iter().map(|ends| ends[0]).collect(),
+            sn: ends.iter().map(|ends| ends[1]).collect(),
+            place,
+            all,
+        })
+    }
+
+    /// The derivatives of a figure by the coordinates; none if it is not among those that have exact ones.
+    pub(super) fn by(&self, figure: Figure, motion: &Judged<'_>) -> Option<Vec<f64>> {
+        let slopes = &self.slopes;
+        let scene = &motion.orbit.scene;
+        let mass = scene.mass;
+        let per_second = scene.excitation.frequency / TAU;
+        let velocity = || {
+            Some(
+                &slopes
+                    .impacts
+                    .first()
+                    .filter(|_| slopes.impacts.len() == 1)?
+                    .velocity,
+            )
+        };
+        let energy = || {
+            let velocity = velocity()?;
+            let by = velocity.by.iter().map(|by| mass * velocity.value * by);
+            let own = 0.5 * velocity.value * velocity.value;
+            Some(self.plus(by.collect(), Parameter::Mass, own))
+        };
+        let power = |energy: Vec<f64>, value: f64| {
+            let by = energy.iter().map(|by| by * per_second).collect();
+            self.plus(by, Parameter::Frequency, value / TAU)
+        };
+        let total = |by: &Vec<f64>| Some(self.total(by));
+        let minus = |a: &[f64], b: &[f64]| Some(a.iter().zip(b).map(|(a, b)| a - b).collect());
+        match figure {
+            Figure::Velocity => total(&velocity()?.by),
+            Figure::ImpactEnergy => total(&energy()?),
+            Figure::ImpactPower => total(&power(energy()?, motion.stroke.impact_energy)),
+            Figure::DriveForce => total(&self.plus(
+                vec![0.0; slopes.parameters.len()],
+                Parameter::Amplitude,
+                1.0,
+            )),
+            Figure::DrivePower => total(&power(slopes.supplied.by.clone(), slopes.supplied.value)),
+            Figure::MaxPosition => total(&slopes.max_position.by),
+            Figure::Stroke => {
+                let pairs = slopes.max_position.by.iter().zip(&slopes.min_position.by);
+                total(&pairs.map(|(high, low)| high - low).collect())
+            }
+            Figure::StopForce => {
+                let peak = slopes.peak_force.as_ref()?;
+                let is_same =
+                    (peak.value - motion.stroke.stop_force).abs() <= SAME * peak.value.abs();
+                is_same.then(|| self.total(&peak.by))
+            }
+            Figure::CutThrough => {
+                let by = self.plus(slopes.max_position.by.clone(), Parameter::Clearance, -1.0);
+                total(&self.plus(by, Parameter::Thickness, -1.0))
+            }
+            Figure::FrequencyG0 => minus(&self.frequency, &self.g0),
+            Figure::FrequencySn => minus(&self.sn, &self.frequency),
+            Figure::FrequencyPd => {
+                let flip = loss_of_stability(motion.orbit, Heading::Down, Test::Flip).ok()??;
+                let parameters = &slopes.parameters[..slopes.parameters.len() - 1];
+                let border = Border::critical(scene, 1, (Test::Flip, &flip), parameters).ok()?;
+                let moved = |row: &Vec<f64>| dot(&border.normal, row);
+                let moved = self.directions.iter().map(moved);
+                Some(
+                    moved
+                        .zip(&self.frequency)
+                        .map(|(moved, own)| own + moved)
+                        .collect(),
+                )
+            }
+            Figure::Share if motion.place < 0.5 => Some(self.place.clone()),
+            Figure::Share => Some(self.place.iter().map(|by| -by).collect()),
+            _ => None,
+        }
+    }
+
+    /// How far the frequency is inside an edge of the tolerances, with its derivatives; `sign` is 1 above it.
+    pub(super) fn inside(&self, frequency: f64, edge: &Edge, sign: f64) -> Slope {
+        let moved = self.all.iter().map(|row| dot(&edge.by, row)).chain([0.0]);
+        let pairs = self.frequency.iter().zip(moved);
+        Slope {
+            value: sign * (frequency - edge.frequency) / edge.frequency,
+            by: pairs
+                .map(|(own, edge_moved)| sign * (own - edge_moved) / edge.frequency)
+                .collect(),
+        }
+    }
+
+    /// Derivatives by parameters, with one more by one of them.
+    fn plus(&self, mut by: Vec<f64>, parameter: Parameter, more: f64) -> Vec<f64> {
+        let index = self
+            .slopes
+            .parameters
+            .iter()
+            .position(|it| *it == parameter);
+        if let Some(by) = index.and_then(|index| by.get_mut(index)) {
+            *by += more;
+        }
+        by
+    }
+
+    /// The chain rule.
+    fn total(&self, by: &[f64]) -> Vec<f64> {
+        self.directions.iter().map(|row| dot(by, row)).collect()
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// By each coordinate of the cube that is moved, the change of all parameters in SI units.
+fn directions(problem: &Problem, at: &At<'_>) -> Vec<Vec<f64>> {
+    let free: Vec<usize> = (0..problem.axes.len())
+        .filter(|index| !problem.axes[*index].range.is_held())
+        .collect();
+    let values = Space(&problem.axes).values(at.unit);
+    let aside = |axis: usize, by: f64| {
+        let mut values = values.clone();
+        let range = problem.axes[axis].range;
+        values[axis] += by * (range.high - range.low);
+        let scene = problem.machine_at(&values).scene;
+        Parameter::ALL.map(|parameter| parameter.get(&scene).unwrap_or(0.0))
+    };
+    let row = |index: &usize| {
+        let axis = free[*index];
+        let (before, after) = (aside(axis, -CHANGE), aside(axis, CHANGE));
+        let pairs = before.iter().zip(&after);
+        pairs
+            .map(|(before, after)| (after - before) / (2.0 * CHANGE))
+            .collect()
+    };
+    at.moved.iter().map(row).collect()
+}

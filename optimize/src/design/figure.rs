@@ -1,0 +1,99 @@
+//! What a design is judged by: one list of names, units, senses and meanings.
+
+use softstop::Dimension;
+
+/// On which side of a bound a figure is good.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sense {
+    /// More is better.
+    Least,
+    /// Less is better.
+    Most,
+}
+
+macro_rules! figures {
+    ($($figure:ident $name:literal, $dimension:ident, $sense:ident, $trial:literal, $meaning:literal;)*) => {
+        /// A figure of a design.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum Figure {
+            $(#[doc = concat!("`", $name, "`: ", $meaning, ".")] $figure,)*
+        }
+
+        impl Figure {
+            /// All of them.
+            pub const ALL: &[Self] = &[$(Self::$figure),*];
+
+            /// Its key in task files and in JSON.
+            pub const fn name(self) -> &'static str {
+                match self { $(Self::$figure => $name),* }
+            }
+
+            /// What it measures.
+            pub const fn dimension(self) -> Dimension {
+                match self { $(Self::$figure => Dimension::$dimension),* }
+            }
+
+            /// Which side is good, where a task gives a bare number.
+            pub const fn sense(self) -> Sense {
+                match self { $(Self::$figure => Sense::$sense),* }
+            }
+
+            /// True if it takes many simulated motions: it has no derivative.
+            pub const fn is_trial(self) -> bool {
+                match self { $(Self::$figure => $trial),* }
+            }
+
+            /// What it is, in a few words.
+            pub const fn meaning(self) -> &'static str {
+                match self { $(Self::$figure => $meaning),* }
+            }
+        }
+    };
+}
+
+figures! {
+    Velocity "velocity", Velocity, Least, false, "before-impact velocity";
+    ImpactEnergy "impact_energy", Energy, Least, false, "kinetic energy before the impact";
+    ImpactPower "impact_power", Power, Least, false, "impact energy per second";
+    StrokeWork "stroke_work", Energy, Least, false, "work done on the strip in a stroke";
+    DriveForce "drive_force", Force, Most, false, "drive amplitude";
+    DrivePower "drive_power", Power, Most, false, "mean power of the drive";
+    MaxPosition "max_position", Length, Most, false, "largest position X_m";
+    Stroke "stroke", Length, Most, false, "largest less smallest position";
+    StopForce "stop_force", Force, Most, false, "peak force of contact";
+    CutThrough "cut_through", Length, Least, false, "X_m beyond the end of the strip";
+    RigidGap "rigid_gap", Length, Least, false, "distance from X_m to the rigid stop behind";
+    Multiplier "largest_multiplier", Number, Most, false, "largest multiplier |mu|";
+    Share "margin", Number, Least, false, "distance from both ends of the zone, as a share of it";
+    FrequencyG0 "margin_g0", Frequency, Least, false, "frequency above the grazing boundary g0";
+    FrequencySn "margin_sn", Frequency, Least, false, "frequency below the fold s_SN";
+    FrequencyPd "margin_pd", Frequency, Least, false, "frequency above the flip s_PD";
+    ClearanceG0 "clearance_margin_g0", Length, Least, false, "clearance above the grazing boundary g0";
+    ClearanceSn "clearance_margin_sn", Length, Least, false, "clearance below the fold s_SN";
+    ClearancePd "clearance_margin_pd", Length, Least, false, "clearance above the flip s_PD";
+    Certainty "certainty", Number, Least, true, "share of starts that lead to the motion";
+    RunUp "run_up", Number, Least, true, "ways to run up from rest into the motion";
+    MissingStrips "missing_strips", Number, Least, true, "strips in a row that may be missing at any drive angle";
+}
+
+impl Figure {
+    /// The one of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|it| it.name() == name)
+    }
+
+    /// True if it is a distance from where the motion is lost.
+    pub const fn is_margin(self) -> bool {
+        matches!(
+            self,
+            Self::Share
+                | Self::FrequencyG0
+                | Self::FrequencySn
+                | Self::FrequencyPd
+                | Self::ClearanceG0
+                | Self::ClearanceSn
+                | Self::ClearancePd
+        )
+    }
+}

@@ -1,0 +1,87 @@
+//! The motion at a point of the search.
+
+use softstop::{Dimension, Machine, Parameter};
+use softstop_dynamics::{Orbit, Zone};
+
+use super::Design;
+use super::box_window::BoxWindow;
+use super::judge::Judged;
+use super::problem::Problem;
+use super::space::Space;
+
+/// A point of the search: the cube's coordinates, those of them that are moved, and the place in the zone, if the
+/// frequency is not held.
+#[derive(Debug, Clone, Copy)]
+pub struct At<'a> {
+    /// Coordinates of the unit cube.
+    pub unit: &'a [f64],
+    /// Which of them are moved.
+    pub moved: &'a [usize],
+    /// Place in the zone.
+    pub place: Option<f64>,
+}
+
+/// What rounding may do to a place.
+const ROUNDING: f64 = 1e-12;
+
+/// The stable motion of a point.
+#[derive(Debug)]
+pub(super) struct Here {
+    machine: Machine,
+    pub(super) zone: Zone,
+    pub(super) place: f64,
+    pub(super) orbit: Orbit,
+}
+
+impl Here {
+    /// None if there is no stable motion.
+    pub(super) fn find(problem: &Problem, at: &At<'_>) -> Option<Self> {
+        let values = Space(&problem.axes).values(at.unit);
+        let mut machine = problem.machine_at(&values);
+        machine.validate().ok()?;
+        let zone = problem.zone(&machine).ok()?;
+        let held = || {
+            let frequency = machine.to_si(Dimension::Frequency, problem.frequency.low);
+            (frequency - zone.frequency_g0) / (zone.frequency_sn - zone.frequency_g0)
+        };
+        let place = at.place.unwrap_or_else(held);
+        let point = zone.point_at(place).ok()?;
+        let orbit = zone.orbit(&point).ok()?;
+        if !(orbit.is_stable() || place >= 1.0) {
+            return None;
+        }
+        Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(place));
+        Some(Self {
+            machine,
+            zone,
+            place,
+            orbit,
+        })
+    }
+
+    pub(super) fn judged(&self) -> Option<Judged<'_>> {
+        Judged::new(&self.machine, &self.zone, self.place, &self.orbit).ok()
+    }
+
+    /// True if margin, bounds of the frequency and tolerances allow the place.
+    pub(super) fn is_within(&self, problem: &Problem) -> bool {
+        let window = problem.window(&self.machine, &self.zone);
+        window.is_ok_and(|it| (it.low - ROUNDING..=it.high + ROUNDING).contains(&self.place))
+    }
+
+    /// Where the tolerances stay inside the zone.
+    pub(super) fn box_window(&self, problem: &Problem) -> Option<BoxWindow> {
+        BoxWindow::of(problem, &self.machine, &self.zone).ok()
+    }
+
+    /// The same as a design.
+    pub(super) fn design(&self, value: f64) -> Design {
+        Design {
+            machine: self.machine.clone(),
+            place: self.place,
+            zone: self.zone.clone(),
+            orbit: self.orbit.clone(),
+            value,
+        }
+    }
+}

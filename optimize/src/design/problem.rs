@@ -1,0 +1,165 @@
+//! What is searched: the machine, what may change of it, what is sought and what must hold.
+
+use softstop::{Machine, Parameter};
+
+use super::figure::{Figure, Sense};
+use super::requirement::Requirement;
+use super::space::{Axis, Interval};
+
+/// What is searched, and where. All values are in the machine's own units.
+#[derive(Debug, Clone)]
+pub struct Problem {
+    /// The machine; what is searched of it plays no part.
+    pub machine: Machine,
+    /// Least distance M of s from 0 and 1, in [0, 0.5].
+    pub margin: f64,
+    /// The parameters that the search may choose, but the drive's frequency.
+    pub axes: Vec<Axis>,
+    /// Drive frequency, intersected with the zone.
+    pub frequency: Interval,
+    /// Parameters that follow others.
+    pub links: Vec<Link>,
+    /// What cannot be made exactly.
+    pub tolerances: Vec<Tolerance>,
+    /// What is sought.
+    pub objective: Objective,
+    /// What must hold.
+    pub requirements: Vec<Requirement>,
+}
+
+/// A parameter that follows another one, in the machine's own units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Link {
+    /// Which.
+    pub parameter: Parameter,
+    /// The other one.
+    pub follows: Parameter,
+    /// How often it holds the other.
+    pub factor: f64,
+    /// What is added.
+    pub offset: f64,
+}
+
+/// How far a parameter may be from its value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// Which.
+    pub parameter: Parameter,
+    /// How far on either side.
+    pub width: Width,
+}
+
+impl Tolerance {
+    /// True if its width is zero.
+    pub fn is_exact(&self) -> bool {
+        matches!(self.width, Width::Own(0.0) | Width::Share(0.0))
+    }
+}
+
+/// Half of a tolerance's width.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Width {
+    /// In the machine's own units.
+    Own(f64),
+    /// As a share of the value.
+    Share(f64),
+}
+
+impl Width {
+    /// True if it can be one.
+    pub fn is_allowed(&self) -> bool {
+        match self {
+            Self::Own(width) => width.is_finite() && *width >= 0.0,
+            Self::Share(share) => (0.0..1.0).contains(share),
+        }
+    }
+
+    /// Around a value, in the units of the value.
+    pub fn around(&self, value: f64) -> f64 {
+        match self {
+            Self::Own(width) => *width,
+            Self::Share(share) => share * value.abs(),
+        }
+    }
+}
+
+/// What is sought.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Objective {
+    /// Of what.
+    pub figure: Figure,
+    /// [`Sense::Least`]: as much as can be, [`Sense::Most`]: as little.
+    pub sense: Sense,
+}
+
+impl Default for Objective {
+    /// The highest before-impact velocity.
+    fn default() -> Self {
+        Self {
+            figure: Figure::Velocity,
+            sense: Sense::Least,
+        }
+    }
+}
+
+impl Objective {
+    /// The grade of a value, positive and the higher the better.
+    pub fn score(&self, value: f64) -> f64 {
+        match self.sense {
+            Sense::Least => value,
+            Sense::Most => value.recip(),
+        }
+    }
+
+    /// As a phrase after "the design with".
+    pub fn words(&self) -> String {
+        let most = match self.sense {
+            Sense::Least => "highest",
+            Sense::Most => "least",
+        };
+        format!("{most} {}", self.figure.meaning())
+    }
+}
+
+impl Problem {
+    /// The highest before-impact velocity of a machine anywhere in its zone.
+    pub fn of(machine: Machine, axes: Vec<Axis>) -> Self {
+        Self {
+            machine,
+            margin: 0.0,
+            axes,
+            frequency: Interval {
+                low: f64::MIN_POSITIVE,
+                high: f64::INFINITY,
+            },
+            links: Vec::new(),
+            tolerances: Vec::new(),
+            objective: Objective::default(),
+            requirements: Vec::new(),
+        }
+    }
+
+    /// The machine with these values of the axes.
+    pub fn machine_at(&self, values: &[f64]) -> Machine {
+        let mut machine = self.machine.clone();
+        for (axis, value) in self.axes.iter().zip(values) {
+            machine.set(axis.parameter, *value);
+        }
+        self.link(&mut machine);
+        machine
+    }
+
+    /// Sets what follows.
+    pub fn link(&self, machine: &mut Machine) {
+        for link in &self.links {
+            if let Some(value) = machine.value(link.follows) {
+                machine.set(link.parameter, link.factor * value + link.offset);
+            }
+        }
+    }
+
+    /// True if nothing is asked of a motion but its velocity and its place in the zone.
+    pub fn is_plain(&self) -> bool {
+        self.objective == Objective::default() && self.requirements.is_empty()
+    }
+}

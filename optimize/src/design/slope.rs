@@ -1,0 +1,31 @@
+//! A value with its derivatives.
+
+/// A value, and its derivatives by the coordinates of the search.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slope {
+    /// The value.
+    pub value: f64,
+    /// Its derivatives.
+    pub by: Vec<f64>,
+}
+
+impl Slope {
+    /// How far it lies beyond a bound, in units of that.
+    pub(super) fn beyond(&self, bound: f64, sign: f64) -> Self {
+        if self.value.is_infinite() {
+            return Self {
+                value: sign * self.value.signum(),
+                by: vec![0.0; self.by.len()],
+            };
+        }
+        let unit = if bound == 0.0 {
+            self.value.abs().max(f64::MIN_POSITIVE)
+        } else {
+            bound.abs()
+        };
+        Self {
+            value: sign * (self.value - bound) / unit,
+            by: self.by.iter().map(|by| sign * by / unit).collect(),
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! The report's data from what a run has found.
+
+mod parts;
+
+use rayon::join;
+use softstop::{Dimension, Machine, Parameter};
+use softstop_console::table::number;
+use softstop_dynamics::Orbit;
+
+use super::outcome::Outcome;
+use super::reference::Reference;
+use super::study::Study;
+use super::task::Job;
+use crate::design::Design;
+use crate::design::problem::Problem;
+use crate::page::computed::{basin, comparison, portrait, response};
+use crate::page::data::{self, Fact, Report};
+use crate::report::at_limits;
+use parts::{erosion, fronts, histogram, maps, requirement, run_up, speed, told};
+
+/// All that is told of a design.
+pub(super) fn report(
+    job: &Job,
+    outcome: &Outcome,
+    references: &[Reference],
+    study: Option<&Study>,
+) -> Report {
+    let design = &outcome.design;
+    let machine = &design.machine;
+    let problem = &job.problem;
+    let chosen: Vec<Parameter> = chosen(problem);
+    let others: Vec<(String, &Machine, &Orbit)> = references
+        .iter()
+        .map(|it| (it.name.to_owned(), &it.machine, &it.orbit))
+        .collect();
+    let named: Vec<(String, Machine)> = references
+        .iter()
+        .map(|it| (it.name.to_owned(), it.machine.clone()))
+        .collect();
+    let ((maps, response), (basin, fronts)) = join(
+        || join(|| maps(problem, design), || response(design, &named)),
+        || join(|| basin(design).ok(), || fronts(problem, outcome)),
+    );
+    Report {
+        machine: machine.name.clone().unwrap_or_else(|| "machine".to_owned()),
+        task: task(problem),
+        warnings: warnings(problem, outcome, study),
+        highlights: highlights(problem, design),
+        comparison: Some(comparison(design, &chosen, &others)),
+        limit: limit(problem, outcome),
+        requirements: outcome
+            .met
+            .iter()
+            .map(|it| requirement(machine, it))
+            .collect(),
+        maps,
+        response: Some(data::Response {
+            tolerance: speed(problem, design),
+            ..response
+        }),
+        portrait: Some(portrait(design)),
+        basin,
+        erosion: outcome
+            .erosion
+            .as_ref()
+            .map(|it| erosion(problem, outcome, it)),
+        fronts,
+        histogram: study.map(|it| histogram(machine, it)),
+        sensitivities: Vec::new(),
+        run_up: outcome
+            .run_up
+            .iter()
+            .flat_map(|it| &it.ways)
+            .map(|it| run_up(machine, it))
+            .collect(),
+        computed: computed(job, outcome, study),
+    }
+}
+
+/// The parameters that the search has set.
+fn chosen(problem: &Problem) -> Vec<Parameter> {
+    let axes = problem.axes.iter().filter(|axis| !axis.range.is_held());
+    let links = problem.links.iter().map(|link| link.parameter);
+    let frequency = (!problem.frequency.is_held()).then_some(Parameter::Frequency);
+    axes.map(|axis| axis.parameter)
+        .chain(links)
+        .chain(frequency)
+        .collect()
+}
+
+fn task(problem: &Problem) -> String {
+    let machine = &problem.machine;
+    let axes = problem.axes.iter().filter(|axis| !axis.range.is_held());
+    let axes = axes.map(|axis| {
+        let unit = machine.unit(axis.parameter.about().dimension);
+        match axis.catalogue.len() {
+            0 => format!(
+                "{} from {} {unit}",
+                machine.name(axis.parameter),
+                axis.range
+            ),
+            count => format!("{} one of {count} values", machine.name(axis.parameter)),
+        }
+    });
+    let frequency = problem.frequency;
+    let unit = machine.unit(Dimension::Frequency);
+    let speed = frequency.high.is_finite().then(|| {
+        let joint = if frequency.is_held() { "at" } else { "from" };
+        format!(
+            "{} {joint} {frequency} {unit}",
+            machine.name(Parameter::Frequency)
+        )
+    });
+    let within: Vec<String> = axes
+        .chain(speed)
+        .map(|it| it.trim_end().to_owned())
+        .collect();
+    let margin = match problem.margin {
+        0.0 => String::new(),
+        margin => format!(", at least {margin} of the zone's width from both of its ends"),
+    };
+    format!(
+        "The {} with {}{margin}.",
+        problem.objective.words(),
+        within.join(", ")
+    )
+}
+
+fn warnings(problem: &Problem, outcome: &Outcome, study: Option<&Study>) -> Vec<String> {
+    let figure = problem.objective.figure;
+    let rivals = outcome.rivals.iter().map(|rival| {
+        let axes = problem.axes.iter().map(|axis| axis.parameter);
+        let axes = axes.chain([Parameter::Frequency]);
+        let place: Vec<String> = axes
+            .filter_map(|it| Some(format!("{} = {}", rival.machine.name(it), number(rival.machine.value(it)?))))
+            .collect();
+        format!(
+            "Another design, far from this one, is nearly as good: {} at {}. A small change of the task may lead there.",
+            told(&rival.machine, figure.dimension(), rival.value),
+            place.join(", ")
+        )
+    });
+    let lost = study.filter(|it| it.verdict.lost > 0).map(|it| {
+        format!(
+            "{} of {} machines within the tolerances lose the motion.",
+            it.verdict.lost, it.verdict.machines
+        )
+    });
+    rivals.chain(lost).collect()
+}
+
+fn highlights(problem: &Problem, design: &Design) -> Vec<Fact> {
+    let machine = &design.machine;
+    let zone = &design.zone;
+    let frequency = design.orbit.scene.excitation.frequency;
+    let figure = problem.objective.figure;
+    let fact = |name: &str, dimension, value| Fact {
+        name: name.to_owned(),
+        value: told(machine, dimension, value),
+    };
+    let below = Dimension::Frequency;
+    vec![
+        fact(figure.meaning(), figure.dimension(), design.value),
+        fact("drive frequency", below, frequency),
+        fact(
+            "below the fold s_SN by",
+            below,
+            zone.frequency_sn - frequency,
+        ),
+        fact(
+            "above the grazing boundary g0 by",
+            below,
+            frequency - zone.frequency_g0,
+        ),
+    ]
+}
+
+fn limit(problem: &Problem, outcome: &Outcome) -> Option<String> {
+    let limits = at_limits(problem, outcome);
+    let objective = problem.objective.words();
+    match &limits[..] {
+        [] => Some(format!(
+            "Nothing holds the design back: the {objective} lies inside all bounds."
+        )),
+        [one] => Some(format!("What holds the design back is {one}.")),
+        [most @ .., last] => Some(format!(
+            "What holds the design back are {} and {last}.",
+            most.join(", ")
+        )),
+    }
+}
+
+fn computed(job: &Job, outcome: &Outcome, study: Option<&Study>) -> Vec<Fact> {
+    let fact = |name: &str, value: String| Fact {
+        name: name.to_owned(),
+        value,
+    };
+    let samples = study.map(|it| {
+        let words = format!(
+            "{} machines, Owen-scrambled Sobol points",
+            it.verdict.machines
+        );
+        fact("tolerances", words)
+    });
+    let all = [
+        fact("program", format!("softstop {}", env!("CARGO_PKG_VERSION"))),
+        fact(
+            "motions",
+            "exact between crossings; crossings proven; figures to some 1e-10".to_owned(),
+        ),
+        fact(
+            "search",
+            format!(
+                "{} hysteresis zones (lattice, particle swarm, gradients, Nelder-Mead), seed {}",
+                outcome.evaluations, job.settings.seed
+            ),
+        ),
+    ];
+    all.into_iter().chain(samples).collect()
+}

@@ -1,0 +1,288 @@
+//! What a task wishes of the design: the tables `[vary]`, `[tolerance]`, `[objective]` and `[require]`.
+
+use serde::Deserialize;
+use softstop::{Machine, Parameter};
+use softstop_console::failure::Failure;
+use toml::{Table, Value};
+
+use super::leaves::{flatten, number, range};
+use super::named::Named;
+use crate::design::figure::{Figure, Sense};
+use crate::design::problem::{Link, Objective, Tolerance, Width};
+use crate::design::requirement::Requirement;
+
+/// What `[vary]` says of one parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Variable {
+    /// It is searched from one value to another; a single value is held.
+    Range([f64; 2]),
+    /// It is one of these.
+    Catalogue(Vec<f64>),
+    /// It follows another parameter.
+    Follows(Follow),
+}
+
+/// `{ follows = "stop.stiffness", factor = 2e-5 }`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Follow {
+    follows: String,
+    factor: f64,
+    #[serde(default)]
+    offset: f64,
+}
+
+/// What `[vary]` holds, in the file's order of keys.
+pub(super) fn variables(table: &Table) -> Result<Vec<Named<Variable>>, Failure> {
+    let mut found = Vec::new();
+    leaves(table, |name, value| {
+        let wrong = || {
+            Failure::usage(format!(
+                "vary.{name} = {value}: must be a range [low, high], a number to hold, {{ values = [a, b, c] }} of \
+                 a catalogue, or {{ follows = KEY, factor = NUMBER }}"
+            ))
+        };
+        let variable = match value {
+            Value::Table(words) if words.contains_key("values") && words.len() == 1 => {
+                let values = words["values"]
+                    .as_array()
+                    .map(|values| values.iter().map(number));
+                let values: Option<Vec<f64>> = values.and_then(Iterator::collect);
+                let mut values = values.filter(|it| !it.is_empty()).ok_or_else(wrong)?;
+                values.sort_by(f64::total_cmp);
+                values.dedup();
+                Variable::Catalogue(values)
+            }
+            Value::Table(words) => {
+                let follow = words.clone().try_into().map_err(|_| wrong())?;
+                Variable::Follows(follow)
+            }
+            value => {
+                let held = number(value).map(|value| [value, value]);
+                Variable::Range(range(value).or(held).ok_or_else(wrong)?)
+            }
+        };
+        found.push(Named {
+            name,
+            value: variable,
+        });
+        Ok(())
+    })?;
+    Ok(found)
+}
+
+/// Visits what a table says of each parameter; `{ values = … }` and `{ follows = … }` are said of one.
+fn leaves(
+    table: &Table,
+    mut visit: impl FnMut(String, &Value) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let says = |value: &Table| {
+        ["values", "follows", "factor", "least", "most"]
+            .iter()
+            .any(|key| value.contains_key(*key))
+    };
+    flatten(table, "", &says, &mut visit)
+}
+
+/// The link of one parameter to another, in the machine's own units.
+pub(super) fn link(machine: &Machine, name: &str, follow: &Follow) -> Result<Link, Failure> {
+    let of = |name: &str| {
+        let stated = machine.stated(name);
+        stated.map_err(|error| Failure::usage(format!("vary.{error}")))
+    };
+    let (parameter, unit) = of(name)?;
+    let (follows, other) = of(&follow.follows)?;
+    if !(follow.factor.is_finite() && follow.offset.is_finite()) || parameter == follows {
+        return Err(Failure::usage(format!(
+            "vary.{name}: must follow another parameter by a finite factor and offset"
+        )));
+    }
+    Ok(Link {
+        parameter,
+        follows,
+        factor: follow.factor * unit / other,
+        offset: follow.offset * unit,
+    })
+}
+
+/// `[tolerance]`: half-widths in the machine's own units, or shares of the value such as `"2 %"`.
+pub(super) fn tolerances(machine: &Machine, table: &Table) -> Result<Vec<Tolerance>, Failure> {
+    let mut found: Vec<Tolerance> = Vec::new();
+    leaves(table, |name, value| {
+        let stated = machine.stated(&name);
+        let (parameter, unit) =
+            stated.map_err(|error| Failure::usage(format!("tolerance.{error}")))?;
+        let width = match value {
+            Value::String(share) => {
+                let share = share.trim().strip_suffix('%').map(str::trim);
+                let share = share.and_then(|share| share.parse().ok());
+                share.map(|share: f64| Width::Share(share / 100.0))
+            }
+            value => number(value).map(|width| Width::Own(width * unit)),
+        };
+        let width = width.filter(Width::is_allowed).ok_or_else(|| {
+            Failure::usage(format!(
+                "tolerance.{name} = {value}: must be a half-width, finite and >= 0, or a share such as \"2 %\", below 100 %"
+            ))
+        })?;
+        if found.iter().any(|other| other.parameter == parameter) {
+            return Err(Failure::usage(format!("tolerance.{name}: is given twice")));
+        }
+        found.push(Tolerance { parameter, width });
+        Ok(())
+    })?;
+    Ok(found)
+}
+
+/// `[objective]`.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Goal {
+    maximise: Option<String>,
+    minimise: Option<String>,
+}
+
+/// What is sought: the highest before-impact velocity, if nothing is said.
+pub(super) fn objective(goal: &Goal) -> Result<Objective, Failure> {
+    let (name, sense, says) = match (&goal.maximise, &goal.minimise) {
+        (None, None) => return Ok(Objective::default()),
+        (Some(name), None) => (name, Sense::Least, "maximise"),
+        (None, Some(name)) => (name, Sense::Most, "minimise"),
+        (Some(_), Some(_)) => {
+            return Err(Failure::usage(
+                "objective: only one of maximise and minimise can be given",
+            ));
+        }
+    };
+    let figure = known(&format!("objective.{says}"), name)?;
+    let is_sought = matches!(
+        figure,
+        Figure::Velocity
+            | Figure::ImpactEnergy
+            | Figure::ImpactPower
+            | Figure::StrokeWork
+            | Figure::DriveForce
+            | Figure::DrivePower
+            | Figure::StopForce
+    );
+    if !is_sought {
+        return Err(Failure::usage(format!(
+            "objective.{says} = {name}: must be velocity, impact_energy, impact_power, stroke_work, drive_force, \
+             drive_power or stop_force; what else counts goes to [require]"
+        )));
+    }
+    Ok(Objective { figure, sense })
+}
+
+fn known(place: &str, name: &str) -> Result<Figure, Failure> {
+    Figure::named(name).ok_or_else(|| {
+        let names: Vec<&str> = Figure::ALL.iter().map(|it| it.name()).collect();
+        Failure::usage(format!(
+            "{place} {name}: must be one of {}",
+            names.join(", ")
+        ))
+    })
+}
+
+/// `{ least = 10, most = 12 }`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Bounds {
+    least: Option<f64>,
+    most: Option<f64>,
+}
+
+/// `[require]`, in SI units.
+pub(super) fn requirements(machine: &Machine, table: &Table) -> Result<Vec<Requirement>, Failure> {
+    let one = |(name, value): (&String, &Value)| {
+        let figure = known("require:", name)?;
+        let wrong = |what: &str| Failure::usage(format!("require.{name} = {value}: {what}"));
+        let (least, most) = match (value, figure.sense()) {
+            (Value::Boolean(true), _) if figure == Figure::RunUp => (Some(1.0), None),
+            (Value::Boolean(false), _) if figure == Figure::RunUp => (Some(0.0), None),
+            (Value::Table(words), _) => {
+                let bounds: Bounds = words
+                    .clone()
+                    .try_into()
+                    .map_err(|_| wrong("must be a number, or { least = NUMBER, most = NUMBER }"))?;
+                (bounds.least, bounds.most)
+            }
+            (value, sense) => match (number(value), sense) {
+                (Some(least), Sense::Least) => (Some(least), None),
+                (Some(most), Sense::Most) => (None, Some(most)),
+                (None, _) => {
+                    return Err(wrong(
+                        "must be a number, or { least = NUMBER, most = NUMBER }",
+                    ));
+                }
+            },
+        };
+        let given = [least, most].into_iter().flatten();
+        if given.clone().count() == 0 || given.clone().any(|bound| !bound.is_finite()) {
+            return Err(wrong("must have a finite bound"));
+        }
+        if let (Some(least), Some(most)) = (least, most)
+            && least > most
+        {
+            return Err(wrong("least must be <= most"));
+        }
+        allowed(figure, given).map_err(wrong)?;
+        let si = |bound: f64| machine.to_si(figure.dimension(), bound);
+        Ok(Requirement {
+            figure,
+            least: least.map(si),
+            most: most.map(si),
+        })
+    };
+    let all: Result<Vec<Requirement>, Failure> = table.iter().map(one).collect();
+    let all = all?;
+    for requirement in &all {
+        if let Some(lacks) = lacks(machine, requirement.figure) {
+            let name = requirement.figure.name();
+            return Err(Failure::usage(format!(
+                "require.{name}: this machine has no {lacks}"
+            )));
+        }
+    }
+    Ok(all)
+}
+
+/// Where bounds of a figure can lie.
+fn allowed(figure: Figure, bounds: impl Iterator<Item = f64>) -> Result<(), &'static str> {
+    let (low, high, words) = match figure {
+        Figure::Share => (0.0, 0.5, "must be in [0, 0.5]"),
+        Figure::Certainty => (0.0, 1.0, "must be in [0, 1]"),
+        Figure::Multiplier => (0.0, 1.0, "must be in [0, 1]"),
+        Figure::RunUp => (0.0, 1.0, "must be true or false"),
+        Figure::MissingStrips => (0.0, 100.0, "must be in [0, 100]"),
+        _ => return Ok(()),
+    };
+    for bound in bounds {
+        if !(low..=high).contains(&bound) {
+            return Err(words);
+        }
+        if figure == Figure::MissingStrips && bound.fract() != 0.0 {
+            return Err("must be a whole number");
+        }
+    }
+    Ok(())
+}
+
+/// What a machine would have to have for a figure.
+fn lacks(machine: &Machine, figure: Figure) -> Option<&'static str> {
+    let scene = &machine.scene;
+    match figure {
+        Figure::CutThrough | Figure::MissingStrips | Figure::StrokeWork
+            if scene.piercing.is_none() =>
+        {
+            Some("strip (piercing.thickness)")
+        }
+        Figure::RigidGap if scene.rigid.is_none() => Some("rigid stop behind (rigid.travel)"),
+        Figure::DriveForce
+            if Parameter::Amplitude.is_unit() && machine.value(Parameter::Amplitude).is_none() =>
+        {
+            Some("drive amplitude of its own: it speaks ratios, whose unit of force is F0")
+        }
+        _ => None,
+    }
+}

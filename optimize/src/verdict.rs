@@ -1,0 +1,47 @@
+//! How a design meets what was required, and which others are nearly as good, as records.
+
+use softstop::{Machine, Parameter};
+use softstop_console::column::Column;
+use softstop_console::columns;
+use softstop_console::record::Record;
+
+use crate::design::judge::{Met, bound};
+use crate::design::{Design, Problem};
+
+type Required<'a> = (&'a Machine, &'a Met);
+
+fn columns<'a>() -> [Column<Required<'a>>; 7] {
+    columns! { Required<'a>, it;
+        "name" [None] Plain, "as in the task" => it.1.requirement.figure.name();
+        "required" [None] Plain, "what is required" => bound(it.0, &it.1.requirement);
+        "value" [None] Seven, "what the design has" => own_of(it, it.1.value);
+        "margin" [None] Seven, "distance to the bound, negative beyond it" => own_of(it, it.1.margin());
+        "unit" [None] Plain, "unit of value and margin" => it.0.unit(it.1.requirement.figure.dimension());
+        "met" [None] Plain, "whether it is met" => it.1.is_met();
+        "meaning" [None] Plain, "what it is" => it.1.requirement.figure.meaning();
+    }
+}
+
+/// A requirement and what a design of this machine has of it.
+pub(crate) fn required(machine: &Machine, met: &Met) -> Record {
+    Record::of(&columns(), &(machine, met))
+}
+
+/// A value of a requirement in the machine's own units; none where nothing bounds it.
+fn own_of((machine, met): &Required<'_>, value: f64) -> Option<f64> {
+    let dimension = met.requirement.figure.dimension();
+    value.is_finite().then(|| machine.to_own(dimension, value))
+}
+
+/// A design beside the best one: where it is, and what it has of what is sought.
+pub(crate) fn rival(problem: &Problem, design: &Design) -> Record {
+    let axes = problem.axes.iter().map(|axis| axis.parameter);
+    let axes = axes.chain([Parameter::Frequency]);
+    let head = axes.fold(Record::default(), |record, it| {
+        let label = design.machine.label_of(it);
+        record.with(it.name(), &label, design.machine.value(it))
+    });
+    let figure = problem.objective.figure;
+    let value = design.machine.to_own(figure.dimension(), design.value);
+    head.with(figure.name(), figure.meaning(), value)
+}

@@ -1,0 +1,275 @@
+//! Tasks in the user's words: what they do, what stands against them, and what is wrong with them.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::{Outcome, SOFTSTOP, near, number};
+
+/// A press with a task of its own; more is said of it below.
+const PRESS: &str = r#"
+name = "press"
+mass = 120.0
+stiffness = 2.4e6
+damping = 680.0
+clearance = 0.02
+contact.damping = 3060.0
+excitation = { amplitude = 9000.0, frequency_hz = 24.0 }
+stop = { model = "preloaded", stiffness = 1.68e7, preload_deflection = 0.02 }
+piercing = { stiffness = 4.8e6, friction = 2.4e6, thickness = 0.002, travel = 0.001 }
+
+[search]
+evaluations = 150
+"#;
+
+/// What is searched if nothing else is said.
+const VARY: &str = "[vary]\nclearance = [0.006, 0.012]\nexcitation.frequency_hz = [10, 40]\n";
+
+/// Runs a task; its report.
+fn run(folder: &Path, more: &str) -> Result<Value, Box<dyn std::error::Error>> {
+    let file = folder.join("press.toml");
+    fs::write(&file, format!("{PRESS}{more}"))?;
+    let (file, output) = (file.to_str().ok_or("path")?, folder.join("out"));
+    let output = output.to_str().ok_or("path")?;
+    super::json(&[
+        "optimize",
+        file,
+        "--no-report",
+        "--format",
+        "json",
+        "--output",
+        output,
+    ])
+}
+
+fn requirement<'a>(report: &'a Value, name: &str) -> &'a Value {
+    let all = report["requirements"].as_array();
+    let found = all.and_then(|all| all.iter().find(|it| it["name"] == name));
+    found.unwrap_or(&Value::Null)
+}
+
+#[test]
+fn requirements_are_met_and_told_in_the_machines_units() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let wishes = format!(
+        "{VARY}[require]\nmargin_sn = 0.5\nmargin_g0 = 0.3\nstop_force = 4.6e5\ncut_through = 5e-4\n\
+         velocity = {{ least = 2 }}\nlargest_multiplier = 0.95\n"
+    );
+    let report = run(folder.path(), &wishes)?;
+    for name in [
+        "margin_sn",
+        "margin_g0",
+        "stop_force",
+        "cut_through",
+        "velocity",
+    ] {
+        let one = requirement(&report, name);
+        assert_eq!(one["met"], true, "{name}: {report}");
+        assert!(number(one, "margin") >= 0.0, "{name}");
+    }
+    let design = &report["design"];
+    let below = number(design, "frequency_sn") - number(design, "frequency");
+    near(
+        number(requirement(&report, "margin_sn"), "value"),
+        below,
+        1e-9,
+    );
+    assert_eq!(requirement(&report, "margin_sn")["unit"], "Hz");
+    Ok(())
+}
+
+/// A requirement in vain, alone or against others, and the words that tell of it.
+#[test]
+fn conflicts_are_named_with_how_much_is_missing() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let cases = [
+        ("velocity = 100", "velocity = "),
+        ("impact_energy = 1e6", "impact_energy = "),
+        ("impact_power = 1e7", "impact_power = "),
+        ("stroke_work = 1e4", "stroke_work = "),
+        (
+            "drive_force = 1000",
+            "drive_force = 9000 N: must be at most 1000 N, by 8000 N",
+        ),
+        ("drive_power = 1", "drive_power = "),
+        ("max_position = 1e-3", "max_position = "),
+        ("stroke = 1e-3", "stroke = "),
+        ("stop_force = 10", "stop_force = "),
+        ("cut_through = 0.5", "cut_through = "),
+        ("largest_multiplier = 0.01", "largest_multiplier = "),
+        ("margin_g0 = 39", "margin_g0 = "),
+        ("margin_sn = 39", "margin_sn = "),
+        ("margin_pd = 39", "margin_pd = "),
+        ("clearance_margin_g0 = 1", "clearance_margin_g0 = "),
+        ("clearance_margin_sn = 1", "clearance_margin_sn = "),
+        ("clearance_margin_pd = 1", "clearance_margin_pd = "),
+        ("certainty = 0.999", "certainty = "),
+        ("missing_strips = 30", "missing_strips = "),
+    ];
+    for (require, told) in cases {
+        let file = folder.path().join("press.toml");
+        fs::write(
+            &file,
+            format!("{PRESS}[vary]\nclearance = [0.008, 0.009]\n[require]\n{require}\n"),
+        )?;
+        let output = folder.path().join("never");
+        let words = [
+            "optimize",
+            file.to_str().ok_or("path")?,
+            "--no-report",
+            "--output",
+            output.to_str().ok_or("path")?,
+        ];
+        SOFTSTOP.ends_with(&words, 1, &[told, "must be"]);
+        assert!(!output.exists(), "{require}: something is left behind");
+    }
+    Ok(())
+}
+
+#[test]
+fn what_is_wrong_with_a_task_is_told() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let cases: [(&str, &[&str]); 20] = [
+        (
+            "[vary]\nclearance = [0.02, 0.01]\n",
+            &["clearance = 0.02:0.01", "low must be <= high"],
+        ),
+        (
+            "[vary]\nclearance = [0.02, nan]\n",
+            &["clearance = NaN", "finite"],
+        ),
+        (
+            "[vary]\nclearance = \"wide\"\n",
+            &["vary.clearance", "range [low, high]"],
+        ),
+        ("[vary]\nweight = [1, 2]\n", &["weight: unknown key"]),
+        (
+            "[vary]\nstop.stiffness = { values = [] }\n",
+            &["vary.stop.stiffness", "catalogue"],
+        ),
+        (
+            "[vary]\nstop.stiffness = { values = [1e7, -1] }\n",
+            &["stop.stiffness = -1", ">= 0"],
+        ),
+        (
+            "[vary]\nexcitation.frequency_hz = { values = [20, 21] }\n",
+            &["not a catalogue"],
+        ),
+        (
+            "[vary]\nclearance = { follows = \"clearance\", factor = 1 }\n",
+            &["must follow another"],
+        ),
+        (
+            "[tolerance]\nclearance = -1\n",
+            &["tolerance.clearance = -1", ">= 0"],
+        ),
+        (
+            "[tolerance]\nclearance = \"2 furlongs\"\n",
+            &["tolerance.clearance", "2 %"],
+        ),
+        (
+            "[tolerance]\nstop.restitution = 0.1\n",
+            &["tolerance.stop.restitution"],
+        ),
+        (
+            "[objective]\nmaximise = \"speed\"\n",
+            &["objective.maximise speed", "velocity"],
+        ),
+        (
+            "[objective]\nmaximise = \"run_up\"\n",
+            &["must be velocity"],
+        ),
+        (
+            "[objective]\nmaximise = \"velocity\"\nminimise = \"stop_force\"\n",
+            &["only one"],
+        ),
+        (
+            "[require]\nspeed = 1\n",
+            &["speed: must be one of", "margin_sn"],
+        ),
+        (
+            "[require]\nvelocity = \"fast\"\n",
+            &["require.velocity", "must be a number"],
+        ),
+        (
+            "[require]\nvelocity = inf\n",
+            &["require.velocity", "finite"],
+        ),
+        (
+            "[require]\nvelocity = { least = 3, most = 2 }\n",
+            &["least must be <= most"],
+        ),
+        (
+            "[require]\ncertainty = 1.5\n",
+            &["certainty = 1.5", "[0, 1]"],
+        ),
+        (
+            "[require]\nrigid_gap = 0.001\n",
+            &["rigid_gap", "no rigid stop"],
+        ),
+    ];
+    for (more, told) in cases {
+        let file = folder.path().join("press.toml");
+        fs::write(&file, format!("{PRESS}{more}"))?;
+        let output = folder.path().join("never");
+        let file = file.to_str().ok_or("path")?;
+        let words = ["optimize", file, "--output", output.to_str().ok_or("path")?];
+        SOFTSTOP.ends_with(&words, 2, told);
+        assert!(!output.exists(), "{more}: something is left behind");
+    }
+    Ok(())
+}
+
+#[test]
+fn catalogues_and_links_hold() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let wishes = "[vary]\nclearance = [0.006, 0.012]\nstop.stiffness = { values = [1e7, 1.3e7, 1.7e7] }\n\
+                  contact.damping = { follows = \"stop.stiffness\", factor = 1.8e-4 }\n[require]\nmargin_sn = 0.5\n";
+    let report = run(folder.path(), wishes)?;
+    let parameters = &report["design"]["machine"]["parameters"];
+    let stiffness = number(parameters, "stop.stiffness");
+    assert!([1e7, 1.3e7, 1.7e7].contains(&stiffness), "{stiffness}");
+    near(
+        number(parameters, "contact.damping"),
+        1.8e-4 * stiffness,
+        1e-9 * stiffness,
+    );
+    Ok(())
+}
+
+/// The files of a design are the same machine, and every command reads the task's file as its machine.
+#[test]
+fn a_design_loads_in_every_command() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let report = run(
+        folder.path(),
+        &format!("{VARY}[require]\nmargin_sn = 0.5\n"),
+    )?;
+    let written = folder.path().join("out/design.toml");
+    let orbit = super::json(&["orbit", written.to_str().ok_or("path")?, "--format", "json"])?;
+    let (own, found) = (
+        number(&report["design"], "before_impact_velocity"),
+        number(&orbit, "before_impact_velocity"),
+    );
+    near(own, found, 1e-9 * own);
+    let task = folder.path().join("press.toml");
+    super::json(&["zone", task.to_str().ok_or("path")?, "--format", "json"])?;
+    Ok(())
+}
+
+/// The least drive force for a velocity: the requirement holds the design.
+#[test]
+fn the_least_drive_force_for_a_velocity() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let wishes = "[vary]\nclearance = [0.006, 0.012]\nexcitation.amplitude = [4000, 12000]\n\
+                  [objective]\nminimise = \"drive_force\"\n[require]\nvelocity = 5\nmargin_sn = 0.5\n";
+    let report = run(folder.path(), wishes)?;
+    near(number(requirement(&report, "velocity"), "value"), 5.0, 1e-6);
+    let force = number(
+        &report["design"]["machine"]["parameters"],
+        "excitation.amplitude",
+    );
+    assert!((4000.0..9000.0).contains(&force), "{force}");
+    Ok(())
+}

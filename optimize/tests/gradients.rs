@@ -1,0 +1,160 @@
+//! The derivatives of the gradient stage against central differences, over random designs.
+
+use proptest::prelude::*;
+use softstop::{Machine, Parameter};
+use softstop_optimize::design::Problem;
+use softstop_optimize::design::figure::Figure;
+use softstop_optimize::design::here::At;
+use softstop_optimize::design::local::{Local, local};
+use softstop_optimize::design::requirement::Requirement;
+use softstop_optimize::design::space::{Axis, Interval};
+use softstop_testing::random::cases;
+
+/// What is looked at: the figures that have exact derivatives.
+const FIGURES: [Figure; 11] = [
+    Figure::Velocity,
+    Figure::ImpactEnergy,
+    Figure::ImpactPower,
+    Figure::DriveForce,
+    Figure::DrivePower,
+    Figure::MaxPosition,
+    Figure::Stroke,
+    Figure::StopForce,
+    Figure::FrequencyG0,
+    Figure::FrequencySn,
+    Figure::FrequencyPd,
+];
+
+/// The paper's machines, a press in SI units, a soft stop; all parameters that may be searched.
+fn machines() -> Vec<Machine> {
+    let press = "name = \"press\"\nmass = 120.0\nstiffness = 2.4e6\ndamping = 680.0\nclearance = 0.012\n\
+                 contact.damping = 3060.0\n[excitation]\namplitude = 9000.0\nfrequency_hz = 27.0\n[stop]\n\
+                 model = \"preloaded\"\nstiffness = 1.68e7\npreload_deflection = 0.01\n[piercing]\n\
+                 stiffness = 4.8e6\nfriction = 2.4e6\nthickness = 0.002\ntravel = 0.001\n";
+    let mut soft = Machine::named("unloaded").expect("the paper's machine");
+    let model = [("stop.model", "kelvinVoigt"), ("stop.stiffness", "20")];
+    soft.apply(model).expect("a soft stop");
+    vec![
+        Machine::named("unloaded").expect("the paper's machine"),
+        Machine::named("loaded").expect("the paper's machine"),
+        Machine::from_toml(press).expect("a press"),
+        soft,
+    ]
+}
+
+/// Each axis from 0.8 to 1.25 of the machine's value.
+fn problem(machine: Machine) -> Problem {
+    let searched = [
+        Parameter::Mass,
+        Parameter::Suspension,
+        Parameter::Damping,
+        Parameter::Amplitude,
+        Parameter::Clearance,
+        Parameter::ContactDamping,
+        Parameter::StopStiffness,
+        Parameter::Preload,
+        Parameter::PiercingStiffness,
+        Parameter::Thickness,
+    ];
+    let axis = |parameter: Parameter| {
+        let value = machine.value(parameter).filter(|value| *value != 0.0)?;
+        let range = Interval {
+            low: 0.8 * value,
+            high: 1.25 * value,
+        };
+        Some(Axis::new(parameter, range))
+    };
+    let axes = searched.into_iter().filter_map(axis).collect();
+    let unit = |figure: Figure| match figure {
+        Figure::FrequencyG0 | Figure::FrequencySn | Figure::FrequencyPd => {
+            machine.scene.excitation.frequency
+        }
+        _ => 1.0,
+    };
+    let requirement = |figure| Requirement {
+        figure,
+        least: Some(unit(figure)),
+        most: None,
+    };
+    let requirements = FIGURES.map(requirement).to_vec();
+    Problem {
+        requirements,
+        ..Problem::of(machine, axes)
+    }
+}
+
+fn at(problem: &Problem, coordinates: &[f64]) -> Option<Local> {
+    let (place, unit) = coordinates.split_last()?;
+    let moved: Vec<usize> = (0..unit.len()).collect();
+    let at = At {
+        unit,
+        moved: &moved,
+        place: Some(*place),
+    };
+    local(problem, &at)
+}
+
+/// Steps of the differences, in edges of the cube.
+const STEPS: [f64; 2] = [2e-4, 1e-4];
+
+/// Values in a row, the score first.
+fn values(problem: &Problem, coordinates: &[f64]) -> Option<Vec<f64>> {
+    let found = at(problem, coordinates)?;
+    let all = [&found.objective].into_iter().chain(&found.constraints);
+    Some(all.map(|it| it.value).collect())
+}
+
+/// Central differences of the fourth order by one coordinate, and how far those of the second order are from them.
+fn differences(problem: &Problem, coordinates: &[f64], index: usize) -> Option<Vec<(f64, f64)>> {
+    let central = |step: f64| {
+        let aside = |by: f64| {
+            let mut coordinates = coordinates.to_vec();
+            coordinates[index] += by;
+            values(problem, &coordinates)
+        };
+        let (before, after) = (aside(-step)?, aside(step)?);
+        let pairs = before.into_iter().zip(after);
+        Some(
+            pairs
+                .map(|(before, after)| (after - before) / (2.0 * step))
+                .collect::<Vec<f64>>(),
+        )
+    };
+    let (wide, narrow) = (central(STEPS[0])?, central(STEPS[1])?);
+    let pairs = wide.into_iter().zip(narrow);
+    let fourth = |(wide, narrow): (f64, f64)| ((4.0 * narrow - wide) / 3.0, (wide - narrow).abs());
+    Some(pairs.map(fourth).collect())
+}
+
+proptest! {
+    #![proptest_config(cases(40))]
+
+    #[test]
+    fn derivatives_are_those_of_differences(
+        which in 0..4usize,
+        unit in prop::collection::vec(0.05..0.95f64, 10),
+        place in 0.1..0.9f64,
+        axis in 0..11usize,
+    ) {
+        let problem = problem(machines().swap_remove(which));
+        let mut coordinates = unit[..problem.axes.len()].to_vec();
+        coordinates.push(place);
+        let index = axis % coordinates.len();
+        let (Some(found), Some(expected)) = (at(&problem, &coordinates), differences(&problem, &coordinates, index)) else {
+            return Ok(());
+        };
+        let all = [&found.objective].into_iter().chain(&found.constraints);
+        for (number, (own, (expected, doubt))) in all.zip(expected).enumerate() {
+            let own_value = own.by[index];
+            // What the differences themselves do not tell: where a figure has a kink, or rounding of the value.
+            let size = own_value.abs().max(expected.abs()).max(own.value.abs());
+            if doubt > 1e-3 * size {
+                continue;
+            }
+            prop_assert!(
+                (own_value - expected).abs() <= 1e-6 * size,
+                "{which}: figure {number} by coordinate {index} of {coordinates:?}: {own_value} against {expected}"
+            );
+        }
+    }
+}
