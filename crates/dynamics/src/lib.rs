@@ -35,6 +35,7 @@ pub mod run_up;
 pub mod slopes;
 pub mod spread;
 pub mod stroke;
+mod strokes;
 pub mod supply;
 pub mod sweep;
 pub mod transitions;

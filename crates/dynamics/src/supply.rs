@@ -8,8 +8,9 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::attractors::SurveyError;
-use crate::basin::{Coming, Guest, Home, Strokes};
+use crate::basin::{Coming, Guest, Home};
 use crate::orbit::Orbit;
+pub use crate::strokes::Strokes;
 use crate::watch::{Watcher, stop_if};
 use softstop::internals::{Motion, Phases};
 use softstop::{Clock, Crossing, Instant, MotionError, Observer, Piercing, Scene};
@@ -173,10 +174,7 @@ impl<'a> Line<'a> {
             clearance: self.scene.clearance,
             begin: clock.instant(turned / self.scene.excitation.frequency),
             periods: 0,
-            strokes: Strokes {
-                last: before - orbit.periods as f64,
-                missed: 0,
-            },
+            strokes: Strokes::after(before - orbit.periods as f64),
         };
         run.go_to(run.begin, false)?;
         run.change(&self.without)?;

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::extremes::extremes;
 use softstop::internals::Scales;
-use softstop::{Scene, Start, Wall};
+use softstop::{Dimension, Machine, Scene, Start, Wall};
 
 /// A rectangle of states at drive angle phi.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -88,6 +88,21 @@ impl Region {
             position: both(self.position, other.position),
             velocity: both(self.velocity, other.velocity),
         }
+    }
+
+    /// In words, in a machine's own units.
+    pub fn told(&self, machine: &Machine) -> String {
+        let range = |[low, high]: [f64; 2], dimension, name: &str| {
+            let own = |value| machine.to_own(dimension, value);
+            let text = format!("{:.6} <= {name} <= {:.6}", own(low), own(high));
+            match machine.unit(dimension) {
+                "" => text,
+                unit => format!("{text} {unit}"),
+            }
+        };
+        let position = range(self.position, Dimension::Length, "x");
+        let velocity = range(self.velocity, Dimension::Velocity, "x'");
+        format!("{position} and {velocity} at drive angle phi")
     }
 
     /// The part before a rigid stop.

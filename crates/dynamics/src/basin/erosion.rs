@@ -74,8 +74,8 @@ const BOXED: [f64; 3] = [0.0, 0.5, 0.99];
 /// Part of the starts with which a ball is filled anew, and least number of them.
 const PART: usize = 8;
 const FEWEST: usize = 64;
-/// Most fillings.
-const FILLINGS: usize = 24;
+/// Radius below which a ball counts as none.
+const LEAST: f64 = 1e-4;
 
 /// One box of starts for a whole hysteresis zone: it holds those of the machine ([`starting_box`]) at both ends and in
 /// the middle.
@@ -120,8 +120,8 @@ pub struct ErosionProfile {
 }
 
 impl ErosionProfile {
-    /// The profile at places s in [0, 1] of a zone, with so many starts at each. At s_SN itself, where the motion
-    /// ceases to be stable, nothing is left. The same for any number of threads.
+    /// The profile at places s in [0, 1] of a zone, with so many starts at each. At s_SN itself the motion attracts from
+    /// one side alone: what it still attracts has a share, but no ball lies in it. The same for any number of threads.
     ///
     /// # Errors
     /// [`CertaintyError`] if a place lies outside the zone, a motion is lost or the watcher says stop.
@@ -168,21 +168,18 @@ fn integrity(
     let home = Home::of(orbit)?;
     let reached = home.reached(states, watcher)?;
     let certainty = Establishment::counted(&reached, region);
-    if certainty.share == 0.0 {
-        return Ok((certainty, 0.0));
-    }
     let ball = Ball::new(orbit, region);
     let mut radius = ball.nearest_lost(states, &reached, ball.edge(region));
-    for _ in 0..FILLINGS {
+    while radius > LEAST {
         let filling = ball.filling(radius, (states.len() / PART).max(FEWEST));
         let reached = home.reached(&filling, watcher)?;
         let smaller = ball.nearest_lost(&filling, &reached, radius);
         if smaller == radius {
-            break;
+            return Ok((certainty, radius));
         }
         radius = smaller;
     }
-    Ok((certainty, radius))
+    Ok((certainty, 0.0))
 }
 
 /// Balls about a state, in units of half of each axis of a box.

@@ -9,6 +9,7 @@ use super::section::at_section;
 use crate::attractors::SurveyError;
 use crate::orbit::recurrence::{distance, size};
 use crate::orbit::{Orbit, multipliers};
+use crate::strokes::Strokes;
 use crate::watch::Watcher;
 use crate::zone::free_amplitude;
 use nalgebra::{Complex, Vector2};
@@ -24,21 +25,24 @@ const STRETCH: u64 = 16;
 const PATIENCE: u64 = 256;
 const SHRUNK: f64 = 28.0;
 const LONGEST: f64 = 20_000.0;
-/// Decay a drive period, as an exponent, below which an orbit attracts nothing: it is neutral, or a fold to rounding.
+/// Decay a drive period, as an exponent, below which an orbit is at a border to rounding, as at a fold: it attracts from
+/// one side alone, and ever more slowly. Drive periods that motions get there.
 const SLOWEST: f64 = 1e-5;
-/// Distance from the orbit, in units of its size, at which a motion has arrived that no ball holds.
-const ARRIVED: f64 = 1e-6;
+const AT_BORDER: u64 = 512;
+/// Distance from the orbit, in units of its size, at which a motion has arrived that no ball holds; and at a border.
+const ARRIVED: [f64; 2] = [1e-6, 2e-2];
 
 /// A stable orbit with balls about its points in which its map contracts: what lies in one of them comes to it.
 pub struct Home {
     machine: [Machine; 1],
     drive: Excitation,
     states: Vec<Start>,
-    size: f64,
     balls: Vec<Ball>,
     /// Those of the motion without impacts, if it is another one: what lies there is lost.
     away: Vec<Ball>,
     patience: u64,
+    /// Distance within which a motion has arrived in the end.
+    arrived: f64,
 }
 
 /// A motion on its way, at a drive angle in rad that its machine starts with.
@@ -53,27 +57,6 @@ pub(crate) struct Guest {
     pub strokes: Strokes,
 }
 
-/// Strokes that are missed: what is longer between two impacts than a drive period.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Strokes {
-    /// When the last impact was, in drive periods.
-    pub last: f64,
-    pub missed: u64,
-}
-
-impl Strokes {
-    /// An impact happens.
-    pub(crate) fn strike(&mut self, time: f64) {
-        self.missed += self.missing(time);
-        self.last = time;
-    }
-
-    /// Strokes that are missing since the last one.
-    fn missing(&self, time: f64) -> u64 {
-        ((time - self.last).round() as u64).saturating_sub(1)
-    }
-}
-
 /// What became of a guest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Coming {
@@ -84,7 +67,7 @@ pub(crate) struct Coming {
 }
 
 impl Home {
-    /// That of an orbit; nothing comes to one that is not stable, or as good as at a fold.
+    /// That of an orbit; nothing comes to one that is unstable or neutral.
     ///
     /// # Errors
     /// [`MotionError`] if the orbit cannot be computed.
@@ -94,6 +77,14 @@ impl Home {
         let size = size(scene.excitation.frequency, &states);
         let slowest = multipliers(&orbit.monodromy)[0].norm();
         let decay = -slowest.ln() / orbit.periods as f64;
+        let (patience, arrived) = match decay {
+            _ if decay > SLOWEST => {
+                let settling = (SHRUNK / decay).min(LONGEST);
+                (PATIENCE + settling as u64, ARRIVED[0])
+            }
+            _ if decay > -SLOWEST && !orbit.is_neutral() => (AT_BORDER, ARRIVED[1]),
+            _ => (0, 0.0),
+        };
         let away = match without_impacts(scene).filter(|_| !orbit.impacts.is_empty()) {
             Some(other) => Ball::all(&other)?,
             None => Vec::new(),
@@ -102,13 +93,10 @@ impl Home {
             machine: [Machine::new(scene)?],
             drive: scene.excitation,
             states,
-            size,
             balls: Ball::all(orbit)?,
             away,
-            patience: match decay > SLOWEST {
-                true => PATIENCE + (SHRUNK / decay).min(LONGEST) as u64,
-                false => 0,
-            },
+            patience,
+            arrived: arrived * size,
         })
     }
 
@@ -127,10 +115,7 @@ impl Home {
             angle: self.drive.phase,
             state: *state,
             time: 0.0,
-            strokes: Strokes {
-                last: 0.0,
-                missed: 0,
-            },
+            strokes: Strokes::after(0.0),
         };
         let chunks = starts.par_chunks(TOGETHER).map(|starts| {
             let guests: Vec<Guest> = starts.iter().map(guest).collect();
@@ -187,7 +172,7 @@ impl Home {
         let ends = guests.iter().zip(home);
         let coming = |(guest, comes): (&Guest, bool)| Coming {
             comes,
-            missed: guest.strokes.missed + guest.strokes.missing(guest.time),
+            missed: guest.strokes.missed(guest.time),
         };
         Ok(ends.map(coming).collect())
     }
@@ -199,8 +184,7 @@ impl Home {
             return Some(false);
         };
         let holds = |balls: &[Ball]| balls.iter().any(|ball| ball.holds(state));
-        let is_near =
-            |own: &Start| distance(self.drive.frequency, own, &state) <= ARRIVED * self.size;
+        let is_near = |own: &Start| distance(self.drive.frequency, own, &state) <= self.arrived;
         match () {
             () if holds(&self.balls) => Some(true),
             () if holds(&self.away) => Some(false),

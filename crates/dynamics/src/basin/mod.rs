@@ -40,7 +40,7 @@ pub use certainty::{CertaintyError, Establishing, establishing};
 pub use erosion::{ErosionProfile, Establishment, Integrity, zone_box};
 pub use grid::{Axis, Grid, Quantity};
 pub use home::Home;
-pub(crate) use home::{Coming, Guest, Strokes};
+pub(crate) use home::{Coming, Guest};
 pub use integrity::{Clearing, clearing};
 pub(crate) use section::at_section;
 pub use share::wilson;

@@ -7,6 +7,8 @@
 
 mod chart;
 
+use std::f64::consts::TAU;
+
 use anyhow::Result;
 use nalgebra::Vector2;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -15,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use softstop::Ratios;
 use softstop_dynamics::StroboscopicMap;
 use softstop_dynamics::orbit::find;
-use softstop_dynamics::supply::Reading;
+use softstop_dynamics::supply::{Reading, Strokes};
 use softstop_dynamics::zone::hysteresis;
 
 use crate::figure::{Drawn, Figure, Findings, Studio};
@@ -48,7 +50,7 @@ struct Outcome {
     eta: f64,
     mean_run: f64,
     motions: usize,
-    /// Motions with at least one drive period without an impact.
+    /// Motions that miss at least one stroke: an impact comes later than a drive period and a half after the last one.
     missed: usize,
     /// Motions that are no longer z = 1 in the end.
     ended: usize,
@@ -60,6 +62,8 @@ struct Press {
     /// Without, and with.
     maps: [StroboscopicMap; 2],
     start: Vector2<f64>,
+    /// When its impact is, in drive periods.
+    impact: f64,
     /// Whether it starts and ends with strips.
     is_supplied: bool,
 }
@@ -159,38 +163,43 @@ impl Press {
         let scene = machine.scene()?;
         let scenes = [reading.without(&scene), scene];
         let map = |scene| StroboscopicMap::new(scene, 1);
+        let orbit = find(&scenes[usize::from(is_supplied)])?;
         Ok(Self {
             clearance: machine.clearance,
             maps: [map(&scenes[0])?, map(&scenes[1])?],
-            start: find(&scenes[usize::from(is_supplied)])?.state(),
+            start: orbit.state(),
+            impact: orbit.impact_angles().next().unwrap_or(0.0) / TAU,
             is_supplied,
         })
     }
 
-    /// Whether a drive period was without an impact, and whether z = 1 has ended.
+    /// Whether a stroke was missed, and whether z = 1 has ended.
     fn run(&self, mean: f64, periods: usize, seed: u64) -> Result<(bool, bool)> {
         let mut chance = Xoshiro256PlusPlus::seed_from_u64(seed);
-        let (mut state, mut is_supplied, mut missed) = (self.start, self.is_supplied, false);
-        for _ in 0..periods {
+        let (mut state, mut is_supplied) = (self.start, self.is_supplied);
+        let mut strokes = Strokes::after(self.impact - 1.0);
+        for period in 0..periods {
             let drawn = chance.next_u64() as f64 / u64::MAX as f64;
             if drawn * mean < 1.0 && state.x < self.clearance {
                 is_supplied = !is_supplied;
             }
-            missed |= self.step(&mut state, is_supplied)? == 0;
+            let passage = self.maps[usize::from(is_supplied)].apply(state)?;
+            state = passage.end;
+            for impact in &passage.instants {
+                strokes.strike(period as f64 + impact.offset / self.maps[0].clock().period());
+            }
         }
         let mut impacts = 0;
         for period in 0..CLOSE.0 + CLOSE.1 {
-            let count = self.step(&mut state, self.is_supplied)?;
-            impacts += if period < CLOSE.0 { 0 } else { count };
+            let passage = self.maps[usize::from(self.is_supplied)].apply(state)?;
+            state = passage.end;
+            impacts += if period < CLOSE.0 {
+                0
+            } else {
+                passage.impacts.len()
+            };
         }
-        Ok((missed, impacts != CLOSE.1))
-    }
-
-    /// One drive period: how many impacts it has.
-    fn step(&self, state: &mut Vector2<f64>, is_supplied: bool) -> Result<usize> {
-        let passage = self.maps[usize::from(is_supplied)].apply(*state)?;
-        *state = passage.end;
-        Ok(passage.impacts.len())
+        Ok((strokes.missed(periods as f64) > 0, impacts != CLOSE.1))
     }
 }
 

@@ -1,0 +1,30 @@
+//! Strokes as they come one after another, and those that are missed.
+
+/// Counts the strokes that a motion misses: an impact that comes n drive periods after the last one and not one has
+/// missed n - 1, whatever the drive angles at which they come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Strokes {
+    last: f64,
+    missed: u64,
+}
+
+impl Strokes {
+    /// From an impact on, at a time in drive periods.
+    pub const fn after(impact: f64) -> Self {
+        Self {
+            last: impact,
+            missed: 0,
+        }
+    }
+
+    /// An impact happens, at a time in drive periods.
+    pub fn strike(&mut self, time: f64) {
+        self.missed = self.missed(time);
+        self.last = time;
+    }
+
+    /// Strokes missed up to a time in drive periods.
+    pub fn missed(&self, time: f64) -> u64 {
+        self.missed + ((time - self.last).round() as u64).saturating_sub(1)
+    }
+}
