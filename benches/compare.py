@@ -62,13 +62,13 @@ def output(command, **options):
     return done.stdout
 
 
-def newest():
-    """The newest softstop-lab that cargo has built here."""
+def newest(name):
+    """The newest program of this name that cargo has built here."""
     target = Path(os.environ.get("CARGO_TARGET_DIR", TOP / "target"))
-    built = [lab for profile in ("dist", "release") if (lab := find(target / profile, "softstop-lab"))]
+    built = [program for profile in ("dist", "release") if (program := find(target / profile, name))]
     if not built:
-        sys.exit(f"no softstop-lab in {target}: build it (see --help), or name one by --program")
-    return max(built, key=lambda lab: lab.stat().st_mtime)
+        sys.exit(f"no {name} in {target}: build it (see --help), or name one by --program")
+    return max(built, key=lambda program: program.stat().st_mtime)
 
 
 def find(place, name):
@@ -103,12 +103,14 @@ def sweep(program):
     return {name: rates[method] for name, method in RATES.items()}
 
 
+def spent():
+    """Processor seconds of the commands run so far."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
 def optimize(program):
     """Processor seconds of one design, files included."""
-    def spent():
-        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-        return usage.ru_utime + usage.ru_stime
-
     before = spent()
     with tempfile.TemporaryDirectory() as folder:
         output([program, "optimize", "--output", f"{folder}/design"])
@@ -130,7 +132,7 @@ def compile_prototype(source, folder):
 
 def measure(given, folder):
     """All measurements: by who was measured, then by figure."""
-    builds = {"this": programs(given.program or newest())}
+    builds = {"this": programs(given.program or newest("softstop-lab"))}
     runs = [("this", throughput, builds["this"][0])]
     if prototype := given.prototype and compile_prototype(given.prototype, folder):
         runs.append(("prototype", sweep, prototype))
