@@ -14,6 +14,8 @@ mod invariants;
 mod limits;
 mod machine_reference;
 mod slopes;
+mod slopes_of_borders;
+mod slopes_of_designs;
 mod spread;
 mod stop_invariants;
 mod stroke;

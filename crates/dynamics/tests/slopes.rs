@@ -1,10 +1,11 @@
-//! Derivatives of periodic motions and of their borders, against the motions and borders of machines beside.
+//! Derivatives of periodic motions, against the motions of machines beside.
 
+use approx::assert_abs_diff_eq;
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use softstop::{Clock, Parameter, Ratios, Scene, Start};
-use softstop_dynamics::continuation::Test;
-use softstop_dynamics::slopes::{self, Border, Figure, Slopes};
+use softstop::{Clock, Parameter, Ratios, Scene, Start, Stop};
+use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::slopes::{self, Figure, Slopes};
 use softstop_dynamics::{Orbit, zone};
 use softstop_testing::tolerance::{DIFFERENCED, SOLVED};
 use softstop_testing::{Meets, cases, machines};
@@ -63,7 +64,9 @@ fn beside(
         return None;
     }
     let slopes = slopes::of(&other, &[]).ok()?;
-    Some(figures(&slopes).map(|figure| figure.value).collect())
+    let invariants = [other.trace(), other.determinant()];
+    let figures = figures(&slopes).map(|figure| figure.value);
+    Some(figures.chain(invariants).collect())
 }
 
 proptest! {
@@ -93,7 +96,12 @@ proptest! {
             let (Some(far), Some(wide), Some(narrow)) = (central(3.0 * width), central(2.0 * width), central(width)) else {
                 continue
             };
-            let exact: Vec<f64> = figures(&slopes).map(|figure| figure.by[0]).collect();
+            let Ok(stability) = slopes::stability(&orbit, &[parameter]) else {
+                continue;
+            };
+            let invariants = [&stability.trace, &stability.determinant];
+            let exact = figures(&slopes).chain(invariants).map(|figure| figure.by[0]);
+            let exact: Vec<f64> = exact.collect();
             let size: f64 = 1.0 + exact.iter().map(|part| part.abs()).fold(0.0, f64::max);
             for (index, exact) in exact.iter().enumerate() {
                 let fourth = (4.0 * narrow[index] - wide[index]) / 3.0;
@@ -107,51 +115,63 @@ proptest! {
     }
 }
 
-/// The paper's machines and one with a spherical stop.
-fn zones() -> Vec<Scene> {
-    [Ratios::unloaded(), Ratios::loaded()]
-        .map(|ratios| ratios.scene().expect("valid"))
-        .to_vec()
+/// No number is claimed where there is no derivative.
+#[test]
+fn where_there_is_no_derivative_none_is_told() {
+    let scene = Ratios::unloaded().scene().expect("valid");
+    let orbit = softstop_dynamics::orbit::find(&scene).expect("an orbit");
+    let lacks = slopes::of(&orbit, &[Parameter::Exponent]).expect_err("has none");
+    assert!(lacks.to_string().contains("stop.exponent"), "{lacks}");
+    // At a fold the motion turns back.
+    let zone = zone::hysteresis(&scene).expect("a zone");
+    let fold = zone.orbit(&zone.fold).expect("is there");
+    let turned = slopes::of(&fold, &[Parameter::Clearance]);
+    assert_eq!(turned, Err(OrbitError::NotIsolated));
+    // A power law of exponent 1 is a spring, and becomes another law beside.
+    let spring = Stop::Hertz {
+        stiffness: 7.0,
+        exponent: 1.0,
+        dissipation: 0.0,
+    };
+    let spring = Scene {
+        stop: spring,
+        ..scene.clone()
+    };
+    let orbit = softstop_dynamics::orbit::find(&spring).expect("an orbit");
+    assert!(slopes::of(&orbit, &[Parameter::StopStiffness]).is_ok());
+    let other = slopes::of(&orbit, &[Parameter::Exponent]).expect_err("another law");
+    assert!(other.to_string().contains("no derivative"), "{other}");
 }
 
+/// A mass that chatters until it rests on a rigid stop forgets its start; what follows has all derivatives.
 #[test]
-fn normals_are_those_of_zones_computed_anew() {
-    for scene in zones() {
-        let parameters: Vec<Parameter> = Parameter::ALL
-            .into_iter()
-            .filter(|parameter| parameter.get(&scene).is_some())
-            .collect();
-        let of = |scene: &Scene| zone::hysteresis(scene).expect("a zone");
-        let zone = of(&scene);
-        let fold =
-            Border::critical(&scene, 1, (Test::Fold, &zone.fold), &parameters).expect("smooth");
-        let free = Border::free(&scene, true, &parameters).expect("grazes");
-        for (index, parameter) in parameters.into_iter().enumerate() {
-            if matches!(parameter, Parameter::Frequency | Parameter::Phase) {
-                continue;
-            }
-            let value = parameter.get(&scene).expect("it has");
-            let width = 1e-4 * value.abs().max(0.05);
-            let frequencies = |shift: f64| {
-                let mut scene = scene.clone();
-                parameter.set(&mut scene, value + shift);
-                let zone = of(&scene);
-                [zone.frequency_sn, zone.frequency_g0]
-            };
-            let [ahead, behind, farther, back] =
-                [1.0, -1.0, 2.0, -2.0].map(|shift| frequencies(shift * width));
-            for (which, border) in [&fold, &free].into_iter().enumerate() {
-                let [narrow, wide] = [
-                    (ahead[which] - behind[which]) / (2.0 * width),
-                    (farther[which] - back[which]) / (4.0 * width),
-                ];
-                let found = (4.0 * narrow - wide) / 3.0;
-                assert!(
-                    (found + border.normal[index]).abs() < DIFFERENCED * (1.0 + found.abs()),
-                    "{parameter:?} {which}: {found} {}",
-                    border.normal[index]
-                );
-            }
-        }
+fn after_chatter_derivatives_go_on() {
+    let stop = Stop::Rigid { restitution: 0.5 };
+    let mut scene = Scene {
+        damping: 0.1,
+        clearance: -0.4,
+        ..Scene::of_stop(stop)
+    };
+    scene.excitation.frequency = 0.4;
+    let orbit = settled(&scene, Start::new(-0.5, 0.0)).expect("settles");
+    assert!(orbit.chatters());
+    for parameter in [
+        Parameter::Clearance,
+        Parameter::Mass,
+        Parameter::Frequency,
+        Parameter::Restitution,
+    ] {
+        let slopes = slopes::of(&orbit, &[parameter]).expect("known");
+        let along = Vector2::new(slopes.position.by[0], slopes.velocity.by[0]);
+        let value = parameter.get(&scene).expect("it has");
+        let supplied = |shift: f64| {
+            let mut scene = scene.clone();
+            parameter.set(&mut scene, value + shift);
+            let orbit = Orbit::periodic(&scene, orbit.state() + shift * along, 1).expect("near");
+            slopes::of(&orbit, &[]).expect("known").supplied.value
+        };
+        let central = |width: f64| (supplied(width) - supplied(-width)) / (2.0 * width);
+        let found = (4.0 * central(1e-4) - central(2e-4)) / 3.0;
+        assert_abs_diff_eq!(found, slopes.supplied.by[0], epsilon = DIFFERENCED);
     }
 }

@@ -104,36 +104,51 @@ impl Approach {
         crossings: usize,
         dies: bool,
     ) -> Result<Special, OrbitError> {
-        let touching = Touching {
-            family: shooting.family,
-            periods: shooting.periods,
-            crossings,
-            face: touch.face,
-        };
         let (phase, frequency) = self.drive;
-        let angle = phase + frequency * touch.time;
-        let guess: DVector<f64> = touching.scaled(angle, [self.parameter]);
-        let node = correct(&touching, &guess, None)?;
-        let [parameter] = touching.parameters(&node.at);
-        let state = touching.state(&node)?;
-        let Contact { monodromy, impacts } = node.here.point;
-        let phase = phase - self.turned;
-        let graze = Graze {
-            angle: phase + (node.at[0] - phase).rem_euclid(TAU * shooting.periods as f64),
-            impacts: impacts.len(),
+        let near = Graze {
+            angle: phase + frequency * touch.time,
+            impacts: 0,
             dies,
             face: touch.face,
             crossings,
         };
-        Ok(Special {
-            kind: SpecialKind::Grazing(graze),
-            point: BranchPoint {
-                parameter,
-                position: state.x,
-                velocity: state.y,
-                impacts,
-                monodromy,
-            },
-        })
+        let orbits = (shooting.family, shooting.periods);
+        grazing(orbits, &near, phase - self.turned, self.parameter)
     }
+}
+
+/// The grazing orbit of a family, over a number of drive periods, that Newton's method reaches from the drive angle of
+/// another one's touch and from a parameter; its own angle is counted on from `phase`.
+pub(crate) fn grazing<F: Family>(
+    (family, periods): (&F, u64),
+    near: &Graze,
+    phase: f64,
+    parameter: f64,
+) -> Result<Special, OrbitError> {
+    let touching = Touching {
+        family,
+        periods,
+        crossings: near.crossings,
+        face: near.face,
+    };
+    let guess: DVector<f64> = touching.scaled(near.angle, [parameter]);
+    let node = correct(&touching, &guess, None)?;
+    let [parameter] = touching.parameters(&node.at);
+    let state = touching.state(&node)?;
+    let Contact { monodromy, impacts } = node.here.point;
+    let graze = Graze {
+        angle: phase + (node.at[0] - phase).rem_euclid(TAU * periods as f64),
+        impacts: impacts.len(),
+        ..*near
+    };
+    Ok(Special {
+        kind: SpecialKind::Grazing(graze),
+        point: BranchPoint {
+            parameter,
+            position: state.x,
+            velocity: state.y,
+            impacts,
+            monodromy,
+        },
+    })
 }

@@ -54,6 +54,7 @@ pub use branch::Branch;
 pub use curve::{Curve, CurveEnd, CurvePoint, Region, curve};
 pub use face::Face;
 pub use follower::{Follower, Heading};
+pub(crate) use graze::grazing;
 pub use point::{BranchPoint, Graze, Special, SpecialKind};
 pub(crate) use round::carry_on;
 pub use test::Test;

@@ -11,9 +11,11 @@ use softstop::internals::{Influence, Motion};
 use softstop::{Clock, Parameter, Scene, SceneError, Start};
 
 use super::round::{Round, lowered, none};
-use crate::continuation::{BranchPoint, Graze, LastArc, Special, SpecialKind, Test};
-use crate::orbit::{OrbitError, StroboscopicMap};
-use crate::zone::{ZoneError, grazing_frequencies};
+use crate::continuation::{
+    BranchPoint, Follower, Graze, LastArc, Special, SpecialKind, Test, grazing,
+};
+use crate::orbit::OrbitError;
+use crate::zone::{Frequencies, ZoneError, grazing_frequencies};
 
 /// What a border is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,8 +38,8 @@ pub struct Border {
     pub kind: BorderKind,
     /// The machine, at the border: its drive has the border's frequency.
     pub scene: Scene,
-    /// The motion there; none for g0.
-    pub point: Option<BranchPoint>,
+    /// The motion there, and its drive periods; none for g0.
+    pub point: Option<(BranchPoint, u64)>,
     /// What the normal is by.
     pub parameters: Vec<Parameter>,
     /// d(w - w_b)/d(parameter) in SI units, w_b the border's frequency in rad/s: 1 for the frequency itself. Where it is
@@ -134,6 +136,47 @@ impl Border {
         )
     }
 
+    /// The same border of a machine close by, by Newton's method from this one and along its normal.
+    ///
+    /// # Errors
+    /// [`ZoneError`] if it is not reached, or has no normal there.
+    pub fn again(&self, scene: &Scene) -> Result<Self, ZoneError> {
+        let parameters = &self.parameters;
+        let (motion, (near, periods)) = match (self.kind, &self.point) {
+            (BorderKind::Motion(kind), Some(point)) => (kind, point),
+            (BorderKind::Free { above: false }, _) => return Self::free(scene, false, parameters),
+            _ => return Self::free(scene, true, parameters),
+        };
+        let family = Frequencies(scene);
+        let guess = BranchPoint {
+            parameter: self.frequency_near(scene),
+            ..near.clone()
+        };
+        let special = match motion {
+            SpecialKind::Critical(test) => Special {
+                kind: motion,
+                point: Follower::new(&family, *periods).critical(&guess, test)?,
+            },
+            SpecialKind::Grazing(graze) => {
+                let phase = scene.excitation.phase;
+                grazing((&family, *periods), &graze, phase, guess.parameter)?
+            }
+        };
+        Ok(Self::at(scene, *periods, &special, parameters)?)
+    }
+
+    /// Where its tangent has the border of a machine close by: a frequency in rad/s.
+    pub fn frequency_near(&self, scene: &Scene) -> f64 {
+        let others = self.parameters.iter().zip(&self.normal);
+        let others = others.filter(|(parameter, _)| **parameter != Parameter::Frequency);
+        let move_by = |parameter: &Parameter| {
+            let [to, from] = [scene, &self.scene].map(|scene| parameter.get(scene));
+            Some(to? - from?)
+        };
+        let change = others.map(|(parameter, normal)| normal * move_by(parameter).unwrap_or(0.0));
+        self.frequency() - change.sum::<f64>()
+    }
+
     fn of(
         scene: &Scene,
         periods: u64,
@@ -158,7 +201,7 @@ impl Border {
         Ok(Self {
             kind: BorderKind::Motion(kind),
             scene,
-            point: Some(point.clone()),
+            point: Some((point.clone(), periods)),
             parameters: parameters.to_vec(),
             normal,
         })
@@ -187,11 +230,7 @@ fn fold(
     Ok(forced.map(|column| null.dot(&column.xy())).collect())
 }
 
-/// Shares of a parameter over which a test is differenced, the next where the orbit beside crosses something else.
-const WIDTHS: [f64; 3] = [1e-4, 1e-5, 1e-6];
-
-/// Derivatives of a test along the orbit, by differences of the fourth order of the exact monodromy matrix along the
-/// orbit's own exact derivative.
+/// Derivatives of 1 + tr + det or of det along the orbit.
 fn test_rates(
     scene: &Scene,
     periods: u64,
@@ -199,31 +238,12 @@ fn test_rates(
     parameters: &[Parameter],
 ) -> Result<Vec<f64>, OrbitError> {
     let round = Round::of(scene, point.state(), periods, parameters)?;
-    let starts = round.starts()?;
-    let (positions, velocities) = round.state(&starts);
-    let impacts = point.impacts.len();
-    let rate = |index: usize| {
-        let parameter = parameters[index];
-        let along = Vector2::new(positions.by[index], velocities.by[index]);
-        let value = parameter.get(scene)?;
-        let size = if value == 0.0 { 1.0 } else { value.abs() };
-        WIDTHS.iter().find_map(|share| {
-            let width = share * size;
-            let beside = |width: f64| {
-                let mut scene = scene.clone();
-                parameter.set(&mut scene, value + width);
-                let map = StroboscopicMap::new(&scene, periods).ok()?;
-                let passage = map.apply(point.state() + width * along).ok()?;
-                (passage.impacts.len() == impacts).then(|| test.value(&passage.monodromy))
-            };
-            let central = |width: f64| Some((beside(width)? - beside(-width)?) / (2.0 * width));
-            let (wide, narrow) = (central(2.0 * width)?, central(width)?);
-            let found = (4.0 * narrow - wide) / 3.0;
-            ((wide - narrow).abs() <= 0.01 * found.abs()).then_some(found)
-        })
+    let rates = round.stability_rates(scene, periods)?.into_iter();
+    let rate = |[trace, determinant]: [f64; 2]| match test {
+        Test::NeimarkSacker => determinant,
+        Test::Fold | Test::Flip => trace + determinant,
     };
-    let rates: Option<Vec<f64>> = (0..parameters.len()).map(rate).collect();
-    rates.ok_or_else(|| none(parameters))
+    Ok(rates.map(rate).collect())
 }
 
 /// -dw/dp of a grazing orbit, from rest at the surface to rest there: angle of the touch and frequency are unknown.

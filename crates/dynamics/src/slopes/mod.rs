@@ -1,5 +1,5 @@
-//! Exact derivatives by the parameters of a machine: of a periodic motion's figures ([`of`]), and of where it ends
-//! ([`Border`]).
+//! Exact derivatives by the parameters of a machine: of a periodic motion's figures ([`of`]), of its multipliers
+//! ([`stability`]), and of where it ends ([`Border`]).
 //!
 //! The motion x(0) = P(x(0), p) is followed by the implicit function theorem, (1 - M) dx/dp = dP/dp; M and dP/dp come from
 //! the variational equation along the motion, with the saltation of each crossing. The drive angle at time 0 is held.
@@ -20,10 +20,12 @@ mod border;
 mod figure;
 mod peak;
 mod round;
+mod stability;
 mod watch;
 
 pub use border::{Border, BorderKind};
 pub use figure::{Figure, Strike};
+pub use stability::{Stability, stability};
 
 use softstop::Parameter;
 

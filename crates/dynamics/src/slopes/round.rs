@@ -14,8 +14,8 @@ const SINGULAR: f64 = 1e-11;
 
 /// A motion from time 0 over some drive periods.
 pub(super) struct Round {
-    parameters: Vec<Parameter>,
-    start: Vector2<f64>,
+    pub parameters: Vec<Parameter>,
+    pub start: Vector2<f64>,
     frequency: f64,
     /// As [`Influence`](softstop::internals::Influence) has them in the end.
     pub columns: Vec<Vector3<f64>>,

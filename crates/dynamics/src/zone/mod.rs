@@ -147,7 +147,7 @@ impl From<SceneError> for ZoneError {
 }
 
 /// One scene at all frequencies.
-struct Frequencies<'a>(&'a Scene);
+pub(crate) struct Frequencies<'a>(pub &'a Scene);
 
 impl Family for Frequencies<'_> {
     fn scene(&self, [frequency]: [f64; 1]) -> Result<Scene, MotionError> {

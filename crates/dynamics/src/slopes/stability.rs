@@ -1,0 +1,112 @@
+//! How the multipliers of a periodic motion change: they are first derivatives themselves, so their own are differences.
+
+use nalgebra::{Matrix2, Vector2};
+
+use softstop::{Parameter, Scene};
+
+use super::figure::Figure;
+use super::round::{Round, none};
+use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
+
+/// Shares of a parameter over which the monodromy matrix is differenced: the next where the orbit beside crosses something
+/// else, or the map bends too much.
+const WIDTHS: [f64; 4] = [1e-4, 1e-5, 1e-6, 1e-7];
+/// Share by which differences over one width and over twice that width may lie apart.
+const APART: f64 = 0.01;
+
+/// Trace and determinant of the monodromy matrix, with their derivatives.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Stability {
+    /// The trace.
+    pub trace: Figure,
+    /// The determinant.
+    pub determinant: Figure,
+}
+
+impl Stability {
+    /// The larger modulus of the two multipliers; at a double one, where it has none, its derivatives are infinite.
+    pub fn largest(&self) -> Figure {
+        let (trace, determinant) = (self.trace.value, self.determinant.value);
+        let half = 0.5 * trace;
+        let square = half * half - determinant;
+        let pairs = self.trace.by.iter().zip(&self.determinant.by);
+        if square < 0.0 {
+            let value = determinant.sqrt();
+            let by = pairs.map(|(_, by)| 0.5 * by / value).collect();
+            return Figure { value, by };
+        }
+        let root = square.sqrt().copysign(half);
+        let value = half + root;
+        let rate = |(trace, determinant): (&f64, &f64)| {
+            value.signum() * (value * trace - determinant) / (2.0 * root)
+        };
+        Figure {
+            value: value.abs(),
+            by: pairs.map(rate).collect(),
+        }
+    }
+}
+
+/// The stability of a periodic motion: by differences of the fourth order of the exact monodromy matrix along the orbit's
+/// own exact derivative, at the cost of four maps for each parameter.
+///
+/// # Errors
+/// As [`of`](super::of); [`NoDerivative`](softstop::MotionError::NoDerivative) also where motions beside cross something
+/// else, however near.
+pub fn stability(orbit: &Orbit, parameters: &[Parameter]) -> Result<Stability, OrbitError> {
+    let round = Round::of(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
+    let rates = round.stability_rates(&orbit.scene, orbit.periods)?;
+    let figure = |value: f64, which: usize| Figure {
+        value,
+        by: rates.iter().map(|rates| rates[which]).collect(),
+    };
+    Ok(Stability {
+        trace: figure(orbit.trace(), 0),
+        determinant: figure(orbit.determinant(), 1),
+    })
+}
+
+impl Round {
+    /// Derivatives of trace and determinant along the orbit, by each parameter.
+    pub(super) fn stability_rates(
+        &self,
+        scene: &Scene,
+        periods: u64,
+    ) -> Result<Vec<[f64; 2]>, OrbitError> {
+        let (positions, velocities) = self.state(&self.starts()?);
+        let impacts = self.watched.impacts.len();
+        let ways = positions.by.iter().zip(&velocities.by);
+        let each = self.parameters.iter().zip(ways);
+        let rates = each.map(|(parameter, (position, velocity))| {
+            let along = Vector2::new(*position, *velocity);
+            let value = parameter.get(scene)?;
+            let size = if value == 0.0 { 1.0 } else { value.abs() };
+            WIDTHS.iter().find_map(|share| {
+                let width = share * size;
+                let beside = |width: f64| {
+                    let mut scene = scene.clone();
+                    parameter.set(&mut scene, value + width);
+                    let map = StroboscopicMap::new(&scene, periods).ok()?;
+                    let passage = map.apply(self.start + width * along).ok()?;
+                    let same = passage.impacts.len() == impacts;
+                    same.then(|| invariants(&passage.monodromy))
+                };
+                let central = |width: f64| Some((beside(width)? - beside(-width)?) / (2.0 * width));
+                let (wide, narrow) = (central(2.0 * width)?, central(width)?);
+                let found = (4.0 * narrow - wide) / 3.0;
+                let settled = (wide - narrow).norm() <= APART * found.norm() + SAME / size;
+                settled.then_some([found.x, found.y])
+            })
+        });
+        let rates: Option<Vec<_>> = rates.collect();
+        rates.ok_or_else(|| none(&self.parameters))
+    }
+}
+
+/// What rounding may leave of a derivative that vanishes, times the parameter.
+const SAME: f64 = 1e-7;
+
+fn invariants(matrix: &Matrix2<f64>) -> Vector2<f64> {
+    Vector2::new(matrix.trace(), matrix.determinant())
+}

@@ -1,0 +1,132 @@
+//! Normals of the borders of z = 1, against the borders of machines beside.
+
+use std::ops::ControlFlow;
+
+use approx::assert_abs_diff_eq;
+use softstop::{Parameter, Ratios, RigidStop, Scene};
+use softstop_dynamics::continuation::{Face, SpecialKind, Test};
+use softstop_dynamics::slopes::{Border, BorderKind};
+use softstop_dynamics::{Along, Follower, Limits, orbit, zone};
+use softstop_testing::tolerance::DIFFERENCED;
+
+/// The paper's machines.
+fn zones() -> Vec<Scene> {
+    [Ratios::unloaded(), Ratios::loaded()]
+        .map(|ratios| ratios.scene().expect("valid"))
+        .to_vec()
+}
+
+#[test]
+fn normals_are_those_of_zones_computed_anew() {
+    for scene in zones() {
+        let parameters: Vec<Parameter> = Parameter::ALL
+            .into_iter()
+            .filter(|parameter| parameter.get(&scene).is_some())
+            .collect();
+        let of = |scene: &Scene| zone::hysteresis(scene).expect("a zone");
+        let zone = of(&scene);
+        let fold =
+            Border::critical(&scene, 1, (Test::Fold, &zone.fold), &parameters).expect("smooth");
+        let free = Border::free(&scene, true, &parameters).expect("grazes");
+        for (index, parameter) in parameters.into_iter().enumerate() {
+            if matches!(parameter, Parameter::Frequency | Parameter::Phase) {
+                continue;
+            }
+            let value = parameter.get(&scene).expect("it has");
+            let width = 1e-4 * value.abs().max(0.05);
+            let frequencies = |shift: f64| {
+                let mut scene = scene.clone();
+                parameter.set(&mut scene, value + shift);
+                let zone = of(&scene);
+                [zone.frequency_sn, zone.frequency_g0]
+            };
+            let [ahead, behind, farther, back] =
+                [1.0, -1.0, 2.0, -2.0].map(|shift| frequencies(shift * width));
+            for (which, border) in [&fold, &free].into_iter().enumerate() {
+                let [narrow, wide] = [
+                    (ahead[which] - behind[which]) / (2.0 * width),
+                    (farther[which] - back[which]) / (4.0 * width),
+                ];
+                let found = (4.0 * narrow - wide) / 3.0;
+                assert!(
+                    (found + border.normal[index]).abs() < DIFFERENCED * (1.0 + found.abs()),
+                    "{parameter:?} {which}: {found} {}",
+                    border.normal[index]
+                );
+            }
+        }
+    }
+}
+
+/// The special points of z = 1 over the frequency, of the paper's machines and one with a rigid stop behind.
+fn borders(scene: &Scene) -> Vec<Border> {
+    let parameters: Vec<Parameter> = Parameter::ALL
+        .into_iter()
+        .filter(|parameter| parameter.get(scene).is_some())
+        .collect();
+    let family = Along::new(scene.clone(), [Parameter::Frequency]).expect("valid");
+    let limits = Limits {
+        range: (0.8, 1.6),
+        points: 2000,
+    };
+    let state = orbit::find(scene).expect("an orbit").state();
+    let branch = Follower::new(&family, 1)
+        .branch(scene.excitation.frequency, state, &limits, |_| {
+            ControlFlow::Continue(())
+        })
+        .expect("a branch");
+    let specials = branch.specials.iter();
+    specials
+        .map(|special| Border::at(scene, 1, special, &parameters).expect("smooth"))
+        .collect()
+}
+
+#[test]
+fn normals_are_those_of_borders_found_again() {
+    let [unloaded, loaded] = [Ratios::unloaded(), Ratios::loaded()];
+    let scenes = [unloaded, loaded].map(|ratios| ratios.scene().expect("valid"));
+    let walled = scenes[0].clone();
+    let walled = Scene {
+        rigid: Some(RigidStop {
+            travel: 1.0,
+            restitution: 0.6,
+        }),
+        ..walled
+    };
+    let mut kinds = Vec::new();
+    for border in scenes.iter().chain([&walled]).flat_map(borders) {
+        kinds.push(border.kind);
+        for (parameter, normal) in border.parameters.iter().zip(&border.normal) {
+            if *parameter == Parameter::Frequency {
+                assert_eq!(*normal, 1.0);
+                continue;
+            }
+            let value = parameter.get(&border.scene).expect("it has");
+            let width = 1e-4 * value.abs().max(0.05);
+            let frequency = |shift: f64| {
+                let mut scene = border.scene.clone();
+                parameter.set(&mut scene, value + shift * width);
+                border.again(&scene).expect("is there").frequency()
+            };
+            let central = |by: f64| (frequency(by) - frequency(-by)) / (2.0 * by * width);
+            let found = (4.0 * central(1.0) - central(2.0)) / 3.0;
+            let size = 1.0 + found.abs();
+            assert_abs_diff_eq!(-found, *normal, epsilon = 0.01 * DIFFERENCED * size);
+        }
+    }
+    let has = |is: fn(&SpecialKind) -> bool| {
+        let mut kinds = kinds.iter();
+        kinds.any(|kind| matches!(kind, BorderKind::Motion(kind) if is(kind)))
+    };
+    let touches = |face: Face| {
+        let on = |kind: &BorderKind| matches!(kind, BorderKind::Motion(SpecialKind::Grazing(graze)) if graze.face == face);
+        kinds.iter().any(on)
+    };
+    assert!(has(|kind| *kind == SpecialKind::Critical(Test::Fold)));
+    assert!(has(|kind| *kind == SpecialKind::Critical(Test::Flip)));
+    assert!(
+        [Face::Clearance, Face::Stop, Face::Wall]
+            .into_iter()
+            .all(touches)
+    );
+}
