@@ -1,13 +1,22 @@
 //! Robust design: what tolerances do to a z = 1 motion.
 //!
 //! A machine is made with [`Tolerance`]s about its design; together they are a box about it ([`Tolerances`]), in which
-//! coordinates run from -1 to 1. [`verify`] looks at a million machines of the box.
+//! coordinates run from -1 to 1. [`nearest`] finds the nearest machine that loses the motion, [`worst`] the one that strikes
+//! the least, and [`verify`] looks at a million others; [`sensitivities`] and [`scatter`] tell whose tolerance it is.
 
+mod indices;
+mod nearest;
 mod points;
+mod scatter;
 mod verify;
+mod worst;
 
+pub use indices::{Effort, Estimate, Index, indices};
+pub use nearest::{Manifold, Nearest, Norm, nearest};
 pub use points::{BLOCK, place};
+pub use scatter::{Scatter, Sensitivities, scatter, sensitivities, shares};
 pub use verify::{Bin, LostMachine, Settings, Verdict, verify};
+pub use worst::{Worst, worst};
 
 use softstop::{Allowed, Machine, Parameter, Scene, SceneError};
 use softstop_dynamics::spread::Spread;

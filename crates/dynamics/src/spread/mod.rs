@@ -9,11 +9,13 @@
 mod guide;
 mod look;
 mod model;
+mod normal;
 mod ray;
 
 pub use guide::{Fate, Guide};
 pub use look::{Look, Settled};
 pub use model::Model;
+pub use normal::{critical_normal, free_normal, velocity_slopes};
 pub use ray::{Reached, along};
 
 use softstop::Scene;
@@ -26,4 +28,19 @@ pub trait Spread: Sync {
     /// The machine at some coordinates, its drive included: the nominal one at 0; between -1 and 1 in each lie those that
     /// are within the bounds. It need not be valid.
     fn scene(&self, at: &[f64]) -> Scene;
+}
+
+/// The same machines with bounds so many times as wide.
+#[derive(Debug, Clone, Copy)]
+pub struct Scaled<'a, S: ?Sized>(pub &'a S, pub f64);
+
+impl<S: Spread + ?Sized> Spread for Scaled<'_, S> {
+    fn dimensions(&self) -> usize {
+        self.0.dimensions()
+    }
+
+    fn scene(&self, at: &[f64]) -> Scene {
+        let at: Vec<f64> = at.iter().map(|at| self.1 * at).collect();
+        self.0.scene(&at)
+    }
 }

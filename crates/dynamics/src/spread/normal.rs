@@ -1,0 +1,105 @@
+//! Exact derivatives by the coordinates of a spread: normals of borders, slopes of a motion.
+
+use super::Spread;
+use crate::continuation::{BranchPoint, Test};
+use crate::orbit::{Orbit, OrbitError};
+use crate::slopes::{self, Border};
+use crate::zone::ZoneError;
+use softstop::{Parameter, Scene};
+
+/// Change of a coordinate over which the machine's parameters are differenced: exact where they are linear in it, or
+/// products of two that are.
+const CHANGE: f64 = 0.125;
+
+/// The normal of g0 at some coordinates: d(w - g0)/d(coordinate) in rad/s.
+///
+/// # Errors
+/// [`ZoneError`] as of [`Border::free`].
+pub fn free_normal(spread: &(impl Spread + ?Sized), at: &[f64]) -> Result<Vec<f64>, ZoneError> {
+    let (scene, parameters) = (spread.scene(at), varied(spread, at));
+    let border = Border::free(&scene, true, &parameters)?;
+    Ok(in_coordinates(
+        spread,
+        at,
+        &border.parameters,
+        &border.normal,
+    ))
+}
+
+/// The normal of a fold or a flip: d(w - w_b)/d(coordinate) in rad/s, w_b the frequency, in rad/s, of this point of it, on
+/// the branch over the frequency of the machine at some coordinates.
+///
+/// # Errors
+/// [`OrbitError`] as of [`Border::critical`].
+pub fn critical_normal(
+    spread: &(impl Spread + ?Sized),
+    at: &[f64],
+    (test, point): (Test, &BranchPoint),
+) -> Result<Vec<f64>, OrbitError> {
+    let (scene, parameters) = (spread.scene(at), varied(spread, at));
+    let border = Border::critical(&scene, 1, (test, point), &parameters)?;
+    Ok(in_coordinates(
+        spread,
+        at,
+        &border.parameters,
+        &border.normal,
+    ))
+}
+
+/// d(before-impact velocity)/d(coordinate) in m/s of the motion at some coordinates.
+///
+/// # Errors
+/// [`OrbitError`] as of [`slopes::of`](crate::slopes::of); [`OrbitError::OtherRegime`] for a motion without impacts.
+pub fn velocity_slopes(
+    spread: &(impl Spread + ?Sized),
+    at: &[f64],
+    orbit: &Orbit,
+) -> Result<Vec<f64>, OrbitError> {
+    let slopes = slopes::of(orbit, &varied(spread, at))?;
+    let strike = slopes.impacts.first();
+    let by = &strike
+        .ok_or(OrbitError::OtherRegime { impacts: 0 })?
+        .velocity
+        .by;
+    Ok(in_coordinates(spread, at, &slopes.parameters, by))
+}
+
+/// The machines on both sides of one along a coordinate.
+fn beside(spread: &(impl Spread + ?Sized), at: &[f64], index: usize) -> [Scene; 2] {
+    [-CHANGE, CHANGE].map(|change| {
+        let mut at = at.to_vec();
+        at[index] += change;
+        spread.scene(&at)
+    })
+}
+
+/// How a parameter changes with a coordinate.
+fn rate([below, above]: &[Scene; 2], parameter: Parameter) -> f64 {
+    let values = parameter.get(below).zip(parameter.get(above));
+    values.map_or(0.0, |(below, above)| (above - below) / (2.0 * CHANGE))
+}
+
+/// The parameters that change with the coordinates.
+fn varied(spread: &(impl Spread + ?Sized), at: &[f64]) -> Vec<Parameter> {
+    let pairs: Vec<_> = (0..at.len())
+        .map(|index| beside(spread, at, index))
+        .collect();
+    let changes = |parameter: &Parameter| pairs.iter().any(|pair| rate(pair, *parameter) != 0.0);
+    Parameter::ALL.into_iter().filter(changes).collect()
+}
+
+/// Derivatives by parameters as such by coordinates.
+fn in_coordinates(
+    spread: &(impl Spread + ?Sized),
+    at: &[f64],
+    parameters: &[Parameter],
+    by: &[f64],
+) -> Vec<f64> {
+    let part = |index: usize| {
+        let pair = beside(spread, at, index);
+        let each = parameters.iter().zip(by);
+        each.map(|(parameter, by)| by * rate(&pair, *parameter))
+            .sum()
+    };
+    (0..at.len()).map(part).collect()
+}

@@ -1,0 +1,100 @@
+//! Which tolerance eats the margin.
+
+use softstop_dynamics::continuation::Test;
+use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::spread::{Fate, Guide, Model, Spread, critical_normal, free_normal};
+use softstop_dynamics::watch::Watcher;
+use softstop_dynamics::zone::{ZoneError, grazing_frequencies, hysteresis_soon};
+use softstop_dynamics::{Orbit, Zone};
+
+use super::indices::{Effort, Index, indices};
+use super::points::{BLOCK, place};
+use super::worst::slopes;
+
+/// How the motion and its margins change with each coordinate, by as much as its tolerance.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Sensitivities {
+    /// Of the before-impact velocity, in m/s.
+    pub velocity: Vec<f64>,
+    /// Of the margin s_SN - w to the fold, in rad/s.
+    pub to_fold: Vec<f64>,
+    /// Of the margin w - g0, in rad/s.
+    pub to_free: Vec<f64>,
+}
+
+/// The shares of all coordinates in what a linear figure may change at most.
+pub fn shares(slopes: &[f64]) -> Vec<f64> {
+    let sum: f64 = slopes.iter().map(|slope| slope.abs()).sum();
+    slopes.iter().map(|slope| slope.abs() / sum).collect()
+}
+
+/// The sensitivities of a motion and of the zone of its machine.
+///
+/// # Errors
+/// [`ZoneError`] where a fold has no derivatives, or there is no motion to difference beside this one.
+pub fn sensitivities(
+    spread: &(impl Spread + ?Sized),
+    nominal: &Orbit,
+    zone: &Zone,
+) -> Result<Sensitivities, ZoneError> {
+    let centre = vec![0.0; spread.dimensions()];
+    let fold = critical_normal(spread, &centre, (Test::Fold, &zone.fold))?;
+    Ok(Sensitivities {
+        velocity: slopes(spread, nominal, &centre, nominal)?,
+        to_fold: fold.iter().map(|part| -part).collect(),
+        to_free: free_normal(spread, &centre)?,
+    })
+}
+
+/// Sobol' indices of the coordinates.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Scatter {
+    /// For the before-impact velocity.
+    pub velocity: Vec<Index>,
+    /// For the place (w - g0) / (s_SN - g0) in the zone of each machine.
+    pub place: Vec<Index>,
+}
+
+/// Whose scatter that of the velocity and of the place in the zone is; none if a machine between the bounds loses the
+/// motion or has no zone. s_SN is a polynomial in the coordinates, fitted to exact ones.
+///
+/// # Errors
+/// [`OrbitError`] if the nominal motion is not one to start from; [`OrbitError::Stopped`].
+pub fn scatter(
+    spread: &(impl Spread + ?Sized),
+    nominal: &Orbit,
+    effort: Effort,
+    watcher: Watcher<'_>,
+) -> Result<Option<Scatter>, OrbitError> {
+    let dimensions = spread.dimensions();
+    // Of a sequence that the points do not use.
+    let first = effort.sequences.max(2) * BLOCK;
+    let known = first..first + Model::<2>::wanted(dimensions);
+    let known: Vec<Vec<f64>> = known.map(|index| place(index, dimensions)).collect();
+    let guide = Guide::new(spread, nominal, &known)?;
+    let scenes: Vec<_> = known.iter().map(|at| spread.scene(at)).collect();
+    let zones = hysteresis_soon(&scenes, watcher).into_iter();
+    let folds: Result<Vec<_>, _> = zones
+        .map(|zone| zone.map(|zone| [zone.frequency_sn]))
+        .collect();
+    if watcher(0, 0).is_break() {
+        return Err(OrbitError::Stopped);
+    }
+    let Some(folds) = folds.ok().and_then(|folds| Model::fit(&known, &folds)) else {
+        return Ok(None);
+    };
+    let outputs = |at: &[f64]| {
+        let scene = spread.scene(at);
+        let (_, free) = grazing_frequencies(&scene).ok()?;
+        let [fold] = folds.at(at);
+        let share = (scene.excitation.frequency - free) / (fold - free);
+        match guide.fate(at) {
+            Fate::Kept(settled) => Some([settled.velocity, share]),
+            Fate::Lost { .. } => None,
+        }
+    };
+    let found = indices(dimensions, effort, outputs, watcher);
+    Ok(found.map(|[velocity, place]| Scatter { velocity, place }))
+}
