@@ -9,6 +9,7 @@ mod tables;
 mod words;
 
 pub use tables::csv;
+pub use words::quantity;
 
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, Error, UndefinedBehavior, context};
@@ -17,6 +18,9 @@ use serde::Serialize;
 use data::Report;
 use figure::{Figure, HALF, WIDE};
 use pictures::{basin, effects, erosion, front, histogram, map, portrait, response};
+
+/// A margin that is less, in units of the value, is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Pictures under a heading.
 #[derive(Serialize)]
@@ -38,6 +42,11 @@ pub fn html(report: &Report) -> Result<String, Error> {
     });
     environment.add_filter("number", |value: Option<f64>| {
         value.map_or("–".to_owned(), words::number)
+    });
+    environment.add_filter("beside", |small: Option<f64>, size: Option<f64>| {
+        let (small, size) = (small.unwrap_or(f64::NAN), size.unwrap_or(f64::NAN));
+        let is_rounding = small.abs() < ROUNDING * size.abs();
+        words::number(if is_rounding { 0.0 } else { small })
     });
     environment.add_filter("percent", |share: Option<f64>| match share {
         Some(share) if share.is_finite() => format!("{:.1} %", 100.0 * share),

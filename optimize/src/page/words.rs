@@ -46,8 +46,8 @@ pub(super) fn count(value: u64) -> String {
     text
 }
 
-/// A number with its unit.
-pub(super) fn quantity(value: f64, unit: &str) -> String {
+/// A number as the page writes it, with its unit.
+pub fn quantity(value: f64, unit: &str) -> String {
     match unit {
         "" => number(value),
         _ => format!("{}\u{a0}{unit}", number(value)),
@@ -71,6 +71,32 @@ fn grouped(text: &str) -> String {
         (true, rest) => format!("{}\u{202f}{}.{rest}", &whole[..split], &whole[split..]),
         (false, _) => text.to_owned(),
     }
+}
+
+/// The text with a capital at its beginning.
+pub(super) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).collect()
+}
+
+/// A text as it is typed, with g0 and g₀ as `g_0`, and a sign in front of a number as a minus sign.
+fn plain(text: &str) -> String {
+    let text = text.replace('₀', "_0");
+    let mut plain = String::new();
+    let mut before = ' ';
+    let mut letters = text.chars().peekable();
+    while let Some(letter) = letters.next() {
+        let is_free = !before.is_alphanumeric() && before != '_';
+        let next = letters.peek().copied().unwrap_or(' ');
+        match letter {
+            'g' if is_free && next == '0' => plain += "g_",
+            '-' if before == ' ' && next.is_ascii_digit() => plain.push('−'),
+            letter => plain.push(letter),
+        }
+        before = letter;
+    }
+    plain
 }
 
 /// A text with its indices below the line, as HTML: `s_SN` becomes s with SN as its index. What a text holds besides
@@ -97,7 +123,7 @@ pub(super) fn indexed(
     index: impl Fn(&str) -> String,
     other: impl Fn(&str) -> String,
 ) -> String {
-    let text = text.replace('₀', "_0");
+    let text = plain(text);
     let mut done = String::new();
     let mut rest = text.as_str();
     while let Some((head, tail)) = rest.split_once('_') {
@@ -175,6 +201,10 @@ mod tests {
             "from g<sub>0</sub> to s<sub>SN</sub> &lt;"
         );
         assert_eq!(html("missing_strips"), "missing_strips");
+        assert_eq!(
+            html("above g0, -0.5 to 2-3"),
+            "above g<sub>0</sub>, −0.5 to 2-3"
+        );
         assert_eq!(html("X_m, a_b_c"), "X<sub>m</sub>, a<sub>b</sub>_c");
     }
 }

@@ -24,9 +24,7 @@ const BARS: usize = 40;
 /// A value with its unit.
 pub(super) fn told(machine: &Machine, dimension: Dimension, value: f64) -> String {
     let own = machine.to_own(dimension, value);
-    format!("{} {}", number(own), machine.unit(dimension))
-        .trim_end()
-        .to_owned()
+    crate::page::quantity(own, machine.unit(dimension))
 }
 
 pub(super) fn requirement(machine: &Machine, met: &Met) -> data::Requirement {

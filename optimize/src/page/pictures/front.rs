@@ -8,6 +8,7 @@ use softstop_draw::style;
 
 use crate::page::data::Front;
 use crate::page::figure::{EDGE, Figure, HALF, LETTERS, LINE, ROOM, finite, legend};
+use crate::page::words::capital;
 
 const LINED: Stroke = Stroke::solid(style::DESIGN, 1.6);
 
@@ -48,5 +49,5 @@ pub(in crate::page) fn figure(front: &Front) -> Figure {
     }
     panel.axes(&mut pen, &axes);
     let caption = "Each point is a design that cannot be bettered in one of the two without loss in the other.";
-    Figure::new(&pen, HALF, &front.title, caption.to_owned())
+    Figure::new(&pen, HALF, &capital(&front.title), caption.to_owned())
 }

@@ -9,7 +9,7 @@ use softstop_draw::style;
 use super::stroke;
 use crate::page::data::Map;
 use crate::page::figure::{EDGE, Figure, LETTERS, LINE, ROOM, Size, ends, finite, legend};
-use crate::page::words::quantity;
+use crate::page::words::{capital, quantity};
 
 /// Colours of viridis, evenly spaced (van der Walt and Smith 2015).
 const VIRIDIS: [[f64; 3]; 9] = [
@@ -107,24 +107,25 @@ fn caption(map: &Map) -> String {
         quantity(x, &map.x.unit),
         quantity(y, &map.y.unit)
     );
-    let tolerance = map.tolerance.map_or(String::new(), |[across, up]| {
-        format!(
-            " The box about it is its tolerance, ±{} and ±{}.",
-            quantity(across, &map.x.unit),
-            quantity(up, &map.y.unit)
-        )
-    });
+    let widths = map
+        .tolerance
+        .unwrap_or_default()
+        .into_iter()
+        .zip([&map.x.unit, &map.y.unit]);
+    let widths = widths.filter(|(width, _)| *width > 0.0);
+    let widths = widths.map(|(width, unit)| format!("±{}", quantity(width, unit)));
+    let widths: Vec<String> = widths.collect();
+    let tolerance = match widths.is_empty() {
+        true => String::new(),
+        false => format!(
+            " The box about it is its tolerance, {}.",
+            widths.join(" and ")
+        ),
+    };
     format!(
         "Colour: {} of the stable motion with one impact a period, in the hysteresis zone (from g₀ to s_SN) and below it; no colour: no such motion. {place}{tolerance}",
         map.shade.line()
     )
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| {
-        first.to_uppercase().chain(letters).collect()
-    })
 }
 
 fn cells(pen: &mut Pen, map: &Map, panel: &Panel, (low, high): (f64, f64)) {
