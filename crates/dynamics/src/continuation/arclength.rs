@@ -31,6 +31,12 @@ pub(crate) trait Equations {
         DIFFERENCE
     }
 
+    /// True if Newton's method settles from guesses very near alone.
+    fn is_steep(&self, here: &Self::Point) -> bool {
+        let _ = here;
+        false
+    }
+
     /// True if nothing that breaks a derivative lies between two places side by side.
     fn is_smooth(&self, from: &Self::Point, to: &Self::Point) -> bool {
         let _ = (from, to);

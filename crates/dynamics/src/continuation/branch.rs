@@ -7,7 +7,6 @@ use nalgebra::{DVector, Vector2};
 use super::Family;
 use super::arclength::Node;
 use super::caution::SHORT;
-use super::detect::passes_by;
 use super::follower::{Follower, Heading, Turned, WIDTH};
 use super::graze::Approach;
 use super::locate::locate;
@@ -183,15 +182,14 @@ impl<'a, F: Family> Follower<'a, F> {
                     return Err(UNSTABLE);
                 }
                 let specials = self.specials_between(&walker.node, &stride.node)?;
-                Ok((stride, ahead, specials))
+                let step = (&walker.node, &stride.node);
+                let end = self.record(way, step, specials, &origin, limits)?;
+                Ok((stride, ahead, end))
             });
             match stride {
-                Ok((stride, ahead, specials)) => {
-                    let last = walker.node.clone();
+                Ok((stride, ahead, end)) => {
                     crawled = if walker.step < SHORT { crawled + 1 } else { 0 };
                     walker.take(stride);
-                    let step = (&last, &walker.node);
-                    let end = self.record(way, step, specials, &origin, limits)?;
                     (approach, goes_on) = (ahead, true);
                     let stopped = way
                         .points
@@ -252,7 +250,8 @@ impl<'a, F: Family> Follower<'a, F> {
         Ok(None)
     }
 
-    /// Adds the end of a step and the special points on it; says why the branch ends there, if it does.
+    /// Adds the end of a step and the special points on it; says why the branch ends there, if it does. Nothing is added
+    /// where that fails.
     fn record(
         &self,
         way: &mut Way,
@@ -261,7 +260,7 @@ impl<'a, F: Family> Follower<'a, F> {
         origin: &DVector<f64>,
         limits: &Limits,
     ) -> Result<Option<End>, OrbitError> {
-        let closes = way.points.len() >= SHORTEST_LOOP && passes_by(from, to, origin);
+        let closes = way.points.len() >= SHORTEST_LOOP && self.closes(from, to, origin);
         let bound = self.bound_between(from, to, limits);
         let merged = self.merging(from, to);
         let (to, end) = match (bound, merged) {
@@ -276,12 +275,12 @@ impl<'a, F: Family> Follower<'a, F> {
             }
             (None, None) => (to.clone(), closes.then_some(End::Closed)),
         };
+        let mut last = self.point_at(&to)?;
         let (low, high) = limits.range;
         specials.retain(|special| (low..=high).contains(&special.point.parameter));
         way.points
             .extend(specials.iter().map(|special| special.point.clone()));
         way.specials.extend(specials);
-        let mut last = self.point_at(&to)?;
         if let Some(bound) = bound {
             // Scaled unknowns may round its last digit.
             last.parameter = bound;

@@ -2,7 +2,7 @@
 
 use super::Family;
 use super::arclength::Equations;
-use super::follower::Follower;
+use super::follower::{Follower, keeps_sense};
 use super::graze::Approach;
 use super::point::{Special, SpecialKind};
 use super::round::Round;
@@ -23,6 +23,8 @@ const CLOSE: f64 = 1e-3;
 const AHEAD: f64 = 1e-2;
 /// Scaled distances, ahead and behind, at which something is looked for that a branch without a grazing ends in.
 const JUST_AHEAD: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
+/// The same ahead, where the orbits of a branch come to lie side by side.
+const HELD_AHEAD: [f64; 3] = [1e-4, 1e-3, 1e-2];
 /// Monodromy beyond which an orbit is within rounding of a grazing: on which side of it, rounding decides.
 const WILD: f64 = 1e8;
 /// Length of the steps from which on all changes are taken.
@@ -53,22 +55,33 @@ impl<F: Family> Follower<'_, F> {
             return;
         }
         let dies = approach.dies_within(NEAR).then_some(Border::Surface);
-        way.end = match self.border_ahead(walker).or(dies) {
+        way.end = match self.border_ahead(walker, &error).or(dies) {
             Some(border) => End::Border(border),
             None => End::Lost(error),
         };
     }
 
     /// What the orbits just ahead of a node meet, and it does not, or those just behind it, as where a corner was passed
-    /// beyond which no orbit goes on.
-    fn border_ahead(&self, walker: &Walker<'_, Shooting<'_, F, 1>>) -> Option<Border> {
+    /// beyond which no orbit goes on. A mass that slips ever less along the branch comes to be held for good.
+    fn border_ahead(
+        &self,
+        walker: &Walker<'_, Shooting<'_, F, 1>>,
+        error: &OrbitError,
+    ) -> Option<Border> {
         let node = &walker.node;
-        let behind = JUST_AHEAD.map(|reach| -reach);
-        JUST_AHEAD.into_iter().chain(behind).find_map(|reach| {
+        let border = |reach: f64| {
             let there = &node.at + reach * &walker.direction;
             let beyond = self.shooting.evaluate(&there).ok()?;
             node.here.point.sequence.border(&beyond.point.sequence)
-        })
+        };
+        let behind = JUST_AHEAD.map(|reach| -reach);
+        let mut near = JUST_AHEAD.into_iter().chain(behind);
+        let held = || {
+            let mut far = HELD_AHEAD.into_iter().filter_map(border);
+            far.find(|border| *border == Border::Rest)
+        };
+        near.find_map(border)
+            .or_else(|| held().filter(|_| *error == OrbitError::NotIsolated))
     }
 
     /// True if nothing can be missed on a step.
@@ -79,7 +92,12 @@ impl<F: Family> Follower<'_, F> {
         (now, ahead): (&Approach, &Approach),
     ) -> bool {
         let (from, to) = (&walker.node.here.point, &stride.node.here.point);
-        let same = from.sequence.agrees(&to.sequence) && to.monodromy.norm() < WILD;
+        let same = from.sequence.agrees(&to.sequence)
+            && to.monodromy.norm() < WILD
+            && keeps_sense(
+                (&walker.direction, &from.monodromy),
+                (&stride.direction, &to.monodromy),
+            );
         if walker.step < SHORT {
             return same;
         }
@@ -112,12 +130,14 @@ impl<F: Family> Follower<'_, F> {
         walker: &Walker<'_, Shooting<'_, F, 1>>,
         approach: &Approach,
     ) -> Option<Special> {
-        approach.grazes(&self.shooting).into_iter().find(|special| {
+        let is_ahead = |special: &&Special| {
             let Ok(at) = self.place(&special.point) else {
                 return false;
             };
             let way = at - &walker.node.at;
             way.norm() < reach && way.dot(&walker.direction) > 0.5 * way.norm()
-        })
+        };
+        let mut grazes = approach.grazes(&self.shooting).iter();
+        grazes.find(is_ahead).cloned()
     }
 }

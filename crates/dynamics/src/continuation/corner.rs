@@ -6,7 +6,7 @@ use nalgebra::DVector;
 
 use super::Family;
 use super::arclength::{Equations, Node, correct, tangent};
-use super::follower::Follower;
+use super::follower::{Follower, keeps_sense};
 use super::point::{Special, SpecialKind};
 use super::round::Round;
 use super::shooting::Shooting;
@@ -20,7 +20,9 @@ const BEYOND: [f64; 4] = [1e-7, 1e-6, 1e-5, 1e-4];
 const NEAR: f64 = 10.0;
 
 impl<F: Family> Follower<'_, F> {
-    /// A node beyond the corner just ahead, and the direction in which the branch goes on from it.
+    /// A node beyond the corner just ahead, and the direction in which the branch goes on from it. Whether the force jumps
+    /// at the touch plays no part: the map is continuous there, so that fixed points go on from it one way alone, which
+    /// their index tells, and no other branch comes as near.
     pub(super) fn beyond_corner(
         &self,
         walker: &Walker<'_, Shooting<'_, F, 1>>,
@@ -39,7 +41,12 @@ impl<F: Family> Follower<'_, F> {
                 let ahead = &node.at + reach * &along;
                 let found = correct(&self.shooting, &ahead, Some(&along)).ok()?;
                 let near = (&found.at - &node.at).norm() < NEAR * reach;
-                (near && found.here.point.sequence == sequence).then_some((found, along))
+                let goes_on = keeps_sense(
+                    (&walker.direction, &node.here.point.monodromy),
+                    (&along, &found.here.point.monodromy),
+                );
+                let is_beyond = found.here.point.sequence == sequence;
+                (near && is_beyond && goes_on).then_some((found, along))
             })
         })
     }

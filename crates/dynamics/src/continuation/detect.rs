@@ -6,7 +6,7 @@ use super::Family;
 use super::arclength::Node;
 use super::follower::{Follower, WIDTH};
 use super::graze::Approach;
-use super::locate::locate;
+use super::locate::{locate, on_step};
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::round::Round;
 use super::test::Test;
@@ -20,6 +20,8 @@ const MERGED: f64 = 1e-3;
 const AT_BOUND: f64 = 1e-4;
 /// Distance from the start, in units of the step, at which a branch is closed.
 const CLOSED: f64 = 0.05;
+/// The same of the orbit found there.
+const SAME: f64 = 1e-3;
 
 impl<F: Family> Follower<'_, F> {
     pub(super) fn bound_between(
@@ -81,12 +83,13 @@ impl<F: Family> Follower<'_, F> {
     ) -> Result<Option<(f64, Special)>, OrbitError> {
         let way = &to.at - &from.at;
         for node in [from, to] {
-            for mut special in Approach::of(&self.shooting, node)?.grazes(&self.shooting) {
+            for special in Approach::of(&self.shooting, node)?.grazes(&self.shooting) {
                 let at = self.place(&special.point)?;
                 let share = (&at - &from.at).dot(&way) / way.norm_squared();
                 if !(0.0..=1.0).contains(&share) {
                     continue;
                 }
+                let mut special = special.clone();
                 if let SpecialKind::Grazing(graze) = &mut special.kind {
                     graze.dies = from.here.point.impacts.len() > graze.impacts;
                 }
@@ -94,6 +97,21 @@ impl<F: Family> Follower<'_, F> {
             }
         }
         Ok(None)
+    }
+
+    /// True if a step passes the start of the branch: near enough, and no other piece that lies beside it.
+    pub(super) fn closes(
+        &self,
+        from: &Node<Round>,
+        to: &Node<Round>,
+        origin: &DVector<f64>,
+    ) -> bool {
+        let way = &to.at - &from.at;
+        let share = (origin - &from.at).dot(&way) / way.norm_squared();
+        let off = |at: &DVector<f64>| (origin - at).norm() / way.norm();
+        (0.0..=1.0).contains(&share)
+            && off(&(&from.at + share * &way)) < CLOSED
+            && on_step(&self.shooting, (from, to), share).is_ok_and(|node| off(&node.at) < SAME)
     }
 
     /// The flip at which an orbit becomes one of half as many periods, if it does on a step: half a round
@@ -119,12 +137,4 @@ impl<F: Family> Follower<'_, F> {
         let near = follower.point(parameter, self.shooting.state(&at)).ok()?;
         follower.critical(&near, Test::Flip).ok()
     }
-}
-
-/// True if a step passes the start of the branch.
-pub(super) fn passes_by(from: &Node<Round>, to: &Node<Round>, origin: &DVector<f64>) -> bool {
-    let way = &to.at - &from.at;
-    let share = (origin - &from.at).dot(&way) / way.norm_squared();
-    let off = origin - (&from.at + share * &way);
-    (0.0..=1.0).contains(&share) && off.norm() < CLOSED * way.norm()
 }

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::{DVector, Vector2};
+use nalgebra::{DVector, Matrix2, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Node, correct, correct_at};
@@ -236,15 +236,26 @@ impl<'a, F: Family> Follower<'a, F> {
     }
 }
 
-/// True if a step has not leapt to another piece of the branch: no test of the monodromy matrix changes much, and the
-/// parameter turns back where 1 - tr + det changes its sign. Its rate along a smooth curve is that test times a factor
-/// of one sign.
+/// True if a step has not leapt to another piece of the branch: no test of the monodromy matrix changes much, and it goes
+/// on in the same sense.
 fn is_same_piece<F: Family>(
     walker: &Walker<'_, Shooting<'_, F, 1>>,
     stride: &Stride<Round>,
 ) -> bool {
     let [from, to] = [&walker.node, &stride.node].map(|node| &node.here.point.monodromy);
-    let way = |direction: &DVector<f64>, matrix| Test::Fold.value(matrix) * direction[2];
-    Test::change_little(from, to)
-        && way(&walker.direction, from) * way(&stride.direction, to) >= 0.0
+    Test::change_little(from, to) && keeps_sense((&walker.direction, from), (&stride.direction, to))
+}
+
+/// The product of senses that rounding may leave where they are the same.
+const SENSELESS: f64 = -1e-9;
+
+/// True if directions at two places of a branch, each with the monodromy matrix there, may be one: the parameter turns
+/// back where 1 - tr + det changes its sign, and nowhere else. Its rate along the curve is that test times a factor of one
+/// sign, at corners as well: it is the index of a fixed point of a map that is continuous.
+pub(super) fn keeps_sense(
+    (from, before): (&DVector<f64>, &Matrix2<f64>),
+    (to, after): (&DVector<f64>, &Matrix2<f64>),
+) -> bool {
+    let sense = |direction: &DVector<f64>, matrix| Test::Fold.value(matrix) * direction[2];
+    sense(from, before) * sense(to, after) >= SENSELESS
 }

@@ -1,5 +1,6 @@
 //! How near to grazing an orbit is, and the grazing orbit ahead of it.
 
+use std::cell::OnceCell;
 use std::f64::consts::TAU;
 
 use nalgebra::DVector;
@@ -30,6 +31,8 @@ pub(crate) struct Approach {
     /// Drive angle from phi to the section.
     turned: f64,
     speed: f64,
+    /// Grazing orbits near it, once they are asked for.
+    grazes: OnceCell<Vec<Special>>,
 }
 
 impl Approach {
@@ -52,6 +55,7 @@ impl Approach {
             drive: (scene.excitation.phase, scene.excitation.frequency),
             turned: TAU * shooting.turn,
             speed: shooting.velocity_scale(),
+            grazes: OnceCell::new(),
         })
     }
 
@@ -80,7 +84,11 @@ impl Approach {
     }
 
     /// The grazing orbits that Newton's method reaches from here.
-    pub fn grazes<F: Family>(&self, shooting: &Shooting<'_, F, 1>) -> Vec<Special> {
+    pub fn grazes<F: Family>(&self, shooting: &Shooting<'_, F, 1>) -> &[Special] {
+        self.grazes.get_or_init(|| self.find_grazes(shooting))
+    }
+
+    fn find_grazes<F: Family>(&self, shooting: &Shooting<'_, F, 1>) -> Vec<Special> {
         let (total, taken) = self.crossings;
         let dying = self.dying.zip(total.checked_sub(taken));
         // Where the force jumps down, the mass goes on from rest at the surface.

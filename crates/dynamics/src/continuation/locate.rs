@@ -2,7 +2,9 @@
 
 use nalgebra::DVector;
 
-use super::arclength::{Care, Equations, Node, bordered, correct_with, slopes_at, solved, tangent};
+use super::arclength::{
+    Care, Equations, Node, bordered, correct, correct_with, slopes_at, solved, tangent,
+};
 use crate::orbit::OrbitError;
 use softstop::internals::narrow;
 
@@ -24,8 +26,16 @@ pub(crate) fn locate<E: Equations>(
     let mut known = vec![(0.0, test(from), from.clone()), (1.0, test(to), to.clone())];
     let ends = ((0.0, known[0].1), (1.0, known[1].1));
     narrow(ends.0, ends.1, width / way.norm(), |share| {
-        let guess = interpolated(&known, share);
+        let straight = known.len() == ENDS && equations.is_steep(&from.here.point);
+        let bent = straight.then(|| cubic(equations, (from, to), share));
+        let guess = match bent {
+            Some(Ok(bent)) => bent,
+            _ => interpolated(&known, share),
+        };
         let node = correct_with(equations, &guess, Some(&chord), &mut slopes, Care::Full)?;
+        if !is_beside((&from.at, &way), &node.at) {
+            return Err(OrbitError::Diverged { residual: f64::NAN });
+        }
         let value = test(&node);
         known.push((share, value, node));
         Ok::<f64, OrbitError>(value)
@@ -53,7 +63,8 @@ pub(crate) fn zero<E: Equations>(
     test: impl Fn(&E::Point) -> f64,
 ) -> Result<Node<E::Point>, OrbitError> {
     let lost = |residual| OrbitError::Diverged { residual };
-    let chord = (&to.at - &from.at).normalize();
+    let way = &to.at - &from.at;
+    let chord = way.normalize();
     let along = |at: &DVector<f64>| chord.dot(&(at - &from.at));
     let mut values = vec![
         (0.0, test(&from.here.point)),
@@ -67,7 +78,8 @@ pub(crate) fn zero<E: Equations>(
         values.drain(..values.len().saturating_sub(BACK));
         let onward = vanishes(&values) - place;
         if size <= here.tolerance && onward.abs() <= width {
-            let is_between = (0.0..=along(&to.at)).contains(&place);
+            let is_between =
+                (0.0..=along(&to.at)).contains(&place) && is_beside((&from.at, &way), &at);
             return is_between.then_some(Node { at, here }).ok_or(lost(size));
         }
         let slopes = slopes_at(equations, &at, &here, Care::Full)?;
@@ -76,6 +88,14 @@ pub(crate) fn zero<E: Equations>(
         at += step.ok_or(lost(size))?;
     }
     Err(lost(f64::NAN))
+}
+
+/// True if a place is no farther from the line between two neighbours than they are from each other: what Newton's method
+/// finds farther off lies on another curve.
+fn is_beside((from, way): (&DVector<f64>, &DVector<f64>), at: &DVector<f64>) -> bool {
+    let gone = at - from;
+    let off = &gone - way * (gone.dot(way) / way.norm_squared());
+    off.norm() <= way.norm()
 }
 
 /// Where a function with these values vanishes, as the polynomial through its inverse has it.
@@ -90,6 +110,20 @@ fn vanishes(values: &[(f64, f64)]) -> f64 {
     };
     let parts = values.iter().enumerate();
     parts.map(|(index, (place, _))| place * weight(index)).sum()
+}
+
+/// The node at this share of the way from one neighbour to another.
+pub(super) fn on_step<E: Equations>(
+    equations: &E,
+    (from, to): (&Node<E::Point>, &Node<E::Point>),
+    share: f64,
+) -> Result<Node<E::Point>, OrbitError> {
+    let chord = (&to.at - &from.at).normalize();
+    correct(
+        equations,
+        &cubic(equations, (from, to), share)?,
+        Some(&chord),
+    )
 }
 
 /// The point at this share of the way on the cubic between two nodes along their directions.

@@ -8,8 +8,8 @@
 use nalgebra::{DVector, Vector2};
 
 use super::Family;
-use super::arclength::{Node, correct};
-use super::follower::{Follower, Turned};
+use super::arclength::{Node, correct, tangent};
+use super::follower::{Follower, Turned, keeps_sense};
 use super::point::BranchPoint;
 use super::round::{Round, before_wall, carry_on};
 use softstop::{Arc, Clock, Crossing, MotionError, Observer, Scene};
@@ -34,10 +34,16 @@ impl<'a, F: Family> Follower<'a, F> {
         let at = carried(&node.at).ok()?;
         let back = carried(&(&node.at - BACK * direction)).ok()?;
         let along = (&at - back).normalize();
-        let node = correct(&follower.shooting, &at, Some(&along)).ok()?;
+        let seen = correct(&follower.shooting, &at, Some(&along)).ok()?;
+        let (mut along, _) = tangent(&follower.shooting, &seen, &along).ok()?;
+        // Where small changes grow too much on the way, what is carried back may point backward.
+        let [before, after] = [node, &seen].map(|node| &node.here.point.monodromy);
+        if !keeps_sense((direction, before), (&along, after)) {
+            along.neg_mut();
+        }
         Some(Turned {
             follower,
-            node,
+            node: seen,
             along,
         })
     }

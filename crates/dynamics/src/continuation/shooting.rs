@@ -123,6 +123,15 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         DIFFERENCE * share.clamp(LEAST, 1.0)
     }
 
+    /// Small changes of the state grow a hundredfold and more, though it grazes nothing.
+    fn is_steep(&self, here: &Round) -> bool {
+        let speed = self.velocity_scale();
+        let grazes = here
+            .slowest
+            .is_some_and(|touch| touch.amount < SLOW * speed);
+        !grazes && here.monodromy.trace().abs() > UNSTABLE
+    }
+
     fn is_smooth(&self, from: &Round, to: &Round) -> bool {
         from.sequence == to.sequence
     }
@@ -140,6 +149,8 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
 
 /// Size of a Jacobian from which on its orbit is taken to be near grazing.
 const STEEP: f64 = 10.0;
+/// Multiplier from which on a guess must be very near.
+const UNSTABLE: f64 = 100.0;
 /// Scaled speed of a touch up to which it is.
 const SLOW: f64 = 0.01;
 /// The smallest share of the usual width that rounding leaves good for a difference.

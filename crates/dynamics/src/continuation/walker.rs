@@ -107,11 +107,12 @@ impl<'a, E: Equations> Walker<'a, E> {
         })
     }
 
-    /// Where the curve may be after a step: on a quick way, on the cubic through the last two nodes and along their
-    /// directions.
+    /// Where the curve may be after a step: on a quick way, and where Newton's method settles from nearby alone, on the
+    /// cubic through the last two nodes and along their directions.
     fn guess(&self) -> DVector<f64> {
         let straight = &self.node.at + self.step * &self.direction;
-        let Some((last, before)) = self.last.as_ref().filter(|_| self.care == Care::Quick) else {
+        let bends = self.care == Care::Quick || self.equations.is_steep(&self.node.here.point);
+        let Some((last, before)) = self.last.as_ref().filter(|_| bends) else {
             return straight;
         };
         let (way, turn) = (&self.node.at - last, &self.direction - before);
