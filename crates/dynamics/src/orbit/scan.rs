@@ -7,12 +7,17 @@
 
 use super::legs::Legs;
 use super::{Orbit, OrbitError};
+use crate::extremes::extremes;
 use crate::watch::Watcher;
 use softstop::Scene;
 
 /// Times in a drive period, and velocities, each so many times the one before.
 const TIMES: usize = 20;
 const RATIO: f64 = 1.25;
+/// Every so many of both are looked at first; and how near to zero, in units of its change there, the residual must come
+/// in a cell of them for the others to be.
+const COARSE: usize = 2;
+const SLACK: f64 = 1.0;
 /// The slowest impact that is looked for, in units of the motion's speed.
 const SLOWEST: f64 = 0.005;
 /// Below that, in the same units, an impact is no more than rounding about grazing.
@@ -62,7 +67,8 @@ fn same(a: &Orbit, b: &Orbit, period: f64) -> bool {
     apart.min(period - apart) < SAME * period && (v - w).abs() < SAME * v.max(w)
 }
 
-/// The middles of the cells in which the residual may vanish.
+/// The middles of the cells in which the residual may vanish. Coarse cells are looked at first, and those divided that it
+/// comes near to zero in.
 fn guesses(
     scene: &Scene,
     legs: &Legs<'_>,
@@ -70,46 +76,88 @@ fn guesses(
     watcher: Watcher<'_>,
 ) -> Result<Vec<(f64, f64)>, OrbitError> {
     let speeds = speeds(scene);
-    let times: Vec<f64> = (0..TIMES)
-        .map(|index| period * index as f64 / TIMES as f64)
-        .collect();
-    let column = |time: &f64| -> Result<Vec<Option<[f64; 2]>>, OrbitError> {
-        let gap = |speed: &f64| {
-            OrbitError::ask(watcher)?;
-            Ok(legs.gap(*time, *speed))
-        };
-        speeds.iter().map(gap).collect()
+    let width = period / TIMES as f64;
+    let mut lattice = Lattice {
+        legs,
+        width,
+        known: vec![None; TIMES * speeds.len()],
+        speeds: &speeds,
+        watcher,
     };
-    let lattice: Vec<_> = times.iter().map(column).collect::<Result<_, _>>()?;
+    let last = speeds.len() - 1;
     let mut guesses = Vec::new();
-    for (index, time) in times.iter().enumerate() {
-        let pair = [&lattice[index], &lattice[(index + 1) % TIMES]];
-        for (row, speed) in speeds.iter().enumerate().skip(1) {
-            let corners = pair.iter().flat_map(|column| &column[row - 1..=row]);
-            if may_vanish(corners) {
-                let middle = time + 0.5 * period / TIMES as f64;
-                guesses.push((middle, speed / RATIO.sqrt()));
+    for column in (0..TIMES).step_by(COARSE) {
+        for row in (0..last).step_by(COARSE) {
+            let top = last.min(row + COARSE);
+            let coarse = lattice.corners([column, column + COARSE], [row, top])?;
+            if !may_vanish(&coarse, SLACK) {
+                continue;
+            }
+            for (column, row) in
+                (column..column + COARSE).flat_map(|c| (row..top).map(move |r| (c, r)))
+            {
+                let fine = lattice.corners([column, column + 1], [row, row + 1])?;
+                if may_vanish(&fine, 0.0) {
+                    let middle = (column as f64 + 0.5) * width;
+                    guesses.push((middle, speeds[row] * RATIO.sqrt()));
+                }
             }
         }
     }
     Ok(guesses)
 }
 
-/// True if both parts change their sign between corners, or may do so beyond those where there is no such motion.
-fn may_vanish<'a>(corners: impl Iterator<Item = &'a Option<[f64; 2]>>) -> bool {
-    let (mut low, mut high, mut known, mut all) = ([f64::MAX; 2], [f64::MIN; 2], 0, 0);
-    for corner in corners {
-        all += 1;
-        let Some(gap) = corner else { continue };
-        known += 1;
-        for part in 0..2 {
-            low[part] = low[part].min(gap[part]);
-            high[part] = high[part].max(gap[part]);
+/// What impacts at times and velocities are off by, computed where it is asked for.
+struct Lattice<'a> {
+    legs: &'a Legs<'a>,
+    /// Between two times, in s.
+    width: f64,
+    speeds: &'a [f64],
+    known: Vec<Option<Option<[f64; 2]>>>,
+    watcher: Watcher<'a>,
+}
+
+impl Lattice<'_> {
+    /// The four corners of a cell.
+    fn corners(
+        &mut self,
+        columns: [usize; 2],
+        rows: [usize; 2],
+    ) -> Result<[Option<[f64; 2]>; 4], OrbitError> {
+        let mut corners = [None; 4];
+        let places = columns
+            .into_iter()
+            .flat_map(|column| rows.map(|row| (column % TIMES, row)));
+        for (corner, (column, row)) in corners.iter_mut().zip(places) {
+            let place = column * self.speeds.len() + row;
+            *corner = match self.known[place] {
+                Some(known) => known,
+                None => {
+                    OrbitError::ask(self.watcher)?;
+                    let time = column as f64 * self.width;
+                    *self.known[place].insert(self.legs.gap(time, self.speeds[row]))
+                }
+            };
         }
+        Ok(corners)
     }
-    let changes = |part: usize| low[part] <= 0.0 && high[part] >= 0.0;
-    let both = known == all;
-    known > 0 && [0, 1].into_iter().filter(|part| changes(*part)).count() > usize::from(both)
+}
+
+/// True if both parts change their sign between corners, or come as near to it as a share of what they change by, or may
+/// do so beyond those where there is no such motion.
+fn may_vanish(corners: &[Option<[f64; 2]>; 4], slack: f64) -> bool {
+    let known = corners.iter().flatten();
+    let changes = |part: usize| {
+        let values = known.clone().map(|gap| gap[part]);
+        let [low, high] = extremes(values)?;
+        let near = slack * (high - low);
+        Some(low <= near && high >= -near)
+    };
+    let count = [0, 1]
+        .into_iter()
+        .filter(|part| changes(*part) == Some(true))
+        .count();
+    count > usize::from(known.count() == corners.len())
 }
 
 /// Before-impact velocities in m/s, in rising order.
