@@ -23,4 +23,5 @@ mod sweep;
 mod zone_judge;
 mod zone_light;
 mod zone_reference;
+mod zone_sample;
 mod zone_units;

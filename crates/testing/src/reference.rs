@@ -54,6 +54,8 @@ pub static FORCE: LazyLock<Value> = data!("force.json");
 pub static MACHINE: LazyLock<Value> = data!("machine.json");
 /// The 30-digit results of tests/reference/stops.py.
 pub static STOPS: LazyLock<Value> = data!("stops.json");
+/// The 30-digit results of tests/reference/zones.py.
+pub static ZONES: LazyLock<Value> = data!("zones.json");
 
 /// The machine that a record of machine.json describes.
 pub fn ratios(parameters: &Value) -> Ratios {
