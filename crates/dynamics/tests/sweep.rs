@@ -1,12 +1,14 @@
 //! Sweeps against the figures of the paper and of the continuation.
 
+use std::collections::HashMap;
 use std::ops::ControlFlow;
+use std::sync::Mutex;
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use rayon::ThreadPoolBuilder;
 use softstop::{Parameter, Ratios, Start, Stop};
 use softstop_dynamics::sweep::{PlanError, hysteresis};
-use softstop_dynamics::watch::unwatched;
+use softstop_dynamics::watch::{Memory, unwatched};
 use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Regime, Step, orbit};
 use softstop_testing::tolerance::{GROWN, MOTION};
 use softstop_testing::unloaded;
@@ -214,6 +216,47 @@ fn threads_and_interruptions_change_nothing() {
     }
     assert!(rounds >= plan.steps / 2);
     assert_eq!(whole, parts);
+}
+
+/// Pieces of work by their keys.
+#[derive(Default)]
+struct Pieces(Mutex<HashMap<Vec<u8>, Vec<u8>>>);
+
+impl Memory for Pieces {
+    fn recall(&self, key: &[u8]) -> Option<Vec<u8>> {
+        self.0.lock().expect("no panic").get(key).cloned()
+    }
+
+    fn keep(&self, key: &[u8], piece: &[u8]) {
+        let known = self
+            .0
+            .lock()
+            .expect("no panic")
+            .insert(key.to_vec(), piece.to_vec());
+        assert_eq!(known, None, "done twice");
+    }
+}
+
+/// A chain that fails on its way fails in the same words when it is recalled, without being tried again.
+#[test]
+fn a_failed_chain_is_recalled_as_such() {
+    let plan = Plan::new(Parameter::Preload, (-20.0, 100.0), 13, 20).expect("valid");
+    let pieces = Pieces::default();
+    let run = || {
+        let mut chains = vec![
+            chain(Ratios::unloaded(), Direction::Down),
+            chain(Ratios::loaded(), Direction::Up),
+        ];
+        assert!(plan.run_kept(&mut chains, &unwatched, Some(&pieces)));
+        chains
+    };
+    let done = run();
+    assert_eq!([done[0].steps.len(), done[1].steps.len()], [11, 0]);
+    let message = done[0].error.as_deref().expect("no such machine");
+    assert!(message.contains("preload"), "{message}");
+    let count = pieces.0.lock().expect("no panic").len();
+    assert_eq!(run(), done);
+    assert_eq!(pieces.0.lock().expect("no panic").len(), count);
 }
 
 #[test]

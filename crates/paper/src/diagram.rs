@@ -1,6 +1,6 @@
 //! Bifurcation diagrams: the sweeps behind the figures, and what they show of a step.
 
-use anyhow::Result;
+use anyhow::{Error, Result};
 use rayon::prelude::*;
 use softstop::Scene;
 use softstop_dynamics::watch::Kept;
@@ -32,7 +32,7 @@ pub(super) fn sweep(mut jobs: Vec<Job>, what: &str, kept: Kept<'_>) -> Result<Ve
     }
     let chains: Vec<Chain> = jobs.into_iter().flat_map(|job| job.1).collect();
     let error = chains.iter().find_map(|chain| chain.error.clone());
-    error.map_or(Ok(chains), |error| Err(error.into()))
+    error.map_or(Ok(chains), |error| Err(Error::msg(error)))
 }
 
 /// One way over a part of a sweep's range, going on from where that is when it comes there.

@@ -34,7 +34,7 @@ pub use settle::Step;
 
 use thiserror::Error;
 
-use softstop::{Machine, MotionError, Parameter, Start};
+use softstop::{Machine, Parameter, Start};
 
 /// Which way the parameter goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -160,8 +160,8 @@ pub struct Chain {
     pub direction: Direction,
     /// The steps that are complete, in the order in which they were made.
     pub steps: Vec<Step>,
-    /// Why it cannot go on.
-    pub error: Option<MotionError>,
+    /// Why it cannot go on, in words.
+    pub error: Option<String>,
 }
 
 impl Chain {

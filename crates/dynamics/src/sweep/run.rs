@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::settle::{Log, Step};
 use super::{Chain, Plan};
@@ -26,6 +26,13 @@ struct Leg {
     value: f64,
     scene: Scene,
     state: Start,
+}
+
+/// What a chain comes to in a piece of work.
+#[derive(Serialize, Deserialize)]
+struct Made {
+    steps: Vec<Step>,
+    error: Option<String>,
 }
 
 impl Plan {
@@ -86,12 +93,16 @@ impl Plan {
                     stop_if(begin.elapsed() >= PIECE)
                 });
                 let made = chains.iter().zip(&before);
-                let made = made.map(|(chain, before)| chain.steps[*before..].to_vec());
-                Ok::<Vec<Vec<Step>>, Infallible>(made.collect())
+                let made = made.map(|(chain, before)| Made {
+                    steps: chain.steps[*before..].to_vec(),
+                    error: chain.error.clone(),
+                });
+                Ok::<Vec<Made>, Infallible>(made.collect())
             });
             for ((chain, before), made) in chains.iter_mut().zip(before).zip(made) {
                 chain.steps.truncate(before);
-                chain.steps.extend(made);
+                chain.steps.extend(made.steps);
+                chain.error = made.error;
             }
             if chains.iter().all(|chain| self.is_complete(chain)) {
                 return true;
@@ -123,14 +134,14 @@ impl Plan {
                     legs.push(leg);
                     machines.push(machine);
                 }
-                Err(error) => chain.error = Some(error),
+                Err(error) => chain.error = Some(error.to_string()),
             }
         }
         let count = legs.len() as u64;
         for (index, outcome) in self.follow(legs, &machines) {
             match outcome {
                 Ok(step) => group[index].steps.push(step),
-                Err(error) => group[index].error = Some(error),
+                Err(error) => group[index].error = Some(error.to_string()),
             }
         }
         // A group of failures alone has moved as well.

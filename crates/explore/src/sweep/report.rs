@@ -57,7 +57,7 @@ fn chains<'a>() -> [Column<(&'a Plan, &'a Chain)>; 6] {
         "steps" [None] Plain, "done" => it.1.steps.len();
         "chaotic" [None] Plain, "steps of chaos" => count(it.1, MotionKind::Chaos);
         "unsettled" [None] Plain, "steps that have not settled" => count(it.1, MotionKind::Unsettled);
-        "error" [None] Plain, "why it ended early" => it.1.error.as_ref().map(ToString::to_string);
+        "error" [None] Plain, "why it ended early" => it.1.error.clone();
     }
 }
 
