@@ -5,6 +5,7 @@
 //! the least, and [`verify`] looks at a million others; [`sensitivities`] and [`scatter`] tell whose tolerance it is.
 
 mod indices;
+mod meeting;
 mod nearest;
 mod points;
 mod scatter;
@@ -12,7 +13,8 @@ mod verify;
 mod worst;
 
 pub use indices::{Effort, Estimate, Index, indices};
-pub use nearest::{Manifold, Nearest, Norm, nearest};
+pub use meeting::{Manifold, Norm};
+pub use nearest::{Nearest, nearest};
 pub use points::{BLOCK, place};
 pub use scatter::{Scatter, Sensitivities, scatter, sensitivities, shares};
 pub use verify::{Bin, LostMachine, Settings, Verdict, verify};
