@@ -4,7 +4,7 @@ pub mod samples;
 
 pub use crate::error::plain;
 pub use crate::events::{Guard, Outlook, first_crossing};
-pub use crate::flow::{Course, Departure, Flow, Modes, Polynomial};
+pub use crate::flow::{Course, Departure, Flow, Hertz, Modes, Polynomial};
 pub use crate::integrator::{Evaluations, Motion, Shares, Walk, mechanical_energy, shares, work};
 pub use crate::phases::{Beyond, Exit, Mode, Phase, PhaseId, Phases, Surface, SurfaceId};
 pub use crate::root::narrow;

@@ -3,13 +3,15 @@
 use std::f64::consts::TAU;
 
 use super::law::{Constants, SPAN, TERMS};
-use softstop::internals::{Beyond, Exit, Modes, Phase, Phases, SurfaceId};
+use softstop::internals::{Beyond, Exit, Hertz, Modes, Phase, Phases, SurfaceId};
 
 /// Most windows per drive period.
 const FINEST: f64 = 65_536.0;
 /// Least stiffness per mass, in units of the drive's w^2, with which a constant force is described by a static
 /// deflection: a larger one would cost the motion its digits.
 const SOFTEST: f64 = 1e-2;
+/// Exponents of power laws that lanes follow.
+const EXPONENTS: [f64; 3] = [1.5, 2.0, 2.5];
 /// Where the safe engine has to decide, relative to the size of the motion.
 const GRAIN: f64 = 1e-10;
 /// Relative to the size of the velocity.
@@ -18,6 +20,9 @@ const SLOW: f64 = 1e-5;
 impl Constants {
     /// The constants of a phase, unless it is one that only the safe engine follows.
     pub fn of(phases: &Phases, phase: &Phase) -> Option<Self> {
+        if let Some(hertz) = &phase.hertz {
+            return Self::of_power(phases, phase, hertz);
+        }
         let mut constants = Self::of_flow(phases, phase)?;
         let mut guarded = false;
         (constants.low, constants.high) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -63,6 +68,47 @@ impl Constants {
         Some(constants.turned(constants.side))
     }
 
+    /// The constants under a power law with nothing behind it.
+    fn of_power(phases: &Phases, phase: &Phase, hertz: &Hertz) -> Option<Self> {
+        let mut constants = Self::default();
+        for exit in &phase.exits {
+            match *exit {
+                Exit::Backward(surface) => {
+                    let surface = &phases[surface];
+                    constants.low = surface.position;
+                    constants.beyond_low = surface.below.index() as f64;
+                }
+                Exit::Switch(_) => {}
+                Exit::Forward(_) | Exit::Reversal { .. } => return None,
+            }
+        }
+        if !EXPONENTS.contains(&hertz.exponent) || constants.low != hertz.origin {
+            return None;
+        }
+        let flow = &phase.flow;
+        let press = hertz.stiffness / hertz.mass;
+        let push = phase.law.force / phases.mass - flow.modes.stiffness * hertz.origin;
+        Some(Self {
+            damping: -2.0 * flow.modes.decay,
+            stiffness: -flow.modes.stiffness,
+            window: 1.0 / flow.frequency.max(flow.modes.fastest_rate()),
+            press,
+            exponent: hertz.exponent,
+            grip: press * hertz.dissipation,
+            slip: -1.0 / hertz.dissipation,
+            amplitude: flow.amplitude,
+            push,
+            high: f64::INFINITY,
+            level: f64::INFINITY,
+            ..constants
+        })
+    }
+
+    /// True if a power law acts.
+    pub fn presses(&self) -> bool {
+        self.press > 0.0
+    }
+
     /// True if no motion comes down to the lower end but through the further guard: there it is
     /// by_velocity x', not below zero on the way down. So a contact that must not pull ends before it is open.
     fn releases_first(&self) -> bool {
@@ -79,7 +125,8 @@ impl Constants {
     /// True if one position and nothing else ends the phase, and its free motion never grows.
     pub fn is_plain(&self) -> bool {
         let one_sided = self.low.is_finite() != self.high.is_finite();
-        one_sided && self.level == f64::INFINITY && self.stiffness < 0.0
+        let plain = one_sided && self.level == f64::INFINITY && self.stiffness < 0.0;
+        plain || self.presses()
     }
 
     /// The phases that follow on it, the further ones first.
@@ -130,9 +177,6 @@ impl Constants {
     fn of_flow(phases: &Phases, phase: &Phase) -> Option<Self> {
         let flow = &phase.flow;
         let (cosine, sine) = flow.steady()?;
-        if phase.hertz.is_some() {
-            return None;
-        }
         let w = flow.frequency;
         let fastest = w.max(flow.modes.fastest_rate());
         let window = SPAN / fastest;

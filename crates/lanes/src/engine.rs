@@ -5,6 +5,7 @@ use pulp::Simd;
 use super::job::{Job, Outcome};
 use super::lanes::{Lanes, Mask};
 use super::law::{Constants, Law};
+use super::power::Power;
 use super::round::round;
 use super::safe::{self, Place, Resumed};
 use super::state::State;
@@ -20,9 +21,15 @@ pub(super) struct Engine<'a, S: Simd, const N: usize> {
     pub laws: Vec<Law<S, N>>,
     /// Phases that in all machines end at one position alone.
     plain: Vec<bool>,
+    /// Phases that in some machine have a power law.
+    presses: Vec<bool>,
     /// The phases in the order of a round.
     order: Vec<usize>,
     pub state: State<S, N>,
+    /// The series of contacts under a power law, where there are any.
+    pub power: Option<Box<Power<S, N>>>,
+    /// Rounds that lanes in contact have waited.
+    pub waited: usize,
     /// The job of each lane.
     lanes: Vec<Option<usize>>,
     /// The machine whose laws each lane has.
@@ -40,6 +47,12 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             let mut constants = laws().filter_map(|laws| laws.get(phase));
             constants.all(Constants::is_plain)
         };
+        let presses = |phase: usize| {
+            let mut constants = laws().filter_map(|laws| laws.get(phase));
+            constants.any(Constants::presses)
+        };
+        let presses: Vec<bool> = (0..most).map(presses).collect();
+        let is_any = presses.contains(&true);
         let outcomes = task.jobs.iter().map(|job| Outcome {
             end: job.start,
             impacts: 0,
@@ -49,8 +62,11 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         Self {
             laws: vec![Law::new(simd); most],
             plain: (0..most).map(is_plain).collect(),
+            presses,
             order: round(task.machines),
             state: State::idle(simd),
+            power: is_any.then(|| Box::new(Power::new(simd))),
+            waited: 0,
             lanes: vec![None; Lanes::<S, N>::COUNT],
             installed: vec![None; Lanes::<S, N>::COUNT],
             next: 0,
@@ -69,7 +85,10 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             for at in 0..self.order.len() {
                 let phase = self.order[at];
                 let here = self.state.phase.equals(self.state.phase.like(phase as f64));
-                let active = self.state.busy() & here;
+                let mut active = self.state.busy() & here;
+                if self.presses[phase] {
+                    active = self.contact(phase, active);
+                }
                 if !active.any() {
                 } else if self.plain[phase] {
                     self.step::<false>(phase, active);
@@ -85,7 +104,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         self.outcomes
     }
 
-    fn serve(&mut self, ended: Mask<S, N>, doubtful: Mask<S, N>) {
+    pub fn serve(&mut self, ended: Mask<S, N>, doubtful: Mask<S, N>) {
         for lane in 0..Lanes::<S, N>::COUNT {
             if doubtful.get(lane) {
                 self.hand_over(lane);
@@ -97,7 +116,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
 
     /// Time in s until a lane has to stop: at the end of its job or, if periods are watched, of the period.
     #[inline(always)]
-    fn due(&self) -> Lanes<S, N> {
+    pub fn due(&self) -> Lanes<S, N> {
         let State {
             left,
             offset,

@@ -22,6 +22,7 @@ macro_rules! abreast {
 
 /// One number per lane, in N registers that go side by side, so that one waits less for the other.
 #[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
 pub(super) struct Lanes<S: Simd, const N: usize> {
     simd: S,
     registers: [S::f64s; N],
@@ -174,6 +175,13 @@ impl<S: Simd, const N: usize> Mask<S, N> {
         let mut any = self.registers[0];
         abreast!(i => any = self.simd.or_m64s(any, self.registers[i]));
         self.simd.first_true_m64s(any) < S::F64_LANES
+    }
+
+    /// How many are true.
+    pub fn count(&self) -> usize {
+        (0..Lanes::<S, N>::COUNT)
+            .filter(|lane| self.get(*lane))
+            .count()
     }
 
     /// Truth of one lane, read from memory: it is asked for where the instruction set is not at hand.

@@ -111,6 +111,14 @@ law! {
     beyond_end,
     end_bounce,
     end_impact,
+    /// The power law beyond low: kappa and kappa lambda per mass, the exponent, the velocity below which it does not
+    /// grip, and the drive's amplitude and the constant push at low per mass. None where the law is linear.
+    press,
+    exponent,
+    grip,
+    slip,
+    amplitude,
+    push,
     /// Positions closer than this to a guard are not decided here, nor velocities below `slow`.
     grain,
     slow,

@@ -3,16 +3,18 @@
 //! The lanes go in lock-step through the same work, phase after phase: those that are in a phase scan windows of time
 //! until each stands before one that may hold the phase's end; then all decide about that window, guess the crossing
 //! from the cubic through its ends, take the exact flow to the guess and a step of Newton's method from there. Through a
-//! phase with several ends they dash, where the velocity keeps its sign up to the one that it leads to. What a
+//! phase with several ends they dash, where the velocity keeps its sign up to the one that it leads to. Contacts under
+//! a power law (n = 3/2, 2 or 5/2) go in Taylor steps, and wait for each other, since they take long. What a
 //! lane concludes it concludes by certificates as the safe engine does, [`Motion`](softstop::internals::Motion); what
 //! lies within rounding of two answers, or is not a plain crossing (rest, sticking, chatter), is handed to the safe
-//! engine up to the end of the drive period. Machines with power laws go there altogether.
+//! engine up to the end of the drive period. Machines with other power laws go there altogether.
 //!
 //! A lane turns cos and sin of the drive angle on with the motion, and takes them anew from the time since the
 //! beginning of its drive period every few rounds: the drive never drifts. Nothing in the loop calls the mathematical
 //! library, and no closure stands in it: one that is not inlined would lose the instruction set.
 
 mod constants;
+mod contact;
 mod cubic;
 mod dash;
 mod dispatch;
@@ -26,7 +28,10 @@ mod local;
 mod look;
 mod machine;
 mod parts;
+mod power;
+mod reach;
 mod registers;
+mod release;
 mod root;
 mod round;
 mod run;

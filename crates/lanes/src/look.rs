@@ -174,7 +174,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Lets the lanes that have come to the end of a period or their job begin the next one; those that have
     /// none left.
     #[inline(always)]
-    fn arrive(&mut self, arrived: Mask<S, N>) -> Mask<S, N> {
+    pub fn arrive(&mut self, arrived: Mask<S, N>) -> Mask<S, N> {
         if !arrived.any() {
             return arrived;
         }

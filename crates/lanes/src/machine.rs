@@ -51,8 +51,8 @@ impl Machine {
         })
     }
 
-    /// True if its motions can be followed in lanes: all its laws are linear, none is much stiffer than the
-    /// drive is slow, and none can hold the mass at a face that throws it back for rows of bounces without end.
+    /// True if its motions can be followed in lanes: all its laws are linear but for a power law at the end,
+    /// none is much stiffer than the drive is slow, and none can hold the mass at a face that throws it back for rows of bounces without end.
     pub fn is_for_lanes(&self) -> bool {
         self.laws.is_some()
     }

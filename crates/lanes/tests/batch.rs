@@ -1,5 +1,6 @@
 //! The lanes against the scalar engine: the same impacts, the same states, whatever the instruction set.
 
+mod power;
 mod single;
 
 use approx::assert_abs_diff_eq;

@@ -7,7 +7,7 @@ fn what_lanes_cannot_follow_the_scalar_engine_does() {
     let mut scene = Ratios::unloaded().scene().expect("valid");
     scene.stop = Stop::Hertz {
         stiffness: 100.0,
-        exponent: 1.5,
+        exponent: 1.2,
         dissipation: 0.1,
     };
     let machine = Machine::new(&scene).expect("valid");
@@ -32,7 +32,12 @@ fn what_lanes_cannot_follow_the_scalar_engine_does() {
     assert_eq!((outcomes[2].end, outcomes[2].impacts), (from, 0));
 }
 
-fn one_by_one(scene: &Scene, start: Start, periods: u64, watch: &mut impl Watch) -> (Start, u64) {
+pub fn one_by_one(
+    scene: &Scene,
+    start: Start,
+    periods: u64,
+    watch: &mut impl Watch,
+) -> (Start, u64) {
     let machines = [Machine::new(scene).expect("valid")];
     let jobs = [Job {
         machine: 0,
@@ -57,7 +62,7 @@ fn a_machine_without_a_stop_moves_on() {
 }
 
 /// Hears of periods, so that lanes stop at their ends.
-struct Periods;
+pub struct Periods;
 
 impl Watch for Periods {
     const PERIODS: bool = true;

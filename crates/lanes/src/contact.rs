@@ -1,0 +1,161 @@
+//! Lanes in contact under a power law, from step to step up to where they leave it.
+
+use pulp::Simd;
+
+use super::engine::Engine;
+use super::lanes::{Lanes, Mask};
+use super::law::Law;
+use super::look::End;
+use super::power::{Place, Power};
+
+/// Lanes in contact wait until so many of eight are, or for so many rounds.
+const QUORUM: usize = 7;
+const PATIENCE: usize = 6;
+/// Steps that are taken at most before the other phases are looked after again.
+const MOST_STEPS: usize = 64;
+/// Share of a drive period that this many steps cover at least: slower lanes are the safe engine's.
+const LEAST: f64 = 1.0 / 16.0;
+/// Distance, in drive periods, of a release from the end of a period that rounding could bridge.
+const BRIDGED: f64 = 1e-12;
+
+/// How far lanes have come in a contact, and what became of them.
+struct Way<S: Simd, const N: usize> {
+    place: Place<S, N>,
+    /// Length of a step.
+    step: Lanes<S, N>,
+    going: Mask<S, N>,
+    left: Mask<S, N>,
+    arrived: Mask<S, N>,
+    doubtful: Mask<S, N>,
+}
+
+impl<S: Simd, const N: usize> Engine<'_, S, N> {
+    /// Moves the lanes `active` that are in contact under a power law, once most lanes are: a contact takes long. The
+    /// other ones.
+    #[inline(always)]
+    pub fn contact(&mut self, phase: usize, active: Mask<S, N>) -> Mask<S, N> {
+        let press = self.laws[phase].press;
+        let pressed = active & press.like(0.0).below(press);
+        let count = pressed.count();
+        if count == 0 {
+            return active;
+        }
+        if 8 * count >= QUORUM * self.state.busy().count() || self.waited >= PATIENCE {
+            self.waited = 0;
+            let (ended, doubtful) = self.press(phase, pressed, self.due());
+            if (ended | doubtful).any() {
+                self.serve(ended, doubtful);
+            }
+        } else {
+            self.waited += 1;
+        }
+        active.and_not(pressed)
+    }
+
+    /// Moves the lanes `active`, which are in contact, to the end of it, or to where they have to stop; those that
+    /// came to the end of their job, and those that the safe engine has to take.
+    #[inline(always)]
+    fn press(
+        &mut self,
+        phase: usize,
+        active: Mask<S, N>,
+        due: Lanes<S, N>,
+    ) -> (Mask<S, N>, Mask<S, N>) {
+        let Some(power) = &mut self.power else {
+            return (active, active);
+        };
+        let law = &self.laws[phase];
+        let frequency = self.state.drive.frequency;
+        let period = self.state.drive.period;
+        let zero = due.like(0.0);
+        let root = (self.state.x - law.low).max(zero).square_root();
+        let place = Place {
+            root,
+            velocity: self.state.v,
+            angle: self.state.angle,
+            time: zero,
+        };
+        let moves = zero.below(root) | zero.below(place.velocity);
+        let mut way = Way {
+            place,
+            step: law.longest(&place),
+            going: active & moves,
+            left: active.and_not(active),
+            arrived: active.and_not(active),
+            doubtful: active.and_not(moves),
+        };
+        let mut steps = 0;
+        while way.going.any() && steps < MOST_STEPS {
+            power.expand(law, frequency, &way.place);
+            way.advance(law, power, due, period * due.like(BRIDGED));
+            steps += 1;
+        }
+        let slow = way.going & way.place.time.below(period * due.like(LEAST));
+        let (left, arrived) = (way.left, way.arrived);
+        let doubtful = way.doubtful | slow;
+        let place = way.place;
+        let end = End {
+            x: left.choose(law.low, place.root.mul_add(place.root, law.low)),
+            v: place.velocity,
+            beyond: law.beyond_low,
+            impact: zero,
+            before: place.velocity,
+        };
+        let moved = active & zero.below(place.time);
+        self.settle((moved, left), &end, place.angle, place.time);
+        (self.arrive(arrived), doubtful)
+    }
+}
+
+impl<S: Simd, const N: usize> Way<S, N> {
+    /// One step.
+    #[inline(always)]
+    fn advance(
+        &mut self,
+        law: &Law<S, N>,
+        power: &Power<S, N>,
+        due: Lanes<S, N>,
+        bridged: Lanes<S, N>,
+    ) {
+        let zero = due.like(0.0);
+        let (reach, of) = power.reach(self.step, self.going);
+        self.step = reach;
+        let sigma = reach.min(law.longest(&self.place));
+        let release = power.release(sigma, of);
+        let mut next = power.at(&self.place, release.sigma);
+        self.doubtful = self.doubtful | of.and_not(release.decided);
+        if zero.below(law.grip).any() {
+            let slips = of.and_not(power.stays_faster(law.slip, release.sigma));
+            self.doubtful = self.doubtful | slips;
+        }
+        let mut leaves = release.leaves;
+        let late = of & release.decided & next.time.below(due).not();
+        let near = leaves & (next.time - due).abs().below(bridged);
+        self.doubtful = self.doubtful | near;
+        let late = late.and_not(near);
+        if late.any() {
+            let (rest, whole) = (due - self.place.time, next.time - self.place.time);
+            let (sigma, found) = power.sigma_at(rest, (release.sigma, whole), late);
+            let mut there = power.at(&self.place, sigma);
+            there.time = due;
+            next = Place::choose(late, &there, &next);
+            self.doubtful = self.doubtful | late.and_not(found);
+            self.arrived = self.arrived | (late & found);
+            leaves = leaves.and_not(late);
+        }
+        let moved = (of & release.decided).and_not(self.doubtful);
+        self.left = self.left | (leaves & moved);
+        self.place = Place::choose(moved, &next, &self.place);
+        self.going = self.going.and_not(self.left | self.arrived | self.doubtful);
+    }
+}
+
+impl<S: Simd, const N: usize> Law<S, N> {
+    /// The longest step along which the drive and the suspension stay within a Taylor series.
+    #[inline(always)]
+    fn longest(&self, place: &Place<S, N>) -> Lanes<S, N> {
+        let four = self.window.like(4.0);
+        let by_speed = (self.window * four / place.velocity.abs()).square_root();
+        (self.window / place.root).min(by_speed)
+    }
+}
