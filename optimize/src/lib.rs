@@ -11,6 +11,7 @@ pub mod optimize;
 pub mod page;
 pub mod report;
 pub mod robust;
+mod tolerated;
 mod verdict;
 
 use std::process::ExitCode;

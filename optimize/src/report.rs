@@ -19,6 +19,8 @@ use crate::design::problem::Objective;
 use crate::design::{Design, Problem};
 use crate::optimize::outcome::Outcome;
 use crate::optimize::reference::Reference;
+use crate::optimize::study::Study;
+use crate::tolerated::Tolerated;
 use crate::verdict;
 
 /// A motion and its machine, in the machine's own units.
@@ -56,6 +58,9 @@ pub struct OptimizeReport {
     /// Designs far from this one in the box and nearly as good.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     rivals: Vec<Record>,
+    /// Its machines within the tolerances.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tolerances: Option<Tolerated>,
     /// Stretches of stable z = 1 of the same machine outside its zone: the search leaves them out.
     left_out: Vec<Record>,
     search: SearchReport,
@@ -71,8 +76,10 @@ impl OptimizeReport {
         found: &Outcome,
         references: &[Reference],
         search: SearchReport,
+        study: Option<&Study>,
     ) -> Self {
         let design = &found.design;
+        let tolerances = study.map(|it| Tolerated::of(&design.machine, it));
         let limits = at_limits(problem, found);
         let one = |machine: &Machine, orbit: &Orbit, more: Record| Found {
             machine: Stated::of(machine),
@@ -105,7 +112,12 @@ impl OptimizeReport {
                 Record::of(&place(), &(problem, design, &limits)),
             ),
             reference: references.iter().map(reference).collect(),
-            text: text(problem, design, references, &limits) + &told.collect::<String>(),
+            text: text(problem, design, references, &limits)
+                + &told.collect::<String>()
+                + &tolerances
+                    .as_ref()
+                    .map_or_else(String::new, |it| it.text(&units)),
+            tolerances,
             requirements,
             rivals,
             left_out,

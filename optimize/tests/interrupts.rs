@@ -99,7 +99,7 @@ fn nothing_is_lost_to_kills() {
     for line in [
         "sweep --from 0.8 --to 1.8 --steps 6000",
         "basin --size 700",
-        "basin SCENES/chatter.toml --size 4 --transient 100",
+        "basin SCENES/chatter.toml --size 8 --transient 400",
         "basin --along-zone 4 --size 200",
         "optimize --evaluations 4000",
     ] {

@@ -96,6 +96,13 @@ impl Export {
         })
     }
 
+    /// Writes one more file, of which nothing was known before.
+    pub fn further(&mut self, name: &str, content: &[u8]) -> Result<(), Failure> {
+        let kind = name.replace('.', "_");
+        self.files.push((kind, name.to_owned()));
+        self.folder.stage(name, content)
+    }
+
     /// Writes the file of a kind.
     pub fn file(&self, kind: &str, content: &[u8]) -> Result<(), Failure> {
         self.folder.stage(self.name(kind)?, content)

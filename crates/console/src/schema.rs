@@ -49,9 +49,12 @@ pub fn machine() -> Value {
     ]);
     let start = older(&si["initial"], "initial");
     let damping = older(&si["contact"]["properties"]["damping"], "contact.damping");
+    let task = json!({ "type": "object", "description": "For softstop optimize; `softstop schema task` tells more." });
+    si.extend(Machine::TASK.map(|table| (table.to_owned(), task.clone())));
     si.insert("start".to_owned(), start);
     si.insert("contact_damping".to_owned(), damping);
-    let beside = ["name", "description", "initial", "start", "ratios"];
+    let own = ["name", "description", "initial", "start", "ratios"];
+    let beside = [&own[..], &Machine::TASK].concat();
     required.retain(|key| key != "contact");
     json!({
         "$schema": DRAFT,

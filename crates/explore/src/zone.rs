@@ -128,17 +128,17 @@ fn columns<'a>() -> [Column<Zoned<'a>>; 3] {
 fn stretch_columns<'a>() -> [Column<Stretched<'a>>; 7] {
     columns! { Stretched<'a>, it;
         "from" [Frequency] Six, "lower end" => own(it.0, it.1.low.frequency);
-        "from_by" [None] Plain, "what ends it there" => by(&it.1.low.loss);
+        "from_by" [None] Plain, "what ends it there" => lost_by(&it.1.low.loss);
         "to" [Frequency] Six, "upper end" => own(it.0, it.1.high.frequency);
-        "to_by" [None] Plain, "what ends it there" => by(&it.1.high.loss);
+        "to_by" [None] Plain, "what ends it there" => lost_by(&it.1.high.loss);
         "hardest" [Velocity] Six, "highest before-impact velocity" => it.1.hardest.before_impact_velocity();
         "hardest_at" [Frequency] Six, "where, to the nearest point of the branch" => own(it.0, it.1.hardest.parameter);
         "in_zone" [None] Plain, "part of the hysteresis zone" => it.2;
     }
 }
 
-/// What ends a stretch, in words.
-fn by(loss: &Loss) -> String {
+/// What ends a motion as its machine changes, in words.
+pub fn lost_by(loss: &Loss) -> String {
     let word = match loss {
         Loss::Fold => "fold",
         Loss::Flip => "flip",

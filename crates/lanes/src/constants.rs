@@ -10,8 +10,10 @@ const FINEST: f64 = 65_536.0;
 /// Least stiffness per mass, in units of the drive's w^2, with which a constant force is described by a static
 /// deflection: a larger one would cost the motion its digits.
 const SOFTEST: f64 = 1e-2;
-/// Exponents of power laws that lanes follow.
+/// Exponents of power laws that lanes follow, and the fastest rate under one in units of the drive's: under heavier damping
+/// the mass creeps, which the safe engine follows in long steps.
 const EXPONENTS: [f64; 3] = [1.5, 2.0, 2.5];
+const CREEPING: f64 = 100.0;
 /// Where the safe engine has to decide, relative to the size of the motion.
 const GRAIN: f64 = 1e-10;
 /// Relative to the size of the velocity.
@@ -86,6 +88,9 @@ impl Constants {
             return None;
         }
         let flow = &phase.flow;
+        if flow.modes.fastest_rate() > CREEPING * flow.frequency {
+            return None;
+        }
         let press = hertz.stiffness / hertz.mass;
         let push = phase.law.force / phases.mass - flow.modes.stiffness * hertz.origin;
         Some(Self {

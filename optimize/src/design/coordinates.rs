@@ -11,6 +11,9 @@ pub(super) struct Summit {
     pub design: Design,
 }
 
+/// Distance from the ends of the cube that is none.
+const AT_END: f64 = 1e-12;
+
 /// The coordinates that are moved.
 #[derive(Debug)]
 pub(super) struct Coordinates {
@@ -38,13 +41,14 @@ impl Coordinates {
 
     /// Those of a point of the cube and a place.
     pub(super) fn start(&self, place: f64) -> Vec<f64> {
-        let moved = self.moved.iter().map(|index| self.unit[*index]);
-        moved.chain(self.with_place.then_some(place)).collect()
+        let mut start = self.axes();
+        start.extend(self.with_place.then_some(place));
+        start
     }
 
-    /// Those of a design.
-    pub(super) fn of(&self, summit: &Summit) -> Vec<f64> {
-        self.start(summit.design.place)
+    /// Those of the axes alone.
+    pub(super) fn axes(&self) -> Vec<f64> {
+        self.moved.iter().map(|index| self.unit[*index]).collect()
     }
 
     /// The ends of each.
@@ -59,7 +63,12 @@ impl Coordinates {
     pub(super) fn unit(&self, at: &[f64]) -> Vec<f64> {
         let mut unit = self.unit.clone();
         for (index, coordinate) in self.moved.iter().zip(at) {
-            unit[*index] = *coordinate;
+            let is_end = coordinate.min(1.0 - coordinate) < AT_END;
+            unit[*index] = if is_end {
+                coordinate.round()
+            } else {
+                *coordinate
+            };
         }
         unit
     }

@@ -71,7 +71,7 @@ figures! {
     FrequencyPd "margin_pd", Frequency, Least, false, "frequency above the flip s_PD";
     ClearanceG0 "clearance_margin_g0", Length, Least, false, "clearance above the grazing boundary g0";
     ClearanceSn "clearance_margin_sn", Length, Least, false, "clearance below the fold s_SN";
-    ClearancePd "clearance_margin_pd", Length, Least, false, "clearance above the flip s_PD";
+    ClearancePd "clearance_margin_pd", Length, Least, false, "clearance above the flip s_PD, or where else the motion ends";
     Certainty "certainty", Number, Least, true, "share of starts that lead to the motion";
     RunUp "run_up", Number, Least, true, "ways to run up from rest into the motion";
     MissingStrips "missing_strips", Number, Least, true, "strips in a row that may be missing at any drive angle";

@@ -37,7 +37,7 @@ impl Here {
     /// None if there is no stable motion.
     pub(super) fn find(problem: &Problem, at: &At<'_>) -> Option<Self> {
         let values = Space(&problem.axes).values(at.unit);
-        let mut machine = problem.machine_at(&values);
+        let machine = problem.machine_at(&values);
         machine.validate().ok()?;
         let zone = problem.zone(&machine).ok()?;
         let held = || {
@@ -45,6 +45,11 @@ impl Here {
             (frequency - zone.frequency_g0) / (zone.frequency_sn - zone.frequency_g0)
         };
         let place = at.place.unwrap_or_else(held);
+        Self::on(machine, &zone, place)
+    }
+
+    /// The motion at a place of a machine's zone.
+    pub(super) fn on(mut machine: Machine, zone: &Zone, place: f64) -> Option<Self> {
         let point = zone.point_at(place).ok()?;
         let orbit = zone.orbit(&point).ok()?;
         if !(orbit.is_stable() || place >= 1.0) {
@@ -53,7 +58,7 @@ impl Here {
         Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(place));
         Some(Self {
             machine,
-            zone,
+            zone: zone.clone(),
             place,
             orbit,
         })

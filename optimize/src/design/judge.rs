@@ -1,9 +1,13 @@
 //! Figures of one motion, and whether they are as a task requires.
 
+use std::slice;
+
 use softstop::internals::plain;
 use softstop::{Machine, MotionError, Parameter};
+use softstop_console::interrupt;
 use softstop_dynamics::continuation::{Heading, Test};
-use softstop_dynamics::zone::{free_amplitude, loss_along, loss_of_stability};
+use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::zone::{end_along, free_amplitude, hysteresis_soon, loss_of_stability};
 use softstop_dynamics::{Along, Orbit, Stroke, Zone};
 
 use super::figure::Figure;
@@ -68,33 +72,101 @@ impl<'a> Judged<'a> {
             Figure::Share => self.place.min(1.0 - self.place),
             Figure::FrequencyG0 => frequency - self.zone.frequency_g0,
             Figure::FrequencySn => self.zone.frequency_sn - frequency,
+            // At the fold itself there is no way down the stable branch to a flip.
+            Figure::FrequencyPd | Figure::ClearancePd if self.is_at_fold() => f64::NAN,
             Figure::FrequencyPd => {
                 let flip = loss_of_stability(self.orbit, Heading::Down, Test::Flip);
-                let flip = flip.ok().flatten().map(|point| frequency - point.parameter);
-                flip.unwrap_or(f64::INFINITY)
+                match flip {
+                    Ok(Some(flip)) => frequency - flip.parameter,
+                    Ok(None) => f64::INFINITY,
+                    Err(_) => f64::NAN,
+                }
             }
             Figure::ClearanceG0 => {
                 let scene = &self.orbit.scene;
                 scene.clearance - free_amplitude(scene, frequency)
             }
-            Figure::ClearanceSn => self.along_clearance(Heading::Up, Test::Fold),
-            Figure::ClearancePd => self.along_clearance(Heading::Down, Test::Flip),
+            Figure::ClearanceSn => self.below_fold(frequency),
+            Figure::ClearancePd => self.along(Parameter::Clearance, Heading::Down, Test::Flip),
             Figure::Certainty | Figure::RunUp | Figure::MissingStrips => f64::NAN,
         }
     }
 
-    /// Distance in m along the clearance to where the motion is lost.
-    fn along_clearance(&self, heading: Heading, test: Test) -> f64 {
+    fn is_at_fold(&self) -> bool {
+        !self.orbit.is_stable() || self.place > 1.0 - AT_FOLD
+    }
+
+    /// Distance in m to the clearance at which the fold comes down to the motion's frequency, or up to which there is a
+    /// zone; or as far as is looked.
+    fn below_fold(&self, frequency: f64) -> f64 {
         let from = self.orbit.scene.clearance;
-        let family = Along::new(self.orbit.scene.clone(), [Parameter::Clearance]);
-        let lost = family.ok().and_then(|family| {
-            loss_along(&family, from, self.orbit, heading, test)
-                .ok()
-                .flatten()
-        });
-        lost.map_or(f64::INFINITY, |point| (point.parameter - from).abs())
+        let above = |clearance: f64| {
+            let mut scene = self.orbit.scene.clone();
+            scene.clearance = clearance;
+            let zone = hysteresis_soon(slice::from_ref(&scene), &interrupt::watch).remove(0);
+            zone.map_or(-frequency, |zone| zone.frequency_sn - frequency)
+        };
+        let (mut low, mut high) = ((from, self.zone.frequency_sn - frequency), None);
+        let mut step = WIDER * from;
+        for _ in 0..REACH {
+            let next = low.0 + step;
+            step *= 2.0;
+            match above(next) {
+                value if value > 0.0 => low = (next, value),
+                value => {
+                    high = Some((next, value));
+                    break;
+                }
+            }
+        }
+        let Some(mut high) = high else {
+            return low.0 - from;
+        };
+        // Illinois: the end that stays twice counts half.
+        let mut stayed = 0;
+        for _ in 0..NARROWINGS {
+            let middle = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+            let value = above(middle);
+            if value.abs() <= f64::EPSILON * frequency || high.0 - low.0 <= f64::EPSILON * from {
+                return middle - from;
+            }
+            if value > 0.0 {
+                low = (middle, value);
+                high.1 *= if stayed > 0 { 0.5 } else { 1.0 };
+                stayed = 1;
+            } else {
+                high = (middle, value);
+                low.1 *= if stayed < 0 { 0.5 } else { 1.0 };
+                stayed = -1;
+            }
+        }
+        low.0 - from
+    }
+
+    /// Distance along a parameter, in SI units, to where the motion is lost, by this or by anything else; infinite if it
+    /// is not, NaN if it cannot be followed.
+    fn along(&self, parameter: Parameter, heading: Heading, test: Test) -> f64 {
+        let scene = &self.orbit.scene;
+        let Some(from) = parameter.get(scene) else {
+            return f64::NAN;
+        };
+        let family = Along::new(scene.clone(), [parameter]).map_err(OrbitError::from);
+        let end = family.and_then(|family| end_along(&family, from, self.orbit, heading, test));
+        match end {
+            Ok(Some(lost)) => (lost - from).abs(),
+            Ok(None) => f64::INFINITY,
+            Err(_) => f64::NAN,
+        }
     }
 }
+
+/// First step in search of the clearance of a fold, in units of the clearance, how many of them, each twice the one before,
+/// and how often it is narrowed.
+const WIDER: f64 = 0.5;
+const REACH: usize = 6;
+const NARROWINGS: usize = 24;
+/// Share of the zone within which the fold is too near to follow the stable branch away from it.
+const AT_FOLD: f64 = 1e-6;
 
 /// A requirement and what a motion has of it, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]

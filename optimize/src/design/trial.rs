@@ -12,21 +12,26 @@ use softstop_dynamics::basin::Establishment;
 use softstop_dynamics::run_up::RunUp;
 use softstop_dynamics::supply::{Reading, outlasts};
 
-use super::Infeasible;
 use super::coordinates::{Coordinates, Summit};
 use super::figure::Figure;
+use super::gradient::ascend_from;
 use super::here::Here;
 use super::judge::{Met, conflict, violation};
 use super::problem::Problem;
 use super::requirement::Requirement;
+use super::space::Space;
+use super::{Design, Infeasible};
 
 /// Starts of the box, and drive angles at which the drive is switched on or strips are missing.
 const STARTS: usize = 1024;
 const ANGLES: usize = 64;
-/// Motions that are tried at most, edge of the first simplex, and when to end, in edges of the cube.
-const MOST: usize = 60;
+/// Zones that are tried at most, edge of the first simplex, and when to end, in edges of the cube.
+const MOST: usize = 16;
 const FIRST: f64 = 0.1;
 const LAST: f64 = 1e-4;
+/// Places of a zone that are tried, and halvings between the last that passes and the next.
+const PLACES: usize = 8;
+const HALVINGS: usize = 6;
 /// What stands where there is no motion.
 const NOWHERE: f64 = 1e3;
 
@@ -71,8 +76,8 @@ fn value(requirement: &Requirement, orbit: &Orbit) -> Result<f64, SurveyError> {
     })
 }
 
-/// The best design that passes its trials: this one if it does, otherwise one that is sought from it and from places
-/// nearer to g0, where motions are established more surely.
+/// The best design that passes its trials: this one if it does, otherwise one that is sought from it and from the best
+/// ones with wider margins.
 ///
 /// # Errors
 /// [`Infeasible`] if none was met: what this design fails.
@@ -86,15 +91,19 @@ pub(super) fn pass(problem: &Problem, design: &Summit) -> Result<Summit, Infeasi
     if tried.iter().all(Met::is_met) {
         return Ok(design.clone());
     }
-    let from = |share: &f64| {
-        let mut start = design.clone();
-        start.design.place *= share;
-        settle(problem, &start)
+    let from = |margin: &f64| {
+        let wider = Problem {
+            margin: margin.max(problem.margin),
+            ..problem.clone()
+        };
+        let start = ascend_from(&wider, &design.unit, design.design.place)?;
+        settle(problem, &start.unit)
     };
-    let settled = NEARER.par_iter().map(from).collect::<Vec<_>>();
-    let score = |it: &Summit| problem.objective.score(it.design.value);
-    let best = settled
+    let starts = [settle(problem, &design.unit)]
         .into_iter()
+        .chain(MARGINS.par_iter().map(from).collect::<Vec<_>>());
+    let score = |it: &Summit| problem.objective.score(it.design.value);
+    let best = starts
         .flatten()
         .max_by(|a, b| score(a).total_cmp(&score(b)));
     best.ok_or_else(|| Infeasible {
@@ -103,56 +112,40 @@ pub(super) fn pass(problem: &Problem, design: &Summit) -> Result<Summit, Infeasi
     })
 }
 
-/// Places from which a design that passes is sought, as shares of that of one that does not.
-const NEARER: [f64; 3] = [1.0, 0.6, 0.3];
+/// Margins with which a design is sought that passes: motions are established the more surely, the farther from the fold.
+const MARGINS: [f64; 2] = [0.2, 0.4];
 
-/// The best design that passes its trials, sought from one that does not; none if none was met.
-fn settle(problem: &Problem, from: &Summit) -> Option<Summit> {
-    let coordinates = Coordinates::new(problem, &from.unit);
-    let score = |value| problem.objective.score(value);
-    let unit = score(from.design.value);
+/// The best design that passes its trials, sought over the axes from a point of the unit cube by linear models of the best
+/// that passes along each zone; none if none was met.
+fn settle(problem: &Problem, unit: &[f64]) -> Option<Summit> {
+    let coordinates = Coordinates::new(problem, unit);
+    let score = |it: &Summit| problem.objective.score(it.design.value);
     let best: RefCell<Option<Summit>> = RefCell::default();
-    let last: RefCell<Option<(Vec<f64>, Vec<f64>)>> = RefCell::default();
-    let count = 1 + problem
-        .requirements
-        .iter()
-        .map(|it| it.least.iter().chain(&it.most).count())
-        .sum::<usize>();
-    // The objective, then the constraints, not negative where they are met.
-    let values = |at: &[f64]| -> Vec<f64> {
-        if let Some((known, values)) = &*last.borrow()
-            && known == at
-        {
-            return values.clone();
+    let objective = |at: &[f64], _: &mut ()| {
+        let found = pass_along(problem, &coordinates.unit(at));
+        let Some(found) = found else { return NOWHERE };
+        let cost = -score(&found);
+        let mut best = best.borrow_mut();
+        if best.as_ref().is_none_or(|best| score(&found) > score(best)) {
+            *best = Some(found);
         }
-        let values =
-            tried_at(problem, &coordinates, at, &best).unwrap_or_else(|| vec![-NOWHERE; count]);
-        last.replace(Some((at.to_vec(), values.clone())));
-        values
+        cost
     };
-    let part = |index: usize, factor: f64| {
-        move |values: Vec<f64>| factor * values.get(index).copied().unwrap_or(0.0)
-    };
-    let objective = part(0, -unit.recip());
-    let objective = |at: &[f64], _: &mut ()| objective(values(at));
-    let values = &values;
-    let constraints = (1..count).map(|index| {
-        let part = part(index, 1.0);
-        move |at: &[f64], _: &mut ()| part(values(at))
-    });
-    let constraints: Vec<_> = constraints.collect();
-    let constraints: Vec<&dyn Func<()>> = constraints.iter().map(|it| it as _).collect();
-    let start = coordinates.of(from);
+    let start = coordinates.axes();
+    if start.is_empty() {
+        return pass_along(problem, unit);
+    }
     let stop = StopTols {
         xtol_abs: vec![LAST; start.len()],
         ..StopTols::default()
     };
-    let bounds = coordinates.bounds(problem);
+    let bounds = vec![(0.0, 1.0); start.len()];
+    let none: [&dyn Func<()>; 0] = [];
     let _ = minimize(
         objective,
         &start,
         &bounds,
-        &constraints,
+        &none,
         (),
         MOST,
         RhoBeg::All(FIRST),
@@ -161,49 +154,43 @@ fn settle(problem: &Problem, from: &Summit) -> Option<Summit> {
     best.into_inner()
 }
 
-/// The score and the constraints at a point; a design that passes is kept if it is the best.
-fn tried_at(
-    problem: &Problem,
-    coordinates: &Coordinates,
-    at: &[f64],
-    best: &RefCell<Option<Summit>>,
-) -> Option<Vec<f64>> {
-    let unit = coordinates.unit(at);
-    let here = Here::find(problem, &coordinates.at(&unit, at))?;
-    let motion = here.judged()?;
-    let all = problem
-        .met(&motion)
-        .into_iter()
-        .chain(problem.tried(&here.orbit).ok()?);
-    let all: Vec<Met> = all.collect();
-    let value = problem.sought(&motion)?;
-    let bounds = all.iter().flat_map(|it| {
-        let requirement = it.requirement;
-        let size = |bound: f64| if bound == 0.0 { 1.0 } else { bound.abs() };
-        let least = requirement
-            .least
-            .map(|least| (it.value - least) / size(least));
-        let most = requirement.most.map(|most| (most - it.value) / size(most));
-        least.into_iter().chain(most)
-    });
-    let values: Vec<f64> = [problem.objective.score(value)]
-        .into_iter()
-        .chain(bounds)
-        .collect();
-    let mut best = best.borrow_mut();
-    let is_better = best.as_ref().is_none_or(|best| {
-        problem.objective.score(value) > problem.objective.score(best.design.value)
-    });
-    if all.iter().all(Met::is_met) && here.is_within(problem) && is_better {
-        *best = Some(Summit {
-            unit,
-            design: here.design(value),
-        });
+/// The best motion along the zone of a point of the unit cube that passes: the places are tried from the best score down,
+/// then the end of those that pass is narrowed.
+fn pass_along(problem: &Problem, unit: &[f64]) -> Option<Summit> {
+    let values = Space(&problem.axes).values(unit);
+    let machine = problem.machine_at(&values);
+    machine.validate().ok()?;
+    let zone = problem.zone(&machine).ok()?;
+    let window = problem.window(&machine, &zone).ok()?;
+    let design = |place: f64| {
+        let here = Here::on(machine.clone(), &zone, place)?;
+        let motion = here.judged()?;
+        let is_met = problem.met(&motion).iter().all(Met::is_met);
+        let value = problem.sought(&motion).filter(|_| is_met)?;
+        Some(here.design(value))
+    };
+    let passes = |design: &Design| {
+        let tried = problem.tried(&design.orbit);
+        tried.is_ok_and(|all| all.iter().all(Met::is_met))
+    };
+    let score = |it: &Design| problem.objective.score(it.value);
+    let places = (0..=PLACES).map(|index| window.at(index as f64 / PLACES as f64));
+    let mut all: Vec<Design> = places.filter_map(design).collect();
+    all.sort_by(|a, b| score(b).total_cmp(&score(a)));
+    let first = all.iter().position(&passes)?;
+    let mut best = all[first].clone();
+    if let Some(better) = first.checked_sub(1) {
+        let mut failing = all[better].place;
+        for _ in 0..HALVINGS {
+            match design(0.5 * (best.place + failing)) {
+                Some(middle) if score(&middle) > score(&best) && passes(&middle) => best = middle,
+                Some(middle) => failing = middle.place,
+                None => break,
+            }
+        }
     }
-    Some(
-        values
-            .into_iter()
-            .map(|value| value.clamp(-NOWHERE, NOWHERE))
-            .collect(),
-    )
+    Some(Summit {
+        unit: unit.to_vec(),
+        design: best,
+    })
 }

@@ -183,7 +183,9 @@ mod tests {
     fn schema_and_reader_have_the_same_keys() -> Result<(), Box<dyn std::error::Error>> {
         let file = "machine = \"press.toml\"\nregime = \"loaded\"\nmargin = 0.2\nseed = 1\n\
                     evaluations = 200\noutput = \"there\"\nformat = \"json\"\n[fix]\nstop.stiffness = 7\n\
-                    [bounds]\nclearance = [2, 22]\n[scene]\ndamping = 0.02\n";
+                    [bounds]\nclearance = [2, 22]\n[scene]\ndamping = 0.02\n[vary]\nclearance = 3\n\
+                    [tolerance]\nclearance = 0.1\n[objective]\nmaximise = \"velocity\"\n[require]\n\
+                    velocity = 3\n[search]\nseed = 1\n";
         toml::from_str::<Task>(file)?;
         let written: toml::Table = toml::from_str(file)?;
         let schema = Task::schema();

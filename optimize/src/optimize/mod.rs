@@ -10,7 +10,7 @@ mod named;
 pub mod outcome;
 mod progress;
 pub mod reference;
-mod study;
+pub mod study;
 mod task;
 mod wishes;
 
@@ -31,7 +31,7 @@ use softstop_dynamics::run_up::RunUp;
 use crate::design::search::{self, SearchError};
 use crate::design::{Design, Problem};
 use crate::fmu::{archive, library, parameters};
-use crate::page::html;
+use crate::page::{csv, html};
 use crate::report::{self, OptimizeReport, SearchReport};
 use named::Named;
 use outcome::{ANGLES, EROSION_STARTS, Outcome, PLACES};
@@ -63,9 +63,29 @@ Examples:
 
 The zone of a machine reaches from g0 to s_SN; the drive frequency is g0 + s (s_SN - g0) with s in
 [M, 1 - M]. What --set, --stiffness, --clearance or --frequency say of a searched value is held, as by
---fix. Three files are written, whole or not at all: design.json
-(what --format json prints), design.svg (velocity over frequency) and design.fmu (the machine
-for FMI 2.0 co-simulation, starting in the design's motion).";
+--fix.
+
+A machine's file may hold a task (docs/press.md takes a press from file to report):
+    [vary]                                   what is searched, instead of the usual
+    clearance = [5e-3, 40e-3]                a range; a single number is held
+    stop.stiffness = { values = [1e7, 2e7] } a catalogue
+    contact.damping = { follows = \"stop.stiffness\", factor = 1.8e-4 }
+    [tolerance]                              half-widths, or shares of the value
+    clearance = 3e-4
+    stop.stiffness = \"5 %\"
+    [objective]                              maximise or minimise: velocity, impact_energy, impact_power,
+    maximise = \"velocity\"                  stroke_work, drive_force, drive_power, stop_force
+    [require]                                a bound on its good side, or { least = 1, most = 2 }
+    margin_sn = 0.5                          (softstop schema task lists all that can be required)
+    stop_force = 5e5
+    run_up = true
+    [search]
+    seed = 1
+With tolerances, all machines within them stay in the zone, and a million of them are looked at (--samples).
+
+Files, whole or not at all: report.html (for people, one page), design.json (what --format json prints),
+design.toml (the machine, for every command), design.fmu (FMI 2.0 co-simulation, starting in the design's
+motion), design.ssv (its parameters for SSP), design.svg (velocity over frequency), CSVs of the report.";
 
 /// The JSON Schema of task files.
 pub fn task_schema() -> serde_json::Value {
@@ -128,7 +148,7 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         ("html", "report.html"),
     ];
     let files = &files[..files.len() - usize::from(!job.report)];
-    let export = Export::open(&job.output, files)?;
+    let mut export = Export::open(&job.output, files)?;
     let library = library()?;
     let keep = Keep::open(&job.output, "optimize", &job.identity(), arguments.keep)?;
     let outcome = match solve(&job, &keep) {
@@ -151,10 +171,13 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     export.file("fmu", &archive(&library, &machine, start)?)?;
     export.file("toml", machine.to_toml().as_bytes())?;
     export.file("ssv", parameters(&machine, start)?.as_bytes())?;
-    let study = study::study(&job.problem, design, job.samples)?;
+    let study = study::study(&job, design)?;
     if job.report {
         let page = fill::report(&job, &outcome, &references, study.as_ref());
         export.file("html", html(&page).map_err(anyhow::Error::from)?.as_bytes())?;
+        for (name, table) in csv(&page).map_err(anyhow::Error::from)? {
+            export.further(&name, &table)?;
+        }
     }
     let search = SearchReport {
         bounds: bounds(&job.problem),
@@ -162,7 +185,7 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         evaluations: job.settings.evaluations,
         evaluations_used: outcome.evaluations,
     };
-    let report = OptimizeReport::new(&job.problem, &outcome, &references, search);
+    let report = OptimizeReport::new(&job.problem, &outcome, &references, search, study.as_ref());
     export.finish(&report, job.format)?;
     keep.forget();
     Ok(())

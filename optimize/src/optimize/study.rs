@@ -1,28 +1,75 @@
-//! What the tolerances do to a design.
+//! What the tolerances do to a design, and what it costs to keep them inside the zone.
 
 use softstop::Parameter;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
+use softstop_dynamics::orbit::OrbitError;
 
+use super::task::Job;
 use crate::design::Design;
-use crate::design::problem::Problem;
-use crate::robust::{Settings, Tolerance, Tolerances, Verdict, verify};
+use crate::design::problem::{self, Problem};
+use crate::design::search::{self, Unwatched};
+use crate::robust::{
+    Effort, Nearest, Norm, Scatter, Sensitivities, Settings, Tolerance, Tolerances, Verdict, Worst,
+    nearest, scatter, sensitivities, verify, worst,
+};
 
 /// A design's machines within its tolerances.
 #[derive(Debug)]
 pub struct Study {
+    /// The tolerances, in SI units.
+    pub tolerances: Vec<Tolerance>,
     /// Before-impact velocity of the design itself in m/s.
     pub nominal: f64,
     /// What the machines have shown.
     pub verdict: Verdict,
+    /// The machine that strikes the least.
+    pub worst: Worst,
+    /// Where the motion is lost as all tolerances grow, the nearest manifold first.
+    pub nearest_box: Vec<Nearest>,
+    /// The same by the normal distance.
+    pub nearest_ball: Vec<Nearest>,
+    /// How velocity and margins change with each tolerance.
+    pub sensitivities: Sensitivities,
+    /// Whose scatter it is.
+    pub scatter: Option<Scatter>,
+    /// What the task without tolerances leads to.
+    pub without: Option<Without>,
 }
+
+/// The best design if nothing has a tolerance and nothing is tried, and what becomes of it with them.
+#[derive(Debug)]
+pub struct Without {
+    /// The design.
+    pub design: Design,
+    /// Machines within the tolerances about it.
+    pub machines: usize,
+    /// Those of them that lose the motion.
+    pub lost: usize,
+    /// The slowest impact of the others in m/s.
+    pub slowest: Option<f64>,
+}
+
+impl Study {
+    /// The slowest impact in m/s that was found between the bounds: by steps down from the design, or seen.
+    pub fn slowest(&self) -> f64 {
+        let seen = self.verdict.slowest.as_ref().map(|(_, it)| it.velocity);
+        let found = self.worst.orbit.before_impact_velocity();
+        seen.map_or(found, |seen| seen.min(found))
+    }
+}
+
+/// Tolerances up to which manifolds are looked for, as a factor.
+const FARTHEST: f64 = 3.0;
+/// Machines that are looked at about the design without tolerances.
+const FEWER: usize = 1 << 11;
 
 /// The tolerances of a problem about a design, in SI units.
 fn tolerances(problem: &Problem, design: &Design) -> Vec<Tolerance> {
     let machine = &design.machine;
     let about = problem.tolerances.iter().filter(|it| !it.is_exact());
-    let si = |it: &crate::design::problem::Tolerance| {
+    let si = |it: &problem::Tolerance| {
         let width = it.width.around(machine.value(it.parameter)?);
         let half_width = match it.parameter {
             Parameter::Preload if machine.preload_deflection.is_some() => width,
@@ -37,28 +84,68 @@ fn tolerances(problem: &Problem, design: &Design) -> Vec<Tolerance> {
 }
 
 /// Looks at machines all over the tolerances; none if everything is exact.
-pub(super) fn study(
-    problem: &Problem,
-    design: &Design,
-    machines: usize,
-) -> Result<Option<Study>, Failure> {
-    let all = tolerances(problem, design);
-    if all.is_empty() || machines == 0 {
+pub(super) fn study(job: &Job, design: &Design) -> Result<Option<Study>, Failure> {
+    let all = tolerances(&job.problem, design);
+    if all.is_empty() || job.samples == 0 {
         return Ok(None);
     }
+    let stopped = |error: OrbitError| match interrupt::requested() {
+        true => Failure::Interrupted,
+        false => Failure::Run(error.into()),
+    };
     let spread = Tolerances::new(&design.machine, &all)?;
-    let progress = Progress::new(machines as u64, "machines");
+    let (nominal, watcher) = (&design.orbit, &interrupt::watch);
+    let progress = Progress::new(job.samples as u64, "machines");
     let settings = Settings {
-        machines,
+        machines: job.samples,
         ..Settings::default()
     };
-    let verdict = verify(&spread, &design.orbit, settings, &progress.watcher());
-    let verdict = verdict.map_err(anyhow::Error::from)?;
-    if interrupt::requested() {
-        return Err(Failure::Interrupted);
-    }
-    Ok(Some(Study {
+    let verdict = verify(&spread, nominal, settings, &progress.watcher()).map_err(stopped)?;
+    drop(progress);
+    let distances = |norm| nearest(&spread, nominal, norm, FARTHEST, watcher).map_err(stopped);
+    let sensitivities =
+        sensitivities(&spread, nominal, &design.zone).map_err(anyhow::Error::from)?;
+    let study = Study {
         nominal: design.before_impact_velocity(),
         verdict,
+        worst: worst(&spread, nominal, watcher).map_err(stopped)?,
+        nearest_box: distances(Norm::Box)?,
+        nearest_ball: distances(Norm::Ball)?,
+        sensitivities,
+        scatter: scatter(&spread, nominal, Effort::default(), watcher).map_err(stopped)?,
+        without: without(job).map_err(stopped)?,
+        tolerances: all,
+    };
+    match interrupt::requested() {
+        true => Err(Failure::Interrupted),
+        false => Ok(Some(study)),
+    }
+}
+
+/// The same task without tolerances and trials; none if it has no solution.
+fn without(job: &Job) -> Result<Option<Without>, OrbitError> {
+    let mut exact = Problem {
+        tolerances: Vec::new(),
+        ..job.problem.clone()
+    };
+    exact.requirements.retain(|it| !it.figure.is_trial());
+    let Ok(found) = search::search(&exact, job.settings, &Unwatched, None) else {
+        return Ok(None);
+    };
+    let design = found.design;
+    let all = tolerances(&job.problem, &design);
+    let Ok(spread) = Tolerances::new(&design.machine, &all) else {
+        return Ok(None);
+    };
+    let settings = Settings {
+        machines: FEWER,
+        ..Settings::default()
+    };
+    let verdict = verify(&spread, &design.orbit, settings, &interrupt::watch)?;
+    Ok(Some(Without {
+        machines: verdict.machines,
+        lost: verdict.lost,
+        slowest: verdict.slowest.map(|(_, settled)| settled.velocity),
+        design,
     }))
 }

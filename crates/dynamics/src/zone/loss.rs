@@ -21,27 +21,57 @@ pub fn loss_of_stability(
     test: Test,
 ) -> Result<Option<BranchPoint>, OrbitError> {
     let from = orbit.scene.excitation.frequency;
-    loss_along(&Frequencies(&orbit.scene), from, orbit, heading, test)
+    let family = Frequencies(&orbit.scene);
+    let follower = Follower::new(&family, 1);
+    located(&follower, &stable(&follower, from, orbit, heading)?, test)
 }
 
-/// The same along the parameter of any family, of which the orbit has the value `from`.
+/// Where stability is lost along the parameter of any family, of which the orbit has the value `from`, by whatever it is,
+/// or where the branch ends: where the test passes zero, or else the last value of
+/// the parameter up to which the motion was followed; none if it stays stable as far as is looked.
 ///
 /// # Errors
 /// As [`loss_of_stability`].
-pub fn loss_along<F: Family>(
+pub fn end_along<F: Family>(
     family: &F,
     from: f64,
     orbit: &Orbit,
     heading: Heading,
     test: Test,
-) -> Result<Option<BranchPoint>, OrbitError> {
+) -> Result<Option<f64>, OrbitError> {
     let follower = Follower::new(family, 1);
-    let branch = follower.follow(orbit, from, heading, LONGEST, |point| {
-        let ratio = point.parameter / from;
-        stop_if(!point.is_stable() || !(1.0 / FARTHEST..=FARTHEST).contains(&ratio))
-    })?;
+    let branch = stable(&follower, from, orbit, heading)?;
+    if let Some(lost) = located(&follower, &branch, test)? {
+        return Ok(Some(lost.parameter));
+    }
+    let last = branch.last().filter(|point| is_near(point, from));
+    Ok(last.map(|point| point.parameter))
+}
+
+fn is_near(point: &BranchPoint, from: f64) -> bool {
+    (1.0 / FARTHEST..=FARTHEST).contains(&(point.parameter / from))
+}
+
+/// The branch as long as it is stable.
+fn stable<F: Family>(
+    follower: &Follower<'_, F>,
+    from: f64,
+    orbit: &Orbit,
+    heading: Heading,
+) -> Result<Vec<BranchPoint>, OrbitError> {
+    follower.follow(orbit, from, heading, LONGEST, |point| {
+        stop_if(!point.is_stable() || !is_near(point, from))
+    })
+}
+
+/// Where a test passes zero at the end of a branch.
+fn located<F: Family>(
+    follower: &Follower<'_, F>,
+    branch: &[BranchPoint],
+    test: Test,
+) -> Result<Option<BranchPoint>, OrbitError> {
     let value = |point: &BranchPoint| test.value(&point.monodromy);
-    match &branch[..] {
+    match branch {
         [.., before, last] if value(before) > 0.0 && value(last) <= 0.0 => {
             follower.critical_between(before, last, test).map(Some)
         }

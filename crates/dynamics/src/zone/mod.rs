@@ -12,7 +12,7 @@ mod stretches;
 pub use bounds::Bounds;
 pub use grazing::{free_amplitude, grazing_frequencies};
 pub use hysteresis::{Zone, hysteresis, hysteresis_soon, hysteresis_watched};
-pub use loss::{loss_along, loss_of_stability};
+pub use loss::{end_along, loss_of_stability};
 pub use stretch::{Loss, Stretch, StretchEnd};
 pub use stretches::{stretches, stretches_watched};
 

@@ -12,11 +12,14 @@ use super::reference::Reference;
 use super::study::Study;
 use super::task::Job;
 use crate::design::Design;
+use crate::design::figure::Figure;
 use crate::design::problem::Problem;
+use crate::design::space::Interval;
 use crate::page::computed::{basin, comparison, portrait, response};
 use crate::page::data::{self, Fact, Report};
+use crate::page::quantity;
 use crate::report::at_limits;
-use parts::{erosion, fronts, histogram, maps, requirement, run_up, speed, told};
+use parts::{erosion, fronts, histogram, maps, requirement, run_up, sensitivities, speed, told};
 
 /// All that is told of a design.
 pub(super) fn report(
@@ -66,7 +69,7 @@ pub(super) fn report(
             .map(|it| erosion(problem, outcome, it)),
         fronts,
         histogram: study.map(|it| histogram(machine, it)),
-        sensitivities: Vec::new(),
+        sensitivities: study.map_or_else(Vec::new, |it| sensitivities(machine, it)),
         run_up: outcome
             .run_up
             .iter()
@@ -91,30 +94,28 @@ fn chosen(problem: &Problem) -> Vec<Parameter> {
 fn task(problem: &Problem) -> String {
     let machine = &problem.machine;
     let axes = problem.axes.iter().filter(|axis| !axis.range.is_held());
-    let axes = axes.map(|axis| {
-        let unit = machine.unit(axis.parameter.about().dimension);
-        match axis.catalogue.len() {
-            0 => format!(
-                "{} from {} {unit}",
-                machine.name(axis.parameter),
-                axis.range
+    let range = |parameter: Parameter, range: Interval| {
+        let (what, unit) = (
+            parameter.about().meaning,
+            machine.unit(parameter.about().dimension),
+        );
+        match range.is_held() {
+            true => format!("{what} of {}", quantity(range.low, unit)),
+            false => format!(
+                "{what} from {} to {}",
+                quantity(range.low, ""),
+                quantity(range.high, unit)
             ),
-            count => format!("{} one of {count} values", machine.name(axis.parameter)),
         }
+    };
+    let axes = axes.map(|axis| match axis.catalogue.len() {
+        0 => range(axis.parameter, axis.range),
+        count => format!("{} one of {count} values", axis.parameter.about().meaning),
     });
     let frequency = problem.frequency;
-    let unit = machine.unit(Dimension::Frequency);
-    let speed = frequency.high.is_finite().then(|| {
-        let joint = if frequency.is_held() { "at" } else { "from" };
-        format!(
-            "{} {joint} {frequency} {unit}",
-            machine.name(Parameter::Frequency)
-        )
-    });
-    let within: Vec<String> = axes
-        .chain(speed)
-        .map(|it| it.trim_end().to_owned())
-        .collect();
+    let is_bound = frequency.high.is_finite();
+    let speed = is_bound.then(|| range(Parameter::Frequency, frequency));
+    let within: Vec<String> = axes.chain(speed).collect();
     let margin = match problem.margin {
         0.0 => String::new(),
         margin => format!(", at least {margin} of the zone's width from both of its ends"),
@@ -175,8 +176,19 @@ fn highlights(problem: &Problem, design: &Design) -> Vec<Fact> {
     ]
 }
 
+/// What holds a design back, with the meaning of a figure for its key.
+fn in_words(limit: &str) -> String {
+    let told = |figure: &Figure| {
+        let rest = limit.strip_prefix(figure.name())?.strip_prefix(':')?;
+        Some(format!("{},{rest}", figure.meaning()))
+    };
+    let told = Figure::ALL.iter().find_map(told);
+    told.unwrap_or_else(|| limit.to_owned())
+}
+
 fn limit(problem: &Problem, outcome: &Outcome) -> Option<String> {
-    let limits = at_limits(problem, outcome);
+    let limits = at_limits(problem, outcome).into_iter();
+    let limits: Vec<String> = limits.map(|it| in_words(&it)).collect();
     let objective = problem.objective.words();
     match &limits[..] {
         [] => Some(format!(

@@ -15,6 +15,7 @@ use crate::optimize::outcome::{EROSION_STARTS, Outcome};
 use crate::optimize::study::Study;
 use crate::page::computed::map;
 use crate::page::data::{self, Label};
+use crate::robust::{Scatter, Tolerance};
 
 /// Maps at most.
 const MAPS: usize = 2;
@@ -183,4 +184,27 @@ pub(super) fn run_up(machine: &Machine, attempt: &Attempt) -> data::RunUp {
         succeeds: attempt.share == 1.0,
         note,
     }
+}
+
+/// What each tolerance does to the velocity.
+pub(super) fn sensitivities(machine: &Machine, study: &Study) -> Vec<data::Sensitivity> {
+    let one = |(index, it): (usize, &Tolerance)| {
+        let about = it.parameter.about();
+        let own = |value: f64| match it.parameter {
+            Parameter::Preload if machine.preload_deflection.is_some() => value,
+            _ => machine.to_own(about.dimension, value),
+        };
+        let index_of = |all: &Scatter| all.velocity[index];
+        let shares = study.scatter.as_ref().map(index_of);
+        data::Sensitivity {
+            label: Label::new(about.meaning, "", machine.unit(about.dimension)),
+            value: machine.value(it.parameter).unwrap_or(f64::NAN),
+            tolerance: own(it.half_width),
+            effect: machine.to_own(Dimension::Velocity, study.sensitivities.velocity[index]),
+            effect_unit: machine.unit(Dimension::Velocity).to_owned(),
+            share: shares.map(|it| it.first.value),
+            total: shares.map(|it| it.total.value),
+        }
+    };
+    study.tolerances.iter().enumerate().map(one).collect()
 }

@@ -1,0 +1,137 @@
+//! What the tolerances do to a design, as records.
+
+use serde::Serialize;
+use softstop::{Dimension, Machine, Parameter};
+use softstop_console::column::{Column, Units};
+use softstop_console::columns;
+use softstop_console::record::{Record, below};
+
+use softstop_explore::zone::lost_by;
+
+use crate::optimize::study::Study;
+use crate::robust::{Manifold, Nearest};
+
+/// The machines within the tolerances of a design.
+#[derive(Debug, Serialize)]
+pub(crate) struct Tolerated {
+    /// All of them.
+    machines: Record,
+    /// Where the motion is lost as all tolerances grow, the nearest first.
+    manifolds: Vec<Record>,
+    /// What each tolerance does.
+    parameters: Vec<Record>,
+    /// The best design without tolerances.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    without: Option<Record>,
+}
+
+type Of<'a> = (&'a Machine, &'a Study);
+
+fn machines<'a>() -> [Column<Of<'a>>; 6] {
+    columns! { Of<'a>, it;
+        "looked_at" [None] Plain, "machines looked at" => it.1.verdict.machines;
+        "lost" [None] Plain, "machines that lose the motion" => it.1.verdict.lost;
+        "nominal" [Velocity] Six, "before-impact velocity of the design" => it.1.nominal;
+        "worst" [Velocity] Six, "least within the tolerances" => it.1.slowest();
+        "factor" [None] Six, "factor by which all tolerances may grow" => it.1.nearest_box.first().map(|it| it.distance);
+        "normal_distance" [None] Six, "normal distance in units of the tolerances" => it.1.nearest_ball.first().map(|it| it.distance);
+    }
+}
+
+fn manifolds<'a>() -> [Column<&'a Nearest>; 2] {
+    columns! { &'a Nearest, it;
+        "manifold" [None] Plain, "what is lost there" => name(&it.manifold);
+        "factor" [None] Six, "factor by which all tolerances may grow" => it.distance;
+    }
+}
+
+/// A manifold in a word or two.
+pub(crate) fn name(manifold: &Manifold) -> String {
+    match manifold {
+        Manifold::Hysteresis => "g0: the motion without impacts strikes".to_owned(),
+        Manifold::Motion(loss) => lost_by(loss),
+    }
+}
+
+type One<'a> = (&'a Machine, &'a Study, usize);
+
+fn parameters<'a>() -> [Column<One<'a>>; 7] {
+    columns! { One<'a>, it;
+        "parameter" [None] Plain, "which" => it.0.name(parameter(it));
+        "tolerance" [None] Seven, "half-width" => width(it);
+        "velocity" [Velocity] Seven, "change of the velocity at its upper end" => it.1.sensitivities.velocity[it.2];
+        "to_fold" [Frequency] Seven, "of the margin to s_SN" => own(it, it.1.sensitivities.to_fold[it.2]);
+        "to_g0" [Frequency] Seven, "of the margin to g0" => own(it, it.1.sensitivities.to_free[it.2]);
+        "first_index" [None] Fixed(4), "Sobol index of the velocity" => it.1.scatter.as_ref().map(|all| all.velocity[it.2].first.value);
+        "total_index" [None] Fixed(4), "with all others" => it.1.scatter.as_ref().map(|all| all.velocity[it.2].total.value);
+    }
+}
+
+fn parameter((_, study, index): &One<'_>) -> Parameter {
+    study.tolerances[*index].parameter
+}
+
+fn own((machine, ..): &One<'_>, frequency: f64) -> f64 {
+    machine.to_own(Dimension::Frequency, frequency)
+}
+
+/// The half-width in the machine's own units.
+fn width(one: &One<'_>) -> f64 {
+    let half_width = one.1.tolerances[one.2].half_width;
+    match parameter(one) {
+        Parameter::Preload if one.0.preload_deflection.is_some() => half_width,
+        parameter => one.0.to_own(parameter.about().dimension, half_width),
+    }
+}
+
+impl Tolerated {
+    /// Those of a study.
+    pub(crate) fn of(machine: &Machine, study: &Study) -> Self {
+        let all = 0..study.tolerances.len();
+        let without = study.without.as_ref().map(|it| {
+            Record::default()
+                .with(
+                    "velocity",
+                    "before-impact velocity",
+                    it.design.before_impact_velocity(),
+                )
+                .with("machines", "machines within the tolerances", it.machines)
+                .with("lost", "that lose the motion", it.lost)
+                .with("slowest", "least velocity of the others", it.slowest)
+        });
+        Self {
+            machines: Record::of(&machines(), &(machine, study)),
+            manifolds: study
+                .nearest_box
+                .iter()
+                .map(|it| Record::of(&manifolds(), &it))
+                .collect(),
+            parameters: all
+                .map(|index| Record::of(&parameters(), &(machine, study, index)))
+                .collect(),
+            without,
+        }
+    }
+
+    /// The same for people.
+    pub(crate) fn text(&self, units: &Units) -> String {
+        let mut text = format!("\nWithin the tolerances\n{}", self.machines.text(units));
+        if !self.manifolds.is_empty() {
+            text += &format!(
+                "\nWhere the motion is lost as all tolerances grow\n{}",
+                below(&self.manifolds, units)
+            );
+        }
+        text += &format!(
+            "\nWhat each tolerance does\n{}",
+            below(&self.parameters, units)
+        );
+        if let Some(without) = &self.without {
+            text += &format!(
+                "\nThe best design without tolerances, and what becomes of it with them\n{}",
+                without.text(units)
+            );
+        }
+        text
+    }
+}

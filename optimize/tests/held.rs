@@ -1,0 +1,153 @@
+//! No grid over clearance and place in the zone beats the optimum, whatever the machine and its units, and whatever is
+//! required of it.
+
+use rayon::prelude::*;
+use softstop::{Machine, Parameter};
+use softstop_dynamics::zone;
+use softstop_optimize::design::Problem;
+use softstop_optimize::design::figure::Figure;
+use softstop_optimize::design::judge::{Judged, Met};
+use softstop_optimize::design::requirement::Requirement;
+use softstop_optimize::design::search::{Settings, Unwatched, search};
+use softstop_optimize::design::space::{Axis, Interval};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+const CLEARANCES: usize = 48;
+const PLACES: usize = 33;
+
+/// The best value on a grid, of motions that are stable, as required, and within the margin.
+fn on_grid(problem: &Problem, range: Interval) -> f64 {
+    let row = |index: usize| {
+        let clearance = range.at(index as f64 / (CLEARANCES - 1) as f64);
+        let mut machine = problem.machine_at(&[clearance]);
+        let zone = zone::hysteresis(&machine.scene).ok()?;
+        let value = |index: usize| {
+            let share = index as f64 / (PLACES - 1) as f64;
+            let place = problem.margin + share * (1.0 - 2.0 * problem.margin);
+            let orbit = zone
+                .orbit_at(place)
+                .ok()
+                .filter(|orbit| orbit.is_stable())?;
+            Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(place));
+            let motion = Judged::new(&machine, &zone, place, &orbit).ok()?;
+            let met = problem.met(&motion);
+            met.iter()
+                .all(Met::is_met)
+                .then(|| problem.sought(&motion))?
+        };
+        (0..PLACES).filter_map(value).max_by(f64::total_cmp)
+    };
+    let rows = (0..CLEARANCES).into_par_iter().filter_map(row);
+    rows.reduce(|| f64::NEG_INFINITY, f64::max)
+}
+
+#[track_caller]
+fn holds(
+    name: &str,
+    machine: Machine,
+    range: Interval,
+    margin: f64,
+    requirements: &[Requirement],
+) -> Outcome {
+    let problem = Problem {
+        margin,
+        requirements: requirements.to_vec(),
+        ..Problem::of(machine, vec![Axis::new(Parameter::Clearance, range)])
+    };
+    let settings = Settings {
+        seed: 0,
+        evaluations: 300,
+    };
+    let found = search(&problem, settings, &Unwatched, None)?;
+    let grid = on_grid(&problem, range);
+    let value = found.design.value;
+    assert!(
+        grid <= value * (1.0 + 1e-6),
+        "{name}: a grid point has {grid}, the optimum {value}"
+    );
+    assert!(
+        value - grid <= 0.1 * value,
+        "{name}: the grid has {grid} only, the optimum {value}"
+    );
+    Ok(())
+}
+
+fn stop_force(most: f64) -> Requirement {
+    Requirement {
+        figure: Figure::StopForce,
+        least: None,
+        most: Some(most),
+    }
+}
+
+fn margin_sn(least: f64) -> Requirement {
+    Requirement {
+        figure: Figure::FrequencySn,
+        least: Some(least),
+        most: None,
+    }
+}
+
+#[test]
+fn ratios_loaded_and_unloaded() -> Outcome {
+    let range = Interval {
+        low: 4.0,
+        high: 20.0,
+    };
+    for name in ["unloaded", "loaded"] {
+        let machine = Machine::named(name).ok_or("the paper's machine")?;
+        holds(name, machine.clone(), range, 0.25, &[])?;
+        holds(
+            name,
+            machine,
+            range,
+            0.0,
+            &[margin_sn(0.05), stop_force(85.0)],
+        )?;
+    }
+    Ok(())
+}
+
+#[test]
+fn other_stops() -> Outcome {
+    let range = Interval {
+        low: 4.0,
+        high: 20.0,
+    };
+    let stops: [&[(&str, &str)]; 3] = [
+        &[("stop.model", "kelvinVoigt"), ("stop.stiffness", "20")],
+        &[("stop.model", "rigid"), ("stop.restitution", "0.6")],
+        &[
+            ("stop.model", "hertz"),
+            ("stop.stiffness", "100"),
+            ("stop.exponent", "2"),
+        ],
+    ];
+    for stop in stops {
+        let mut machine = Machine::named("unloaded").ok_or("the paper's machine")?;
+        machine.apply(stop.iter().copied())?;
+        holds(stop[0].1, machine, range, 0.0, &[margin_sn(0.05)])?;
+    }
+    Ok(())
+}
+
+#[test]
+fn a_press_in_si_units() -> Outcome {
+    let press = "mass = 120.0\nstiffness = 2.4e6\ndamping = 680.0\nclearance = 0.02\ncontact.damping = 3060.0\n\
+                 excitation = { amplitude = 9000.0, frequency_hz = 24.0 }\n\
+                 stop = { model = \"preloaded\", stiffness = 1.68e7, preload_deflection = 0.02 }\n\
+                 piercing = { stiffness = 4.8e6, friction = 2.4e6, thickness = 0.002, travel = 0.001 }\n";
+    let range = Interval {
+        low: 0.006,
+        high: 0.04,
+    };
+    let requirements = [margin_sn(3.0), stop_force(4.8e5)];
+    holds(
+        "press",
+        Machine::from_toml(press)?,
+        range,
+        0.0,
+        &requirements,
+    )
+}
