@@ -1,5 +1,5 @@
 //! The outer search over the axes: a survey on a lattice, a particle swarm that starts from it until it gains little,
-//! gradients ([`gradient`](super::gradient)) from the best particle and from the best points far from it, then
+//! gradients from the best particle and from the best points far from it, then
 //! Nelder-Mead from the best of them, restarted with a fresh, smaller simplex until nothing is gained. The survey is
 //! there because the best design can stand on a narrow ridge that a random swarm misses; Nelder-Mead is, because it can
 //! stand where gradients end: where a zone gains a second fold inside it, the velocity jumps.
