@@ -197,12 +197,17 @@ pub fn at_limits(problem: &Problem, found: &Outcome) -> Vec<String> {
             Some(format!("{}: {end} bound", key(axis.parameter)))
         })
         .collect();
-    let is_bound = |it: &&Met| it.margin() <= AT_BOUND * (it.value - it.margin()).abs();
+    // Trials count, and are not counted on beyond what is required.
+    let is_bound = |it: &&Met| {
+        let size = (it.value - it.margin()).abs();
+        !it.requirement.figure.is_trial() && it.margin() <= AT_BOUND * size
+    };
     let held = found.met.iter().filter(is_bound);
     limits.extend(held.map(|it| {
         let required = bound(&design.machine, &it.requirement);
         format!("{}: {required}", it.requirement.figure.name())
     }));
+    limits.extend(problem.edge_at(design).map(str::to_owned));
     if design.place <= problem.margin + AT_MARGIN {
         limits.push("margin from g0".to_owned());
     }

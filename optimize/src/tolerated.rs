@@ -16,6 +16,8 @@ use crate::robust::{Manifold, Nearest};
 pub(crate) struct Tolerated {
     /// All of them.
     machines: Record,
+    #[serde(skip)]
+    lost: usize,
     /// Where the motion is lost as all tolerances grow, the nearest first.
     manifolds: Vec<Record>,
     /// What each tolerance does.
@@ -101,6 +103,7 @@ impl Tolerated {
         });
         Self {
             machines: Record::of(&machines(), &(machine, study)),
+            lost: study.verdict.lost,
             manifolds: study
                 .nearest_box
                 .iter()
@@ -116,6 +119,9 @@ impl Tolerated {
     /// The same for people.
     pub(crate) fn text(&self, units: &Units) -> String {
         let mut text = format!("\nWithin the tolerances\n{}", self.machines.text(units));
+        if self.lost > 0 {
+            text += "Warning: not all machines within the tolerances keep the motion.\n";
+        }
         if !self.manifolds.is_empty() {
             text += &format!(
                 "\nWhere the motion is lost as all tolerances grow\n{}",

@@ -8,7 +8,7 @@ use softstop_dynamics::slopes::Border;
 use softstop_dynamics::zone::grazing_frequencies;
 
 use super::Infeasible;
-use super::problem::{Problem, Width};
+use super::problem::{Problem, Tolerance, Width};
 
 /// An end of the zone at the corner of the box where it is nearest.
 #[derive(Debug, Clone)]
@@ -17,6 +17,13 @@ pub(super) struct Edge {
     pub frequency: f64,
     /// Its derivatives by the parameters of the nominal machine, in SI units, in the order of `Parameter::ALL`.
     pub by: Vec<f64>,
+}
+
+impl Edge {
+    fn stretch(&mut self, factor: f64) {
+        self.frequency *= factor;
+        self.by.iter_mut().for_each(|by| *by *= factor);
+    }
 }
 
 /// Both ends.
@@ -41,15 +48,6 @@ impl BoxWindow {
         machine: &Machine,
         zone: &Zone,
     ) -> Result<Self, Infeasible> {
-        let own = |parameter| parameter == Parameter::Frequency;
-        let speed = problem.tolerances.iter().find(|it| own(it.parameter));
-        let centre = machine.to_own(
-            Dimension::Frequency,
-            0.5 * (zone.frequency_g0 + zone.frequency_sn),
-        );
-        let speed = speed.map_or(0.0, |it| {
-            machine.to_si(Dimension::Frequency, it.width.around(centre))
-        });
         let corner = Corner { problem, machine };
         let mut low = corner.g0(machine)?;
         let mut high = corner.sn(zone)?;
@@ -74,8 +72,20 @@ impl BoxWindow {
                 break;
             }
         }
-        low.frequency += speed;
-        high.frequency -= speed;
+        let is_speed = |it: &&Tolerance| it.parameter == Parameter::Frequency;
+        match problem.tolerances.iter().find(is_speed).map(|it| it.width) {
+            Some(Width::Own(width)) => {
+                let width = machine.to_si(Dimension::Frequency, width);
+                low.frequency += width;
+                high.frequency -= width;
+            }
+            // w (1 - share) stays above the lower edge, w (1 + share) below the upper one.
+            Some(Width::Share(share)) => {
+                low.stretch(1.0 / (1.0 - share));
+                high.stretch(1.0 / (1.0 + share));
+            }
+            None => {}
+        }
         Ok(Self { low, high })
     }
 }

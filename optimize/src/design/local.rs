@@ -4,7 +4,7 @@ use softstop::Dimension;
 
 use super::Design;
 use super::exact::Exact;
-use super::figure::Figure;
+use super::figure::{Figure, Sense};
 use super::here::{At, Here};
 use super::judge::{Judged, Met};
 use super::problem::Problem;
@@ -32,10 +32,9 @@ pub fn local(problem: &Problem, at: &At<'_>) -> Option<Local> {
     let (sought, required) = figures.split_first()?;
     let score = problem.objective.score(sought.value);
     // d score / d value: 1, or that of the reciprocal.
-    let by_value = if score == sought.value {
-        1.0
-    } else {
-        -score * score
+    let by_value = match problem.objective.sense {
+        Sense::Least => 1.0,
+        Sense::Most => -score * score,
     };
     let objective = Slope {
         value: score,

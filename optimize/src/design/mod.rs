@@ -136,6 +136,20 @@ impl Problem {
         })
     }
 
+    /// The end of the zone that a corner of the tolerances touches, if one does.
+    pub fn edge_at(&self, design: &Design) -> Option<&'static str> {
+        let machine = &design.machine;
+        let edges = (!self.tolerances.is_empty())
+            .then(|| BoxWindow::of(self, machine, &design.zone).ok())??;
+        let frequency = design.orbit.scene.excitation.frequency;
+        let is_at = |edge: f64| (frequency - edge).abs() <= AT_EDGE * edge;
+        match (is_at(edges.low.frequency), is_at(edges.high.frequency)) {
+            (true, _) => Some("tolerances: they reach g0"),
+            (_, true) => Some("tolerances: they reach s_SN"),
+            _ => None,
+        }
+    }
+
     /// The places s that margin, frequency bounds and tolerances leave of a zone.
     fn window(&self, machine: &Machine, zone: &Zone) -> Result<Interval, Infeasible> {
         let width = zone.frequency_sn - zone.frequency_g0;
@@ -178,6 +192,9 @@ fn distance_from_zones(scene: &Scene, error: &ZoneError) -> f64 {
     let beyond = (clearance / largest - 1.0).max(-clearance / unit).max(0.0);
     DISTANT + finite_or(beyond, 0.0)
 }
+
+/// Distance, relative, from an edge at which tolerances touch it.
+const AT_EDGE: f64 = 1e-7;
 
 /// The gap of a point of which nothing better is known.
 const DISTANT: f64 = 10.0;

@@ -16,6 +16,9 @@ pub struct Requirement {
 impl Requirement {
     /// How far inside its bounds a value lies, in SI units; negative outside.
     pub fn margin(&self, value: f64) -> f64 {
+        if value.is_nan() {
+            return value;
+        }
         let above = self.least.map_or(f64::INFINITY, |least| value - least);
         let below = self.most.map_or(f64::INFINITY, |most| most - value);
         above.min(below)
@@ -56,6 +59,11 @@ mod tests {
         assert_eq!(both.margin(1.0), -1.0);
         assert_eq!(both.violation(1.0), 0.2);
         assert_eq!(both.violation(3.0), 0.0);
-        assert_eq!(both.violation(f64::NAN), FARTHEST);
+        let one = Requirement { most: None, ..both };
+        assert!(
+            one.margin(f64::NAN).is_nan(),
+            "what has no value is not met"
+        );
+        assert_eq!([both, one].map(|it| it.violation(f64::NAN)), [FARTHEST; 2]);
     }
 }

@@ -62,7 +62,7 @@ pub struct Settings {
 pub enum SearchError {
     /// Nothing within the bounds is feasible.
     #[error(
-        "no stable z = 1 motion in a hysteresis zone is as the task asks within the bounds; nearest try, at {place}: {reason}"
+        "no stable z = 1 motion in a hysteresis zone is as the task asks within the bounds; nearest try{place}: {reason}"
     )]
     NoDesign {
         /// The least infeasible point: names and values.
@@ -134,12 +134,27 @@ pub fn search(
         (Err(infeasible), None) => return Err(lost(infeasible)),
     };
     let best = pass(problem, &best).map_err(lost)?;
-    let is_rival = |it: &Summit| is_apart(&it.unit, &best.unit) && score(it) > RIVAL * score(&best);
-    let rivals = summits.into_iter().filter(is_rival).map(|it| it.design);
+    let mut apart = vec![best.clone()];
+    for summit in summits {
+        let is_new = apart
+            .iter()
+            .all(|known| is_another(problem, &known.design, &summit.design));
+        if is_new && score(&summit) > RIVAL * score(&best) {
+            apart.push(summit);
+        }
+    }
     Ok(Found {
-        rivals: rivals.collect(),
+        rivals: apart.drain(1..).map(|it| it.design).collect(),
         design: best.design,
         unit: best.unit,
+    })
+}
+
+/// True if two designs differ by more than a small part of the range of some axis.
+fn is_another(problem: &Problem, one: &Design, other: &Design) -> bool {
+    problem.axes.iter().any(|axis| {
+        let [one, other] = [one, other].map(|it| it.machine.value(axis.parameter).unwrap_or(0.0));
+        (one - other).abs() > APART * (axis.range.high - axis.range.low)
     })
 }
 
@@ -149,11 +164,14 @@ fn is_apart(one: &[f64], other: &[f64]) -> bool {
     one.iter().zip(other).any(far)
 }
 
-/// Values in words.
+/// Values in words, after "nearest try".
 fn place(problem: &Problem, values: &[f64]) -> String {
+    if values.is_empty() {
+        return String::new();
+    }
     let said = problem.axes.iter().zip(values);
     let said = said.map(|(axis, value)| format!("{} = {value}", axis.parameter.name()));
-    said.collect::<Vec<_>>().join(", ")
+    format!(", at {}", said.collect::<Vec<_>>().join(", "))
 }
 
 /// The best point of the unit cube, and what gradients have found, the best first.
@@ -165,7 +183,7 @@ fn outer(cost: &Cost<'_>, settings: Settings) -> Result<(Vec<f64>, Vec<Summit>),
     }
     let share = (dimension as u64 * settings.evaluations) / SURVEY;
     let survey = survey(cost, share.min(settings.evaluations / 3))?;
-    let left = settings.evaluations - survey.len() as u64;
+    let left = settings.evaluations.saturating_sub(survey.len() as u64);
     let swarm = left * 2 / 3;
     let best = swarm_best(cost, &survey, settings.seed, swarm)?;
     let mut starts = vec![best.clone()];

@@ -12,7 +12,11 @@ pub(super) fn survey(cost: &Cost<'_>, evaluations: u64) -> Result<Vec<Point>, Er
     let dimension = cost.space.dimension();
     let root = (evaluations as f64).powf(1.0 / dimension as f64) + 1e-9;
     let edge = (root as usize).clamp(2, LONGEST_EDGE);
-    let units: Vec<Vec<f64>> = (0..edge.pow(dimension as u32))
+    // Of a lattice with more points than that, corners and all, evenly many are taken.
+    let whole = edge.checked_pow(dimension as u32).unwrap_or(usize::MAX);
+    let count = whole.min((evaluations as usize).max(2));
+    let units: Vec<Vec<f64>> = (0..count)
+        .map(|index| (index as u128 * whole as u128 / count as u128) as usize)
         .map(|index| lattice_point(index, edge, dimension))
         .collect();
     let costs = Stoppable(cost).bulk_cost(&units)?;
@@ -24,7 +28,8 @@ pub(super) fn survey(cost: &Cost<'_>, evaluations: u64) -> Result<Vec<Point>, Er
 
 /// The point of this number in a lattice with `edge` points along each axis.
 fn lattice_point(index: usize, edge: usize, dimension: usize) -> Vec<f64> {
-    let digit = |axis: usize| index / edge.pow(axis as u32) % edge;
+    let unit = |axis: usize| edge.checked_pow(axis as u32).unwrap_or(usize::MAX);
+    let digit = |axis: usize| index / unit(axis) % edge;
     (0..dimension)
         .map(|axis| digit(axis) as f64 / (edge - 1) as f64)
         .collect()

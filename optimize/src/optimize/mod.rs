@@ -166,7 +166,7 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let start = Start::from(design.orbit.state());
     let machine = Machine {
         start,
-        ..named(design)
+        ..named(&job.problem, design)
     };
     export.file("fmu", &archive(&library, &machine, start)?)?;
     export.file("toml", machine.to_toml().as_bytes())?;
@@ -192,7 +192,8 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
 }
 
 /// The design's machine under the name of a design.
-fn named(design: &Design) -> Machine {
+fn named(problem: &Problem, design: &Design) -> Machine {
+    let words = problem.objective.words();
     let machine = &design.machine;
     let name = machine.name.as_deref().unwrap_or("machine");
     let frequency = design.frequency();
@@ -200,8 +201,8 @@ fn named(design: &Design) -> Machine {
     Machine {
         name: Some(format!("{name} design")),
         description: Some(format!(
-            "Design of the machine {name} for the hardest impact inside its hysteresis zone: drive \
-             frequency {frequency:.6} {unit}, before-impact velocity {:.6} {}",
+            "Design of the machine {name} with the {words} inside its hysteresis zone: drive frequency \
+             {frequency:.6} {unit}, before-impact velocity {:.6} {}",
             design.before_impact_velocity(),
             machine.unit(Dimension::Velocity)
         )),

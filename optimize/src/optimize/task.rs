@@ -17,6 +17,7 @@ use super::layers;
 use super::wishes::{objective, requirements, tolerances};
 use crate::design::Problem;
 use crate::design::figure::Figure;
+use crate::design::problem::Link;
 use crate::design::search::{LEAST_EVALUATIONS, Settings};
 
 const MARGIN: f64 = 0.25;
@@ -44,7 +45,13 @@ impl Job {
         let machine = machine(arguments, &task)?;
         let tolerances = tolerances(&machine, &task.tolerance)?;
         let mut requirements = requirements(&machine, &task.require)?;
+        let objective = objective(&machine, &task.objective)?;
         let share = requirements.iter().find(|it| it.figure == Figure::Share);
+        if share.is_some_and(|it| it.most.is_some()) {
+            return Err(Failure::usage(
+                "require.margin: can be at least so much, not at most",
+            ));
+        }
         let share = share.and_then(|it| it.least);
         let says_where = tolerances.iter().any(|it| !it.is_exact())
             || requirements.iter().any(|it| it.figure.is_margin());
@@ -63,6 +70,13 @@ impl Job {
             layers::written(&task, variables)?,
         ];
         let (axes, frequency) = layers::axes(&machine, &said, task.vary.is_empty())?;
+        let both = |link: &&Link| axes.iter().any(|axis| axis.parameter == link.parameter);
+        if let Some(link) = links.iter().find(both) {
+            return Err(Failure::usage(format!(
+                "vary.{}: follows another parameter, and is searched or held as well; only one of the two can be given",
+                machine.name(link.parameter)
+            )));
+        }
         let evaluations = arguments
             .evaluations
             .or(task.evaluations)
@@ -80,7 +94,7 @@ impl Job {
                 frequency,
                 links,
                 tolerances,
-                objective: objective(&task.objective)?,
+                objective,
                 requirements,
             },
             settings: Settings {

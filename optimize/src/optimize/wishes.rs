@@ -92,6 +92,11 @@ pub(super) fn link(machine: &Machine, name: &str, follow: &Follow) -> Result<Lin
     };
     let (parameter, unit) = of(name)?;
     let (follows, other) = of(&follow.follows)?;
+    if [parameter, follows].contains(&Parameter::Frequency) {
+        return Err(Failure::usage(format!(
+            "vary.{name}: the drive's frequency follows nothing, and nothing follows it: it is found along the zone"
+        )));
+    }
     if !(follow.factor.is_finite() && follow.offset.is_finite()) || parameter == follows {
         return Err(Failure::usage(format!(
             "vary.{name}: must follow another parameter by a finite factor and offset"
@@ -143,7 +148,7 @@ pub struct Goal {
 }
 
 /// What is sought: the highest before-impact velocity, if nothing is said.
-pub(super) fn objective(goal: &Goal) -> Result<Objective, Failure> {
+pub(super) fn objective(machine: &Machine, goal: &Goal) -> Result<Objective, Failure> {
     let (name, sense, says) = match (&goal.maximise, &goal.minimise) {
         (None, None) => return Ok(Objective::default()),
         (Some(name), None) => (name, Sense::Least, "maximise"),
@@ -169,6 +174,11 @@ pub(super) fn objective(goal: &Goal) -> Result<Objective, Failure> {
         return Err(Failure::usage(format!(
             "objective.{says} = {name}: must be velocity, impact_energy, impact_power, stroke_work, drive_force, \
              drive_power or stop_force; what else counts goes to [require]"
+        )));
+    }
+    if let Some(lacks) = lacks(machine, figure) {
+        return Err(Failure::usage(format!(
+            "objective.{says} = {name}: this machine has no {lacks}"
         )));
     }
     Ok(Objective { figure, sense })

@@ -36,6 +36,8 @@ fn run(folder: &Path, more: &str) -> Result<Value, Box<dyn std::error::Error>> {
         "optimize",
         file,
         "--no-report",
+        "--samples",
+        "4096",
         "--format",
         "json",
         "--output",
@@ -128,7 +130,23 @@ fn conflicts_are_named_with_how_much_is_missing() -> Outcome {
 #[test]
 fn what_is_wrong_with_a_task_is_told() -> Outcome {
     let folder = tempfile::tempdir()?;
-    let cases: [(&str, &[&str]); 20] = [
+    let cases: [(&str, &[&str]); 24] = [
+        (
+            "[require]\nmargin = { most = 0.1 }\n",
+            &["require.margin", "at least"],
+        ),
+        (
+            "[vary]\nexcitation.frequency_hz = { follows = \"stop.stiffness\", factor = 1e-6 }\n",
+            &["vary.excitation.frequency_hz", "follows nothing"],
+        ),
+        (
+            "[objective]\nminimise = \"stop_force\"\n[vary]\nstop.stiffness = [1e6, nan]\n",
+            &["stop.stiffness = NaN"],
+        ),
+        (
+            "[require]\nvelocity = nan\n",
+            &["require.velocity", "finite"],
+        ),
         (
             "[vary]\nclearance = [0.02, 0.01]\n",
             &["clearance = 0.02:0.01", "low must be <= high"],
@@ -233,6 +251,49 @@ fn catalogues_and_links_hold() -> Outcome {
         1.8e-4 * stiffness,
         1e-9 * stiffness,
     );
+    Ok(())
+}
+
+/// Tolerances as shares, that of the drive's speed among them, are those of the design: none of its machines is lost.
+#[test]
+fn machines_within_the_tolerances_keep_the_motion() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let wishes = format!(
+        "{VARY}[tolerance]\nclearance = \"2 %\"\nstop.stiffness = \"3 %\"\n\
+         excitation.frequency_hz = \"0.5 %\"\n"
+    );
+    let report = run(folder.path(), &wishes)?;
+    let machines = &report["tolerances"]["machines"];
+    assert_eq!(machines["lost"], 0, "{machines}");
+    assert!(number(machines, "factor") > 1.0 - 1e-6, "{machines}");
+    Ok(())
+}
+
+/// More axes than a lattice of few points has dimensions.
+#[test]
+fn many_axes_are_searched_with_few_zones() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let names = [
+        "mass",
+        "stiffness",
+        "damping",
+        "clearance",
+        "contact.damping",
+    ];
+    let axes = [
+        "excitation.amplitude",
+        "stop.stiffness",
+        "piercing.stiffness",
+    ];
+    let report = run(folder.path(), "")?;
+    let parameters = &report["design"]["machine"]["parameters"];
+    let range = |name: &&str| {
+        let value = number(parameters, name);
+        format!("{name} = [{}, {}]\n", 0.98 * value, 1.02 * value)
+    };
+    let vary: String = names.iter().chain(&axes).map(range).collect();
+    let report = run(folder.path(), &format!("[vary]\n{vary}"))?;
+    assert!(number(&report["design"], "before_impact_velocity") > 0.0);
     Ok(())
 }
 
