@@ -210,9 +210,23 @@ impl Program {
                 if left == 0 {
                     break run.wait().expect("it ends");
                 }
+                // The first kill waits for something to be kept; the others fall at random moments.
                 let share = chance.next_u64() as f64 / u64::MAX as f64;
-                std::thread::sleep(longest.mul_f64(share));
-                if let Some(status) = run.try_wait().expect("a process") {
+                let moment = Instant::now() + longest.mul_f64(share);
+                let waits = |now| {
+                    if taken_up == 0 {
+                        !keeps(&out)
+                    } else {
+                        now < moment
+                    }
+                };
+                let mut ended = None;
+                while ended.is_none() && waits(Instant::now()) {
+                    std::thread::sleep(Duration::from_millis(1));
+                    ended = run.try_wait().expect("a process");
+                }
+                if let Some(status) = ended {
+                    assert!(taken_up > 0, "{arguments:?} keeps nothing: {status}");
                     break status;
                 }
                 left -= 1;
@@ -221,21 +235,25 @@ impl Program {
                     run.id(),
                 );
                 run.wait().expect("it ends");
-                let names = std::fs::read_dir(&out).into_iter().flatten().flatten();
-                let mut names = names.map(|entry| entry.file_name());
-                taken_up += u64::from(names.any(|it| it.to_string_lossy().ends_with(".part")));
+                taken_up += u64::from(keeps(&out));
             };
             assert!(status.success(), "{arguments:?}, job {jobs}: {status}");
             assert_eq!(contents(&out), whole, "{arguments:?}, job {jobs}");
             jobs += 1;
         }
         println!("{arguments:?}: {jobs} jobs, {taken_up} times something was kept");
-        assert!(taken_up > 0, "{arguments:?} keeps nothing");
     }
 }
 
 /// Ways to end a program; more than half of them leave it no time.
 const SIGNALS: [&str; 5] = ["KILL", "KILL", "KILL", "TERM", "INT"];
+
+/// Whether a run has kept something in a folder.
+fn keeps(folder: &Path) -> bool {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut kept = entries.filter(|it| it.path().extension().is_some_and(|it| it == "part"));
+    kept.any(|it| it.metadata().is_ok_and(|it| it.len() > 0))
+}
 
 /// The files in a folder and below by name; of texts the lines that state no time.
 fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
