@@ -13,7 +13,7 @@ use softstop_lab::methods::{Exact, Integrator, Task};
 use softstop_lab::reference::number::{Digits, Real, float, size};
 use softstop_lab::reference::walk::Walk;
 use softstop_lab::reference::{ReferenceError, solve};
-use softstop_lab::throughput::random_machines::Draw;
+use softstop_lab::throughput::random_machines::{Draw, Kind};
 use softstop_testing::reference::{STOPS, list, number};
 use softstop_testing::unloaded;
 
@@ -190,7 +190,10 @@ fn the_exact_method_agrees_on_random_machines() {
     let mut draw = Draw::new(2003, 0);
     let mut impacts = 0;
     for index in 0..100 {
-        let (_, mut scene, start) = draw.machine().expect("a machine");
+        let (kind, mut scene, start) = draw.machine().expect("a machine");
+        if kind == Kind::Power {
+            continue;
+        }
         scene.mass = 0.5 + 0.5 * f64::from(index % 6);
         scene.damping *= 1.0 + f64::from(index % 7);
         scene.excitation.phase = f64::from(index);

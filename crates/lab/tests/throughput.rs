@@ -113,7 +113,7 @@ fn engines_agree_on_the_motions_that_are_timed() -> Outcome {
 
 #[test]
 fn draws_repeat_themselves_and_are_of_all_kinds() -> Outcome {
-    let mut kinds = [0; 3];
+    let mut kinds = [0; 4];
     let (mut one, mut same, mut other) = (Draw::new(3, 0), Draw::new(3, 0), Draw::new(3, 1));
     for _ in 0..90 {
         let drawn = one.machine()?;
@@ -123,6 +123,7 @@ fn draws_repeat_themselves_and_are_of_all_kinds() -> Outcome {
             Kind::Unloaded => 0,
             Kind::Loaded => 1,
             Kind::Other => 2,
+            Kind::Power => 3,
         }] += 1;
     }
     assert!(kinds.iter().all(|count| *count > 10), "{kinds:?}");

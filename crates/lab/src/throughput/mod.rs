@@ -36,10 +36,10 @@ Examples:
 
 The engines take turns, each round a measurement of each; a round ahead of them
 is not counted. Lowering the machines is part of the time. The random machines of
---check are the paper's without and with a strip, and others with linear stops; a
-motion is compared if no rounding error can change its number of impacts, which
-the growth of such errors along the safe engine's motion tells. Exit code 1 if one
-differs.";
+--check are the paper's without and with a strip, others with linear stops, and with
+power laws (n = 3/2, 2 and 5/2); a motion is compared if no rounding error can
+change its number of impacts, which the growth of such errors along the safe
+engine's motion tells. Exit code 1 if one differs.";
 
 /// Arguments of `softstop-lab throughput`.
 #[derive(Debug, Args)]

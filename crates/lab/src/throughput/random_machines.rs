@@ -15,6 +15,8 @@ pub enum Kind {
     Loaded,
     /// Another stop with a linear law.
     Other,
+    /// A stop with a power law.
+    Power,
 }
 
 /// Draws machines; the same ones for the same seed and part.
@@ -29,23 +31,26 @@ impl Draw {
     }
 
     /// The next machine and the start of its motion: as many of each kind, frequency ratios 0.5 to 2,
-    /// clearances 0.5 to 20, stops of stiffness 3 to 10^4; every tenth one of those without a rigid stop
-    /// gets one behind.
+    /// clearances 0.5 to 20, stops of stiffness 3 to 10^4; every second power law dissipates, and every tenth stop of
+    /// another kind that is not rigid gets a rigid one behind.
     ///
     /// # Errors
     /// [`SceneError`] if the drawing went wrong.
     pub fn machine(&mut self) -> Result<(Kind, Scene, Start), SceneError> {
-        let kind = [Kind::Unloaded, Kind::Loaded, Kind::Other][self.below(3)];
+        let kind = [Kind::Unloaded, Kind::Loaded, Kind::Other, Kind::Power][self.below(4)];
         let base = match kind {
             Kind::Loaded => Ratios::loaded(),
             _ => Ratios::unloaded(),
         };
         let ratios = base.at_frequency(self.between(0.5, 2.0));
         let mut scene = ratios.at_clearance(self.between(0.5, 20.0)).scene()?;
-        if kind == Kind::Other {
-            scene.stop = self.stop();
+        match kind {
+            Kind::Other => scene.stop = self.stop(),
+            Kind::Power => scene.stop = self.power(),
+            Kind::Unloaded | Kind::Loaded => {}
         }
-        if self.below(10) == 0 && !matches!(scene.stop, Stop::Rigid { .. }) {
+        let is_last = kind == Kind::Power || matches!(scene.stop, Stop::Rigid { .. });
+        if self.below(10) == 0 && !is_last {
             let (travel, restitution) = (self.between(0.1, 2.0), self.between(0.2, 0.95));
             scene.rigid = Some(RigidStop {
                 travel,
@@ -81,6 +86,14 @@ impl Draw {
                 stiffness,
                 preload: self.between(0.0, 100.0),
             },
+        }
+    }
+
+    fn power(&mut self) -> Stop {
+        Stop::Hertz {
+            stiffness: 10f64.powf(self.between(0.5, 4.0)),
+            exponent: [1.5, 2.0, 2.5][self.below(3)],
+            dissipation: self.between(-0.1, 0.1).max(0.0),
         }
     }
 
