@@ -110,7 +110,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             let is_high = guard.is_low.not().and_not(guard.is_further);
             let at_high = hits & is_high;
             let at_further = hits & guard.is_further;
-            let turns = at_further & law.by_position.equals(zero);
+            let turns = at_further & law.reverses();
             let turned = turns.choose(zero, v);
             let x = at_further.choose(found.position, x);
             let beyond = is_high.choose(law.beyond_high, law.beyond_low);

@@ -67,3 +67,26 @@ fn a_contact_across_the_end_of_a_period_is_one() {
         );
     }
 }
+
+#[test]
+fn a_mass_that_the_stop_would_pull_is_pressed_again() {
+    for index in 0..200 {
+        let mut scene = power(2 * index + 1);
+        scene.piercing = None;
+        scene.stop = Stop::Hertz {
+            stiffness: 100.0,
+            exponent: [1.5, 2.0, 2.5][index % 3],
+            dissipation: 0.07,
+        };
+        let position = scene.clearance + between(0.5, 1.5, spread(index, 4));
+        let start = Start::new(position, between(-1.01, -1.0, spread(index, 5)) / 0.07);
+        let (end, impacts) = scalar(&scene, start);
+        let lanes = single::one_by_one(&scene, start, PERIODS, &mut single::Periods);
+        let off = distance(lanes.0, end);
+        let chaotic = growth(&scene, start, end) > 1e4;
+        assert!(
+            chaotic || (lanes.1, off < 1e-8) == (impacts, true),
+            "{index}: {off:e}"
+        );
+    }
+}
