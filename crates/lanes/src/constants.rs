@@ -199,6 +199,7 @@ impl Constants {
             offset: force / flow.modes.stiffness,
             cosine,
             sine,
+            swing: cosine.hypot(sine),
             cosine_rate: w * sine,
             sine_rate: -w * cosine,
             xx,
@@ -244,7 +245,8 @@ impl Constants {
             self.window
         };
         let (c, s) = modes.bounds(reach);
-        let amplitude = self.cosine.hypot(self.sine) * scale;
+        let amplitude = self.swing * scale;
+        self.longest = s;
         // Rows of derivatives: y^(n) = row.0 y + row.1 y'.
         let next = |(x, v): (f64, f64)| (self.stiffness * v, x + self.damping * v);
         let fourth = next(next(next((0.0, 1.0))));
@@ -261,15 +263,25 @@ impl Constants {
     /// Sets below what the safe engine has to decide: differences that rounding may have made.
     fn set_grain(&mut self, fastest: f64) {
         let finite = |level: f64| if level.is_finite() { level.abs() } else { 0.0 };
-        let steady = self.cosine.hypot(self.sine);
         let size = finite(self.low)
             .max(finite(self.high))
-            .max(steady + self.offset.abs());
+            .max(self.swing + self.offset.abs());
         self.grain = GRAIN * size;
         self.slow = SLOW * size * fastest;
         self.guard_scale = self.by_position.abs() + self.by_velocity.abs() * fastest;
     }
 }
+
+/// 1/(n (n + 1))
+const RECIPROCALS: [f64; TERMS] = {
+    let mut table = [0.0; TERMS];
+    let mut n = 1;
+    while n < TERMS {
+        table[n] = 1.0 / (n * (n + 1)) as f64;
+        n += 1;
+    }
+    table
+};
 
 /// The free motion's polynomial: x'' + 2 a x' + b x = 0, term by term.
 fn response(modes: &Modes, window: f64) -> [f64; TERMS] {
@@ -280,8 +292,8 @@ fn response(modes: &Modes, window: f64) -> [f64; TERMS] {
     let mut terms = [1.0; TERMS];
     for n in 1..TERMS {
         let before = if n > 1 { terms[n - 2] } else { 0.0 };
-        let (n, term) = (n as f64, terms[n - 1]);
-        terms[n as usize] = -(damping * n * term + stiffness * before) / (n * (n + 1.0));
+        let pull = damping * n as f64 * terms[n - 1] + stiffness * before;
+        terms[n] = -pull * RECIPROCALS[n];
     }
     terms
 }

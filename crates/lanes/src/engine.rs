@@ -145,11 +145,14 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             return;
         }
         let law = &self.laws[phase];
-        let reached = if GUARDED {
+        let mut reached = if GUARDED {
             self.stand(law, active)
         } else {
             self.scan(law, active, due * law.per_window)
         };
+        if !GUARDED && reached.go.any() {
+            self.leap(phase, &mut reached);
+        }
         let (ended, doubtful) = self.look::<GUARDED>(phase, active, &reached, due);
         if (ended | doubtful).any() {
             self.serve(ended, doubtful);

@@ -56,8 +56,12 @@ impl<S: Simd, const N: usize> Ahead<S, N> {
 
 impl<S: Simd, const N: usize> Guard<S, N> {
     #[inline(always)]
-    pub fn of<const GUARDED: bool>(law: &Law<S, N>, ahead: &Ahead<S, N>) -> Self {
-        let slack = law.slack(&ahead.here) * ahead.scale;
+    pub fn of<const GUARDED: bool>(
+        law: &Law<S, N>,
+        ahead: &Ahead<S, N>,
+        slack: Lanes<S, N>,
+    ) -> Self {
+        let slack = slack * ahead.scale;
         if GUARDED {
             Self::of_several(law, ahead, slack)
         } else {

@@ -96,6 +96,17 @@ impl<S: Simd, const N: usize> Lanes<S, N> {
         Self { registers, ..self }
     }
 
+    /// self - b * c, rounded once where the processor can.
+    #[inline(always)]
+    pub fn minus_product(self, b: Self, c: Self) -> Self {
+        let mut registers = self.registers;
+        abreast!(i => {
+            registers[i] =
+                self.simd.negate_mul_add_e_f64s(b.registers[i], c.registers[i], registers[i])
+        });
+        Self { registers, ..self }
+    }
+
     #[inline(always)]
     pub fn abs(self) -> Self {
         self.map(|simd, a| simd.abs_f64s(a))

@@ -82,6 +82,9 @@ law! {
     fourth_v,
     fifth_x,
     fifth_v,
+    /// The free motion is never larger than |y| + longest |y'| in a phase that one position ends, the steady one than swing.
+    longest,
+    swing,
     /// The same for |v''''|: rate_steady + |fifth_x y + ...| times bounds + ...
     rate_steady,
     rate_fifth_x,

@@ -24,6 +24,7 @@ mod job;
 mod judge;
 mod lanes;
 mod law;
+mod leap;
 mod local;
 mod look;
 mod machine;

@@ -44,7 +44,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let least = law.window * due.like(LEAST);
         let span = (self.state.share * law.window).min(remaining).max(least);
         let ahead = self.ahead(law, reached, pending, span);
-        let guard = Guard::of::<GUARDED>(law, &ahead);
+        let guard = Guard::of::<GUARDED>(law, &ahead, reached.slack);
         let found = guard.search::<GUARDED>(law, &ahead, pending);
         let (hits, doubtful) = self.move_on::<GUARDED>(phase, active, &guard, &found, scanned);
         let arrived = found.clear & remaining.at_most(span);
@@ -64,7 +64,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     ) -> Ahead<S, N> {
         let frequency = self.state.drive.frequency;
         let here = reached.parts;
-        let next = here.next(law);
+        let next = reached.next;
         let (mut there, mut scale) = (next, span.like(1.0));
         let part = pending & span.below(law.window);
         if part.any() {

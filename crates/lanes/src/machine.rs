@@ -1,7 +1,7 @@
 //! A machine made ready for the lanes.
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::law::Constants;
 use softstop::internals::{Beyond, Exit, Phase, PhaseId, Phases, Surface};
@@ -10,7 +10,8 @@ use softstop::{Clock, Excitation, Scene, SceneError};
 /// A machine, lowered once for any number of motions.
 #[derive(Debug, Clone)]
 pub struct Machine {
-    pub(super) phases: Arc<Phases>,
+    scene: Scene,
+    phases: OnceLock<Arc<Phases>>,
     pub(super) clock: Clock,
     pub(super) laws: Option<Vec<Constants>>,
     /// The drive: frequency in rad/s, cos and sin of its angle at time 0.
@@ -41,11 +42,17 @@ impl Machine {
             let constants = Constants::of(&phases, phase)?;
             Some(constants.no_slower_than(hum.slowest(phase)))
         });
+        let laws = if for_lanes { laws.collect() } else { None };
+        let kept = OnceLock::new();
+        if laws.is_none() {
+            let _ = kept.set(Arc::new(phases));
+        }
         let (sin, cos) = drive.phase.sin_cos();
         Ok(Self {
-            laws: if for_lanes { laws.collect() } else { None },
+            laws,
             clock: scene.clock(),
-            phases: Arc::new(phases),
+            scene: scene.clone(),
+            phases: kept,
             frequency: drive.frequency,
             angle: (cos, sin),
         })
@@ -57,9 +64,10 @@ impl Machine {
         self.laws.is_some()
     }
 
-    /// Its phases, shared.
+    /// Its phases, shared; lowered anew when they are first asked for, as few motions in lanes do.
     pub fn shared_phases(&self) -> Arc<Phases> {
-        self.phases.clone()
+        let lowered = || Arc::new(self.scene.phases());
+        self.phases.get_or_init(lowered).clone()
     }
 
     /// True if a position lies clearly in the free phase, the first, and lanes can follow the machine.

@@ -69,7 +69,7 @@ impl<S: Simd, const N: usize> Parts<S, N> {
 
     /// The parts after `time` of at most half a window either way.
     #[inline(always)]
-    fn after(&self, law: &Law<S, N>, frequency: Lanes<S, N>, time: Lanes<S, N>) -> Self {
+    pub fn after(&self, law: &Law<S, N>, frequency: Lanes<S, N>, time: Lanes<S, N>) -> Self {
         let Self { y, u, p, q } = *self;
         let share = time * law.per_window;
         let mut position = law.response[law.response.len() - 1];

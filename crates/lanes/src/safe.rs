@@ -35,7 +35,7 @@ pub(super) fn begin(machine: &Machine, start: Start) -> Result<Option<usize>, Mo
         return Ok(Some(0));
     }
     let at = Clock::at_cycle(0);
-    let motion = Motion::new(machine.phases.clone(), machine.clock, at, start)?;
+    let motion = Motion::new(machine.shared_phases(), machine.clock, at, start)?;
     Ok(lane_phase(machine, &motion))
 }
 
@@ -59,7 +59,7 @@ pub(super) fn follow(
         cycles: place.cycle as f64,
         offset: place.offset,
     };
-    let mut motion = Motion::new(machine.phases.clone(), machine.clock, at, place.state)?;
+    let mut motion = Motion::new(machine.shared_phases(), machine.clock, at, place.state)?;
     let mut counter = Counter {
         job: place.job,
         watch,

@@ -19,6 +19,10 @@ pub(super) const LEAVING: f64 = 16.0 / 3.0;
 pub(super) struct Reached<S: Simd, const N: usize> {
     /// Where they stand.
     pub parts: Parts<S, N>,
+    /// A window from there.
+    pub next: Parts<S, N>,
+    /// |x''''| window^4 / 384.
+    pub slack: Lanes<S, N>,
     /// Windows scanned.
     pub count: Lanes<S, N>,
     /// Lanes that may go on.
@@ -44,9 +48,12 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Lets the lanes look at their next window at once.
     #[inline(always)]
     pub fn stand(&self, law: &Law<S, N>, active: Mask<S, N>) -> Reached<S, N> {
+        let parts = self.parts(law);
         Reached {
-            parts: self.parts(law),
-            count: self.state.share.like(0.0),
+            parts,
+            next: parts.next(law),
+            slack: law.slack(&parts),
+            count: parts.y.like(0.0),
             go: active.and_not(active),
         }
     }
@@ -55,59 +62,54 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// something may happen, or that is its last. `cap`: windows up to its last moment.
     #[inline(always)]
     pub fn scan(&self, law: &Law<S, N>, active: Mask<S, N>, cap: Lanes<S, N>) -> Reached<S, N> {
-        let reached = Reached {
-            parts: self.parts(law),
-            count: cap.like(0.0),
-            go: active & self.state.share.equals(cap.like(1.0)),
-        };
-        scan_below(law, cap, reached)
-    }
-}
-
-#[inline(always)]
-fn scan_below<S: Simd, const N: usize>(
-    law: &Law<S, N>,
-    cap: Lanes<S, N>,
-    mut reached: Reached<S, N>,
-) -> Reached<S, N> {
-    let one = cap.like(1.0);
-    let mut parts = reached.parts;
-    let slack = law.slack(&parts);
-    let (x, v) = (parts.y + parts.p, parts.u + parts.q);
-    let mut apart = (law.edge - law.grain).below(x).not();
-    let leaves = v.below(-law.slow);
-    reached.go = reached.go & (apart | leaves);
-    let limit = law.edge - slack;
-    let mut top = law.third.mul_add(v, x);
-    // On the edge the first two Bernstein coefficients need no proof.
-    top = apart.choose(top.max(x), one.like(f64::NEG_INFINITY));
-    let mut below = apart.choose(limit, one.like(-LEAVING).mul_add(slack, law.edge));
-    let capped = (reached.go & cap.below(one.like(MOST_WINDOWS as f64))).any();
-    for window in 0..MOST_WINDOWS {
-        let next = parts.next(law);
-        let (x, v) = (next.y + next.p, next.u + next.q);
-        let reach = law.third * v;
-        let mut clear = top.max(x.max(x - reach)).below(below);
-        let blocked = reached.go.and_not(clear);
-        if blocked.any() {
-            let suspect = blocked & apart & x.below(limit);
+        let one = cap.like(1.0);
+        let Reached {
+            mut parts,
+            mut next,
+            slack,
+            mut count,
+            ..
+        } = self.stand(law, active);
+        let (x, v) = (parts.y + parts.p, parts.u + parts.q);
+        let mut apart = (law.edge - law.grain).below(x).not();
+        let leaves = v.below(-law.slow);
+        let mut go = active & self.state.share.equals(one) & (apart | leaves);
+        let limit = law.edge - slack;
+        let mut top = law.third.mul_add(v, x);
+        // On the edge the first two Bernstein coefficients need no proof.
+        top = apart.choose(top.max(x), one.like(f64::NEG_INFINITY));
+        let leaving = slack.mul_add(one.like(-LEAVING), law.edge);
+        let mut below = apart.choose(limit, leaving);
+        let capped = (go & cap.below(one.like(MOST_WINDOWS as f64))).any();
+        for _ in 0..MOST_WINDOWS {
+            let (x, v) = (next.y + next.p, next.u + next.q);
+            let before = x.minus_product(law.third, v);
+            let mut clear = top.max(x.max(before)).below(below);
+            let suspect = go.and_not(clear) & apart & x.below(limit);
             if suspect.any() {
                 let left = (parts.y + parts.p, parts.u + parts.q);
                 let top = Cubic::new(left, (x, v), law.window).top();
                 clear = clear | (suspect & top.below(limit));
             }
+            go = go & clear;
+            if capped {
+                go = go & (count + one).at_most(cap);
+            }
+            if !go.any() {
+                break;
+            }
+            parts = Parts::choose(go, &next, &parts);
+            count = go.choose(count + one, count);
+            next = parts.next(law);
+            apart = one.at_most(one);
+            (top, below) = (law.third.mul_add(v, x), limit);
         }
-        apart = one.at_most(one);
-        reached.go = reached.go & clear;
-        if capped {
-            reached.go = reached.go & one.like((window + 1) as f64).at_most(cap);
+        Reached {
+            parts,
+            next,
+            slack,
+            count,
+            go,
         }
-        if !reached.go.any() {
-            break;
-        }
-        reached.parts = Parts::choose(reached.go, &next, &reached.parts);
-        reached.count = reached.go.choose(reached.count + one, reached.count);
-        (parts, top, below) = (next, x + reach, limit);
     }
-    reached
 }

@@ -119,3 +119,25 @@ fn endless_bounces_under_a_slow_drive_are_left_to_the_safe_engine() {
     assert_eq!((end, impacts), (motion.state(), counter.impacts));
     assert!(impacts > 10_000, "{impacts}");
 }
+
+struct EachPeriod;
+
+impl Watch for EachPeriod {
+    const PERIODS: bool = true;
+}
+
+/// A watcher of periods sees each; without one, motions that never meet the stop again leap.
+#[test]
+fn a_leap_comes_to_where_the_periods_do() {
+    let ratios = Ratios::unloaded().at_frequency(1.36);
+    let scene = ratios.scene().expect("valid");
+    for index in 0..50 {
+        let start = start(index, &scene);
+        for periods in [5, 60, 997] {
+            let (end, impacts) = one_by_one(&scene, start, periods, &mut ());
+            let (each, counted) = one_by_one(&scene, start, periods, &mut EachPeriod);
+            assert_eq!(impacts, counted);
+            assert!(distance(end, each) < 1e-11, "{end:?} for {each:?}");
+        }
+    }
+}
