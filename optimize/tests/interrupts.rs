@@ -18,30 +18,20 @@ const SOFTSTOP: Program = Program {
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes");
 const SIGNALS: [&str; 3] = ["INT", "TERM", "HUP"];
 
+/// It ends by itself: no step of it takes long.
 fn ends(line: &str, kept: &[&str]) {
-    all_signals(line, kept);
-}
-
-/// By itself: no step of it takes long.
-fn ends_by_itself(line: &str, kept: &[&str]) {
-    for said in all_signals(line, kept) {
+    let line = line.replace("SCENES", SCENES);
+    for signal in SIGNALS {
+        let folder = tempfile::tempdir().expect("a folder");
+        let said = SOFTSTOP.ends_on(signal, &words(&line), folder.path(), kept);
         assert!(!said.contains(LATE), "{line}: {said}");
     }
-}
-
-/// What it says on each signal.
-fn all_signals(line: &str, kept: &[&str]) -> [String; 3] {
-    let line = line.replace("SCENES", SCENES);
-    SIGNALS.map(|signal| {
-        let folder = tempfile::tempdir().expect("a folder");
-        SOFTSTOP.ends_on(signal, &words(&line), folder.path(), kept)
-    })
 }
 
 #[test]
 fn simulate() {
     ends("simulate --periods 1000000 --samples-per-period 20", &[]);
-    ends_by_itself(
+    ends(
         "simulate SCENES/hertz.toml --periods 1000000 --samples-per-period 1",
         &[],
     );
@@ -55,12 +45,12 @@ fn motions() {
 
 #[test]
 fn zone() {
-    ends_by_itself("zone SCENES/hertz.toml --set contact.damping=1e4", &[]);
+    ends("zone SCENES/hertz.toml --set contact.damping=1e4", &[]);
 }
 
 #[test]
 fn orbit() {
-    ends_by_itself("orbit SCENES/hertz.toml --set contact.damping=1e5", &[]);
+    ends("orbit SCENES/hertz.toml --set contact.damping=1e5", &[]);
 }
 
 #[test]
@@ -80,17 +70,17 @@ fn sweep() {
 fn basin() {
     ends("basin --size 3000", &["basin.part"]);
     ends("basin SCENES/chatter.toml --size 100", &["basin.part"]);
-    ends_by_itself("basin --along-zone 1000 --size 1000", &["basin.part"]);
+    ends("basin --along-zone 1000 --size 1000", &["basin.part"]);
 }
 
 #[test]
 fn optimize() {
-    ends_by_itself("optimize --set contact.damping=100", &["optimize.part"]);
+    ends("optimize --set contact.damping=100", &["optimize.part"]);
 }
 
 #[test]
 fn fidelity() {
-    ends_by_itself("fidelity B --repeats 1000", &[]);
+    ends("fidelity B --repeats 1000", &[]);
 }
 
 /// Kills at random moments, each job taken up after each of them.

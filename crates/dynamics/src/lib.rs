@@ -25,6 +25,7 @@
 
 pub mod attractors;
 pub mod basin;
+mod batch;
 pub mod continuation;
 mod extremes;
 pub mod models;

@@ -130,6 +130,7 @@ fn zones_agree_with_thirty_digits() {
         };
         agrees(zone.frequency_g0, "frequency_g0");
         agrees(zone.frequency_sn, "frequency_sn");
+        agrees(zone.velocity_sn, "velocity_sn");
         match (flip(&zone), expected["frequency_pd"].is_null()) {
             (Some(flip), false) => {
                 agrees(flip.parameter, "frequency_pd");

@@ -14,6 +14,8 @@ use softstop::Start;
 
 /// Rounds after which the drive angle is taken anew from the time.
 const RENEWAL: usize = 16;
+/// What they cost, in scan windows.
+const ROUNDS: u64 = 1 << 10;
 
 /// All lanes and what they work at.
 pub(super) struct Engine<'a, S: Simd, const N: usize> {
@@ -99,6 +101,9 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             steps += 1;
             if steps % RENEWAL == 0 {
                 self.state.set_angle();
+                if self.task.watch.worked(ROUNDS).is_break() {
+                    break;
+                }
             }
         }
         self.outcomes
@@ -170,7 +175,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     fn take_next(&mut self, lane: usize) {
         self.lanes[lane] = None;
         self.state.stop(lane);
-        while self.next < self.task.jobs.len() {
+        while self.next < self.task.jobs.len() && self.task.watch.worked(0).is_continue() {
             let job = self.next;
             self.next += 1;
             let Job { machine, start, .. } = self.task.jobs[job];

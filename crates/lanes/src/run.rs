@@ -1,6 +1,6 @@
 //! A batch on this thread, or on all.
 
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 use rayon::prelude::*;
 
@@ -77,5 +77,9 @@ impl<W: Watch> Watch for Numbered<W> {
 
     fn period(&mut self, job: usize, cycle: u64, state: Start) {
         self.watch.period(self.first + job, cycle, state);
+    }
+
+    fn goes_on(&mut self) -> ControlFlow<()> {
+        self.watch.goes_on()
     }
 }

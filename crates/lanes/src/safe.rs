@@ -1,5 +1,7 @@
 //! Where the safe engine takes over.
 
+use std::ops::ControlFlow;
+
 use super::job::Outcome;
 use super::machine::Machine;
 use super::watch::Listener;
@@ -71,6 +73,9 @@ pub(super) fn follow(
             followed = Err(error);
             break;
         }
+        if counter.progress(A_PERIOD).is_break() {
+            break;
+        }
         outcome.handed_over += 1;
         let state = motion.state();
         outcome.end = state;
@@ -92,6 +97,9 @@ pub(super) fn follow(
     followed
 }
 
+/// What a drive period costs besides its crossings, in scan windows.
+const A_PERIOD: u64 = 16;
+
 struct Counter<'a, 'b> {
     job: usize,
     watch: &'a mut Listener<'b>,
@@ -107,5 +115,8 @@ impl Observer for Counter<'_, '_> {
                 self.watch.impact(self.job, cycles as u64, offset, velocity);
             }
         }
+    }
+    fn progress(&mut self, windows: u64) -> ControlFlow<()> {
+        self.watch.worked(windows)
     }
 }

@@ -1,5 +1,7 @@
 //! Who hears of impacts and of the ends of drive periods.
 
+use std::ops::ControlFlow;
+
 use softstop::Start;
 
 /// Watches the motions of a batch. To add one, implement what it needs and say so in the constants.
@@ -18,6 +20,11 @@ pub trait Watch {
     fn period(&mut self, job: usize, cycle: u64, state: Start) {
         let _ = (job, cycle, state);
     }
+
+    /// Whether the batch goes on; asked hundreds of times a second. What is left of it stays where it is.
+    fn goes_on(&mut self) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 }
 
 /// Watches nothing.
@@ -29,7 +36,14 @@ pub(super) struct Listener<'a> {
     /// What it wants to hear of.
     pub impacts: bool,
     pub periods: bool,
+    /// Work in scan windows since it was asked whether the batch goes on.
+    work: u64,
+    /// What it said then.
+    answer: ControlFlow<()>,
 }
+
+/// Work after which the watcher is asked again, in scan windows: a millisecond, or a few.
+const ASKED: u64 = 1 << 15;
 
 impl<'a> Listener<'a> {
     /// What the engine tells a watcher.
@@ -38,7 +52,18 @@ impl<'a> Listener<'a> {
             watch,
             impacts: W::IMPACTS,
             periods: W::PERIODS,
+            work: 0,
+            answer: ControlFlow::Continue(()),
         }
+    }
+
+    /// Counts work, in scan windows; whether the batch goes on.
+    pub fn worked(&mut self, windows: u64) -> ControlFlow<()> {
+        self.work += windows;
+        if self.work >= ASKED && self.answer.is_continue() {
+            (self.work, self.answer) = (0, self.watch.hear_end());
+        }
+        self.answer
     }
 
     /// As [`Watch::impact`].
@@ -56,6 +81,7 @@ impl<'a> Listener<'a> {
 trait Hear {
     fn hear_impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64);
     fn hear_period(&mut self, job: usize, cycle: u64, state: Start);
+    fn hear_end(&mut self) -> ControlFlow<()>;
 }
 
 impl<W: Watch> Hear for W {
@@ -65,5 +91,9 @@ impl<W: Watch> Hear for W {
 
     fn hear_period(&mut self, job: usize, cycle: u64, state: Start) {
         self.period(job, cycle, state);
+    }
+
+    fn hear_end(&mut self) -> ControlFlow<()> {
+        self.goes_on()
     }
 }

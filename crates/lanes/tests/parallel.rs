@@ -1,8 +1,10 @@
-//! A batch on all threads: the same result for any number of them, and watchers hear of the right jobs.
+//! A batch on all threads: the same result for any number of them, and watchers hear of the right jobs and may end it.
+
+use std::ops::ControlFlow;
 
 use approx::assert_abs_diff_eq;
 use rayon::ThreadPoolBuilder;
-use softstop::{Ratios, Start};
+use softstop::{Ratios, Scene, Start, Stop};
 use softstop_lanes::{Instructions, Job, Machine, Outcome, Watch, run, run_parallel};
 use softstop_testing::tolerance::SOLVED;
 
@@ -51,6 +53,41 @@ fn on(threads: usize) -> (Vec<Outcome>, Vec<(usize, f64)>) {
     });
     let heard = watches.into_iter().flat_map(|watch| watch.0);
     (outcomes, heard.collect())
+}
+
+/// Ends its batch.
+struct Ends;
+
+impl Watch for Ends {
+    fn goes_on(&mut self) -> ControlFlow<()> {
+        ControlFlow::Break(())
+    }
+}
+
+/// In the lanes, and where the safe engine follows; it would be hours until the ends of these jobs.
+#[test]
+fn a_batch_ends_where_its_watcher_says_so() {
+    let (mut machines, mut jobs) = fleet();
+    let linear = machines[0].clone();
+    let rough = Scene {
+        stop: Stop::Hertz {
+            stiffness: 30.0,
+            exponent: 1.2,
+            dissipation: 0.0,
+        },
+        ..Ratios::unloaded().scene().expect("valid")
+    };
+    let slow = Machine::new(&rough).expect("valid");
+    assert!(linear.is_for_lanes() && !slow.is_for_lanes());
+    for machine in [linear, slow] {
+        machines.fill(machine);
+        for job in &mut jobs {
+            job.periods = 1 << 40;
+            job.start.position = job.start.position.min(-1.0);
+        }
+        let outcomes = run(&machines, &jobs, &mut Ends);
+        assert!(outcomes.iter().all(|outcome| outcome.error.is_none()));
+    }
 }
 
 #[test]

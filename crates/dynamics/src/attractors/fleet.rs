@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use rayon::prelude::*;
 
 use super::SurveyError;
-use crate::watch::Watcher;
+use crate::batch::follow;
+use crate::watch::{Watcher, stop_if};
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::{Job, Machine, Watch};
 
@@ -125,7 +126,8 @@ impl<'a> Fleet<'a> {
         let jobs: Vec<Job> = afloat.iter().map(job).collect();
         let logs = vec![Vec::new(); jobs.len()];
         let mut log = Log { from, logs };
-        let outcomes = softstop_lanes::run(&self.machine, &jobs, &mut log);
+        let ask = || stop_if(self.note(0).is_err());
+        let outcomes = follow(&self.machine, &jobs, &mut log, ask).ok_or(SurveyError::Stopped)?;
         for ((voyage, outcome), log) in afloat.iter_mut().zip(outcomes).zip(log.logs) {
             voyage.state = outcome.end;
             voyage.error = outcome.error;

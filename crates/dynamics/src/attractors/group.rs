@@ -23,15 +23,23 @@ const COMMON: f64 = 0.1;
 type Place = [f64; 2];
 
 /// Groups logs of states by the places that they visit: the number of its group for each.
-pub(super) fn groups(logs: &[&[Start]]) -> Vec<usize> {
+///
+/// # Errors
+/// Those of `ask`, which is asked for each log.
+pub(super) fn groups<E>(
+    logs: &[&[Start]],
+    ask: impl Fn() -> Result<(), E>,
+) -> Result<Vec<usize>, E> {
     let units = units(logs);
     let place = |state: &Start| [state.position / units[0], state.velocity / units[1]];
     let places = logs.iter().map(|log| log.iter().map(place).collect());
     let places: Vec<Vec<Place>> = places.collect();
     let cells: Vec<Vec<(i64, i64)>> = places.iter().map(|log| cells(log)).collect();
-    let own: Vec<Vec<f64>> = places.iter().map(|log| gaps_within(log)).collect();
+    let own = places.iter().map(|log| ask().map(|()| gaps_within(log)));
+    let own = own.collect::<Result<Vec<Vec<f64>>, E>>()?;
     let mut group: Vec<usize> = (0..logs.len()).collect();
     for index in 0..logs.len() {
+        ask()?;
         for other in 0..index {
             if group[index] == group[other] {
                 continue;
@@ -47,7 +55,7 @@ pub(super) fn groups(logs: &[&[Start]]) -> Vec<usize> {
             }
         }
     }
-    group
+    Ok(group)
 }
 
 /// Size of the plane that all states need.
@@ -106,6 +114,12 @@ fn are_mixed([one, other]: [(&[Place], &[f64]); 2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::convert::Infallible;
+
+    fn all(logs: &[&[Start]]) -> Vec<usize> {
+        let groups: Result<Vec<usize>, Infallible> = groups(logs, || Ok(()));
+        groups.expect("nothing fails")
+    }
 
     /// A motion along a circle.
     fn circle(radius: f64, from: f64) -> Vec<Start> {
@@ -120,7 +134,7 @@ mod tests {
     fn motions_on_the_same_places_are_one() {
         let logs = [circle(1.0, 0.0), circle(0.7, 0.3), circle(1.0, 0.1)];
         let logs: Vec<&[Start]> = logs.iter().map(Vec::as_slice).collect();
-        let groups = groups(&logs);
+        let groups = all(&logs);
         assert_eq!(groups[0], groups[2]);
         assert_ne!(groups[0], groups[1]);
     }
@@ -141,7 +155,7 @@ mod tests {
     fn logs_that_fill_the_plane_thinly_are_one_motion() {
         let logs: Vec<Vec<Start>> = (0..64).map(|k| square_filled(1000 * k)).collect();
         let logs: Vec<&[Start]> = logs.iter().map(Vec::as_slice).collect();
-        let groups = groups(&logs);
+        let groups = all(&logs);
         assert!(groups.iter().all(|group| *group == groups[0]), "{groups:?}");
     }
 }

@@ -49,7 +49,8 @@ impl Survey<'_> {
         let Some(cell) = fates.position(|fate| *fate == Fate::Wandering) else {
             return Ok(None);
         };
-        let (exponents, _) = Exponents::along(self.scene, self.states[cell].into(), BATCH)?;
+        let (state, ask) = (self.states[cell].into(), || self.fleet.note(0));
+        let (exponents, _) = Exponents::along_asking(self.scene, state, BATCH, ask)?;
         let motion = match exponents.is_positive() {
             true => MotionKind::Chaos,
             false => MotionKind::Unsettled,

@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::survey::{Fate, Survey, TILE};
 use crate::attractors::SurveyError;
-use crate::watch::piece;
+use crate::batch;
+use crate::watch::{piece, stop_if};
 use softstop::Start;
 use softstop_lanes::Job;
 
@@ -105,7 +106,9 @@ impl Survey<'_> {
                 periods: stretch,
             };
             let jobs: Vec<Job> = all.left.iter().map(job).collect();
-            let outcomes = softstop_lanes::run(&self.fleet.machine, &jobs, &mut ());
+            let ask = || stop_if(self.fleet.note(0).is_err());
+            let outcomes = batch::follow(&self.fleet.machine, &jobs, &mut (), ask);
+            let outcomes = outcomes.ok_or(SurveyError::Stopped)?;
             let ends = std::mem::take(&mut all.left).into_iter().zip(outcomes);
             for ((cell, _), outcome) in ends {
                 if let Some(error) = outcome.error {

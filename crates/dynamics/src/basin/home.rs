@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::ball::Ball;
 use super::section::at_section;
 use crate::attractors::SurveyError;
+use crate::batch::follow;
 use crate::orbit::recurrence::{distance, size};
 use crate::orbit::{Orbit, multipliers};
 use crate::strokes::Strokes;
@@ -138,9 +139,6 @@ impl Home {
         let mut left: Vec<usize> = (0..guests.len()).collect();
         let mut periods = 0;
         while !left.is_empty() && periods < self.patience {
-            if watcher(0, 0).is_break() {
-                return Err(SurveyError::Stopped);
-            }
             let job = |guest: &usize| Job {
                 machine: guests[*guest].machine,
                 start: guests[*guest].state,
@@ -152,7 +150,8 @@ impl Home {
                 guests: &mut guests,
                 afloat: &left,
             };
-            let outcomes = softstop_lanes::run(machines, &jobs, &mut counter);
+            let outcomes = follow(machines, &jobs, &mut counter, || watcher(0, 0));
+            let outcomes = outcomes.ok_or(SurveyError::Stopped)?;
             periods += STRETCH;
             let ends = left.into_iter().zip(outcomes);
             left = ends

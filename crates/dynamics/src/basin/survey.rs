@@ -15,6 +15,8 @@ use softstop::{MotionError, Scene, Start};
 /// Cells that go together: enough for all lanes to be busy. The tiles may not depend on how many threads
 /// there are.
 pub(super) const TILE: usize = 4096;
+/// Cells that are brought to the section between two looks at whether to stop.
+const BROUGHT: usize = 1 << 16;
 /// Scouts on each axis of the grid: these cells are looked at first.
 const SCOUTS: usize = 16;
 
@@ -98,25 +100,25 @@ pub fn basins(
 impl Survey<'_> {
     /// Brings all cells to drive angle phi.
     fn bring(&mut self) -> Result<(), SurveyError> {
-        let brought: Vec<Result<Start, MotionError>> = (0..self.grid.cells())
-            .into_par_iter()
-            .map(|cell| {
-                if cell % TILE == 0 {
-                    self.fleet.note(0)?;
-                }
-                Ok(self.at_section(cell))
-            })
-            .collect::<Result<_, SurveyError>>()?;
-        for (cell, result) in brought.into_iter().enumerate() {
-            let (state, fate) = match result {
-                Ok(state) => (state, Fate::Afloat),
-                Err(error) => {
-                    self.lost.get_or_insert((cell, error.to_string()));
-                    (self.grid.start(cell).0, Fate::Lost)
-                }
-            };
-            self.states.push(state);
-            self.fates.push(fate);
+        let cells = self.grid.cells();
+        self.states.reserve(cells);
+        self.fates.reserve(cells);
+        for from in (0..cells).step_by(BROUGHT) {
+            self.fleet.note(0)?;
+            let here = from..cells.min(from + BROUGHT);
+            let brought = here.clone().into_par_iter();
+            let brought: Vec<_> = brought.map(|cell| self.at_section(cell)).collect();
+            for (cell, result) in here.zip(brought) {
+                let (state, fate) = match result {
+                    Ok(state) => (state, Fate::Afloat),
+                    Err(error) => {
+                        self.lost.get_or_insert((cell, error.to_string()));
+                        (self.grid.start(cell).0, Fate::Lost)
+                    }
+                };
+                self.states.push(state);
+                self.fates.push(fate);
+            }
         }
         Ok(())
     }

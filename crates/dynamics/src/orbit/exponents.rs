@@ -43,6 +43,16 @@ impl Exponents {
         state: Vector2<f64>,
         batch: u64,
     ) -> Result<(Self, Vector2<f64>), MotionError> {
+        Self::along_asking(scene, state, batch, || Ok(()))
+    }
+
+    /// The same, unless `ask`, which is asked before each drive period, fails.
+    pub(crate) fn along_asking<E: From<MotionError>>(
+        scene: &Scene,
+        state: Vector2<f64>,
+        batch: u64,
+        ask: impl Fn() -> Result<(), E>,
+    ) -> Result<(Self, Vector2<f64>), E> {
         let map = StroboscopicMap::new(scene, 1)?;
         let batch = batch.max(1);
         let mut state = state;
@@ -51,6 +61,7 @@ impl Exponents {
         for _ in 0..BATCHES {
             let mut sums = [0.0; 2];
             for _ in 0..batch {
+                ask()?;
                 let passage = map.apply(state)?;
                 state = passage.end;
                 let [first, second] = stretch(&mut frame, &passage.monodromy);

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
+use crate::batch::follow;
 use crate::watch::Watcher;
 use softstop::internals::Scales;
 use softstop::{Scene, Start};
@@ -64,7 +65,6 @@ pub(super) fn returning(
     let distances: Vec<Distance> = scenes.iter().map(|scene| Distance::of(scene)).collect();
     let count = jobs.len();
     let mut returns = Returns {
-        first: 0,
         distances: jobs.iter().map(|job| distances[job.machine]).collect(),
         settling,
         last: jobs.iter().map(|job| job.start.into()).collect(),
@@ -72,18 +72,8 @@ pub(super) fn returning(
         least: vec![(RETURNS, Vector2::zeros()); count],
         settled: vec![vec![None; count]; settling.len()],
     };
-    // One by one where they are slow, with the watcher asked in between: each is followed alone then.
-    let together = match machines.iter().all(Machine::is_for_lanes) {
-        true => jobs.len(),
-        false => 1,
-    };
-    for (part, jobs) in jobs.chunks(together.max(1)).enumerate() {
-        if watcher(0, 0).is_break() {
-            break;
-        }
-        returns.first = part * together;
-        softstop_lanes::run(machines, jobs, &mut returns);
-    }
+    // The caller asks the watcher itself.
+    let _ = follow(machines, &jobs, &mut returns, || watcher(0, 0));
     let each = count / scenes.len().max(1);
     let of_scene = |index: usize| {
         let jobs = index * each..(index + 1) * each;
@@ -100,8 +90,6 @@ pub(super) fn returning(
 /// Keeps of each motion the state that moves least within a period with one impact, and the states after some numbers
 /// of periods.
 struct Returns<'a> {
-    /// Number of the first job of those that are followed now.
-    first: usize,
     distances: Vec<Distance>,
     settling: &'a [u64],
     last: Vec<Vector2<f64>>,
@@ -117,11 +105,11 @@ impl Watch for Returns<'_> {
     const PERIODS: bool = true;
 
     fn impact(&mut self, job: usize, _: u64, _: f64, _: f64) {
-        self.impacts[self.first + job] += 1;
+        self.impacts[job] += 1;
     }
 
     fn period(&mut self, job: usize, cycle: u64, state: Start) {
-        let (job, state) = (self.first + job, state.into());
+        let state = state.into();
         if let Some(place) = self.settling.iter().position(|after| *after == cycle) {
             self.settled[place][job] = Some(state);
         }

@@ -1,6 +1,7 @@
 //! Sweeps side by side in the lanes.
 
 use std::convert::Infallible;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -9,7 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use super::settle::{Log, Step};
 use super::{Chain, Plan};
-use crate::watch::{Kept, Watcher, piece, stop_if};
+use crate::batch::follow;
+use crate::watch::{Kept, Watcher, piece};
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::{Job, Machine};
 
@@ -18,6 +20,9 @@ use softstop_lanes::{Job, Machine};
 const TOGETHER: usize = 8;
 /// How long a piece takes that is kept.
 const PIECE: Duration = Duration::from_millis(250);
+
+/// Whether to go on.
+type Ask<'a> = &'a dyn Fn() -> ControlFlow<()>;
 
 /// One chain's next step.
 struct Leg {
@@ -39,6 +44,12 @@ impl Plan {
     /// Carries all chains on to their ends, from wherever they are, unless the watcher says stop: it is told of the
     /// steps that are done of all. True if all came to their ends.
     pub fn run(&self, chains: &mut [Chain], watcher: Watcher<'_>) -> bool {
+        self.run_for(Duration::MAX, chains, watcher)
+    }
+
+    /// The same for about so long, to the ends of the steps that are under way then.
+    fn run_for(&self, time: Duration, chains: &mut [Chain], watcher: Watcher<'_>) -> bool {
+        let begin = Instant::now();
         let all = (self.steps * chains.len()) as u64;
         let groups = chains.len().div_ceil(TOGETHER).max(1);
         let size = chains.len().div_ceil(groups).max(1);
@@ -47,12 +58,16 @@ impl Plan {
         let done = AtomicU64::new(done.sum());
         chains.par_chunks_mut(size).for_each(|group| {
             while !stopped.load(Ordering::Relaxed) {
-                let steps = self.step(group);
+                let ask = || watcher(done.load(Ordering::Relaxed), all);
+                let Some(steps) = self.step(group, &ask) else {
+                    stopped.store(true, Ordering::Relaxed);
+                    break;
+                };
                 if steps == 0 {
                     break;
                 }
-                let done = done.fetch_add(steps, Ordering::Relaxed) + steps;
-                if watcher(done, all).is_break() {
+                done.fetch_add(steps, Ordering::Relaxed);
+                if ask().is_break() || begin.elapsed() >= time {
                     stopped.store(true, Ordering::Relaxed);
                 }
             }
@@ -87,11 +102,7 @@ impl Plan {
         loop {
             let before: Vec<usize> = chains.iter().map(|chain| chain.steps.len()).collect();
             let Ok(made) = piece(kept, &("sweep", &of, &before), || {
-                let begin = Instant::now();
-                self.run(chains, &|done, _| {
-                    watcher(done, all)?;
-                    stop_if(begin.elapsed() >= PIECE)
-                });
+                self.run_for(PIECE, chains, watcher);
                 let made = chains.iter().zip(&before);
                 let made = made.map(|(chain, before)| Made {
                     steps: chain.steps[*before..].to_vec(),
@@ -118,11 +129,12 @@ impl Plan {
         chain.steps.len() >= self.steps || chain.error.is_some()
     }
 
-    /// Makes the next step of those chains of a group that are the farthest behind; how many there are.
-    fn step(&self, group: &mut [Chain]) -> u64 {
+    /// Makes the next step of those chains of a group that are the farthest behind; how many there are. None is made
+    /// where it is stopped.
+    fn step(&self, group: &mut [Chain], ask: Ask<'_>) -> Option<u64> {
         let afloat = group.iter().filter(|chain| !self.is_complete(chain));
         let Some(step) = afloat.map(|chain| chain.steps.len()).min() else {
-            return 0;
+            return Some(0);
         };
         let (mut legs, mut machines) = (Vec::new(), Vec::new());
         for (index, chain) in group.iter_mut().enumerate() {
@@ -138,14 +150,14 @@ impl Plan {
             }
         }
         let count = legs.len() as u64;
-        for (index, outcome) in self.follow(legs, &machines) {
+        for (index, outcome) in self.follow(legs, &machines, ask)? {
             match outcome {
                 Ok(step) => group[index].steps.push(step),
                 Err(error) => group[index].error = Some(error.to_string()),
             }
         }
         // A group of failures alone has moved as well.
-        count.max(1)
+        Some(count.max(1))
     }
 
     fn leg(&self, index: usize, chain: &Chain) -> Result<(Leg, Machine), MotionError> {
@@ -170,18 +182,19 @@ impl Plan {
         &self,
         mut legs: Vec<Leg>,
         machines: &[Machine],
-    ) -> Vec<(usize, Result<Step, MotionError>)> {
+        ask: Ask<'_>,
+    ) -> Option<Vec<(usize, Result<Step, MotionError>)>> {
         let mut errors: Vec<Option<MotionError>> = vec![None; legs.len()];
         let watched = self.watched();
         let settling = jobs(&legs, self.periods - watched);
-        let outcomes = softstop_lanes::run(machines, &settling, &mut ());
+        let outcomes = follow(machines, &settling, &mut (), ask)?;
         for ((leg, outcome), error) in legs.iter_mut().zip(outcomes).zip(&mut errors) {
             leg.state = outcome.end;
             *error = outcome.error;
         }
         let watching = jobs(&legs, watched);
         let mut log = Log::new(legs.iter().map(|leg| leg.state));
-        let outcomes = softstop_lanes::run(machines, &watching, &mut log);
+        let outcomes = follow(machines, &watching, &mut log, ask)?;
         let results = legs.into_iter().zip(outcomes).zip(log.records).zip(errors);
         let results = results.map(|(((leg, outcome), record), error)| {
             let step = match error.or(outcome.error) {
@@ -190,7 +203,7 @@ impl Plan {
             };
             (leg.chain, step)
         });
-        results.collect()
+        Some(results.collect())
     }
 }
 

@@ -14,12 +14,13 @@ use clap::{Args, ValueEnum};
 use softstop::{Parameter, Ratios};
 use softstop_dynamics::Along;
 use softstop_dynamics::transitions::{Explorer, Rules, Transition};
-use softstop_dynamics::watch::Kept;
+use softstop_dynamics::watch::{Kept, Memory};
 
 pub use picture::picture;
 use report::TableReport;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
+use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::{self, Folder};
 use softstop_console::progress::Progress;
 use softstop_console::range::within;
@@ -31,6 +32,7 @@ Examples:
   softstop-lab table1 --format json         for programs
   softstop-lab table1 --output out          and as out/table1.csv, .json and .svg
   softstop-lab table1 --lifetime 5000       chaos has to last longer to count
+  softstop-lab table1 --output out --resume goes on after Ctrl-C, or a kill
 
 How the rows are found: motions are searched for at a few frequencies, evenly spaced over the
 paper's sub-intervals (a) to (d). Each periodic one is followed to both ends of its stability,
@@ -67,7 +69,10 @@ pub struct TableArguments {
     /// Drive periods for which half of them must wander for chaos to count, 100 to 10000000
     #[arg(long, value_name = "N", default_value_t = Rules::default().lifetime)]
     pub lifetime: u64,
-    /// Folder for table1.csv, table1.json and table1.svg [default: no files]
+    /// Whether it goes on with an earlier one.
+    #[command(flatten)]
+    pub keep: KeepArguments,
+    /// Folder for table1.csv, table1.json and table1.svg, and for what is done until they stand [default: no files]
     #[arg(long, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// How to print the table
@@ -89,12 +94,22 @@ pub fn run(arguments: &TableArguments) -> Result<(), Failure> {
     let rules = rules(arguments)?;
     let folder = arguments.output.as_ref();
     let folder = folder.map(|path| Folder::open(path, &NAMES)).transpose()?;
-    let report = table(&rules)?;
+    let of = (rules.motions, rules.lifetime);
+    let open = |path: &PathBuf| Keep::open(path, "table1", &of, arguments.keep);
+    let keep = arguments.output.as_ref().map(open).transpose()?;
+    if arguments.keep.resume && keep.is_none() {
+        let message = "--resume: needs --output, the folder in which what is done is kept";
+        return Err(Failure::usage(message));
+    }
+    let report = table(&rules, keep.as_ref().map(|keep| keep as &dyn Memory))?;
     if let Some(folder) = folder {
         folder.stage(NAMES[0], &output::csv(&report.rows)?)?;
         folder.stage(NAMES[1], output::json(&report)?.as_bytes())?;
         folder.stage(NAMES[2], picture(&report).svg().as_bytes())?;
         folder.commit(&NAMES)?;
+    }
+    if let Some(keep) = keep {
+        keep.forget();
     }
     output::print(&match arguments.format {
         TableFormat::Json => output::json(&report)?,
@@ -103,12 +118,12 @@ pub fn run(arguments: &TableArguments) -> Result<(), Failure> {
     })
 }
 
-/// The paper's rows among all transitions that are found.
+/// The paper's rows among all transitions that are found. What is known is recalled.
 ///
 /// # Errors
 /// As [`transitions`].
-pub fn table(rules: &Rules) -> Result<TableReport> {
-    let transitions = transitions(rules, RANGE, &values(&paper::INTERVALS), None)?;
+pub fn table(rules: &Rules, kept: Kept<'_>) -> Result<TableReport> {
+    let transitions = transitions(rules, RANGE, &values(&paper::INTERVALS), kept)?;
     Ok(TableReport::new(&paper::ROWS, &transitions, rules))
 }
 
@@ -143,9 +158,9 @@ pub fn transitions(
     kept: Kept<'_>,
 ) -> Result<Vec<Transition>> {
     let family = Along::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
-    let bar = Progress::open("looks at motions");
-    let watcher = |_, _| {
-        bar.more(1);
+    let bar = Progress::open("drive periods of the present look at motions");
+    let watcher = |done, _| {
+        bar.at(done);
         interrupt::go_on()
     };
     let found = Explorer::new(&family, range, *rules, &watcher);

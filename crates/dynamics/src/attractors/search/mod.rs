@@ -205,6 +205,7 @@ impl<'a> Search<'a> {
         let mut voyages: Vec<&mut Voyage> = voyages.collect();
         self.fleet.sail(&mut voyages, periods, logged)?;
         for member in afloat {
+            self.fleet.note(0)?;
             if member.voyage.error.is_none() {
                 member.standing = self.book.judge(&member.voyage.log)?;
             }

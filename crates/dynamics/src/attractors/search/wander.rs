@@ -28,7 +28,8 @@ impl Search<'_> {
             .filter(|index| self.members[*index].standing == Standing::Wandering)
             .collect();
         let log = |index: &usize| self.members[*index].voyage.log.as_slice();
-        let numbers = groups(&wandering.iter().map(log).collect::<Vec<&[Start]>>());
+        let logs: Vec<&[Start]> = wandering.iter().map(log).collect();
+        let numbers = groups(&logs, || self.fleet.note(0))?;
         let mut of_group: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (index, number) in wandering.into_iter().zip(numbers) {
             self.members[index].group = Some(number);
@@ -74,7 +75,9 @@ impl Search<'_> {
         let mut batch = BATCH.0;
         let mut best = None;
         loop {
-            let (exponents, end) = Exponents::along(self.scene, state.into(), batch)?;
+            let ask = || self.fleet.note(0);
+            let along = Exponents::along_asking(self.scene, state.into(), batch, ask);
+            let (exponents, end) = along?;
             self.fleet.note(exponents.periods)?;
             let mut after = Voyage::new(end.into());
             let logged = self.logged();
