@@ -227,6 +227,77 @@ fn assert_judged(machines_count: u32) {
     );
 }
 
+/// Motions of random machines that were on no stretch: on a narrow one between two frequencies at which motions are
+/// looked for; on one that the branch steps over, from end to end.
+#[test]
+fn narrow_stretches_are_found() {
+    let ratios = |damping, clearance, contact_damping| Ratios {
+        damping: 0.5 * damping,
+        contact_damping: 0.5 * contact_damping,
+        clearance,
+        ..Ratios::unloaded()
+    };
+    let scene = |ratios: Ratios, stop| Scene {
+        stop,
+        ..ratios.scene().expect("valid")
+    };
+    let released = Stop::KelvinVoigt {
+        stiffness: 6.756288262259929,
+        release: Release::ZeroForce,
+    };
+    let strip = Piercing {
+        stiffness: 10.551918701107407,
+        friction: 9.740012643262677,
+        thickness: 0.06750529764880632,
+        travel: 0.15694637880660617,
+    };
+    let pierced = Ratios {
+        piercing: Some(strip),
+        ..ratios(
+            0.019785236634088547,
+            0.6101458396162416,
+            0.048701862915056085,
+        )
+    };
+    let preloaded = Stop::Preloaded {
+        stiffness: 171.47717082033913,
+        preload: 13.057579315427644,
+    };
+    let slope = |from, stiffness| Slope { from, stiffness };
+    let slopes = Stop::PiecewiseLinear {
+        loading: vec![
+            slope(0.0, 2.416523876931542),
+            slope(0.5933147929749587, 93.74135094551133),
+        ],
+        unloading: Vec::new(),
+    };
+    let soft = ratios(0.003862551974606898, 0.7016076302217213, 0.2839427710865639);
+    let bent = ratios(
+        0.004077571953411345,
+        1.7460711077969326,
+        0.006877124392319086,
+    );
+    for (scene, frequency, velocity) in [
+        (scene(soft, released), 0.2843706146148979, 0.116_876_589),
+        (
+            scene(pierced, preloaded),
+            0.48621723167722525,
+            0.576_755_764,
+        ),
+        (scene(bent, slopes), 0.6725767278627006, 0.356_564_479),
+    ] {
+        let all = stretches(&scene).expect("valid");
+        let is_there = |one: &Stretch| {
+            let point = one.point_at(&scene, frequency).ok().flatten();
+            point.is_some_and(|point| (point.before_impact_velocity() - velocity).abs() < 1e-8)
+        };
+        assert!(
+            all.iter().any(is_there),
+            "{frequency} of {scene:?}: {all:#?}"
+        );
+    }
+}
+
 #[test]
 fn what_settles_on_z_1_lies_on_a_stretch() {
     assert_judged(MACHINES);

@@ -152,8 +152,8 @@ pub(super) fn lies_between(
     (-ASIDE..=1.0 + ASIDE).contains(&share) && off <= ASIDE * way.norm() + SAME
 }
 
-/// The stable stretches of a branch.
-pub(super) fn stable(branch: &Branch) -> Vec<Stretch> {
+/// The stable stretches of a branch that was followed so.
+pub(super) fn stable(follower: &Follower<'_, Frequencies<'_>>, branch: &Branch) -> Vec<Stretch> {
     let mut found = Vec::new();
     let mut part = Part::new(Loss::of(&branch.ends.0));
     for point in in_order(branch) {
@@ -161,11 +161,12 @@ pub(super) fn stable(branch: &Branch) -> Vec<Stretch> {
         let loss = special.map(|special| Loss::at(&special.kind));
         if let Some(loss) = loss.or_else(|| part.differs(point)) {
             part.points.push(point.clone());
-            found.extend(std::mem::replace(&mut part, Part::new(loss.clone())).ended(loss));
+            let part = std::mem::replace(&mut part, Part::new(loss.clone()));
+            found.extend(part.ended(follower, loss));
         }
         part.points.push(point.clone());
     }
-    found.extend(part.ended(Loss::of(&branch.ends.1)));
+    found.extend(part.ended(follower, Loss::of(&branch.ends.1)));
     found
 }
 
@@ -208,8 +209,13 @@ impl Part {
     }
 
     /// The stretch, if the motions between its ends are stable and have one impact.
-    fn ended(self, ends: Loss) -> Option<Stretch> {
+    fn ended(self, follower: &Follower<'_, Frequencies<'_>>, ends: Loss) -> Option<Stretch> {
         let Self { begins, mut points } = self;
+        // Both ends may lie on one step.
+        if let [from, to] = points.as_slice() {
+            let middle = 0.5 * (from.parameter + to.parameter);
+            points.insert(1, follower.between(from, to, middle).ok()?);
+        }
         let inner = points.get(1..points.len().saturating_sub(1))?;
         let is_single = |point: &BranchPoint| point.impacts.len() == 1 && point.is_stable();
         if inner.is_empty() || !inner.iter().all(is_single) {

@@ -9,8 +9,9 @@ use crate::orbit::{FAINTEST, Orbit, OrbitError, all_single};
 use crate::watch::{Watcher, unwatched};
 use softstop::Scene;
 
-/// Frequencies in units of the natural one between which motions are looked for, and how many of them in a row.
-const LOOKED_AT: (f64, f64, usize) = (0.25, 4.0, 36);
+/// Frequencies in units of the natural one between which motions are looked for, and how many of them in a row: closely
+/// below, where a drive period holds several free ones and stretches are narrow.
+const LOOKED_AT: [(f64, f64, usize); 2] = [(0.25, 0.7, 70), (0.7, 4.0, 23)];
 /// Frequencies in the same units up to which they are followed.
 const FOLLOWED: (f64, f64) = (0.1, 8.0);
 /// Points of a branch in each direction.
@@ -21,7 +22,7 @@ const BESIDE: f64 = 2e-3;
 /// The same where they are looked for by the impact that a branch ends with.
 const BEYOND: [f64; 3] = [1e-5, 1e-4, 1e-3];
 /// Most frequencies at which motions are looked for, and most branches.
-const MOST: usize = 160;
+const MOST: usize = 200;
 
 /// All stretches of a scene, in rising order of frequency; the frequency of its drive plays no part.
 ///
@@ -79,7 +80,10 @@ pub fn stretches_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Stre
             }
         }
     }
-    let mut found: Vec<Stretch> = branches.iter().flat_map(stable).collect();
+    let mut found: Vec<Stretch> = branches
+        .iter()
+        .flat_map(|branch| stable(&follower, branch))
+        .collect();
     found.sort_by(|a, b| a.low.frequency.total_cmp(&b.low.frequency));
     found.dedup_by(|a, b| a.is_same(b));
     Ok(found)
@@ -95,10 +99,11 @@ fn limits(scene: &Scene) -> Limits {
 
 /// g0 and what lies beside both grazing frequencies, and the row.
 fn frequencies(scene: &Scene) -> Vec<f64> {
-    let (low, high, count) = LOOKED_AT;
     let natural = scene.scales().rate;
-    let ratio = (high / low).powf(1.0 / (count - 1) as f64);
-    let row = (0..count).map(|index| natural * low * ratio.powi(index as i32));
+    let row = LOOKED_AT.into_iter().flat_map(|(low, high, count)| {
+        let ratio: f64 = (high / low).powf(1.0 / count as f64);
+        (0..count).map(move |index| natural * low * ratio.powi(index as i32))
+    });
     let (below, above) =
         grazing_frequencies(scene).map_or((None, None), |(below, above)| (below, Some(above)));
     let grazing = below.into_iter().chain(above).flat_map(beside);
