@@ -124,6 +124,20 @@ impl Jets {
         }
         bound
     }
+
+    /// True if g < 0 for `span` seconds, at most a scan window, from this node on, or from right after it on if g = 0
+    /// there, for a guard that does not ask for the push.
+    pub fn stays_below(&self, flow: &Flow, guard: &Guard, span: f64) -> bool {
+        let [value, rate, second, third, ..] = self.guard_series(guard);
+        let fourth = self.bound(flow, guard, span, flow.window_bounds) / 24.0;
+        let bend = span * (second.max(0.0) + span * (third.max(0.0) + span * fourth));
+        let steepest = rate + bend;
+        if value == 0.0 {
+            steepest < 0.0
+        } else {
+            value + span * steepest.max(0.0) < 0.0
+        }
+    }
 }
 
 impl Ends {
@@ -189,4 +203,14 @@ impl Ends {
             g0 < limit && after < limit && before < limit && g1 < limit
         }
     }
+}
+
+/// True if no guard rises up to `until`, a scan window from the departure at most, by the departure's derivatives alone.
+pub(crate) fn is_clear_soon(course: &Course, guards: &[Guard], until: f64) -> bool {
+    if !course.is_bounded() {
+        return false;
+    }
+    let jets = Jets::new(course, course.start());
+    let stays = |guard: &Guard| guard.push == 0.0 && jets.stays_below(&course.flow, guard, until);
+    guards.iter().all(stays)
 }

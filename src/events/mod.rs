@@ -12,6 +12,7 @@ mod pinpoint;
 mod step;
 
 pub use guard::Guard;
+pub(crate) use jets::is_clear_soon;
 
 use serde::{Deserialize, Serialize};
 

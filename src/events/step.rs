@@ -15,6 +15,9 @@ pub(super) fn first_crossing(segment: &Segment, guards: &[Guard], node: Node) ->
         return Outlook::Unbounded(node);
     }
     let rise = |guard: &Guard| {
+        if guard.asks_for_position() && segment.stays_short(guard.position, guard.level, to) {
+            return None;
+        }
         let coefficients =
             segment.combination(guard.position, guard.velocity, guard.push, guard.level);
         if stays_below(&coefficients, to) {

@@ -86,15 +86,24 @@ impl Course {
         Self::of(flow, departure, Form::Segment(Arc::new(segment)))
     }
 
-    /// One step of `flow` together with a power law, from `deflection` m beyond its face.
-    pub(crate) fn nonlinear(
+    /// One step of `flow` together with a power law, from `deflection` m beyond its face, in the place of this one.
+    pub(crate) fn renew_nonlinear(
+        &mut self,
         flow: &Flow,
         hertz: &Hertz,
         departure: Departure,
         deflection: f64,
-    ) -> Self {
+    ) {
         let segment = Segment::new(flow, hertz, &departure, deflection);
-        Self::of(flow, departure, Form::Segment(Arc::new(segment)))
+        if let Form::Segment(before) = &mut self.form
+            && let Some(place) = Arc::get_mut(before)
+        {
+            *place = segment;
+        } else {
+            self.form = Form::Segment(Arc::new(segment));
+        }
+        self.flow = *flow;
+        self.departure = departure;
     }
 
     /// The last bounces on a rigid stop at the departure's position.

@@ -55,10 +55,12 @@ impl Equation<'_> {
     /// The slow motion through a start (deflection, velocity), if the start lies on one and steps of
     /// length `span` are long against the modes that die out.
     pub fn slow_motion(&self, (d, v): (f64, f64), span: f64) -> Option<Creep> {
-        let mut start = [0.0; ORDER];
-        (start[0], start[1]) = (d, v);
-        let slopes = self.slopes(&start);
-        let modes = Modes::new(0.5 * slopes.damping[0], slopes.stiffness[0]);
+        let hertz = self.hertz;
+        let press = hertz.rate() * d.powf(hertz.exponent);
+        let damping = self.twice_decay + press * hertz.dissipation;
+        let grip = 1.0 + hertz.dissipation * v;
+        let stiffness = self.stiffness + hertz.exponent * press / d * grip;
+        let modes = Modes::new(0.5 * damping, stiffness);
         let (slow, fast) = modes.decay_rates();
         let forgets = slow * span >= LIFETIMES;
         // A mode that is remembered must be resolved.
@@ -68,7 +70,7 @@ impl Equation<'_> {
         }
         let depth = self.solve(d, span, forgets)?;
         let tolerance = |value: f64, scale: f64| ALLOWED * (value.abs() + scale);
-        let speed = tolerance(v, (self.push[0] / slopes.damping[0]).abs());
+        let speed = tolerance(v, (self.push[0] / damping).abs());
         let near = (depth[0] - d).abs() <= tolerance(d, 0.0) && (depth[1] - v).abs() <= speed;
         near.then(|| self.creep(depth, span, forgets))
     }

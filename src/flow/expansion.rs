@@ -12,6 +12,8 @@ use super::{Departure, Flow};
 const SMALLEST: f64 = f64::EPSILON / 64.0;
 /// Its binary logarithm.
 pub(super) const TRUNCATION: f64 = -58.0;
+/// The same of a sphere: what follows on the last coefficients is an eighth of the rounding together.
+const OF_SPHERE: f64 = -54.0;
 /// Share of the way to the face that a slow step covers at most.
 const NEAR: f64 = 0.15;
 /// How much longer than a usual step a slow one must be to be worth its price.
@@ -131,16 +133,24 @@ const NEAR_FACE: f64 = 1e-3;
 /// half falls as a geometric series does. All of that half is looked at, since by symmetry many
 /// coefficients may vanish.
 pub(super) fn converges(series: &Series) -> f64 {
-    falls_below_rounding(series, DEGREE.div_ceil(2))
+    falls_below(TRUNCATION, series, DEGREE.div_ceil(2))
 }
 
 /// The same, where no more than every other coefficient may vanish.
 pub(super) fn converges_densely(series: &Series) -> f64 {
-    falls_below_rounding(series, DEGREE - 5)
+    falls_below(TRUNCATION, series, LAST)
 }
 
-fn falls_below_rounding(series: &Series, lower: usize) -> f64 {
-    falls_off(series, lower, |j| TRUNCATION * RECIPROCALS[DEGREE - j])
+/// The same of a sphere's velocity, of which at least every fifth coefficient does not vanish.
+pub(super) fn converges_of_sphere(series: &Series) -> f64 {
+    falls_below(OF_SPHERE, series, LAST)
+}
+
+/// From here on coefficients are looked at where few vanish.
+const LAST: usize = DEGREE - 5;
+
+fn falls_below(truncation: f64, series: &Series, lower: usize) -> f64 {
+    falls_off(series, lower, |j| truncation * RECIPROCALS[DEGREE - j])
 }
 
 /// Where one of the higher coefficients' terms outgrows all of the first ones.

@@ -1,6 +1,6 @@
 //! Taylor steps along a stretched time, at the face of a power law, and of a sphere throughout.
 
-use super::expansion::{converges, outgrown, shell};
+use super::expansion::{converges, converges_of_sphere, outgrown, shell};
 use super::hertz::Hertz;
 use super::rungs::Rungs;
 use super::segment::{Segment, Stretch};
@@ -14,12 +14,20 @@ impl Segment {
     pub(super) fn from_root(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
         let mut segment = Self::blank(flow, hertz);
         let deflection = deflection.max(0.0);
-        let stretch = match is_spherical(hertz, from) {
-            true if hertz.dissipation > 0.0 => segment.along_sphere::<true>(flow, from, deflection),
-            true => segment.along_sphere::<false>(flow, from, deflection),
-            false => segment.along_root(flow, from, deflection),
+        let (stretch, holds) = if is_spherical(hertz, from) {
+            let stretch = match hertz.dissipation > 0.0 {
+                true => segment.along_sphere::<true>(flow, from, deflection),
+                false => segment.along_sphere::<false>(flow, from, deflection),
+            };
+            let holds = converges_of_sphere(&stretch.velocity);
+            (stretch, holds)
+        } else {
+            let stretch = segment.along_root(flow, from, deflection);
+            let holds = converges(&stretch.velocity);
+            (stretch, holds)
         };
-        segment.reach = stretch.reach(flow.reach, from.push.is_linear());
+        // What is below rounding of the velocity is so of the root.
+        segment.reach = holds.min(stretch.reach(flow.reach, from.push.is_linear()));
         if !segment.is_pressed && hertz.stiffness > 0.0 {
             let bounds = [segment.depth, stretch.velocity, stretch.time].map(|s| majorant(&s));
             segment.reach = shell(hertz, segment.reach, |span| {
@@ -97,8 +105,8 @@ impl Segment {
 }
 
 impl Stretch {
-    /// Sigma up to which the last coefficients stay below rounding (Jorba and Zou 2005), and time
-    /// within `limit`.
+    /// Sigma up to which time stays within `limit`, and no power of a force that is not linear outgrows what the motion
+    /// begins with.
     fn reach(&self, limit: f64, is_linear: bool) -> f64 {
         // With s = s0 + v sigma / m, t is the integral of s^(m - 1).
         let m = self.index;
@@ -108,12 +116,10 @@ impl Stretch {
             _ => (m * limit / speed.powf(m - 1.0)).powf(1.0 / m),
         };
         let within = (limit / self.time[1]).min(beyond);
-        // What is below rounding of the velocity is so of the root.
-        let holds = converges(&self.velocity).min(within);
         if is_linear {
-            return holds;
+            return within;
         }
-        holds
+        within
             .min(outgrown(&self.root))
             .min(outgrown(&self.velocity))
     }
@@ -121,14 +127,15 @@ impl Stretch {
     /// The last sigma within reach at which the root is not negative. Within one step it passes zero
     /// once.
     fn last_contact(&self, reach: f64) -> f64 {
+        if value(&self.root, reach) >= 0.0 {
+            return reach;
+        }
         let (mut low, mut high) = (0.0, reach);
         let mut at = reach;
         loop {
             let (root, rate) = evaluate(&self.root, at);
             if root < 0.0 {
                 high = at;
-            } else if at == reach {
-                return reach;
             } else {
                 low = at;
             }

@@ -110,6 +110,10 @@ impl Motion {
     /// [`MotionError::Unbounded`].
     pub(super) fn glide(&mut self, until: Instant) -> Result<bool, MotionError> {
         let horizon = self.clock.elapsed(self.start, until);
+        if self.is_clear_at_once(horizon) {
+            self.now = until;
+            return Ok(true);
+        }
         self.look_ahead(horizon)?;
         // Written such that a time that is not a number stops nothing.
         let ends = match &self.outlook {

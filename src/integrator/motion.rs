@@ -8,7 +8,7 @@ use super::hum::Hum;
 use super::observer::Arc;
 use super::start::Start;
 use crate::error::MotionError;
-use crate::events::Outlook;
+use crate::events::{Outlook, is_clear_soon};
 use crate::flow::{Chatter, Course, Departure, Drive, Finer, Polynomial};
 use crate::phases::{Hold, Mode, Phase, PhaseId, PhaseKind, Phases, Store};
 
@@ -100,6 +100,18 @@ impl Motion {
     /// Time in s since the present arc began.
     pub(crate) fn elapsed(&self) -> f64 {
         self.clock.elapsed(self.start, self.now)
+    }
+
+    /// True if the present arc has just begun and provably goes on beyond `horizon`. Where it ends is left to the next
+    /// advance, so that one with a crossing does not pay for two.
+    pub(super) fn is_clear_at_once(&self, horizon: f64) -> bool {
+        let Mode::Moving(phase) = self.mode else {
+            return false;
+        };
+        horizon <= self.course.flow.window
+            && self.now == self.start
+            && matches!(self.outlook, Outlook::ClearUntil(_))
+            && is_clear_soon(&self.course, &self.phases[phase].guards, horizon)
     }
 
     /// The clock of its drive.
@@ -224,7 +236,8 @@ impl Motion {
                     (Some(hertz), finer) => {
                         let rounded = departure.position - hertz.origin;
                         let deflection = finer.map_or(rounded, |finer| finer.deflection);
-                        self.course = Course::nonlinear(&phase.flow, hertz, departure, deflection);
+                        self.course
+                            .renew_nonlinear(&phase.flow, hertz, departure, deflection);
                     }
                     (None, Some(Finer { low, .. })) => {
                         self.course = Course::resumed(&phase.flow, departure, low);
