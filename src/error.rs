@@ -161,7 +161,8 @@ fn at(line: Option<usize>) -> String {
     line.map_or_else(String::new, |line| format!("line {line}: "))
 }
 
-fn did_you_mean(key: Option<&str>) -> String {
+/// What a misspelt name may mean, in words; nothing if that is none.
+pub fn did_you_mean(key: Option<&str>) -> String {
     key.map_or_else(String::new, |key| format!(" (did you mean {key}?)"))
 }
 

@@ -7,6 +7,7 @@
 
 pub mod design;
 pub mod fmu;
+mod limits;
 pub mod optimize;
 pub mod page;
 pub mod report;

@@ -14,9 +14,10 @@ use softstop_console::table::{heading, number};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::zone::{Stretch, stretches_watched};
 
-use crate::design::judge::{Met, bound};
+use crate::design::judge::Met;
 use crate::design::problem::Objective;
 use crate::design::{Design, Problem};
+use crate::limits::{Limit, at_limits};
 use crate::optimize::outcome::Outcome;
 use crate::optimize::reference::Reference;
 use crate::optimize::study::Study;
@@ -58,6 +59,9 @@ pub struct OptimizeReport {
     /// Designs far from this one in the box and nearly as good.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     rivals: Vec<Record>,
+    /// What more of one good costs of another.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    fronts: Vec<Record>,
     /// Its machines within the tolerances.
     #[serde(skip_serializing_if = "Option::is_none")]
     tolerances: Option<Tolerated>,
@@ -120,6 +124,11 @@ impl OptimizeReport {
             tolerances,
             requirements,
             rivals,
+            fronts: found
+                .fronts
+                .iter()
+                .map(|it| verdict::traded(problem, it))
+                .collect(),
             left_out,
             search,
         }
@@ -132,7 +141,7 @@ impl Report for OptimizeReport {
     }
 }
 
-type Placed<'a> = (&'a Problem, &'a Design, &'a [String]);
+type Placed<'a> = (&'a Problem, &'a Design, &'a [Limit]);
 
 fn place<'a>() -> [Column<Placed<'a>>; 5] {
     columns! { Placed<'a>, it;
@@ -140,7 +149,14 @@ fn place<'a>() -> [Column<Placed<'a>>; 5] {
         "frequency_sn" [Frequency], "its upper end" => own(it.1, it.1.zone.frequency_sn);
         "margin" [None], "least distance M from both ends, as a share of the zone" => it.0.margin;
         "s" [None], "place in the zone, in [M, 1 - M]" => it.1.place;
-        "at_limits" [None], "what holds it back" => Told { value: it.2.into(), words: String::new() };
+        "at_limits" [None], "what holds it back" => keys(it.2);
+    }
+}
+
+fn keys(limits: &[Limit]) -> Told {
+    Told {
+        value: limits.iter().map(|it| it.key.as_str()).collect(),
+        words: String::new(),
     }
 }
 
@@ -171,71 +187,12 @@ fn own(design: &Design, frequency: f64) -> f64 {
     design.machine.to_own(Dimension::Frequency, frequency)
 }
 
-/// The key of a parameter in JSON: the last word of its name, as the paper's ratios are called.
-pub fn key(parameter: Parameter) -> String {
-    match parameter {
-        Parameter::StopStiffness => "stiffness".to_owned(),
-        Parameter::Suspension => "suspension_stiffness".to_owned(),
-        Parameter::Frequency => "frequency".to_owned(),
-        other => other.name().replace('.', "_"),
-    }
-}
-
-/// Distance in s within which a design stands at the end of the allowed window.
-const AT_MARGIN: f64 = 1e-9;
-/// Share of a bound within which it holds a design back.
-const AT_BOUND: f64 = 1e-6;
-
-/// What holds a design back, each in a few words.
-pub fn at_limits(problem: &Problem, found: &Outcome) -> Vec<String> {
-    let design = &found.design;
-    let mut limits: Vec<String> = problem
-        .axes
-        .iter()
-        .filter_map(|axis| {
-            let end = axis.range.end(design.machine.value(axis.parameter)?)?;
-            Some(format!("{}: {end} bound", key(axis.parameter)))
-        })
-        .collect();
-    // Trials count, and are not counted on beyond what is required.
-    let is_bound = |it: &&Met| {
-        let size = (it.value - it.margin()).abs();
-        !it.requirement.figure.is_trial() && it.margin() <= AT_BOUND * size
-    };
-    let held = found.met.iter().filter(is_bound);
-    limits.extend(held.map(|it| {
-        let required = bound(&design.machine, &it.requirement);
-        format!("{}: {required}", it.requirement.figure.name())
-    }));
-    limits.extend(problem.edge_at(design).map(str::to_owned));
-    if design.place <= problem.margin + AT_MARGIN {
-        limits.push("margin from g0".to_owned());
-    }
-    if design.place >= 1.0 - problem.margin - AT_MARGIN {
-        limits.push("margin from s_SN".to_owned());
-    } else if let Some(end) = near_end(problem, design.frequency()) {
-        limits.push(format!("frequency: {end} bound"));
-    }
-    limits
-}
-
-/// Frequencies pass through the place in the zone and back, so an end is met to rounding only.
-fn near_end(problem: &Problem, frequency: f64) -> Option<&'static str> {
-    let near = |end: f64| end.is_finite() && (frequency - end).abs() <= 1e-12 * end.abs();
-    let range = &problem.frequency;
-    match (range.is_held(), near(range.low), near(range.high)) {
-        (false, true, _) => Some("lower"),
-        (false, _, true) => Some("upper"),
-        _ => None,
-    }
-}
-
 /// The design beside its references, then what holds it back.
 fn text(
     problem: &Problem,
     design: &Design,
     references: &[Reference],
-    at_limits: &[String],
+    at_limits: &[Limit],
 ) -> String {
     let name = problem.machine.name.as_deref().unwrap_or("given");
     let what = match problem.objective == Objective::default() {
@@ -255,7 +212,8 @@ fn text(
         number(design.place),
     );
     if !at_limits.is_empty() {
-        text += &format!("Held back by: {}.\n", at_limits.join(", "));
+        let limits: Vec<&str> = at_limits.iter().map(|it| it.words.as_str()).collect();
+        text += &format!("Held back by: {}.\n", limits.join("; "));
     }
     text + "\n"
 }

@@ -73,6 +73,7 @@ fn report(design: &Design) -> Outcome<Report> {
         value: if met { 4.25 } else { 2.0 },
         margin: if met { 1.25 } else { -1.0 },
         met,
+        note: String::new(),
     };
     Ok(Report {
         machine: "press <1> & co".to_owned(),
@@ -105,6 +106,8 @@ fn report(design: &Design) -> Outcome<Report> {
             starts: "positions and velocities of a box that holds all motions".to_owned(),
         }),
         fronts: vec![Front {
+            name: "margin".to_owned(),
+            note: String::new(),
             title: "Velocity against margin".to_owned(),
             x: Label::new("margin from the ends of the zone", "M", ""),
             y: velocity.clone(),
@@ -274,7 +277,7 @@ fn what_is_no_number_is_a_dash() -> Outcome {
             curves: vec![curve(vec![[1.0, nan], [nan, nan]]), curve(Vec::new())],
             design: [nan, nan],
             tolerance: Some([nan, nan]),
-            band: vec![[nan; 3], [1.0, nan, 2.0]],
+            bands: vec![vec![[nan; 3], [1.0, nan, 2.0]]],
             ..Response::default()
         }),
         portrait: Some(Portrait {

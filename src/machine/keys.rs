@@ -55,11 +55,18 @@ pub(super) fn meant(key: &str, keys: &[&'static str]) -> Option<&'static str> {
     if let Some(parameter) = called {
         return Some(parameter.name());
     }
-    let last = |key: &str| key.rsplit('.').next().unwrap_or_default().to_owned();
+    let table = key.split('.').next().filter(|table| *table != key);
+    let table = table.and_then(|table| nearest(table, &TASK));
+    table.or_else(|| nearest(key, keys))
+}
+
+/// The one of these names that a misspelt one may mean; dots part a name, and its last part may stand alone.
+pub fn nearest(name: &str, known: &[&'static str]) -> Option<&'static str> {
+    let last = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
     let distance =
-        |known: &&'static str| edits(key, known).min(1 + edits(&last(key), &last(known)));
-    let nearest = keys.iter().copied().min_by_key(distance)?;
-    (distance(&nearest) <= (key.len() / 3).max(1)).then_some(nearest)
+        |known: &&'static str| edits(name, known).min(1 + edits(&last(name), &last(known)));
+    let nearest = known.iter().copied().min_by_key(distance)?;
+    (distance(&nearest) <= (name.len() / 3).max(1)).then_some(nearest)
 }
 
 /// Letters to put in, take out or change to make one word of another.

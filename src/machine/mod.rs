@@ -5,6 +5,8 @@ mod file;
 mod keys;
 mod write;
 
+pub use keys::nearest;
+
 use crate::error::SceneError;
 use crate::integrator::Start;
 use crate::scene::{Allowed, Dimension, Parameter, Ratios, Scene};

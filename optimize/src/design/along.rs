@@ -9,7 +9,8 @@ use softstop_dynamics::orbit::multipliers;
 use softstop_dynamics::{BranchPoint, Orbit, Zone};
 
 use super::Infeasible;
-use super::judge::{Judged, conflict, violation};
+use super::conflict::conflict;
+use super::judge::{Judged, violation};
 use super::problem::Problem;
 use super::space::Interval;
 

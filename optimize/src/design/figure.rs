@@ -62,7 +62,7 @@ figures! {
     MaxPosition "max_position", Length, Most, false, "largest position X_m";
     Stroke "stroke", Length, Most, false, "largest less smallest position";
     StopForce "stop_force", Force, Most, false, "peak force of contact";
-    CutThrough "cut_through", Length, Least, false, "X_m beyond the end of the strip";
+    CutThrough "cut_through", Length, Least, false, "depth of X_m beyond the end of the strip";
     RigidGap "rigid_gap", Length, Least, false, "distance from X_m to the rigid stop behind";
     Multiplier "largest_multiplier", Number, Most, false, "largest multiplier |mu|";
     Share "margin", Number, Least, false, "distance from both ends of the zone, as a share of it";
@@ -73,6 +73,7 @@ figures! {
     ClearanceSn "clearance_margin_sn", Length, Least, false, "clearance below the fold s_SN";
     ClearancePd "clearance_margin_pd", Length, Least, false, "clearance above the flip s_PD, or where else the motion ends";
     Certainty "certainty", Number, Least, true, "share of starts that lead to the motion";
+    Integrity "integrity", Number, Least, true, "largest ball of starts about the motion that all lead to it, in halves of their box";
     RunUp "run_up", Number, Least, true, "ways to run up from rest into the motion";
     MissingStrips "missing_strips", Number, Least, true, "strips in a row that may be missing at any drive angle";
 }
@@ -81,6 +82,17 @@ impl Figure {
     /// The one of this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|it| it.name() == name)
+    }
+
+    /// Why its value is infinite, where it is.
+    pub const fn unbounded(self) -> &'static str {
+        match self {
+            Self::FrequencyPd => "no flip on this branch",
+            Self::ClearancePd => {
+                "no flip on this branch, and no other end down to a quarter of the clearance"
+            }
+            _ => "nothing bounds it",
+        }
     }
 
     /// True if it is a distance from where the motion is lost.

@@ -1,93 +1,169 @@
 //! Trade-offs: the best designs with a bound of one figure that is moved step by step, each from the one before it
 //! (epsilon-constraint continuation).
 
+use rayon::prelude::*;
+use softstop::Parameter;
+
 use super::Design;
+use super::certain::certain;
 use super::coordinates::Summit;
 use super::figure::{Figure, Sense};
 use super::gradient::{ascend, ascend_from};
 use super::problem::Problem;
 use super::requirement::Requirement;
+use super::trial::certainty;
 
 /// What is given up for more of what is sought.
 #[derive(Debug, Clone)]
 pub struct Front {
     /// What is traded for what is sought.
     pub figure: Figure,
-    /// Its value, in SI units, and the best value of what is sought, in rising order of the first.
+    /// Its value at the design, in SI units, and what is sought there.
+    pub design: (f64, f64),
+    /// Its values and the best of what is sought, in rising order of the first.
     pub points: Vec<(f64, f64)>,
 }
 
 /// Steps to either side of the design.
-const STEPS: usize = 6;
+const STEPS: usize = 4;
 /// Share of a bound by which it is moved.
-const STEP: f64 = 0.08;
+const STEP: f64 = 0.12;
 /// Largest margin M, and the step to it.
 const WIDEST: f64 = 0.5;
-const WIDENING: f64 = 0.05;
-/// Change of the traded figure, relative, below which its bound no longer holds the design.
+const WIDENING: f64 = 0.1;
+/// Shares of starts between that of the design and all of them.
+const SHARES: usize = 4;
+/// Change of what is sought, relative, below which the bound no longer holds the design.
 const FREE: f64 = 1e-6;
 
-/// What a figure costs of what is sought, around a design at a point of the unit cube.
-pub fn front(problem: &Problem, from: (&[f64], &Design), figure: Figure) -> Front {
-    let mut points = match figure {
-        Figure::Share => margins(problem, from.0),
-        _ => bounds(problem, from, figure),
-    };
-    points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    Front { figure, points }
-}
-
-/// Over the margin M from both ends of the zone.
-fn margins(problem: &Problem, from: &[f64]) -> Vec<(f64, f64)> {
-    let mut points = Vec::new();
-    let mut unit = from.to_vec();
-    for step in 0..=(WIDEST / WIDENING) as usize {
-        let wider = Problem {
-            margin: step as f64 * WIDENING,
-            ..problem.clone()
-        };
-        if let Some(summit) = ascend(&wider, &unit) {
-            points.push((wider.margin, summit.design.value));
-            unit = summit.unit;
-        }
-    }
-    points
-}
-
-/// Over a bound of a figure, tighter and looser.
-fn bounds(problem: &Problem, (unit, design): (&[f64], &Design), figure: Figure) -> Vec<(f64, f64)> {
-    let value = |summit: &Summit| summit.design.judged().ok().map(|it| it.value(figure));
+/// What a figure costs of what is sought, around a design at a point of the unit cube; none if the design has no such
+/// figure. Requirements that take many motions are not asked of the other designs.
+pub fn front(
+    problem: &Problem,
+    (unit, design): (&[f64], &Design),
+    figure: Figure,
+) -> Option<Front> {
     let start = Summit {
         unit: unit.to_vec(),
         design: design.clone(),
     };
-    let Some(here) = value(&start).filter(|value| value.is_finite() && *value > 0.0) else {
+    let own = place(figure, &start)?;
+    let is_held = |parameter| problem.axes.iter().all(|axis| axis.parameter != parameter);
+    let others = match figure {
+        Figure::Share => margins(problem, start),
+        Figure::Certainty => shares(problem, &start, own.0),
+        Figure::DriveForce if is_held(Parameter::Amplitude) => forces(problem, &start),
+        _ => bounds(problem, &start, figure, own.0),
+    };
+    let others = others.par_iter().filter_map(|it| place(figure, it));
+    let mut points: Vec<(f64, f64)> = others.collect();
+    points.push(own);
+    let score = |it: &(f64, f64)| problem.objective.score(it.1);
+    points.sort_by(|a, b| a.0.total_cmp(&b.0).then(score(a).total_cmp(&score(b))));
+    if figure == Figure::Certainty {
+        // Linear models may miss the best: what another one betters in both goes.
+        let all = points.clone();
+        points.retain(|it| !all.iter().any(|one| one.0 > it.0 && score(one) > score(it)));
+    }
+    Some(Front {
+        figure,
+        design: own,
+        points,
+    })
+}
+
+/// Value of a figure, and of what is sought.
+fn place(figure: Figure, at: &Summit) -> Option<(f64, f64)> {
+    let value = match figure {
+        Figure::Certainty => certainty(&at.design.orbit).ok()?,
+        _ => at.design.judged().ok()?.value(figure),
+    };
+    value.is_finite().then_some((value, at.design.value))
+}
+
+/// Over the margin M from both ends of the zone.
+fn margins(problem: &Problem, mut from: Summit) -> Vec<Summit> {
+    let steps = 0..=(WIDEST / WIDENING) as usize;
+    let steps = steps.filter_map(|step| {
+        let wider = Problem {
+            margin: step as f64 * WIDENING,
+            ..problem.clone()
+        };
+        from = ascend(&wider, &from.unit)?;
+        Some(from.clone())
+    });
+    steps.collect()
+}
+
+/// Over the share of starts that lead to the motion, from that of the design towards all of them.
+fn shares(problem: &Problem, start: &Summit, own: f64) -> Vec<Summit> {
+    let mut from = start.clone();
+    let shares = (1..=SHARES).map(|step| own + (1.0 - own) * step as f64 / (SHARES + 1) as f64);
+    let all = shares.map_while(|share| {
+        from = certain(problem, &from, share)?;
+        Some(from.clone())
+    });
+    all.collect()
+}
+
+/// Over the drive's amplitude that the task holds.
+fn forces(problem: &Problem, start: &Summit) -> Vec<Summit> {
+    let Some(held) = problem.machine.value(Parameter::Amplitude) else {
         return Vec::new();
     };
-    let mut points = vec![(here, design.value)];
-    for tightening in [-STEP, STEP] {
-        let (mut from, mut bound) = (start.clone(), here);
+    let of = |bound: f64| {
+        let mut other = without(problem, Figure::DriveForce);
+        other.machine.set(Parameter::Amplitude, bound);
+        other
+    };
+    both_ways(start, held, |bound, from| {
+        ascend_from(&of(bound), &from.unit, from.design.place)
+    })
+}
+
+/// Over a bound of a figure, tighter and looser.
+fn bounds(problem: &Problem, start: &Summit, figure: Figure, own: f64) -> Vec<Summit> {
+    both_ways(start, own, |bound, from| {
+        let bounded = bounded(problem, figure, bound);
+        ascend_from(&bounded, &from.unit, from.design.place)
+    })
+}
+
+/// Step by step from the design on, down and up, until there is no design or its bound no longer holds it.
+fn both_ways(
+    start: &Summit,
+    own: f64,
+    next: impl Fn(f64, &Summit) -> Option<Summit>,
+) -> Vec<Summit> {
+    let mut all = Vec::new();
+    for change in [-STEP, STEP] {
+        let (mut from, mut bound) = (start.clone(), own);
         for _ in 0..STEPS {
-            bound *= 1.0 + tightening;
-            let bounded = bounded(problem, figure, bound);
-            let Some(summit) = ascend_from(&bounded, &from.unit, from.design.place) else {
+            bound *= 1.0 + change;
+            let Some(summit) = next(bound, &from) else {
                 break;
             };
-            let Some(reached) = value(&summit) else { break };
-            points.push((reached, summit.design.value));
-            if (reached - bound).abs() > FREE * bound {
+            let gain = (summit.design.value - from.design.value).abs();
+            if gain <= FREE * from.design.value.abs() {
                 break;
             }
             from = summit;
+            all.push(from.clone());
         }
     }
-    points
+    all
+}
+
+/// The problem without the bounds of a figure.
+fn without(problem: &Problem, figure: Figure) -> Problem {
+    let mut free = problem.clone();
+    free.requirements.retain(|it| it.figure != figure);
+    free
 }
 
 /// The problem with another bound of a figure.
 fn bounded(problem: &Problem, figure: Figure, bound: f64) -> Problem {
-    let mut bounded = problem.clone();
-    bounded.requirements.retain(|it| it.figure != figure);
+    let mut bounded = without(problem, figure);
     let is_least = figure.sense() == Sense::Least;
     bounded.requirements.push(Requirement {
         figure,

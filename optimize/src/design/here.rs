@@ -74,6 +74,13 @@ impl Here {
         window.is_ok_and(|it| (it.low - ROUNDING..=it.high + ROUNDING).contains(&self.place))
     }
 
+    /// How far the place is outside of what margin, bounds of the frequency and tolerances allow; none if they allow none.
+    pub(super) fn outside(&self, problem: &Problem) -> Option<f64> {
+        let window = problem.window(&self.machine, &self.zone).ok()?;
+        let away = (window.low - self.place).max(self.place - window.high);
+        Some(if away > ROUNDING { away } else { 0.0 })
+    }
+
     /// Where the tolerances stay inside the zone.
     pub(super) fn box_window(&self, problem: &Problem) -> Option<BoxWindow> {
         BoxWindow::of(problem, &self.machine, &self.zone).ok()

@@ -2,9 +2,9 @@
 
 use std::slice;
 
-use softstop::internals::plain;
 use softstop::{Machine, MotionError, Parameter};
 use softstop_console::interrupt;
+use softstop_dynamics::basin::Establishment;
 use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::{end_along, free_amplitude, hysteresis_soon, loss_of_stability};
@@ -88,7 +88,9 @@ impl<'a> Judged<'a> {
             }
             Figure::ClearanceSn => self.below_fold(frequency),
             Figure::ClearancePd => self.along(Parameter::Clearance, Heading::Down, Test::Flip),
-            Figure::Certainty | Figure::RunUp | Figure::MissingStrips => f64::NAN,
+            Figure::Certainty | Figure::Integrity | Figure::RunUp | Figure::MissingStrips => {
+                f64::NAN
+            }
         }
     }
 
@@ -175,6 +177,8 @@ pub struct Met {
     pub requirement: Requirement,
     /// What the motion has.
     pub value: f64,
+    /// The starts that tell it, if it takes many.
+    pub starts: Option<Establishment>,
 }
 
 impl Met {
@@ -186,6 +190,26 @@ impl Met {
     /// Whether it is met.
     pub fn is_met(&self) -> bool {
         self.margin() >= 0.0
+    }
+
+    /// What else is to be known of the value: why it is none, or from which starts it was counted; may be empty.
+    pub fn note(&self, machine: &Machine) -> String {
+        if self.value.is_infinite() {
+            return self.requirement.figure.unbounded().to_owned();
+        }
+        let Some(of) = &self.starts else {
+            return String::new();
+        };
+        let [low, high] = of.interval;
+        let interval = match self.requirement.figure {
+            Figure::Certainty => format!("95 % interval {low:.3} to {high:.3}, "),
+            _ => String::new(),
+        };
+        format!(
+            "{interval}{} starts in {}",
+            of.starts,
+            of.region.told(machine)
+        )
     }
 }
 
@@ -203,75 +227,33 @@ impl Problem {
         all.map(|requirement| Met {
             requirement: *requirement,
             value: motion.value(requirement.figure),
+            starts: None,
         })
         .collect()
     }
+
+    /// The margin M and what the motion has of it; none if none is asked for.
+    pub fn share(&self, motion: &Judged<'_>) -> Option<Met> {
+        let value = motion.value(Figure::Share);
+        let is_at_bound = (value - self.margin).abs() < ROUNDING;
+        (self.margin > 0.0).then_some(Met {
+            requirement: Requirement {
+                figure: Figure::Share,
+                least: Some(self.margin),
+                most: None,
+            },
+            value: if is_at_bound { self.margin } else { value },
+            starts: None,
+        })
+    }
 }
+
+/// What rounding may do to a place.
+const ROUNDING: f64 = 1e-9;
 
 /// How far a motion is from what is required of it, in units of the bounds; 0 if all is met.
 pub fn violation(met: &[Met]) -> f64 {
     met.iter()
         .map(|it| it.requirement.violation(it.value))
         .sum()
-}
-
-/// Share of a bound within which a requirement holds a design back.
-const AT_BOUND: f64 = 1e-4;
-
-/// What is violated and by how much, and which bounds stand in the way, in the machine's own units.
-pub fn conflict(machine: &Machine, met: &[Met]) -> String {
-    let violated = met.iter().filter(|it| !it.is_met());
-    let violated: Vec<String> = violated.map(|it| words(machine, it)).collect();
-    let held = met.iter().filter(|it| {
-        let bound = it.value - it.margin();
-        it.is_met() && it.margin() <= AT_BOUND * bound.abs()
-    });
-    let held: Vec<&str> = held.map(|it| it.requirement.figure.name()).collect();
-    match &held[..] {
-        [] => violated.join("; "),
-        held => format!(
-            "{}; against it stands {}",
-            violated.join("; "),
-            held.join(", ")
-        ),
-    }
-}
-
-/// `velocity = 9.8 m/s: must be at least 10 m/s, 0.2 m/s are missing`.
-fn words(machine: &Machine, met: &Met) -> String {
-    let figure = met.requirement.figure;
-    let unit = machine.unit(figure.dimension());
-    let own = |value: f64| {
-        let value = machine.to_own(figure.dimension(), value);
-        format!("{} {unit}", short(value)).trim_end().to_owned()
-    };
-    let (bound, value, missing) = (bound(machine, &met.requirement), met.value, -met.margin());
-    if value.is_nan() {
-        return format!("{} has no value: must be {bound}", figure.name());
-    }
-    format!(
-        "{} = {}: must be {bound}, by {}",
-        figure.name(),
-        own(value),
-        own(missing)
-    )
-}
-
-/// A number with seven digits, and no more of them than it has.
-fn short(value: f64) -> String {
-    plain(format!("{value:.6e}").parse().unwrap_or(value))
-}
-
-/// `at least 10 m/s`.
-pub fn bound(machine: &Machine, requirement: &Requirement) -> String {
-    let figure = requirement.figure;
-    let unit = machine.unit(figure.dimension());
-    let own = |value: f64| machine.to_own(figure.dimension(), value);
-    let text = match (requirement.least, requirement.most) {
-        (Some(least), Some(most)) => format!("from {} to {} {unit}", own(least), own(most)),
-        (Some(least), None) => format!("at least {} {unit}", own(least)),
-        (None, Some(most)) => format!("at most {} {unit}", own(most)),
-        (None, None) => String::new(),
-    };
-    text.trim_end().to_owned()
 }

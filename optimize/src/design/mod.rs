@@ -7,6 +7,8 @@
 
 pub mod along;
 mod box_window;
+mod certain;
+pub mod conflict;
 mod coordinates;
 mod cost;
 mod exact;

@@ -12,11 +12,12 @@ use softstop_dynamics::basin::Establishment;
 use softstop_dynamics::run_up::RunUp;
 use softstop_dynamics::supply::{Reading, outlasts};
 
+use super::conflict::conflict;
 use super::coordinates::{Coordinates, Summit};
 use super::figure::Figure;
 use super::gradient::ascend_from;
 use super::here::Here;
-use super::judge::{Met, conflict, violation};
+use super::judge::{Met, violation};
 use super::problem::Problem;
 use super::requirement::Requirement;
 use super::space::Space;
@@ -43,9 +44,11 @@ impl Problem {
     pub fn tried(&self, orbit: &Orbit) -> Result<Vec<Met>, SurveyError> {
         let trials = self.requirements.iter().filter(|it| it.figure.is_trial());
         let tried = trials.map(|requirement| {
+            let (value, starts) = value(requirement, orbit)?;
             Ok(Met {
                 requirement: *requirement,
-                value: value(requirement, orbit)?,
+                value,
+                starts,
             })
         });
         tried.collect()
@@ -57,23 +60,46 @@ impl Problem {
     }
 }
 
-fn value(requirement: &Requirement, orbit: &Orbit) -> Result<f64, SurveyError> {
+/// The share of starts that lead to a motion.
+///
+/// # Errors
+/// As [`Problem::tried`].
+pub(super) fn certainty(orbit: &Orbit) -> Result<f64, SurveyError> {
+    Ok(Establishment::of(orbit, STARTS, &interrupt::watch)?.share)
+}
+
+/// What a motion has of a figure, and the starts that tell it.
+fn value(
+    requirement: &Requirement,
+    orbit: &Orbit,
+) -> Result<(f64, Option<Establishment>), SurveyError> {
     let watcher = &interrupt::watch;
-    Ok(match requirement.figure {
-        Figure::Certainty => Establishment::of(orbit, STARTS, watcher)?.share,
-        Figure::RunUp => RunUp::of(orbit, ANGLES, watcher)?.works().count() as f64,
-        Figure::MissingStrips => {
-            let most = requirement.least.unwrap_or(0.0) as u32;
-            for missing in 1..=most {
-                let gaps = outlasts(orbit, missing, Reading::Fixed, ANGLES, watcher)?;
-                if gaps.share() < 1.0 {
-                    return Ok(f64::from(missing - 1));
-                }
-            }
-            f64::from(most)
+    let value = match requirement.figure {
+        Figure::Certainty => {
+            let starts = Establishment::of(orbit, STARTS, watcher)?;
+            return Ok((starts.share, Some(starts)));
         }
+        Figure::Integrity => {
+            let (starts, radius) = Establishment::with_ball(orbit, STARTS, watcher)?;
+            return Ok((radius, Some(starts)));
+        }
+        Figure::RunUp => RunUp::of(orbit, ANGLES, watcher)?.works().count() as f64,
+        Figure::MissingStrips => f64::from(survived(requirement, orbit)?),
         _ => f64::NAN,
-    })
+    };
+    Ok((value, None))
+}
+
+/// Strips in a row that may be missing, as many as are asked for at most.
+fn survived(requirement: &Requirement, orbit: &Orbit) -> Result<u32, SurveyError> {
+    let most = requirement.least.unwrap_or(0.0) as u32;
+    for missing in 1..=most {
+        let gaps = outlasts(orbit, missing, Reading::Fixed, ANGLES, &interrupt::watch)?;
+        if gaps.share() < 1.0 {
+            return Ok(missing - 1);
+        }
+    }
+    Ok(most)
 }
 
 /// The best design that passes its trials: this one if it does, otherwise one that is sought from it and from the best

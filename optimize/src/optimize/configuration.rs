@@ -119,7 +119,9 @@ fn requirements_schema() -> serde_json::Value {
             "minProperties": 1
         });
         let value = match figure {
-            Figure::RunUp => json!({ "type": "boolean", "description": figure.meaning() }),
+            Figure::RunUp => {
+                json!({ "anyOf": [{ "type": "boolean" }, number], "description": figure.meaning() })
+            }
             _ => json!({ "anyOf": [number, bounds], "description": figure.meaning() }),
         };
         (figure.name().to_owned(), value)

@@ -10,6 +10,7 @@ mod named;
 pub mod outcome;
 mod progress;
 pub mod reference;
+mod required;
 pub mod study;
 mod task;
 mod wishes;
@@ -18,6 +19,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::Args;
+use rayon::prelude::*;
 use softstop::{Dimension, Machine, Parameter, Start};
 use softstop_console::arguments::MachineArguments;
 use softstop_console::export::Export;
@@ -28,11 +30,14 @@ use softstop_console::output::Format;
 use softstop_dynamics::basin::ErosionProfile;
 use softstop_dynamics::run_up::RunUp;
 
-use crate::design::search::{self, SearchError};
+use crate::design::figure::Figure;
+use crate::design::front::{Front, front};
+use crate::design::search::{self, Found, SearchError};
 use crate::design::{Design, Problem};
 use crate::fmu::{archive, library, parameters};
+use crate::limits::key;
 use crate::page::{csv, html};
-use crate::report::{self, OptimizeReport, SearchReport};
+use crate::report::{OptimizeReport, SearchReport};
 use named::Named;
 use outcome::{ANGLES, EROSION_STARTS, Outcome, PLACES};
 use progress::Best;
@@ -221,21 +226,24 @@ fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     })?;
     let design = &found.design;
     let motion = design.judged().map_err(anyhow::Error::from)?;
-    let mut met = job.problem.met(&motion);
+    let mut met = Vec::from_iter(job.problem.share(&motion));
+    met.extend(job.problem.met(&motion));
     met.extend(
         job.problem
             .tried(&design.orbit)
             .map_err(anyhow::Error::from)?,
     );
     let watcher = &interrupt::watch;
-    let (erosion, run_up) = match job.report {
-        false => (None, None),
+    let ((erosion, run_up), fronts) = match job.report {
+        false => ((None, None), Vec::new()),
         true => rayon::join(
             || {
                 let places = ErosionProfile::evenly(PLACES);
-                ErosionProfile::of(&design.zone, &places, EROSION_STARTS, watcher).ok()
+                let along = || ErosionProfile::of(&design.zone, &places, EROSION_STARTS, watcher);
+                let up = || RunUp::of(&design.orbit, ANGLES, watcher);
+                rayon::join(|| along().ok(), || up().ok())
             },
-            || RunUp::of(&design.orbit, ANGLES, watcher).ok(),
+            || fronts(&job.problem, &found),
         ),
     };
     if interrupt::requested() {
@@ -247,9 +255,27 @@ fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         unit: found.unit,
         erosion,
         run_up,
+        fronts,
         rivals: found.rivals,
         evaluations,
     })
+}
+
+/// What is traded for what is sought.
+const TRADED: [Figure; 5] = [
+    Figure::Share,
+    Figure::Certainty,
+    Figure::StopForce,
+    Figure::DriveForce,
+    Figure::DrivePower,
+];
+
+/// What more of one good costs of another, where it costs something.
+fn fronts(problem: &Problem, found: &Found) -> Vec<Front> {
+    let traded = TRADED.par_iter();
+    let traded = traded.filter(|figure| **figure != problem.objective.figure);
+    let found = traded.filter_map(|figure| front(problem, (&found.unit, &found.design), *figure));
+    found.filter(|it| it.points.len() > 2).collect()
 }
 
 /// Values held and ranges searched, by their keys.
@@ -257,6 +283,6 @@ fn bounds(problem: &Problem) -> BTreeMap<String, String> {
     let axes = problem.axes.iter();
     let axes = axes.map(|axis| (axis.parameter, axis.range));
     let bounds = axes.chain([(Parameter::Frequency, problem.frequency)]);
-    let bounds = bounds.map(|(parameter, range)| (report::key(parameter), range.to_string()));
+    let bounds = bounds.map(|(parameter, range)| (key(parameter), range.to_string()));
     bounds.collect()
 }

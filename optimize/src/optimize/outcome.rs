@@ -4,6 +4,7 @@ use softstop_dynamics::basin::ErosionProfile;
 use softstop_dynamics::run_up::RunUp;
 
 use crate::design::Design;
+use crate::design::front::Front;
 use crate::design::judge::Met;
 
 /// Places of the erosion profile, and starts at each.
@@ -29,4 +30,6 @@ pub struct Outcome {
     pub erosion: Option<ErosionProfile>,
     /// Ways to run the machine up, for the report.
     pub run_up: Option<RunUp>,
+    /// What more of one good costs of another, for the report.
+    pub fronts: Vec<Front>,
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
-use softstop::Machine;
+use softstop::{Machine, Parameter};
 use softstop_console::failure::Failure;
 use softstop_console::machine::{Regime, SceneSettings};
 use softstop_console::output::Format;
@@ -14,10 +14,11 @@ use softstop_console::scene_file;
 use super::OptimizeArguments;
 use super::configuration::Task;
 use super::layers;
-use super::wishes::{objective, requirements, tolerances};
+use super::required::requirements;
+use super::wishes::{objective, tolerances};
 use crate::design::Problem;
 use crate::design::figure::Figure;
-use crate::design::problem::Link;
+use crate::design::problem::{Link, Tolerance};
 use crate::design::search::{LEAST_EVALUATIONS, Settings};
 
 const MARGIN: f64 = 0.25;
@@ -53,6 +54,11 @@ impl Job {
             ));
         }
         let share = share.and_then(|it| it.least);
+        if share.is_some() && task.margin.is_some() {
+            return Err(Failure::usage(
+                "margin and require.margin: only one of the two can be given",
+            ));
+        }
         let says_where = tolerances.iter().any(|it| !it.is_exact())
             || requirements.iter().any(|it| it.figure.is_margin());
         let usual = if says_where { 0.0 } else { MARGIN };
@@ -70,6 +76,11 @@ impl Job {
             layers::written(&task, variables)?,
         ];
         let (axes, frequency) = layers::axes(&machine, &said, task.vary.is_empty())?;
+        for tolerance in &tolerances {
+            let axis = axes.iter().find(|it| it.parameter == tolerance.parameter);
+            let highest = axis.map(|it| it.range.high);
+            leaves_machines(&machine, tolerance, highest)?;
+        }
         let both = |link: &&Link| axes.iter().any(|axis| axis.parameter == link.parameter);
         if let Some(link) = links.iter().find(both) {
             return Err(Failure::usage(format!(
@@ -153,6 +164,29 @@ impl Job {
             wishes,
         )
     }
+}
+
+/// Refuses a tolerance within which there are no machines even about the highest value that is searched.
+fn leaves_machines(
+    machine: &Machine,
+    tolerance: &Tolerance,
+    highest: Option<f64>,
+) -> Result<(), Failure> {
+    let (parameter, name) = (tolerance.parameter, machine.name(tolerance.parameter));
+    let is_searched = highest.is_none() && parameter == Parameter::Frequency;
+    let Some(value) = highest
+        .or(machine.value(parameter))
+        .filter(|_| !is_searched)
+    else {
+        return Ok(());
+    };
+    let width = tolerance.width.around(value);
+    let least = parameter.about().allowed.check(name, value - width);
+    least.map(|_| ()).map_err(|error| {
+        Failure::usage(format!(
+            "tolerance.{name} = {width}: is too wide about {value}: {error}"
+        ))
+    })
 }
 
 /// The task of `--config`, or the one that stands beside the machine in its file.

@@ -1,6 +1,7 @@
-//! What a task wishes of the design: the tables `[vary]`, `[tolerance]`, `[objective]` and `[require]`.
+//! What a task wishes of the design: the tables `[vary]`, `[tolerance]` and `[objective]`.
 
 use serde::Deserialize;
+use softstop::internals::{did_you_mean, nearest};
 use softstop::{Machine, Parameter};
 use softstop_console::failure::Failure;
 use toml::{Table, Value};
@@ -9,7 +10,6 @@ use super::leaves::{flatten, number, range};
 use super::named::Named;
 use crate::design::figure::{Figure, Sense};
 use crate::design::problem::{Link, Objective, Tolerance, Width};
-use crate::design::requirement::Requirement;
 
 /// What `[vary]` says of one parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +39,7 @@ pub(super) fn variables(table: &Table) -> Result<Vec<Named<Variable>>, Failure> 
         let wrong = || {
             Failure::usage(format!(
                 "vary.{name} = {value}: must be a range [low, high], a number to hold, {{ values = [a, b, c] }} of \
-                 a catalogue, or {{ follows = KEY, factor = NUMBER }}"
+                 a catalogue, or {{ follows = KEY, factor = NUMBER }}; numbers alone, in the machine's own units"
             ))
         };
         let variable = match value {
@@ -159,7 +159,7 @@ pub(super) fn objective(machine: &Machine, goal: &Goal) -> Result<Objective, Fai
             ));
         }
     };
-    let figure = known(&format!("objective.{says}"), name)?;
+    let figure = known(&format!("objective.{says} = "), name)?;
     let is_sought = matches!(
         figure,
         Figure::Velocity
@@ -184,102 +184,19 @@ pub(super) fn objective(machine: &Machine, goal: &Goal) -> Result<Objective, Fai
     Ok(Objective { figure, sense })
 }
 
-fn known(place: &str, name: &str) -> Result<Figure, Failure> {
+pub(super) fn known(place: &str, name: &str) -> Result<Figure, Failure> {
     Figure::named(name).ok_or_else(|| {
-        let names: Vec<&str> = Figure::ALL.iter().map(|it| it.name()).collect();
+        let names: Vec<&'static str> = Figure::ALL.iter().map(|it| it.name()).collect();
+        let meant = did_you_mean(nearest(name, &names));
         Failure::usage(format!(
-            "{place} {name}: must be one of {}",
+            "{place}{name}: unknown figure{meant}; known are {}",
             names.join(", ")
         ))
     })
 }
 
-/// `{ least = 10, most = 12 }`.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Bounds {
-    least: Option<f64>,
-    most: Option<f64>,
-}
-
-/// `[require]`, in SI units.
-pub(super) fn requirements(machine: &Machine, table: &Table) -> Result<Vec<Requirement>, Failure> {
-    let one = |(name, value): (&String, &Value)| {
-        let figure = known("require:", name)?;
-        let wrong = |what: &str| Failure::usage(format!("require.{name} = {value}: {what}"));
-        let (least, most) = match (value, figure.sense()) {
-            (Value::Boolean(true), _) if figure == Figure::RunUp => (Some(1.0), None),
-            (Value::Boolean(false), _) if figure == Figure::RunUp => (Some(0.0), None),
-            (Value::Table(words), _) => {
-                let bounds: Bounds = words
-                    .clone()
-                    .try_into()
-                    .map_err(|_| wrong("must be a number, or { least = NUMBER, most = NUMBER }"))?;
-                (bounds.least, bounds.most)
-            }
-            (value, sense) => match (number(value), sense) {
-                (Some(least), Sense::Least) => (Some(least), None),
-                (Some(most), Sense::Most) => (None, Some(most)),
-                (None, _) => {
-                    return Err(wrong(
-                        "must be a number, or { least = NUMBER, most = NUMBER }",
-                    ));
-                }
-            },
-        };
-        let given = [least, most].into_iter().flatten();
-        if given.clone().count() == 0 || given.clone().any(|bound| !bound.is_finite()) {
-            return Err(wrong("must have a finite bound"));
-        }
-        if let (Some(least), Some(most)) = (least, most)
-            && least > most
-        {
-            return Err(wrong("least must be <= most"));
-        }
-        allowed(figure, given).map_err(wrong)?;
-        let si = |bound: f64| machine.to_si(figure.dimension(), bound);
-        Ok(Requirement {
-            figure,
-            least: least.map(si),
-            most: most.map(si),
-        })
-    };
-    let all: Result<Vec<Requirement>, Failure> = table.iter().map(one).collect();
-    let all = all?;
-    for requirement in &all {
-        if let Some(lacks) = lacks(machine, requirement.figure) {
-            let name = requirement.figure.name();
-            return Err(Failure::usage(format!(
-                "require.{name}: this machine has no {lacks}"
-            )));
-        }
-    }
-    Ok(all)
-}
-
-/// Where bounds of a figure can lie.
-fn allowed(figure: Figure, bounds: impl Iterator<Item = f64>) -> Result<(), &'static str> {
-    let (low, high, words) = match figure {
-        Figure::Share => (0.0, 0.5, "must be in [0, 0.5]"),
-        Figure::Certainty => (0.0, 1.0, "must be in [0, 1]"),
-        Figure::Multiplier => (0.0, 1.0, "must be in [0, 1]"),
-        Figure::RunUp => (0.0, 1.0, "must be true or false"),
-        Figure::MissingStrips => (0.0, 100.0, "must be in [0, 100]"),
-        _ => return Ok(()),
-    };
-    for bound in bounds {
-        if !(low..=high).contains(&bound) {
-            return Err(words);
-        }
-        if figure == Figure::MissingStrips && bound.fract() != 0.0 {
-            return Err("must be a whole number");
-        }
-    }
-    Ok(())
-}
-
 /// What a machine would have to have for a figure.
-fn lacks(machine: &Machine, figure: Figure) -> Option<&'static str> {
+pub(super) fn lacks(machine: &Machine, figure: Figure) -> Option<&'static str> {
     let scene = &machine.scene;
     match figure {
         Figure::CutThrough | Figure::MissingStrips | Figure::StrokeWork

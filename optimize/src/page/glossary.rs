@@ -50,7 +50,7 @@ const MARGIN: Entry = (
 );
 const SOBOL: Entry = (
     "share alone, with others",
-    "Sobol indices: how much of the variance of the objective comes from one value by itself, and together with all others",
+    "Sobol indices: how much of the variance of the before-impact velocity comes from one value by itself, and together with all others",
 );
 
 /// What the parts of a report speak of.

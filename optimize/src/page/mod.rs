@@ -9,7 +9,7 @@ mod tables;
 mod words;
 
 pub use tables::csv;
-pub use words::quantity;
+pub use words::{count, quantity};
 
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, Error, UndefinedBehavior, context};

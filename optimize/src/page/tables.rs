@@ -50,10 +50,14 @@ fn sheets(report: &Report) -> Vec<Sheet> {
     let rows = report.requirements.iter().map(|it| {
         let words = [&it.name, &it.meaning, &it.unit, &it.required].map(String::clone);
         let values = [digits(it.value), digits(it.margin), it.met.to_string()];
-        words.into_iter().chain(values).collect()
+        words
+            .into_iter()
+            .chain(values)
+            .chain([it.note.clone()])
+            .collect()
     });
     let head = words(&[
-        "name", "meaning", "unit", "required", "value", "margin", "met",
+        "name", "meaning", "unit", "required", "value", "margin", "met", "note",
     ]);
     sheets.push(("requirements".to_owned(), head, rows.collect()));
     for (index, map) in report.maps.iter().enumerate() {
@@ -102,10 +106,10 @@ fn sheets(report: &Report) -> Vec<Sheet> {
         });
         sheets.push(("erosion".to_owned(), head, rows.collect()));
     }
-    for (index, front) in report.fronts.iter().enumerate() {
+    for front in &report.fronts {
         let rows = front.points.iter().map(|point| point.map(digits).to_vec());
         sheets.push((
-            format!("front-{}", index + 1),
+            format!("front-{}", front.name),
             columns(&[&front.x, &front.y]),
             rows.collect(),
         ));

@@ -27,14 +27,14 @@ pub(super) fn number(value: f64) -> String {
         grouped(&fixed(size, DIGITS - 1 - power))
     } else {
         let mantissa = fixed(size / 10f64.powi(power), DIGITS - 1);
-        format!("{mantissa} × {}", power_of_ten(power))
+        format!("{mantissa}\u{a0}×\u{a0}{}", power_of_ten(power))
     };
     let sign = if value < 0.0 { "−" } else { "" };
     format!("{sign}{text}")
 }
 
 /// A whole number, its digits in groups of three.
-pub(super) fn count(value: u64) -> String {
+pub fn count(value: u64) -> String {
     let digits = value.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
@@ -178,9 +178,9 @@ mod tests {
             (99_999.7, "100\u{202f}000"),
             (12_500.0, "12\u{202f}500"),
             (-9000.0, "−9000"),
-            (2.4e6, "2.4 × 10⁶"),
-            (-1.23456e-7, "−1.2346 × 10⁻⁷"),
-            (999_999.9, "1 × 10⁶"),
+            (2.4e6, "2.4\u{a0}×\u{a0}10⁶"),
+            (-1.23456e-7, "−1.2346\u{a0}×\u{a0}10⁻⁷"),
+            (999_999.9, "1\u{a0}×\u{a0}10⁶"),
             (f64::NAN, "–"),
         ];
         for (value, text) in cases {

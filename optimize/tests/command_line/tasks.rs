@@ -23,6 +23,40 @@ piercing = { stiffness = 4.8e6, friction = 2.4e6, thickness = 0.002, travel = 0.
 evaluations = 150
 "#;
 
+/// Its strip holds the motion: without it, it is lost after three periods from most drive angles.
+const FORGETFUL: &str = r#"
+mass = 1.0
+stiffness = 1.0
+damping = 0.0116
+clearance = 8.828
+contact.damping = 0.0918
+excitation = { amplitude = 1.0, frequency = 1.25303 }
+stop = { model = "preloaded", stiffness = 8.316, preload = 1.35 }
+piercing = { stiffness = 28.623, friction = 7.260, thickness = 2.089, travel = 0.413 }
+
+[vary]
+clearance = 8.828
+excitation.frequency = 1.25303
+"#;
+
+/// Lightly damped: its period doubles below grazing.
+const FLIPPING: &str = r#"
+mass = 1.0
+stiffness = 1.0
+damping = 0.02
+clearance = 10.0
+contact.damping = 0.02
+excitation = { amplitude = 1.0, frequency = 1.2 }
+stop = { model = "preloaded", stiffness = 7.0, preload = 70.0 }
+
+[search]
+evaluations = 150
+
+[vary]
+clearance = [8, 12]
+stop.stiffness = 7.0
+"#;
+
 /// What is searched if nothing else is said.
 const VARY: &str = "[vary]\nclearance = [0.006, 0.012]\nexcitation.frequency_hz = [10, 40]\n";
 
@@ -104,7 +138,9 @@ fn conflicts_are_named_with_how_much_is_missing() -> Outcome {
         ("margin_sn = 39", "margin_sn = "),
         ("clearance_margin_g0 = 1", "clearance_margin_g0 = "),
         ("clearance_margin_sn = 1", "clearance_margin_sn = "),
+        ("margin_pd = 39", "margin_pd = "),
         ("certainty = 0.999", "certainty = "),
+        ("integrity = 0.9", "integrity = "),
     ];
     for (require, told) in cases {
         let file = folder.path().join("press.toml");
@@ -127,10 +163,91 @@ fn conflicts_are_named_with_how_much_is_missing() -> Outcome {
     Ok(())
 }
 
+/// The same of what the press above has in plenty: another machine each.
+#[test]
+fn conflicts_of_other_machines_are_named_too() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let walled = PRESS.replace(
+        "[search]",
+        "rigid = { travel = 0.03, restitution = 0.8 }\n[search]",
+    );
+    let vary = "[vary]\nclearance = [0.008, 0.009]\n";
+    let cases = [
+        (
+            format!("{walled}{vary}[require]\nrigid_gap = 0.03\n"),
+            "must be at least 0.03 m, by 0.000",
+        ),
+        (
+            format!("{FORGETFUL}[require]\nmargin = 0\nmissing_strips = 3\n"),
+            "missing_strips = 2: must be at least 3, by 1",
+        ),
+        (
+            format!(
+                "{PRESS}[vary]\nclearance = 0.0085\nexcitation.frequency_hz = 33\n[require]\nmargin = 0\nrun_up = 6\n"
+            ),
+            "run_up = ",
+        ),
+        (
+            format!("{FLIPPING}[require]\nmargin_pd = 2\n"),
+            "margin_pd = 0.",
+        ),
+        (
+            format!(
+                "{PRESS}[vary]\nclearance = 0.0085\n[require]\nclearance_margin_pd = {{ most = 1e-3 }}\n"
+            ),
+            "clearance_margin_pd has no bound (no flip on this branch",
+        ),
+    ];
+    for (task, told) in cases {
+        let file = folder.path().join("machine.toml");
+        fs::write(&file, task)?;
+        let output = folder.path().join("never");
+        let words = [
+            "optimize",
+            file.to_str().ok_or("path")?,
+            "--no-report",
+            "--output",
+            output.to_str().ok_or("path")?,
+        ];
+        SOFTSTOP.ends_with(&words, 1, &[told, "must be at"]);
+        assert!(!output.exists(), "{told}: something is left behind");
+    }
+    Ok(())
+}
+
+/// What nothing bounds has no value, and a reason; the margin is asked for if nothing else is.
+#[test]
+fn what_nothing_bounds_is_told_in_words() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let report = run(
+        folder.path(),
+        "[vary]\nclearance = [0.008, 0.009]\n[require]\nclearance_margin_pd = 0.001\nmargin = 0.3\n\
+         certainty = 0.1\n",
+    )?;
+    let flip = requirement(&report, "clearance_margin_pd");
+    assert_eq!(
+        (&flip["value"], &flip["margin"]),
+        (&Value::Null, &Value::Null)
+    );
+    assert!(
+        flip["note"]
+            .as_str()
+            .ok_or("no note")?
+            .contains("no flip on this branch")
+    );
+    assert_eq!(flip["met"], true);
+    let margin = requirement(&report, "margin");
+    near(number(margin, "value"), 0.3, 1e-9);
+    assert_eq!(margin["met"], true);
+    let certainty = requirement(&report, "certainty")["note"].as_str();
+    assert!(certainty.ok_or("no note")?.contains("1024 starts in "));
+    Ok(())
+}
+
 #[test]
 fn what_is_wrong_with_a_task_is_told() -> Outcome {
     let folder = tempfile::tempdir()?;
-    let cases: [(&str, &[&str]); 24] = [
+    let cases: [(&str, &[&str]); 31] = [
         (
             "[require]\nmargin = { most = 0.1 }\n",
             &["require.margin", "at least"],
@@ -190,7 +307,7 @@ fn what_is_wrong_with_a_task_is_told() -> Outcome {
         ),
         (
             "[objective]\nmaximise = \"speed\"\n",
-            &["objective.maximise speed", "velocity"],
+            &["objective.maximise = speed", "known are velocity"],
         ),
         (
             "[objective]\nmaximise = \"run_up\"\n",
@@ -202,7 +319,7 @@ fn what_is_wrong_with_a_task_is_told() -> Outcome {
         ),
         (
             "[require]\nspeed = 1\n",
-            &["speed: must be one of", "margin_sn"],
+            &["require.speed: unknown figure", "margin_sn"],
         ),
         (
             "[require]\nvelocity = \"fast\"\n",
@@ -223,6 +340,38 @@ fn what_is_wrong_with_a_task_is_told() -> Outcome {
         (
             "[require]\nrigid_gap = 0.001\n",
             &["rigid_gap", "no rigid stop"],
+        ),
+        (
+            "[require]\nstopforce = 3\n",
+            &["require.stopforce", "did you mean stop_force?"],
+        ),
+        (
+            "[require]\nrun_up = \"yes\"\n",
+            &["require.run_up", "must be true or false"],
+        ),
+        (
+            "[require]\nrun_up = 7\n",
+            &["require.run_up = 7", "6 at most"],
+        ),
+        (
+            "[tolerance]\ndamping = 900\n",
+            &[
+                "tolerance.damping = 900",
+                "too wide about 680",
+                "damping = -220",
+            ],
+        ),
+        (
+            "[vary]\nstop.stiffness = [1e7, 2e7]\n[tolerance]\nstop.stiffness = 3e7\n",
+            &["tolerance.stop.stiffness = 3", "too wide about 2"],
+        ),
+        (
+            "[vary]\nclearance = [\"5 mm\", \"40 mm\"]\n",
+            &["vary.clearance", "in the machine's own units"],
+        ),
+        (
+            "[tolerence]\nclearance = 0.001\n",
+            &["tolerence.clearance", "did you mean tolerance?"],
         ),
     ];
     for (more, told) in cases {

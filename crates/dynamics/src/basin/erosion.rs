@@ -56,6 +56,20 @@ impl Establishment {
         Ok(Self::counted(&reached, region))
     }
 
+    /// The same, and the radius of the largest ball about the motion that leads to it alone ([`Integrity::radius`]), in
+    /// the box that all commands take starts from.
+    ///
+    /// # Errors
+    /// As [`Establishment::of`].
+    pub fn with_ball(
+        orbit: &Orbit,
+        starts: usize,
+        watcher: Watcher<'_>,
+    ) -> Result<(Self, f64), SurveyError> {
+        let region = starting_box(&orbit.scene, watcher)?;
+        integrity(orbit, &region, &region.starts(starts, SEED), watcher)
+    }
+
     fn counted(reached: &[bool], region: &Region) -> Self {
         let own = reached.iter().filter(|reached| **reached).count();
         Self {

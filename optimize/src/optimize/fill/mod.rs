@@ -12,14 +12,15 @@ use super::reference::Reference;
 use super::study::Study;
 use super::task::Job;
 use crate::design::Design;
-use crate::design::figure::Figure;
 use crate::design::problem::Problem;
 use crate::design::space::Interval;
-use crate::page::computed::{basin, comparison, portrait, response};
+use crate::limits::at_limits;
+use crate::page::computed::{bands, basin, comparison, portrait, response};
 use crate::page::data::{self, Fact, Report};
-use crate::page::quantity;
-use crate::report::at_limits;
-use parts::{erosion, fronts, histogram, maps, requirement, run_up, sensitivities, speed, told};
+use crate::page::{count, quantity};
+use parts::{
+    corners, erosion, fronts, histogram, maps, requirement, run_up, sensitivities, speed, told,
+};
 
 /// All that is told of a design.
 pub(super) fn report(
@@ -34,21 +35,22 @@ pub(super) fn report(
     let chosen: Vec<Parameter> = chosen(problem);
     let others: Vec<(String, &Machine, &Orbit)> = references
         .iter()
-        .map(|it| (it.name.to_owned(), &it.machine, &it.orbit))
+        .map(|it| (called(it), &it.machine, &it.orbit))
         .collect();
     let named: Vec<(String, Machine)> = references
         .iter()
-        .map(|it| (it.name.to_owned(), it.machine.clone()))
+        .map(|it| (called(it), it.machine.clone()))
         .collect();
-    let ((maps, response), (basin, fronts)) = join(
+    let corners = study.map_or_else(Vec::new, |it| corners(machine, it));
+    let ((maps, response), (basin, bands)) = join(
         || join(|| maps(problem, design), || response(design, &named)),
-        || join(|| basin(design).ok(), || fronts(problem, outcome)),
+        || join(|| basin(design).ok(), || bands(&corners)),
     );
     Report {
         machine: machine.name.clone().unwrap_or_else(|| "machine".to_owned()),
         task: task(problem),
         warnings: warnings(problem, outcome, study),
-        highlights: highlights(problem, design),
+        highlights: highlights(problem, design, study),
         comparison: Some(comparison(design, &chosen, &others)),
         limit: limit(problem, outcome),
         requirements: outcome
@@ -59,6 +61,8 @@ pub(super) fn report(
         maps,
         response: Some(data::Response {
             tolerance: speed(problem, design),
+            machines: corners.len() * usize::from(!bands.is_empty()),
+            bands,
             ..response
         }),
         portrait: Some(portrait(design)),
@@ -67,7 +71,7 @@ pub(super) fn report(
             .erosion
             .as_ref()
             .map(|it| erosion(problem, outcome, it)),
-        fronts,
+        fronts: fronts(problem, outcome),
         histogram: study.map(|it| histogram(machine, it)),
         sensitivities: study.map_or_else(Vec::new, |it| sensitivities(machine, it)),
         run_up: outcome
@@ -77,6 +81,14 @@ pub(super) fn report(
             .map(|it| run_up(machine, it))
             .collect(),
         computed: computed(job, outcome, study),
+    }
+}
+
+/// What a reference is called: a point of the paper, or the machine as it was given.
+fn called(reference: &Reference) -> String {
+    match reference.name {
+        "given" => "as given".to_owned(),
+        point => format!("paper's {point}"),
     }
 }
 
@@ -120,8 +132,18 @@ fn task(problem: &Problem) -> String {
         0.0 => String::new(),
         margin => format!(", at least {margin} of the zone's width from both of its ends"),
     };
+    let further = [
+        ("requirements", problem.requirements.len()),
+        ("tolerances", problem.tolerances.len()),
+    ];
+    let further = further.iter().filter(|(_, count)| *count > 0);
+    let further: Vec<&str> = further.map(|(what, _)| *what).collect();
+    let further = match further.is_empty() {
+        true => String::new(),
+        false => format!("; with the {} below", further.join(" and ")),
+    };
     format!(
-        "The {} with {}{margin}.",
+        "Wanted: the {} with {}{margin}{further}.",
         problem.objective.words(),
         within.join(", ")
     )
@@ -150,7 +172,7 @@ fn warnings(problem: &Problem, outcome: &Outcome, study: Option<&Study>) -> Vec<
     rivals.chain(lost).collect()
 }
 
-fn highlights(problem: &Problem, design: &Design) -> Vec<Fact> {
+fn highlights(problem: &Problem, design: &Design, study: Option<&Study>) -> Vec<Fact> {
     let machine = &design.machine;
     let zone = &design.zone;
     let frequency = design.orbit.scene.excitation.frequency;
@@ -160,7 +182,22 @@ fn highlights(problem: &Problem, design: &Design) -> Vec<Fact> {
         value: told(machine, dimension, value),
     };
     let below = Dimension::Frequency;
-    vec![
+    let tolerated = study.map(|it| {
+        let velocity = Dimension::Velocity;
+        let machines = count(it.verdict.machines as u64);
+        [
+            fact(
+                "least velocity within the tolerances",
+                velocity,
+                it.slowest(),
+            ),
+            Fact {
+                name: format!("of {machines} machines lose the motion"),
+                value: count(it.verdict.lost as u64),
+            },
+        ]
+    });
+    let nominal = [
         fact(figure.meaning(), figure.dimension(), design.value),
         fact("drive frequency", below, frequency),
         fact(
@@ -173,33 +210,23 @@ fn highlights(problem: &Problem, design: &Design) -> Vec<Fact> {
             below,
             frequency - zone.frequency_g0,
         ),
-    ]
-}
-
-/// What holds a design back, with the meaning of a figure for its key.
-fn in_words(limit: &str) -> String {
-    let told = |figure: &Figure| {
-        let rest = limit.strip_prefix(figure.name())?.strip_prefix(':')?;
-        Some(format!("{},{rest}", figure.meaning()))
-    };
-    let told = Figure::ALL.iter().find_map(told);
-    told.unwrap_or_else(|| limit.to_owned())
+    ];
+    nominal
+        .into_iter()
+        .chain(tolerated.into_iter().flatten())
+        .collect()
 }
 
 fn limit(problem: &Problem, outcome: &Outcome) -> Option<String> {
     let limits = at_limits(problem, outcome).into_iter();
-    let limits: Vec<String> = limits.map(|it| in_words(&it)).collect();
-    let objective = problem.objective.words();
-    match &limits[..] {
-        [] => Some(format!(
-            "Nothing holds the design back: the {objective} lies inside all bounds."
-        )),
-        [one] => Some(format!("What holds the design back is {one}.")),
-        [most @ .., last] => Some(format!(
-            "What holds the design back are {} and {last}.",
-            most.join(", ")
-        )),
-    }
+    let limits: Vec<String> = limits.map(|it| it.words).collect();
+    Some(match limits.is_empty() {
+        true => format!(
+            "Nothing holds the design back: the {} lies inside all bounds.",
+            problem.objective.words()
+        ),
+        false => format!("The design is held back by {}.", limits.join(", and by ")),
+    })
 }
 
 fn computed(job: &Job, outcome: &Outcome, study: Option<&Study>) -> Vec<Fact> {
@@ -208,10 +235,12 @@ fn computed(job: &Job, outcome: &Outcome, study: Option<&Study>) -> Vec<Fact> {
         value,
     };
     let samples = study.map(|it| {
-        let words = format!(
-            "{} machines, Owen-scrambled Sobol points",
-            it.verdict.machines
-        );
+        let machines = count(it.verdict.machines as u64);
+        let links = match job.problem.links.is_empty() {
+            true => "",
+            false => "; what follows another value keeps to the design's: links are rules of design and carry no tolerance",
+        };
+        let words = format!("{machines} machines, Owen-scrambled Sobol points{links}");
         fact("tolerances", words)
     });
     let all = [

@@ -1,21 +1,21 @@
 //! Sections of the report's data, each from what a run has found of it.
 
 use softstop::{Dimension, Machine, Parameter};
-use softstop_console::table::number;
 use softstop_dynamics::basin::{ErosionProfile, Integrity};
 use softstop_dynamics::run_up::{Attempt, Way};
 
 use crate::design::Design;
+use crate::design::conflict::bound_in;
 use crate::design::figure::Figure;
-use crate::design::front::{Front, front};
-use crate::design::judge::{Met, bound};
+use crate::design::judge::Met;
 use crate::design::problem::Problem;
 use crate::design::space::Axis;
 use crate::optimize::outcome::{EROSION_STARTS, Outcome};
 use crate::optimize::study::Study;
 use crate::page::computed::map;
 use crate::page::data::{self, Label};
-use crate::robust::{Scatter, Tolerance};
+use crate::page::quantity;
+use crate::robust::{Scatter, Tolerance, Tolerances};
 
 /// Maps at most.
 const MAPS: usize = 2;
@@ -25,7 +25,7 @@ const BARS: usize = 40;
 /// A value with its unit.
 pub(super) fn told(machine: &Machine, dimension: Dimension, value: f64) -> String {
     let own = machine.to_own(dimension, value);
-    crate::page::quantity(own, machine.unit(dimension))
+    quantity(own, machine.unit(dimension))
 }
 
 pub(super) fn requirement(machine: &Machine, met: &Met) -> data::Requirement {
@@ -35,10 +35,11 @@ pub(super) fn requirement(machine: &Machine, met: &Met) -> data::Requirement {
         name: figure.name().to_owned(),
         meaning: figure.meaning().to_owned(),
         unit: machine.unit(figure.dimension()).to_owned(),
-        required: bound(machine, &met.requirement),
+        required: bound_in(machine, &met.requirement, |value| quantity(value, "")),
         value: own(met.value),
         margin: own(met.margin()),
         met: met.is_met(),
+        note: met.note(machine),
     }
 }
 
@@ -73,31 +74,42 @@ pub(super) fn speed(problem: &Problem, design: &Design) -> Option<[f64; 2]> {
     Some([own - width, own + width])
 }
 
-/// What is traded for what is sought.
-const TRADED: [Figure; 3] = [Figure::Share, Figure::StopForce, Figure::DrivePower];
-
 pub(super) fn fronts(problem: &Problem, outcome: &Outcome) -> Vec<data::Front> {
     let sought = problem.objective.figure;
     let machine = &problem.machine;
     let label = |figure: Figure| Label::new(figure.meaning(), "", machine.unit(figure.dimension()));
     let own = |figure: Figure, value: f64| machine.to_own(figure.dimension(), value);
-    let traded = TRADED.into_iter().filter(|figure| *figure != sought);
-    let told = |Front { figure, points }: Front| {
+    let all = outcome.fronts.iter();
+    all.map(|it| {
+        let figure = it.figure;
         let place = |(x, y): &(f64, f64)| [own(figure, *x), own(sought, *y)];
-        let at = match figure {
-            Figure::Share => Some(outcome.design.place.min(1.0 - outcome.design.place)),
-            _ => outcome.design.judged().ok().map(|it| it.value(figure)),
-        };
         data::Front {
+            name: figure.name().to_owned(),
             title: format!("{} against {}", sought.meaning(), figure.meaning()),
             x: label(figure),
             y: label(sought),
-            points: points.iter().map(place).collect(),
-            design: at.map(|at| place(&(at, outcome.design.value))),
+            points: it.points.iter().map(place).collect(),
+            design: Some(place(&it.design)),
+            note: way(problem, figure),
         }
+    })
+    .collect()
+}
+
+/// How a front was found, as far as it is not told by its axes.
+fn way(problem: &Problem, figure: Figure) -> String {
+    let held = match figure {
+        Figure::Certainty => {
+            "Shares have no derivative: these designs are good to a per cent or so. "
+        }
+        Figure::DriveForce => "For each amplitude of the drive the task was solved anew. ",
+        _ => "",
     };
-    let found = traded.map(|figure| front(problem, (&outcome.unit, &outcome.design), figure));
-    found.filter(|it| it.points.len() > 2).map(told).collect()
+    let untried = match problem.has_trials() {
+        true => "Other requirements that take many motions were not asked of these designs. ",
+        false => "",
+    };
+    format!("{held}{untried}").trim_end().to_owned()
 }
 
 pub(super) fn histogram(machine: &Machine, study: &Study) -> data::Histogram {
@@ -113,11 +125,7 @@ pub(super) fn histogram(machine: &Machine, study: &Study) -> data::Histogram {
         range: ends.map(|end| own(end.unwrap_or(0.0))),
         counts: bins.iter().map(|it| it.machines as u64).collect(),
         nominal: own(study.nominal),
-        worst: study
-            .verdict
-            .slowest
-            .as_ref()
-            .map(|(_, it)| own(it.velocity)),
+        worst: Some(own(study.slowest())),
         samples: study.verdict.machines as u64,
         lost: study.verdict.lost as u64,
     }
@@ -141,10 +149,9 @@ pub(super) fn erosion(
         .iter()
         .find(|it| it.figure == Figure::Certainty);
     let ends = |dimension, ends: [f64; 2]| {
-        let [low, high] = ends.map(|end| number(machine.to_own(dimension, end)));
-        format!("{low} to {high} {}", machine.unit(dimension))
-            .trim_end()
-            .to_owned()
+        let [low, high] = ends.map(|end| machine.to_own(dimension, end));
+        let (low, high) = (quantity(low, ""), quantity(high, machine.unit(dimension)));
+        format!("{low} to {high}")
     };
     let region = &profile.region;
     data::Erosion {
@@ -152,7 +159,8 @@ pub(super) fn erosion(
         design: Some(outcome.design.place),
         required: required.and_then(|it| it.least),
         starts: format!(
-            "{EROSION_STARTS} starts in the box that all commands take: positions {}, velocities {}",
+            "{EROSION_STARTS} in one box for the whole zone, positions {}, velocities {}; requirements count in the box of the \
+             design alone",
             ends(Dimension::Length, region.position),
             ends(Dimension::Velocity, region.velocity)
         ),
@@ -166,6 +174,7 @@ pub(super) fn run_up(machine: &Machine, attempt: &Attempt) -> data::RunUp {
             "from {:.0} % of the drive angles, best at {angle:.2} rad",
             100.0 * attempt.share
         ),
+        (Way::SwitchedOn, ..) if attempt.share == 0.0 => "from no drive angle".to_owned(),
         (Way::SwitchedOn, ..) => String::new(),
         (way, _, Some(lost)) => match way.changes() {
             Some(parameter) => {
@@ -176,7 +185,7 @@ pub(super) fn run_up(machine: &Machine, attempt: &Attempt) -> data::RunUp {
         },
         _ => match &attempt.ends {
             Some(motion) if attempt.share < 1.0 => format!("ends in {motion}"),
-            _ => String::new(),
+            _ => begun(machine, attempt),
         },
     };
     data::RunUp {
@@ -184,6 +193,43 @@ pub(super) fn run_up(machine: &Machine, attempt: &Attempt) -> data::RunUp {
         succeeds: attempt.share == 1.0,
         note,
     }
+}
+
+/// Corners of tolerances that are looked at: all of as many tolerances as this power of two, an even choice of more.
+const CORNERS: u32 = 6;
+
+/// Machines at corners of the tolerances but that of the drive's frequency.
+pub(super) fn corners(machine: &Machine, study: &Study) -> Vec<Machine> {
+    let is_kept = |it: &&Tolerance| it.parameter != Parameter::Frequency;
+    let all: Vec<Tolerance> = study.tolerances.iter().filter(is_kept).copied().collect();
+    let Ok(spread) = Tolerances::new(machine, &all) else {
+        return Vec::new();
+    };
+    // Each tolerance changes its side with the parity of its own bits of the corner's number (Walsh).
+    let mut bits: Vec<u32> = (1..1 << CORNERS).collect();
+    bits.sort_by_key(|bits| bits.count_ones());
+    let side = |corner: u32, bits: &u32| match (corner & bits).count_ones() % 2 {
+        0 => 1.0,
+        _ => -1.0,
+    };
+    let place = |corner| {
+        let sides = bits.iter().take(all.len()).map(|bits| side(corner, bits));
+        sides.collect::<Vec<f64>>()
+    };
+    let count = CORNERS.min(all.len() as u32);
+    let machines = (0..1 << count).map(|corner| spread.machine(&place(corner)));
+    machines.filter(|_| !all.is_empty()).collect()
+}
+
+/// Where a slow way begins.
+fn begun(machine: &Machine, attempt: &Attempt) -> String {
+    let changes = attempt.way.changes().zip(attempt.from);
+    changes.map_or_else(String::new, |(parameter, from)| {
+        format!(
+            "begun at {}",
+            told(machine, parameter.about().dimension, from)
+        )
+    })
 }
 
 /// What each tolerance does to the velocity.

@@ -10,7 +10,7 @@ pub use basin::basin;
 pub use comparison::comparison;
 pub use map::map;
 pub use portrait::portrait;
-pub use response::response;
+pub use response::{bands, response};
 
 use softstop::{Dimension, Language, Machine, Parameter, Scene};
 use softstop_console::interrupt;
@@ -87,6 +87,24 @@ impl Motions {
             below,
             flip,
         }
+    }
+
+    /// The same with others between them.
+    fn refined(self, zone: &Zone) -> Self {
+        Self {
+            above: refined(&zone.scene, &self.above),
+            below: refined(&zone.scene, &self.below),
+            ..self
+        }
+    }
+
+    /// Least and greatest frequency in rad/s.
+    fn range(&self) -> [f64; 2] {
+        let all = || self.above.iter().chain(&self.below).map(|it| it.parameter);
+        [
+            all().fold(f64::INFINITY, f64::min),
+            all().fold(0.0, f64::max),
+        ]
     }
 
     /// The highest velocity of a stable motion at a frequency in rad/s, between neighbours along a straight line.

@@ -1,6 +1,7 @@
 //! The before-impact velocity over the drive's frequency.
 
-use softstop::{Dimension, Machine, Parameter};
+use rayon::prelude::*;
+use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_dynamics::{BranchPoint, Zone, zone};
 
@@ -49,8 +50,44 @@ pub fn response(design: &Design, beside: &[(String, Machine)]) -> Response {
         ends,
         design: [design.frequency(), design.before_impact_velocity()],
         tolerance: None,
-        band: Vec::new(),
+        bands: Vec::new(),
+        machines: 0,
     }
+}
+
+/// Frequencies at which a band is computed.
+const ACROSS: usize = 240;
+
+/// Least and greatest velocity of some machines over the frequencies at which all of them have a stable motion, in the
+/// first one's own units; in pieces where one of them has none.
+pub fn bands(machines: &[Machine]) -> Vec<Vec<[f64; 3]>> {
+    let scenes: Vec<Scene> = machines.iter().map(|it| it.scene.clone()).collect();
+    let zones = zone::hysteresis_soon(&scenes, &interrupt::watch);
+    let zones: Result<Vec<Zone>, _> = zones.into_iter().collect();
+    let (Ok(zones), Some(machine)) = (zones, machines.first()) else {
+        return Vec::new();
+    };
+    let all: Vec<Motions> = zones
+        .par_iter()
+        .map(|it| Motions::of(it).refined(it))
+        .collect();
+    let low = all.iter().map(|it| it.range()[0]).fold(0.0, f64::max);
+    let high = all
+        .iter()
+        .map(|it| it.range()[1])
+        .fold(f64::INFINITY, f64::min);
+    let at = |index: usize| {
+        let frequency = low + (high - low) * index as f64 / ACROSS as f64;
+        let velocities = all.iter().map(|it| it.velocity_at(frequency));
+        let velocities: Vec<f64> = velocities.collect::<Option<_>>()?;
+        let least = velocities.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = velocities.iter().copied().fold(0.0, f64::max);
+        Some([machine.to_own(Dimension::Frequency, frequency), least, most])
+    };
+    let points: Vec<Option<[f64; 3]>> = (0..=ACROSS).map(at).collect();
+    let pieces = points.split(Option::is_none);
+    let pieces = pieces.map(|piece| piece.iter().copied().flatten().collect::<Vec<_>>());
+    pieces.filter(|piece| piece.len() > 1).collect()
 }
 
 /// Unstable, or a fold, where an unstable piece begins.

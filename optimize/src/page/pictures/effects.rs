@@ -61,6 +61,6 @@ pub(in crate::page) fn figure(effects: &[Sensitivity]) -> Figure {
             &format!("{sign}{}", quantity(it.effect, &it.effect_unit)),
         );
     }
-    let caption = "Change of the objective when each value goes from its nominal one to the upper end of its tolerance.";
+    let caption = "Change of the before-impact velocity when each value goes from its nominal one to the upper end of its tolerance.";
     Figure::new(&pen, size, "Which tolerance counts", caption.to_owned())
 }

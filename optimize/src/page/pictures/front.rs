@@ -48,6 +48,10 @@ pub(in crate::page) fn figure(front: &Front) -> Figure {
         pen.mark(panel.place(design), Mark::Triangle, 8.0, style::OPTIMUM);
     }
     panel.axes(&mut pen, &axes);
-    let caption = "Each point is a design that cannot be bettered in one of the two without loss in the other.";
-    Figure::new(&pen, HALF, &capital(&front.title), caption.to_owned())
+    let caption = format!(
+        "Each point is a design that cannot be bettered in one of the two without loss in the other. {}",
+        front.note
+    );
+    let caption = caption.trim_end().to_owned();
+    Figure::new(&pen, HALF, &capital(&front.title), caption)
 }

@@ -13,6 +13,8 @@ use crate::page::words::quantity;
 
 /// Half the size of the design's mark.
 const MARK: f64 = 8.0;
+/// The colour of machines within the tolerances.
+const BAND: &str = style::OPTIMUM;
 
 /// The picture.
 pub(in crate::page) fn figure(response: &Response) -> Figure {
@@ -29,9 +31,9 @@ pub(in crate::page) fn figure(response: &Response) -> Figure {
         let patch = Sign::Patch(style::ALLOWED);
         entries.push((patch, "tolerance of the frequency".to_owned()));
     }
-    if !response.band.is_empty() {
-        let patch = Sign::Patch("#9fd3ee");
-        entries.push((patch, "machines within the tolerances".to_owned()));
+    if !response.bands.is_empty() {
+        let patch = Sign::Patch(BAND);
+        entries.push((patch, "within the tolerances".to_owned()));
     }
     let top = legend(&mut pen, (ROOM.0, EDGE + 4.0), right, &entries) - LINE + 14.0;
     let points = || {
@@ -69,16 +71,11 @@ pub(in crate::page) fn figure(response: &Response) -> Figure {
         );
     }
     panel.ground(&mut pen, &axes);
-    let inside =
-        |it: &&[f64; 3]| it.iter().all(|value| value.is_finite()) && panel.holds((it[0], it[2]));
-    let band: Vec<(f64, [f64; 2])> = response
-        .band
-        .iter()
-        .filter(inside)
-        .map(|[x, low, high]| (*x, [*low, *high]))
-        .collect();
-    if band.len() > 1 {
-        panel.band(&mut pen, &band, "#9fd3ee", 0.7);
+    for band in &response.bands {
+        let inside = |it: &&[f64; 3]| it.iter().all(|value| value.is_finite());
+        let band = band.iter().filter(inside);
+        let band: Vec<(f64, [f64; 2])> = band.map(|[x, low, high]| (*x, [*low, *high])).collect();
+        panel.band(&mut pen, &band, BAND, 0.35);
     }
     names.draw(&mut pen, &panel, BOUND);
     for role in [Role::Unstable, Role::Beside, Role::Design] {
@@ -107,6 +104,13 @@ pub(in crate::page) fn figure(response: &Response) -> Figure {
     });
     for away in away {
         caption += &format!(" {away}.");
+    }
+    if response.machines > 0 {
+        caption += &format!(
+            " The band reaches from the least to the greatest velocity of {} machines at the corners of the tolerances, that \
+             of the frequency apart, and ends where the first of them has no such motion.",
+            response.machines
+        );
     }
     Figure::new(&pen, WIDE, &title, caption)
 }

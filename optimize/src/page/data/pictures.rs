@@ -1,107 +1,8 @@
-//! What the report of a design tells, as plain data in the machine's own units.
-//!
-//! Whatever is absent (`None`, or an empty list) is left out of the page, with its heading. Symbols may have an index
-//! after an underscore (`s_SN`); the page sets it below the line.
+//! What the pictures of a report show.
 
 use serde::Serialize;
 
-/// The whole report.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct Report {
-    /// Name of the machine.
-    pub machine: String,
-    /// What was asked, in a sentence.
-    pub task: String,
-    /// What the reader must know before the figures, each a sentence.
-    pub warnings: Vec<String>,
-    /// The figures that matter most, in large letters: the objective first.
-    pub highlights: Vec<Fact>,
-    /// The design beside other machines.
-    pub comparison: Option<Comparison>,
-    /// What limits the design, in a sentence.
-    pub limit: Option<String>,
-    /// What was required of it.
-    pub requirements: Vec<Requirement>,
-    /// Maps over two parameters.
-    pub maps: Vec<Map>,
-    /// The motion over the drive's frequency.
-    pub response: Option<Response>,
-    /// The motion in the phase plane.
-    pub portrait: Option<Portrait>,
-    /// Which start leads to which motion.
-    pub basin: Option<Basin>,
-    /// Share and integrity of the basin along the zone.
-    pub erosion: Option<Erosion>,
-    /// What more of one good costs of another.
-    pub fronts: Vec<Front>,
-    /// The objective over machines within the tolerances.
-    pub histogram: Option<Histogram>,
-    /// What each tolerance does to the objective.
-    pub sensitivities: Vec<Sensitivity>,
-    /// Ways to bring the machine into its motion.
-    pub run_up: Vec<RunUp>,
-    /// How all this was computed: version, command, seed, zones, samples, accuracy of the numbers.
-    pub computed: Vec<Fact>,
-}
-
-/// What an axis, a column or a row shows.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
-pub struct Label {
-    /// In words.
-    pub name: String,
-    /// Its letter; may be empty.
-    pub symbol: String,
-    /// Its unit; empty for bare numbers.
-    pub unit: String,
-}
-
-/// A name and what stands behind it.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
-pub struct Fact {
-    /// What it is.
-    pub name: String,
-    /// As it is to be read, with its unit.
-    pub value: String,
-}
-
-/// Machines side by side.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct Comparison {
-    /// Names of the machines; the design first.
-    pub machines: Vec<String>,
-    /// Their quantities.
-    pub rows: Vec<Row>,
-}
-
-/// A quantity of machines side by side.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct Row {
-    /// What it is.
-    pub label: Label,
-    /// True if the search chose it.
-    pub is_chosen: bool,
-    /// Its value for each machine; none where a machine does not have it.
-    pub values: Vec<Option<f64>>,
-}
-
-/// A requirement and how the design meets it.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct Requirement {
-    /// As in the task file.
-    pub name: String,
-    /// What it is, in words.
-    pub meaning: String,
-    /// Unit of value and margin; empty for bare numbers.
-    pub unit: String,
-    /// What is required: `at least 0.5`.
-    pub required: String,
-    /// What the design has.
-    pub value: f64,
-    /// Distance to the limit, negative beyond it.
-    pub margin: f64,
-    /// Whether it is met.
-    pub met: bool,
-}
+use super::Label;
 
 /// What a line of a picture is; this decides how it looks.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
@@ -173,8 +74,10 @@ pub struct Response {
     pub design: [f64; 2],
     /// Lowest and highest frequency within the tolerance of the drive's speed.
     pub tolerance: Option<[f64; 2]>,
-    /// Frequency with the least and greatest velocity of machines within the tolerances.
-    pub band: Vec<[f64; 3]>,
+    /// Frequency with the least and greatest velocity of machines at the corners of the tolerances, in pieces without a gap.
+    pub bands: Vec<Vec<[f64; 3]>>,
+    /// How many machines these are.
+    pub machines: usize,
 }
 
 /// One period of motions in the phase plane.
@@ -257,6 +160,8 @@ pub struct ErosionPoint {
 /// What more of one good costs of another.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Front {
+    /// A name for its file.
+    pub name: String,
     /// What is traded.
     pub title: String,
     /// Axis across.
@@ -267,6 +172,8 @@ pub struct Front {
     pub points: Vec<[f64; 2]>,
     /// Where the design is.
     pub design: Option<[f64; 2]>,
+    /// How they were found; may be empty.
+    pub note: String,
 }
 
 /// How often a value occurs.
@@ -286,34 +193,4 @@ pub struct Histogram {
     pub samples: u64,
     /// Those of them without the motion.
     pub lost: u64,
-}
-
-/// What the tolerance of a parameter does to the objective.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct Sensitivity {
-    /// The parameter.
-    pub label: Label,
-    /// Its value.
-    pub value: f64,
-    /// Its tolerance, both ways.
-    pub tolerance: f64,
-    /// Change of the objective at the upper end of the tolerance.
-    pub effect: f64,
-    /// Unit of the effect.
-    pub effect_unit: String,
-    /// Share of the objective's variance that comes with it alone (first Sobol index).
-    pub share: Option<f64>,
-    /// The same together with all others (total Sobol index).
-    pub total: Option<f64>,
-}
-
-/// A way to bring the machine into its motion.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct RunUp {
-    /// What is done, in a few words.
-    pub way: String,
-    /// Whether the machine then moves as designed.
-    pub succeeds: bool,
-    /// What else is to be known of it; may be empty.
-    pub note: String,
 }

@@ -1,0 +1,92 @@
+//! The best design with at least some share of starts that lead to its motion: the share has no derivative, so axes and
+//! place are moved by linear models (Powell 1994, the crate `cobyla`).
+
+use std::cell::RefCell;
+
+use cobyla::{Func, RhoBeg, StopTols, minimize};
+
+use super::coordinates::{Coordinates, Summit};
+use super::here::Here;
+use super::judge::violation;
+use super::problem::Problem;
+use super::trial::certainty;
+
+/// Designs that are looked at, at most; edge of the first simplex, and when to end, in edges of the cube.
+const MOST: usize = 40;
+const FIRST: f64 = 0.15;
+const LAST: f64 = 1e-3;
+/// What stands where there is no motion: far from every score, which are about 1, and from every share.
+const NOWHERE: f64 = 10.0;
+
+/// What is known of a point: the score, in units of that at the start, the share of starts beyond what is asked for, and
+/// how far it is within all else, which is negative beyond that.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    score: f64,
+    share: f64,
+    within: f64,
+}
+
+/// From a design on, by its own score; none if no design has so large a share.
+pub(super) fn certain(problem: &Problem, from: &Summit, share: f64) -> Option<Summit> {
+    let coordinates = Coordinates::new(problem, &from.unit);
+    let unit = problem.objective.score(from.design.value);
+    let best: RefCell<Option<Summit>> = RefCell::default();
+    let last: RefCell<Option<(Vec<f64>, Known)>> = RefCell::default();
+    let look = |at: &[f64]| -> Option<Known> {
+        let unit_cube = coordinates.unit(at);
+        let here = Here::find(problem, &coordinates.at(&unit_cube, at))?;
+        let motion = here.judged()?;
+        let value = problem.sought(&motion)?;
+        let outside = here.outside(problem)? + violation(&problem.met(&motion));
+        let known = Known {
+            score: problem.objective.score(value) / unit,
+            share: certainty(&here.orbit).ok()? - share,
+            within: -outside,
+        };
+        let mut best = best.borrow_mut();
+        let score = |it: &Summit| problem.objective.score(it.design.value);
+        let is_better = best
+            .as_ref()
+            .is_none_or(|best| score(best) < problem.objective.score(value));
+        if known.share >= 0.0 && outside == 0.0 && is_better {
+            *best = Some(Summit {
+                unit: unit_cube.clone(),
+                design: here.design(value),
+            });
+        }
+        Some(known)
+    };
+    let known = |at: &[f64]| {
+        let is_last = matches!(&*last.borrow(), Some((other, _)) if other == at);
+        if !is_last {
+            let found = look(at).unwrap_or(Known {
+                score: 0.0,
+                share: -NOWHERE,
+                within: -NOWHERE,
+            });
+            last.replace(Some((at.to_vec(), found)));
+        }
+        last.borrow().as_ref().map(|(_, known)| *known)
+    };
+    let objective = |at: &[f64], _: &mut ()| known(at).map_or(0.0, |it| -it.score);
+    let enough = |at: &[f64], _: &mut ()| known(at).map_or(0.0, |it| it.share);
+    let within = |at: &[f64], _: &mut ()| known(at).map_or(0.0, |it| it.within);
+    let constraints: [&dyn Func<()>; 2] = [&enough, &within];
+    let start = coordinates.start(from.design.place);
+    let stop = StopTols {
+        xtol_abs: vec![LAST; start.len()],
+        ..StopTols::default()
+    };
+    let _ = minimize(
+        objective,
+        &start,
+        &coordinates.bounds(problem),
+        &constraints,
+        (),
+        MOST,
+        RhoBeg::All(FIRST),
+        Some(stop),
+    );
+    best.into_inner()
+}

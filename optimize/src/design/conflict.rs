@@ -1,0 +1,81 @@
+//! What stands against a design, in words: bounds, and which of them are violated.
+
+use softstop::Machine;
+use softstop::internals::plain;
+
+use super::judge::Met;
+use super::requirement::Requirement;
+
+/// Share of a bound within which a requirement holds a design back.
+const AT_BOUND: f64 = 1e-4;
+
+/// What is violated and by how much, and which bounds stand in the way, in the machine's own units.
+pub fn conflict(machine: &Machine, met: &[Met]) -> String {
+    let violated = met.iter().filter(|it| !it.is_met());
+    let violated: Vec<String> = violated.map(|it| words(machine, it)).collect();
+    let held = met.iter().filter(|it| {
+        let bound = it.value - it.margin();
+        it.is_met() && it.margin() <= AT_BOUND * bound.abs()
+    });
+    let held: Vec<&str> = held.map(|it| it.requirement.figure.name()).collect();
+    match &held[..] {
+        [] => violated.join("; "),
+        held => format!(
+            "{}; against it stands {}",
+            violated.join("; "),
+            held.join(", ")
+        ),
+    }
+}
+
+/// `velocity = 9.8 m/s: must be at least 10 m/s, 0.2 m/s are missing`.
+fn words(machine: &Machine, met: &Met) -> String {
+    let figure = met.requirement.figure;
+    let unit = machine.unit(figure.dimension());
+    let own = |value: f64| {
+        let value = machine.to_own(figure.dimension(), value);
+        format!("{} {unit}", short(value)).trim_end().to_owned()
+    };
+    let (bound, value, missing) = (bound(machine, &met.requirement), met.value, -met.margin());
+    if value.is_nan() {
+        return format!("{} has no value: must be {bound}", figure.name());
+    }
+    if value.is_infinite() {
+        let why = figure.unbounded();
+        return format!("{} has no bound ({why}): must be {bound}", figure.name());
+    }
+    format!(
+        "{} = {}: must be {bound}, by {}",
+        figure.name(),
+        own(value),
+        own(missing)
+    )
+}
+
+/// A number with seven digits, and no more of them than it has.
+fn short(value: f64) -> String {
+    plain(format!("{value:.6e}").parse().unwrap_or(value))
+}
+
+/// `at least 10 m/s`.
+pub fn bound(machine: &Machine, requirement: &Requirement) -> String {
+    bound_in(machine, requirement, short)
+}
+
+/// The same, its numbers written in some way.
+pub fn bound_in(
+    machine: &Machine,
+    requirement: &Requirement,
+    write: impl Fn(f64) -> String,
+) -> String {
+    let figure = requirement.figure;
+    let unit = machine.unit(figure.dimension());
+    let own = |value: f64| write(machine.to_own(figure.dimension(), value));
+    let text = match (requirement.least, requirement.most) {
+        (Some(least), Some(most)) => format!("from {} to {} {unit}", own(least), own(most)),
+        (Some(least), None) => format!("at least {} {unit}", own(least)),
+        (None, Some(most)) => format!("at most {} {unit}", own(most)),
+        (None, None) => String::new(),
+    };
+    text.trim_end().to_owned()
+}
