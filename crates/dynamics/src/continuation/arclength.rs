@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::orbit::OrbitError;
+use crate::orbit::{NOTHING_LEFT, OrbitError};
 
 /// A system in scaled unknowns. To add one, say what is exact and implement the two methods.
 pub(crate) trait Equations {
@@ -71,7 +71,7 @@ pub(crate) const DIFFERENCE: f64 = 1e-6;
 
 /// Newton's method from `guess`: in the plane across `normal` for a curve, with no normal for a system
 /// with as many equations as unknowns. It ends when a step no longer makes a residual smaller that is
-/// at round-off.
+/// at round-off, or none could.
 pub(crate) fn correct<E: Equations>(
     equations: &E,
     guess: &DVector<f64>,
@@ -119,7 +119,8 @@ pub(super) fn correct_with<E: Equations>(
         let here = equations.evaluate(&at)?;
         let size = here.residual.norm();
         let (fits, late) = (size <= here.tolerance, round >= CORRECTIONS);
-        if fits && (late || size >= 0.1 * last) {
+        let is_least = size >= 0.1 * last || size <= NOTHING_LEFT * here.tolerance;
+        if fits && (late || is_least) {
             return Ok(Node { at, here });
         }
         if late && size > 0.5 * last {

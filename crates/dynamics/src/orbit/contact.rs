@@ -89,6 +89,7 @@ impl Face {
         longest: f64,
     ) -> Result<Option<Passing>, MotionError> {
         let before = self.free_acceleration(at, velocity);
+        let mut contact = None;
         let (kind, velocity_after, after) = match self.surface.above {
             Beyond::Wall { restitution } => {
                 let velocity_after = -restitution * velocity;
@@ -100,7 +101,8 @@ impl Face {
                 (kind, velocity_after, after)
             }
             Beyond::Phase(_) => {
-                let Mode::Moving(phase) = self.motion(at, velocity)?.mode() else {
+                let motion = contact.insert(self.motion(at, velocity)?);
+                let Mode::Moving(phase) = motion.mode() else {
                     return Ok(None);
                 };
                 let kind = CrossingKind::Surface {
@@ -123,9 +125,9 @@ impl Face {
             acceleration_before: before,
             acceleration_after: after,
         });
-        let exit = match kind {
-            CrossingKind::Rebound { .. } => Some((Tangent::default(), at, velocity_after)),
-            _ => self.exit(at, velocity, longest)?,
+        let exit = match contact {
+            None => Some((Tangent::default(), at, velocity_after)),
+            Some(motion) => self.exit(motion, longest)?,
         };
         let Some((tangent, free_from, velocity_free)) = exit else {
             return Ok(None);
@@ -146,11 +148,10 @@ impl Face {
     /// Follows a contact to its end: its tangent up to the free motion, when, and how fast.
     fn exit(
         &self,
-        at: Instant,
-        velocity: f64,
+        mut motion: Motion,
         longest: f64,
     ) -> Result<Option<(Tangent, Instant, f64)>, MotionError> {
-        let mut motion = self.motion(at, velocity)?;
+        let at = motion.now();
         let mut exit = Exit {
             position: self.position(),
             tangent: Tangent::default(),

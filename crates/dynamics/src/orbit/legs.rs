@@ -15,7 +15,7 @@ use std::sync::Arc as Shared;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::contact::{Face, Passing};
-use super::{Orbit, OrbitError, StroboscopicMap};
+use super::{NOTHING_LEFT, Orbit, OrbitError, StroboscopicMap};
 use softstop::internals::{Motion, Outlook, PhaseId, first_crossing};
 use softstop::{Clock, Instant, Scene, Tangent, Touch};
 
@@ -67,6 +67,16 @@ impl<'a> Legs<'a> {
     /// # Errors
     /// [`OrbitError`] if it does not settle, or settles on impacts between which there are others.
     pub(super) fn settle(&self, guess: &[(f64, f64)]) -> Result<Orbit, OrbitError> {
+        let found = self.settle_unless(guess, |_| false)?;
+        found.ok_or(diverged(f64::NAN))
+    }
+
+    /// The same; none as soon as a whole step leads to impacts that are known.
+    pub(super) fn settle_unless(
+        &self,
+        guess: &[(f64, f64)],
+        known: impl Fn(&[f64]) -> bool,
+    ) -> Result<Option<Orbit>, OrbitError> {
         let flat = guess.iter().flat_map(|&(time, velocity)| [time, velocity]);
         let mut at = Unknowns::from_iterator(2 * guess.len(), flat);
         let mut attempt = self.attempt(&at).ok_or(diverged(f64::NAN))?;
@@ -74,12 +84,18 @@ impl<'a> Legs<'a> {
             let step = attempt.jacobian.clone().lu().solve(&attempt.residual);
             let step = -step.ok_or(diverged(attempt.residual.norm()))?;
             let (share, next, tried) = self.step(&at, &step).ok_or(diverged(step.norm()))?;
+            let whole = share == 1.0;
             let shrinks = tried.residual.norm() < attempt.residual.norm();
-            let settled = attempt.residual.norm() <= self.rounding(&at, &attempt);
-            if share == 1.0 && !shrinks && settled {
-                return self.orbit(&at, &attempt);
+            if whole && !shrinks && self.fits(&at, &attempt, 1.0) {
+                return self.orbit(&at, &attempt).map(Some);
             }
             (at, attempt) = (next, tried);
+            if whole && known(at.as_slice()) {
+                return Ok(None);
+            }
+            if self.fits(&at, &attempt, NOTHING_LEFT) {
+                return self.orbit(&at, &attempt).map(Some);
+            }
         }
         Err(diverged(attempt.residual.norm()))
     }
@@ -91,8 +107,8 @@ impl<'a> Legs<'a> {
         Some([attempt.residual[0], attempt.residual[1]])
     }
 
-    /// The residual that rounding alone may leave.
-    fn rounding(&self, at: &Unknowns, attempt: &Attempt) -> f64 {
+    /// True if the residual is no more than a share of what rounding alone may leave.
+    fn fits(&self, at: &Unknowns, attempt: &Attempt, share: f64) -> bool {
         let velocities = at.iter().skip(1).step_by(2);
         let fastest = velocities.fold(0.0, |fastest: f64, velocity| fastest.max(*velocity));
         let scales = self.scene.scales();
@@ -102,7 +118,8 @@ impl<'a> Legs<'a> {
         for (mut column, unit) in jacobian.column_iter_mut().zip(units) {
             column *= unit;
         }
-        1e-14 * (1.0 + state) * (1.0 + jacobian.norm())
+        let rounding = 1e-14 * (1.0 + state) * (1.0 + jacobian.norm());
+        attempt.residual.norm() <= share * rounding
     }
 
     /// The unknowns after as much of a step as can be taken.
@@ -179,11 +196,8 @@ impl<'a> Legs<'a> {
             .iter()
             .enumerate()
             .map(|(leg, passing)| {
-                (
-                    at[2 * leg].rem_euclid(self.span()),
-                    at[2 * leg + 1],
-                    passing,
-                )
+                let time = at[2 * leg].rem_euclid(self.span());
+                (time, at[2 * leg + 1], passing)
             })
             .collect();
         impacts.sort_by(|a, b| a.0.total_cmp(&b.0));

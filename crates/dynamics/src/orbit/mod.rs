@@ -18,6 +18,7 @@ pub(crate) mod turn;
 
 pub use exponents::Exponents;
 pub use map::{Passage, StroboscopicMap};
+pub(crate) use newton::NOTHING_LEFT;
 pub use newton::fixed_point;
 pub use pattern::{Count, ImpactPattern};
 pub use periodic::Orbit;

@@ -7,9 +7,11 @@ use softstop::MotionError;
 
 /// Newton steps before giving up.
 const NEWTON_STEPS: usize = 30;
+/// Share of the residual that rounding may leave below which no step makes it smaller.
+pub(crate) const NOTHING_LEFT: f64 = 0.01;
 
 /// Newton's method for P(s) = s with the exact Jacobian. It ends when a step no longer makes the
-/// residual smaller and the residual is at round-off.
+/// residual smaller, or none could, and the residual is at round-off.
 ///
 /// # Errors
 /// [`OrbitError::Diverged`] if it does not settle, [`OrbitError::Motion`] if a motion on the way
@@ -48,6 +50,9 @@ pub(super) fn fixed_point_unless(
             return Ok(Some((state, passage)));
         }
         (state, passage, residual) = (next, next_passage, next_residual);
+        if size(&residual) <= NOTHING_LEFT * scales.rounding(&state, &passage.monodromy) {
+            return Ok(Some((state, passage)));
+        }
     }
     if size(&residual) <= scales.rounding(&state, &passage.monodromy) {
         return Ok(Some((state, passage)));

@@ -17,8 +17,15 @@ const DIRECTIONS: usize = 16;
 /// Distance, in scales of the motion, that a state may move within a period and yet lie near an orbit.
 const RETURNS: f64 = 0.2;
 
-/// How far a state has moved within the last period, and the state.
-pub(super) type Candidate = (f64, Vector2<f64>);
+/// A state that may lie near an orbit.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Candidate {
+    /// How far it has moved within the last period, or none where that says nothing.
+    pub moves: f64,
+    pub state: Vector2<f64>,
+    /// The state a period before.
+    pub before: Vector2<f64>,
+}
 
 /// Measures distances of states in scales of the motion.
 #[derive(Debug, Clone, Copy)]
@@ -69,7 +76,7 @@ pub(super) fn returning(
         settling,
         last: jobs.iter().map(|job| job.start.into()).collect(),
         impacts: vec![0; count],
-        least: vec![(RETURNS, Vector2::zeros()); count],
+        least: vec![None; count],
         settled: vec![vec![None; count]; settling.len()],
     };
     // The caller asks the watcher itself.
@@ -77,12 +84,12 @@ pub(super) fn returning(
     let each = count / scenes.len().max(1);
     let of_scene = |index: usize| {
         let jobs = index * each..(index + 1) * each;
-        let mut least = returns.least[jobs.clone()].to_vec();
-        least.retain(|(moves, _)| *moves < RETURNS);
-        least.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let least = returns.least[jobs.clone()].iter().flatten();
+        let mut least: Vec<Candidate> = least.copied().collect();
+        least.sort_by(|a, b| a.moves.total_cmp(&b.moves));
         let settled = returns.settled.iter();
         let settled = settled.flat_map(|after| after[jobs.clone()].iter().flatten());
-        [least, settled.map(|state| (0.0, *state)).collect()]
+        [least, settled.copied().collect()]
     };
     (0..scenes.len()).map(of_scene).collect()
 }
@@ -95,9 +102,9 @@ struct Returns<'a> {
     last: Vec<Vector2<f64>>,
     /// Impacts in the present period.
     impacts: Vec<u64>,
-    least: Vec<Candidate>,
+    least: Vec<Option<Candidate>>,
     /// After each of the numbers of periods, of each job.
-    settled: Vec<Vec<Option<Vector2<f64>>>>,
+    settled: Vec<Vec<Option<Candidate>>>,
 }
 
 impl Watch for Returns<'_> {
@@ -110,15 +117,22 @@ impl Watch for Returns<'_> {
 
     fn period(&mut self, job: usize, cycle: u64, state: Start) {
         let state = state.into();
+        let before = std::mem::replace(&mut self.last[job], state);
+        let candidate = |moves| {
+            Some(Candidate {
+                moves,
+                state,
+                before,
+            })
+        };
         if let Some(place) = self.settling.iter().position(|after| *after == cycle) {
-            self.settled[place][job] = Some(state);
+            self.settled[place][job] = candidate(0.0);
         }
-        let last = std::mem::replace(&mut self.last[job], state);
         let impacts = std::mem::take(&mut self.impacts[job]);
         if impacts == 1 {
-            let moves = self.distances[job].between(state, last);
-            if moves < self.least[job].0 {
-                self.least[job] = (moves, state);
+            let moves = self.distances[job].between(state, before);
+            if moves < self.least[job].map_or(RETURNS, |least| least.moves) {
+                self.least[job] = candidate(moves);
             }
         }
     }

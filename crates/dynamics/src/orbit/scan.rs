@@ -27,8 +27,9 @@ const FASTEST: f64 = 1.5;
 /// The same in units of the motion's speed, for machines with little damping or none.
 const UTMOST: f64 = 2000.0;
 /// Difference of times, in units of the period, and of velocities, in units of themselves, within which impacts are
-/// the same.
+/// the same, and within which Newton's method leads from one to the other.
 const SAME: f64 = 1e-6;
+const NEAR: f64 = 1e-3;
 
 /// All z = 1 motions, those with the hardest impacts last.
 ///
@@ -45,7 +46,11 @@ pub(crate) fn all_single(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Orbi
     let mut found: Vec<Orbit> = Vec::new();
     for guess in guesses(scene, &legs, period, watcher)? {
         OrbitError::ask(watcher)?;
-        let Ok(orbit) = legs.settle(&[guess]) else {
+        let known = |at: &[f64]| {
+            let mut all = found.iter().map(|orbit| orbit.timed_impacts()[0]);
+            all.any(|impact| apart(impact, (at[0], at[1]), period) < NEAR)
+        };
+        let Ok(Some(orbit)) = legs.settle_unless(&[guess], known) else {
             continue;
         };
         let real = orbit.before_impact_velocity() > FAINTEST * unit;
@@ -62,9 +67,15 @@ pub(crate) fn all_single(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Orbi
 
 /// True if two orbits have the same impact.
 fn same(a: &Orbit, b: &Orbit, period: f64) -> bool {
-    let [(t, v), (u, w)] = [a, b].map(|orbit| orbit.timed_impacts()[0]);
-    let apart = (t - u).abs();
-    apart.min(period - apart) < SAME * period && (v - w).abs() < SAME * v.max(w)
+    let [a, b] = [a, b].map(|orbit| orbit.timed_impacts()[0]);
+    apart(a, b, period) < SAME
+}
+
+/// How far apart two impacts are, each a time and a velocity.
+fn apart((t, v): (f64, f64), (u, w): (f64, f64), period: f64) -> f64 {
+    let between = (t - u).rem_euclid(period);
+    let times = between.min(period - between) / period;
+    times.max((v - w).abs() / v.max(w))
 }
 
 /// The middles of the cells in which the residual may vanish. Coarse cells are looked at first, and those divided that it

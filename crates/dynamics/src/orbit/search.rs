@@ -2,13 +2,13 @@
 
 use std::slice::from_ref;
 
-use nalgebra::Vector2;
+use nalgebra::{Matrix2, Vector2};
 
 use super::newton::fixed_point_unless;
 use super::periodic::STEEP;
 use super::returning::{Candidate, Distance, returning};
 use super::scan::{FAINTEST, all_single};
-use super::{Orbit, OrbitError, Passage, StroboscopicMap};
+use super::{Orbit, OrbitError, Passage, StroboscopicMap, is_stable};
 use crate::watch::{Watcher, unwatched};
 use softstop::Scene;
 use softstop_lanes::Machine;
@@ -16,8 +16,10 @@ use softstop_lanes::Machine;
 /// Drive periods after which Newton's method may take over: few, which finds motions with small basins, and more;
 /// and far more if neither finds any.
 const SETTLING: [&[u64]; 2] = [&[2, 12], &[60]];
-/// Distance, in scales of the motion, within which one state stands for another.
+/// Distance, in scales of the motion, within which a state stands for a stable motion, and for an unstable one, which a
+/// stable one may be near to.
 const SAME: f64 = 0.02;
+const SAME_UNSTABLE: f64 = 1e-3;
 /// Share of what a state moves within a period up to which it stands for another one in the search for an orbit.
 const STANDS_FOR: f64 = 0.5;
 /// Share of a before-impact velocity by which rounding may change it.
@@ -109,54 +111,111 @@ fn best(
     watcher: Watcher<'_>,
 ) -> Result<Option<Orbit>, OrbitError> {
     OrbitError::ask(watcher)?;
-    let map = StroboscopicMap::new(scene, 1)?;
-    let distance = Distance::of(scene);
-    let mut known: Vec<Orbit> = Vec::new();
+    let mut met = Met {
+        scene,
+        map: StroboscopicMap::new(scene, 1)?,
+        distance: Distance::of(scene),
+        all: Vec::new(),
+        stable: Vec::new(),
+    };
     let mut tried: Vec<Vector2<f64>> = Vec::new();
     let faintest = FAINTEST * scene.motion_scales().speed();
     let is_single =
         |orbit: &Orbit| orbit.impacts.len() == 1 && orbit.before_impact_velocity() > faintest;
     for (group, candidates) in candidates.into_iter().enumerate() {
-        if group >= groups && known.iter().any(is_single) {
+        if group >= groups && met.stable.iter().any(is_single) {
             break;
         }
-        for (moves, state) in candidates {
+        for candidate in candidates {
             OrbitError::ask(watcher)?;
-            let near = |state| {
-                let is_same = |other: &Orbit| distance.between(other.state(), state) < SAME;
-                known.iter().any(is_same)
-            };
+            let Candidate { moves, state, .. } = candidate;
             let stands =
-                |other: &Vector2<f64>| distance.between(*other, state) < STANDS_FOR * moves;
-            if !near(state) && !tried.iter().any(stands) {
+                |other: &Vector2<f64>| met.distance.between(*other, state) < STANDS_FOR * moves;
+            if !met.is_near(state) && !tried.iter().any(stands) && !met.leads_to(&candidate) {
                 tried.push(state);
-                known.extend(beside(scene, &map, state, near));
+                met.look(state);
             }
         }
     }
-    let single = known.into_iter().filter(is_single);
+    let single = met.stable.into_iter().filter(is_single);
     Ok(single.max_by(|a, b| {
         let [a, b] = [a, b].map(Orbit::before_impact_velocity);
         a.total_cmp(&b)
     }))
 }
 
-/// The stable motion of one drive period that Newton's method reaches from a state near it, unless it comes near one
-/// that is known.
-fn beside(
-    scene: &Scene,
-    map: &StroboscopicMap,
+/// The motions of one drive period that were met.
+struct Met<'a> {
+    scene: &'a Scene,
+    map: StroboscopicMap,
+    distance: Distance,
+    /// All of them.
+    all: Vec<Fixed>,
+    stable: Vec<Orbit>,
+}
+
+/// A fixed point of the map.
+struct Fixed {
     state: Vector2<f64>,
-    known: impl Fn(Vector2<f64>) -> bool,
-) -> Option<Orbit> {
-    let steep = |passage: &Passage| map.scales().jacobian(&passage.monodromy).norm() > STEEP;
-    let orbit = match fixed_point_unless(map, state, known) {
-        Ok(None) => None,
-        Ok(Some((state, passage))) if !steep(&passage) => {
-            Orbit::on(scene, map, state, &passage).ok()
+    /// What leads to it from a state, times what that moves: Newton's method with the Jacobian of the fixed point.
+    lead: Option<Matrix2<f64>>,
+    /// Distance within which another state stands for it.
+    reach: f64,
+}
+
+impl Fixed {
+    fn new(state: Vector2<f64>, jacobian: Matrix2<f64>) -> Self {
+        Self {
+            state,
+            lead: (Matrix2::identity() - jacobian).try_inverse(),
+            reach: if is_stable(&jacobian) {
+                SAME
+            } else {
+                SAME_UNSTABLE
+            },
         }
-        Ok(_) => Orbit::near(scene, state).ok(),
-        Err(_) => Orbit::by_guesses(scene, state, 1, 1),
-    };
-    orbit.filter(|orbit| orbit.periods == 1 && orbit.is_stable())
+    }
+}
+
+impl Met<'_> {
+    fn is_near(&self, state: Vector2<f64>) -> bool {
+        let mut all = self.all.iter();
+        all.any(|other| self.distance.between(other.state, state) < other.reach)
+    }
+
+    /// True if a candidate has moved as the Jacobian of one of them has it near that one.
+    fn leads_to(&self, candidate: &Candidate) -> bool {
+        let moved = candidate.state - candidate.before;
+        self.all.iter().any(|other| {
+            let off = |lead| {
+                let there = candidate.before + lead * moved;
+                self.distance.between(there, other.state)
+            };
+            other.lead.is_some_and(|lead| off(lead) < other.reach)
+        })
+    }
+
+    /// Newton's method from a state, unless it comes near a motion that was met.
+    fn look(&mut self, state: Vector2<f64>) {
+        let found = fixed_point_unless(&self.map, state, |state| self.is_near(state));
+        let steepness = |passage: &Passage| self.map.scales().jacobian(&passage.monodromy).norm();
+        let orbit = match found {
+            Ok(None) => return,
+            Ok(Some((state, passage))) if steepness(&passage) <= STEEP => {
+                self.all.push(Fixed::new(state, passage.monodromy));
+                if !is_stable(&passage.monodromy) {
+                    return;
+                }
+                let orbit = Orbit::on(self.scene, &self.map, state, &passage);
+                self.stable.extend(orbit);
+                return;
+            }
+            Ok(_) => Orbit::near(self.scene, state).ok(),
+            Err(_) => Orbit::by_guesses(self.scene, state, 1, 1),
+        };
+        if let Some(orbit) = orbit.filter(|orbit| orbit.periods == 1) {
+            self.all.push(Fixed::new(orbit.state(), orbit.monodromy));
+            self.stable.extend(orbit.is_stable().then_some(orbit));
+        }
+    }
 }

@@ -5,9 +5,9 @@ use std::sync::Arc as Shared;
 use nalgebra::{Matrix2, RowVector2, Vector2};
 
 use crate::continuation::{BranchPoint, Test, carry_on};
-use crate::orbit::{OrbitError, is_stable, multipliers};
-use softstop::internals::Motion;
-use softstop::{Arc, Clock, Crossing, Observer, Scene, Start, Tangent};
+use crate::orbit::{is_stable, multipliers};
+use softstop::internals::{Motion, Phases};
+use softstop::{Arc, Clock, Crossing, MotionError, Observer, Scene, Start, Tangent};
 
 /// Periods that are looked at before a motion is given up.
 const LOOKS: usize = 6;
@@ -17,32 +17,32 @@ const SHORT: f64 = 1e-5;
 const CLEAR: f64 = 1e3;
 
 /// A period from a state on.
-#[derive(Debug, Clone, Default)]
-#[non_exhaustive]
-pub struct Look {
+#[derive(Default)]
+struct Look {
     /// The state after it.
-    pub end: Vector2<f64>,
+    end: Vector2<f64>,
     /// The exact Jacobian.
-    pub tangent: Tangent,
+    tangent: Tangent,
     /// Impacts on the way.
-    pub impacts: usize,
+    impacts: usize,
     /// Before-impact velocity in m/s of the last of them.
-    pub velocity: f64,
+    velocity: f64,
     /// How that changes with the state at the beginning.
-    pub by_state: RowVector2<f64>,
+    by_state: RowVector2<f64>,
 }
 
 impl Look {
-    /// The period of a machine from a state on.
+    /// The period of a machine, with its phases, from a state on.
     ///
     /// # Errors
-    /// [`OrbitError::Motion`] for a scene that is none, or a motion that cannot be computed.
-    pub fn at(scene: &Scene, state: Vector2<f64>) -> Result<Self, OrbitError> {
-        scene.validate()?;
+    /// [`MotionError`] for a motion that cannot be computed.
+    fn at(
+        (scene, phases): (&Scene, &Shared<Phases>),
+        state: Vector2<f64>,
+    ) -> Result<Self, MotionError> {
         let start = Start::from(state);
         start.validate()?;
-        let phases = Shared::new(scene.phases());
-        let mut motion = Motion::new(phases, scene.clock(), Clock::at_cycle(0), start)?;
+        let mut motion = Motion::new(phases.clone(), scene.clock(), Clock::at_cycle(0), start)?;
         let mut look = Self::default();
         carry_on(&mut motion, Clock::at_cycle(1), &mut look)?;
         motion.tell_arc(&mut look);
@@ -99,10 +99,11 @@ impl Settled {
     /// The stable z = 1 motion of a machine to which a few steps of Newton's method lead from a state near it; none where
     /// that is in any doubt.
     pub fn near(scene: &Scene, state: Vector2<f64>) -> Option<Self> {
-        let scales = scene.motion_scales();
+        scene.validate().ok()?;
+        let (phases, scales) = (Shared::new(scene.phases()), scene.motion_scales());
         let mut state = state;
         for _ in 0..LOOKS {
-            let look = Look::at(scene, state).ok()?;
+            let look = Look::at((scene, &phases), state).ok()?;
             let step = look.step(state).filter(|_| look.impacts == 1)?;
             state += step;
             let far = (step.x / scales.length).hypot(step.y / scales.speed());

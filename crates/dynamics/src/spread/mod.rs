@@ -13,7 +13,7 @@ mod normal;
 mod ray;
 
 pub use guide::{Fate, Guide};
-pub use look::{Look, Settled};
+pub use look::Settled;
 pub use model::Model;
 pub use normal::{critical_normal, free_normal, velocity_slopes};
 pub use ray::{Reached, along};

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 /// Most terms of a model.
-const MOST_TERMS: usize = 200;
+const MOST_TERMS: usize = 300;
 /// Highest degree.
 const HIGHEST: usize = 8;
 /// Values that are known, for each term.
@@ -12,16 +12,15 @@ const VALUES: usize = 3;
 /// A polynomial in the coordinates, of a total degree, as a sum of products of Legendre's polynomials, with `N` values.
 #[derive(Debug, Clone)]
 pub struct Model<const N: usize> {
-    /// The degrees of each term.
-    terms: Vec<Vec<usize>>,
     degree: usize,
+    /// Of each term, as [`each_term`] tells them.
     factors: Vec<[f64; N]>,
 }
 
 impl<const N: usize> Model<N> {
     /// How many values to know at best, for so many coordinates.
     pub fn wanted(dimensions: usize) -> usize {
-        VALUES * terms(dimensions, degree(dimensions, usize::MAX)).len()
+        VALUES * count(dimensions, degree(dimensions, usize::MAX))
     }
 
     /// The one that is nearest to these values, each at its coordinates, by least squares; of a lower degree where they are
@@ -30,12 +29,17 @@ impl<const N: usize> Model<N> {
         let dimensions = places.first()?.len();
         let degree = degree(dimensions, places.len() / VALUES);
         let mut model = Self {
-            terms: terms(dimensions, degree),
             degree,
             factors: Vec::new(),
         };
-        let rows: Vec<f64> = places.iter().flat_map(|at| model.products(at)).collect();
-        let matrix = DMatrix::from_row_slice(places.len(), model.terms.len(), &rows);
+        let terms = count(dimensions, degree);
+        let mut rows = Vec::with_capacity(places.len() * terms);
+        for place in places {
+            each_term(&model.powers(place), degree, 1.0, &mut |product| {
+                rows.push(product);
+            });
+        }
+        let matrix = DMatrix::from_row_slice(places.len(), terms, &rows);
         let normal = (matrix.transpose() * &matrix).cholesky()?;
         let column = |which: usize| {
             let values = values.iter().map(|value| value[which]);
@@ -43,30 +47,37 @@ impl<const N: usize> Model<N> {
         };
         let columns: Vec<DVector<f64>> = (0..N).map(column).collect();
         let factors = |term| std::array::from_fn(|which| columns[which][term]);
-        model.factors = (0..model.terms.len()).map(factors).collect();
+        model.factors = (0..terms).map(factors).collect();
         Some(model)
     }
 
     /// Its values at some coordinates.
     pub fn at(&self, place: &[f64]) -> [f64; N] {
         let mut sum = [0.0; N];
-        for (product, factors) in self.products(place).into_iter().zip(&self.factors) {
-            for (sum, factor) in sum.iter_mut().zip(factors) {
+        let mut factors = self.factors.iter();
+        each_term(&self.powers(place), self.degree, 1.0, &mut |product| {
+            for (sum, factor) in sum.iter_mut().zip(factors.next().into_iter().flatten()) {
                 *sum += product * factor;
             }
-        }
+        });
         sum
     }
 
-    /// The terms without their factors.
-    fn products(&self, place: &[f64]) -> Vec<f64> {
-        let powers: Vec<[f64; HIGHEST + 1]> =
-            place.iter().map(|at| legendre(*at, self.degree)).collect();
-        let product = |degrees: &Vec<usize>| {
-            let each = degrees.iter().zip(&powers);
-            each.map(|(degree, powers)| powers[*degree]).product()
-        };
-        self.terms.iter().map(product).collect()
+    fn powers(&self, place: &[f64]) -> Vec<[f64; HIGHEST + 1]> {
+        let powers = place.iter().map(|at| legendre(*at, self.degree));
+        powers.collect()
+    }
+}
+
+/// Tells the products of polynomials, one of each coordinate, whose degrees are `left` together or less.
+fn each_term(powers: &[[f64; HIGHEST + 1]], left: usize, product: f64, tell: &mut impl FnMut(f64)) {
+    match powers.split_first() {
+        None => tell(product),
+        Some((own, others)) => {
+            for (degree, value) in own[..=left].iter().enumerate() {
+                each_term(others, left - degree, product * value, tell);
+            }
+        }
     }
 }
 
@@ -95,17 +106,4 @@ fn degree(dimensions: usize, most: usize) -> usize {
 /// How many terms a total degree has.
 fn count(dimensions: usize, degree: usize) -> usize {
     (1..=degree).fold(1, |count, n| count * (dimensions + n) / n)
-}
-
-/// The degrees of all terms up to a total degree.
-fn terms(dimensions: usize, degree: usize) -> Vec<Vec<usize>> {
-    let mut terms = vec![vec![]];
-    for _ in 0..dimensions {
-        let longer = terms.iter().flat_map(|term: &Vec<usize>| {
-            let left = degree - term.iter().sum::<usize>();
-            (0..=left).map(|power| [term.as_slice(), &[power]].concat())
-        });
-        terms = longer.collect();
-    }
-    terms
 }
