@@ -12,6 +12,7 @@ pub mod optimize;
 pub mod page;
 pub mod report;
 pub mod robust;
+pub mod searched;
 mod tolerated;
 mod verdict;
 

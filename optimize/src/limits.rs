@@ -66,7 +66,7 @@ pub fn at_limits(problem: &Problem, found: &Outcome) -> Vec<Limit> {
     }));
     limits.extend(problem.edge_at(design).map(|edge| {
         let words = edge.replace("tolerances: they reach", "the tolerances, which reach");
-        Limit::new(edge, words)
+        Limit::new(&edge, words)
     }));
     if design.place <= problem.margin + AT_MARGIN {
         limits.push(at_margin("g0"));

@@ -21,6 +21,7 @@ use crate::limits::{Limit, at_limits};
 use crate::optimize::outcome::Outcome;
 use crate::optimize::reference::Reference;
 use crate::optimize::study::Study;
+use crate::searched::SearchReport;
 use crate::tolerated::Tolerated;
 use crate::verdict;
 
@@ -31,19 +32,6 @@ struct Found {
     machine: Stated,
     #[serde(flatten)]
     motion: Record,
-}
-
-/// How the design was searched.
-#[derive(Debug, Serialize)]
-pub struct SearchReport {
-    /// Values held and ranges searched, in words.
-    pub bounds: BTreeMap<String, String>,
-    /// Seed.
-    pub seed: u64,
-    /// Zones computed at most.
-    pub evaluations: u64,
-    /// Zones that were computed.
-    pub evaluations_used: u64,
 }
 
 /// What `softstop optimize` reports and writes.
@@ -116,7 +104,8 @@ impl OptimizeReport {
                 Record::of(&place(), &(problem, design, &limits)),
             ),
             reference: references.iter().map(reference).collect(),
-            text: text(problem, design, references, &limits)
+            text: search.text()
+                + &text(problem, design, references, &limits)
                 + &told.collect::<String>()
                 + &tolerances
                     .as_ref()

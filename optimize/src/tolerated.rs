@@ -5,10 +5,11 @@ use softstop::{Dimension, Machine, Parameter};
 use softstop_console::column::{Column, Units};
 use softstop_console::columns;
 use softstop_console::record::{Record, below};
+use softstop_console::table::number;
 
 use softstop_explore::zone::lost_by;
 
-use crate::optimize::study::Study;
+use crate::optimize::study::{Study, Without};
 use crate::robust::{Manifold, Nearest};
 
 /// The machines within the tolerances of a design.
@@ -25,6 +26,9 @@ pub(crate) struct Tolerated {
     /// The best design without tolerances.
     #[serde(skip_serializing_if = "Option::is_none")]
     without: Option<Record>,
+    /// What keeping them costs, in a sentence.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    price: Option<String>,
 }
 
 type Of<'a> = (&'a Machine, &'a Study);
@@ -86,6 +90,27 @@ fn width(one: &One<'_>) -> f64 {
     }
 }
 
+/// What the tolerances cost: nominal and worst of the best design without them and of the one with them.
+fn price(machine: &Machine, study: &Study, without: &Without) -> String {
+    let unit = machine.unit(Dimension::Velocity);
+    let own = |velocity| number(machine.to_own(Dimension::Velocity, velocity));
+    let lost = match without.lost {
+        0 => String::new(),
+        lost => format!(
+            " of those that are not lost ({lost} of {})",
+            without.machines
+        ),
+    };
+    let told = format!(
+        "Without tolerances {} {unit} nominal, {} worst{lost}; robust design {} nominal, {} worst",
+        own(without.design.before_impact_velocity()),
+        own(without.slowest),
+        own(study.nominal),
+        own(study.slowest()),
+    );
+    told.replace("  ", " ") + "."
+}
+
 impl Tolerated {
     /// Those of a study.
     pub(crate) fn of(machine: &Machine, study: &Study) -> Self {
@@ -113,6 +138,7 @@ impl Tolerated {
                 .map(|index| Record::of(&parameters(), &(machine, study, index)))
                 .collect(),
             without,
+            price: study.without.as_ref().map(|it| price(machine, study, it)),
         }
     }
 
@@ -138,6 +164,11 @@ impl Tolerated {
                 without.text(units)
             );
         }
+        text += &self
+            .price
+            .iter()
+            .map(|price| format!("{price}\n"))
+            .collect::<String>();
         text
     }
 }

@@ -6,6 +6,7 @@ use softstop_optimize::design::Problem;
 use softstop_optimize::design::figure::Figure;
 use softstop_optimize::design::here::At;
 use softstop_optimize::design::local::{Local, local};
+use softstop_optimize::design::reach::Known;
 use softstop_optimize::design::requirement::Requirement;
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_testing::random::cases;
@@ -91,7 +92,7 @@ fn at(problem: &Problem, coordinates: &[f64]) -> Option<Local> {
         moved: &moved,
         place: Some(*place),
     };
-    local(problem, &at)
+    local(problem, &at, &Known::default())
 }
 
 /// Steps of the differences, in edges of the cube.

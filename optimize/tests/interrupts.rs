@@ -75,7 +75,64 @@ fn basin() {
 
 #[test]
 fn optimize() {
-    ends("optimize --set contact.damping=100", &["optimize.part"]);
+    ends("optimize --set contact.damping=100", &DESIGN);
+}
+
+/// What is left of an interrupted search.
+const DESIGN: [&str; 6] = [
+    "optimize.part",
+    "design.fmu",
+    "design.json",
+    "design.ssv",
+    "design.svg",
+    "design.toml",
+];
+
+/// An interrupted search writes its best design, whole and marked; if none is as asked, nothing.
+#[test]
+fn the_best_design_so_far_is_written() -> Outcome {
+    let task = "regime = \"loaded\"\n[vary]\nstop.stiffness = [1, 30]\nclearance = [2, 22]\ndamping = [0.01, 0.05]\n\
+                [search]\nevaluations = 4000000\n";
+    for (require, is_met) in [("", true), ("[require]\nvelocity = 1000\n", false)] {
+        let folder = tempfile::tempdir()?;
+        let out = folder.path().join("out");
+        fs::write(folder.path().join("task.toml"), format!("{task}{require}"))?;
+        let mut command = Command::new(SOFTSTOP.file);
+        command.args(words("optimize --config task.toml --output out"));
+        let quiet = command.stdout(Stdio::null()).stderr(Stdio::piped());
+        let run = quiet.current_dir(folder.path()).spawn()?;
+        let deadline = Instant::now() + Duration::from_secs(60);
+        let kept = || fs::metadata(out.join("optimize.part")).map_or(0, |file| file.len());
+        while kept() < 20_000 && Instant::now() < deadline {
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        let id = run.id().to_string();
+        assert!(Command::new("kill").args(["-INT", &id]).status()?.success());
+        let end = run.wait_with_output()?;
+        let said = String::from_utf8_lossy(&end.stderr);
+        assert_eq!(end.status.code(), Some(130), "{said}");
+        assert!(said.contains("--resume"), "{said}");
+        let mut left: Vec<String> = Vec::new();
+        for entry in fs::read_dir(&out)? {
+            left.push(entry?.file_name().to_string_lossy().into_owned());
+        }
+        left.sort();
+        if !is_met {
+            assert_eq!(left, ["optimize.part"], "{said}");
+            continue;
+        }
+        assert!(said.contains("best design so far is written"), "{said}");
+        let mut whole = DESIGN;
+        whole.sort_unstable();
+        assert_eq!(left, whole);
+        let report: serde_json::Value =
+            serde_json::from_slice(&fs::read(out.join("design.json"))?)?;
+        assert_eq!(report["search"]["interrupted"], "search");
+        let machine = fs::read_to_string(out.join("design.toml"))?;
+        assert!(machine.contains("interrupted search"), "{machine}");
+        softstop::Machine::from_toml(&machine)?;
+    }
+    Ok(())
 }
 
 #[test]

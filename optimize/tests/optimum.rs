@@ -342,5 +342,5 @@ fn a_stopped_search_has_no_result() {
         &Stop,
         None,
     );
-    assert!(matches!(outcome, Err(SearchError::Stopped)));
+    assert!(matches!(outcome, Err(SearchError::Stopped(_))));
 }

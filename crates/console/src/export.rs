@@ -103,6 +103,11 @@ impl Export {
         self.folder.stage(name, content)
     }
 
+    /// There will be no file of a kind.
+    pub fn forgo(&mut self, kind: &str) {
+        self.files.retain(|(other, _)| other != kind);
+    }
+
     /// Writes the file of a kind.
     pub fn file(&self, kind: &str, content: &[u8]) -> Result<(), Failure> {
         self.folder.stage(self.name(kind)?, content)

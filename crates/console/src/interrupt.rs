@@ -1,5 +1,5 @@
-//! Ctrl-C and the signals to end: the first asks the run to end in good order and ends it itself a little later,
-//! the second ends it at once. What was staged goes with it.
+//! Ctrl-C and the signals to end: the first asks the run to end in good order and ends it itself a little later, or later
+//! still if it [saves](save) what it has; the second ends it at once. What was staged goes with it.
 
 use std::fs;
 use std::io::{self, Write};
@@ -11,6 +11,7 @@ use std::thread;
 use std::time::Duration;
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
+static SAVING: AtomicBool = AtomicBool::new(false);
 static INSTALL: Once = Once::new();
 static UNDER_WAY: Mutex<UnderWay> = Mutex::new(UnderWay {
     outputs: Vec::new(),
@@ -19,6 +20,9 @@ static UNDER_WAY: Mutex<UnderWay> = Mutex::new(UnderWay {
 
 /// How long a run may take to end by itself.
 const GRACE: Duration = Duration::from_millis(700);
+
+/// How much longer, if it saves what it has.
+const SAVING_GRACE: Duration = Duration::from_secs(10);
 
 /// What is said besides where that was not enough.
 pub const LATE: &str = "ended in the middle of a long step";
@@ -111,6 +115,9 @@ pub fn install() {
 /// Ends a run that has not ended by itself: one in the middle of a step that knows of no requests.
 fn end_late() {
     thread::sleep(GRACE);
+    if SAVING.load(Ordering::SeqCst) {
+        thread::sleep(SAVING_GRACE);
+    }
     let under_way = under_way();
     let _ = writeln!(io::stderr(), "{LATE}");
     end(&under_way);
@@ -135,7 +142,13 @@ pub fn watch(_: u64, _: u64) -> ControlFlow<()> {
     go_on()
 }
 
-/// Whether the user asked the run to end.
+/// Whether the user asked the run to end, and it does not save what it has.
 pub fn requested() -> bool {
-    REQUESTED.load(Ordering::SeqCst)
+    REQUESTED.load(Ordering::SeqCst) && !SAVING.load(Ordering::SeqCst)
+}
+
+/// The run that was asked to end saves what it has: it has some seconds for that and is not asked again. Another signal
+/// still ends it at once.
+pub fn save() {
+    SAVING.store(true, Ordering::SeqCst);
 }

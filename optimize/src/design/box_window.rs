@@ -1,45 +1,47 @@
 //! The frequencies at which a whole box of tolerances stays inside the zone: each end of the zone is taken at the corner of
-//! the box that brings it nearest, which the signs of its normal name (Moennigmann and Marquardt 2002).
+//! the box that brings it nearest, which the signs of its normal name (Moennigmann and Marquardt 2002). What else is lost
+//! within the box, [`hold`](super::hold) looks for.
 
 use softstop::{Dimension, Machine, Parameter};
-use softstop_dynamics::Zone;
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::slopes::Border;
+use softstop_dynamics::spread::{Spread, critical_normal, free_normal};
 use softstop_dynamics::zone::grazing_frequencies;
+use softstop_dynamics::{BranchPoint, Zone};
 
 use super::Infeasible;
-use super::problem::{Problem, Tolerance, Width};
+use super::problem::{Problem, Width};
+use crate::robust::Tolerances;
 
-/// An end of the zone at the corner of the box where it is nearest.
+/// An end of the zone of a corner of the box.
 #[derive(Debug, Clone)]
 pub(super) struct Edge {
-    /// Its frequency in rad/s, less the tolerance of the frequency itself.
+    /// The corner, in coordinates of the box.
+    pub corner: Vec<f64>,
+    /// The fold there; none at g0.
+    pub fold: Option<BranchPoint>,
+    /// Where the drive of the nominal machine has to stay below it, or above g0, in rad/s.
     pub frequency: f64,
-    /// Its derivatives by the parameters of the nominal machine, in SI units, in the order of `Parameter::ALL`.
-    pub by: Vec<f64>,
 }
 
-impl Edge {
-    fn stretch(&mut self, factor: f64) {
-        self.frequency *= factor;
-        self.by.iter_mut().for_each(|by| *by *= factor);
-    }
-}
+/// Tolerances of which both sides are looked at, at most, and the share of the normal from which one is sure.
+const DOUBTFUL: usize = 2;
+const SMALL: f64 = 0.1;
+/// How often a corner is chosen anew by the normal there.
+const CORNERS: usize = 3;
 
 /// Both ends.
 #[derive(Debug, Clone)]
 pub(super) struct BoxWindow {
-    /// That of g0.
+    /// g0, which moves one way with each parameter.
     pub low: Edge,
-    /// That of `s_SN`.
-    pub high: Edge,
+    /// `s_SN` at each corner where it can be the nearest: on both sides of the tolerances along which its normal is small.
+    /// Always as many, so that the constraints of a search stay the same.
+    pub high: [Option<Edge>; 1 << DOUBTFUL],
 }
 
-/// How often a corner is chosen anew by the normal there.
-const CORNERS: usize = 3;
-
 impl BoxWindow {
-    /// Of a machine with this zone.
+    /// Of a machine with this zone; none if all of it is exact.
     ///
     /// # Errors
     /// [`Infeasible`] if a corner has no zone.
@@ -47,130 +49,126 @@ impl BoxWindow {
         problem: &Problem,
         machine: &Machine,
         zone: &Zone,
-    ) -> Result<Self, Infeasible> {
-        let corner = Corner { problem, machine };
-        let mut low = corner.g0(machine)?;
-        let mut high = corner.sn(zone)?;
-        for _ in 0..CORNERS {
-            let signs = signs(&low.by);
-            low = corner.g0(&corner.at(&signs))?;
-            if self::signs(&low.by) == signs {
-                corner.scale(&mut low, &signs);
-                break;
-            }
-        }
-        for _ in 0..CORNERS {
-            let signs = signs(&high.by).map(|sign| -sign);
-            let machine = corner.at(&signs);
-            let zone = problem.zone(&machine).map_err(|error| Infeasible {
-                gap: super::DISTANT,
-                reason: format!("a machine within the tolerances has no zone: {error}"),
-            })?;
-            high = corner.sn(&zone)?;
-            if self::signs(&high.by).map(|sign| -sign) == signs {
-                corner.scale(&mut high, &signs);
-                break;
-            }
-        }
-        let is_speed = |it: &&Tolerance| it.parameter == Parameter::Frequency;
-        match problem.tolerances.iter().find(is_speed).map(|it| it.width) {
-            Some(Width::Own(width)) => {
-                let width = machine.to_si(Dimension::Frequency, width);
-                low.frequency += width;
-                high.frequency -= width;
-            }
-            // w (1 - share) stays above the lower edge, w (1 + share) below the upper one.
-            Some(Width::Share(share)) => {
-                low.stretch(1.0 / (1.0 - share));
-                high.stretch(1.0 / (1.0 + share));
-            }
-            None => {}
-        }
-        Ok(Self { low, high })
+    ) -> Result<Option<Self>, Infeasible> {
+        let Some(spread) = problem.spread(machine) else {
+            return Ok(None);
+        };
+        let corners = Corners {
+            problem,
+            machine,
+            spread,
+        };
+        Ok(Some(Self {
+            low: corners.low()?,
+            high: corners.high(zone)?,
+        }))
+    }
+
+    /// The nearest of the upper end, in rad/s.
+    pub(super) fn highest(&self) -> f64 {
+        let edges = self.high.iter().flatten().map(|edge| edge.frequency);
+        edges.fold(f64::INFINITY, f64::min)
     }
 }
 
-const COUNT: usize = Parameter::ALL.len();
-
-/// Signs of derivatives.
-fn signs(by: &[f64]) -> [f64; COUNT] {
-    std::array::from_fn(|index| if by[index] < 0.0 { -1.0 } else { 1.0 })
-}
-
-struct Corner<'a> {
+struct Corners<'a> {
     problem: &'a Problem,
     machine: &'a Machine,
+    spread: Tolerances,
 }
 
-impl Corner<'_> {
-    /// The machine at a corner.
-    fn at(&self, signs: &[f64; COUNT]) -> Machine {
-        let mut corner = self.machine.clone();
-        for tolerance in self
-            .problem
-            .tolerances
-            .iter()
-            .filter(|it| it.parameter != Parameter::Frequency)
-        {
-            if let Some(value) = self.machine.value(tolerance.parameter) {
-                let sign = signs[tolerance.parameter as usize];
-                corner.set(
-                    tolerance.parameter,
-                    value + sign * tolerance.width.around(value),
-                );
+impl Corners<'_> {
+    fn low(&self) -> Result<Edge, Infeasible> {
+        let centre = vec![0.0; self.spread.dimensions()];
+        let normal = free_normal(&self.spread, &centre).map_err(lost)?;
+        let corner: Vec<f64> = normal.iter().map(|part| -part.signum()).collect();
+        let (_, above) = grazing_frequencies(&self.spread.scene(&corner)).map_err(lost)?;
+        Ok(Edge {
+            corner,
+            fold: None,
+            frequency: self.without_width(above, -1.0),
+        })
+    }
+
+    fn high(&self, zone: &Zone) -> Result<[Option<Edge>; 1 << DOUBTFUL], Infeasible> {
+        let mut corner = vec![0.0; self.spread.dimensions()];
+        let mut fold = zone.fold.clone();
+        let normal = |corner: &[f64], fold: &BranchPoint| {
+            critical_normal(&self.spread, corner, (Test::Fold, fold)).map_err(lost)
+        };
+        let mut outwards = normal(&corner, &fold)?;
+        for _ in 0..CORNERS {
+            let towards: Vec<f64> = outwards.iter().map(|part| part.signum()).collect();
+            if towards == corner {
+                break;
             }
-        }
-        corner
-    }
-
-    /// Parameters that the machine has, but the frequency.
-    fn parameters(&self) -> Vec<Parameter> {
-        let all = self.machine.scene.clone();
-        let has = |it: &Parameter| {
-            *it != Parameter::Frequency && *it != Parameter::Phase && it.get(&all).is_some()
-        };
-        Parameter::ALL.into_iter().filter(has).collect()
-    }
-
-    fn edge(&self, frequency: f64, border: &Border) -> Edge {
-        let mut by = vec![0.0; COUNT];
-        for (parameter, normal) in border.parameters.iter().zip(&border.normal) {
-            by[*parameter as usize] = -normal;
-        }
-        Edge { frequency, by }
-    }
-
-    fn g0(&self, machine: &Machine) -> Result<Edge, Infeasible> {
-        let lost = |reason: String| Infeasible {
-            gap: super::DISTANT,
-            reason,
-        };
-        let border = Border::free(&machine.scene, true, &self.parameters())
-            .map_err(|error| lost(error.to_string()))?;
-        let (_, above) =
-            grazing_frequencies(&machine.scene).map_err(|error| lost(error.to_string()))?;
-        Ok(self.edge(above, &border))
-    }
-
-    fn sn(&self, zone: &Zone) -> Result<Edge, Infeasible> {
-        let fold = (Test::Fold, &zone.fold);
-        let border =
-            Border::critical(&zone.scene, 1, fold, &self.parameters()).map_err(|error| {
-                Infeasible {
+            corner = towards;
+            let zone = self.problem.zone(&self.spread.machine(&corner));
+            fold = zone
+                .map_err(|error| Infeasible {
                     gap: super::DISTANT,
-                    reason: error.to_string(),
+                    reason: format!("a machine within the tolerances has no zone: {error}"),
+                })?
+                .fold;
+            outwards = normal(&corner, &fold)?;
+        }
+        let doubtful = self.doubtful(&outwards);
+        let edge = |set: usize| {
+            if set >> doubtful.len() != 0 {
+                return None;
+            }
+            let (mut corner, mut fold) = (corner.clone(), fold.clone());
+            if set > 0 {
+                let scene = self.spread.scene(&corner);
+                let border = Border::critical(&scene, 1, (Test::Fold, &fold), &[]).ok()?;
+                for (bit, index) in doubtful.iter().enumerate() {
+                    if set >> bit & 1 == 1 {
+                        corner[*index] *= -1.0;
+                    }
                 }
-            })?;
-        Ok(self.edge(zone.frequency_sn, &border))
+                fold = border.again(&self.spread.scene(&corner)).ok()?.point?.0;
+            }
+            Some(Edge {
+                frequency: self.without_width(fold.parameter, 1.0),
+                fold: Some(fold),
+                corner,
+            })
+        };
+        Ok(std::array::from_fn(edge))
     }
 
-    /// A tolerance that is a share of its value grows with that.
-    fn scale(&self, edge: &mut Edge, signs: &[f64; COUNT]) {
-        for tolerance in &self.problem.tolerances {
-            if let Width::Share(share) = tolerance.width {
-                let index = tolerance.parameter as usize;
-                edge.by[index] *= 1.0 + signs[index] * share;
+    /// The coordinates along which a normal is small, the least first.
+    fn doubtful(&self, normal: &[f64]) -> Vec<usize> {
+        let all = self.spread.all().iter();
+        let others = all.map(|it| it.parameter != Parameter::Frequency);
+        let mut small: Vec<usize> = others
+            .enumerate()
+            .filter_map(|(index, is)| is.then_some(index))
+            .collect();
+        let sum: f64 = small.iter().map(|index| normal[*index].abs()).sum();
+        small.retain(|index| normal[*index].abs() < SMALL * sum && normal[*index] != 0.0);
+        small.sort_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs()));
+        small.truncate(DOUBTFUL);
+        small
+    }
+
+    /// Where the nominal drive is when one at its own bound, above or below it, has this frequency in rad/s.
+    fn without_width(&self, frequency: f64, sign: f64) -> f64 {
+        let mut tolerances = self.problem.tolerances.iter();
+        let speed = tolerances.find(|it| it.parameter == Parameter::Frequency);
+        match speed.map(|it| it.width) {
+            Some(Width::Own(width)) => {
+                frequency - sign * self.machine.to_si(Dimension::Frequency, width)
             }
+            Some(Width::Share(share)) => frequency / (1.0 + sign * share),
+            None => frequency,
         }
+    }
+}
+
+fn lost(error: impl ToString) -> Infeasible {
+    Infeasible {
+        gap: super::DISTANT,
+        reason: error.to_string(),
     }
 }

@@ -14,6 +14,9 @@ pub(super) struct Summit {
 /// Distance from the ends of the cube that is none.
 const AT_END: f64 = 1e-12;
 
+/// Axes that are moved all at once, at most.
+const FEW: usize = 3;
+
 /// The coordinates that are moved.
 #[derive(Debug)]
 pub(super) struct Coordinates {
@@ -71,6 +74,32 @@ impl Coordinates {
             };
         }
         unit
+    }
+
+    /// Points of the unit cube around it: so far along each axis that is moved, and, if they are few, along all at once.
+    pub(super) fn around(&self, step: f64) -> Vec<Vec<f64>> {
+        let count = self.moved.len();
+        let along = (0..2 * count).map(|index| {
+            let sign = if index % 2 == 0 { step } else { -step };
+            let own = |axis| if axis == index / 2 { sign } else { 0.0 };
+            (0..count).map(own).collect()
+        });
+        let corners = if (2..=FEW).contains(&count) {
+            1 << count
+        } else {
+            0
+        };
+        let across = (0..corners).map(|corner| {
+            let sign = |axis| if corner >> axis & 1 == 1 { step } else { -step };
+            (0..count).map(sign).collect()
+        });
+        let at = self.axes();
+        let moved = |by: Vec<f64>| {
+            let pairs = at.iter().zip(by);
+            let to: Vec<f64> = pairs.map(|(at, by)| (at + by).clamp(0.0, 1.0)).collect();
+            self.unit(&to)
+        };
+        along.chain(across).map(moved).collect()
     }
 
     /// The same for what computes there.

@@ -4,12 +4,14 @@ use std::borrow::Borrow;
 use std::convert::Infallible;
 use std::slice::from_ref;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use argmin::core::{CostFunction, Error};
 use rayon::prelude::*;
 use softstop_dynamics::watch::{Kept, piece};
 
 use super::Problem;
+use super::coordinates::Summit;
 use super::space::Space;
 
 /// Who watches the search, from several threads at once.
@@ -45,7 +47,26 @@ pub(super) struct Cost<'search> {
     pub watch: &'search dyn Watch,
     pub kept: Kept<'search>,
     /// Calls so far.
-    pub calls: AtomicU64,
+    calls: AtomicU64,
+    best: Mutex<Option<Best>>,
+}
+
+/// How much of a design was looked at.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+pub(super) enum Rank {
+    /// The motion alone.
+    Seen,
+    /// All machines within the tolerances.
+    Held,
+    /// And its trials.
+    Passed,
+}
+
+/// The best design so far.
+struct Best {
+    rank: Rank,
+    score: f64,
+    summit: Summit,
 }
 
 /// Points computed between two looks at whether to stop.
@@ -55,7 +76,52 @@ const PIECE: usize = 16;
 /// What a point costs, and what its best motion has of what is sought, if there is one.
 type Found = (f64, Option<f64>);
 
-impl Cost<'_> {
+impl<'search> Cost<'search> {
+    /// That of a problem, with nothing computed.
+    pub(super) fn new(
+        problem: &'search Problem,
+        watch: &'search dyn Watch,
+        kept: Kept<'search>,
+    ) -> Self {
+        Self {
+            problem,
+            space: Space(&problem.axes),
+            watch,
+            kept,
+            calls: AtomicU64::new(0),
+            best: Mutex::new(None),
+        }
+    }
+
+    /// The best design so far.
+    pub(super) fn best(&self) -> Option<Summit> {
+        let best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
+        best.as_ref().map(|it| it.summit.clone())
+    }
+
+    /// Takes note of a design; one of which more was looked at counts more than others.
+    pub(super) fn note(&self, summit: &Summit, rank: Rank) {
+        let score = self.problem.objective.score(summit.design.value);
+        let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
+        if best
+            .as_ref()
+            .is_none_or(|it| (it.rank, it.score) < (rank, score))
+        {
+            *best = Some(Best {
+                rank,
+                score,
+                summit: summit.clone(),
+            });
+        }
+    }
+
+    /// Whether a score is the best so far.
+    fn is_best(&self, score: f64) -> bool {
+        let best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
+        best.as_ref()
+            .is_none_or(|it| it.rank == Rank::Seen && it.score < score)
+    }
+
     /// What points cost. Never is NaN (the swarm would panic, Nelder-Mead stall); once stopped, infinite.
     fn costs(&self, units: &[Vec<f64>]) -> Vec<f64> {
         if self.watch.stop() {
@@ -67,8 +133,12 @@ impl Cost<'_> {
             let Ok(found) = piece(self.kept, &(call, index), || {
                 Ok::<_, Infallible>(self.found(units))
             });
-            for (_, value) in &found {
+            for ((cost, value), unit) in found.iter().zip(units) {
                 self.watch.evaluated(*value);
+                // One that was recalled.
+                if value.is_some() && self.is_best(-cost) {
+                    self.found(from_ref(unit));
+                }
             }
             found.into_iter().map(|(cost, _)| cost)
         });
@@ -78,10 +148,14 @@ impl Cost<'_> {
     fn found(&self, units: &[Vec<f64>]) -> Vec<Found> {
         let points: Vec<_> = units.iter().map(|unit| self.space.values(unit)).collect();
         let outcomes = self.problem.soon(&points).into_iter();
-        let found = outcomes.map(|outcome| match outcome {
+        let found = outcomes.zip(units).map(|(outcome, unit)| match outcome {
             Ok(design) => {
-                let score = self.problem.objective.score(design.value);
-                (-score, Some(design.value))
+                let (value, score) = (design.value, self.problem.objective.score(design.value));
+                if self.is_best(score) {
+                    let unit = unit.clone();
+                    self.note(&Summit { unit, design }, Rank::Seen);
+                }
+                (-score, Some(value))
             }
             Err(infeasible) => (1.0 + infeasible.gap, None),
         });

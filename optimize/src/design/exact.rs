@@ -1,19 +1,16 @@
 //! Exact derivatives of figures by the coordinates of the search: the implicit function theorem on the motion and on the
 //! ends of its zone, and the chain rule through links and the place in the zone.
 
-use std::f64::consts::TAU;
-
 use softstop::Parameter;
 use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::slopes::{self, Border, Slopes};
 use softstop_dynamics::zone::loss_of_stability;
 
-use super::box_window::Edge;
 use super::figure::Figure;
 use super::here::{At, Here};
 use super::judge::Judged;
 use super::problem::Problem;
-use super::slope::Slope;
+use super::rates::rates;
 use super::space::Space;
 
 /// Derivatives at a point.
@@ -27,12 +24,8 @@ pub(super) struct Exact {
     sn: Vec<f64>,
     /// The same of the place in the zone.
     place: Vec<f64>,
-    /// By each coordinate, what changes of all parameters.
-    all: Vec<Vec<f64>>,
 }
 
-/// Distance, relative, within which two figures are the same one.
-const SAME: f64 = 1e-9;
 /// Change of a parameter, as a share of its range, by which what follows it is told: links are linear in what they
 /// follow, or its product with one more parameter.
 const CHANGE: f64 = 1e-2;
@@ -94,67 +87,19 @@ impl Exact {
             g0: ends.iter().map(|ends| ends[0]).collect(),
             sn: ends.iter().map(|ends| ends[1]).collect(),
             place,
-            all,
         })
     }
 
     /// The derivatives of a figure by the coordinates; none if it is not among those that have exact ones.
     pub(super) fn by(&self, figure: Figure, motion: &Judged<'_>) -> Option<Vec<f64>> {
-        let slopes = &self.slopes;
-        let scene = &motion.orbit.scene;
-        let mass = scene.mass;
-        let per_second = scene.excitation.frequency / TAU;
-        let velocity = || {
-            Some(
-                &slopes
-                    .impacts
-                    .first()
-                    .filter(|_| slopes.impacts.len() == 1)?
-                    .velocity,
-            )
-        };
-        let energy = || {
-            let velocity = velocity()?;
-            let by = velocity.by.iter().map(|by| mass * velocity.value * by);
-            let own = 0.5 * velocity.value * velocity.value;
-            Some(self.plus(by.collect(), Parameter::Mass, own))
-        };
-        let power = |energy: Vec<f64>, value: f64| {
-            let by = energy.iter().map(|by| by * per_second).collect();
-            self.plus(by, Parameter::Frequency, value / TAU)
-        };
-        let total = |by: &Vec<f64>| Some(self.total(by));
         let minus = |a: &[f64], b: &[f64]| Some(a.iter().zip(b).map(|(a, b)| a - b).collect());
         match figure {
-            Figure::Velocity => total(&velocity()?.by),
-            Figure::ImpactEnergy => total(&energy()?),
-            Figure::ImpactPower => total(&power(energy()?, motion.stroke.impact_energy)),
-            Figure::DriveForce => total(&self.plus(
-                vec![0.0; slopes.parameters.len()],
-                Parameter::Amplitude,
-                1.0,
-            )),
-            Figure::DrivePower => total(&power(slopes.supplied.by.clone(), slopes.supplied.value)),
-            Figure::MaxPosition => total(&slopes.max_position.by),
-            Figure::Stroke => {
-                let pairs = slopes.max_position.by.iter().zip(&slopes.min_position.by);
-                total(&pairs.map(|(high, low)| high - low).collect())
-            }
-            Figure::StopForce => {
-                let peak = slopes.peak_force.as_ref()?;
-                let is_same =
-                    (peak.value - motion.stroke.stop_force).abs() <= SAME * peak.value.abs();
-                is_same.then(|| self.total(&peak.by))
-            }
-            Figure::CutThrough => {
-                let by = self.plus(slopes.max_position.by.clone(), Parameter::Clearance, -1.0);
-                total(&self.plus(by, Parameter::Thickness, -1.0))
-            }
             Figure::FrequencyG0 => minus(&self.frequency, &self.g0),
             Figure::FrequencySn => minus(&self.sn, &self.frequency),
             Figure::FrequencyPd => {
                 let flip = loss_of_stability(motion.orbit, Heading::Down, Test::Flip).ok()??;
-                let parameters = &slopes.parameters[..slopes.parameters.len() - 1];
+                let scene = &motion.orbit.scene;
+                let (_, parameters) = self.slopes.parameters.split_last()?;
                 let border = Border::critical(scene, 1, (Test::Flip, &flip), parameters).ok()?;
                 let moved = |row: &Vec<f64>| dot(&border.normal, row);
                 let moved = self.directions.iter().map(moved);
@@ -167,33 +112,8 @@ impl Exact {
             }
             Figure::Share if motion.place < 0.5 => Some(self.place.clone()),
             Figure::Share => Some(self.place.iter().map(|by| -by).collect()),
-            _ => None,
+            _ => rates(figure, &self.slopes, motion).map(|by| self.total(&by)),
         }
-    }
-
-    /// How far the frequency is inside an edge of the tolerances, with its derivatives; `sign` is 1 above it.
-    pub(super) fn inside(&self, frequency: f64, edge: &Edge, sign: f64) -> Slope {
-        let moved = self.all.iter().map(|row| dot(&edge.by, row)).chain([0.0]);
-        let pairs = self.frequency.iter().zip(moved);
-        Slope {
-            value: sign * (frequency - edge.frequency) / edge.frequency,
-            by: pairs
-                .map(|(own, edge_moved)| sign * (own - edge_moved) / edge.frequency)
-                .collect(),
-        }
-    }
-
-    /// Derivatives by parameters, with one more by one of them.
-    fn plus(&self, mut by: Vec<f64>, parameter: Parameter, more: f64) -> Vec<f64> {
-        let index = self
-            .slopes
-            .parameters
-            .iter()
-            .position(|it| *it == parameter);
-        if let Some(by) = index.and_then(|index| by.get_mut(index)) {
-            *by += more;
-        }
-        by
     }
 
     /// The chain rule.
@@ -202,7 +122,7 @@ impl Exact {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 

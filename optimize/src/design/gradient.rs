@@ -7,10 +7,13 @@ use slsqp::{Func, StopTols, minimize};
 
 use super::Design;
 use super::coordinates::{Coordinates, Summit};
+use super::here::Here;
 use super::local::{Local, local};
-use super::problem::Problem;
+use super::problem::{Counts, Problem};
+use super::reach::Known;
 use super::slope::Slope;
 use super::space::Space;
+use super::worst::worst;
 
 /// Designs that one ascent looks at, at most.
 const MOST: usize = 60;
@@ -19,6 +22,8 @@ const GAIN: f64 = 1e-12;
 const STEP: f64 = 1e-11;
 /// By how much each constraint is to be met, in its own unit: more than the solver leaves open.
 const SLACK: f64 = 1e-10;
+/// The score above which none is looked for, in units of that at the start.
+const HIGHEST: f64 = 1e2;
 /// What stands where there is no motion: far above every score, which are about -1.
 const NOWHERE: f64 = 1e3;
 
@@ -32,8 +37,22 @@ pub(super) fn ascend(problem: &Problem, unit: &[f64]) -> Option<Summit> {
 
 /// The same from a place of its zone.
 pub(super) fn ascend_from(problem: &Problem, unit: &[f64], place: f64) -> Option<Summit> {
-    let path = Path::new(problem, unit, place)?;
-    let bounds = path.coordinates.bounds(problem);
+    ascend_known(problem, &Known::default(), unit, place)
+}
+
+/// The same with what is known of the machines within the tolerances.
+pub(super) fn ascend_known(
+    problem: &Problem,
+    known: &Known,
+    unit: &[f64],
+    place: f64,
+) -> Option<Summit> {
+    let path = Path::new(problem, known, unit, place)?;
+    if path.start.is_empty() {
+        return path.best.into_inner();
+    }
+    let mut bounds = path.coordinates.bounds(problem);
+    bounds.extend(path.floor.map(|_| (0.0, HIGHEST)));
     let constraint = |index| {
         move |at: &[f64], gradient: Option<&mut [f64]>, path: &mut &Path<'_>| {
             path.constraint(index, at, gradient)
@@ -66,41 +85,63 @@ pub(super) fn ascend_from(problem: &Problem, unit: &[f64], place: f64) -> Option
 /// What the solver has seen.
 struct Path<'a> {
     problem: &'a Problem,
+    known: Known,
     coordinates: Coordinates,
     start: Vec<f64>,
     /// Score at the start: the unit of the objective.
     score: f64,
+    /// The index of one more coordinate if the worst machine counts: a score, in that unit, which no machine may stay below
+    /// and which is raised. So the solver sees no kink where another machine becomes the worst.
+    floor: Option<usize>,
     constraints: usize,
     last: RefCell<Option<(Vec<f64>, Option<Local>)>>,
     best: RefCell<Option<Summit>>,
 }
 
 impl<'a> Path<'a> {
-    fn new(problem: &'a Problem, unit: &[f64], place: f64) -> Option<Self> {
+    fn new(problem: &'a Problem, known: &Known, unit: &[f64], place: f64) -> Option<Self> {
         let coordinates = Coordinates::new(problem, unit);
         let mut path = Self {
             problem,
+            known: known.clone(),
             start: coordinates.start(place),
             coordinates,
             score: 1.0,
+            floor: None,
             constraints: 0,
             last: RefCell::default(),
             best: RefCell::default(),
         };
-        let first = path.compute(&path.start)?;
-        path.score = first.objective.value.abs().max(f64::MIN_POSITIVE);
-        path.constraints = first.constraints.len();
+        if problem.objective.counts == Counts::Worst && path.known.machines.is_empty() {
+            let unit = path.coordinates.unit(&path.start);
+            let here = Here::find(problem, &path.coordinates.at(&unit, &path.start))?;
+            let worst = worst(problem, &here.design(0.0))?;
+            path.known.machines.push((worst.at, worst.orbit));
+        }
+        let start = path.start.clone();
+        let (nominal, worst, constraints) = path.with(&start, |first| {
+            let first = first?;
+            let worst = first.worst.iter().map(|it| it.value).reduce(f64::min);
+            Some((first.objective.value, worst, first.constraints.len()))
+        })?;
+        path.score = worst.unwrap_or(nominal).abs().max(f64::MIN_POSITIVE);
+        path.constraints = constraints + path.known.machines.len();
+        if worst.is_some() && !path.start.is_empty() {
+            path.floor = Some(path.start.len());
+            path.start.push(1.0);
+        }
         Some(path)
     }
 
     /// What is known at a point.
     fn compute(&self, at: &[f64]) -> Option<Local> {
         let unit = self.coordinates.unit(at);
-        local(self.problem, &self.coordinates.at(&unit, at))
+        local(self.problem, &self.coordinates.at(&unit, at), &self.known)
     }
 
     /// The same, once for all that the solver asks of one point.
     fn with<T>(&self, at: &[f64], take: impl FnOnce(Option<&Local>) -> T) -> T {
+        let at = &at[..self.floor.unwrap_or(at.len())];
         let known = matches!(&*self.last.borrow(), Some((other, _)) if other == at);
         if !known {
             let mut found = self.compute(at);
@@ -122,38 +163,45 @@ impl<'a> Path<'a> {
     }
 
     fn objective(&self, at: &[f64], gradient: Option<&mut [f64]>) -> f64 {
+        if let Some(floor) = self.floor {
+            if let Some(gradient) = gradient {
+                gradient.fill(0.0);
+                gradient[floor] = -1.0;
+            }
+            return -at[floor];
+        }
+        let factor = -1.0 / self.score;
         self.with(at, |found| {
-            told(
-                found.map(|it| &it.objective),
-                -1.0 / self.score,
-                0.0,
-                gradient,
-            )
+            told(found.map(|it| &it.objective), factor, 0.0, gradient)
         })
     }
 
-    fn constraint(&self, index: usize, at: &[f64], gradient: Option<&mut [f64]>) -> f64 {
-        self.with(at, |found| {
-            told(
-                found.and_then(|it| it.constraints.get(index)),
-                -1.0,
-                SLACK,
-                gradient,
-            )
-        })
+    fn constraint(&self, index: usize, at: &[f64], mut gradient: Option<&mut [f64]>) -> f64 {
+        let machine = index.checked_sub(self.constraints - self.known.machines.len());
+        let Some((machine, floor)) = machine.zip(self.floor) else {
+            return self.with(at, |found| {
+                let slope = found.and_then(|it| it.constraints.get(index));
+                told(slope, -1.0, SLACK, gradient)
+            });
+        };
+        let value = self.with(at, |found| {
+            let slope = found.and_then(|it| it.worst.get(machine));
+            told(slope, -1.0 / self.score, at[floor], gradient.as_deref_mut())
+        });
+        if let Some(gradient) = gradient {
+            gradient[floor] = 1.0;
+        }
+        value
     }
 }
 
 /// A value and its gradient in the solver's sign.
 fn told(slope: Option<&Slope>, factor: f64, offset: f64, gradient: Option<&mut [f64]>) -> f64 {
     if let Some(gradient) = gradient {
-        match slope {
-            Some(slope) => {
-                for (to, by) in gradient.iter_mut().zip(&slope.by) {
-                    *to = factor * by;
-                }
-            }
-            None => gradient.fill(0.0),
+        gradient.fill(0.0);
+        let by = slope.into_iter().flat_map(|slope| &slope.by);
+        for (to, by) in gradient.iter_mut().zip(by) {
+            *to = factor * by;
         }
     }
     slope.map_or(NOWHERE, |slope| factor * slope.value + offset)

@@ -68,9 +68,18 @@ impl Here {
         Judged::new(&self.machine, &self.zone, self.place, &self.orbit).ok()
     }
 
+    /// The motion of a machine that is nearly the same.
+    pub(super) fn beside<'a>(
+        &'a self,
+        machine: &'a Machine,
+        orbit: &'a Orbit,
+    ) -> Option<Judged<'a>> {
+        Judged::new(machine, &self.zone, self.place, orbit).ok()
+    }
+
     /// True if margin, bounds of the frequency and tolerances allow the place.
-    pub(super) fn is_within(&self, problem: &Problem) -> bool {
-        let window = problem.window(&self.machine, &self.zone);
+    pub(super) fn is_within(&self, problem: &Problem, tolerated: Option<&BoxWindow>) -> bool {
+        let window = problem.window_within(&self.zone, tolerated);
         window.is_ok_and(|it| (it.low - ROUNDING..=it.high + ROUNDING).contains(&self.place))
     }
 
@@ -81,9 +90,14 @@ impl Here {
         Some(if away > ROUNDING { away } else { 0.0 })
     }
 
-    /// Where the tolerances stay inside the zone.
-    pub(super) fn box_window(&self, problem: &Problem) -> Option<BoxWindow> {
+    /// Where the tolerances stay inside the zone; none of that if all is exact.
+    pub(super) fn box_window(&self, problem: &Problem) -> Option<Option<BoxWindow>> {
         BoxWindow::of(problem, &self.machine, &self.zone).ok()
+    }
+
+    /// The machine, its drive at the motion's frequency.
+    pub(super) fn machine(&self) -> &Machine {
+        &self.machine
     }
 
     /// The same as a design.

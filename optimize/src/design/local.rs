@@ -3,11 +3,13 @@
 use softstop::Dimension;
 
 use super::Design;
+use super::differences::differences;
 use super::exact::Exact;
-use super::figure::{Figure, Sense};
+use super::figure::Figure;
 use super::here::{At, Here};
 use super::judge::{Judged, Met};
 use super::problem::Problem;
+use super::reach::{Known, inside};
 use super::requirement::Requirement;
 use super::slope::Slope;
 
@@ -16,30 +18,24 @@ use super::slope::Slope;
 pub struct Local {
     /// The score.
     pub objective: Slope,
+    /// The same of machines within the tolerances, of which the worst counts.
+    pub worst: Vec<Slope>,
     /// The constraints, each in units of its bound.
     pub constraints: Vec<Slope>,
     /// The design there, if it is as required.
     pub design: Option<Design>,
 }
 
-/// What is known at a point; none if there is no stable motion.
-pub fn local(problem: &Problem, at: &At<'_>) -> Option<Local> {
+/// What is known at a point, with what is known of the machines within the tolerances; none if there is no stable motion.
+pub fn local(problem: &Problem, at: &At<'_>, known: &Known) -> Option<Local> {
     let here = Here::find(problem, at)?;
     let motion = here.judged()?;
     let exact = Exact::of(problem, at, &here);
-    let slopes = slopes(problem, at, exact.as_ref(), &motion)?;
+    let slopes = slopes(problem, at, exact.as_ref(), (&here, &motion))?;
     let (frequency, figures) = slopes.split_last()?;
     let (sought, required) = figures.split_first()?;
-    let score = problem.objective.score(sought.value);
-    // d score / d value: 1, or that of the reciprocal.
-    let by_value = match problem.objective.sense {
-        Sense::Least => 1.0,
-        Sense::Most => -score * score,
-    };
-    let objective = Slope {
-        value: score,
-        by: sought.by.iter().map(|by| by * by_value).collect(),
-    };
+    let objective = problem.objective.slope(sought.clone());
+    let score = objective.value;
     let mut constraints = Vec::new();
     for (it, slope) in single(problem).zip(required) {
         for (bound, sign) in [(it.least, 1.0), (it.most, -1.0)] {
@@ -57,21 +53,40 @@ pub fn local(problem: &Problem, at: &At<'_>) -> Option<Local> {
             }
         }
     }
-    if !problem.tolerances.is_empty() {
-        let edges = here.box_window(problem)?;
+    let edges = here.box_window(problem)?;
+    if let Some(edges) = &edges {
         let exact = exact.as_ref()?;
-        constraints.push(exact.inside(frequency.value, &edges.low, 1.0));
-        constraints.push(exact.inside(frequency.value, &edges.high, -1.0));
+        let none = || Slope::free(exact.frequency.len());
+        let inside = |edge| inside(problem, (at, &here), exact, edge);
+        constraints.push(inside(&edges.low)?);
+        for edge in &edges.high {
+            constraints.push(edge.as_ref().map_or_else(|| Some(none()), inside)?);
+        }
     }
+    let machines = known.machines(problem, (at, &here), exact.as_ref())?;
+    let is_kept = machines.kept.iter().all(|it| it.value >= -ROUNDING);
+    constraints.extend(machines.kept);
+    let scores = machines.scores.iter().map(|it| it.value);
+    let worst = scores.reduce(f64::min);
+    let value = worst.map_or(sought.value, |score| problem.objective.value(score));
+    let score = worst.unwrap_or(score);
     let is_met = problem.met(&motion).iter().all(Met::is_met);
-    let is_good = is_met && here.is_within(problem) && score > 0.0 && score.is_finite();
-    let design = is_good.then(|| here.design(sought.value));
+    let is_good = is_met
+        && is_kept
+        && here.is_within(problem, edges.as_ref())
+        && score > 0.0
+        && score.is_finite();
+    let design = is_good.then(|| here.design(value));
     Some(Local {
         objective,
+        worst: machines.scores,
         constraints,
         design,
     })
 }
+
+/// How far outside a bound the solver may leave what it holds.
+const ROUNDING: f64 = 1e-9;
 
 /// The requirements that a single motion tells.
 fn single(problem: &Problem) -> impl Iterator<Item = &Requirement> {
@@ -92,22 +107,20 @@ fn figures(problem: &Problem) -> Vec<Figure> {
     all.collect()
 }
 
-/// Half of a difference's width, in edges of the cube.
-const WIDTH: f64 = 1e-5;
-
 /// The same with their derivatives, and the drive's frequency: exact ones where the motion has them, differences for the
 /// rest.
 fn slopes(
     problem: &Problem,
     at: &At<'_>,
     exact: Option<&Exact>,
-    motion: &Judged<'_>,
+    (here, motion): (&Here, &Judged<'_>),
 ) -> Option<Vec<Slope>> {
     let figures = figures(problem);
     let derivative = |figure: &Figure| exact.and_then(|it| it.by(*figure, motion));
     let mut all: Vec<Option<Vec<f64>>> = figures.iter().map(derivative).collect();
     all.push(exact.map(|it| it.frequency.clone()));
-    let value = |motion: &Judged<'_>| {
+    let value = |here: &Here| {
+        let motion = &here.judged()?;
         let sought = problem.sought(motion)?;
         let rest = figures[1..].iter().map(|figure| motion.value(*figure));
         let frequency = motion.orbit.scene.excitation.frequency;
@@ -119,7 +132,7 @@ fn slopes(
                 .collect::<Vec<f64>>(),
         )
     };
-    let values = value(motion)?;
+    let values = value(here)?;
     if all.iter().any(Option::is_none) {
         let differences = differences(problem, at, &value)?;
         for (index, by) in all.iter_mut().enumerate() {
@@ -129,37 +142,4 @@ fn slopes(
     let pairs = values.into_iter().zip(all);
     let slopes = pairs.map(|(value, by)| Some(Slope { value, by: by? }));
     slopes.collect()
-}
-
-/// Central differences of values by each coordinate, one row for each.
-fn differences(
-    problem: &Problem,
-    at: &At<'_>,
-    values: &impl Fn(&Judged<'_>) -> Option<Vec<f64>>,
-) -> Option<Vec<Vec<f64>>> {
-    let count = at.moved.len() + usize::from(at.place.is_some());
-    let row = |index: usize| {
-        let aside = |by: f64| {
-            let (mut unit, mut place) = (at.unit.to_vec(), at.place);
-            let moved = at.moved.get(index).and_then(|index| unit.get_mut(*index));
-            let coordinate = moved.or(place.as_mut())?;
-            *coordinate = (*coordinate + by).clamp(0.0, 1.0);
-            let coordinate = *coordinate;
-            let aside = At {
-                unit: &unit,
-                moved: at.moved,
-                place,
-            };
-            let here = Here::find(problem, &aside)?;
-            Some((coordinate, values(&here.judged()?)?))
-        };
-        let ((low, before), (high, after)) = (aside(-WIDTH)?, aside(WIDTH)?);
-        let pairs = before.iter().zip(&after);
-        Some(
-            pairs
-                .map(|(before, after)| (after - before) / (high - low))
-                .collect(),
-        )
-    };
-    (0..count).map(row).collect()
 }

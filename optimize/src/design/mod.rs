@@ -11,21 +11,30 @@ mod certain;
 pub mod conflict;
 mod coordinates;
 mod cost;
+mod differences;
 mod exact;
+mod exchange;
 pub mod figure;
 pub mod front;
 mod gradient;
 pub mod here;
+mod hold;
 pub mod judge;
 pub mod local;
+mod pass;
 mod polish;
 pub mod problem;
+mod rates;
+pub mod reach;
 pub mod requirement;
 pub mod search;
 pub mod slope;
 pub mod space;
 mod survey;
+mod swarm;
 pub mod trial;
+mod within;
+mod worst;
 
 use std::slice;
 
@@ -51,7 +60,7 @@ pub struct Design {
     pub zone: Zone,
     /// The z = 1 motion.
     pub orbit: Orbit,
-    /// What was sought, in SI units.
+    /// What was sought, in SI units; of the worst machine within the tolerances, if that is what counts.
     pub value: f64,
 }
 
@@ -138,32 +147,39 @@ impl Problem {
         })
     }
 
-    /// The end of the zone that a corner of the tolerances touches, if one does.
-    pub fn edge_at(&self, design: &Design) -> Option<&'static str> {
-        let machine = &design.machine;
-        let edges = (!self.tolerances.is_empty())
-            .then(|| BoxWindow::of(self, machine, &design.zone).ok())??;
+    /// What the tolerances touch, if they do: an end of the zone, or what else ends the motion.
+    pub fn edge_at(&self, design: &Design) -> Option<String> {
+        let edges = BoxWindow::of(self, &design.machine, &design.zone).ok()??;
         let frequency = design.orbit.scene.excitation.frequency;
         let is_at = |edge: f64| (frequency - edge).abs() <= AT_EDGE * edge;
-        match (is_at(edges.low.frequency), is_at(edges.high.frequency)) {
-            (true, _) => Some("tolerances: they reach g0"),
-            (_, true) => Some("tolerances: they reach s_SN"),
-            _ => None,
+        match (is_at(edges.low.frequency), is_at(edges.highest())) {
+            (true, _) => Some("tolerances: they reach g0".to_owned()),
+            (_, true) => Some("tolerances: they reach s_SN".to_owned()),
+            _ => hold::touched(self, design)
+                .map(|by| format!("tolerances: they reach a border inside the zone ({by})")),
         }
     }
 
     /// The places s that margin, frequency bounds and tolerances leave of a zone.
     fn window(&self, machine: &Machine, zone: &Zone) -> Result<Interval, Infeasible> {
+        self.window_within(zone, BoxWindow::of(self, machine, zone)?.as_ref())
+    }
+
+    /// The same of tolerances that are known.
+    fn window_within(
+        &self,
+        zone: &Zone,
+        tolerated: Option<&BoxWindow>,
+    ) -> Result<Interval, Infeasible> {
         let width = zone.frequency_sn - zone.frequency_g0;
         let own = |frequency: f64| self.machine.to_own(Dimension::Frequency, frequency);
         let si = |frequency: f64| self.machine.to_si(Dimension::Frequency, frequency);
         let place = |frequency: f64| (frequency - zone.frequency_g0) / width;
         let mut low = self.margin.max(place(si(self.frequency.low)));
         let mut high = (1.0 - self.margin).min(place(si(self.frequency.high)));
-        if !self.tolerances.is_empty() {
-            let tolerated = BoxWindow::of(self, machine, zone)?;
+        if let Some(tolerated) = tolerated {
             low = low.max(place(tolerated.low.frequency));
-            high = high.min(place(tolerated.high.frequency));
+            high = high.min(place(tolerated.highest()));
         }
         if low <= high {
             return Ok(Interval { low, high });

@@ -4,7 +4,9 @@ use softstop::{Machine, Parameter};
 
 use super::figure::{Figure, Sense};
 use super::requirement::Requirement;
+use super::slope::Slope;
 use super::space::{Axis, Interval};
+use crate::robust::{self, Tolerances};
 
 /// What is searched, and where. All values are in the machine's own units.
 #[derive(Debug, Clone)]
@@ -90,6 +92,18 @@ pub struct Objective {
     pub figure: Figure,
     /// [`Sense::Least`]: as much as can be, [`Sense::Most`]: as little.
     pub sense: Sense,
+    /// Whose value counts.
+    pub counts: Counts,
+}
+
+/// Whose value of what is sought counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Counts {
+    /// That of the machine as it is drawn.
+    #[default]
+    Nominal,
+    /// That of the worst machine within the tolerances.
+    Worst,
 }
 
 impl Default for Objective {
@@ -98,6 +112,7 @@ impl Default for Objective {
         Self {
             figure: Figure::Velocity,
             sense: Sense::Least,
+            counts: Counts::Nominal,
         }
     }
 }
@@ -111,13 +126,44 @@ impl Objective {
         }
     }
 
+    /// The value of a grade.
+    pub(super) fn value(&self, score: f64) -> f64 {
+        match self.sense {
+            Sense::Least => score,
+            Sense::Most => score.recip(),
+        }
+    }
+
+    /// The grade of a value with its derivatives.
+    pub(super) fn slope(&self, of: Slope) -> Slope {
+        let score = self.score(of.value);
+        // d score / d value: 1, or that of the reciprocal.
+        let by_value = match self.sense {
+            Sense::Least => 1.0,
+            Sense::Most => -score * score,
+        };
+        Slope {
+            value: score,
+            by: of.by.iter().map(|by| by * by_value).collect(),
+        }
+    }
+
+    /// True if it is the highest before-impact velocity.
+    pub fn is_velocity(&self) -> bool {
+        self.figure == Figure::Velocity && self.sense == Sense::Least
+    }
+
     /// As a phrase after "the design with".
     pub fn words(&self) -> String {
         let most = match self.sense {
             Sense::Least => "highest",
             Sense::Most => "least",
         };
-        format!("{most} {}", self.figure.meaning())
+        let of = match self.counts {
+            Counts::Nominal => "",
+            Counts::Worst => " of the worst machine within the tolerances",
+        };
+        format!("{most} {}{of}", self.figure.meaning())
     }
 }
 
@@ -158,8 +204,26 @@ impl Problem {
         }
     }
 
+    /// The tolerances about a machine whose drive runs at its frequency; none if all of it is exact.
+    pub fn spread(&self, machine: &Machine) -> Option<Tolerances> {
+        let half_width = |it: &Tolerance| {
+            let width = it.width.around(machine.value(it.parameter)?);
+            let half_width = match it.parameter {
+                Parameter::Preload if machine.preload_deflection.is_some() => width,
+                parameter => machine.to_si(parameter.about().dimension, width),
+            };
+            (half_width > 0.0).then_some(robust::Tolerance {
+                parameter: it.parameter,
+                half_width,
+            })
+        };
+        let all: Vec<_> = self.tolerances.iter().filter_map(half_width).collect();
+        let spread = (!all.is_empty()).then(|| Tolerances::new(machine, &all));
+        spread?.ok()
+    }
+
     /// True if nothing is asked of a motion but its velocity and its place in the zone.
     pub fn is_plain(&self) -> bool {
-        self.objective == Objective::default() && self.requirements.is_empty()
+        self.objective.is_velocity() && self.requirements.is_empty()
     }
 }

@@ -2,44 +2,37 @@
 //! gradients from the best particle and from the best points far from it, then
 //! Nelder-Mead from the best of them, restarted with a fresh, smaller simplex until nothing is gained. The survey is
 //! there because the best design can stand on a narrow ridge that a random swarm misses; Nelder-Mead is, because it can
-//! stand where gradients end: where a zone gains a second fold inside it, the velocity jumps.
+//! stand where gradients end: where a zone gains a second fold inside it, the velocity jumps. What was found has to keep
+//! its whole box of tolerances (`hold`), is compared with what else catalogues hold (`exchange`), and has to pass its
+//! trials (`pass`).
 //!
 //! All see the unit cube. The swarm keeps to it by itself; Nelder-Mead does not, so points
 //! outside are pulled in, and an optimum on the boundary (common here) is met exactly.
 
 use std::slice;
-use std::sync::atomic::AtomicU64;
 
-use argmin::core::{Error, Executor, State};
-use argmin::solver::particleswarm::{Particle, ParticleSwarm};
-use argmin_math::ArgminRandom;
-use rand_xoshiro::Xoshiro256PlusPlus;
-use rand_xoshiro::rand_core::SeedableRng;
+use argmin::core::Error;
 use rayon::prelude::*;
 use softstop_dynamics::watch::Kept;
 
 use super::coordinates::Summit;
-use super::cost::{Cost, Point, Stoppable};
+use super::cost::{Cost, Point, Rank};
 pub use super::cost::{Unwatched, Watch};
+use super::exchange::exchange;
 use super::gradient::ascend;
+use super::hold::{Held, hold};
+pub use super::pass::Resolution;
+use super::pass::pass;
 use super::polish::polish;
 use super::space::Space;
 use super::survey::survey;
-use super::trial::pass;
+use super::swarm::swarm_best;
 use super::{Design, Infeasible, Problem};
 
 /// Fewest zones a search makes sense with.
 pub const LEAST_EVALUATIONS: u64 = 100;
-/// Particles of the swarm for each coordinate.
-const PARTICLES: usize = 12;
 /// Share of the evaluations that the survey takes for each coordinate, as 1 / share.
 const SURVEY: u64 = 15;
-/// Rounds of the swarm between two looks at what it has gained, and the gain, relative, that is too little to go on.
-const SWARM_ROUNDS: u64 = 3;
-const SWARM_GAIN: f64 = 1e-3;
-/// Greatest velocity of a particle at the start, in edges of the cube per round.
-const FASTEST: f64 = 0.2;
-
 /// Points from which gradients are followed, how far apart along an axis they are at least, and the gap of a point that
 /// has no motion to begin with.
 const STARTS: usize = 4;
@@ -70,12 +63,12 @@ pub enum SearchError {
         /// What is wrong there.
         reason: String,
     },
-    /// The watcher said stop.
+    /// The watcher said stop; the best design until then, if there was one that is as asked as far as was looked at.
     #[error("stopped")]
-    Stopped,
+    Stopped(Option<Box<Found>>),
     /// The optimiser failed.
     #[error("the optimiser failed: {0}")]
-    Optimizer(Error),
+    Optimizer(#[from] Error),
 }
 
 /// What a search has found.
@@ -87,6 +80,8 @@ pub struct Found {
     pub unit: Vec<f64>,
     /// Others, far from it and nearly as good: a small change of the task can make one of them the best.
     pub rivals: Vec<Design>,
+    /// How fine it was looked for, if trials were in the way.
+    pub resolution: Option<Resolution>,
 }
 
 /// The feasible design that is best by the problem's objective. What is known of the search is recalled.
@@ -99,56 +94,126 @@ pub fn search(
     watch: &dyn Watch,
     kept: Kept<'_>,
 ) -> Result<Found, SearchError> {
-    let space = Space(&problem.axes);
-    let cost = Cost {
-        problem,
-        space,
-        watch,
-        kept,
-        calls: AtomicU64::new(0),
-    };
-    let (best, summits) = match outer(&cost, settings) {
-        Err(error) if !watch.stop() => return Err(SearchError::Optimizer(error)),
-        outcome => outcome.unwrap_or_default(),
-    };
+    let cost = Cost::new(problem, watch, kept);
+    let found = outer(&cost, settings).and_then(|seen| finish(&cost, seen));
     if watch.stop() {
-        return Err(SearchError::Stopped);
+        let best = cost.best().map(|it| Box::new(Found::new(problem, it, &[])));
+        return Err(SearchError::Stopped(best));
     }
-    let values = space.values(&best);
+    found
+}
+
+impl Found {
+    /// The best of some designs, and those that are its rivals.
+    fn new(problem: &Problem, best: Summit, others: &[Summit]) -> Self {
+        let score = |it: &Design| problem.objective.score(it.value);
+        let mut all = vec![best.design];
+        for other in others {
+            let is_new = all
+                .iter()
+                .all(|known| is_another(problem, known, &other.design));
+            if is_new && score(&other.design) > RIVAL * score(&all[0]) {
+                all.push(other.design.clone());
+            }
+        }
+        let rivals = all.split_off(1);
+        Self {
+            design: all.remove(0),
+            unit: best.unit,
+            rivals,
+            resolution: None,
+        }
+    }
+}
+
+/// What the outer search has seen.
+struct Seen {
+    /// Its best point.
+    best: Vec<f64>,
+    /// What gradients have found, the best first.
+    summits: Vec<Summit>,
+    /// Points of the survey that are apart from those from which gradients were followed, the best first.
+    spare: Vec<Point>,
+}
+
+/// The best design of what was seen, with the whole box of tolerances, the neighbours of catalogues and all trials.
+fn finish(cost: &Cost<'_>, seen: Seen) -> Result<Found, SearchError> {
+    let problem = cost.problem;
+    let values = Space(&problem.axes).values(&seen.best);
+    let none = |infeasible: Infeasible| SearchError::NoDesign {
+        place: place(problem, &values),
+        reason: infeasible.reason,
+    };
     let polished = problem
         .at(&values)
         .or_else(|_| problem.soon(slice::from_ref(&values)).remove(0));
-    let lost = |infeasible: Infeasible| match watch.stop() {
-        true => SearchError::Stopped,
-        false => SearchError::NoDesign {
-            place: place(problem, &values),
-            reason: infeasible.reason,
-        },
-    };
+    let polished = polished.map(|design| Summit {
+        unit: seen.best,
+        design,
+    });
+    if let (Err(infeasible), true) = (&polished, seen.summits.is_empty()) {
+        return Err(none(infeasible.clone()));
+    }
     let score = |it: &Summit| problem.objective.score(it.design.value);
-    let polished = polished.map(|design| Summit { unit: best, design });
-    let best = match (polished, summits.first()) {
-        (Ok(polished), Some(summit)) if score(&polished) < score(summit) => summit.clone(),
-        (Ok(polished), _) => polished,
-        (Err(_), Some(summit)) => summit.clone(),
-        (Err(infeasible), None) => return Err(lost(infeasible)),
+    let mut starts: Vec<Summit> = polished.into_iter().chain(seen.summits).collect();
+    starts.sort_by(|a, b| score(b).total_cmp(&score(a)));
+    let mut held: Vec<Held> = Vec::new();
+    let mut lack: Option<Infeasible> = None;
+    let mut take = |start: &Summit, held: &mut Vec<Held>| match hold(problem, start) {
+        Ok(it) => {
+            cost.note(&it.summit, Rank::Held);
+            held.push(it);
+        }
+        Err(error) if lack.as_ref().is_none_or(|known| error.gap < known.gap) => lack = Some(error),
+        Err(_) => {}
     };
-    let best = pass(problem, &best).map_err(lost)?;
-    let mut apart = vec![best.clone()];
-    for summit in summits {
-        let is_new = apart
-            .iter()
-            .all(|known| is_another(problem, &known.design, &summit.design));
-        if is_new && score(&summit) > RIVAL * score(&best) {
-            apart.push(summit);
+    let best = |held: &[Held]| held.iter().map(|it| score(&it.summit)).fold(0.0, f64::max);
+    for (index, start) in starts.iter().enumerate() {
+        let is_known = starts[..index].iter().any(|other| is_same(other, start));
+        if !is_known && score(start) > RIVAL * best(&held) {
+            take(start, &mut held);
         }
     }
+    for point in &seen.spare {
+        if -point.cost > best(&held) {
+            let start = ascend(problem, &point.unit);
+            let start = start.filter(|start| !starts.iter().any(|other| is_same(other, start)));
+            if let Some(start) = start {
+                take(&start, &mut held);
+                starts.push(start);
+            }
+        }
+    }
+    held.sort_by(|a, b| score(&b.summit).total_cmp(&score(&a.summit)));
+    let Some(first) = held.first() else {
+        let reason = || "the search has met nothing".to_owned();
+        return Err(none(lack.unwrap_or_else(|| Infeasible {
+            gap: 0.0,
+            reason: reason(),
+        })));
+    };
+    let exchanged = exchange(problem, first);
+    let (best, resolution) = pass(problem, exchanged).map_err(none)?;
+    cost.note(&best, Rank::Passed);
+    let others: Vec<Summit> = held.into_iter().map(|it| it.summit).collect();
     Ok(Found {
-        rivals: apart.drain(1..).map(|it| it.design).collect(),
-        design: best.design,
-        unit: best.unit,
+        resolution,
+        ..Found::new(problem, best, &others)
     })
 }
+
+/// Points of the survey from which a search goes on where the best designs had to give way, at most.
+const SPARE: usize = 4;
+
+/// True if two designs are one.
+fn is_same(one: &Summit, other: &Summit) -> bool {
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() < SAME;
+    let [a, b] = [one, other].map(|it| it.design.place);
+    one.unit.iter().zip(&other.unit).all(near) && near((&a, &b))
+}
+
+/// Distance along a coordinate that is none.
+const SAME: f64 = 1e-5;
 
 /// True if two designs differ by more than a small part of the range of some axis.
 fn is_another(problem: &Problem, one: &Design, other: &Design) -> bool {
@@ -174,12 +239,16 @@ fn place(problem: &Problem, values: &[f64]) -> String {
     format!(", at {}", said.collect::<Vec<_>>().join(", "))
 }
 
-/// The best point of the unit cube, and what gradients have found, the best first.
-fn outer(cost: &Cost<'_>, settings: Settings) -> Result<(Vec<f64>, Vec<Summit>), Error> {
+/// Survey, swarm, gradients and polish.
+fn outer(cost: &Cost<'_>, settings: Settings) -> Result<Seen, SearchError> {
     let dimension = cost.space.dimension();
     if dimension == 0 {
         cost.watch.evaluated(None);
-        return Ok((Vec::new(), Vec::from_iter(ascend(cost.problem, &[]))));
+        return Ok(Seen {
+            best: Vec::new(),
+            summits: Vec::from_iter(ascend(cost.problem, &[])),
+            spare: Vec::new(),
+        });
     }
     let share = (dimension as u64 * settings.evaluations) / SURVEY;
     let survey = survey(cost, share.min(settings.evaluations / 3))?;
@@ -191,16 +260,20 @@ fn outer(cost: &Cost<'_>, settings: Settings) -> Result<(Vec<f64>, Vec<Summit>),
         let is_new = starts
             .iter()
             .all(|start| is_apart(&start.unit, &point.unit));
-        if starts.len() < STARTS && is_new && point.cost < DISTANT {
+        if starts.len() < STARTS + SPARE && is_new && point.cost < DISTANT {
             starts.push(point.clone());
         }
     }
+    let spare = starts.split_off(STARTS.min(starts.len()));
     let ascents = starts
         .par_iter()
         .map(|start| ascend(cost.problem, &start.unit));
     let mut summits: Vec<Summit> = ascents.collect::<Vec<_>>().into_iter().flatten().collect();
     let score = |it: &Summit| cost.problem.objective.score(it.design.value);
     summits.sort_by(|a, b| score(b).total_cmp(&score(a)));
+    if let Some(summit) = summits.first() {
+        cost.note(summit, Rank::Seen);
+    }
     let summit = summits.first().map(|it| Point {
         unit: it.unit.clone(),
         cost: -score(it),
@@ -208,62 +281,9 @@ fn outer(cost: &Cost<'_>, settings: Settings) -> Result<(Vec<f64>, Vec<Summit>),
     let start = [Some(best), summit].into_iter().flatten();
     let start = start.min_by(|a, b| a.cost.total_cmp(&b.cost));
     let start = start.ok_or_else(|| Error::msg("the swarm is empty"))?;
-    Ok((polish(cost, start, left - swarm)?.unit, summits))
-}
-
-/// The swarm: one half the best of the survey, the other spread over the rest of it.
-fn particles(survey: &[Point], seed: u64) -> (Vec<Particle<Vec<f64>, f64>>, Xoshiro256PlusPlus) {
-    let mut generator = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let dimension = survey.first().map_or(0, |point| point.unit.len());
-    let count = (PARTICLES * dimension).min(survey.len());
-    let (best, rest) = survey.split_at(count / 2);
-    let stride = (rest.len() / (count - count / 2)).max(1);
-    let chosen = best.iter().chain(rest.iter().step_by(stride)).take(count);
-    let reach = vec![FASTEST; dimension];
-    let back = vec![-FASTEST; dimension];
-    let particles = chosen
-        .map(|point| {
-            let velocity = Vec::rand_from_range(&back, &reach, &mut generator);
-            Particle::new(point.unit.clone(), point.cost, velocity)
-        })
-        .collect();
-    (particles, generator)
-}
-
-fn swarm_best(
-    cost: &Cost<'_>,
-    survey: &[Point],
-    seed: u64,
-    evaluations: u64,
-) -> Result<Point, Error> {
-    let dimension = cost.space.dimension();
-    let (mut particles, generator) = particles(survey, seed);
-    let cube = (vec![0.0; dimension], vec![1.0; dimension]);
-    let mut solver = ParticleSwarm::new(cube, particles.len()).with_rng_generator(generator);
-    let mut left = evaluations / particles.len() as u64;
-    let mut best = survey[0].clone();
-    while left > 0 {
-        let rounds = left.min(SWARM_ROUNDS);
-        let result = Executor::new(Stoppable(cost), solver)
-            .configure(|state| state.population(particles).max_iters(rounds))
-            .timer(false)
-            .run()?;
-        let empty = || Error::msg("the swarm is empty");
-        let found = result.state.get_best_param().ok_or_else(empty)?;
-        let gain = best.cost - found.cost;
-        if gain > 0.0 {
-            best = Point {
-                unit: found.position.clone(),
-                cost: found.cost,
-            };
-        }
-        let feasible = best.cost < 0.0;
-        if feasible && gain <= SWARM_GAIN * best.cost.abs() {
-            break;
-        }
-        particles = result.state.get_population().ok_or_else(empty)?.clone();
-        solver = result.solver;
-        left -= rounds;
-    }
-    Ok(best)
+    Ok(Seen {
+        best: polish(cost, start, left - swarm)?.unit,
+        summits,
+        spare,
+    })
 }

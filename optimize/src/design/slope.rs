@@ -10,6 +10,14 @@ pub struct Slope {
 }
 
 impl Slope {
+    /// What always holds.
+    pub(super) fn free(coordinates: usize) -> Self {
+        Self {
+            value: 1.0,
+            by: vec![0.0; coordinates],
+        }
+    }
+
     /// How far it lies beyond a bound, in units of that.
     pub(super) fn beyond(&self, bound: f64, sign: f64) -> Self {
         if self.value.is_infinite() {

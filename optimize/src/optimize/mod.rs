@@ -11,6 +11,7 @@ pub mod outcome;
 mod progress;
 pub mod reference;
 mod required;
+mod solve;
 pub mod study;
 mod task;
 mod wishes;
@@ -19,7 +20,6 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::Args;
-use rayon::prelude::*;
 use softstop::{Dimension, Machine, Parameter, Start};
 use softstop_console::arguments::MachineArguments;
 use softstop_console::export::Export;
@@ -27,20 +27,17 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::Format;
-use softstop_dynamics::basin::ErosionProfile;
-use softstop_dynamics::run_up::RunUp;
 
-use crate::design::figure::Figure;
-use crate::design::front::{Front, front};
-use crate::design::search::{self, Found, SearchError};
-use crate::design::{Design, Problem};
+use crate::design::Problem;
 use crate::fmu::{archive, library, parameters};
 use crate::limits::key;
 use crate::page::{csv, html};
-use crate::report::{OptimizeReport, SearchReport};
+use crate::report::OptimizeReport;
+use crate::searched::SearchReport;
 use named::Named;
-use outcome::{ANGLES, EROSION_STARTS, Outcome, PLACES};
-use progress::Best;
+use outcome::{Interrupted, Outcome};
+use solve::solve;
+use study::Study;
 use task::Job;
 
 const EXAMPLES: &str = "\
@@ -90,7 +87,8 @@ With tolerances, all machines within them stay in the zone, and a million of the
 
 Files, whole or not at all: report.html (for people, one page), design.json (what --format json prints),
 design.toml (the machine, for every command), design.fmu (FMI 2.0 co-simulation, starting in the design's
-motion), design.ssv (its parameters for SSP), design.svg (velocity over frequency), CSVs of the report.";
+motion), design.ssv (its parameters for SSP), design.svg (velocity over frequency), CSVs of the report.
+Ctrl-C writes the best design so far, marked as such and without its report; a second one ends at once.";
 
 /// The JSON Schema of task files.
 pub fn task_schema() -> serde_json::Value {
@@ -156,12 +154,24 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let mut export = Export::open(&job.output, files)?;
     let library = library()?;
     let keep = Keep::open(&job.output, "optimize", &job.identity(), arguments.keep)?;
-    let outcome = match solve(&job, &keep) {
+    let mut outcome = match solve(&job, &keep) {
         Err(failure @ Failure::Run(_)) => {
             keep.forget();
             return Err(failure);
         }
         outcome => outcome?,
+    };
+    let looked = match outcome.interrupted {
+        None => looked(&job, &outcome),
+        Some(_) => Err(Failure::Interrupted),
+    };
+    let (study, page) = match looked {
+        Err(_) if interrupt::requested() || outcome.interrupted.is_some() => {
+            interrupt::save();
+            outcome.interrupted.get_or_insert(Interrupted::Report);
+            (None, None)
+        }
+        looked => looked?,
     };
     let design = &outcome.design;
     let references = reference::references(&job.problem.machine)?;
@@ -171,33 +181,64 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let start = Start::from(design.orbit.state());
     let machine = Machine {
         start,
-        ..named(&job.problem, design)
+        ..named(&job.problem, &outcome)
     };
+    let text = machine.to_toml();
+    export.file("toml", text.as_bytes())?;
+    // The same machine to the last bit, though no number of Hz may give the frequency that was found.
+    let machine = Machine::from_toml(&text).map_err(anyhow::Error::from)?;
     export.file("fmu", &archive(&library, &machine, start)?)?;
-    export.file("toml", machine.to_toml().as_bytes())?;
     export.file("ssv", parameters(&machine, start)?.as_bytes())?;
-    let study = study::study(&job, design)?;
-    if job.report {
-        let page = fill::report(&job, &outcome, &references, study.as_ref());
-        export.file("html", html(&page).map_err(anyhow::Error::from)?.as_bytes())?;
-        for (name, table) in csv(&page).map_err(anyhow::Error::from)? {
-            export.further(&name, &table)?;
+    match &page {
+        Some((page, tables)) => {
+            export.file("html", page.as_bytes())?;
+            for (name, table) in tables {
+                export.further(name, table)?;
+            }
         }
+        None => export.forgo("html"),
     }
     let search = SearchReport {
         bounds: bounds(&job.problem),
         seed: job.settings.seed,
         evaluations: job.settings.evaluations,
         evaluations_used: outcome.evaluations,
+        resolution: outcome.resolution,
+        interrupted: outcome.interrupted,
     };
     let report = OptimizeReport::new(&job.problem, &outcome, &references, search, study.as_ref());
     export.finish(&report, job.format)?;
+    if let Some(interrupted) = outcome.interrupted {
+        interrupt::under_way().close_with(interrupted.closing());
+        return Err(Failure::Interrupted);
+    }
     keep.forget();
     Ok(())
 }
 
+/// A page and its tables, by their names.
+type Page = (String, Vec<(String, Vec<u8>)>);
+
+/// What is looked at of a design besides.
+fn looked(job: &Job, outcome: &Outcome) -> Result<(Option<Study>, Option<Page>), Failure> {
+    let study = study::study(job, &outcome.design)?;
+    let mut page = None;
+    if job.report {
+        let references = reference::references(&job.problem.machine)?;
+        let report = fill::report(job, outcome, &references, study.as_ref());
+        let tables = csv(&report).map_err(anyhow::Error::from)?;
+        page = Some((html(&report).map_err(anyhow::Error::from)?, tables));
+    }
+    match interrupt::requested() {
+        true => Err(Failure::Interrupted),
+        false => Ok((study, page)),
+    }
+}
+
 /// The design's machine under the name of a design.
-fn named(problem: &Problem, design: &Design) -> Machine {
+fn named(problem: &Problem, outcome: &Outcome) -> Machine {
+    let design = &outcome.design;
+    let interrupted = outcome.interrupted.map(|it| format!(" ({})", it.words()));
     let words = problem.objective.words();
     let machine = &design.machine;
     let name = machine.name.as_deref().unwrap_or("machine");
@@ -207,75 +248,13 @@ fn named(problem: &Problem, design: &Design) -> Machine {
         name: Some(format!("{name} design")),
         description: Some(format!(
             "Design of the machine {name} with the {words} inside its hysteresis zone: drive frequency \
-             {frequency:.6} {unit}, before-impact velocity {:.6} {}",
+             {frequency:.6} {unit}, before-impact velocity {:.6} {}{}",
             design.before_impact_velocity(),
-            machine.unit(Dimension::Velocity)
+            machine.unit(Dimension::Velocity),
+            interrupted.unwrap_or_default()
         )),
         ..machine.clone()
     }
-}
-
-fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
-    let best = Best::new(&job.problem, job.settings.evaluations);
-    let outcome = search::search(&job.problem, job.settings, &best, Some(keep));
-    let evaluations = best.evaluations();
-    drop(best);
-    let found = outcome.map_err(|error| match error {
-        SearchError::Stopped => Failure::Interrupted,
-        error => Failure::Run(error.into()),
-    })?;
-    let design = &found.design;
-    let motion = design.judged().map_err(anyhow::Error::from)?;
-    let mut met = Vec::from_iter(job.problem.share(&motion));
-    met.extend(job.problem.met(&motion));
-    met.extend(
-        job.problem
-            .tried(&design.orbit)
-            .map_err(anyhow::Error::from)?,
-    );
-    let watcher = &interrupt::watch;
-    let ((erosion, run_up), fronts) = match job.report {
-        false => ((None, None), Vec::new()),
-        true => rayon::join(
-            || {
-                let places = ErosionProfile::evenly(PLACES);
-                let along = || ErosionProfile::of(&design.zone, &places, EROSION_STARTS, watcher);
-                let up = || RunUp::of(&design.orbit, ANGLES, watcher);
-                rayon::join(|| along().ok(), || up().ok())
-            },
-            || fronts(&job.problem, &found),
-        ),
-    };
-    if interrupt::requested() {
-        return Err(Failure::Interrupted);
-    }
-    Ok(Outcome {
-        met,
-        design: found.design,
-        unit: found.unit,
-        erosion,
-        run_up,
-        fronts,
-        rivals: found.rivals,
-        evaluations,
-    })
-}
-
-/// What is traded for what is sought.
-const TRADED: [Figure; 5] = [
-    Figure::Share,
-    Figure::Certainty,
-    Figure::StopForce,
-    Figure::DriveForce,
-    Figure::DrivePower,
-];
-
-/// What more of one good costs of another, where it costs something.
-fn fronts(problem: &Problem, found: &Found) -> Vec<Front> {
-    let traded = TRADED.par_iter();
-    let traded = traded.filter(|figure| **figure != problem.objective.figure);
-    let found = traded.filter_map(|figure| front(problem, (&found.unit, &found.design), *figure));
-    found.filter(|it| it.points.len() > 2).collect()
 }
 
 /// Values held and ranges searched, by their keys.

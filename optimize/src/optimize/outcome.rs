@@ -1,17 +1,51 @@
 //! What came of a search, and what was looked at of the design beside it.
 
+use serde::Serialize;
 use softstop_dynamics::basin::ErosionProfile;
 use softstop_dynamics::run_up::RunUp;
 
 use crate::design::Design;
 use crate::design::front::Front;
 use crate::design::judge::Met;
+use crate::design::search::Resolution;
 
 /// Places of the erosion profile, and starts at each.
 pub(super) const PLACES: usize = 25;
 pub(super) const EROSION_STARTS: usize = 2048;
 /// Drive angles at which the drive is switched on.
 pub(super) const ANGLES: usize = 64;
+
+/// What a run was doing when it was asked to end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Interrupted {
+    /// It searched: its design is the best until then.
+    Search,
+    /// It had found its design and looked at it.
+    Report,
+}
+
+impl Interrupted {
+    /// What is written of it.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Search => "the best design of an interrupted search, not the optimum",
+            Self::Report => "found by the whole search; interrupted before its report was made",
+        }
+    }
+
+    /// What is said in the end.
+    pub(super) const fn closing(self) -> &'static str {
+        match self {
+            Self::Search => {
+                "interrupted: the best design so far is written; the same line with --resume goes on with the search"
+            }
+            Self::Report => {
+                "interrupted: the design is written, without its report; the same line with --resume makes that"
+            }
+        }
+    }
+}
 
 /// What came of a search.
 #[derive(Debug)]
@@ -26,6 +60,10 @@ pub struct Outcome {
     pub met: Vec<Met>,
     /// Zones that were computed.
     pub evaluations: u64,
+    /// How fine it was looked for, if trials were in the way.
+    pub resolution: Option<Resolution>,
+    /// Whether the run was asked to end.
+    pub interrupted: Option<Interrupted>,
     /// The basin along the zone, for the report.
     pub erosion: Option<ErosionProfile>,
     /// Ways to run the machine up, for the report.

@@ -1,6 +1,5 @@
 //! What the tolerances do to a design, and what it costs to keep them inside the zone.
 
-use softstop::Parameter;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
@@ -8,11 +7,11 @@ use softstop_dynamics::orbit::OrbitError;
 
 use super::task::Job;
 use crate::design::Design;
-use crate::design::problem::{self, Problem};
+use crate::design::problem::{Counts, Objective, Problem};
 use crate::design::search::{self, Unwatched};
 use crate::robust::{
-    Effort, Nearest, Norm, Scatter, Sensitivities, Settings, Tolerance, Tolerances, Verdict, Worst,
-    nearest, scatter, sensitivities, verify, worst,
+    Effort, Nearest, Norm, Scatter, Sensitivities, Settings, Tolerance, Verdict, Worst, nearest,
+    scatter, sensitivities, verify, worst,
 };
 
 /// A design's machines within its tolerances.
@@ -47,8 +46,8 @@ pub struct Without {
     pub machines: usize,
     /// Those of them that lose the motion.
     pub lost: usize,
-    /// The slowest impact of the others in m/s.
-    pub slowest: Option<f64>,
+    /// The slowest impact of the others in m/s that was found.
+    pub slowest: f64,
 }
 
 impl Study {
@@ -65,35 +64,16 @@ const FARTHEST: f64 = 3.0;
 /// Machines that are looked at about the design without tolerances.
 const FEWER: usize = 1 << 11;
 
-/// The tolerances of a problem about a design, in SI units.
-fn tolerances(problem: &Problem, design: &Design) -> Vec<Tolerance> {
-    let machine = &design.machine;
-    let about = problem.tolerances.iter().filter(|it| !it.is_exact());
-    let si = |it: &problem::Tolerance| {
-        let width = it.width.around(machine.value(it.parameter)?);
-        let half_width = match it.parameter {
-            Parameter::Preload if machine.preload_deflection.is_some() => width,
-            parameter => machine.to_si(parameter.about().dimension, width),
-        };
-        Some(Tolerance {
-            parameter: it.parameter,
-            half_width,
-        })
-    };
-    about.filter_map(si).collect()
-}
-
 /// Looks at machines all over the tolerances; none if everything is exact.
 pub(super) fn study(job: &Job, design: &Design) -> Result<Option<Study>, Failure> {
-    let all = tolerances(&job.problem, design);
-    if all.is_empty() || job.samples == 0 {
+    let spread = job.problem.spread(&design.machine);
+    let Some(spread) = spread.filter(|_| job.samples > 0) else {
         return Ok(None);
-    }
+    };
     let stopped = |error: OrbitError| match interrupt::requested() {
         true => Failure::Interrupted,
         false => Failure::Run(error.into()),
     };
-    let spread = Tolerances::new(&design.machine, &all)?;
     let (nominal, watcher) = (&design.orbit, &interrupt::watch);
     let progress = Progress::new(job.samples as u64, "machines");
     let settings = Settings {
@@ -114,7 +94,7 @@ pub(super) fn study(job: &Job, design: &Design) -> Result<Option<Study>, Failure
         sensitivities,
         scatter: scatter(&spread, nominal, Effort::default(), watcher).map_err(stopped)?,
         without: without(job).map_err(stopped)?,
-        tolerances: all,
+        tolerances: spread.all().to_vec(),
     };
     match interrupt::requested() {
         true => Err(Failure::Interrupted),
@@ -126,6 +106,10 @@ pub(super) fn study(job: &Job, design: &Design) -> Result<Option<Study>, Failure
 fn without(job: &Job) -> Result<Option<Without>, OrbitError> {
     let mut exact = Problem {
         tolerances: Vec::new(),
+        objective: Objective {
+            counts: Counts::Nominal,
+            ..job.problem.objective
+        },
         ..job.problem.clone()
     };
     exact.requirements.retain(|it| !it.figure.is_trial());
@@ -133,8 +117,7 @@ fn without(job: &Job) -> Result<Option<Without>, OrbitError> {
         return Ok(None);
     };
     let design = found.design;
-    let all = tolerances(&job.problem, &design);
-    let Ok(spread) = Tolerances::new(&design.machine, &all) else {
+    let Some(spread) = job.problem.spread(&design.machine) else {
         return Ok(None);
     };
     let settings = Settings {
@@ -142,10 +125,13 @@ fn without(job: &Job) -> Result<Option<Without>, OrbitError> {
         ..Settings::default()
     };
     let verdict = verify(&spread, &design.orbit, settings, &interrupt::watch)?;
+    let worst = worst(&spread, &design.orbit, &interrupt::watch);
+    let seen = verdict.slowest.as_ref().map(|(_, it)| it.velocity);
+    let found = worst.map_or(design.before_impact_velocity(), |it| it.value);
     Ok(Some(Without {
         machines: verdict.machines,
         lost: verdict.lost,
-        slowest: verdict.slowest.map(|(_, settled)| settled.velocity),
+        slowest: seen.map_or(found, |seen| seen.min(found)),
         design,
     }))
 }

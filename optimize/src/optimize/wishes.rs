@@ -181,7 +181,11 @@ pub(super) fn objective(machine: &Machine, goal: &Goal) -> Result<Objective, Fai
             "objective.{says} = {name}: this machine has no {lacks}"
         )));
     }
-    Ok(Objective { figure, sense })
+    Ok(Objective {
+        figure,
+        sense,
+        ..Objective::default()
+    })
 }
 
 pub(super) fn known(place: &str, name: &str) -> Result<Figure, Failure> {

@@ -111,14 +111,8 @@ impl<S: Spread + ?Sized> Search<'_, S> {
         let Reached {
             share, loss, point, ..
         } = reached.ok()?;
-        let is_machine = |loss: &Loss| {
-            !matches!(
-                loss,
-                Loss::Lost(OrbitError::Motion(MotionError::Scene(_))) | Loss::Range
-            )
-        };
         Some(Meeting {
-            manifold: Manifold::Motion(loss.filter(is_machine)?),
+            manifold: Manifold::Motion(loss.filter(is_loss)?),
             direction: direction.to_vec(),
             share,
             point: Some(point),
@@ -225,6 +219,14 @@ impl<S: Spread + ?Sized> Search<'_, S> {
             .map(part)
             .collect()
     }
+}
+
+/// True if a motion is lost, and does not just end with the machines.
+pub(crate) fn is_loss(loss: &Loss) -> bool {
+    !matches!(
+        loss,
+        Loss::Lost(OrbitError::Motion(MotionError::Scene(_))) | Loss::Range
+    )
 }
 
 /// True if it is the same loss.

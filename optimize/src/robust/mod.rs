@@ -20,6 +20,10 @@ pub use scatter::{Scatter, Sensitivities, scatter, sensitivities, shares};
 pub use verify::{Bin, LostMachine, Settings, Verdict, verify};
 pub use worst::{Worst, worst};
 
+pub(crate) use meeting::is_loss;
+pub(crate) use nearest::first_losses;
+pub(crate) use worst::{Grade, least, motion};
+
 use softstop::{Allowed, Machine, Parameter, Scene, SceneError};
 use softstop_dynamics::spread::Spread;
 

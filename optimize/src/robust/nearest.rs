@@ -11,8 +11,10 @@ use softstop_dynamics::Orbit;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::spread::{Spread, along};
 use softstop_dynamics::watch::Watcher;
+use softstop_dynamics::zone::Loss;
 
-use super::meeting::{Manifold, Meeting, Norm, Search, dot, euclidean, same};
+use super::meeting::{Manifold, Meeting, Norm, Search, dot, euclidean, is_loss, same};
+use super::points::{corners, place};
 
 /// Steps towards a nearest point, and the least share of one.
 const STEPS: usize = 40;
@@ -72,6 +74,26 @@ pub fn nearest(
     }
     found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
     Ok(found)
+}
+
+/// Corners, and places all over the box, to which the nominal motion is followed.
+const CORNERS: usize = 32;
+const AROUND: usize = 16;
+
+/// Where the motion is lost on the ways to corners of the box and to places all over it.
+pub(crate) fn first_losses(
+    spread: &(impl Spread + ?Sized),
+    nominal: &Orbit,
+) -> Vec<(Vec<f64>, Loss)> {
+    let dimensions = spread.dimensions();
+    let mut ends = corners(dimensions, CORNERS);
+    ends.extend((0..AROUND).map(|index| place(index, dimensions)));
+    let lost = |end: &Vec<f64>| {
+        let reached = along(spread, nominal, end, 1.0).ok()?;
+        let loss = reached.loss.filter(is_loss)?;
+        Some((end.iter().map(|part| reached.share * part).collect(), loss))
+    };
+    ends.par_iter().filter_map(lost).collect()
 }
 
 impl<S: Spread + ?Sized> Search<'_, S> {

@@ -3,13 +3,13 @@
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::spread::{Fate, Guide, Model, Spread, critical_normal, free_normal};
-use softstop_dynamics::watch::Watcher;
+use softstop_dynamics::watch::{Watcher, unwatched};
 use softstop_dynamics::zone::{ZoneError, grazing_frequencies, hysteresis_soon};
 use softstop_dynamics::{Orbit, Zone};
 
 use super::indices::{Effort, Index, indices};
 use super::points::{BLOCK, place};
-use super::worst::slopes;
+use super::worst::nominal_slopes;
 
 /// How the motion and its margins change with each coordinate, by as much as its tolerance.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +41,7 @@ pub fn sensitivities(
     let centre = vec![0.0; spread.dimensions()];
     let fold = critical_normal(spread, &centre, (Test::Fold, &zone.fold))?;
     Ok(Sensitivities {
-        velocity: slopes(spread, nominal, &centre, nominal)?,
+        velocity: nominal_slopes(spread, nominal, &unwatched)?,
         to_fold: fold.iter().map(|part| -part).collect(),
         to_free: free_normal(spread, &centre)?,
     })

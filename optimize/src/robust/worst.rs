@@ -1,19 +1,25 @@
-//! The slowest impact between the bounds.
+//! The worst machine between the bounds.
 
+use rayon::prelude::*;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::spread::{Spread, along, velocity_slopes};
 use softstop_dynamics::watch::Watcher;
 
-/// Steps towards the slowest impact, and halvings of one.
+use super::points::corners;
+
+/// Steps towards the worst machine, and halvings of one.
 const STEPS: usize = 60;
 const HALVINGS: usize = 40;
-/// Share of a velocity that is nothing to gain.
+/// Share of a grade that is nothing to gain.
 const GAIN: f64 = 1e-10;
-/// Change of a coordinate over which the velocity of a motion without exact derivatives is differenced.
+/// Change of a coordinate over which a grade without exact derivatives is differenced.
 const DIFFERENCE: f64 = 1e-3;
+/// Corners that are looked at, at most, and from how many of the worst of them steps are taken.
+const CORNERS: usize = 16;
+const STARTS: usize = 3;
 
-/// The machine with the slowest impact.
+/// The machine with the slowest impact, or the least of another grade.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Worst {
@@ -21,13 +27,36 @@ pub struct Worst {
     pub at: Vec<f64>,
     /// Its motion.
     pub orbit: Orbit,
-    /// d(before-impact velocity)/d(coordinate) there, in m/s.
+    /// Its before-impact velocity in m/s, or its grade.
+    pub value: f64,
+    /// d(value)/d(coordinate) there.
     pub slopes: Vec<f64>,
 }
 
-/// The slowest impact between the bounds, by steps down the velocity's gradient that end at the bounds: a corner, or a
-/// place within a side. Where machines between the bounds lose the motion, it is that of the machines on this side of
-/// the loss.
+/// What machines are graded by: the worst has the least.
+pub(crate) trait Grade: Sync {
+    /// Of the motion at some coordinates.
+    fn value(&self, at: &[f64], orbit: &Orbit) -> Option<f64>;
+    /// Its derivatives by the coordinates, where there are exact ones.
+    fn slopes(&self, at: &[f64], orbit: &Orbit) -> Option<Vec<f64>>;
+}
+
+/// The before-impact velocity.
+pub(super) struct Velocity<'a, S: ?Sized>(pub &'a S);
+
+impl<S: Spread + ?Sized> Grade for Velocity<'_, S> {
+    fn value(&self, _: &[f64], orbit: &Orbit) -> Option<f64> {
+        Some(orbit.before_impact_velocity())
+    }
+
+    fn slopes(&self, at: &[f64], orbit: &Orbit) -> Option<Vec<f64>> {
+        velocity_slopes(self.0, at, orbit).ok()
+    }
+}
+
+/// The slowest impact between the bounds: by steps down the velocity's gradient that end at the bounds, from the nominal
+/// machine and from the slowest corners, until no coordinate at its other bound is slower. Where machines between the
+/// bounds lose the motion, it is that of the machines on this side of the loss.
 ///
 /// # Errors
 /// [`OrbitError::Stopped`]; [`OrbitError`] if the nominal motion is not one to start from.
@@ -36,31 +65,121 @@ pub fn worst(
     nominal: &Orbit,
     watcher: Watcher<'_>,
 ) -> Result<Worst, OrbitError> {
-    let mut here = Worst {
-        at: vec![0.0; spread.dimensions()],
-        slopes: slopes(spread, nominal, &vec![0.0; spread.dimensions()], nominal)?,
-        orbit: nominal.clone(),
+    least(spread, nominal, &Velocity(spread), watcher)
+}
+
+/// The same by any grade.
+pub(crate) fn least(
+    spread: &(impl Spread + ?Sized),
+    nominal: &Orbit,
+    grade: &impl Grade,
+    watcher: Watcher<'_>,
+) -> Result<Worst, OrbitError> {
+    let dimensions = spread.dimensions();
+    let search = Search {
+        spread,
+        nominal,
+        grade,
+        watcher,
     };
-    for _ in 0..STEPS {
-        let steepest = here
-            .slopes
-            .iter()
-            .fold(0.0, |most: f64, slope| most.max(slope.abs()));
-        let flattest = here
-            .slopes
-            .iter()
-            .map(|slope| slope.abs())
-            .filter(|slope| *slope > 0.0);
-        let flattest = flattest.fold(steepest, f64::min);
-        if steepest == 0.0 {
-            break;
+    let mut best = search.descend(&vec![0.0; dimensions], nominal.clone())?;
+    let tried = |at: &Vec<f64>| {
+        let (orbit, value) = search.graded(at)?;
+        Some((at.clone(), orbit, value))
+    };
+    let corners = corners(dimensions, CORNERS);
+    let mut starts: Vec<_> = corners.par_iter().filter_map(tried).collect();
+    starts.sort_by(|a, b| a.2.total_cmp(&b.2));
+    for (at, orbit, _) in starts.into_iter().take(STARTS) {
+        let found = search.descend(&at, orbit)?;
+        if found.value < best.value {
+            best = found;
         }
+    }
+    let flipped = |best: &Worst| {
+        (0..2 * dimensions).find_map(|index| {
+            let mut at = best.at.clone();
+            at[index / 2] = if index.is_multiple_of(2) { 1.0 } else { -1.0 };
+            let (orbit, value) = search.graded(&at)?;
+            (value < best.value - GAIN * best.value.abs()).then_some((at, orbit))
+        })
+    };
+    while let Some((at, orbit)) = flipped(&best) {
+        best = search.descend(&at, orbit)?;
+    }
+    Ok(best)
+}
+
+struct Search<'a, S: ?Sized, G> {
+    spread: &'a S,
+    nominal: &'a Orbit,
+    grade: &'a G,
+    watcher: Watcher<'a>,
+}
+
+impl<S: Spread + ?Sized, G: Grade> Search<'_, S, G> {
+    /// The motion at some coordinates that goes on from the nominal one, and its grade.
+    fn graded(&self, at: &[f64]) -> Option<(Orbit, f64)> {
+        let orbit = motion(self.spread, self.nominal, at)?;
+        let value = self.grade.value(at, &orbit)?;
+        Some((orbit, value))
+    }
+
+    /// The derivatives of the grade of a motion: exact, or by differences where it has no exact ones.
+    fn slopes(&self, at: &[f64], orbit: &Orbit) -> Result<Vec<f64>, OrbitError> {
+        let differenced = || {
+            let value = |index: usize, change: f64| {
+                let mut at = at.to_vec();
+                at[index] += change;
+                self.graded(&at).map(|(_, value)| value)
+            };
+            let slope = |index| {
+                let sides = value(index, -DIFFERENCE).zip(value(index, DIFFERENCE));
+                sides.map(|(below, above)| (above - below) / (2.0 * DIFFERENCE))
+            };
+            (0..at.len()).map(slope).collect()
+        };
+        let slopes = self.grade.slopes(at, orbit).or_else(differenced);
+        slopes.ok_or(OrbitError::NotIsolated)
+    }
+
+    /// Steps down from a machine.
+    fn descend(&self, at: &[f64], orbit: Orbit) -> Result<Worst, OrbitError> {
+        let value = self
+            .grade
+            .value(at, &orbit)
+            .ok_or(OrbitError::NotIsolated)?;
+        let mut here = Worst {
+            slopes: self.slopes(at, &orbit)?,
+            at: at.to_vec(),
+            orbit,
+            value,
+        };
+        for _ in 0..STEPS {
+            let Some((at, orbit, value)) = self.step(&here)? else {
+                break;
+            };
+            here = Worst {
+                slopes: self.slopes(&at, &orbit)?,
+                at,
+                orbit,
+                value,
+            };
+        }
+        Ok(here)
+    }
+
+    /// A machine down the gradient with a smaller grade, if there is one.
+    fn step(&self, here: &Worst) -> Result<Option<(Vec<f64>, Orbit, f64)>, OrbitError> {
+        let sizes = here.slopes.iter().map(|slope| slope.abs());
+        let flattest = sizes.filter(|slope| *slope > 0.0).min_by(f64::total_cmp);
+        let Some(flattest) = flattest else {
+            return Ok(None);
+        };
         // Far enough for all coordinates to come to their bounds.
         let mut length = 2.0 / flattest;
-        let velocity = here.orbit.before_impact_velocity();
-        let mut next = None;
         for _ in 0..HALVINGS {
-            if watcher(0, 0).is_break() {
+            if (self.watcher)(0, 0).is_break() {
                 return Err(OrbitError::Stopped);
             }
             let down = here.at.iter().zip(&here.slopes);
@@ -69,52 +188,41 @@ pub fn worst(
                 .collect();
             let ways = at.iter().zip(&here.at).zip(&here.slopes);
             let gain: f64 = ways.map(|((to, from), slope)| slope * (from - to)).sum();
-            if gain <= GAIN * velocity {
+            if gain <= GAIN * here.value.abs() {
                 break;
             }
-            let tried = motion(spread, nominal, &at);
-            if let Some(orbit) = tried.filter(|orbit| orbit.before_impact_velocity() < velocity) {
-                next = Some((at, orbit));
-                break;
+            let tried = self.graded(&at);
+            if let Some((orbit, value)) = tried.filter(|(_, value)| *value < here.value) {
+                return Ok(Some((at, orbit, value)));
             }
             length *= 0.5;
         }
-        let Some((at, orbit)) = next else { break };
-        here = Worst {
-            slopes: slopes(spread, nominal, &at, &orbit)?,
-            at,
-            orbit,
-        };
+        Ok(None)
     }
-    Ok(here)
 }
 
 /// The motion at some coordinates that goes on from the nominal one.
-fn motion(spread: &(impl Spread + ?Sized), nominal: &Orbit, at: &[f64]) -> Option<Orbit> {
+pub(crate) fn motion(
+    spread: &(impl Spread + ?Sized),
+    nominal: &Orbit,
+    at: &[f64],
+) -> Option<Orbit> {
     let reached = along(spread, nominal, at, 1.0).ok()?;
     let orbit = Orbit::near(&spread.scene(at), reached.point.state());
     orbit.ok().filter(|_| reached.loss.is_none())
 }
 
-/// d(before-impact velocity)/d(coordinate) in m/s of the motion at some coordinates: exact, or by differences where it has
-/// no exact derivatives.
-pub(super) fn slopes(
+/// d(before-impact velocity)/d(coordinate) in m/s of the nominal motion.
+pub(super) fn nominal_slopes(
     spread: &(impl Spread + ?Sized),
     nominal: &Orbit,
-    at: &[f64],
-    orbit: &Orbit,
+    watcher: Watcher<'_>,
 ) -> Result<Vec<f64>, OrbitError> {
-    velocity_slopes(spread, at, orbit).or_else(|error| {
-        let velocity = |index: usize, change: f64| {
-            let mut at = at.to_vec();
-            at[index] += change;
-            motion(spread, nominal, &at).map(|orbit| orbit.before_impact_velocity())
-        };
-        let slope = |index| {
-            let sides = velocity(index, -DIFFERENCE).zip(velocity(index, DIFFERENCE));
-            sides.map(|(below, above)| (above - below) / (2.0 * DIFFERENCE))
-        };
-        let all: Option<Vec<f64>> = (0..at.len()).map(slope).collect();
-        all.ok_or(error)
-    })
+    let search = Search {
+        spread,
+        nominal,
+        grade: &Velocity(spread),
+        watcher,
+    };
+    search.slopes(&vec![0.0; spread.dimensions()], nominal)
 }

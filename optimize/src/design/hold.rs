@@ -1,0 +1,206 @@
+//! Holds the whole box of tolerances. A search knows the ends of the zone; what else is lost within the box, a fold inside
+//! the zone, a flip, an inner grazing, and which of its machines is the worst, is looked for about what it has found. Each
+//! such place becomes a constraint, and the design moves until there are no more.
+
+use softstop_console::interrupt;
+use softstop_dynamics::zone::Loss;
+use softstop_explore::zone::lost_by;
+
+use super::coordinates::Summit;
+use super::gradient::ascend_known;
+use super::problem::{Counts, Problem};
+use super::reach::Known;
+use super::worst::worst;
+use super::{Design, Infeasible};
+use crate::robust::{Manifold, Norm, Tolerances, first_losses, nearest};
+
+/// How often a design is moved.
+const ROUNDS: usize = 12;
+/// Share of the tolerances, and of a score, that is rounding.
+const ROUNDING: f64 = 1e-7;
+/// Directions that are added at once, at most.
+const MOST: usize = 4;
+/// Places of the zone from which a design is sought anew.
+const PLACES: [f64; 5] = [0.5, 0.3, 0.7, 0.1, 0.9];
+
+/// What is lost of a design within its tolerances.
+#[derive(Debug, Clone)]
+struct Lost {
+    /// In this direction of the box.
+    way: Vec<f64>,
+    /// At this share of the way.
+    share: f64,
+    /// By this, in words.
+    by: String,
+}
+
+/// A design with its whole box.
+#[derive(Debug, Clone)]
+pub(super) struct Held {
+    pub summit: Summit,
+    /// What had to be known for that.
+    pub known: Known,
+}
+
+/// The best design about this one of which no machine within the tolerances loses the motion.
+///
+/// # Errors
+/// [`Infeasible`] with how much is lacking if there is none.
+pub(super) fn hold(problem: &Problem, start: &Summit) -> Result<Held, Infeasible> {
+    let mut known = Known::default();
+    // The nominal optimum often touches a border with a corner, where the worst machine has no slope to follow.
+    let mut summit = match problem.objective.counts {
+        Counts::Nominal => start.clone(),
+        Counts::Worst => best_of(problem, again(problem, &known, start)).unwrap_or(start.clone()),
+    };
+    let mut lack: Option<Infeasible> = None;
+    for _ in 0..ROUNDS {
+        match look(problem, &mut summit.design, &mut known)? {
+            Look::Settled => return Ok(Held { summit, known }),
+            Look::Lost(lost) if lack.as_ref().is_none_or(|it| lost.gap < it.gap) => {
+                lack = Some(lost);
+            }
+            _ => {}
+        }
+        let next = again(problem, &known, &summit).next();
+        summit = next.ok_or_else(|| lack.clone().unwrap_or_else(untold))?;
+    }
+    Err(lack.unwrap_or_else(untold))
+}
+
+/// What is seen of a design's box.
+pub(super) enum Look {
+    /// All of it is as was known.
+    Settled,
+    /// Machines lose the motion.
+    Lost(Infeasible),
+    /// A machine is worse than those that were known.
+    Worse,
+}
+
+/// Looks all around, and takes note of what was not known.
+pub(super) fn look(
+    problem: &Problem,
+    design: &mut Design,
+    known: &mut Known,
+) -> Result<Look, Infeasible> {
+    let Some(spread) = problem.spread(&design.machine) else {
+        return Ok(Look::Settled);
+    };
+    let lost = lost(&spread, design)?;
+    if let Some(first) = lost.first() {
+        let lacking = lacking(first);
+        known.ways.extend(lost.into_iter().map(|it| it.way));
+        return Ok(Look::Lost(lacking));
+    }
+    if problem.objective.counts == Counts::Nominal {
+        return Ok(Look::Settled);
+    }
+    let worst = worst(problem, design).ok_or_else(untold)?;
+    let is_settled = worst.value >= (1.0 - ROUNDING) * problem.objective.score(design.value);
+    design.value = problem.objective.value(worst.value);
+    known.machines.push((worst.at, worst.orbit));
+    Ok(if is_settled {
+        Look::Settled
+    } else {
+        Look::Worse
+    })
+}
+
+impl Problem {
+    /// Whether a design has its whole box; it is told the value of its worst machine, if that counts.
+    ///
+    /// # Errors
+    /// [`Infeasible`] with how much is lacking.
+    pub fn has_box(&self, design: &mut Design) -> Result<(), Infeasible> {
+        match look(self, design, &mut Known::default())? {
+            Look::Lost(lacking) => Err(lacking),
+            Look::Settled | Look::Worse => Ok(()),
+        }
+    }
+}
+
+fn untold() -> Infeasible {
+    Infeasible {
+        gap: super::DISTANT,
+        reason: "the machines within the tolerances could not be computed".to_owned(),
+    }
+}
+
+fn lacking(lost: &Lost) -> Infeasible {
+    Infeasible {
+        gap: 1.0 - lost.share,
+        reason: format!(
+            "within the tolerances the motion is lost ({}): it goes on over {:.4} of them only",
+            lost.by, lost.share
+        ),
+    }
+}
+
+/// The best designs with what is known of the box, from one, and from other places of its zone.
+fn again<'a>(
+    problem: &'a Problem,
+    known: &'a Known,
+    from: &'a Summit,
+) -> impl Iterator<Item = Summit> + 'a {
+    let places = [from.design.place].into_iter().chain(PLACES);
+    places.filter_map(|place| ascend_known(problem, known, &from.unit, place))
+}
+
+fn best_of(problem: &Problem, all: impl Iterator<Item = Summit>) -> Option<Summit> {
+    let score = |it: &Summit| problem.objective.score(it.design.value);
+    all.max_by(|one, other| score(one).total_cmp(&score(other)))
+}
+
+/// The directions of the box in which the motion is lost within it.
+fn lost(spread: &Tolerances, design: &Design) -> Result<Vec<Lost>, Infeasible> {
+    let found = nearest(spread, &design.orbit, Norm::Box, 1.0, &interrupt::watch);
+    let found = found.map_err(|error| Infeasible {
+        gap: super::DISTANT,
+        reason: error.to_string(),
+    })?;
+    let nearest = found.into_iter().filter_map(|it| match it.manifold {
+        Manifold::Motion(loss) => Some((it.at, loss)),
+        Manifold::Hysteresis => None,
+    });
+    let mut told = told(nearest);
+    if told.is_empty() {
+        told = self::told(first_losses(spread, &design.orbit));
+    }
+    told.sort_by(|a, b| a.share.total_cmp(&b.share));
+    told.truncate(MOST);
+    Ok(told)
+}
+
+/// What ends the motion where the box touches it, in words.
+pub(super) fn touched(problem: &Problem, design: &Design) -> Option<String> {
+    let spread = problem.spread(&design.machine)?;
+    let farthest = 1.0 + ROUNDING;
+    let found = nearest(
+        &spread,
+        &design.orbit,
+        Norm::Box,
+        farthest,
+        &interrupt::watch,
+    )
+    .ok()?;
+    found.into_iter().find_map(|it| match it.manifold {
+        Manifold::Motion(loss) => Some(lost_by(&loss)),
+        Manifold::Hysteresis => None,
+    })
+}
+
+/// What is lost at these places of the box, but at its border.
+fn told(all: impl IntoIterator<Item = (Vec<f64>, Loss)>) -> Vec<Lost> {
+    let lost = all.into_iter().map(|(at, loss)| {
+        let share = at
+            .iter()
+            .fold(f64::MIN_POSITIVE, |most, part| most.max(part.abs()));
+        Lost {
+            way: at.iter().map(|part| part / share).collect(),
+            share,
+            by: lost_by(&loss),
+        }
+    });
+    lost.filter(|it| it.share < 1.0 - ROUNDING).collect()
+}

@@ -1,0 +1,206 @@
+//! The best design that passes its trials. They have no derivatives and count motions, so that what is sought with them is a
+//! search among zones: a lattice of them, then those around the best (a compass search, Kolda, Lewis and Torczon 2003),
+//! closer and closer. Of each zone only places that are better than the best so far are tried.
+
+use rayon::prelude::*;
+use serde::Serialize;
+use softstop_console::interrupt;
+
+use super::conflict::conflict;
+use super::coordinates::{Coordinates, Summit};
+use super::gradient::ascend_from;
+use super::here::Here;
+use super::hold::{Held, Look, look};
+use super::judge::{Met, violation};
+use super::problem::Problem;
+use super::reach::Known;
+use super::space::Space;
+use super::{Design, Infeasible};
+
+/// Zones of the lattice, at most.
+const LATTICE: usize = 32;
+/// Distance of the zones around the best, in edges of the cube: the first and the last.
+const FIRST: f64 = 0.08;
+const LAST: f64 = 6e-4;
+/// Places of a zone, and halvings between the best that passes and the next.
+const PLACES: usize = 24;
+const HALVINGS: u32 = 9;
+/// Places that are tried to find one that passes: if one is known elsewhere, and if none is.
+const FEW: usize = 3;
+const MANY: usize = 8;
+/// Share of a score that is no gain.
+const GAIN: f64 = 1e-9;
+/// Margins with which a design is sought that passes: motions are established the more surely, the farther from the fold.
+const MARGINS: [f64; 2] = [0.2, 0.4];
+/// How often what is lost within the tolerances of what was found is taken note of.
+const ROUNDS: usize = 4;
+
+/// How fine a search with trials has looked.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Resolution {
+    /// Step of each axis, as a share of its range.
+    pub axes: f64,
+    /// Step along a zone, as a share of it at most.
+    pub place: f64,
+}
+
+const RESOLUTION: Resolution = Resolution {
+    axes: LAST,
+    place: 1.0 / (PLACES << HALVINGS) as f64,
+};
+
+/// The best design that passes its trials: this one if it does, otherwise one that is sought from it, with how fine that
+/// was.
+///
+/// # Errors
+/// [`Infeasible`] if none was met: what this design fails.
+pub(super) fn pass(
+    problem: &Problem,
+    mut held: Held,
+) -> Result<(Summit, Option<Resolution>), Infeasible> {
+    let tried = problem.tried(&held.summit.design.orbit);
+    let tried = tried.map_err(|error| Infeasible {
+        gap: super::DISTANT,
+        reason: error.to_string(),
+    })?;
+    if tried.iter().all(Met::is_met) {
+        return Ok((held.summit, None));
+    }
+    for _ in 0..ROUNDS {
+        let trials = Trials {
+            problem,
+            known: &held.known,
+        };
+        let Some(mut found) = trials.best(&held.summit) else {
+            break;
+        };
+        if let Look::Settled = look(problem, &mut found.design, &mut held.known)? {
+            return Ok((found, Some(RESOLUTION)));
+        }
+    }
+    Err(Infeasible {
+        gap: violation(&tried),
+        reason: conflict(&held.summit.design.machine, &tried),
+    })
+}
+
+struct Trials<'a> {
+    problem: &'a Problem,
+    known: &'a Known,
+}
+
+impl Trials<'_> {
+    fn score(&self, design: &Design) -> f64 {
+        self.problem.objective.score(design.value)
+    }
+
+    /// The best design that passes, sought from one that does not.
+    fn best(&self, from: &Summit) -> Option<Summit> {
+        let wider = |margin: &f64| {
+            let wider = Problem {
+                margin: margin.max(self.problem.margin),
+                ..self.problem.clone()
+            };
+            Some(ascend_from(&wider, &from.unit, from.design.place)?.unit)
+        };
+        let starts = MARGINS.iter().filter_map(wider);
+        let starts: Vec<_> = [from.unit.clone()].into_iter().chain(starts).collect();
+        let coordinates = Coordinates::new(self.problem, &from.unit);
+        let mut best = self.best_of(&starts, None);
+        let lattice = lattice(coordinates.axes().len());
+        let lattice: Vec<_> = lattice.iter().map(|at| coordinates.unit(at)).collect();
+        best = self.best_of(&lattice, best.as_ref()).or(best);
+        let mut best = best?;
+        let mut step = FIRST;
+        while step >= LAST && !interrupt::requested() {
+            let around = Coordinates::new(self.problem, &best.unit).around(step);
+            match self.best_of(&around, Some(&best)) {
+                Some(better) => best = better,
+                None => step *= 0.5,
+            }
+        }
+        Some(best)
+    }
+
+    /// The best of some zones that is better than one that is known.
+    fn best_of(&self, units: &[Vec<f64>], known: Option<&Summit>) -> Option<Summit> {
+        let least = known.map_or(0.0, |it| (1.0 + GAIN) * self.score(&it.design));
+        let found = units.par_iter().filter_map(|unit| {
+            Some(Summit {
+                unit: unit.clone(),
+                design: self.along(unit, least)?,
+            })
+        });
+        let found: Vec<Summit> = found.collect();
+        let score = |it: &Summit| self.score(&it.design);
+        found.into_iter().reduce(|one, other| {
+            if score(&other) > score(&one) {
+                other
+            } else {
+                one
+            }
+        })
+    }
+
+    /// The best motion along the zone of a point of the unit cube that passes and is better than that.
+    fn along(&self, unit: &[f64], least: f64) -> Option<Design> {
+        let problem = self.problem;
+        let machine = problem.machine_at(&Space(&problem.axes).values(unit));
+        machine.validate().ok()?;
+        let zone = problem.zone(&machine).ok()?;
+        let window = problem.window(&machine, &zone).ok()?;
+        let design = |place: f64| {
+            let here = Here::on(machine.clone(), &zone, place)?;
+            let value = self.known.value(problem, &here)?;
+            Some(here.design(value)).filter(|it| self.score(it) > least)
+        };
+        let places = (0..=PLACES).map(|index| window.at(index as f64 / PLACES as f64));
+        let mut all: Vec<Design> = places.filter_map(design).collect();
+        all.sort_by(|a, b| self.score(a).total_cmp(&self.score(b)));
+        let last = all.len().checked_sub(1)?;
+        let tries = if least > 0.0 { FEW } else { MANY };
+        // The least of them passes most easily; the best ends the search.
+        let spread = (0..tries).map(|index| index * last / (tries - 1));
+        let mut low = spread.filter(|index| self.passes(&all[*index])).max()?;
+        let mut high = all.len();
+        while high - low > 1 {
+            let middle = low.midpoint(high);
+            match self.passes(&all[middle]) {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        let mut best = all[low].clone();
+        let Some(next) = all.get(high) else {
+            return Some(best);
+        };
+        let mut failing = next.place;
+        for _ in 0..HALVINGS {
+            match design(0.5 * (best.place + failing)) {
+                Some(middle) if self.score(&middle) <= self.score(&best) => break,
+                Some(middle) if self.passes(&middle) => best = middle,
+                Some(middle) => failing = middle.place,
+                None => break,
+            }
+        }
+        Some(best)
+    }
+
+    fn passes(&self, design: &Design) -> bool {
+        let tried = self.problem.tried(&design.orbit);
+        tried.is_ok_and(|all| all.iter().all(Met::is_met))
+    }
+}
+
+/// Points of a lattice over the cube, each in the middle of an equal part.
+fn lattice(dimensions: usize) -> Vec<Vec<f64>> {
+    let edge = (LATTICE as f64).powf(1.0 / dimensions.max(1) as f64) as usize;
+    let count = edge.checked_pow(dimensions as u32).unwrap_or(0);
+    let digit = |index: usize, axis: usize| index / edge.pow(axis as u32) % edge;
+    (0..count)
+        .map(|index| {
+            let at = (0..dimensions).map(|axis| digit(index, axis) as f64 + 0.5);
+            at.map(|at| at / edge as f64).collect()
+        })
+        .collect()
+}

@@ -1,0 +1,70 @@
+//! Derivatives of what one motion tells by itself.
+
+use std::f64::consts::TAU;
+
+use softstop::Parameter;
+use softstop_dynamics::slopes::Slopes;
+
+use super::figure::Figure;
+use super::judge::Judged;
+
+/// Distance, relative, within which two figures are the same one.
+const SAME: f64 = 1e-9;
+
+/// The derivatives of a figure of a motion by the parameters of its slopes; none if it is not among those that have exact
+/// ones.
+pub(super) fn rates(figure: Figure, slopes: &Slopes, motion: &Judged<'_>) -> Option<Vec<f64>> {
+    let scene = &motion.orbit.scene;
+    let mass = scene.mass;
+    let per_second = scene.excitation.frequency / TAU;
+    let plus = |by: Vec<f64>, parameter, more| plus(slopes, by, parameter, more);
+    let velocity = || match &slopes.impacts[..] {
+        [impact] => Some(&impact.velocity),
+        _ => None,
+    };
+    let energy = || {
+        let velocity = velocity()?;
+        let by = velocity.by.iter().map(|by| mass * velocity.value * by);
+        let own = 0.5 * velocity.value * velocity.value;
+        Some(plus(by.collect(), Parameter::Mass, own))
+    };
+    let power = |energy: Vec<f64>, value: f64| {
+        let by = energy.iter().map(|by| by * per_second).collect();
+        plus(by, Parameter::Frequency, value / TAU)
+    };
+    match figure {
+        Figure::Velocity => Some(velocity()?.by.clone()),
+        Figure::ImpactEnergy => energy(),
+        Figure::ImpactPower => Some(power(energy()?, motion.stroke.impact_energy)),
+        Figure::DriveForce => Some(plus(
+            vec![0.0; slopes.parameters.len()],
+            Parameter::Amplitude,
+            1.0,
+        )),
+        Figure::DrivePower => Some(power(slopes.supplied.by.clone(), slopes.supplied.value)),
+        Figure::MaxPosition => Some(slopes.max_position.by.clone()),
+        Figure::Stroke => {
+            let pairs = slopes.max_position.by.iter().zip(&slopes.min_position.by);
+            Some(pairs.map(|(high, low)| high - low).collect())
+        }
+        Figure::StopForce => {
+            let peak = slopes.peak_force.as_ref()?;
+            let is_same = (peak.value - motion.stroke.stop_force).abs() <= SAME * peak.value.abs();
+            is_same.then(|| peak.by.clone())
+        }
+        Figure::CutThrough => {
+            let by = plus(slopes.max_position.by.clone(), Parameter::Clearance, -1.0);
+            Some(plus(by, Parameter::Thickness, -1.0))
+        }
+        _ => None,
+    }
+}
+
+/// Derivatives by parameters, with one more by one of them.
+fn plus(slopes: &Slopes, mut by: Vec<f64>, parameter: Parameter, more: f64) -> Vec<f64> {
+    let mut pairs = slopes.parameters.iter().zip(&mut by);
+    if let Some((_, by)) = pairs.find(|(own, _)| **own == parameter) {
+        *by += more;
+    }
+    by
+}

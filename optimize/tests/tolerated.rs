@@ -1,0 +1,222 @@
+//! Designs with tolerances, catalogues and trials against everything that could be chosen instead.
+
+use rayon::prelude::*;
+use softstop::{Machine, Parameter};
+use softstop_dynamics::watch::unwatched;
+use softstop_dynamics::{Orbit, zone};
+use softstop_optimize::design::figure::Figure;
+use softstop_optimize::design::judge::{Judged, Met};
+use softstop_optimize::design::problem::{Tolerance, Width};
+use softstop_optimize::design::requirement::Requirement;
+use softstop_optimize::design::search::{SearchError, Settings, Unwatched, search};
+use softstop_optimize::design::space::{Axis, Interval};
+use softstop_optimize::design::{Design, Problem};
+use softstop_optimize::robust::{self, Norm, nearest, verify};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+const SETTINGS: Settings = Settings {
+    seed: 0,
+    evaluations: 300,
+};
+
+/// A machine whose hysteresis zone has a second pair of folds: above 1.364 a motion of more than twice the velocity.
+fn two_folds() -> Result<Machine, Box<dyn std::error::Error>> {
+    let mut machine = Machine::named("unloaded").ok_or("the paper's machine")?;
+    machine.apply([
+        ("stop.stiffness", "2"),
+        ("preload_deflection", "10"),
+        ("clearance", "2.5"),
+        ("contact.damping", "0.02"),
+    ])?;
+    Ok(machine)
+}
+
+const CLEARANCE: Interval = Interval {
+    low: 2.3,
+    high: 2.7,
+};
+
+/// Its hardest impact below a frequency just above that fold.
+fn above_a_fold(width: f64) -> Result<Problem, Box<dyn std::error::Error>> {
+    let share = |parameter, share: f64| Tolerance {
+        parameter,
+        width: Width::Share(share * width),
+    };
+    Ok(Problem {
+        frequency: Interval {
+            low: 1.2,
+            high: 1.37,
+        },
+        tolerances: vec![
+            share(Parameter::Clearance, 0.01),
+            share(Parameter::StopStiffness, 0.02),
+            share(Parameter::Frequency, 0.002),
+        ],
+        ..Problem::of(
+            two_folds()?,
+            vec![Axis::new(Parameter::Clearance, CLEARANCE)],
+        )
+    })
+}
+
+/// How many of some machines all over the tolerances of a design lose the motion.
+fn lost(problem: &Problem, design: &Design) -> Result<usize, Box<dyn std::error::Error>> {
+    let spread = problem.spread(&design.machine).ok_or("tolerances")?;
+    let some = robust::Settings {
+        machines: 4096,
+        enough: usize::MAX,
+    };
+    Ok(verify(&spread, &design.orbit, some, &unwatched)?.lost)
+}
+
+/// By how much all tolerances of a design may grow until the motion is lost; infinite beyond three times.
+fn factor(problem: &Problem, design: &Design) -> Result<f64, Box<dyn std::error::Error>> {
+    let spread = problem.spread(&design.machine).ok_or("tolerances")?;
+    let found = nearest(&spread, &design.orbit, Norm::Box, 3.0, &unwatched)?;
+    Ok(found.first().map_or(f64::INFINITY, |it| it.distance))
+}
+
+/// Designs on a grid over clearance and the places of its zone.
+fn grid(problem: &Problem, clearances: usize, places: usize) -> Vec<Design> {
+    let row = |index: usize| {
+        let clearance = CLEARANCE.at(index as f64 / (clearances - 1) as f64);
+        let machine = problem.machine_at(&[clearance]);
+        let zone = zone::hysteresis(&machine.scene).ok();
+        let design = move |index: usize| {
+            let zone = zone.clone()?;
+            let frequency = problem.frequency.at(index as f64 / (places - 1) as f64);
+            let place = (frequency - zone.frequency_g0) / (zone.frequency_sn - zone.frequency_g0);
+            let orbit = zone.orbit_at(place).ok().filter(|it| it.is_stable())?;
+            let mut machine = machine.clone();
+            Parameter::Frequency.set(&mut machine.scene, frequency);
+            Some(Design {
+                value: orbit.before_impact_velocity(),
+                machine,
+                place,
+                zone,
+                orbit,
+            })
+        };
+        (0..places).filter_map(design).collect::<Vec<_>>()
+    };
+    (0..clearances).into_par_iter().flat_map_iter(row).collect()
+}
+
+#[test]
+fn no_machine_is_lost_to_a_fold_inside_the_zone() -> Outcome {
+    let problem = above_a_fold(1.0)?;
+    let exact = Problem {
+        tolerances: Vec::new(),
+        ..problem.clone()
+    };
+    let without = search(&exact, SETTINGS, &Unwatched, None)?.design;
+    assert!(lost(&problem, &without)? > 400, "the search must give way");
+    let design = search(&problem, SETTINGS, &Unwatched, None)?.design;
+    assert_eq!(lost(&problem, &design)?, 0);
+    let factor_of_design = factor(&problem, &design)?;
+    assert!(factor_of_design > 1.0 - 1e-6, "{factor_of_design}");
+    let told = problem.edge_at(&design);
+    assert!(told.is_some_and(|it| it.contains("inside the zone (fold)")));
+    for other in grid(&problem, 17, 35) {
+        let is_better = other.value > design.value * (1.0 + 1e-6);
+        assert!(!is_better || factor(&problem, &other)? < 1.0, "{other:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn tolerances_that_no_design_has_are_told_with_how_much_is_lacking() -> Outcome {
+    let mut problem = above_a_fold(4.0)?;
+    problem.frequency.low = 1.366;
+    problem.axes[0].range = Interval {
+        low: 2.49,
+        high: 2.51,
+    };
+    let found = search(&problem, SETTINGS, &Unwatched, None);
+    let Err(SearchError::NoDesign { reason, .. }) = found else {
+        return Err(format!("{found:?}").into());
+    };
+    assert!(reason.contains("within the tolerances"), "{reason}");
+    assert!(reason.contains("of them only"), "{reason}");
+    Ok(())
+}
+
+#[test]
+fn of_catalogues_the_best_of_all_combinations_is_found() -> Outcome {
+    let machine = Machine::named("loaded").ok_or("the paper's machine")?;
+    let stiffness = [3.0, 5.0, 7.0, 9.0, 12.0, 16.0, 21.0];
+    let clearance = [5.0, 6.5, 8.0, 9.5, 11.0, 12.5, 14.0];
+    let peak = Requirement {
+        figure: Figure::StopForce,
+        least: None,
+        most: Some(90.0),
+    };
+    let problem = |stiffness: &[f64], clearance: &[f64]| Problem {
+        margin: 0.1,
+        requirements: vec![peak],
+        ..Problem::of(
+            machine.clone(),
+            vec![
+                Axis::of_catalogue(Parameter::StopStiffness, stiffness.to_vec()),
+                Axis::of_catalogue(Parameter::Clearance, clearance.to_vec()),
+            ],
+        )
+    };
+    let few = Settings {
+        evaluations: 100,
+        ..SETTINGS
+    };
+    let found = search(&problem(&stiffness, &clearance), few, &Unwatched, None)?;
+    let all = stiffness
+        .into_par_iter()
+        .flat_map_iter(|k| clearance.map(|rho| [k, rho]));
+    let each = all.filter_map(|[k, rho]| Some(problem(&[k], &[rho]).at(&[k, rho]).ok()?.value));
+    let best = each.reduce(|| 0.0, f64::max);
+    let value = found.design.value;
+    assert!(value >= best * (1.0 - 1e-9), "{value} {best}");
+    assert!(value <= best * (1.0 + 1e-4), "{value} {best}");
+    Ok(())
+}
+
+#[test]
+fn certainty_is_met_as_hard_as_a_fine_scan_finds() -> Outcome {
+    let machine = Machine::named("loaded").ok_or("the paper's machine")?;
+    let certainty = Requirement {
+        figure: Figure::Certainty,
+        least: Some(0.5),
+        most: None,
+    };
+    let range = Interval {
+        low: 6.5,
+        high: 8.5,
+    };
+    let problem = Problem {
+        requirements: vec![certainty],
+        ..Problem::of(machine, vec![Axis::new(Parameter::Clearance, range)])
+    };
+    let found = search(&problem, SETTINGS, &Unwatched, None)?;
+    let resolution = found.resolution.ok_or("trials are in the way")?;
+    assert!(resolution.axes < 1e-3 && resolution.place < 1e-3);
+    let passes = |orbit: &Orbit| {
+        problem
+            .tried(orbit)
+            .is_ok_and(|all| all.iter().all(Met::is_met))
+    };
+    assert!(passes(&found.design.orbit));
+    for index in 0..9 {
+        let machine = problem.machine_at(&[range.at(f64::from(index) / 8.0)]);
+        let zone = zone::hysteresis(&machine.scene)?;
+        for place in (0..32).map(|index| f64::from(index) / 32.0) {
+            let orbit = zone.orbit_at(place)?;
+            let motion = Judged::new(&machine, &zone, place, &orbit)?;
+            let value = problem.sought(&motion).ok_or("a velocity")?;
+            let is_better = value > found.design.value * 1.001;
+            assert!(
+                !(is_better && orbit.is_stable() && passes(&orbit)),
+                "{value} at {place}"
+            );
+        }
+    }
+    Ok(())
+}
