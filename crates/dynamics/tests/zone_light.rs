@@ -1,7 +1,7 @@
 //! Zones of lightly damped machines: long branches that meet surfaces at drive angle phi, and motions with small basins.
 
 use approx::assert_abs_diff_eq;
-use softstop::{Piercing, Ratios, Scene, SceneError, Stop};
+use softstop::{Machine, Piercing, Ratios, Scene, SceneError, Stop};
 use softstop_dynamics::Zone;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::{
@@ -184,5 +184,75 @@ fn without_a_grazing_boundary_there_are_stretches() -> Outcome {
             assert!(point.is_stable() && point.impacts.len() == 1);
         }
     }
+    Ok(())
+}
+
+/// Stretches of one or two per cent of a frequency, on branches of their own between grazings: machine, frequency,
+/// before-impact velocity.
+const NARROW: [(&str, f64, f64); 3] = [
+    (
+        r#"
+        mass = 1.0
+        stiffness = 1.0
+        damping = 0.003862551974606898
+        clearance = 0.7016076302217213
+        contact.damping = 0.2839427710865639
+        excitation = { amplitude = 1.0, frequency = 1.0 }
+        stop = { model = "kelvin-voigt", stiffness = 6.756288262259929, release = "zero-force" }
+        "#,
+        0.2843706146148979,
+        0.11687658940728711,
+    ),
+    (
+        r#"
+        mass = 1.0
+        stiffness = 1.0
+        damping = 0.019785236634088547
+        clearance = 0.6101458396162416
+        contact.damping = 0.048701862915056085
+        excitation = { amplitude = 1.0, frequency = 1.0 }
+        stop = { model = "preloaded", stiffness = 171.47717082033913, preload = 13.057579315427644 }
+        [piercing]
+        stiffness = 10.551918701107407
+        friction = 9.740012643262677
+        thickness = 0.06750529764880632
+        travel = 0.15694637880660617
+        "#,
+        0.48621723167722525,
+        0.5767556438024368,
+    ),
+    (
+        r#"
+        mass = 1.0
+        stiffness = 1.0
+        damping = 0.004077571953411345
+        clearance = 1.7460711077969326
+        contact.damping = 0.006877124392319086
+        excitation = { amplitude = 1.0, frequency = 1.0 }
+        [stop]
+        model = "piecewise-linear"
+        loading = [
+            { from = 0.0, stiffness = 2.416523876931542 },
+            { from = 0.5933147929749587, stiffness = 93.74135094551133 },
+        ]
+        "#,
+        0.6725767278627006,
+        0.3565644788748065,
+    ),
+];
+
+/// Motions that starts settle on there, found by brute force.
+#[test]
+fn narrow_stretches_between_grazings() -> Outcome {
+    let missed = NARROW.iter().filter(|(machine, frequency, velocity)| {
+        let scene = Machine::from_toml(machine).expect("a machine").scene;
+        let on = |one: &Stretch| {
+            let there = one.point_at(&scene, *frequency).ok().flatten();
+            there.is_some_and(|point| (point.impacts[0] - velocity).abs() < 1e-6)
+        };
+        !stretches(&scene).expect("a machine").iter().any(on)
+    });
+    let missed: Vec<_> = missed.map(|(_, frequency, _)| frequency).collect();
+    assert!(missed.is_empty(), "{missed:?}");
     Ok(())
 }

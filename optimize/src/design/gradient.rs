@@ -7,13 +7,11 @@ use slsqp::{Func, StopTols, minimize};
 
 use super::Design;
 use super::coordinates::{Coordinates, Summit};
-use super::here::Here;
 use super::local::{Local, local};
-use super::problem::{Counts, Problem};
+use super::problem::Problem;
 use super::reach::Known;
 use super::slope::Slope;
 use super::space::Space;
-use super::worst::worst;
 
 /// Designs that one ascent looks at, at most.
 const MOST: usize = 60;
@@ -22,8 +20,6 @@ const GAIN: f64 = 1e-12;
 const STEP: f64 = 1e-11;
 /// By how much each constraint is to be met, in its own unit: more than the solver leaves open.
 const SLACK: f64 = 1e-10;
-/// The score above which none is looked for, in units of that at the start.
-const HIGHEST: f64 = 1e2;
 /// What stands where there is no motion: far above every score, which are about -1.
 const NOWHERE: f64 = 1e3;
 
@@ -51,8 +47,7 @@ pub(super) fn ascend_known(
     if path.start.is_empty() {
         return path.best.into_inner();
     }
-    let mut bounds = path.coordinates.bounds(problem);
-    bounds.extend(path.floor.map(|_| (0.0, HIGHEST)));
+    let bounds = path.coordinates.bounds(problem);
     let constraint = |index| {
         move |at: &[f64], gradient: Option<&mut [f64]>, path: &mut &Path<'_>| {
             path.constraint(index, at, gradient)
@@ -90,9 +85,6 @@ struct Path<'a> {
     start: Vec<f64>,
     /// Score at the start: the unit of the objective.
     score: f64,
-    /// The index of one more coordinate if the worst machine counts: a score, in that unit, which no machine may stay below
-    /// and which is raised. So the solver sees no kink where another machine becomes the worst.
-    floor: Option<usize>,
     constraints: usize,
     last: RefCell<Option<(Vec<f64>, Option<Local>)>>,
     best: RefCell<Option<Summit>>,
@@ -107,29 +99,17 @@ impl<'a> Path<'a> {
             start: coordinates.start(place),
             coordinates,
             score: 1.0,
-            floor: None,
             constraints: 0,
             last: RefCell::default(),
             best: RefCell::default(),
         };
-        if problem.objective.counts == Counts::Worst && path.known.machines.is_empty() {
-            let unit = path.coordinates.unit(&path.start);
-            let here = Here::find(problem, &path.coordinates.at(&unit, &path.start))?;
-            let worst = worst(problem, &here.design(0.0))?;
-            path.known.machines.push((worst.at, worst.orbit));
-        }
         let start = path.start.clone();
-        let (nominal, worst, constraints) = path.with(&start, |first| {
+        let (score, constraints) = path.with(&start, |first| {
             let first = first?;
-            let worst = first.worst.iter().map(|it| it.value).reduce(f64::min);
-            Some((first.objective.value, worst, first.constraints.len()))
+            Some((first.objective.value, first.constraints.len()))
         })?;
-        path.score = worst.unwrap_or(nominal).abs().max(f64::MIN_POSITIVE);
-        path.constraints = constraints + path.known.machines.len();
-        if worst.is_some() && !path.start.is_empty() {
-            path.floor = Some(path.start.len());
-            path.start.push(1.0);
-        }
+        path.score = score.abs().max(f64::MIN_POSITIVE);
+        path.constraints = constraints;
         Some(path)
     }
 
@@ -141,7 +121,6 @@ impl<'a> Path<'a> {
 
     /// The same, once for all that the solver asks of one point.
     fn with<T>(&self, at: &[f64], take: impl FnOnce(Option<&Local>) -> T) -> T {
-        let at = &at[..self.floor.unwrap_or(at.len())];
         let known = matches!(&*self.last.borrow(), Some((other, _)) if other == at);
         if !known {
             let mut found = self.compute(at);
@@ -163,35 +142,17 @@ impl<'a> Path<'a> {
     }
 
     fn objective(&self, at: &[f64], gradient: Option<&mut [f64]>) -> f64 {
-        if let Some(floor) = self.floor {
-            if let Some(gradient) = gradient {
-                gradient.fill(0.0);
-                gradient[floor] = -1.0;
-            }
-            return -at[floor];
-        }
         let factor = -1.0 / self.score;
         self.with(at, |found| {
             told(found.map(|it| &it.objective), factor, 0.0, gradient)
         })
     }
 
-    fn constraint(&self, index: usize, at: &[f64], mut gradient: Option<&mut [f64]>) -> f64 {
-        let machine = index.checked_sub(self.constraints - self.known.machines.len());
-        let Some((machine, floor)) = machine.zip(self.floor) else {
-            return self.with(at, |found| {
-                let slope = found.and_then(|it| it.constraints.get(index));
-                told(slope, -1.0, SLACK, gradient)
-            });
-        };
-        let value = self.with(at, |found| {
-            let slope = found.and_then(|it| it.worst.get(machine));
-            told(slope, -1.0 / self.score, at[floor], gradient.as_deref_mut())
-        });
-        if let Some(gradient) = gradient {
-            gradient[floor] = 1.0;
-        }
-        value
+    fn constraint(&self, index: usize, at: &[f64], gradient: Option<&mut [f64]>) -> f64 {
+        self.with(at, |found| {
+            let slope = found.and_then(|it| it.constraints.get(index));
+            told(slope, -1.0, SLACK, gradient)
+        })
     }
 }
 

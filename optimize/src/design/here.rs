@@ -68,15 +68,6 @@ impl Here {
         Judged::new(&self.machine, &self.zone, self.place, &self.orbit).ok()
     }
 
-    /// The motion of a machine that is nearly the same.
-    pub(super) fn beside<'a>(
-        &'a self,
-        machine: &'a Machine,
-        orbit: &'a Orbit,
-    ) -> Option<Judged<'a>> {
-        Judged::new(machine, &self.zone, self.place, orbit).ok()
-    }
-
     /// True if margin, bounds of the frequency and tolerances allow the place.
     pub(super) fn is_within(&self, problem: &Problem, tolerated: Option<&BoxWindow>) -> bool {
         let window = problem.window_within(&self.zone, tolerated);

@@ -1,6 +1,6 @@
 //! Holds the whole box of tolerances. A search knows the ends of the zone; what else is lost within the box, a fold inside
-//! the zone, a flip, an inner grazing, and which of its machines is the worst, is looked for about what it has found. Each
-//! such place becomes a constraint, and the design moves until there are no more.
+//! the zone, a flip, an inner grazing, is looked for about what it has found. Each such place becomes a constraint, and the
+//! design moves until there are no more.
 
 use softstop_console::interrupt;
 use softstop_dynamics::zone::Loss;
@@ -8,15 +8,14 @@ use softstop_explore::zone::lost_by;
 
 use super::coordinates::Summit;
 use super::gradient::ascend_known;
-use super::problem::{Counts, Problem};
+use super::problem::Problem;
 use super::reach::Known;
-use super::worst::worst;
 use super::{Design, Infeasible};
 use crate::robust::{Manifold, Norm, Tolerances, first_losses, nearest};
 
 /// How often a design is moved.
 const ROUNDS: usize = 12;
-/// Share of the tolerances, and of a score, that is rounding.
+/// Share of the tolerances that is rounding.
 const ROUNDING: f64 = 1e-7;
 /// Directions that are added at once, at most.
 const MOST: usize = 4;
@@ -48,19 +47,18 @@ pub(super) struct Held {
 /// [`Infeasible`] with how much is lacking if there is none.
 pub(super) fn hold(problem: &Problem, start: &Summit) -> Result<Held, Infeasible> {
     let mut known = Known::default();
-    // The nominal optimum often touches a border with a corner, where the worst machine has no slope to follow.
-    let mut summit = match problem.objective.counts {
-        Counts::Nominal => start.clone(),
-        Counts::Worst => best_of(problem, again(problem, &known, start)).unwrap_or(start.clone()),
-    };
+    let mut summit = start.clone();
     let mut lack: Option<Infeasible> = None;
     for _ in 0..ROUNDS {
-        match look(problem, &mut summit.design, &mut known)? {
-            Look::Settled => return Ok(Held { summit, known }),
-            Look::Lost(lost) if lack.as_ref().is_none_or(|it| lost.gap < it.gap) => {
-                lack = Some(lost);
-            }
-            _ => {}
+        let before = known.ways.len();
+        let Err(lost) = look(problem, &summit.design, &mut known) else {
+            return Ok(Held { summit, known });
+        };
+        if known.ways.len() == before {
+            return Err(lost);
+        }
+        if lack.as_ref().is_none_or(|it| lost.gap < it.gap) {
+            lack = Some(lost);
         }
         let next = again(problem, &known, &summit).next();
         summit = next.ok_or_else(|| lack.clone().unwrap_or_else(untold))?;
@@ -68,55 +66,31 @@ pub(super) fn hold(problem: &Problem, start: &Summit) -> Result<Held, Infeasible
     Err(lack.unwrap_or_else(untold))
 }
 
-/// What is seen of a design's box.
-pub(super) enum Look {
-    /// All of it is as was known.
-    Settled,
-    /// Machines lose the motion.
-    Lost(Infeasible),
-    /// A machine is worse than those that were known.
-    Worse,
-}
-
 /// Looks all around, and takes note of what was not known.
+///
+/// # Errors
+/// [`Infeasible`] with how much is lacking if machines lose the motion, or cannot be computed.
 pub(super) fn look(
     problem: &Problem,
-    design: &mut Design,
+    design: &Design,
     known: &mut Known,
-) -> Result<Look, Infeasible> {
+) -> Result<(), Infeasible> {
     let Some(spread) = problem.spread(&design.machine) else {
-        return Ok(Look::Settled);
+        return Ok(());
     };
     let lost = lost(&spread, design)?;
-    if let Some(first) = lost.first() {
-        let lacking = lacking(first);
-        known.ways.extend(lost.into_iter().map(|it| it.way));
-        return Ok(Look::Lost(lacking));
-    }
-    if problem.objective.counts == Counts::Nominal {
-        return Ok(Look::Settled);
-    }
-    let worst = worst(problem, design).ok_or_else(untold)?;
-    let is_settled = worst.value >= (1.0 - ROUNDING) * problem.objective.score(design.value);
-    design.value = problem.objective.value(worst.value);
-    known.machines.push((worst.at, worst.orbit));
-    Ok(if is_settled {
-        Look::Settled
-    } else {
-        Look::Worse
-    })
+    let lacking = lost.first().map(lacking);
+    known.ways.extend(lost.into_iter().map(|it| it.way));
+    lacking.map_or(Ok(()), Err)
 }
 
 impl Problem {
-    /// Whether a design has its whole box; it is told the value of its worst machine, if that counts.
+    /// Whether a design has its whole box.
     ///
     /// # Errors
     /// [`Infeasible`] with how much is lacking.
-    pub fn has_box(&self, design: &mut Design) -> Result<(), Infeasible> {
-        match look(self, design, &mut Known::default())? {
-            Look::Lost(lacking) => Err(lacking),
-            Look::Settled | Look::Worse => Ok(()),
-        }
+    pub fn has_box(&self, design: &Design) -> Result<(), Infeasible> {
+        look(self, design, &mut Known::default())
     }
 }
 
@@ -145,11 +119,6 @@ fn again<'a>(
 ) -> impl Iterator<Item = Summit> + 'a {
     let places = [from.design.place].into_iter().chain(PLACES);
     places.filter_map(|place| ascend_known(problem, known, &from.unit, place))
-}
-
-fn best_of(problem: &Problem, all: impl Iterator<Item = Summit>) -> Option<Summit> {
-    let score = |it: &Summit| problem.objective.score(it.design.value);
-    all.max_by(|one, other| score(one).total_cmp(&score(other)))
 }
 
 /// The directions of the box in which the motion is lost within it.

@@ -18,8 +18,6 @@ use super::slope::Slope;
 pub struct Local {
     /// The score.
     pub objective: Slope,
-    /// The same of machines within the tolerances, of which the worst counts.
-    pub worst: Vec<Slope>,
     /// The constraints, each in units of its bound.
     pub constraints: Vec<Slope>,
     /// The design there, if it is as required.
@@ -63,23 +61,18 @@ pub fn local(problem: &Problem, at: &At<'_>, known: &Known) -> Option<Local> {
             constraints.push(edge.as_ref().map_or_else(|| Some(none()), inside)?);
         }
     }
-    let machines = known.machines(problem, (at, &here), exact.as_ref())?;
-    let is_kept = machines.kept.iter().all(|it| it.value >= -ROUNDING);
-    constraints.extend(machines.kept);
-    let scores = machines.scores.iter().map(|it| it.value);
-    let worst = scores.reduce(f64::min);
-    let value = worst.map_or(sought.value, |score| problem.objective.value(score));
-    let score = worst.unwrap_or(score);
+    let kept = known.kept(problem, (at, &here), exact.as_ref())?;
+    let is_kept = kept.iter().all(|it| it.value >= -ROUNDING);
+    constraints.extend(kept);
     let is_met = problem.met(&motion).iter().all(Met::is_met);
     let is_good = is_met
         && is_kept
         && here.is_within(problem, edges.as_ref())
         && score > 0.0
         && score.is_finite();
-    let design = is_good.then(|| here.design(value));
+    let design = is_good.then(|| here.design(sought.value));
     Some(Local {
         objective,
-        worst: machines.scores,
         constraints,
         design,
     })

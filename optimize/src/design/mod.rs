@@ -34,7 +34,6 @@ mod survey;
 mod swarm;
 pub mod trial;
 mod within;
-mod worst;
 
 use std::slice;
 

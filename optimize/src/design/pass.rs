@@ -10,7 +10,7 @@ use super::conflict::conflict;
 use super::coordinates::{Coordinates, Summit};
 use super::gradient::ascend_from;
 use super::here::Here;
-use super::hold::{Held, Look, look};
+use super::hold::{Held, look};
 use super::judge::{Met, violation};
 use super::problem::Problem;
 use super::reach::Known;
@@ -71,10 +71,10 @@ pub(super) fn pass(
             problem,
             known: &held.known,
         };
-        let Some(mut found) = trials.best(&held.summit) else {
+        let Some(found) = trials.best(&held.summit) else {
             break;
         };
-        if let Look::Settled = look(problem, &mut found.design, &mut held.known)? {
+        if look(problem, &found.design, &mut held.known).is_ok() {
             return Ok((found, Some(RESOLUTION)));
         }
     }

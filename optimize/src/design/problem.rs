@@ -92,18 +92,6 @@ pub struct Objective {
     pub figure: Figure,
     /// [`Sense::Least`]: as much as can be, [`Sense::Most`]: as little.
     pub sense: Sense,
-    /// Whose value counts.
-    pub counts: Counts,
-}
-
-/// Whose value of what is sought counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Counts {
-    /// That of the machine as it is drawn.
-    #[default]
-    Nominal,
-    /// That of the worst machine within the tolerances.
-    Worst,
 }
 
 impl Default for Objective {
@@ -112,7 +100,6 @@ impl Default for Objective {
         Self {
             figure: Figure::Velocity,
             sense: Sense::Least,
-            counts: Counts::Nominal,
         }
     }
 }
@@ -123,14 +110,6 @@ impl Objective {
         match self.sense {
             Sense::Least => value,
             Sense::Most => value.recip(),
-        }
-    }
-
-    /// The value of a grade.
-    pub(super) fn value(&self, score: f64) -> f64 {
-        match self.sense {
-            Sense::Least => score,
-            Sense::Most => score.recip(),
         }
     }
 
@@ -159,11 +138,7 @@ impl Objective {
             Sense::Least => "highest",
             Sense::Most => "least",
         };
-        let of = match self.counts {
-            Counts::Nominal => "",
-            Counts::Worst => " of the worst machine within the tolerances",
-        };
-        format!("{most} {}{of}", self.figure.meaning())
+        format!("{most} {}", self.figure.meaning())
     }
 }
 

@@ -1,12 +1,11 @@
-//! Places within the tolerances that a search has come to know: ways out on which the motion would be lost, and machines
-//! whose value counts; each with its derivatives.
+//! Places within the tolerances that a search has come to know: ways out on which the motion would be lost, with
+//! derivatives.
 
-use softstop::Parameter;
+use softstop_dynamics::BranchPoint;
 use softstop_dynamics::continuation::Test;
-use softstop_dynamics::slopes::{self, Border};
-use softstop_dynamics::spread::{Reached, Settled, Spread, along};
+use softstop_dynamics::slopes::Border;
+use softstop_dynamics::spread::{Reached, Spread, along};
 use softstop_dynamics::zone::Loss;
-use softstop_dynamics::{BranchPoint, Orbit};
 
 use super::box_window::Edge;
 use super::differences::differences;
@@ -14,10 +13,9 @@ use super::exact::Exact;
 use super::here::{At, Here};
 use super::judge::Met;
 use super::problem::Problem;
-use super::rates::rates;
 use super::slope::Slope;
 use super::within::Rows;
-use crate::robust::{Tolerances, is_loss, motion};
+use crate::robust::{Tolerances, is_loss};
 
 /// Share of the box up to which a way is followed.
 const FARTHEST: f64 = 1.25;
@@ -27,22 +25,10 @@ const FARTHEST: f64 = 1.25;
 pub struct Known {
     /// To their ends the motion has to go on.
     pub ways: Vec<Vec<f64>>,
-    /// Machines of which the worst counts, and their motions in a design that is near.
-    pub machines: Vec<(Vec<f64>, Orbit)>,
-}
-
-/// What is known of a design's machines.
-#[derive(Debug, Default)]
-pub(super) struct Machines {
-    /// How much of the tolerances more than all of them each way takes until the motion is lost.
-    pub kept: Vec<Slope>,
-    /// The scores of the machines.
-    pub scores: Vec<Slope>,
 }
 
 impl Known {
-    /// The value of a motion that meets its requirements, of the worst machine that is known if that counts; none if one of
-    /// the ways is lost.
+    /// The value of a motion that meets its requirements; none if one of the ways is lost.
     pub(super) fn value(&self, problem: &Problem, here: &Here) -> Option<f64> {
         let motion = here.judged()?;
         let is_met = problem.met(&motion).iter().all(Met::is_met);
@@ -53,22 +39,18 @@ impl Known {
         for way in &self.ways {
             end(&spread, here, way).filter(|(share, _)| *share >= 1.0)?;
         }
-        let scores = self.machines.iter();
-        let scores = scores.map(|machine| score_of(problem, (&spread, here), machine));
-        let scores: Option<Vec<f64>> = scores.collect();
-        let worst = scores?.into_iter().reduce(f64::min);
-        Some(worst.map_or(value, |score| problem.objective.value(score)))
+        Some(value)
     }
 
-    /// The machines about a point of the search; none if there is nothing to tell of one.
-    pub(super) fn machines(
+    /// How much of the tolerances more than all of them each way takes until the motion is lost; none if one cannot be told.
+    pub(super) fn kept(
         &self,
         problem: &Problem,
         (at, here): (&At<'_>, &Here),
         exact: Option<&Exact>,
-    ) -> Option<Machines> {
-        if self.ways.is_empty() && self.machines.is_empty() {
-            return Some(Machines::default());
+    ) -> Option<Vec<Slope>> {
+        if self.ways.is_empty() {
+            return Some(Vec::new());
         }
         let about = About {
             problem,
@@ -77,12 +59,7 @@ impl Known {
             exact: exact?,
             spread: problem.spread(here.machine())?,
         };
-        let kept = self.ways.iter().map(|way| about.kept(way));
-        let scores = self.machines.iter().map(|machine| about.score(machine));
-        Some(Machines {
-            kept: kept.collect::<Option<_>>()?,
-            scores: scores.collect::<Option<_>>()?,
-        })
+        self.ways.iter().map(|way| about.kept(way)).collect()
     }
 }
 
@@ -103,7 +80,7 @@ pub(super) fn inside(
             (border, -1.0)
         }
     };
-    let unit = sign / border.frequency();
+    let unit = sign / problem.machine.scene.excitation.frequency;
     let (by, _) = rows.across(&border);
     Some(Slope {
         value: unit * (scene.excitation.frequency - border.frequency()),
@@ -125,29 +102,6 @@ fn end(
         Some(loss) => Some((share, Some((loss, point)))),
         None => Some((FARTHEST, None)),
     }
-}
-
-/// The motion of a machine within the tolerances: near one that is known, or else followed from the nominal one.
-fn motion_of(
-    (spread, here): (&Tolerances, &Here),
-    (machine, near): &(Vec<f64>, Orbit),
-) -> Option<Orbit> {
-    let scene = spread.scene(machine);
-    let settled = Settled::near(&scene, near.state());
-    let found = settled.and_then(|it| Orbit::near(&scene, it.state).ok());
-    found.or_else(|| motion(spread, &here.orbit, machine))
-}
-
-/// The score of a machine within the tolerances.
-fn score_of(
-    problem: &Problem,
-    (spread, here): (&Tolerances, &Here),
-    known: &(Vec<f64>, Orbit),
-) -> Option<f64> {
-    let orbit = motion_of((spread, here), known)?;
-    let machine = spread.machine(&known.0);
-    let motion = here.beside(&machine, &orbit)?;
-    Some(problem.objective.score(problem.sought(&motion)?))
 }
 
 struct About<'a> {
@@ -198,33 +152,6 @@ impl About<'_> {
         let border = Border::critical(&scene, 1, (test, &point), rows.parameters()).ok()?;
         let (by, outwards) = rows.across(&border);
         Some(by.iter().map(|by| -share * by / outwards).collect())
-    }
-
-    /// The score of a machine.
-    fn score(&self, known: &(Vec<f64>, Orbit)) -> Option<Slope> {
-        let orbit = motion_of((&self.spread, self.here), known)?;
-        let machine = &known.0;
-        let own = self.spread.machine(machine);
-        let judged = self.here.beside(&own, &orbit)?;
-        let value = self.problem.sought(&judged)?;
-        let exact = || {
-            let rows = Rows::at(self.problem, (self.at, self.here), self.exact, machine)?;
-            let all = [rows.parameters(), &[Parameter::Frequency]].concat();
-            let slopes = slopes::of(&orbit, &all).ok()?;
-            let by = rates(self.problem.objective.figure, &slopes, &judged)?;
-            let by = rows.total(&all, &by);
-            Some(self.problem.objective.slope(Slope { value, by }))
-        };
-        let score = |here: &Here| {
-            let spread = self.problem.spread(here.machine())?;
-            Some(vec![score_of(self.problem, (&spread, here), known)?])
-        };
-        exact().or_else(|| {
-            Some(Slope {
-                value: self.problem.objective.score(value),
-                by: self.differenced(&score)?,
-            })
-        })
     }
 
     fn differenced(&self, value: &impl Fn(&Here) -> Option<Vec<f64>>) -> Option<Vec<f64>> {

@@ -4,7 +4,7 @@ use softstop::{Parameter, Scene};
 use softstop_dynamics::slopes::Border;
 use softstop_dynamics::spread::Spread;
 
-use super::exact::{Exact, dot};
+use super::exact::Exact;
 use super::here::{At, Here};
 use super::problem::Problem;
 use super::space::Space;
@@ -100,15 +100,6 @@ impl Rows {
             others.sum::<f64>() + row[Parameter::Frequency as usize]
         };
         (self.by.iter().map(across).collect(), across(&self.outwards))
-    }
-
-    /// Derivatives by parameters as such by the coordinates of the search.
-    pub(super) fn total(&self, parameters: &[Parameter], by: &[f64]) -> Vec<f64> {
-        let total = |row: &Values| {
-            let row: Vec<f64> = parameters.iter().map(|it| row[*it as usize]).collect();
-            dot(&row, by)
-        };
-        self.by.iter().map(total).collect()
     }
 }
 

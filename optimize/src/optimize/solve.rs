@@ -23,7 +23,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     let evaluations = best.evaluations();
     drop(best);
     let mut interrupted = None;
-    let mut found = match outcome {
+    let found = match outcome {
         Ok(found) => found,
         Err(SearchError::Stopped(Some(found))) => {
             interrupt::save();
@@ -42,8 +42,8 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     let met = met?;
     // Of an unfinished search nothing is written that is not as asked.
     let is_whole =
-        |design: &mut Design| met.iter().all(Met::is_met) && job.problem.has_box(design).is_ok();
-    if interrupted == Some(Interrupted::Search) && !is_whole(&mut found.design) {
+        |design: &Design| met.iter().all(Met::is_met) && job.problem.has_box(design).is_ok();
+    if interrupted == Some(Interrupted::Search) && !is_whole(&found.design) {
         return Err(Failure::Interrupted);
     }
     let design = &found.design;

@@ -7,7 +7,7 @@ use softstop_dynamics::orbit::OrbitError;
 
 use super::task::Job;
 use crate::design::Design;
-use crate::design::problem::{Counts, Objective, Problem};
+use crate::design::problem::{Objective, Problem};
 use crate::design::search::{self, Unwatched};
 use crate::robust::{
     Effort, Nearest, Norm, Scatter, Sensitivities, Settings, Tolerance, Verdict, Worst, nearest,
@@ -107,7 +107,6 @@ fn without(job: &Job) -> Result<Option<Without>, OrbitError> {
     let mut exact = Problem {
         tolerances: Vec::new(),
         objective: Objective {
-            counts: Counts::Nominal,
             ..job.problem.objective
         },
         ..job.problem.clone()

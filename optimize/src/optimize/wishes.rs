@@ -181,11 +181,7 @@ pub(super) fn objective(machine: &Machine, goal: &Goal) -> Result<Objective, Fai
             "objective.{says} = {name}: this machine has no {lacks}"
         )));
     }
-    Ok(Objective {
-        figure,
-        sense,
-        ..Objective::default()
-    })
+    Ok(Objective { figure, sense })
 }
 
 pub(super) fn known(place: &str, name: &str) -> Result<Figure, Failure> {

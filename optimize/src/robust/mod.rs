@@ -22,7 +22,6 @@ pub use worst::{Worst, worst};
 
 pub(crate) use meeting::is_loss;
 pub(crate) use nearest::first_losses;
-pub(crate) use worst::{Grade, least, motion};
 
 use softstop::{Allowed, Machine, Parameter, Scene, SceneError};
 use softstop_dynamics::spread::Spread;
