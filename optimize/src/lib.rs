@@ -23,7 +23,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 use softstop_console::failure::Failure;
 use softstop_console::{output, schema};
 use softstop_explore::{
-    basin, continuation, fidelity, motions, orbit, simulate, stops, sweep, zone,
+    basin, continuation, fidelity, motions, orbit, simulate, stops, study, sweep, zone,
 };
 
 /// Exact dynamics and optimal design of impact oscillators with soft, preloaded and rigid stops.
@@ -44,10 +44,12 @@ Examples:
   softstop continue --parameter eta --from 0.9 --to 1.5   its branch with folds and flips
   softstop sweep --from 0.8 --to 1.8               bifurcation diagram, up and down
   softstop basin --size 1000                       which start leads to which motion
+  softstop study docs/studies/map.toml             a map over two parameters, or millions of machines
   softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
   softstop fmu docs/scenes/hertz.toml              the same machine for FMI 2.0 co-simulation
   softstop schema > machine.schema.json            what machine files may hold, for editors
   softstop schema task > task.schema.json          what the files of optimize --config may hold
+  softstop schema study > study.schema.json        what the files of study may hold
   softstop stops                                   pictures of all the stops' laws
   softstop fidelity B --tolerance 0.02             the simplest model that will do
 
@@ -69,11 +71,13 @@ pub enum Command {
     Sweep(sweep::SweepArguments),
     /// Which initial states lead to which motion
     Basin(basin::BasinArguments),
+    /// Many machines from a study file: grids and samples, resumable, in shards
+    Study(study::StudyArguments),
     /// Search stiffness, clearance and frequency for the hardest impact
     Optimize(optimize::OptimizeArguments),
     /// Pack a machine as an FMU for co-simulation
     Fmu(fmu::FmuArguments),
-    /// Print the JSON Schema of machine files or of task files, for editors
+    /// Print the JSON Schema of files of machines, tasks or studies, for editors
     Schema {
         /// Which files
         #[arg(value_enum, default_value_t, value_name = "FILES")]
@@ -95,6 +99,8 @@ pub enum Files {
     Machine,
     /// A task of `softstop optimize --config`
     Task,
+    /// A study of `softstop study`
+    Study,
 }
 
 /// Reads the command line, does what it says and turns the outcome into an exit code.
@@ -111,11 +117,13 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Zone(arguments) => zone::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Basin(arguments) => basin::run(&arguments),
+        Command::Study(arguments) => study::run(&arguments),
         Command::Optimize(arguments) => optimize::run(&arguments),
         Command::Fmu(arguments) => fmu::run(&arguments),
         Command::Schema { of } => output::print(&output::json(&match of {
             Files::Machine => schema::machine(),
             Files::Task => optimize::task_schema(),
+            Files::Study => study::schema(),
         })?),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Stops(arguments) => stops::run(&arguments),

@@ -16,11 +16,12 @@ const SOFTSTOP: Program = Program {
 };
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes");
+const STUDIES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/studies");
 const SIGNALS: [&str; 3] = ["INT", "TERM", "HUP"];
 
 /// It ends by itself: no step of it takes long.
 fn ends(line: &str, kept: &[&str]) {
-    let line = line.replace("SCENES", SCENES);
+    let line = line.replace("SCENES", SCENES).replace("STUDIES", STUDIES);
     for signal in SIGNALS {
         let folder = tempfile::tempdir().expect("a folder");
         let said = SOFTSTOP.ends_on(signal, &words(&line), folder.path(), kept);
@@ -136,6 +137,16 @@ fn the_best_design_so_far_is_written() -> Outcome {
 }
 
 #[test]
+fn study() {
+    let kept = &["study.part"];
+    ends("study STUDIES/press.toml", kept);
+    ends(
+        "study STUDIES/press.toml --shard 2/3",
+        &["shard-2-of-3.part"],
+    );
+}
+
+#[test]
 fn fidelity() {
     ends("fidelity B --repeats 1000", &[]);
 }
@@ -149,8 +160,9 @@ fn nothing_is_lost_to_kills() {
         "basin SCENES/chatter.toml --size 8 --transient 400",
         "basin --along-zone 4 --size 200",
         "optimize --evaluations 4000",
+        "study STUDIES/map.toml --csv",
     ] {
-        let line = line.replace("SCENES", SCENES);
+        let line = line.replace("SCENES", SCENES).replace("STUDIES", STUDIES);
         let folder = tempfile::tempdir().expect("a folder");
         SOFTSTOP.survives_kills(&words(&line), 6, folder.path());
     }

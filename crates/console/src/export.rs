@@ -45,6 +45,7 @@
 
 use std::borrow::Borrow;
 use std::collections::BTreeMap;
+use std::fs::File;
 use std::path::Path;
 
 use anyhow::anyhow;
@@ -113,13 +114,23 @@ impl Export {
         self.folder.stage(self.name(kind)?, content)
     }
 
+    /// Opens the file of a kind, to be written through to the disk before all are put in place.
+    pub fn open_file(&self, kind: &str) -> Result<File, Failure> {
+        self.folder.create_file(self.name(kind)?)
+    }
+
+    /// Opens the file of a kind as a table without columns of its own, to be written row by row.
+    pub fn rows(&self, kind: &str) -> Result<Staged, Failure> {
+        self.folder.create(self.name(kind)?)
+    }
+
     /// Opens a table as the file of a kind, to be written row by row.
     pub fn open_table<'a, T>(
         &self,
         kind: &str,
         columns: &'a [Column<T>],
     ) -> Result<Table<'a, T>, Failure> {
-        let mut staged = self.folder.create(self.name(kind)?)?;
+        let mut staged = self.rows(kind)?;
         staged.row(columns.iter().map(|column| column.name))?;
         Ok(Table { columns, staged })
     }

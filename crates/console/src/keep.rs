@@ -6,11 +6,10 @@
 //! [piece]: softstop_dynamics::watch::piece
 
 use std::collections::HashMap;
-use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::fs;
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
 
 use anyhow::{Context, anyhow};
 use clap::Args;
@@ -19,6 +18,7 @@ use softstop_dynamics::watch::Memory;
 
 use crate::failure::Failure;
 use crate::interrupt::{requested, under_way};
+use crate::pieces::{At, Pieces};
 
 /// Whether a run goes on with what an earlier one has done.
 #[derive(Debug, Clone, Copy, Args)]
@@ -39,23 +39,17 @@ pub struct Keep {
 
 #[derive(Debug)]
 struct State {
-    /// The file, locked; none before the first piece.
-    file: Option<File>,
+    /// The file; none before the first piece.
+    file: Option<Pieces>,
     /// Whether more can be kept.
     is_open: bool,
-    /// When it was last written through to the disk.
-    synced: Instant,
-    /// What was done before, until it is recalled.
-    known: HashMap<Vec<u8>, Vec<u8>>,
+    /// Where what was done before is, until it is recalled.
+    known: HashMap<Vec<u8>, At>,
 }
 
 /// What is said of a run that is ended.
-const KEPT: &str =
+pub const KEPT: &str =
     "interrupted: what is done is kept; the same line with --resume goes on from there";
-/// How often the file is written through to the disk, against a crash of the system; a kill takes nothing written.
-const SYNC: Duration = Duration::from_secs(5);
-/// Bytes in front of a record: its checksum, and the lengths of key and piece.
-const HEAD: usize = 12;
 
 impl Keep {
     /// The file `NAME.part` in a folder, for a run of these settings. Without `--resume` an older one is taken away;
@@ -77,12 +71,11 @@ impl Keep {
             state: Mutex::new(State {
                 file: None,
                 is_open: true,
-                synced: Instant::now(),
                 known: HashMap::new(),
             }),
         };
         let place = keep.path.display();
-        match (locked(&keep.path, false), arguments.resume) {
+        match (Pieces::open(&keep.path), arguments.resume) {
             (Err(error), _) if error.kind() == ErrorKind::NotFound => {}
             (Ok(None), true) => {
                 let message = format!("--resume: {place} is of a run that goes on");
@@ -104,27 +97,17 @@ impl Keep {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Reads a file up to its first record that is not whole, and goes on behind the last one that is.
-    fn restore(&self, mut file: File) -> Result<(), Failure> {
-        let place = || format!("cannot read {}", self.path.display());
-        let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes).with_context(place)?;
+    /// Takes up what a file holds.
+    fn restore(&self, mut file: Pieces) -> Result<(), Failure> {
         let mut state = self.state();
-        let mut rest = bytes.as_slice();
-        while let Some(([key, piece], after)) = split(rest) {
-            state.known.insert(key.to_vec(), piece.to_vec());
-            rest = after;
-        }
-        match state.known.remove([].as_slice()) {
+        let known = &mut state.known;
+        let of = file.restore(|key, at| {
+            known.insert(key.to_vec(), at);
+        });
+        match of.with_context(|| format!("cannot read {}", self.path.display()))? {
             // It was cut off before it said what it is of.
-            None => {
-                state.known.clear();
-                let _ = fs::remove_file(&self.path);
-            }
+            None => drop(fs::remove_file(&self.path)),
             Some(of) if of == self.of => {
-                let whole = bytes.len() - rest.len();
-                file.set_len(whole as u64).with_context(place)?;
-                file.seek(SeekFrom::End(0)).with_context(place)?;
                 state.file = Some(file);
                 under_way().close_with(KEPT);
             }
@@ -140,25 +123,17 @@ impl Keep {
 
     fn append(&self, state: &mut State, key: &[u8], piece: &[u8]) -> io::Result<()> {
         if state.file.is_none() {
-            let Some(mut file) = locked(&self.path, true)? else {
+            let Some(file) = Pieces::create(&self.path, &self.of)? else {
                 state.is_open = false;
                 return Ok(());
             };
-            let written = file.set_len(0);
-            let written = written.and_then(|()| file.write_all(&record(&[], &self.of)?));
             state.file = Some(file);
-            written?;
             under_way().close_with(KEPT);
         }
-        let Some(file) = &mut state.file else {
-            return Ok(());
-        };
-        file.write_all(&record(key, piece)?)?;
-        if state.synced.elapsed() >= SYNC {
-            file.sync_data()?;
-            state.synced = Instant::now();
+        match &mut state.file {
+            Some(file) => file.append(key, piece).map(drop),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     /// Takes the file away: the results are in place, or there are none to come.
@@ -171,7 +146,9 @@ impl Keep {
 
 impl Memory for Keep {
     fn recall(&self, key: &[u8]) -> Option<Vec<u8>> {
-        self.state().known.remove(key)
+        let mut state = self.state();
+        let at = state.known.remove(key)?;
+        state.file.as_mut()?.read(at).ok()
     }
 
     /// What ends after the request to end may have been cut short: it is not kept.
@@ -189,40 +166,4 @@ impl Memory for Keep {
             );
         }
     }
-}
-
-/// Opens a file and locks it; none if a run that lives has it.
-fn locked(path: &Path, create: bool) -> io::Result<Option<File>> {
-    let mut options = OpenOptions::new();
-    let options = options.read(true).write(true).create(create);
-    let file = options.truncate(false).open(path)?;
-    Ok(match file.try_lock() {
-        Err(TryLockError::WouldBlock) => None,
-        // The other run has ended in between, and taken its file away.
-        _ if !path.exists() => None,
-        // Where there are no locks, no other run is expected.
-        _ => Some(file),
-    })
-}
-
-fn record(key: &[u8], piece: &[u8]) -> io::Result<Vec<u8>> {
-    let mut bytes = vec![0; 4];
-    for part in [key, piece] {
-        let length = u32::try_from(part.len()).map_err(io::Error::other)?;
-        bytes.extend(length.to_le_bytes());
-    }
-    bytes.extend([key, piece].concat());
-    let check = crc32fast::hash(&bytes[4..]);
-    bytes[..4].copy_from_slice(&check.to_le_bytes());
-    Ok(bytes)
-}
-
-/// Key and piece of the first record, and what follows it; none if it is not whole.
-fn split(bytes: &[u8]) -> Option<([&[u8]; 2], &[u8])> {
-    let (head, rest) = bytes.split_first_chunk::<HEAD>()?;
-    let number = |at: usize| Some(u32::from_le_bytes(*head[at..].first_chunk()?));
-    let (key, after) = rest.split_at_checked(number(4)? as usize)?;
-    let (piece, after) = after.split_at_checked(number(8)? as usize)?;
-    let whole = &bytes[4..bytes.len() - after.len()];
-    (crc32fast::hash(whole) == number(0)?).then_some(([key, piece], after))
 }

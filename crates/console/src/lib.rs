@@ -1,5 +1,5 @@
 //! What the programs share: the [`machine`] as the user states it, [`scene_file`]s, [`progress`],
-//! [`interrupt`], what long runs [`keep`], [`failure`], and one [`export`] of every report: [`mod@column`]s and [`record`]s said once, text [`table`]s, [`units`], [`range`]s, and
+//! [`interrupt`], what long runs [`keep`] in files of [`pieces`], [`failure`], and one [`export`] of every report: [`mod@column`]s and [`record`]s said once, text [`table`]s, [`units`], [`range`]s, and
 //! [`output`] that is there whole or not at all.
 #![forbid(unsafe_code)]
 
@@ -13,6 +13,7 @@ pub mod keep;
 pub mod machine;
 pub mod median;
 pub mod output;
+pub mod pieces;
 pub mod progress;
 pub mod range;
 pub mod record;

@@ -130,12 +130,17 @@ impl Folder {
         Ok(())
     }
 
+    /// Opens one file in the staging folder, to be written through to the disk before it is put in place.
+    pub fn create_file(&self, name: &str) -> Result<fs::File, Failure> {
+        let file = fs::File::create(self.staged(name));
+        Ok(file.with_context(|| format!("cannot write {}", self.place(name).display()))?)
+    }
+
     /// Opens one table in the staging folder, to be written row by row and closed with
     /// [`Staged::close`].
     pub fn create(&self, name: &str) -> Result<Staged, Failure> {
         let place = self.place(name);
-        let file = fs::File::create(self.staged(name))
-            .with_context(|| format!("cannot write {}", place.display()))?;
+        let file = self.create_file(name)?;
         let table = csv::WriterBuilder::new()
             .has_headers(false)
             .from_writer(file);

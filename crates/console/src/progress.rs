@@ -27,6 +27,8 @@ pub struct Progress {
     is_terminal: bool,
     /// Lines written, or 1 once the bar is shown.
     shown: AtomicU64,
+    /// What was done before.
+    before: AtomicU64,
 }
 
 impl Progress {
@@ -53,6 +55,7 @@ impl Progress {
             what: what.to_owned(),
             is_terminal: io::stderr().is_terminal(),
             shown: AtomicU64::new(0),
+            before: AtomicU64::new(0),
         }
     }
 
@@ -81,7 +84,28 @@ impl Progress {
         let all = self.bar.length();
         let all = all.map_or_else(String::new, |all| format!(" of {all}"));
         let (done, seconds) = (self.bar.position(), self.begin.elapsed().as_secs());
-        let _ = writeln!(io::stderr(), "{done}{all} {} after {seconds} s", self.what);
+        let left = self.left().map(|left| format!(", {left:.0} s left"));
+        let left = left.unwrap_or_default();
+        let _ = writeln!(
+            io::stderr(),
+            "{done}{all} {} after {seconds} s{left}",
+            self.what
+        );
+    }
+
+    /// How long the rest takes in s, if it goes on as it has.
+    fn left(&self) -> Option<f64> {
+        let (done, before) = (self.bar.position(), self.before.load(Ordering::Relaxed));
+        let made = done.checked_sub(before).filter(|made| *made > 0)?;
+        let rest = self.bar.length()?.checked_sub(done)?;
+        Some(self.begin.elapsed().as_secs_f64() * rest as f64 / made as f64)
+    }
+
+    /// So many were done before the run began.
+    pub fn begin_at(&self, done: u64) {
+        self.before.store(done, Ordering::Relaxed);
+        self.bar.set_position(done);
+        self.bar.reset_eta();
     }
 
     /// One more is done, and the run may go on.

@@ -1,5 +1,5 @@
 //! How the pictures look: [`pen`] (plain shapes), [`shapes`] (made of others), [`stroke`] (lines), [`panel`] (axes and what is between
-//! them), [`scale`] (ranges and round values), [`style`] (colours and letters), [`table`] (a table as a
+//! them), [`scale`] (ranges and round values), [`shade`] (colours of numbers), [`style`] (colours and letters), [`table`] (a table as a
 //! picture).
 #![forbid(unsafe_code)]
 
@@ -7,6 +7,7 @@ mod axes;
 pub mod panel;
 pub mod pen;
 pub mod scale;
+pub mod shade;
 pub mod shapes;
 pub mod stroke;
 pub mod style;

@@ -1,8 +1,8 @@
 //! Periodic motions of impact oscillators and what becomes of them: [`orbit`] (z = p/n, Floquet
 //! multipliers, exponents) → [`continuation`] (branches, folds, flips, grazings) → [`zone`] (where
-//! impacts and rest coexist) → [`attractors`], [`basin`], [`sweep`], [`transitions`] (what is seen from
-//! many starts), told in one vocabulary ([`motion`]), and [`models`] (how simple a model of a scene may be). What a
-//! machine does in service: [`stroke`] (figures of a period), [`supply`] (missing strips), [`run_up`] (from rest to work).
+//! impacts and rest coexist) → [`settled`], [`attractors`], [`basin`], [`sweep`], [`transitions`] (what is
+//! seen from many starts), told in one vocabulary ([`motion`]), and [`models`] (how simple a model of a scene may be). What a
+//! machine does in service: [`figure`] (their names), [`stroke`] (figures of a period), [`supply`] (missing strips), [`run_up`] (from rest to work).
 //!
 //! Records and errors that will grow are `non_exhaustive`; options, which a user fills in, and the enumerations that say
 //! what a motion, an end or a model is, are not, so that a match says what a new one asks for.
@@ -28,11 +28,14 @@ pub mod basin;
 mod batch;
 pub mod continuation;
 mod extremes;
+pub mod figure;
 pub mod models;
 pub mod motion;
 pub mod orbit;
 mod peak;
+pub mod points;
 pub mod run_up;
+pub mod settled;
 pub mod slopes;
 pub mod spread;
 pub mod stroke;

@@ -1,5 +1,6 @@
 //! The commands that look at one machine, each with its own picture: [`orbit`], [`zone`], [`simulate`],
-//! [`motions`], [`continuation`], [`sweep`], [`basin`], [`stops`] and [`fidelity`].
+//! [`motions`], [`continuation`], [`sweep`], [`basin`], [`stops`] and [`fidelity`]; and the one
+//! that looks at many, [`study`].
 //!
 //! Whatever fails does so with [`Failure::Usage`] for values that cannot be, with [`Failure::Run`] if nothing can be
 //! computed or written, and with [`Failure::Interrupted`] after Ctrl-C.
@@ -16,5 +17,6 @@ pub mod motions;
 pub mod orbit;
 pub mod simulate;
 pub mod stops;
+pub mod study;
 pub mod sweep;
 pub mod zone;

@@ -51,24 +51,11 @@ impl<'a> Judged<'a> {
 
     /// The value of a figure in SI units; NaN if it has none, infinite where nothing bounds the motion.
     pub fn value(&self, figure: Figure) -> f64 {
-        let stroke = &self.stroke;
+        if let Some(value) = figure.of_motion(self.orbit, &self.stroke) {
+            return value;
+        }
         let frequency = self.orbit.scene.excitation.frequency;
         match figure {
-            Figure::Velocity => stroke.impact_velocity,
-            Figure::ImpactEnergy => stroke.impact_energy,
-            Figure::ImpactPower => stroke.impact_power,
-            Figure::StrokeWork => stroke.losses.strip,
-            Figure::DriveForce => self.orbit.scene.excitation.amplitude,
-            Figure::DrivePower => stroke.mean_power,
-            Figure::MaxPosition => stroke.highest,
-            Figure::Stroke => stroke.length,
-            Figure::StopForce => stroke.stop_force,
-            Figure::CutThrough => stroke.beyond_strip.unwrap_or(f64::NAN),
-            Figure::RigidGap => stroke.before_wall.unwrap_or(f64::NAN),
-            Figure::Multiplier => {
-                let moduli = self.orbit.multipliers().map(|it| it.norm());
-                moduli.into_iter().fold(0.0, f64::max)
-            }
             Figure::Share => self.place.min(1.0 - self.place),
             Figure::FrequencyG0 => frequency - self.zone.frequency_g0,
             Figure::FrequencySn => self.zone.frequency_sn - frequency,
@@ -88,9 +75,7 @@ impl<'a> Judged<'a> {
             }
             Figure::ClearanceSn => self.below_fold(frequency),
             Figure::ClearancePd => self.along(Parameter::Clearance, Heading::Down, Test::Flip),
-            Figure::Certainty | Figure::Integrity | Figure::RunUp | Figure::MissingStrips => {
-                f64::NAN
-            }
+            _ => f64::NAN,
         }
     }
 

@@ -14,7 +14,6 @@ mod cost;
 mod differences;
 mod exact;
 mod exchange;
-pub mod figure;
 pub mod front;
 mod gradient;
 pub mod here;
@@ -46,6 +45,7 @@ use softstop_dynamics::zone::ZoneError;
 use softstop_dynamics::{Orbit, Zone, zone};
 
 pub use problem::Problem;
+pub use softstop_dynamics::figure;
 use space::Interval;
 
 /// A feasible point and the motion there.

@@ -5,9 +5,8 @@
 //! inputs, and for each input the points of A with that input as in B.
 
 use rayon::prelude::*;
+use softstop_dynamics::points::{BLOCK, place};
 use softstop_dynamics::watch::Watcher;
-
-use super::points::{BLOCK, place};
 
 /// An estimate and its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]

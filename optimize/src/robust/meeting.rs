@@ -6,11 +6,10 @@ use rayon::prelude::*;
 use softstop::MotionError;
 use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::points::place;
 use softstop_dynamics::spread::{Reached, Spread, along, critical_normal, free_normal};
 use softstop_dynamics::zone::{Loss, grazing_frequencies, loss_of_stability};
 use softstop_dynamics::{BranchPoint, Orbit};
-
-use super::points::place;
 
 /// Directions all around, beside those of the axes.
 const AROUND: usize = 8;

@@ -4,10 +4,10 @@
 //! coordinates run from -1 to 1. [`nearest`] finds the nearest machine that loses the motion, [`worst`] the one that strikes
 //! the least, and [`verify`] looks at a million others; [`sensitivities`] and [`scatter`] tell whose tolerance it is.
 
+mod corners;
 mod indices;
 mod meeting;
 mod nearest;
-mod points;
 mod scatter;
 mod verify;
 mod worst;
@@ -15,7 +15,6 @@ mod worst;
 pub use indices::{Effort, Estimate, Index, indices};
 pub use meeting::{Manifold, Norm};
 pub use nearest::{Nearest, nearest};
-pub use points::{BLOCK, place};
 pub use scatter::{Scatter, Sensitivities, scatter, sensitivities, shares};
 pub use verify::{Bin, LostMachine, Settings, Verdict, verify};
 pub use worst::{Worst, worst};

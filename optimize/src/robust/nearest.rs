@@ -9,12 +9,13 @@
 use rayon::prelude::*;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::points::place;
 use softstop_dynamics::spread::{Spread, along};
 use softstop_dynamics::watch::Watcher;
 use softstop_dynamics::zone::Loss;
 
+use super::corners::corners;
 use super::meeting::{Manifold, Meeting, Norm, Search, dot, euclidean, is_loss, same};
-use super::points::{corners, place};
 
 /// Steps towards a nearest point, and the least share of one.
 const STEPS: usize = 40;

@@ -2,13 +2,13 @@
 
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::points::{BLOCK, place};
 use softstop_dynamics::spread::{Fate, Guide, Model, Spread, critical_normal, free_normal};
 use softstop_dynamics::watch::{Watcher, unwatched};
 use softstop_dynamics::zone::{ZoneError, grazing_frequencies, hysteresis_soon};
 use softstop_dynamics::{Orbit, Zone};
 
 use super::indices::{Effort, Index, indices};
-use super::points::{BLOCK, place};
 use super::worst::nominal_slopes;
 
 /// How the motion and its margins change with each coordinate, by as much as its tolerance.

@@ -6,11 +6,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use rayon::prelude::*;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::points::{BLOCK, place};
 use softstop_dynamics::spread::{Fate, Guide, Model, Settled, Spread};
 use softstop_dynamics::watch::Watcher;
 use softstop_dynamics::zone::Loss;
-
-use super::points::{BLOCK, place};
 
 /// Machines between two looks at how many are lost, and those that one thread looks at in a row.
 const GROUP: usize = 1 << 14;

@@ -6,7 +6,7 @@ use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::spread::{Spread, along, velocity_slopes};
 use softstop_dynamics::watch::Watcher;
 
-use super::points::corners;
+use super::corners::corners;
 
 /// Steps towards the worst machine, and halvings of one.
 const STEPS: usize = 60;

@@ -4,11 +4,12 @@ use std::ops::ControlFlow;
 
 use approx::assert_relative_eq;
 use softstop::{Machine, Parameter, SceneError, Units};
+use softstop_dynamics::points::{BLOCK, place};
 use softstop_dynamics::spread::Spread;
 use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::zone::Loss;
 use softstop_dynamics::{Orbit, zone};
-use softstop_optimize::robust::{BLOCK, Settings, Tolerance, Tolerances, place, verify};
+use softstop_optimize::robust::{Settings, Tolerance, Tolerances, verify};
 
 use crate::{Outcome, machines, press, shop, spread};
 

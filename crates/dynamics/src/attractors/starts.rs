@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::extremes::extremes;
+use crate::points::scramble;
 use softstop::internals::Scales;
 use softstop::{Dimension, Machine, Scene, Start, Wall};
 
@@ -62,7 +63,7 @@ impl Region {
 
     /// The box that commands take starts from: twice the motion's length both ways, and more where these states need
     /// more.
-    pub(super) fn box_with(scene: &Scene, states: impl IntoIterator<Item = Start>) -> Self {
+    pub(crate) fn box_with(scene: &Scene, states: impl IntoIterator<Item = Start>) -> Self {
         let Scales { length, rate } = scene.motion_scales();
         let length = WIDE * length;
         let half = states
@@ -119,7 +120,7 @@ impl Region {
 
     /// Quasi-random starts.
     pub(crate) fn starts(&self, count: usize, seed: u64) -> Vec<Start> {
-        let shifts = [scramble(seed), scramble(!seed)];
+        let shifts = [share(seed), share(!seed)];
         let within = |[low, high]: [f64; 2], share: f64| low + share * (high - low);
         let start = |index| {
             let [across, up] = evenly(shifts, index);
@@ -134,10 +135,7 @@ pub fn evenly(shifts: [f64; 2], index: usize) -> [f64; 2] {
     std::array::from_fn(|axis| (shifts[axis] + STEPS[axis] * (index + 1) as f64).fract())
 }
 
-/// A number in 0..1 from a seed (SplitMix64, Steele et al. 2014).
-fn scramble(seed: u64) -> f64 {
-    let mut z = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+/// A number in 0..1 from a seed.
+fn share(seed: u64) -> f64 {
+    (scramble(seed) >> 11) as f64 / (1u64 << 53) as f64
 }

@@ -34,6 +34,7 @@ pub use settle::Step;
 
 use thiserror::Error;
 
+use crate::settled::RETURN;
 use softstop::{Machine, Parameter, Start};
 
 /// Which way the parameter goes.
@@ -92,9 +93,6 @@ pub enum PlanError {
     #[error("periods = {0}: must be >= 1")]
     Periods(u64),
 }
-
-/// Distance within which a state has returned unless the plan says otherwise.
-const RETURN: f64 = 1e-4;
 
 impl Plan {
     /// A plan that starts from rest at the origin.

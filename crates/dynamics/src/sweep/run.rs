@@ -8,12 +8,12 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::settle::{Log, Step};
+use super::settle::Step;
 use super::{Chain, Plan};
-use crate::batch::follow;
+use crate::settled::{Seen, watched};
 use crate::watch::{Kept, Watcher, piece};
 use softstop::{MotionError, Scene, Start};
-use softstop_lanes::{Job, Machine};
+use softstop_lanes::Machine;
 
 /// Most chains that go together. Lanes that go together round together, so the groups may not depend on
 /// how many threads there are.
@@ -177,41 +177,25 @@ impl Plan {
         Ok((leg, machine))
     }
 
-    /// Follows all legs: first unwatched, then watched.
+    /// Follows all legs.
     fn follow(
         &self,
-        mut legs: Vec<Leg>,
+        legs: Vec<Leg>,
         machines: &[Machine],
         ask: Ask<'_>,
     ) -> Option<Vec<(usize, Result<Step, MotionError>)>> {
-        let mut errors: Vec<Option<MotionError>> = vec![None; legs.len()];
-        let watched = self.watched();
-        let settling = jobs(&legs, self.periods - watched);
-        let outcomes = follow(machines, &settling, &mut (), ask)?;
-        for ((leg, outcome), error) in legs.iter_mut().zip(outcomes).zip(&mut errors) {
-            leg.state = outcome.end;
-            *error = outcome.error;
-        }
-        let watching = jobs(&legs, watched);
-        let mut log = Log::new(legs.iter().map(|leg| leg.state));
-        let outcomes = follow(machines, &watching, &mut log, ask)?;
-        let results = legs.into_iter().zip(outcomes).zip(log.records).zip(errors);
-        let results = results.map(|(((leg, outcome), record), error)| {
-            let step = match error.or(outcome.error) {
-                Some(error) => Err(error),
-                None => Step::new(leg.value, &leg.scene, &record, self.tolerance),
-            };
+        let starts = legs.iter().enumerate();
+        let starts: Vec<_> = starts.map(|(index, leg)| (index, leg.state)).collect();
+        let looked = self.watched();
+        let records = watched(machines, &starts, self.periods - looked, looked, ask)?;
+        let results = legs.into_iter().zip(records).map(|(leg, record)| {
+            let step = record.and_then(|record| {
+                let frequency = leg.scene.excitation.frequency;
+                let seen = Seen::of(frequency, record, self.tolerance);
+                Step::new(leg.value, &leg.scene, seen)
+            });
             (leg.chain, step)
         });
         Some(results.collect())
     }
-}
-
-fn jobs(legs: &[Leg], periods: u64) -> Vec<Job> {
-    let job = |(machine, leg): (usize, &Leg)| Job {
-        machine,
-        start: leg.state,
-        periods,
-    };
-    legs.iter().enumerate().map(job).collect()
 }

@@ -3,6 +3,7 @@
 use softstop_draw::panel::{Axes, Panel};
 use softstop_draw::pen::{Area, Pen};
 use softstop_draw::scale::around;
+use softstop_draw::shade;
 use softstop_draw::shapes::{Mark, Sign};
 use softstop_draw::style;
 
@@ -11,20 +12,6 @@ use crate::page::data::Map;
 use crate::page::figure::{EDGE, Figure, LETTERS, LINE, ROOM, Size, ends, finite, legend};
 use crate::page::words::{capital, quantity};
 
-/// Colours of viridis, evenly spaced (van der Walt and Smith 2015).
-const VIRIDIS: [[f64; 3]; 9] = [
-    [68.0, 1.0, 84.0],
-    [71.0, 45.0, 123.0],
-    [59.0, 82.0, 139.0],
-    [44.0, 114.0, 142.0],
-    [33.0, 145.0, 140.0],
-    [40.0, 174.0, 128.0],
-    [94.0, 201.0, 98.0],
-    [173.0, 220.0, 48.0],
-    [253.0, 231.0, 37.0],
-];
-/// Shades.
-const SHADES: usize = 48;
 /// Width of the scale of shades, and the room for its numbers at its left.
 const SCALE: (f64, f64) = (16.0, 76.0);
 /// Half the size of the design's mark.
@@ -72,25 +59,8 @@ pub(in crate::page) fn figure(map: &Map, size: Size) -> Figure {
         pen.mark(panel.place((x, y)), Mark::Diamond, MARK, style::OPTIMUM);
     }
     panel.axes(&mut pen, &axes);
-    let bar = Panel::new((right - SCALE.0, top, SCALE.0, area.3), (0.0, 1.0), range);
-    for shade in 0..SHADES {
-        let high = bar.area.3 / SHADES as f64;
-        let at = (
-            bar.area.0,
-            bar.bottom() - high * (shade + 1) as f64,
-            SCALE.0,
-            high + 0.5,
-        );
-        pen.fill(&[at], &color(shade));
-    }
-    let name = map.shade.line();
-    bar.axes(
-        &mut pen,
-        &Axes {
-            ticks: (0, 5),
-            ..Axes::new(LETTERS, None, &name, (0, 5))
-        },
-    );
+    let bar = (right - SCALE.0, top, SCALE.0, area.3);
+    shade::bar(&mut pen, bar, range, LETTERS, &map.shade.line());
     let title = format!(
         "{} over {} and {}",
         capital(&map.shade.name),
@@ -128,52 +98,39 @@ fn caption(map: &Map) -> String {
     )
 }
 
-fn cells(pen: &mut Pen, map: &Map, panel: &Panel, (low, high): (f64, f64)) {
+fn cells(pen: &mut Pen, map: &Map, panel: &Panel, range: (f64, f64)) {
     let columns = map.columns.max(1);
     let rows = map.cells.len() / columns;
     let (wide, tall) = (
         panel.area.2 / columns as f64,
         panel.area.3 / rows.max(1) as f64,
     );
-    let mut areas: Vec<Vec<Area>> = vec![Vec::new(); SHADES];
+    let mut areas: Vec<Vec<Area>> = vec![Vec::new(); shade::SHADES];
     for (index, value) in map.cells.iter().enumerate() {
         let Some(value) = value.filter(|value| value.is_finite()) else {
             continue;
         };
-        let shade = ((value - low) / (high - low) * SHADES as f64) as usize;
         let (column, row) = ((index % columns) as f64, (index / columns) as f64);
         let corner = (
             panel.area.0 + wide * column,
             panel.bottom() - tall * (row + 1.0),
         );
-        areas[shade.min(SHADES - 1)].push((
+        areas[shade::shade(value, range)].push((
             round(corner.0),
             round(corner.1),
             round(wide + 0.4),
             round(tall + 0.4),
         ));
     }
-    for (shade, areas) in areas
+    for (number, areas) in areas
         .iter()
         .enumerate()
         .filter(|(_, areas)| !areas.is_empty())
     {
-        pen.fill(areas, &color(shade));
+        pen.fill(areas, &shade::color(number));
     }
 }
 
 fn round(value: f64) -> f64 {
     (10.0 * value).round() / 10.0
-}
-
-/// The colour of a shade.
-fn color(shade: usize) -> String {
-    let at = shade as f64 / (SHADES - 1) as f64 * (VIRIDIS.len() - 1) as f64;
-    let from = (at as usize).min(VIRIDIS.len() - 2);
-    let share = at - from as f64;
-    let part = |k: usize| {
-        let (low, high) = (VIRIDIS[from][k], VIRIDIS[from + 1][k]);
-        (low + share * (high - low)).round() as u8
-    };
-    format!("#{:02x}{:02x}{:02x}", part(0), part(1), part(2))
 }

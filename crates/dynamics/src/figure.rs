@@ -1,5 +1,7 @@
-//! What a design is judged by: one list of names, units, senses and meanings.
+//! What a motion of a machine is judged by: one list of names, units, senses and meanings.
 
+use crate::orbit::Orbit;
+use crate::stroke::Stroke;
 use softstop::Dimension;
 
 /// On which side of a bound a figure is good.
@@ -13,7 +15,7 @@ pub enum Sense {
 
 macro_rules! figures {
     ($($figure:ident $name:literal, $dimension:ident, $sense:ident, $trial:literal, $meaning:literal;)*) => {
-        /// A figure of a design.
+        /// A figure of a motion and of its machine.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[non_exhaustive]
         pub enum Figure {
@@ -93,6 +95,28 @@ impl Figure {
             }
             _ => "nothing bounds it",
         }
+    }
+
+    /// Its value in SI units, NaN if the motion has none; nothing if it takes more than the motion to tell it.
+    pub fn of_motion(self, orbit: &Orbit, stroke: &Stroke) -> Option<f64> {
+        Some(match self {
+            Self::Velocity => stroke.impact_velocity,
+            Self::ImpactEnergy => stroke.impact_energy,
+            Self::ImpactPower => stroke.impact_power,
+            Self::StrokeWork => stroke.losses.strip,
+            Self::DriveForce => orbit.scene.excitation.amplitude,
+            Self::DrivePower => stroke.mean_power,
+            Self::MaxPosition => stroke.highest,
+            Self::Stroke => stroke.length,
+            Self::StopForce => stroke.stop_force,
+            Self::CutThrough => stroke.beyond_strip.unwrap_or(f64::NAN),
+            Self::RigidGap => stroke.before_wall.unwrap_or(f64::NAN),
+            Self::Multiplier => {
+                let moduli = orbit.multipliers().map(|it| it.norm());
+                moduli.into_iter().fold(0.0, f64::max)
+            }
+            _ => return None,
+        })
     }
 
     /// True if it is a distance from where the motion is lost.

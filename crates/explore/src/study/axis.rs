@@ -1,0 +1,195 @@
+//! The axes of a study: which parameter takes which values.
+
+use serde::Deserialize;
+use softstop::{Dimension, Machine, Parameter, SceneError};
+use softstop_console::failure::Failure;
+use softstop_console::units;
+
+use super::values::{Draw, Scale, Values, between};
+
+/// An axis as the file states it.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Stated {
+    /// A key of the machine's file, or a letter.
+    pub parameter: String,
+    pub from: Option<f64>,
+    pub to: Option<f64>,
+    pub count: Option<u64>,
+    pub values: Option<Vec<f64>>,
+    #[serde(default)]
+    pub scale: Scale,
+    pub sample: Option<Draw>,
+}
+
+/// What an axis changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Target {
+    Parameter(Parameter),
+    Position,
+    Velocity,
+}
+
+/// An axis.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Axis {
+    /// Its name: the key of the machine's file.
+    pub name: String,
+    pub target: Target,
+    /// The unit of its values in the machine's own ones.
+    unit: f64,
+    pub values: Values,
+}
+
+impl Axis {
+    /// What is stated of it, of this machine.
+    pub fn new(machine: &Machine, stated: &Stated) -> Result<Self, Failure> {
+        let key = stated.parameter.as_str();
+        let wrong = |what: String| Failure::usage(format!("axis {key}: {what}"));
+        let (target, unit) = match key {
+            "initial.position" => (Target::Position, 1.0),
+            "initial.velocity" => (Target::Velocity, 1.0),
+            _ => {
+                let found = machine.stated(key);
+                let (parameter, unit) = found.map_err(|error| wrong(error.to_string()))?;
+                (Target::Parameter(parameter), unit)
+            }
+        };
+        // A letter and its key are one; a key that states a value otherwise is its own.
+        let name = match target {
+            Target::Parameter(parameter) if unit == 1.0 => machine.name(parameter).to_owned(),
+            _ => key.replace('-', "_"),
+        };
+        let axis = Self {
+            name,
+            target,
+            unit,
+            values: values(stated).map_err(wrong)?,
+        };
+        for value in axis.ends() {
+            let mut machine = machine.clone();
+            axis.set(&mut machine, value);
+            machine
+                .validate()
+                .map_err(|error: SceneError| wrong(format!("{value}: {error}")))?;
+        }
+        Ok(axis)
+    }
+
+    /// How its values are drawn, if they are.
+    pub fn draw(&self) -> Option<Draw> {
+        match self.values {
+            Values::Drawn { sample, .. } => Some(sample),
+            _ => None,
+        }
+    }
+
+    /// Its least and greatest value.
+    pub fn ends(&self) -> [f64; 2] {
+        let [a, b] = match &self.values {
+            Values::Listed { values } => {
+                let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+                [
+                    least,
+                    values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+                ]
+            }
+            Values::Grid { from, to, .. } | Values::Drawn { from, to, .. } => [*from, *to],
+        };
+        [a.min(b), a.max(b)]
+    }
+
+    /// Its value at a share of its range.
+    pub fn drawn(&self, share: f64) -> f64 {
+        match self.values {
+            Values::Drawn {
+                from, to, scale, ..
+            } => between(from, to, share, scale),
+            _ => f64::NAN,
+        }
+    }
+
+    /// Gives the machine a value of it.
+    pub fn set(&self, machine: &mut Machine, value: f64) {
+        match self.target {
+            Target::Parameter(parameter) => machine.set(parameter, value * self.unit),
+            Target::Position => machine.start.position = value,
+            Target::Velocity => machine.start.velocity = value,
+        }
+    }
+
+    /// Its unit by name, and what it is, as an axis of a picture has it.
+    pub fn told(&self, machine: &Machine) -> (&'static str, String) {
+        let of_state = |what, symbol, dimension| {
+            let label = machine.label(what, symbol, dimension);
+            (units::name(machine, dimension), label)
+        };
+        match self.target {
+            Target::Parameter(parameter) if self.unit == 1.0 => {
+                let unit = units::of_parameter(machine, parameter);
+                (unit, machine.label_of(parameter))
+            }
+            Target::Parameter(_) => {
+                let unit = if self.unit > 1.0 { "Hz" } else { "rad/s" };
+                (unit, format!("drive frequency ({unit})"))
+            }
+            Target::Position => of_state("initial position", "X", Dimension::Length),
+            Target::Velocity => of_state("initial velocity", "X′", Dimension::Velocity),
+        }
+    }
+}
+
+/// The values that are stated, or what is wrong with them.
+fn values(stated: &Stated) -> Result<Values, String> {
+    let Stated {
+        from,
+        to,
+        count,
+        values,
+        scale,
+        sample,
+        ..
+    } = stated;
+    let values = match (values, from, to, count, sample) {
+        (Some(values), None, None, None, None) if *scale == Scale::Linear => Values::Listed {
+            values: values.clone(),
+        },
+        (None, Some(from), Some(to), Some(count), None) => Values::Grid {
+            from: *from,
+            to: *to,
+            count: *count,
+            scale: *scale,
+        },
+        (None, Some(from), Some(to), None, Some(sample)) => Values::Drawn {
+            from: *from,
+            to: *to,
+            scale: *scale,
+            sample: *sample,
+        },
+        _ => {
+            return Err(
+                "must have from, to and count (a grid), from, to and sample = \"random\" or \
+                        \"sobol\", or values alone"
+                    .to_owned(),
+            );
+        }
+    };
+    match &values {
+        Values::Listed { values } if values.is_empty() => Err("values = []: must have one".into()),
+        Values::Listed { values } if values.iter().any(|value| !value.is_finite()) => {
+            Err("values: must be finite".into())
+        }
+        Values::Grid { count: 0, .. } => Err("count = 0: must be >= 1".into()),
+        Values::Grid { from, to, .. } | Values::Drawn { from, to, .. } => {
+            let fits = from.is_finite() && to.is_finite();
+            match scale {
+                _ if !fits => Err(format!("from {from} to {to}: must be finite")),
+                Scale::Log if *from <= 0.0 || *to <= 0.0 => {
+                    Err(format!("from {from} to {to}: must be > 0 on a log scale"))
+                }
+                _ => Ok(values),
+            }
+        }
+        Values::Listed { .. } => Ok(values),
+    }
+}

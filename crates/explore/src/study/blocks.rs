@@ -1,0 +1,263 @@
+//! Finished blocks of a study in files: of the whole study, or of its shards.
+
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use anyhow::{Context, Error, anyhow};
+use rayon::prelude::*;
+use softstop_console::failure::Failure;
+use softstop_console::interrupt::{requested, under_way};
+use softstop_console::keep::KEPT;
+use softstop_console::pieces::{At, Pieces};
+use softstop_console::progress::Progress;
+
+use super::file::Study;
+use super::shard::Shard;
+
+/// Blocks that are done: which file has them, and where.
+#[derive(Debug)]
+pub(super) struct Blocks {
+    files: Vec<Pieces>,
+    /// Of each block; files by their place.
+    places: Vec<Option<(u32, At)>>,
+}
+
+fn place(path: &Path) -> String {
+    path.display().to_string()
+}
+
+impl Blocks {
+    fn none(study: &Study) -> Self {
+        Self {
+            files: Vec::new(),
+            places: vec![None; study.blocks() as usize],
+        }
+    }
+
+    /// Takes in what a file holds of a study.
+    fn take(&mut self, study: &Study, mut file: Pieces) -> Result<(), Failure> {
+        let number = self.files.len() as u32;
+        let places = &mut self.places;
+        let of = file.restore(|key, at| {
+            let block = key.try_into().map(u64::from_le_bytes);
+            let slot = block.ok().and_then(|it| places.get_mut(it as usize));
+            if let Some(slot) = slot {
+                *slot = Some((number, at));
+            }
+        });
+        let path = file.path().to_owned();
+        match of.with_context(|| format!("cannot read {}", place(&path)))? {
+            Some(of) if of != study.hash.as_bytes() => {
+                let path = place(&path);
+                return Err(Failure::usage(format!(
+                    "{path}: holds blocks of another study, or of another version of this program"
+                )));
+            }
+            _ => self.files.push(file),
+        }
+        Ok(())
+    }
+
+    /// All blocks that files of finished shards hold.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] if a file holds another study's; [`Failure::Run`] if one cannot be read.
+    pub fn merged(study: &Study, paths: &[PathBuf]) -> Result<Self, Failure> {
+        let mut blocks = Self::none(study);
+        for path in paths {
+            let file =
+                Pieces::open(path).with_context(|| format!("cannot read {}", place(path)))?;
+            let busy = || Failure::usage(format!("{}: is of a run that goes on", place(path)));
+            blocks.take(study, file.ok_or_else(busy)?)?;
+        }
+        Ok(blocks)
+    }
+
+    /// Whether all blocks of a shard are there.
+    pub fn has(&self, shard: Shard) -> bool {
+        let mut own = self
+            .places
+            .iter()
+            .zip(0..)
+            .filter(|(_, it)| shard.holds(*it));
+        own.all(|(place, _)| place.is_some())
+    }
+
+    /// Says what is missing.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] with which shards and points are.
+    pub fn complete(&self, study: &Study) -> Result<(), Failure> {
+        let missing = || self.places.iter().zip(0..).filter(|(it, _)| it.is_none());
+        let Some((_, first)) = missing().next() else {
+            return Ok(());
+        };
+        let paths = self.files.iter().map(Pieces::path);
+        let of = paths.filter_map(Shard::of_file);
+        let of = of.map(|shard| shard.of).max().unwrap_or(1);
+        let mut shards: Vec<u64> = missing().map(|(_, block)| block % of + 1).collect();
+        shards.sort_unstable();
+        shards.dedup();
+        let (count, points) = (missing().count(), study.block(first));
+        let told = shards
+            .iter()
+            .take(TOLD)
+            .map(|number| format!("{number}/{of}"));
+        let more = if shards.len() > TOLD { ", ..." } else { "" };
+        Err(Failure::Run(anyhow!(
+            "missing: {count} of {} blocks, of the shards {}{more}; the first has the points {} to {}",
+            self.places.len(),
+            told.collect::<Vec<_>>().join(", "),
+            points.start,
+            points.end - 1
+        )))
+    }
+
+    /// The numbers of a block, output by output.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] if it cannot be read.
+    pub fn read(&mut self, block: u64) -> Result<Vec<f64>, Failure> {
+        let known = self.places[block as usize].and_then(|(file, at)| {
+            let file = self.files.get_mut(file as usize)?;
+            Some((file, at))
+        });
+        let (file, at) = known.ok_or_else(|| anyhow!("block {block} is missing"))?;
+        let bytes = file.read(at);
+        let bytes = bytes.with_context(|| format!("cannot read {}", place(file.path())))?;
+        let numbers = bytes.chunks_exact(8).filter_map(|it| it.try_into().ok());
+        Ok(numbers.map(f64::from_le_bytes).collect())
+    }
+}
+
+/// Shards that a message names.
+const TOLD: usize = 10;
+
+/// A run of a shard, or of the whole study.
+#[derive(Debug)]
+pub(super) struct Run<'a> {
+    study: &'a Study,
+    shard: Shard,
+    path: PathBuf,
+    blocks: Mutex<Blocks>,
+}
+
+impl<'a> Run<'a> {
+    /// Waits while another run has the file: a shard may be given to a second worker before the first has ended.
+    ///
+    /// # Errors
+    /// [`Failure::Interrupted`].
+    pub fn wait(path: &Path) -> Result<(), Failure> {
+        while matches!(Pieces::open(path), Ok(None)) && path.exists() {
+            if requested() {
+                return Err(Failure::Interrupted);
+            }
+            thread::sleep(WAIT);
+        }
+        Ok(())
+    }
+
+    /// Begins one with a file of this name, or goes on with it.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] if the file is another study's; [`Failure::Run`] if it cannot be read or written.
+    pub fn open(
+        study: &'a Study,
+        shard: Shard,
+        path: PathBuf,
+        resume: bool,
+    ) -> Result<Self, Failure> {
+        let mut blocks = Blocks::none(study);
+        let cannot = |error: io::Error| {
+            let place = place(&path);
+            Failure::Run(Error::from(error).context(format!("cannot write {place}")))
+        };
+        match Pieces::open(&path) {
+            Ok(Some(file)) if resume => blocks.take(study, file)?,
+            Ok(_) => {}
+            Err(error) if error.kind() == ErrorKind::NotFound => {}
+            Err(error) => return Err(cannot(error)),
+        }
+        let is_begun = blocks.places.iter().any(Option::is_some);
+        if !is_begun {
+            // The lock of a file without any block goes before it is made anew.
+            blocks.files.clear();
+            let file = Pieces::create(&path, study.hash.as_bytes()).map_err(cannot)?;
+            let busy = || Failure::usage(format!("{}: is of a run that goes on", place(&path)));
+            blocks.files = vec![file.ok_or_else(busy)?];
+        }
+        under_way().close_with(KEPT);
+        Ok(Self {
+            study,
+            shard,
+            path,
+            blocks: Mutex::new(blocks),
+        })
+    }
+
+    fn blocks(&self) -> MutexGuard<'_, Blocks> {
+        self.blocks.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Does what is left to do.
+    ///
+    /// # Errors
+    /// [`Failure::Interrupted`]; [`Failure::Run`] if the file cannot be written. What is done is kept.
+    pub fn go_on(&self) -> Result<(), Failure> {
+        let all = 0..self.study.blocks();
+        let own = || all.clone().filter(|block| self.shard.holds(*block));
+        let size = |block| {
+            let points = self.study.block(block);
+            points.end - points.start
+        };
+        let progress = Progress::new(own().map(size).sum(), "points");
+        let known = |block: &u64| self.blocks().places[*block as usize].is_some();
+        progress.begin_at(own().filter(known).map(size).sum());
+        all.clone().into_par_iter().try_for_each(|block| {
+            if !self.shard.holds(block) || known(&block) {
+                return Ok(());
+            }
+            let numbers = self.study.evaluate(block)?;
+            let bytes: Vec<u8> = numbers.iter().flat_map(|it| it.to_le_bytes()).collect();
+            self.keep(block, &bytes)?;
+            progress.steps(size(block))
+        })
+    }
+
+    fn keep(&self, block: u64, bytes: &[u8]) -> Result<(), Failure> {
+        let mut blocks = self.blocks();
+        let Blocks { files, places } = &mut *blocks;
+        let file = files.last_mut().context("no file to keep blocks in")?;
+        let at = file.append(&block.to_le_bytes(), bytes).with_context(|| {
+            let place = place(&self.path);
+            format!("cannot write {place}; what is done is kept, --resume goes on with it")
+        })?;
+        places[block as usize] = Some((0, at));
+        Ok(())
+    }
+
+    /// Puts the file in place under another name.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] if that cannot be done.
+    pub fn close(self, name: &Path) -> Result<(), Failure> {
+        let mut blocks = self.blocks();
+        let file = blocks.files.last_mut().context("no file to put in place")?;
+        let put = file.sync().and_then(|()| fs::rename(&self.path, name));
+        put.with_context(|| format!("cannot write {}", place(name)))?;
+        Ok(())
+    }
+
+    /// Its blocks, all of which are done.
+    pub fn done(self) -> Blocks {
+        let blocks = self.blocks.into_inner();
+        blocks.unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Between two looks whether another run of the same shard has ended.
+const WAIT: Duration = Duration::from_millis(100);

@@ -1,0 +1,253 @@
+//! Points of a study, block by block: the piece of work that is done, kept and merged as one.
+
+use std::cell::OnceCell;
+use std::ops::Range;
+
+use rayon::prelude::*;
+use softstop::{Machine, Scene};
+use softstop_console::column::Unit;
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_dynamics::continuation::{Heading, Test};
+use softstop_dynamics::figure::Figure;
+use softstop_dynamics::settled::Seen;
+use softstop_dynamics::zone::{
+    free_amplitude, grazing_frequencies, hysteresis_soon, loss_of_stability,
+};
+use softstop_dynamics::{Exponents, MotionKind, Orbit, Regime, StroboscopicMap, Stroke, Zone};
+
+use super::file::Study;
+use super::outputs::{Output, Own, kind};
+
+/// Points of a block, by global index.
+pub(super) const BLOCK: u64 = 1024;
+/// Points whose motions go together in the lanes: it may not depend on how many threads there are.
+const TOGETHER: usize = 256;
+
+impl Study {
+    /// How many blocks there are.
+    pub fn blocks(&self) -> u64 {
+        self.points.div_ceil(BLOCK)
+    }
+
+    /// The points of a block.
+    pub fn block(&self, block: u64) -> Range<u64> {
+        block * BLOCK..((block + 1) * BLOCK).min(self.points)
+    }
+
+    /// All outputs of a block, column by column, in the machine's own units; NaN where there is nothing.
+    ///
+    /// # Errors
+    /// [`Failure::Interrupted`].
+    pub fn evaluate(&self, block: u64) -> Result<Vec<f64>, Failure> {
+        let machines: Vec<Machine> = self.block(block).map(|it| self.machine_at(it)).collect();
+        let looks = machines.par_chunks(TOGETHER).map(|machines| {
+            let looks = self.look(machines)?;
+            let outputs = &self.outputs;
+            let told = looks
+                .into_iter()
+                .map(|look| outputs.iter().map(|it| look.value(*it)).collect::<Vec<_>>());
+            Ok(told.collect::<Vec<_>>())
+        });
+        let rows: Vec<Vec<[f64; 2]>> = looks.collect::<Result<Vec<_>, Failure>>()?.concat();
+        if interrupt::requested() {
+            return Err(Failure::Interrupted);
+        }
+        let mut columns = Vec::with_capacity(rows.len() * self.width());
+        for (column, output) in self.outputs.iter().enumerate() {
+            for part in 0..output.width() {
+                columns.extend(rows.iter().map(|row| row[column][part]));
+            }
+        }
+        Ok(columns)
+    }
+
+    /// Numbers that a point takes in a block.
+    pub fn width(&self) -> usize {
+        self.outputs.iter().map(|output| output.width()).sum()
+    }
+
+    /// What all outputs of some points are told from.
+    fn look<'a>(&'a self, machines: &'a [Machine]) -> Result<Vec<Look<'a>>, Failure> {
+        let wanted = |is: fn(Output) -> bool| self.outputs.iter().any(|output| is(*output));
+        let motions: Vec<_> = machines.iter().map(|it| (&it.scene, it.start)).collect();
+        let seen = match wanted(Output::is_of_motion) {
+            true => {
+                let seen = self.settling.follow(&motions, &interrupt::watch);
+                seen.ok_or(Failure::Interrupted)?
+            }
+            false => Vec::new(),
+        };
+        let scenes = || machines.iter().map(|machine| machine.scene.clone());
+        let zones = match wanted(Output::is_of_zone) {
+            true => hysteresis_soon(&scenes().collect::<Vec<_>>(), &interrupt::watch),
+            false => Vec::new(),
+        };
+        if interrupt::requested() {
+            return Err(Failure::Interrupted);
+        }
+        let mut seen = seen.into_iter().map(Result::ok);
+        let mut zones = zones.into_iter().map(Result::ok);
+        let looks = machines.iter().map(|machine| Look {
+            study: self,
+            machine,
+            is_valid: machine.validate().is_ok(),
+            seen: seen.next().flatten(),
+            zone: zones.next().flatten(),
+            map: OnceCell::new(),
+            motion: OnceCell::new(),
+            orbit: OnceCell::new(),
+        });
+        Ok(looks.collect())
+    }
+}
+
+/// What the outputs of a point are told from, each made when the first of them asks.
+struct Look<'a> {
+    study: &'a Study,
+    machine: &'a Machine,
+    is_valid: bool,
+    seen: Option<Seen>,
+    zone: Option<Zone>,
+    map: OnceCell<Option<StroboscopicMap>>,
+    motion: OnceCell<Option<(MotionKind, Option<f64>)>>,
+    orbit: OnceCell<Option<(Orbit, Stroke)>>,
+}
+
+/// Where there is nothing.
+const NOTHING: [f64; 2] = [f64::NAN; 2];
+
+impl Look<'_> {
+    /// An output, in the machine's own units.
+    fn value(&self, output: Output) -> [f64; 2] {
+        if !self.is_valid {
+            return match output {
+                Output::Own(Own::Kind) => [kind(&MotionKind::Lost), f64::NAN],
+                _ => NOTHING,
+            };
+        }
+        if output == Output::Own(Own::Z) {
+            return self.z().unwrap_or(NOTHING);
+        }
+        let value = match output {
+            Output::Own(own) => self.own(own),
+            Output::Figure(figure) => self.figure(figure),
+        };
+        let own = |value| match output.unit() {
+            Unit::Own(dimension) => self.machine.to_own(dimension, value),
+            _ => value,
+        };
+        [value.map_or(f64::NAN, own), f64::NAN]
+    }
+
+    fn own(&self, own: Own) -> Option<f64> {
+        match own {
+            Own::Kind => Some(kind(self.motion().map_or(&MotionKind::Lost, |it| &it.0))),
+            Own::Z => None,
+            Own::Impacts => Some(self.seen.as_ref()?.impacts_per_period()),
+            Own::Exponent => match self.seen.as_ref()?.periods {
+                Some(_) => Some(Exponents::of(self.orbit()?).per_period[0]),
+                None => self.motion()?.1,
+            },
+            Own::Trace => Some(self.orbit()?.trace()),
+            Own::Determinant => Some(self.orbit()?.determinant()),
+            Own::G0 => Some(grazing_frequencies(self.scene()).ok()?.1),
+            Own::Sn => Some(self.zone.as_ref()?.frequency_sn),
+            Own::Pd => self.flip().filter(|flip| flip.is_finite()),
+            Own::AtSn => Some(self.zone.as_ref()?.velocity_sn),
+        }
+    }
+
+    fn figure(&self, figure: Figure) -> Option<f64> {
+        let frequency = self.scene().excitation.frequency;
+        match figure {
+            Figure::Velocity => Some(self.seen.as_ref()?.hardest()),
+            Figure::MaxPosition => self.seen.as_ref()?.max_position(self.map()?).ok(),
+            Figure::Share => {
+                let place = self.place()?;
+                Some(place.min(1.0 - place))
+            }
+            Figure::FrequencyG0 => Some(frequency - grazing_frequencies(self.scene()).ok()?.1),
+            Figure::FrequencySn => Some(self.zone.as_ref()?.frequency_sn - frequency),
+            Figure::FrequencyPd => Some(frequency - self.flip()?),
+            Figure::ClearanceG0 => {
+                let scene = self.scene();
+                Some(scene.clearance - free_amplitude(scene, frequency))
+            }
+            Figure::Certainty => {
+                let of = self.study.certainty;
+                let settling = self.study.settling;
+                settling.certainty(self.scene(), of.starts, of.region(), &interrupt::watch)
+            }
+            figure => {
+                let (orbit, stroke) = self.periodic()?;
+                figure.of_motion(orbit, stroke).filter(|it| !it.is_nan())
+            }
+        }
+    }
+
+    fn scene(&self) -> &Scene {
+        &self.machine.scene
+    }
+
+    fn map(&self) -> Option<&StroboscopicMap> {
+        let map = || self.seen.as_ref()?.map(self.scene()).ok();
+        self.map.get_or_init(map).as_ref()
+    }
+
+    fn motion(&self) -> Option<&(MotionKind, Option<f64>)> {
+        let motion = || self.seen.as_ref()?.motion(self.scene(), self.map()?).ok();
+        self.motion.get_or_init(motion).as_ref()
+    }
+
+    /// z = p/n as impacts and drive periods; complete chatter has no end of impacts.
+    fn z(&self) -> Option<[f64; 2]> {
+        let seen = self.seen.as_ref()?;
+        let regime = seen.regime()?;
+        let chatters =
+            self.scene().wall().is_some() && matches!(self.motion()?.0, MotionKind::Chatter { .. });
+        let impacts = match chatters {
+            true => f64::INFINITY,
+            false => regime.impacts as f64,
+        };
+        Some([impacts, regime.periods as f64])
+    }
+
+    /// The motion that returns, by Newton's method, and its figures.
+    fn periodic(&self) -> Option<&(Orbit, Stroke)> {
+        let find = || {
+            let seen = self.seen.as_ref()?;
+            let orbit = Orbit::periodic(self.scene(), seen.end.into(), seen.periods?).ok()?;
+            let is_same = Some(orbit.regime()) == seen.regime();
+            let stroke = Stroke::of(&orbit).ok()?;
+            is_same.then_some((orbit, stroke))
+        };
+        self.orbit.get_or_init(find).as_ref()
+    }
+
+    fn orbit(&self) -> Option<&Orbit> {
+        self.periodic().map(|(orbit, _)| orbit)
+    }
+
+    /// The frequency of s_PD in rad/s, minus infinity if there is none; nothing without a z = 1 motion to follow.
+    fn flip(&self) -> Option<f64> {
+        let is_one = self.seen.as_ref()?.regime() == Some(Regime::ONE);
+        let in_zone = || {
+            let (zone, place) = (self.zone.as_ref()?, self.place()?);
+            zone.orbit_at(place).ok()
+        };
+        let orbit = match is_one {
+            true => self.orbit().cloned(),
+            false => in_zone(),
+        };
+        let flip = loss_of_stability(&orbit?, Heading::Down, Test::Flip).ok()?;
+        Some(flip.map_or(f64::NEG_INFINITY, |flip| flip.parameter))
+    }
+
+    /// Place in the zone: 0 at g0, 1 at s_SN.
+    fn place(&self) -> Option<f64> {
+        let zone = self.zone.as_ref()?;
+        let frequency = self.scene().excitation.frequency;
+        Some((frequency - zone.frequency_g0) / (zone.frequency_sn - zone.frequency_g0))
+    }
+}

@@ -1,0 +1,321 @@
+//! The study as its file states it, checked.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use softstop::Machine;
+use softstop_console::arguments::{Change, MachineArguments};
+use softstop_console::failure::Failure;
+use softstop_console::machine::Regime;
+use softstop_console::range::{require, within};
+use softstop_console::{pieces, scene_file};
+use softstop_dynamics::attractors::Region;
+use softstop_dynamics::points::DIMENSIONS;
+use softstop_dynamics::settled::Settling;
+
+use super::axis::{Axis, Stated};
+use super::outputs::Output;
+use super::values::{Draw, share};
+
+/// The file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    machine: Option<PathBuf>,
+    #[serde(default)]
+    set: Vec<String>,
+    axis: Vec<Stated>,
+    samples: Option<u64>,
+    #[serde(default)]
+    seed: u32,
+    outputs: Vec<String>,
+    #[serde(default)]
+    motion: Motion,
+    #[serde(default)]
+    certainty: Certainty,
+}
+
+/// The table `[motion]`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Motion {
+    periods: u64,
+    watched: u64,
+    tolerance: f64,
+}
+
+impl Default for Motion {
+    fn default() -> Self {
+        let Settling {
+            watched, tolerance, ..
+        } = Settling::default();
+        Self {
+            // Watching costs as much again: it is to be a small part.
+            periods: 1000,
+            watched,
+            tolerance,
+        }
+    }
+}
+
+/// The table `[certainty]`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct Certainty {
+    /// Starts at each point.
+    pub starts: usize,
+    /// Where they lie, if not in the box of each machine's own size.
+    position: Option<[f64; 2]>,
+    velocity: Option<[f64; 2]>,
+}
+
+impl Certainty {
+    /// Where starts lie, if that is said.
+    pub fn region(&self) -> Option<Region> {
+        let (position, velocity) = self.position.zip(self.velocity)?;
+        Some(Region { position, velocity })
+    }
+}
+
+impl Default for Certainty {
+    fn default() -> Self {
+        Self {
+            starts: 64,
+            position: None,
+            velocity: None,
+        }
+    }
+}
+
+/// Most points: Parquet has no room for more row groups.
+pub(super) const MOST: u64 = 4_000_000_000;
+
+/// A study.
+#[derive(Debug)]
+pub(super) struct Study {
+    /// The machine; what axes change plays no part.
+    pub machine: Machine,
+    pub axes: Vec<Axis>,
+    /// Samples at each point of the grid, if any axis is drawn.
+    pub samples: Option<u64>,
+    pub seed: u32,
+    pub outputs: Vec<Output>,
+    pub settling: Settling,
+    pub certainty: Certainty,
+    /// Points of the grid times samples.
+    pub points: u64,
+    /// What studies that come to the same have in common.
+    pub hash: String,
+}
+
+impl Study {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] naming the file, the key, its value and what is allowed.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        let file: File = scene_file::read_toml(path)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::new(file, folder).map_err(|failure| failure.in_file(path))
+    }
+
+    fn new(file: File, folder: &Path) -> Result<Self, Failure> {
+        let machine = machine(&file, folder)?;
+        if file.axis.is_empty() || file.axis.len() > DIMENSIONS as usize {
+            let many = file.axis.len();
+            return Err(Failure::usage(format!(
+                "axis: there are {many}, must be 1 to {DIMENSIONS}"
+            )));
+        }
+        let axes = file.axis.iter().map(|stated| Axis::new(&machine, stated));
+        let axes: Vec<Axis> = axes.collect::<Result<_, _>>()?;
+        for (index, axis) in axes.iter().enumerate() {
+            if axes[..index]
+                .iter()
+                .any(|other| other.target == axis.target)
+            {
+                let name = &axis.name;
+                return Err(Failure::usage(format!("axis {name}: there are two of it")));
+            }
+        }
+        let is_drawn = axes.iter().any(|axis| axis.draw().is_some());
+        match file.samples {
+            None if is_drawn => {
+                return Err(Failure::usage("samples: must say how many are drawn"));
+            }
+            Some(_) if !is_drawn => {
+                return Err(Failure::usage(
+                    "samples: plays no part, no axis has sample = \"random\" or \"sobol\"",
+                ));
+            }
+            samples => within("samples", samples.unwrap_or(1), 1..=MOST)?,
+        }
+        let own = |axis: &Axis| axis.values.count();
+        let counts = axes.iter().filter_map(own).chain(file.samples);
+        let points = counts.clone().try_fold(1u64, u64::checked_mul);
+        let Some(points) = points.filter(|points| *points <= MOST) else {
+            let counts: Vec<String> = counts.map(|count| count.to_string()).collect();
+            let all: f64 = axes
+                .iter()
+                .filter_map(own)
+                .chain(file.samples)
+                .map(|count| count as f64)
+                .product();
+            return Err(Failure::usage(format!(
+                "{} = {all:e} points: must be at most {MOST}; take fewer, split the study, or draw samples instead \
+                 of a grid",
+                counts.join(" x ")
+            )));
+        };
+        let outputs = outputs(&file.outputs)?;
+        let mut study = Self {
+            settling: settling(&file.motion)?,
+            certainty: certainty(&file.certainty)?,
+            samples: file.samples,
+            seed: file.seed,
+            machine,
+            axes,
+            outputs,
+            points,
+            hash: String::new(),
+        };
+        study.hash = pieces::fingerprint(&study.identity())?;
+        Ok(study)
+    }
+
+    /// What all that it comes to follows from.
+    fn identity(&self) -> impl Serialize + use<> {
+        let machine = &self.machine;
+        let stated = (
+            machine.preload_deflection,
+            machine.to_own(softstop::Dimension::Frequency, 1.0),
+            machine.to_own(softstop::Dimension::Damping, 1.0),
+            [machine.start.position, machine.start.velocity],
+        );
+        let axes = self.axes.iter();
+        let axes: Vec<_> = axes
+            .map(|axis| (axis.name.clone(), axis.values.clone()))
+            .collect();
+        let outputs: Vec<&str> = self.outputs.iter().map(|output| output.name()).collect();
+        let drawn = (self.samples, self.seed);
+        let how = (self.settling, self.certainty);
+        (machine.scene.clone(), stated, axes, drawn, outputs, how)
+    }
+
+    /// The values of all axes at a point: the first axis changes slowest, samples fastest.
+    pub fn values(&self, point: u64) -> Vec<f64> {
+        let samples = self.samples.unwrap_or(1);
+        let (mut rest, sample) = (point / samples, point % samples);
+        let mut values = vec![0.0; self.axes.len()];
+        let mut dimension = [0; 2];
+        for (axis, value) in self.axes.iter().zip(&mut values) {
+            if let Some(draw) = axis.draw() {
+                let dimension = &mut dimension[usize::from(draw == Draw::Sobol)];
+                *value = axis.drawn(share(draw, self.seed, sample, *dimension));
+                *dimension += 1;
+            }
+        }
+        for (axis, value) in self.axes.iter().zip(&mut values).rev() {
+            if let Some(count) = axis.values.count() {
+                *value = axis.values.at(rest % count);
+                rest /= count;
+            }
+        }
+        values
+    }
+
+    /// The machine at a point.
+    pub fn machine_at(&self, point: u64) -> Machine {
+        let mut machine = Machine {
+            name: None,
+            description: None,
+            ..self.machine.clone()
+        };
+        for (axis, value) in self.axes.iter().zip(self.values(point)) {
+            axis.set(&mut machine, value);
+        }
+        machine
+    }
+}
+
+/// The machine, seen from the file's folder.
+fn machine(file: &File, folder: &Path) -> Result<Machine, Failure> {
+    let named = file.machine.as_ref();
+    let named = named.map(|machine| match Regime::called(machine) {
+        Some(_) => machine.clone(),
+        None => folder.join(machine),
+    });
+    let changes = file.set.iter().map(|text| {
+        let wrong = |error| Failure::usage(format!("set = [\"{text}\"]: {error}"));
+        text.parse::<Change>().map_err(wrong)
+    });
+    let arguments = MachineArguments {
+        machine: named,
+        set: changes.collect::<Result<_, _>>()?,
+        ..MachineArguments::default()
+    };
+    arguments.machine()
+}
+
+fn outputs(names: &[String]) -> Result<Vec<Output>, Failure> {
+    let mut outputs: Vec<Output> = Vec::new();
+    for name in names {
+        let output = Output::named(name).ok_or_else(|| {
+            let all: Vec<&str> = Output::all().map(Output::name).collect();
+            Failure::usage(format!(
+                "outputs: {name:?} is not known; there are {}",
+                all.join(", ")
+            ))
+        })?;
+        if outputs.contains(&output) {
+            return Err(Failure::usage(format!("outputs: {name:?} stands twice")));
+        }
+        outputs.push(output);
+    }
+    match outputs.is_empty() {
+        true => Err(Failure::usage("outputs = []: must name one")),
+        false => Ok(outputs),
+    }
+}
+
+fn settling(motion: &Motion) -> Result<Settling, Failure> {
+    let Motion {
+        periods,
+        watched,
+        tolerance,
+    } = *motion;
+    within("motion.periods", periods, 16..=1_000_000)?;
+    within("motion.watched", watched, 16..=periods.min(4096))?;
+    let fits = tolerance > 0.0 && tolerance < 1.0;
+    require(fits, "motion.tolerance", tolerance, "> 0 and < 1")?;
+    Ok(Settling {
+        periods,
+        watched,
+        tolerance,
+    })
+}
+
+fn certainty(certainty: &Certainty) -> Result<Certainty, Failure> {
+    within("certainty.starts", certainty.starts, 1..=100_000)?;
+    let sides = [
+        ("position", certainty.position),
+        ("velocity", certainty.velocity),
+    ];
+    for (name, side) in sides {
+        let rises = |[low, high]: &[f64; 2]| low.is_finite() && high.is_finite() && low < high;
+        match side {
+            None if certainty.region().is_none() && sides.iter().any(|it| it.1.is_some()) => {
+                return Err(Failure::usage(format!(
+                    "certainty.{name}: goes with the other side of the box"
+                )));
+            }
+            Some(side) if !rises(&side) => {
+                return Err(Failure::usage(format!(
+                    "certainty.{name} = {side:?}: must be finite, and rising"
+                )));
+            }
+            _ => {}
+        }
+    }
+    Ok(*certainty)
+}

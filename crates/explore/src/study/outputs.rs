@@ -1,0 +1,185 @@
+//! What a study tells of each of its points: one list of names, units and meanings.
+
+use softstop_console::column::{Unit, Units};
+use softstop_dynamics::MotionKind;
+use softstop_dynamics::figure::Figure;
+
+macro_rules! outputs {
+    (@unit None) => { Unit::None };
+    (@unit $dimension:ident) => { Unit::Own(softstop::Dimension::$dimension) };
+    ($($name:ident $key:literal [$unit:ident], $meaning:literal;)*) => {
+        /// What no figure of a motion tells.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub(super) enum Own { $($name),* }
+
+        impl Own {
+            const ALL: &[Self] = &[$(Self::$name),*];
+
+            const fn name(self) -> &'static str {
+                match self { $(Self::$name => $key),* }
+            }
+
+            const fn unit(self) -> Unit {
+                match self { $(Self::$name => outputs!(@unit $unit)),* }
+            }
+
+            const fn meaning(self) -> &'static str {
+                match self { $(Self::$name => $meaning),* }
+            }
+        }
+    };
+}
+
+outputs! {
+    Kind "kind" [None], "what the motion from the start settles on: periodic, chatter, chaos, unsettled, lost";
+    Z "z" [None], "its p/n, if it repeats";
+    Impacts "impacts_per_period" [None], "its impacts per drive period";
+    Exponent "exponent" [None], "its larger Lyapunov exponent per drive period";
+    Trace "trace" [None], "trace of its monodromy, if it repeats";
+    Determinant "determinant" [None], "determinant of that";
+    G0 "frequency_g0" [Frequency], "grazing g0, where the hysteresis zone begins";
+    Sn "frequency_sn" [Frequency], "fold s_SN, where it ends";
+    Pd "frequency_pd" [Frequency], "flip s_PD, followed down from the z = 1 motion";
+    AtSn "velocity_sn" [Velocity], "before-impact velocity at the fold";
+}
+
+/// Figures of a motion and of its machine that a study can have.
+const FIGURES: [Figure; 18] = [
+    Figure::Velocity,
+    Figure::ImpactEnergy,
+    Figure::ImpactPower,
+    Figure::StrokeWork,
+    Figure::DriveForce,
+    Figure::DrivePower,
+    Figure::MaxPosition,
+    Figure::Stroke,
+    Figure::StopForce,
+    Figure::CutThrough,
+    Figure::RigidGap,
+    Figure::Multiplier,
+    Figure::Share,
+    Figure::FrequencyG0,
+    Figure::FrequencySn,
+    Figure::FrequencyPd,
+    Figure::ClearanceG0,
+    Figure::Certainty,
+];
+
+/// Kinds of motions, by their numbers in files of blocks.
+const KINDS: [&str; 6] = ["periodic", "chatter", "rest", "chaos", "unsettled", "lost"];
+
+/// A column of a study's results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Output {
+    Own(Own),
+    Figure(Figure),
+}
+
+impl Output {
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let own = Own::ALL.iter().map(|own| Self::Own(*own));
+        own.chain(FIGURES.map(Self::Figure))
+    }
+
+    /// The one of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::all().find(|output| output.name() == name)
+    }
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Own(own) => own.name(),
+            Self::Figure(figure) => figure.name(),
+        }
+    }
+
+    /// What it is one of.
+    pub const fn unit(self) -> Unit {
+        match self {
+            Self::Own(own) => own.unit(),
+            Self::Figure(figure) => Unit::Own(figure.dimension()),
+        }
+    }
+
+    /// What it is, in a few words.
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::Own(own) => own.meaning(),
+            Self::Figure(figure) => figure.meaning(),
+        }
+    }
+
+    /// True if it is a word, not a number.
+    pub const fn is_word(self) -> bool {
+        matches!(self, Self::Own(Own::Kind | Own::Z))
+    }
+
+    /// Numbers that it takes in files of blocks.
+    pub const fn width(self) -> usize {
+        match self {
+            Self::Own(Own::Z) => 2,
+            _ => 1,
+        }
+    }
+
+    /// True if it takes the motion from the start.
+    pub const fn is_of_motion(self) -> bool {
+        use Figure as F;
+        match self {
+            Self::Own(own) => !matches!(own, Own::G0 | Own::Sn | Own::AtSn),
+            Self::Figure(figure) => !matches!(
+                figure,
+                F::Share | F::FrequencyG0 | F::FrequencySn | F::ClearanceG0 | F::Certainty
+            ),
+        }
+    }
+
+    /// True if it takes the hysteresis zone.
+    pub const fn is_of_zone(self) -> bool {
+        use Figure as F;
+        match self {
+            Self::Own(own) => matches!(own, Own::Sn | Own::Pd | Own::AtSn),
+            Self::Figure(figure) => matches!(figure, F::Share | F::FrequencySn | F::FrequencyPd),
+        }
+    }
+
+    /// Its word, from its numbers in a file of blocks.
+    pub fn word(self, [first, second]: [f64; 2]) -> Option<String> {
+        match self {
+            Self::Own(Own::Kind) if first >= 0.0 => {
+                KINDS.get(first as usize).map(|&kind| kind.to_owned())
+            }
+            Self::Own(Own::Z) if second >= 1.0 => {
+                let impacts = match first.is_finite() {
+                    true => first.to_string(),
+                    false => "∞".to_owned(),
+                };
+                Some(match second {
+                    1.0 => impacts,
+                    periods => format!("{impacts}/{periods}"),
+                })
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The number of a kind.
+pub(super) fn kind(motion: &MotionKind) -> f64 {
+    let place = KINDS.iter().position(|kind| *kind == motion.key());
+    place.map_or(f64::NAN, |place| place as f64)
+}
+
+/// What outputs mean: a paragraph at the end of `--help`.
+pub(super) fn help() -> String {
+    let lines = Output::all().map(|output| {
+        let unit = match Units::SI.name(output.unit()) {
+            "" => "-",
+            unit => unit,
+        };
+        format!("  {:<22} {unit:<6} {}\n", output.name(), output.meaning())
+    });
+    "\n\nOutputs:\n".to_owned() + &lines.collect::<String>()
+}
