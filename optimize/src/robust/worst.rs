@@ -29,7 +29,7 @@ pub struct Worst {
     pub orbit: Orbit,
     /// Its before-impact velocity in m/s, or its grade.
     pub value: f64,
-    /// d(value)/d(coordinate) there.
+    /// d(value)/d(coordinate) there; zeros at a fold, where it has none.
     pub slopes: Vec<f64>,
 }
 
@@ -126,7 +126,7 @@ impl<S: Spread + ?Sized, G: Grade> Search<'_, S, G> {
     }
 
     /// The derivatives of the grade of a motion: exact, or by differences where it has no exact ones.
-    fn slopes(&self, at: &[f64], orbit: &Orbit) -> Result<Vec<f64>, OrbitError> {
+    fn slopes(&self, at: &[f64], orbit: &Orbit) -> Option<Vec<f64>> {
         let differenced = || {
             let value = |index: usize, change: f64| {
                 let mut at = at.to_vec();
@@ -139,8 +139,13 @@ impl<S: Spread + ?Sized, G: Grade> Search<'_, S, G> {
             };
             (0..at.len()).map(slope).collect()
         };
-        let slopes = self.grade.slopes(at, orbit).or_else(differenced);
-        slopes.ok_or(OrbitError::NotIsolated)
+        self.grade.slopes(at, orbit).or_else(differenced)
+    }
+
+    /// The same, but none of them at a fold, where no step leads on.
+    fn slopes_or_none(&self, at: &[f64], orbit: &Orbit) -> Vec<f64> {
+        let slopes = self.slopes(at, orbit);
+        slopes.unwrap_or_else(|| vec![0.0; at.len()])
     }
 
     /// Steps down from a machine.
@@ -150,7 +155,7 @@ impl<S: Spread + ?Sized, G: Grade> Search<'_, S, G> {
             .value(at, &orbit)
             .ok_or(OrbitError::NotIsolated)?;
         let mut here = Worst {
-            slopes: self.slopes(at, &orbit)?,
+            slopes: self.slopes_or_none(at, &orbit),
             at: at.to_vec(),
             orbit,
             value,
@@ -160,7 +165,7 @@ impl<S: Spread + ?Sized, G: Grade> Search<'_, S, G> {
                 break;
             };
             here = Worst {
-                slopes: self.slopes(&at, &orbit)?,
+                slopes: self.slopes_or_none(&at, &orbit),
                 at,
                 orbit,
                 value,
@@ -224,5 +229,6 @@ pub(super) fn nominal_slopes(
         grade: &Velocity(spread),
         watcher,
     };
-    search.slopes(&vec![0.0; spread.dimensions()], nominal)
+    let slopes = search.slopes(&vec![0.0; spread.dimensions()], nominal);
+    slopes.ok_or(OrbitError::NotIsolated)
 }
