@@ -17,10 +17,6 @@ pub(crate) fn follow<W: Watch>(
         ask,
         answer: ControlFlow::Continue(()),
     };
-    // Short jobs end before the lanes ask.
-    if asking.goes_on().is_break() {
-        return None;
-    }
     let outcomes = softstop_lanes::run(machines, jobs, &mut asking);
     asking.answer.is_continue().then_some(outcomes)
 }

@@ -139,6 +139,9 @@ impl Home {
         let mut left: Vec<usize> = (0..guests.len()).collect();
         let mut periods = 0;
         while !left.is_empty() && periods < self.patience {
+            if watcher(0, 0).is_break() {
+                return Err(SurveyError::Stopped);
+            }
             let job = |guest: &usize| Job {
                 machine: guests[*guest].machine,
                 start: guests[*guest].state,
