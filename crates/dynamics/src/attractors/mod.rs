@@ -134,4 +134,6 @@ pub struct Arrival {
     pub state: Start,
     /// The stable orbit to which it returns; none if it wanders (or rests).
     pub orbit: Option<Orbit>,
+    /// True if its last states repeat, be it by an orbit that is not stable.
+    pub returns: bool,
 }

@@ -6,7 +6,11 @@ use super::{Orbit, StroboscopicMap};
 use softstop::{MotionError, Scene};
 
 /// Batches whose means tell how uncertain the exponents are.
-const BATCHES: u32 = 32;
+const BATCHES: usize = 32;
+/// Drive periods in each of them at first and at most, where it is asked whether differences grow.
+const BATCH: (u64, u64) = (100, 1600);
+/// The exponent of a growth, or decay, that is for good: rounding to the size of the motion is 36.
+const GROWTH: f64 = 100.0;
 /// Student's t of 31 degrees of freedom for a two-sided 95 % interval.
 const STUDENT: f64 = 2.039_5;
 /// Errors by which an exponent has to lie above zero to count as positive: beyond 3 half-widths of the
@@ -53,36 +57,37 @@ impl Exponents {
         batch: u64,
         ask: impl Fn() -> Result<(), E>,
     ) -> Result<(Self, Vector2<f64>), E> {
-        let map = StroboscopicMap::new(scene, 1)?;
+        let mut walk = Walk::new(scene, state)?;
         let batch = batch.max(1);
-        let mut state = state;
-        let mut frame = Matrix2::identity();
-        let mut means = Vec::with_capacity(BATCHES as usize);
-        for _ in 0..BATCHES {
-            let mut sums = [0.0; 2];
-            for _ in 0..batch {
-                ask()?;
-                let passage = map.apply(state)?;
-                state = passage.end;
-                let [first, second] = stretch(&mut frame, &passage.monodromy);
-                sums[0] += first;
-                sums[1] += second;
+        let mut sums = Vec::with_capacity(BATCHES);
+        walk.add(&mut sums, batch, ask)?;
+        Ok((walk.exponents(&sums, batch), walk.state))
+    }
+
+    /// True if small differences grow for good along the motion from a state: the exponent is positive beyond doubt over
+    /// some time, in which differences grow by far more than from rounding to the size of the motion; false if they die
+    /// out as clearly, or neither is clear after 51,200 drive periods.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the motion cannot be computed.
+    pub(crate) fn grow(scene: &Scene, state: Vector2<f64>) -> Result<bool, MotionError> {
+        let mut walk = Walk::new(scene, state)?;
+        let (mut sums, mut batch) = (Vec::with_capacity(BATCHES), BATCH.0);
+        loop {
+            walk.add(&mut sums, batch, || Ok::<(), MotionError>(()))?;
+            let found = walk.exponents(&sums, batch);
+            let largest = found.per_period[0];
+            let is_clear = largest.abs() > SURE * found.error;
+            let is_much = largest.abs() * found.periods as f64 > GROWTH;
+            if (is_clear && is_much) || batch >= BATCH.1 {
+                return Ok(found.is_positive());
             }
-            means.push(sums.map(|sum| sum / batch as f64));
+            let pairs = sums.chunks(2);
+            let pairs =
+                pairs.map(|pair| [0, 1].map(|which| pair.iter().map(|sum| sum[which]).sum()));
+            sums = pairs.collect();
+            batch *= 2;
         }
-        let mean =
-            |which: usize| means.iter().map(|batch| batch[which]).sum::<f64>() / f64::from(BATCHES);
-        let exponents = [mean(0), mean(1)];
-        let squares = means.iter().map(|batch| (batch[0] - exponents[0]).powi(2));
-        let variance = squares.sum::<f64>() / f64::from(BATCHES - 1);
-        let error = STUDENT * (variance / f64::from(BATCHES)).sqrt();
-        let found = Self {
-            per_period: exponents,
-            error: if error.is_nan() { 0.0 } else { error },
-            periods: u64::from(BATCHES) * batch,
-            period: map.clock().period(),
-        };
-        Ok((found, state))
     }
 
     /// The exponents of a periodic motion: ln |mu| / n of its multipliers.
@@ -106,6 +111,66 @@ impl Exponents {
     /// True if the larger one is positive beyond doubt.
     pub fn is_positive(&self) -> bool {
         self.per_period[0] > SURE * self.error
+    }
+}
+
+/// A motion along which differences are followed.
+struct Walk {
+    map: StroboscopicMap,
+    state: Vector2<f64>,
+    frame: Matrix2<f64>,
+}
+
+impl Walk {
+    fn new(scene: &Scene, state: Vector2<f64>) -> Result<Self, MotionError> {
+        Ok(Self {
+            map: StroboscopicMap::new(scene, 1)?,
+            state,
+            frame: Matrix2::identity(),
+        })
+    }
+
+    /// Adds batches of so many drive periods until there are enough; an error where `ask`, asked before each period,
+    /// gives one.
+    fn add<E: From<MotionError>>(
+        &mut self,
+        batches: &mut Vec<[f64; 2]>,
+        periods: u64,
+        ask: impl Fn() -> Result<(), E>,
+    ) -> Result<(), E> {
+        while batches.len() < BATCHES {
+            let mut sums = [0.0; 2];
+            for _ in 0..periods {
+                ask()?;
+                let passage = self.map.apply(self.state)?;
+                self.state = passage.end;
+                let [first, second] = stretch(&mut self.frame, &passage.monodromy);
+                sums[0] += first;
+                sums[1] += second;
+            }
+            batches.push(sums);
+        }
+        Ok(())
+    }
+
+    /// The exponents from all batches of so many drive periods.
+    fn exponents(&self, batches: &[[f64; 2]], periods: u64) -> Exponents {
+        let count = BATCHES as f64;
+        let means = batches.iter();
+        let means: Vec<[f64; 2]> = means
+            .map(|sums| sums.map(|sum| sum / periods as f64))
+            .collect();
+        let mean = |which: usize| means.iter().map(|batch| batch[which]).sum::<f64>() / count;
+        let exponents = [mean(0), mean(1)];
+        let squares = means.iter().map(|batch| (batch[0] - exponents[0]).powi(2));
+        let variance = squares.sum::<f64>() / (count - 1.0);
+        let error = STUDENT * (variance / count).sqrt();
+        Exponents {
+            per_period: exponents,
+            error: if error.is_nan() { 0.0 } else { error },
+            periods: BATCHES as u64 * periods,
+            period: self.map.clock().period(),
+        }
     }
 }
 

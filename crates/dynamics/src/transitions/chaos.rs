@@ -1,21 +1,21 @@
 //! Where chaos ends: by its lifetime.
 
 use super::TransitionError;
-use super::stage::{Explorer, Gathering, most};
+use super::stage::{Explorer, FIRST, Gathering, is_clear, most};
 use crate::attractors::Arrival;
 use crate::continuation::Family;
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
 use crate::watch::piece;
+use serde::{Deserialize, Serialize};
 use softstop::Start;
 
 /// Largest step of the parameter on the way, as a share of it.
 const STRIDE: f64 = 2e-4;
 
-/// Standard deviations by which more or fewer than half of the motions last, or else more are asked, those that last
-/// going on; and so many times the motions of one look at most.
-const SURE: f64 = 4.0;
-const MOST: usize = 64;
+/// So many times the motions of the rules are asked at most whether they last, those that do going on: as many as tell
+/// the five digits that are printed.
+const MOST: usize = 32;
 
 /// An end of chaos.
 pub(super) struct ChaosEnd {
@@ -25,34 +25,48 @@ pub(super) struct ChaosEnd {
     pub gathering: Gathering,
     /// Where that was seen.
     pub after: f64,
+    /// The last value on the way there at which chaos lasts.
+    pub before: f64,
+}
+
+/// What motions on chaos do in the time given.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Lasting {
+    /// Those that go on, if no fewer than half last.
+    pub wandering: Option<Vec<Start>>,
+    /// True if it is clear whether that is more than half.
+    is_clear: bool,
 }
 
 impl<F: Family + Sync> Explorer<'_, F> {
-    /// Motions that still wander at a value after the time given; none if half of them do not.
-    pub(super) fn lasting(
-        &self,
-        value: f64,
-        states: &[Start],
-    ) -> Result<Option<Vec<Start>>, TransitionError> {
+    /// What motions on chaos do at a value in the time given: some of them go first.
+    pub(super) fn lasting(&self, value: f64, states: &[Start]) -> Result<Lasting, TransitionError> {
         let of = ("lasting", self.family.scene([value])?, states);
         piece(self.kept, &of, || {
             let (mut states, mut still, mut all) = (states.to_vec(), 0, 0);
             loop {
-                let arrivals = self.hold(value, &self.fill(&states), self.rules.lifetime)?;
+                let mut going = self.fill(&states);
+                let first = if all == 0 { FIRST } else { going.len() };
+                let waiting = going.split_off(first.min(going.len()));
+                let arrivals = self.hold(value, &going, self.rules.lifetime)?;
                 all += arrivals.len();
                 let wandering = arrivals.iter().filter(|it| it.orbit.is_none());
-                states = wandering.map(|it| it.state).collect();
-                still += states.len();
-                let lead = 2.0 * still as f64 - all as f64;
-                let is_clear = lead.abs() > SURE * (all as f64).sqrt();
+                still += wandering.clone().count();
+                states = waiting;
+                states.extend(wandering.map(|it| it.state));
+                let is_clear = is_clear(still, all);
                 if is_clear || states.is_empty() || all >= MOST * self.rules.motions {
-                    return Ok((lead >= 0.0 && !states.is_empty()).then_some(states));
+                    return Ok(Lasting {
+                        wandering: (2 * still >= all && !states.is_empty()).then_some(states),
+                        is_clear,
+                    });
                 }
             }
         })
     }
 
-    /// Follows chaos from a value on until it ends, or the range does.
+    /// Follows chaos from a value on until it ends, or the range does. Where it is not clear any more whether half of
+    /// the motions last, the end is known no better.
     pub(super) fn end_of_chaos(
         &self,
         value: f64,
@@ -64,7 +78,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
         let width = self.rules.width * unit;
         let (mut good, mut states) = (value, states.to_vec());
         let mut step = 16.0 * width;
-        let mut bad = None;
+        let (mut bad, mut end) = (None, None);
         while bad.is_none_or(|bad: f64| (bad - good).abs() > width) {
             let next = match bad {
                 Some(bad) => 0.5 * (good + bad),
@@ -73,7 +87,12 @@ impl<F: Family + Sync> Explorer<'_, F> {
             if !(self.range.0..=self.range.1).contains(&next) {
                 return Ok((good, None));
             }
-            match self.lasting(next, &states)? {
+            let lasting = self.lasting(next, &states)?;
+            if !lasting.is_clear {
+                (end, bad) = (Some(next), bad.or(Some(next)));
+                break;
+            }
+            match lasting.wandering {
                 Some(wandering) => {
                     (good, states) = (next, wandering);
                     step = (2.0 * step).min(STRIDE * unit);
@@ -87,9 +106,10 @@ impl<F: Family + Sync> Explorer<'_, F> {
         let arrivals: Vec<Arrival> = self.hold(after, &self.fill(&states), self.rules.patience)?;
         let settled = arrivals.into_iter().filter(|it| it.orbit.is_some());
         let end = ChaosEnd {
-            value: 0.5 * (good + after),
+            value: end.unwrap_or(0.5 * (good + after)),
             gathering: most(settled.collect()),
             after,
+            before: good,
         };
         Ok((good, Some(end)))
     }

@@ -70,13 +70,15 @@ impl<F: Family + Sync> Explorer<'_, F> {
             path: &way.path,
             hysteresis,
         };
+        let settling = self.settling(&way, end.point.parameter, sign)?;
         let transition = Transition {
             value: end.point.parameter,
             from: window.motion.clone(),
             state: Some(end.point.state().into()),
             causes: course.causes(),
             doubled_until: doubled.map(|it| it.1),
-            settled_at: self.settling(&way, end.point.parameter, sign)?,
+            settled_at: settling.map(|it| it.0),
+            settled_within: settling.map_or(0.0, |it| it.1),
             path: way.path,
             rising: upper,
             hysteresis,
@@ -89,8 +91,14 @@ impl<F: Family + Sync> Explorer<'_, F> {
         }))
     }
 
-    /// Where the last motion on a way first follows, if others come before it.
-    fn settling(&self, way: &Way, end: f64, sign: f64) -> Result<Option<f64>, TransitionError> {
+    /// Where the last motion on a way first follows, if others come before it, and half the width of where that may be:
+    /// it is known no better where it is not clear whether most motions of the rules come to it.
+    fn settling(
+        &self,
+        way: &Way,
+        end: f64,
+        sign: f64,
+    ) -> Result<Option<(f64, f64)>, TransitionError> {
         let (Some((near, states)), Some((far, last))) = (&way.before, &way.first) else {
             return Ok(None);
         };
@@ -99,12 +107,15 @@ impl<F: Family + Sync> Explorer<'_, F> {
         while far - near > width {
             let middle = 0.5 * (near + far);
             let there = self.gather(end + sign * middle, &self.fill(states))?;
+            if !there.is_clear {
+                break;
+            }
             match there.motion.as_ref() == Some(last) {
                 true => far = middle,
                 false => near = middle,
             }
         }
-        Ok(Some(end + sign * 0.5 * (near + far)))
+        Ok(Some((end + sign * 0.5 * (near + far), 0.5 * (far - near))))
     }
 
     /// Distances beyond an end, each twice the one before.

@@ -126,7 +126,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
         if followed.any(|(low, high)| (*low..=*high).contains(value)) {
             return Ok(());
         }
-        let Some(states) = self.lasting(*value, states)? else {
+        let Some(states) = self.lasting(*value, states)?.wandering else {
             return Ok(());
         };
         let mut ends = [*value; 2];
@@ -139,13 +139,13 @@ impl<F: Family + Sync> Explorer<'_, F> {
             };
             met.push((end.after, orbit.clone()));
             let window = Window::of(self.family, end.after, orbit, self.range, &self.rules);
-            let before = end.value + (end.value - end.after) * 4.0;
-            let hysteresis = window.is_ok_and(|window| window.contains(before));
+            let hysteresis = window.is_ok_and(|window| window.contains(end.before));
             if !atlas.has_reverse(target, end.value) {
                 atlas.transitions.push(Transition {
                     value: end.value,
                     doubled_until: None,
                     settled_at: None,
+                    settled_within: 0.0,
                     from: MotionKind::Chaos,
                     state: None,
                     path: vec![target.clone()],

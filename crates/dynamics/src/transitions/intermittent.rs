@@ -4,13 +4,17 @@ use std::collections::VecDeque;
 
 use super::TransitionError;
 use super::stage::Explorer;
+use crate::attractors::SurveyError;
+use crate::batch::follow;
 use crate::continuation::Family;
 use crate::motion::MotionKind;
-use crate::orbit::{Exponents, Orbit, StroboscopicMap};
+use crate::orbit::{Exponents, Orbit};
 use softstop::Start;
+use softstop_lanes::{Job, Machine, Watch};
 
-/// Drive periods for which a motion is followed.
+/// Drive periods for which a motion is followed, and those between two looks at whether it has settled.
 const ENDURANCE: u64 = 400_000;
+const STRETCH: u64 = 10_000;
 /// Bursts after which it counts as chaos.
 const BURSTS: usize = 3;
 /// Least difference of a motion from the orbit, in units of its size.
@@ -31,25 +35,33 @@ impl<F: Family + Sync> Explorer<'_, F> {
             return Ok(false);
         };
         let scene = self.family.scene([value])?;
-        let mut state = (*start).into();
-        let leaves_in_time = Orbit::periodic(&scene, state, periods)
+        let leaves_in_time = Orbit::periodic(&scene, (*start).into(), periods)
             .is_ok_and(|orbit| BURSTS as f64 * leaving(&orbit) < ENDURANCE as f64);
         if !leaves_in_time {
             return Ok(false);
         }
-        let map = StroboscopicMap::new(&scene, 1)?;
+        let machine = [Machine::new(&scene).map_err(SurveyError::from)?];
         let mut calm = Calm {
             periods: periods as usize,
             ..Calm::default()
         };
-        for _ in 0..ENDURANCE {
-            let passage = map.apply(state)?;
-            state = passage.end;
-            calm.enter(passage.impacts.len());
-            if calm.bursts >= BURSTS {
-                return Ok(true);
+        let mut job = Job {
+            machine: 0,
+            start: *start,
+            periods: STRETCH,
+        };
+        for _ in 0..ENDURANCE / STRETCH {
+            let ask = || (self.watcher)(0, 0);
+            let outcomes = follow(&machine, &[job], &mut calm, ask).ok_or(SurveyError::Stopped)?;
+            for outcome in outcomes {
+                outcome.error.map_or(Ok(()), Err)?;
+                job.start = outcome.end;
             }
-            if calm.is_elsewhere {
+            if let Some(is_intermittent) = calm.verdict() {
+                return Ok(is_intermittent);
+            }
+            let arrivals = self.hold(value, &[job.start], 0)?;
+            if arrivals.iter().any(|arrival| arrival.orbit.is_some()) {
                 return Ok(false);
             }
         }
@@ -71,6 +83,8 @@ fn leaving(orbit: &Orbit) -> f64 {
 struct Calm {
     /// Impacts in each of the last drive periods.
     last: VecDeque<usize>,
+    /// Impacts in the present one.
+    impacts: usize,
     /// Drive periods of the motion.
     periods: usize,
     /// The first of its periods.
@@ -86,7 +100,29 @@ struct Calm {
     is_elsewhere: bool,
 }
 
+impl Watch for Calm {
+    const IMPACTS: bool = true;
+    const PERIODS: bool = true;
+
+    fn impact(&mut self, _: usize, _: u64, _: f64, _: f64) {
+        self.impacts += 1;
+    }
+
+    fn period(&mut self, _: usize, _: u64, _: Start) {
+        let impacts = std::mem::take(&mut self.impacts);
+        if self.verdict().is_none() {
+            self.enter(impacts);
+        }
+    }
+}
+
 impl Calm {
+    /// Whether there are bursts over and over, once that is known.
+    fn verdict(&self) -> Option<bool> {
+        let is_known = self.bursts >= BURSTS || self.is_elsewhere;
+        is_known.then_some(self.bursts >= BURSTS)
+    }
+
     fn enter(&mut self, impacts: usize) {
         self.last.push_back(impacts);
         if self.last.len() < self.periods {

@@ -55,6 +55,8 @@ pub struct Transition {
     pub doubled_until: Option<f64>,
     /// The parameter where the last motion on the way first follows, if others come before it.
     pub settled_at: Option<f64>,
+    /// How far off that may be.
+    pub settled_within: f64,
     /// What is met after it, in order, doubled motions among them; the last is where it settles.
     pub path: Vec<MotionKind>,
     /// Why, in order.
@@ -97,7 +99,7 @@ impl Transition {
 pub struct Rules {
     /// How motions are searched for at the values given.
     pub survey: Options,
-    /// Motions started beside an end or on chaos.
+    /// Motions started beside an end or on chaos: sixteen go first, the others where those disagree.
     pub motions: usize,
     /// Drive periods for which they go on beside an end before they are looked at.
     pub patience: u64,

@@ -11,8 +11,9 @@ use softstop::Start;
 
 /// Relative differences between motions started side by side.
 const SPREAD: f64 = 1e-9;
-/// Drive periods in each batch of an exponent.
-const BATCH: u64 = 1600;
+/// Motions that go first, as many as there are lanes: if all of them do the same, so do most. Where half of all
+/// would not, that is a chance of one in 2^15.
+pub(super) const FIRST: usize = 16;
 
 /// Finds transitions of a family's motions.
 pub struct Explorer<'a, F> {
@@ -32,6 +33,17 @@ pub(super) struct Gathering {
     pub orbit: Option<Orbit>,
     /// Those that do so.
     pub states: Vec<Start>,
+    /// True if it is clear whether more than half do.
+    pub is_clear: bool,
+}
+
+/// Standard deviations by which more or fewer than half of all motions have to do something for that to be clear.
+const SURE: f64 = 4.0;
+
+/// True if it is clear whether more or fewer than half of motions do something, by the number of those that do.
+pub(super) fn is_clear(those: usize, all: usize) -> bool {
+    let lead = 2.0 * those as f64 - all as f64;
+    lead.abs() >= SURE * (all as f64).sqrt()
 }
 
 impl<'a, F: Family + Sync> Explorer<'a, F> {
@@ -79,20 +91,32 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
     }
 
     fn gather_anew(&self, value: f64, starts: &[Start]) -> Result<Gathering, TransitionError> {
-        let arrivals = self.hold(value, starts, self.rules.patience)?;
+        let (first, rest) = starts.split_at(starts.len().min(FIRST));
+        let mut arrivals = self.hold(value, first, self.rules.patience)?;
+        if !are_alike(&arrivals) {
+            arrivals.extend(self.hold(value, rest, self.rules.patience)?);
+        }
+        let all = arrivals.len();
         let (settled, wandering): (Vec<Arrival>, Vec<Arrival>) =
             arrivals.into_iter().partition(|it| it.orbit.is_some());
-        if wandering.len() > settled.len() {
-            let states: Vec<Start> = wandering.into_iter().map(|it| it.state).collect();
-            let scene = self.family.scene([value])?;
-            let (exponents, _) = Exponents::along(&scene, states[0].into(), BATCH)?;
+        if settled.len() >= wandering.len() {
+            let most = most(settled);
             return Ok(Gathering {
-                motion: exponents.is_positive().then_some(MotionKind::Chaos),
-                orbit: None,
-                states,
+                is_clear: is_clear(most.states.len(), all),
+                ..most
             });
         }
-        Ok(most(settled))
+        let lingering = wandering.iter().filter(|it| it.returns).count();
+        let states: Vec<Start> = wandering.into_iter().map(|it| it.state).collect();
+        // Motions that stay beside an orbit that is not stable have not gone anywhere yet.
+        let is_chaos = 2 * lingering <= states.len()
+            && Exponents::grow(&self.family.scene([value])?, states[0].into())?;
+        Ok(Gathering {
+            motion: is_chaos.then_some(MotionKind::Chaos),
+            orbit: None,
+            is_clear: is_clear(states.len(), all),
+            states,
+        })
     }
 
     /// As many motions as the rules ask for: the given ones, and others beside them.
@@ -107,6 +131,16 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
         let all = states.iter().cycle().take(self.rules.motions);
         all.enumerate().map(beside).collect()
     }
+}
+
+/// True if all have settled on one motion, or none has settled.
+fn are_alike(arrivals: &[Arrival]) -> bool {
+    let kind = |arrival: &Arrival| arrival.orbit.as_ref().map(MotionKind::of);
+    let Some((first, others)) = arrivals.split_first() else {
+        return true;
+    };
+    let first = kind(first);
+    others.iter().all(|other| kind(other) == first)
 }
 
 /// The commonest orbit of motions that have settled.
@@ -125,6 +159,7 @@ pub(super) fn most(settled: Vec<Arrival>) -> Gathering {
         motion: Some(motion),
         orbit: Some(orbit),
         states,
+        ..Gathering::default()
     });
     gathering.unwrap_or_default()
 }

@@ -63,7 +63,7 @@ pub enum TableFormat {
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct TableArguments {
-    /// Motions started on chaos, and beside each end of a motion, 2 to 10000
+    /// Motions started on chaos, and beside each end of a motion, 2 to 10000; 16 go first, the others if those disagree
     #[arg(long, value_name = "N", default_value_t = Rules::default().motions)]
     pub motions: usize,
     /// Drive periods for which half of them must wander for chaos to count, 100 to 10000000

@@ -50,8 +50,7 @@ fn line(row: &RowReport, paper: &PaperRow) -> (Vec<String>, bool) {
         }),
         row.transition(" → ", " ↔ ").replace("->", "→"),
         row.flip.unwrap_or_default().to_owned(),
-        row.follows_from
-            .map_or_else(String::new, |eta| format!("{eta:.10}")),
+        row.follows().unwrap_or_default(),
         match row.hysteresis {
             Some(true) => "yes",
             Some(false) => "no",

@@ -42,12 +42,17 @@ pub struct RowReport {
     pub flip: Option<&'static str>,
     /// Where the last motion first follows, if others come before it.
     pub follows_from: Option<f64>,
+    /// Decimals that are known of it.
+    #[serde(skip)]
+    pub follows_decimals: usize,
     /// How the figure was found, and why it differs.
     pub remark: String,
 }
 
 /// Difference from the paper's figure that its digits explain.
 const ROUNDING: f64 = 1e-5;
+/// Decimals to which ends of branches are known.
+const LOCATED: usize = 10;
 
 impl TableReport {
     /// The rows of the paper that are among some transitions.
@@ -79,9 +84,18 @@ impl TableReport {
 impl RowReport {
     /// The frequency with the digits that are known of it: of chaos that ends, by the lifetimes of some motions, five.
     pub fn figure(&self) -> Option<String> {
-        let of_chaos = self.kind.as_deref() == Some("OCH");
-        let decimals = if of_chaos { 5 } else { 10 };
+        let decimals = match self.kind.as_deref() {
+            Some("OCH") => 5,
+            _ if self.eta == self.follows_from => self.follows_decimals,
+            _ => LOCATED,
+        };
         self.eta.map(|eta| format!("{eta:.decimals$}"))
+    }
+
+    /// Where the last motion first follows, with the digits that are known of it.
+    pub fn follows(&self) -> Option<String> {
+        let decimals = self.follows_decimals;
+        self.follows_from.map(|eta| format!("{eta:.decimals$}"))
     }
 
     fn new(row: &PaperRow, found: Option<&Match<'_>>, rules: &Rules) -> Self {
@@ -109,6 +123,7 @@ impl RowReport {
                 .map(|it| it.value),
             flip: transition.and_then(flip),
             follows_from: transition.and_then(|it| it.settled_at.filter(|_| it.hysteresis)),
+            follows_decimals: transition.map_or(LOCATED, follows_decimals),
             remark: found.map_or(missing.to_owned(), |found| remark(row, found, rules)),
         }
     }
@@ -174,6 +189,12 @@ fn origin(transition: &Transition, rules: &Rules) -> String {
     }
 }
 
+/// Decimals that are known of where the last motion first follows, the last of them to a few units.
+fn follows_decimals(transition: &Transition) -> usize {
+    let known = -transition.settled_within.log10();
+    LOCATED.min(known.round() as usize)
+}
+
 /// Which kind of flip ends the first motion, if one does.
 fn flip(transition: &Transition) -> Option<&'static str> {
     let until = transition.doubled_until?;
@@ -197,7 +218,8 @@ fn succession(transition: &Transition) -> Vec<String> {
         && transition.hysteresis
     {
         let last = name(transition.to());
-        parts.push(format!("{last} follows from {settled:.10} on"));
+        let decimals = follows_decimals(transition);
+        parts.push(format!("{last} follows from {settled:.decimals$} on"));
     }
     parts
 }

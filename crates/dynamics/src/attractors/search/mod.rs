@@ -10,6 +10,7 @@ use super::fleet::{Fleet, Voyage};
 use super::known::{Book, Standing};
 use super::lifetime::Looks;
 use super::{Arrival, Attractor, Options, Region, Survey, SurveyError};
+use crate::orbit::recurrence::returns;
 use crate::orbit::{self, Exponents};
 use crate::watch::{Watcher, stop_if, unwatched};
 use softstop::{Scene, Start};
@@ -20,8 +21,8 @@ const PILOT: usize = 64;
 const DEAR: u64 = 20;
 /// How many times longer motions are watched from one look to the next.
 const GROWTH: u64 = 2;
-/// Share of the transient after which motions that cost more are looked at for the first time: those that have
-/// arrived by then need not be carried on.
+/// Share of the transient after which motions that cost more, or take long, are looked at for the first time: those
+/// that have arrived by then need not be carried on.
 const FIRST_LOOK: u64 = 4;
 
 /// A motion of the search.
@@ -139,10 +140,12 @@ pub fn settle(
     search.launch(starts.to_vec(), true)?;
     let Search { members, book, .. } = search;
     let orbit = |at: usize| book.orbits[at].orbit.clone();
+    let frequency = scene.excitation.frequency;
     let arrival = |member: Member| match member.voyage.error {
         Some(error) => Err(error.into()),
         None => Ok(Arrival {
             state: member.voyage.state,
+            returns: returns(frequency, &member.voyage.log).is_some(),
             orbit: member.standing.orbit().map(orbit),
         }),
     };
@@ -184,10 +187,10 @@ impl<'a> Search<'a> {
             counts,
         }));
         let (transient, logged) = (self.options.transient, self.logged() as u64);
-        if self.fleet.is_fast() {
+        let early = transient / FIRST_LOOK;
+        if self.fleet.is_fast() && early < FIRST_LOOK * logged {
             return self.carry_on(first.., transient + logged);
         }
-        let early = transient / FIRST_LOOK;
         self.carry_on(first.., early + logged)?;
         self.carry_on(first.., (transient - early).max(logged))
     }
