@@ -241,10 +241,40 @@ const NARROW: [(&str, f64, f64); 3] = [
     ),
 ];
 
+/// A machine where a branch is lost at a motion that a change of 1e-6 throws by 1.
+const WILD: (&str, f64, f64) = (
+    r#"
+    mass = 1.0
+    stiffness = 1.0
+    damping = 0.025503965738481488
+    clearance = 7.281197916762066
+    contact.damping = 0.003909202263016358
+    excitation = { amplitude = 1.0, frequency = 1.0 }
+    stop = { model = "preloaded", stiffness = 24.502085405537247, preload = 0.0 }
+    [piercing]
+    stiffness = 11.460328884998217
+    friction = 29.524175272473425
+    thickness = 0.6006342449307971
+    travel = 0.5786930156852612
+    "#,
+    1.0651877658600444,
+    7.46620327648116,
+);
+
 /// Motions that starts settle on there, found by brute force.
 #[test]
-fn narrow_stretches_between_grazings() -> Outcome {
-    let missed = NARROW.iter().filter(|(machine, frequency, velocity)| {
+fn narrow_stretches_between_grazings() {
+    assert_none_missed(&NARROW);
+}
+
+/// What Newton's method runs off to from there is no motion of that branch, and hides none of the others.
+#[test]
+fn a_branch_does_not_run_off() {
+    assert_none_missed(&[WILD]);
+}
+
+fn assert_none_missed(all: &[(&str, f64, f64)]) {
+    let missed = all.iter().filter(|(machine, frequency, velocity)| {
         let scene = Machine::from_toml(machine).expect("a machine").scene;
         let on = |one: &Stretch| {
             let there = one.point_at(&scene, *frequency).ok().flatten();
@@ -254,5 +284,24 @@ fn narrow_stretches_between_grazings() -> Outcome {
     });
     let missed: Vec<_> = missed.map(|(_, frequency, _)| frequency).collect();
     assert!(missed.is_empty(), "{missed:?}");
+}
+
+/// Branches that are lost near the same motion may have parts in common.
+#[test]
+fn no_part_is_listed_twice() -> Outcome {
+    let scene = Machine::from_toml(NARROW[1].0)?.scene;
+    let found = stretches(&scene)?;
+    for (index, one) in found.iter().enumerate() {
+        for other in &found[..index] {
+            let low = one.low.frequency.max(other.low.frequency);
+            let high = one.high.frequency.min(other.high.frequency);
+            if (1.0 + 1e-6) * low < high {
+                let middle = 0.5 * (low + high);
+                let [one, other] = [one, other].map(|of| of.point_at(&scene, middle));
+                let (one, other) = (one?.ok_or("no motion")?, other?.ok_or("no motion")?);
+                assert!((one.state() - other.state()).norm() > 1e-6, "{middle}");
+            }
+        }
+    }
     Ok(())
 }

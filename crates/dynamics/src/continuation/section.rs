@@ -20,6 +20,9 @@ const NEAR: f64 = 0.05;
 const FARTHER: f64 = 2.0;
 /// Scaled distance back along a branch by which its direction is carried to another section.
 const BACK: f64 = 1e-6;
+/// Scaled distance from where a motion is carried to within which it is found there: where it is wildly unstable, Newton's
+/// method may run off to another one.
+const FOUND: f64 = 1e-2;
 
 impl<'a, F: Family> Follower<'a, F> {
     /// The same branch seen where no crossing stands in the way; none if this section is as good as any.
@@ -35,6 +38,9 @@ impl<'a, F: Family> Follower<'a, F> {
         let back = carried(&(&node.at - BACK * direction)).ok()?;
         let along = (&at - back).normalize();
         let seen = correct(&follower.shooting, &at, Some(&along)).ok()?;
+        if (&seen.at - &at).norm() > FOUND {
+            return None;
+        }
         let (mut along, _) = tangent(&follower.shooting, &seen, &along).ok()?;
         // Where small changes grow too much on the way, what is carried back may point backward.
         let [before, after] = [node, &seen].map(|node| &node.here.point.monodromy);

@@ -93,13 +93,13 @@ impl Stretch {
         }
     }
 
-    /// True if another one has the same ends.
-    pub(super) fn is_same(&self, other: &Self) -> bool {
-        let near = |a: f64, b: f64| (a - b).abs() < SAME * a.abs();
-        let same = |a: &StretchEnd, b: &StretchEnd| {
-            near(a.frequency, b.frequency) && near(a.velocity, b.velocity)
-        };
-        same(&self.low, &other.low) && same(&self.high, &other.high)
+    /// True if it is a part of another one, or the same.
+    pub(super) fn is_within(&self, other: &Self, scene: &Scene) -> bool {
+        let middle = &self.points[self.points.len() / 2];
+        let near = |frequency: f64| SAME * frequency.abs();
+        self.low.frequency >= other.low.frequency - near(self.low.frequency)
+            && self.high.frequency <= other.high.frequency + near(self.high.frequency)
+            && other.contains(scene, middle).unwrap_or(false)
     }
 
     /// True if a point lies on it.

@@ -85,8 +85,14 @@ pub fn stretches_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Stre
         .flat_map(|branch| stable(&follower, branch))
         .collect();
     found.sort_by(|a, b| a.low.frequency.total_cmp(&b.low.frequency));
-    found.dedup_by(|a, b| a.is_same(b));
-    Ok(found)
+    let mut distinct: Vec<Stretch> = Vec::new();
+    for one in found {
+        if !distinct.iter().any(|other| one.is_within(other, scene)) {
+            distinct.retain(|other| !other.is_within(&one, scene));
+            distinct.push(one);
+        }
+    }
+    Ok(distinct)
 }
 
 fn limits(scene: &Scene) -> Limits {
