@@ -1,7 +1,7 @@
 //! What keeps a step along a branch from missing anything, and what ends a branch that no step can follow.
 
 use super::Family;
-use super::arclength::Equations;
+use super::arclength::{DIFFERENCE, Equations};
 use super::follower::{Follower, keeps_sense};
 use super::graze::Approach;
 use super::point::{Special, SpecialKind};
@@ -32,7 +32,7 @@ pub(super) const SHORT: f64 = 1e-5;
 
 impl<F: Family> Follower<'_, F> {
     /// Ends a branch that cannot be followed any farther: in the grazing just ahead, at the end of the range just
-    /// ahead (of values that no machine can have beyond), or lost.
+    /// ahead (of values that no machine can have beyond), at an orbit that is too unstable, or lost.
     pub(super) fn give_up(
         &self,
         way: &mut Way,
@@ -57,6 +57,7 @@ impl<F: Family> Follower<'_, F> {
         let dies = approach.dies_within(NEAR).then_some(Border::Surface);
         way.end = match self.border_ahead(walker, &error).or(dies) {
             Some(border) => End::Border(border),
+            None if walker.node.here.point.monodromy.norm() * DIFFERENCE > 1.0 => End::Unstable,
             None => End::Lost(error),
         };
     }

@@ -29,6 +29,8 @@ pub enum End {
     Stopped,
     /// Just beyond the last point the orbit would meet something where the force jumps.
     Border(Border),
+    /// The orbit is so unstable that the differences along the parameter leave its neighbourhood.
+    Unstable,
     /// It cannot be followed even with the smallest step.
     Lost(OrbitError),
 }

@@ -123,7 +123,7 @@ fn borders(branch: &Branch) -> Vec<&BranchPoint> {
         (&branch.ends.1, branch.points.last()),
     ];
     let border = |(end, point): (&End, _)| match end {
-        End::Grazing | End::Border(_) | End::Lost(_) => point,
+        End::Grazing | End::Border(_) | End::Unstable | End::Lost(_) => point,
         _ => None,
     };
     ends.into_iter().filter_map(border).collect()

@@ -113,6 +113,10 @@ fn end(end: &End, points: usize) -> String {
         End::Merged => "it merges into the orbit of half its period".to_owned(),
         End::Stopped => "stopped".to_owned(),
         End::Border(border) => format!("border collision: {}", met(*border)),
+        End::Unstable => {
+            "a change of the orbit grows a million times in a round: too unstable to follow"
+                .to_owned()
+        }
         End::Lost(error) => lost(error),
     }
 }
