@@ -36,6 +36,7 @@ mod integrator;
 #[doc(hidden)]
 pub mod internals;
 mod machine;
+mod peak;
 mod phases;
 mod root;
 mod scene;
@@ -45,8 +46,8 @@ mod trajectory;
 pub use error::{MachineError, MotionError, SceneError};
 pub use flow::{Drive, HIGHEST_ORDER};
 pub use integrator::{
-    Arc, Begin, Clock, Crossing, CrossingKind, Effort, Energy, Impact, Instant, Observer, Rate,
-    Rates, Sample, Simulation, Snapshot, Start, Work,
+    Arc, Begin, Clock, Contacts, Crossing, CrossingKind, Effort, Energy, Impact, Instant, Observer,
+    Rate, Rates, Sample, Simulation, Snapshot, Start, Work,
 };
 pub use machine::{Language, Machine};
 pub use phases::PhaseKind;

@@ -4,17 +4,22 @@
 //! value is read; [`StartValues`] are scenes in other words, and [`Machine`] is the motion. All else,
 //! the XML, the package and the C functions, is `softstop-fmi`'s.
 
+mod drive;
+mod external;
 mod machine;
+mod signal;
 mod start;
+mod step;
 mod table;
+mod tangent;
 mod unit;
 mod units;
 
 pub use machine::Machine;
-use softstop::Sensitivity;
 use softstop_fmi::Unit;
 pub use softstop_fmi::{description, guid_of, package, parameter_set};
 pub use start::{NotServed, StartValues, slot};
+pub use tangent::Tangent;
 
 /// The C functions of the standard, behind the feature `c-functions`: without it a program can link this unit
 /// beside another one.
@@ -27,7 +32,7 @@ pub mod ffi {
 pub type Imprint = softstop_fmi::Imprint<Machine>;
 
 /// All variables.
-pub fn table() -> &'static softstop_fmi::Table<Machine, Sensitivity> {
+pub fn table() -> &'static softstop_fmi::Table<Machine, Tangent> {
     &Machine::about().table
 }
 

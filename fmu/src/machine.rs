@@ -1,15 +1,43 @@
 //! The machine as its outputs see it.
 
 use std::cell::OnceCell;
+use std::f64::consts::TAU;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use softstop::{Energy, Impact, PhaseKind, Rates, Sample, Simulation, Snapshot};
+use softstop::{Contacts, Energy, Impact, PhaseKind, Rates, Sample, Simulation, Snapshot};
+
+use crate::drive::Drive;
+use crate::external::External;
 
 /// A running machine: sampled once at each time, however many outputs are read.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Machine {
+    #[serde(serialize_with = "keep", deserialize_with = "restore")]
     simulation: Simulation,
+    pub(crate) more: More,
+    #[serde(skip)]
     seen: Seen,
+}
+
+/// What the engine does not know of.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct More {
+    #[serde(skip_serializing_if = "is_default")]
+    pub external: External,
+    /// The drive, if the inputs lead it.
+    #[serde(skip_serializing_if = "is_default")]
+    pub drive: Option<Box<Drive>>,
+    /// Turns of the engine's drive before its clock began.
+    #[serde(skip_serializing_if = "is_default")]
+    pub turns: f64,
+    /// What is known of the contacts of the last step; the stretch that the engine has marked comes on top.
+    #[serde(skip_serializing_if = "is_default")]
+    pub contacts: Option<Box<Contacts>>,
+    pub is_open: bool,
+    /// The machine where the last step began, if that was taken in pieces.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub origin: Option<Box<Machine>>,
 }
 
 /// What was computed of the present state.
@@ -18,12 +46,14 @@ struct Seen {
     sample: OnceCell<Sample>,
     energy: OnceCell<Energy>,
     rates: OnceCell<Rates>,
+    contacts: OnceCell<Contacts>,
 }
 
 impl Machine {
-    pub(crate) fn new(simulation: Simulation) -> Self {
+    pub(crate) fn new(simulation: Simulation, more: More) -> Self {
         Self {
             simulation,
+            more,
             seen: Seen::default(),
         }
     }
@@ -50,9 +80,101 @@ impl Machine {
         self.seen.energy.get_or_init(|| self.simulation.energy())
     }
 
+    /// What happened in the last step.
+    pub(crate) fn contacts(&self) -> &Contacts {
+        self.seen.contacts.get_or_init(|| {
+            let kept = self.more.contacts.as_deref().copied().unwrap_or_default();
+            if self.more.is_open {
+                kept.and(&self.simulation.contacts().unwrap_or_default())
+            } else {
+                kept
+            }
+        })
+    }
+
+    /// Keeps what is known of the last step, before something is set that hides it.
+    pub(crate) fn close(&mut self) {
+        self.more.origin = None;
+        self.keep_contacts();
+    }
+
+    pub(crate) fn keep_contacts(&mut self) {
+        if self.more.is_open {
+            let contacts = *self.contacts();
+            self.more.contacts = (contacts != Contacts::default()).then(|| contacts.into());
+            self.more.is_open = false;
+        }
+    }
+
     /// The last impact; before the first one, zeros.
     pub(crate) fn last_impact(&self) -> Impact {
         self.simulation.last_impact().unwrap_or_default()
+    }
+
+    /// Value and first two derivatives of the force of the drive, in N.
+    pub(crate) fn drive_force(&self) -> (f64, f64, f64) {
+        let of = match &self.more.drive {
+            Some(drive) => drive.force_at(self.simulation.time()),
+            None => {
+                let angle = self.simulation.drive_angle();
+                let of = self.simulation.scene().excitation;
+                Drive::new(angle, 0.0, of.frequency, of.amplitude).force_at(0.0)
+            }
+        };
+        let [value, rate, curvature, ..] = *of.derivatives();
+        (value, rate, curvature)
+    }
+
+    /// Power of the drive in W with its first derivative.
+    pub(crate) fn drive_power(&self) -> (f64, f64) {
+        let (
+            (force, rate, _),
+            Sample {
+                velocity,
+                acceleration,
+                ..
+            },
+        ) = (self.drive_force(), *self.sample());
+        (force * velocity, rate * velocity + force * acceleration)
+    }
+
+    /// Its second derivative in W/s^2.
+    pub(crate) fn drive_power_curvature(&self) -> f64 {
+        let (force, rate, curvature) = self.drive_force();
+        let of = self.sample();
+        curvature * of.velocity + 2.0 * rate * of.acceleration + force * of.jerk
+    }
+
+    /// Work of the drive in J.
+    pub(crate) fn drive_work(&self) -> f64 {
+        let mass = self.simulation.scene().mass;
+        self.energy().supplied - self.more.external.work_to(self.sample().position, mass)
+    }
+
+    /// Drive angle in rad, speed in rad/s and its rate.
+    pub(crate) fn drive_angle(&self) -> (f64, f64, f64) {
+        match &self.more.drive {
+            Some(drive) => {
+                let now = self.simulation.time();
+                let speed = drive.speed_at(now);
+                (drive.angle_at(now), speed.value(), speed.rate())
+            }
+            None => {
+                let angle = TAU.mul_add(self.more.turns, self.simulation.drive_angle());
+                (angle, self.simulation.scene().excitation.frequency, 0.0)
+            }
+        }
+    }
+
+    /// Force on the frame in N with its first two derivatives: what pushes the mass and does not accelerate it.
+    pub(crate) fn frame_force(&self) -> (f64, f64, f64) {
+        let (push, rate, curvature) = self.simulation.push();
+        let (mass, of) = (self.simulation.scene().mass, self.sample());
+        (
+            push - mass * of.acceleration,
+            rate - mass * of.jerk,
+            curvature - mass * self.rates().snap,
+        )
     }
 
     /// Number of the present phase, as in the enumeration [`PHASE`](crate::units::PHASE).
@@ -71,16 +193,15 @@ impl Machine {
     }
 }
 
-impl Serialize for Machine {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.simulation.snapshot().serialize(serializer)
-    }
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
-impl<'de> Deserialize<'de> for Machine {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let snapshot = Snapshot::deserialize(deserializer)?;
-        let simulation = Simulation::restored(&snapshot);
-        simulation.map(Self::new).map_err(serde::de::Error::custom)
-    }
+fn keep<S: Serializer>(simulation: &Simulation, serializer: S) -> Result<S::Ok, S::Error> {
+    simulation.snapshot().serialize(serializer)
+}
+
+fn restore<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Simulation, D::Error> {
+    let snapshot = Snapshot::deserialize(deserializer)?;
+    Simulation::restored(&snapshot).map_err(serde::de::Error::custom)
 }

@@ -1,23 +1,20 @@
 //! The machine as a unit.
 
 use std::error::Error;
-use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
-use softstop::{Begin, Effort, MotionError, Perturbation, SceneError, Sensitivity, Simulation};
+use softstop::{Begin, MotionError, SceneError, Simulation};
 use softstop_fmi::{
     About, Advance, Block, Derivatives, Events, HIGHEST_ORDER, Known, Outcome, Unit,
 };
 
-use crate::machine::Machine;
+use crate::drive::Drive;
+use crate::machine::{Machine, More};
 use crate::start::StartValues;
 use crate::start::slot::{self, SLOTS};
 use crate::table::GROUPS;
+use crate::tangent::Tangent;
 use crate::units::{ENUMERATIONS, QUANTITIES};
-
-/// Work that one step may cost: eight million crossings, some seconds. A step that would take longer
-/// is carried out in part, so that no importer waits for ever.
-const EFFORT: Effort = Effort::windows(1 << 27);
 
 const _: () = assert!(HIGHEST_ORDER == softstop::HIGHEST_ORDER);
 
@@ -37,7 +34,7 @@ static ABOUT: About<Machine> = About {
     version: env!("CARGO_PKG_VERSION"),
     license: "MIT OR Apache-2.0",
     events: "impacts and pierced strips, one line for each step that has any",
-    knowns: "force, over the first step also those by initial.position and initial.velocity",
+    knowns: "the inputs force, base.acceleration, drive.speed and drive.amplitude, over the first step also those by initial.position and initial.velocity",
     experiment: &[
         ("startTime", "0"),
         ("stopTime", "100"),
@@ -79,7 +76,7 @@ const FILES: [(&str, &[u8]); 6] = [
 ];
 
 impl Unit for Machine {
-    type Tangent = Sensitivity;
+    type Tangent = Tangent;
 
     fn about() -> &'static About<Self> {
         &ABOUT
@@ -93,9 +90,17 @@ impl Unit for Machine {
         let values = StartValues::of(values);
         let fed = values.number(slot::MATERIAL) != 0;
         let begin = Begin::from(values.start()).at_time(time).fed(fed);
-        Simulation::new(&values.scene(), begin)
-            .map(Self::new)
-            .map_err(in_names)
+        let scene = values.scene();
+        let simulation = Simulation::new(&scene, begin).map_err(in_names)?;
+        let mut machine = Self::new(simulation, More::default());
+        let takes = |slot| values.number(slot) != 0;
+        let takes = (takes(slot::TAKES_SPEED), takes(slot::TAKES_AMPLITUDE));
+        if takes.0 || takes.1 {
+            let drive = Drive::begin(&scene.excitation, time, takes);
+            machine.more.drive = Some(drive.into());
+            machine.push()?;
+        }
+        Ok(machine)
     }
 
     fn time(&self) -> f64 {
@@ -104,49 +109,21 @@ impl Unit for Machine {
 
     fn tune(&mut self, values: &[f64]) -> Outcome<()> {
         let values = StartValues::of(values);
-        let simulation = self.change();
-        simulation.tune(&values.scene())?;
-        simulation.feed_strip(values.number(slot::MATERIAL) != 0);
+        self.close();
+        self.retune(&values.scene())?;
+        let fed = values.number(slot::MATERIAL) != 0;
+        self.change().feed_strip(fed);
         Ok(())
     }
 
     fn advance(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>> {
-        let simulation = self.change();
-        let before = (simulation.impact_count(), simulation.pierce_count());
-        let outcome = simulation.watch(until, &mut { EFFORT });
-        let impacts = simulation.impact_count() - before.0;
-        if let Some(last) = simulation.last_impact().filter(|_| impacts > 0) {
-            let pierced = simulation.pierce_count() - before.1;
-            events.tell(|| {
-                format!(
-                    "impacts: {impacts}, strips pierced: {pierced}; last impact at {} s with {} m/s",
-                    last.time, last.velocity
-                )
-            });
-        }
-        match outcome {
-            Ok(ControlFlow::Continue(())) => Ok(Advance::Arrived),
-            Ok(ControlFlow::Break(())) => Ok(Advance::Short {
-                reason: format!("{impacts} impacts so far"),
-                before: simulation
-                    .before_advance()
-                    .map(|before| Box::new(Self::new(before))),
-            }),
-            // The motion has not left the point at which the step begins.
-            Err(
-                error @ (MotionError::Unbounded { .. }
-                | MotionError::Stalled { .. }
-                | MotionError::Endless { .. }),
-            ) => Ok(Advance::Short {
-                reason: error.to_string(),
-                before: Some(Box::new(self.clone())),
-            }),
-            Err(error) => Err(error.into()),
-        }
+        self.go_to(until, events)
     }
 
-    fn drive(&mut self, _force: usize, derivatives: &Derivatives) -> Outcome<()> {
-        Ok(self.change().set_force(derivatives)?)
+    fn drive(&mut self, signal: usize, derivatives: &Derivatives) -> Outcome<()> {
+        self.close();
+        self.set(signal, derivatives);
+        self.push()
     }
 
     fn check_reach(&self, until: f64) -> Outcome<()> {
@@ -158,29 +135,23 @@ impl Unit for Machine {
     }
 
     fn mark(&mut self) {
+        self.close();
         self.change().mark();
     }
 
     fn has_tangent(&self, known: Known) -> bool {
+        let begin = self.more.origin.as_deref().unwrap_or(self);
         match known {
             Known::Signal(_) => true,
             Known::Parameter(slot) => {
                 [slot::INITIAL_POSITION, slot::INITIAL_VELOCITY].contains(&slot)
-                    && self.simulation().is_marked_at_start()
+                    && begin.simulation().is_marked_at_start()
             }
         }
     }
 
-    fn tangent(&self, direction: &[(Known, f64)]) -> Outcome<Sensitivity> {
-        let mut by = Perturbation::default();
-        for &(known, seed) in direction {
-            match known {
-                Known::Signal(_) => by.force += seed,
-                Known::Parameter(slot::INITIAL_POSITION) => by.position += seed,
-                Known::Parameter(_) => by.velocity += seed,
-            }
-        }
-        Ok(self.simulation().sensitivity(&by)?)
+    fn tangent(&self, direction: &[(Known, f64)]) -> Outcome<Tangent> {
+        Tangent::new(self, direction)
     }
 }
 

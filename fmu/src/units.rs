@@ -44,6 +44,10 @@ quantities! {
     DISSIPATION = "Dissipation", "InverseVelocity", "s/m", [("s", 1), ("m", -1)], [];
     /// Energy, J.
     ENERGY = "Energy", "Energy", "J", [("kg", 1), ("m", 2), ("s", -2)], [];
+    /// Power, W.
+    POWER = "Power", "Power", "W", [("kg", 1), ("m", 2), ("s", -3)], [("kW", 1e-3)];
+    /// Impulse, N.s.
+    IMPULSE = "Impulse", "Impulse", "N.s", [("kg", 1), ("m", 1), ("s", -1)], [];
 }
 
 /// Numbers of `stop.model` and `stop.release`.

@@ -6,6 +6,7 @@ mod calls;
 mod common;
 mod directional;
 mod discard;
+mod drive;
 mod input_derivatives;
 mod libraries;
 mod memory;

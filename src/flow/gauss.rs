@@ -14,6 +14,6 @@ const EIGHT: [(f64, f64); 8] = [
 ];
 
 /// The eight-point rule's nodes and weights on [0, `span`].
-pub(super) fn gauss_nodes(span: f64) -> [(f64, f64); 8] {
+pub(crate) fn gauss_nodes(span: f64) -> [(f64, f64); 8] {
     EIGHT.map(|(place, weight)| (0.5 * span * (1.0 + place), 0.5 * span * weight))
 }

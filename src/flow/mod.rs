@@ -40,6 +40,7 @@ pub(crate) use answers::{Answer, Forces, Source};
 pub(crate) use change::Change;
 pub(crate) use chatter::{Chatter, Pressing};
 pub use course::Course;
+pub(crate) use gauss::gauss_nodes;
 pub use hertz::Hertz;
 pub use modes::Modes;
 pub(crate) use node::Window;
@@ -89,6 +90,11 @@ impl Flow {
     /// The same under a drive of another frequency.
     pub(crate) fn tuned(&self, frequency: f64) -> Self {
         Self::of(self.modes, self.amplitude, frequency)
+    }
+
+    /// The same under another drive, of this amplitude per mass.
+    pub(crate) fn driven(&self, amplitude: f64, frequency: f64) -> Self {
+        Self::of(self.modes, amplitude, frequency)
     }
 
     fn of(modes: Modes, amplitude: f64, frequency: f64) -> Self {

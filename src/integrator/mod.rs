@@ -2,11 +2,14 @@
 
 mod advance;
 mod clock;
+mod contacts;
+mod drive;
 mod effort;
 mod energy;
 mod evaluations;
 mod force;
 mod hum;
+mod impact;
 mod landing;
 mod mark;
 mod motion;
@@ -14,6 +17,7 @@ mod observer;
 mod outputs;
 mod rates;
 mod resume;
+mod review;
 mod simulation;
 mod snapshot;
 mod start;
@@ -23,12 +27,14 @@ mod walk;
 mod work;
 
 pub use clock::{Clock, Instant};
+pub use contacts::Contacts;
 pub use effort::Effort;
 pub use energy::mechanical_energy;
 pub use evaluations::Evaluations;
+pub use impact::Impact;
 pub use motion::Motion;
 pub use observer::{Arc, Crossing, CrossingKind, Observer};
-pub use outputs::{Energy, Impact, Sample};
+pub use outputs::{Energy, Sample};
 pub use rates::{Rate, Rates};
 pub use simulation::{Begin, Simulation};
 pub use snapshot::Snapshot;

@@ -1,5 +1,6 @@
 //! What a running machine shows.
 
+use super::impact::Impact;
 use super::mechanical_energy;
 use super::simulation::Simulation;
 use super::start::Start;
@@ -23,15 +24,6 @@ pub struct Sample {
     pub contact_force: f64,
     /// What the mass does.
     pub phase: PhaseKind,
-}
-
-/// An impact at absolute time.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Impact {
-    /// Time in s.
-    pub time: f64,
-    /// Before-impact velocity in m/s.
-    pub velocity: f64,
 }
 
 /// Energies in J since the start; supplied = dissipated + change of mechanical.
@@ -77,7 +69,7 @@ impl Simulation {
     }
 
     /// Drive and external force now, in N, with their first and second derivative.
-    pub(super) fn push(&self) -> (f64, f64, f64) {
+    pub fn push(&self) -> (f64, f64, f64) {
         let force = self.motion.force();
         let Drive { cos, sin } = self.motion.clock().drive(self.motion.now());
         let excitation = self.scene.excitation;
@@ -101,11 +93,11 @@ impl Simulation {
 
     /// The last impact, if there was one.
     pub fn last_impact(&self) -> Option<Impact> {
-        let (instant, velocity) = self.tallies.counts.last_impact?;
-        Some(Impact {
+        let impact = |(instant, velocity)| Impact {
             time: self.time_of(instant),
             velocity,
-        })
+        };
+        self.tallies.counts.last_impact.map(impact).or(self.earlier)
     }
 
     /// Energies since the start.

@@ -3,6 +3,7 @@
 use super::clock::{Clock, Instant};
 use super::force::Force;
 use super::motion::Motion;
+use super::start::Start;
 use crate::error::MotionError;
 use crate::flow::Polynomial;
 use crate::phases::{Hold, Mode, Phases};
@@ -32,6 +33,32 @@ impl Motion {
             return false;
         }
         let state = self.state();
+        self.go_on_under(force, state);
+        true
+    }
+
+    /// The same under another drive as well, by the same laws under that drive and its clock, which says that it is now
+    /// `at`.
+    pub(super) fn set_drive(
+        &mut self,
+        phases: Phases,
+        clock: Clock,
+        at: Instant,
+        force: Polynomial,
+    ) -> bool {
+        let (state, elapsed) = (self.state(), self.elapsed());
+        (self.phases, self.clock, self.now) = (phases.into(), clock, at);
+        self.start = clock.after(at, -elapsed);
+        if self.keeps_bouncing(&force) {
+            self.force = Force::new(force.shifted(-elapsed), self.start);
+            return false;
+        }
+        self.go_on_under(force, state);
+        true
+    }
+
+    /// Begins an arc in the present state.
+    fn go_on_under(&mut self, force: Polynomial, state: Start) {
         let drive = self.clock.drive(self.now);
         self.start = self.now;
         self.force = Force::new(force, self.now);
@@ -57,7 +84,6 @@ impl Motion {
             Mode::Moving(_) => {}
         }
         self.depart(state, drive, self.mode);
-        true
     }
 
     /// True if the mass bounces on a rigid stop towards its rest, and another force would not keep it
@@ -71,6 +97,20 @@ impl Motion {
             .phases
             .leave(hold, self.course.departure.position, push);
         matches!(left, Mode::Held(_))
+    }
+
+    /// Puts the mass beside where it is, with another velocity.
+    pub(super) fn move_by(&mut self, position: f64, velocity: f64) -> Result<(), MotionError> {
+        let state = self.state();
+        let start = Start::new(state.position + position, state.velocity + velocity);
+        let (phases, latched) = (self.phases.clone(), self.is_latched());
+        let motion = Self::with(phases, self.clock, self.now, start, self.force(), latched)?;
+        *self = Self {
+            fed: self.fed,
+            pierced: self.pierced,
+            ..motion
+        };
+        Ok(())
     }
 
     /// The same motion at a time on its present arc, with an arc of its own from there on.

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::clock::{Clock, Instant};
 use super::force::polynomial;
+use super::impact::Impact;
 use super::mark::{Mark, Origin};
 use super::motion::Motion;
 use super::start::Start;
@@ -25,6 +26,8 @@ pub struct Simulation {
     /// Absolute time at which the machine started.
     pub(super) begin: f64,
     pub(super) mark: Mark,
+    /// The last impact before the clock's time 0.
+    pub(super) earlier: Option<Impact>,
 }
 
 /// How a machine begins. A [`Start`] is enough: time 0 s and a fed strip go with it.
@@ -98,6 +101,7 @@ impl Simulation {
             tallies,
             begin: time,
             mark: Mark::OnArc(at),
+            earlier: None,
         })
     }
 
@@ -234,11 +238,7 @@ impl Simulation {
         let motion = self.motion.resumed(scene.phases(), clock, at)?;
         self.tallies.counts.work += self.tallies.work_under_way(&self.motion);
         if retimed {
-            if let Some((instant, _)) = &mut self.tallies.counts.last_impact {
-                let time = self.motion.clock().time(*instant) + self.epoch;
-                *instant = clock.instant(time - self.now);
-            }
-            self.epoch = self.now;
+            self.restart();
         }
         (self.motion, self.scene) = (motion, scene.clone());
         self.mark = Mark::OnArc(self.motion.now());

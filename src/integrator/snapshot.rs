@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::clock::{Clock, Instant};
 use super::force::Force;
 use super::hum::Hum;
+use super::impact::Impact;
 use super::mark::Mark;
 use super::motion::Motion;
 use super::simulation::Simulation;
@@ -33,6 +34,7 @@ pub struct Snapshot {
     counts: Counts,
     motion: Moving,
     mark: Mark<Moving>,
+    earlier: Option<Impact>,
 }
 
 /// [`Motion`] as data.
@@ -127,6 +129,7 @@ impl Simulation {
             counts: self.tallies.counts,
             motion: Moving::of(&self.motion),
             mark,
+            earlier: self.earlier,
         }
     }
 
@@ -154,6 +157,7 @@ impl Simulation {
             },
             begin: snapshot.begin,
             mark: snapshot.mark.with(|motion| motion.motion(scene, &phases))?,
+            earlier: snapshot.earlier,
         })
     }
 }

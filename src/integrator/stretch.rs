@@ -4,6 +4,9 @@ use super::clock::Instant;
 use super::mark::Mark;
 use super::motion::Motion;
 use super::simulation::Simulation;
+use super::tallies::Counts;
+use super::work::Work;
+use crate::error::MotionError;
 
 impl Simulation {
     /// The machine as it was before the last advance, if that met a crossing or stopped on its way and
@@ -27,7 +30,7 @@ impl Simulation {
     /// True if that stretch reaches back to the start.
     pub fn is_marked_at_start(&self) -> bool {
         let (_, at) = self.marked();
-        self.epoch == 0.0 && at == self.motion.clock().instant(self.begin)
+        at == self.motion.clock().instant(self.begin - self.epoch)
     }
 
     /// The motion as it was at the mark, on an arc of its own from there on.
@@ -36,8 +39,34 @@ impl Simulation {
         motion.departed_at(at)
     }
 
+    /// The machine as it was where that stretch begins, position and velocity changed by so much: what follows may be
+    /// compared with other changes. Its energies count from there.
+    ///
+    /// # Errors
+    /// [`MotionError::BeyondStop`].
+    pub fn at_mark(&self, position: f64, velocity: f64) -> Result<Self, MotionError> {
+        let motion = self.motion_at_mark();
+        let mut machine = self.clone();
+        machine.now = self.time_of(motion.now());
+        machine.tallies.counts.work = Work::default();
+        if let Mark::Before(origin) = &self.mark {
+            machine.now = origin.now;
+            let work = machine.tallies.counts.work;
+            machine.tallies.counts = Counts {
+                work,
+                ..origin.counts
+            };
+        }
+        machine.mark = Mark::OnArc(motion.now());
+        machine.motion = motion;
+        if position != 0.0 || velocity != 0.0 {
+            machine.motion.move_by(position, velocity)?;
+        }
+        Ok(machine)
+    }
+
     /// A motion that passes the mark, and when.
-    fn marked(&self) -> (&Motion, Instant) {
+    pub(super) fn marked(&self) -> (&Motion, Instant) {
         match &self.mark {
             Mark::OnArc(instant) => (&self.motion, *instant),
             Mark::Before(origin) => (&origin.motion, origin.motion.now()),

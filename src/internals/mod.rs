@@ -7,6 +7,7 @@ pub use crate::events::{Guard, Outlook, first_crossing};
 pub use crate::flow::{Course, Departure, Flow, Hertz, Modes, Polynomial};
 pub use crate::integrator::{Evaluations, Motion, Shares, Walk, mechanical_energy, shares, work};
 pub use crate::machine::nearest;
+pub use crate::peak::{highest, largest};
 pub use crate::phases::{Beyond, Exit, Mode, Phase, PhaseId, Phases, Surface, SurfaceId};
 pub use crate::root::narrow;
 pub use crate::scene::{FASTEST, HEAVIEST, Scales, force_of};

@@ -182,6 +182,19 @@ impl Phases {
     }
 }
 
+impl Phases {
+    /// These laws under another drive, of this amplitude in N and frequency in rad/s.
+    pub(crate) fn driven(&self, amplitude: f64, frequency: f64) -> Self {
+        let mut phases = self.clone();
+        let amplitude = amplitude / self.mass;
+        phases.held = self.held.driven(amplitude, frequency);
+        for phase in &mut phases.phases {
+            phase.flow = phase.flow.driven(amplitude, frequency);
+        }
+        phases
+    }
+}
+
 impl Index<PhaseId> for Phases {
     type Output = Phase;
 

@@ -60,6 +60,11 @@ def test_contract(description):
     }
     assert (variables["force"].causality, variables["force"].variability) == ("input", "continuous")
     assert (variables["material"].causality, variables["material"].start) == ("input", "true")
+    for name in ("base.acceleration", "drive.speed", "drive.amplitude"):
+        assert (variables[name].causality, variables[name].variability) == ("input", "continuous")
+        assert float(variables[name].start) == 0.0
+    for name in ("drive.takes.speed", "drive.takes.amplitude"):
+        assert (variables[name].causality, variables[name].start) == ("parameter", "false")
     outputs = {v.name: v.variability for v in description.modelVariables if v.causality == "output"}
     assert outputs == {
         "position": "continuous", "velocity": "continuous", "acceleration": "continuous",
@@ -67,6 +72,12 @@ def test_contract(description):
         "pierce.count": "discrete", "impact.time": "discrete", "impact.velocity": "discrete",
         "energy.mechanical": "continuous", "energy.supplied": "continuous",
         "energy.dissipated": "continuous",
+        "drive.angle": "continuous", "drive.force": "continuous", "drive.power": "continuous",
+        "drive.work": "continuous", "frame.force": "continuous",
+        "contact.peak": "discrete", "contact.impulse": "discrete", "impact.step.count": "discrete",
+        "impact.step.first.time": "discrete", "impact.step.first.velocity": "discrete",
+        "impact.step.hardest.time": "discrete", "impact.step.hardest.velocity": "discrete",
+        "pierce.step.count": "discrete",
     }
 
 

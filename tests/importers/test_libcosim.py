@@ -79,6 +79,22 @@ def test_inputs_overridden_while_it_runs(path):
     assert cosim.get("position") != before
 
 
+def test_drive_led_by_its_input(path):
+    """The drive turns as the input says; what is not connected is not felt."""
+    cosim = Cosim(path, PERIOD / 20)
+    takes = cosim.references["drive.takes.speed"]
+    assert cosim.execution.boolean_initial_value(cosim.unit, takes, True)
+    speed = cosim.references["drive.speed"]
+    assert cosim.execution.real_initial_value(cosim.unit, speed, 1.15)
+    cosim.run(200)
+    check_orbit("loaded", 10, cosim.time - 10 * PERIOD, cosim.get(*OBSERVED))
+    assert cosim.manipulator.slave_real_values(cosim.unit, [speed], [0.0])
+    cosim.run(1)
+    standing = cosim.get("drive.angle", "drive.force")
+    cosim.run(200)
+    assert cosim.get("drive.angle", "drive.force") == standing
+
+
 def test_several_units_in_one_execution(path):
     cosim = Cosim(path, PERIOD / 20, name="first")
     second = cosim.execution.add_local_slave(CosimLocalSlave(path, "second"))

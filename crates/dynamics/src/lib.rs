@@ -32,7 +32,6 @@ pub mod figure;
 pub mod models;
 pub mod motion;
 pub mod orbit;
-mod peak;
 pub mod points;
 pub mod run_up;
 pub mod settled;
@@ -62,7 +61,6 @@ pub mod internals {
     pub use crate::attractors::starts::evenly;
     pub use crate::orbit::regime::ImpactCounter;
     pub use crate::orbit::turn::turns;
-    pub use crate::peak::highest;
 }
 
 pub use nalgebra;

@@ -34,6 +34,7 @@ pub use block::Block;
 pub use guid::{guid_of, library_guid};
 pub use imprint::{Imprint, TextError};
 pub use quantity::{Enumeration, Item, Quantity, item};
+pub use sensitivity::slope;
 pub use signal::{Derivatives, HIGHEST_ORDER};
 pub use table::Table;
 pub use unit::{About, Advance, Events, Known, Outcome, Row, Unit};

@@ -85,9 +85,8 @@ impl<U: Unit> Instance<U> {
     }
 
     /// The derivative of an output at the start by a parameter: outputs at the start are elementary
-    /// functions of the parameters, so differences extrapolated to width zero (Richardson 1911) come
-    /// within some 1e-10 of it. They keep to one side where the law of the motion, or the range of the
-    /// parameter, ends; of one that cannot be changed at all the derivative is zero.
+    /// functions of the parameters. Differences keep to one side where the law of the motion, or the range of the
+    /// parameter, ends.
     fn by_parameter(
         &self,
         unit: &U,
@@ -96,46 +95,20 @@ impl<U: Unit> Instance<U> {
         output: Output<U>,
     ) -> Result<f64, Fault> {
         let (value, here) = (self.values[slot.0], output(unit));
-        let mut width = if value == 0.0 {
+        let width = if value == 0.0 {
             1e-3
         } else {
             0.01 * value.abs()
         };
-        for _ in 0..WIDTHS {
-            let at = |step: f64| {
-                let moved = value + step * width;
-                let moved = parameter
-                    .kind
-                    .contains(moved)
-                    .then(|| self.begun_with(slot, moved));
-                let moved = moved?.ok()?;
-                (moved.law() == unit.law()).then(|| output(&moved))
-            };
-            let central = |n: f64| Some((at(n)? - at(-n)?) / (2.0 * n * width));
-            if let (Some(one), Some(two), Some(four)) = (central(0.25), central(0.5), central(1.0))
-            {
-                let (fine, coarse) = ((4.0 * one - two) / 3.0, (4.0 * two - four) / 3.0);
-                return Ok((16.0 * fine - coarse) / 15.0);
-            }
-            for side in [1.0, -1.0] {
-                let one_sided = |n: f64| Some((at(side * n)? - here) / (side * n * width));
-                if let (Some(a), Some(b), Some(c), Some(d)) = (
-                    one_sided(0.125),
-                    one_sided(0.25),
-                    one_sided(0.5),
-                    one_sided(1.0),
-                ) {
-                    let first = [2.0 * a - b, 2.0 * b - c, 2.0 * c - d];
-                    let second = [
-                        (4.0 * first[0] - first[1]) / 3.0,
-                        (4.0 * first[1] - first[2]) / 3.0,
-                    ];
-                    return Ok((8.0 * second[0] - second[1]) / 7.0);
-                }
-            }
-            width *= 0.1;
-        }
-        Ok(0.0)
+        Ok(slope(here, width, |step| {
+            let moved = value + step;
+            let moved = parameter
+                .kind
+                .contains(moved)
+                .then(|| self.begun_with(slot, moved));
+            let moved = moved?.ok()?;
+            (moved.law() == unit.law()).then(|| output(&moved))
+        }))
     }
 
     /// The unit at the start with another value of a parameter.
@@ -145,6 +118,37 @@ impl<U: Unit> Instance<U> {
         other.unit = None;
         other.settle().cloned()
     }
+}
+
+/// The derivative of a function by differences extrapolated to width zero (Richardson 1911), within some 1e-10 of the
+/// true one: `here` is its value, `at` that after a change of its argument, none where it goes on otherwise. Then they
+/// keep to one side or become narrower; of what cannot be changed at all the derivative is zero.
+pub fn slope(here: f64, mut width: f64, at: impl Fn(f64) -> Option<f64>) -> f64 {
+    for _ in 0..WIDTHS {
+        let central = |n: f64| Some((at(n * width)? - at(-n * width)?) / (2.0 * n * width));
+        if let (Some(one), Some(two), Some(four)) = (central(0.25), central(0.5), central(1.0)) {
+            let (fine, coarse) = ((4.0 * one - two) / 3.0, (4.0 * two - four) / 3.0);
+            return (16.0 * fine - coarse) / 15.0;
+        }
+        for side in [1.0, -1.0] {
+            let one_sided = |n: f64| Some((at(side * n * width)? - here) / (side * n * width));
+            if let (Some(a), Some(b), Some(c), Some(d)) = (
+                one_sided(0.125),
+                one_sided(0.25),
+                one_sided(0.5),
+                one_sided(1.0),
+            ) {
+                let first = [2.0 * a - b, 2.0 * b - c, 2.0 * c - d];
+                let second = [
+                    (4.0 * first[0] - first[1]) / 3.0,
+                    (4.0 * first[1] - first[2]) / 3.0,
+                ];
+                return (8.0 * second[0] - second[1]) / 7.0;
+            }
+        }
+        width *= 0.1;
+    }
+    0.0
 }
 
 /// How an unknown and its derivative are read.

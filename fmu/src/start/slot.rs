@@ -50,4 +50,6 @@ slots! {
     INITIAL_POSITION: 1,
     INITIAL_VELOCITY: 1,
     MATERIAL: 1,
+    TAKES_SPEED: 1,
+    TAKES_AMPLITUDE: 1,
 }

@@ -1,5 +1,6 @@
 //! The table of variables, group by group.
 
+mod drive;
 mod outputs;
 mod parameters;
 mod rows;
@@ -10,6 +11,7 @@ use rows::Row;
 /// All variables, in the order of the XML.
 pub(crate) const GROUPS: &[&[Row]] = &[
     parameters::INPUTS,
+    drive::DRIVE,
     parameters::OSCILLATOR,
     stops::LAWS,
     stops::LOADING_FROM,

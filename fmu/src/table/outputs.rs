@@ -1,5 +1,6 @@
 //! The output variables.
 
+use softstop::Impact;
 use softstop_fmi::variable::{Access, Kind};
 
 use super::rows::{Row, after, at_once, continuous, count, discrete, nominal, real, row};
@@ -18,6 +19,42 @@ fn jerk(machine: &Machine) -> f64 {
     machine.sample().jerk
 }
 
+fn frame(machine: &Machine) -> f64 {
+    machine.frame_force().0
+}
+
+fn peak(machine: &Machine) -> f64 {
+    machine.contacts().peak
+}
+
+fn impulse(machine: &Machine) -> f64 {
+    machine.contacts().impulse
+}
+
+fn first(machine: &Machine) -> Impact {
+    machine.contacts().first.unwrap_or_default()
+}
+
+fn first_time(machine: &Machine) -> f64 {
+    first(machine).time
+}
+
+fn first_velocity(machine: &Machine) -> f64 {
+    first(machine).velocity
+}
+
+fn hardest(machine: &Machine) -> Impact {
+    machine.contacts().hardest.unwrap_or_default()
+}
+
+fn hardest_time(machine: &Machine) -> f64 {
+    hardest(machine).time
+}
+
+fn hardest_velocity(machine: &Machine) -> f64 {
+    hardest(machine).velocity
+}
+
 fn clamp_count(count: u64) -> i32 {
     i32::try_from(count).unwrap_or(i32::MAX)
 }
@@ -30,7 +67,8 @@ const EVERYTHING: &[&str] = &[
     "stop.exponent", "stop.dissipation", "stop.loading.count", "stop.loading.from",
     "stop.loading.stiffness", "stop.unloading.count", "stop.unloading.from", "stop.unloading.stiffness",
     "rigid.present", "rigid.travel", "piercing.stiffness", "piercing.friction", "piercing.thickness",
-    "piercing.travel", "initial.position", "initial.velocity", "force", "material",
+    "piercing.travel", "initial.position", "initial.velocity", "force", "base.acceleration", "drive.amplitude",
+    "drive.takes.speed", "drive.takes.amplitude", "material",
 ];
 
 /// What the energy stored at the start depends on.
@@ -46,17 +84,25 @@ const STORES: &[&str] = &[
 #[rustfmt::skip]
 pub(super) const OUTPUTS: &[Row] = &[
     continuous(203, "contact.force", nominal(real(&units::FORCE), 10.0), at_once(EVERYTHING),
-        (|machine| machine.sample().contact_force, |of| of.contact_force),
+        (|machine| machine.sample().contact_force, |of| of.along(|of| of.contact_force, |machine| machine.sample().contact_force)),
         &[|machine| machine.rates().contact_force.0, |machine| machine.rates().contact_force.1],
-        "Force of stop and strip on the mass: F in m x'' + b1 x' + k1 x + F = F0 cos(w t + phi) + force. Positive in compression (against positive x); it includes the additional damping in contact. While the phase is resting it is what holds the mass, while it is chatter the mean over the bounces"),
+        "Force of stop and strip on the mass: F in m (x'' + base.acceleration) + b1 x' + k1 x + F = F0 cos(w t + phi) + force. Positive in compression (against positive x); it includes the additional damping in contact. While the phase is resting it is what holds the mass, while it is chatter the mean over the bounces"),
+    discrete(217, "contact.peak", nominal(real(&units::FORCE), 10.0), (peak, |of| of.of(peak)),
+        "Largest contact.force in the last step, found between its ends; at least 0, the blow of a rigid stop left out"),
+    discrete(218, "contact.impulse", nominal(real(&units::IMPULSE), 10.0), (impulse, |of| of.of(impulse)),
+        "Integral of contact.force over the last step, the blows of a rigid stop included"),
+    continuous(216, "frame.force", nominal(real(&units::FORCE), 10.0), at_once(EVERYTHING),
+        (frame, |of| of.of(frame)),
+        &[|machine| machine.frame_force().1, |machine| machine.frame_force().2],
+        "Force of suspension, dampers, strip and stop on the frame, k1 x + b1 x' + contact.force"),
     continuous(200, "position", nominal(real(&units::LENGTH), 10.0), after(&["initial.position"]),
-        (|machine| machine.sample().position, |of| of.position), &[velocity, acceleration],
+        (|machine| machine.sample().position, |of| of.along(|of| of.position, |machine| machine.sample().position)), &[velocity, acceleration],
         "Position of the mass"),
     continuous(201, "velocity", nominal(real(&units::VELOCITY), 10.0), after(&["initial.velocity"]),
-        (velocity, |of| of.velocity), &[acceleration, jerk],
+        (velocity, |of| of.along(|of| of.velocity, velocity)), &[acceleration, jerk],
         "Velocity of the mass"),
     continuous(202, "acceleration", nominal(real(&units::ACCELERATION), 10.0), at_once(EVERYTHING),
-        (acceleration, |of| of.acceleration), &[jerk, |machine| machine.rates().snap],
+        (acceleration, |of| of.along(|of| of.acceleration, acceleration)), &[jerk, |machine| machine.rates().snap],
         "Acceleration of the mass; while the phase is chatter the mean over the bounces, 0"),
     row(204, "phase", Kind::Enumeration(&units::PHASE),
         Access::Integer { value: Machine::phase, depends: at_once(EVERYTHING) },
@@ -64,23 +110,35 @@ pub(super) const OUTPUTS: &[Row] = &[
     count(205, "impact.count", |machine| clamp_count(machine.simulation().impact_count()),
         "Impacts since the start: upward crossings of the clearance with contact, and rebounds at a rigid stop that stands there"),
     discrete(207, "impact.time", real(&units::TIME),
-        (|machine| machine.last_impact().time, |of| of.impact_time),
+        (|machine| machine.last_impact().time, |of| of.along(|of| of.impact_time, |machine| machine.last_impact().time)),
         "Time of the last impact, exact whatever the communication step; 0 before the first one"),
     discrete(208, "impact.velocity", nominal(real(&units::VELOCITY), 10.0),
-        (|machine| machine.last_impact().velocity, |of| of.impact_velocity),
+        (|machine| machine.last_impact().velocity, |of| of.along(|of| of.impact_velocity, |machine| machine.last_impact().velocity)),
         "Velocity just before the last impact; 0 before the first one"),
+    count(219, "impact.step.count", |machine| clamp_count(machine.contacts().impacts),
+        "Impacts in the last step"),
+    discrete(220, "impact.step.first.time", real(&units::TIME), (first_time, |of| of.of(first_time)),
+        "Time of the first impact in the last step; 0 without one"),
+    discrete(221, "impact.step.first.velocity", nominal(real(&units::VELOCITY), 10.0), (first_velocity, |of| of.of(first_velocity)),
+        "Velocity just before the first impact in the last step; 0 without one"),
+    discrete(222, "impact.step.hardest.time", real(&units::TIME), (hardest_time, |of| of.of(hardest_time)),
+        "Time of the impact with the highest velocity in the last step; 0 without one"),
+    discrete(223, "impact.step.hardest.velocity", nominal(real(&units::VELOCITY), 10.0), (hardest_velocity, |of| of.of(hardest_velocity)),
+        "Velocity just before the hardest impact in the last step; 0 without one"),
     count(206, "pierce.count", |machine| clamp_count(machine.simulation().pierce_count()),
         "Strips pierced through since the start"),
+    count(224, "pierce.step.count", |machine| clamp_count(machine.contacts().pierced),
+        "Strips pierced through in the last step"),
     continuous(209, "energy.mechanical", nominal(real(&units::ENERGY), 100.0), after(STORES),
-        (|machine| machine.energy().mechanical, |of| of.mechanical),
+        (|machine| machine.energy().mechanical, |of| of.along(|of| of.mechanical, |machine| machine.energy().mechanical)),
         &[|machine| machine.rates().mechanical.0, |machine| machine.rates().mechanical.1],
         "Kinetic energy and energy of the springs, that of a loaded stop included"),
     continuous(210, "energy.supplied", nominal(real(&units::ENERGY), 100.0), after(&[]),
-        (|machine| machine.energy().supplied, |of| of.supplied),
+        (|machine| machine.energy().supplied, |of| of.along(|of| of.supplied, |machine| machine.energy().supplied)),
         &[|machine| machine.rates().supplied.0, |machine| machine.rates().supplied.1],
-        "Work of the drive, of the external force and of tuning since the start"),
+        "Work of the drive, of the external force, of the moving frame and of tuning since the start"),
     continuous(211, "energy.dissipated", nominal(real(&units::ENERGY), 100.0), after(&[]),
-        (|machine| machine.energy().dissipated, |of| of.dissipated),
+        (|machine| machine.energy().dissipated, |of| of.along(|of| of.dissipated, |machine| machine.energy().dissipated)),
         &[|machine| machine.rates().dissipated.0, |machine| machine.rates().dissipated.1],
         "Energy lost to damping, friction, forming and impacts on rigid stops since the start"),
 ];

@@ -3,16 +3,19 @@
 use softstop_fmi::variable::{Access, Kind};
 
 use super::rows::{LARGE, Row, SMALL, fixed, nominal, row, shown_in, tunable, within};
+use crate::signal;
 use crate::start::slot;
 use crate::units;
 
 /// The inputs.
 #[rustfmt::skip]
 pub(super) const INPUTS: &[Row] = &[
-    row(100, "force", within(&units::FORCE, -LARGE, LARGE), Access::Signal(0),
+    row(100, "force", within(&units::FORCE, -LARGE, LARGE), Access::Signal(signal::FORCE),
         "Further external force on the mass; with its derivatives of order 1 to 7 it goes on as a polynomial until it is set anew, which sets them to zero"),
     row(101, "material", Kind::Boolean, Access::Input(slot::MATERIAL),
         "A strip is fed; taken over when the mass next crosses the clearance upward. Without it the piercing phases fall away, the stop stays where it is"),
+    row(102, "base.acceleration", within(&units::ACCELERATION, -LARGE, LARGE), Access::Signal(signal::BASE),
+        "Acceleration of the frame: position, velocity and acceleration of the mass are those beside the frame. With derivatives as for force"),
 ];
 
 /// The oscillator and its drive.

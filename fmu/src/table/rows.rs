@@ -1,14 +1,14 @@
 //! What the rows of the table are made of.
 
-use softstop::Sensitivity;
 use softstop_fmi::Quantity;
 use softstop_fmi::variable::{Access, Dependencies, Kind, RealKind, Slot, Variable};
 
 use crate::machine::Machine;
 use crate::start::slot::SLOPES;
+use crate::tangent::Tangent;
 
 /// One row of the table.
-pub(crate) type Row = Variable<Machine, Sensitivity>;
+pub(crate) type Row = Variable<Machine, Tangent>;
 
 /// A number far above any machine's, below which no intermediate result overflows.
 pub(super) const LARGE: f64 = 1e12;
@@ -59,7 +59,7 @@ pub(super) const fn row(
     reference: u32,
     name: &'static str,
     kind: Kind,
-    access: Access<Machine, Sensitivity>,
+    access: Access<Machine, Tangent>,
     description: &'static str,
 ) -> Row {
     Row {
@@ -111,7 +111,7 @@ macro_rules! slopes {
 pub(super) use slopes;
 
 /// How a real output and its derivative along a direction are read.
-type Reading = (fn(&Machine) -> f64, fn(&Sensitivity) -> f64);
+type Reading = (fn(&Machine) -> f64, fn(&Tangent) -> f64);
 
 pub(super) const fn continuous(
     reference: u32,
@@ -160,8 +160,14 @@ pub(super) const fn after(initial: &'static [&'static str]) -> Dependencies {
     Dependencies { inputs, initial }
 }
 
-/// Dependencies of an output that the external force changes at once.
+/// Dependencies of an output that the forces on the mass change at once.
 pub(super) const fn at_once(initial: &'static [&'static str]) -> Dependencies {
-    let inputs = &["force"];
+    let inputs = &["force", "base.acceleration", "drive.amplitude"];
+    Dependencies { inputs, initial }
+}
+
+/// Dependencies of an output that the amplitude of the drive changes at once.
+pub(super) const fn with_drive(initial: &'static [&'static str]) -> Dependencies {
+    let inputs = &["drive.amplitude"];
     Dependencies { inputs, initial }
 }

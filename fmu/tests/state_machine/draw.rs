@@ -31,14 +31,17 @@ fn any_reference() -> impl Strategy<Value = u32> {
     let known = softstop_fmu::table().rows().map(|v| v.reference);
     prop_oneof![
         8 => select(known.collect::<Vec<_>>()),
-        1 => select(vec![99, 102, 255, 256, 4711, u32::MAX]),
+        1 => select(vec![99, 105, 255, 256, 4711, u32::MAX]),
     ]
 }
 
 /// A real variable with a value that a machine may have.
 fn sound_real() -> impl Strategy<Value = (u32, f64)> {
-    let values: [(&str, &[f64]); 13] = [
+    let values: [(&str, &[f64]); 16] = [
         ("force", &[0.0, 0.5, -0.5, 3.0]),
+        ("base.acceleration", &[0.0, 0.2, -0.4]),
+        ("drive.speed", &[0.0, 1.15, -0.7, 2.3]),
+        ("drive.amplitude", &[0.0, 1.0, -0.5]),
         ("clearance", &[10.0, 9.0, 4.0, 0.0]),
         ("excitation.amplitude", &[1.0, 1.2, 0.0]),
         ("excitation.frequency", &[1.15, 0.7, 2.3]),
@@ -70,8 +73,16 @@ fn sound_integer() -> impl Strategy<Value = (u32, f64)> {
 }
 
 fn boolean() -> impl Strategy<Value = (u32, f64)> {
-    let names = vec![reference("material"), reference("rigid.present")];
-    (select(names), select(vec![0.0, 1.0, -1.0, 77.0]))
+    let names = [
+        "material",
+        "rigid.present",
+        "drive.takes.speed",
+        "drive.takes.amplitude",
+    ];
+    (
+        select(names.map(reference).to_vec()),
+        select(vec![0.0, 1.0, -1.0, 77.0]),
+    )
 }
 
 fn set() -> impl Strategy<Value = Call> {
@@ -108,11 +119,13 @@ fn get() -> impl Strategy<Value = Call> {
 }
 
 fn derivatives() -> impl Strategy<Value = Call> {
-    let output = select((200u32..=211).collect::<Vec<_>>());
+    let output = select((200u32..=224).collect::<Vec<_>>());
     let known = select(
         [
             "force",
-            "force",
+            "base.acceleration",
+            "drive.speed",
+            "drive.amplitude",
             "initial.position",
             "initial.velocity",
             "mass",
@@ -124,7 +137,11 @@ fn derivatives() -> impl Strategy<Value = Call> {
     );
     let seed = prop_oneof![8 => select(vec![1.0, -0.5, 0.0]), 1 => odd()];
     let rate = prop_oneof![8 => select(vec![0.0, 0.1, -0.2]), 1 => Just(f64::NAN)];
-    let input = prop_oneof![8 => Just(reference("force")), 1 => any_reference()];
+    // A drive that swings up over a long step would cost its time.
+    let drive = ["drive.speed", "drive.amplitude"].map(reference);
+    let wild = any_reference().prop_filter("no ramps of the drive", move |vr| !drive.contains(vr));
+    let inputs = ["force", "base.acceleration"].map(reference).to_vec();
+    let input = prop_oneof![8 => select(inputs), 1 => wild];
     let orders = || prop_oneof![8 => Just(1), 2 => Just(2), 1 => select(vec![0, -1, 3, i32::MAX])];
     prop_oneof![
         (vec(output.clone(), 0..3), vec((known, seed), 0..3), null())

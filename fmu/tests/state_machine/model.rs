@@ -130,7 +130,8 @@ impl Model {
                 ),
                 rows.is_empty() || *null == Null::Nothing,
                 rows.iter().all(|(vr, order, value)| {
-                    *vr == reference("force")
+                    find(*vr, Type::Real)
+                        .is_some_and(|variable| matches!(variable.access, Access::Signal(_)))
                         && value.abs() <= 1e12
                         && ((1..=7).contains(order) || (*order > 7 && *value == 0.0))
                 }),
@@ -140,7 +141,7 @@ impl Model {
                 rows.is_empty() || *null == Null::Nothing,
                 rows.iter().all(|(vr, order)| {
                     (1..=2).contains(order)
-                        && ((200..=203).contains(vr) || (209..=211).contains(vr))
+                        && ((200..=203).contains(vr) || (209..=216).contains(vr))
                 }),
             ]),
             Call::Status(of, kind, null) => if_all(&[

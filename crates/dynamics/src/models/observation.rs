@@ -5,8 +5,7 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
-use crate::peak;
-use softstop::internals::work;
+use softstop::internals::{highest, work};
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, MotionError, Observer, PhaseKind, Scene, Start, Work,
 };
@@ -141,12 +140,12 @@ impl Watch {
             phase.contact_force(position, velocity)
         };
         let time = |point: f64| elapsed * point.clamp(0.0, f64::from(POINTS)) / f64::from(POINTS);
-        let highest = (0..=POINTS)
+        let seen = (0..=POINTS)
             .map(|point| (force(time(f64::from(point))), f64::from(point)))
             .max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let (low, high) = (time(highest.1 - 1.0), time(highest.1 + 1.0));
-        let (_, peak) = peak::highest(low, high, SHARP * (high - low), force);
-        Some(peak.max(highest.0))
+        let (low, high) = (time(seen.1 - 1.0), time(seen.1 + 1.0));
+        let (_, peak) = highest(low, high, SHARP * (high - low), force);
+        Some(peak.max(seen.0))
     }
 }
 

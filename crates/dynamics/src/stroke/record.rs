@@ -1,19 +1,9 @@
 //! What is recorded along the arcs of a period.
 
-use std::f64::consts::TAU;
-
 use super::Losses;
 use crate::orbit::turn::turns;
-use crate::peak::highest;
-use softstop::internals::{Phase, shares};
+use softstop::internals::{Phase, largest, shares};
 use softstop::{Arc, Crossing, CrossingKind, Observer, PhaseKind, Scene, Start};
-
-/// Looks at a force or a power in the time of its fastest oscillation, at least on an arc, and at most on one.
-const LOOKS: f64 = 24.0;
-const FEWEST: f64 = 6.0;
-const MOST: f64 = 4096.0;
-/// Share of the time between two looks to which a peak is known; being flat it is known to rounding then.
-const WIDTH: f64 = 1e-8;
 
 /// What is seen of a period.
 pub(super) struct Recorder<'a> {
@@ -79,20 +69,7 @@ impl<'a> Recorder<'a> {
     fn peak(&self, arc: &Arc<'_>, elapsed: f64, value: impl Fn(f64) -> f64) -> f64 {
         let rate = |phase: &Phase| (phase.law.stiffness.abs() / self.scene.mass).sqrt();
         let rate = self.scene.excitation.frequency + arc.phase.map_or(0.0, rate);
-        let looks = (LOOKS * rate * elapsed / TAU).clamp(FEWEST, MOST).ceil();
-        let at = |look: f64| elapsed * (look / looks);
-        let all: Vec<f64> = (0..=looks as u32)
-            .map(|look| value(at(look.into())))
-            .collect();
-        let before = |look: usize| all[look.saturating_sub(1)];
-        let after = |look: usize| all[(look + 1).min(all.len() - 1)];
-        let tops = (0..all.len()).filter(|&look| all[look] >= before(look).max(after(look)));
-        let tops = tops.map(|look| {
-            let ends = [look as f64 - 1.0, look as f64 + 1.0].map(|end| at(end.clamp(0.0, looks)));
-            let (_, top) = highest(ends[0], ends[1], WIDTH * at(1.0), &value);
-            top.max(all[look])
-        });
-        tops.fold(f64::NEG_INFINITY, f64::max)
+        largest((0.0, elapsed), rate, value)
     }
 }
 

@@ -3,9 +3,9 @@
 use anyhow::{Context, Result};
 use nalgebra::Vector2;
 use rayon::prelude::*;
+use softstop::internals::highest;
 use softstop::{Ratios, Scene};
 use softstop_dynamics::continuation::{CurvePoint, Heading, Region, SpecialKind, Test};
-use softstop_dynamics::internals::highest;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::{
     ZoneError, free_amplitude, grazing_frequencies, hysteresis, loss_of_stability,

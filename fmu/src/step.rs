@@ -1,0 +1,221 @@
+//! How the machine takes its inputs, and goes on.
+
+use std::mem;
+use std::ops::ControlFlow;
+
+use softstop::internals::Polynomial;
+use softstop::{Effort, MotionError, Simulation};
+use softstop_fmi::{Advance, Derivatives, Events, Outcome};
+
+use crate::drive::Drive;
+use crate::machine::{Machine, More};
+use crate::signal;
+
+/// Work that one step may cost: eight million crossings, some seconds. A step that would take longer
+/// is carried out in part, so that no importer waits for ever.
+const EFFORT: Effort = Effort::windows(1 << 27);
+/// Pieces of a drive that changes its speed that one step may take.
+const MOST_PIECES: usize = 1 << 20;
+
+impl More {
+    /// The same without what is known of the last step.
+    pub(crate) fn afresh(self) -> Self {
+        Self {
+            contacts: None,
+            is_open: false,
+            origin: None,
+            ..self
+        }
+    }
+}
+
+impl Machine {
+    /// A continuous input as it goes on from now.
+    pub(crate) fn signal(&self, number: usize) -> Polynomial {
+        let (now, drive) = (self.simulation().time(), self.more.drive.as_deref());
+        let of_drive = |of: fn(&Drive, f64) -> Polynomial| {
+            drive.map_or_else(Polynomial::default, |drive| of(drive, now))
+        };
+        match number {
+            signal::FORCE => self.more.external.force_at(now),
+            signal::BASE => self.more.external.base_at(now),
+            signal::SPEED => of_drive(Drive::speed_at),
+            _ => of_drive(Drive::amplitude_at),
+        }
+    }
+
+    /// Sets it, for [`Machine::push`] to be called.
+    pub(crate) fn set(&mut self, number: usize, derivatives: &Derivatives) {
+        let now = self.simulation().time();
+        let mass = self.simulation().scene().mass;
+        let position = self.sample().position;
+        let More {
+            external, drive, ..
+        } = &mut self.more;
+        match (number, drive) {
+            (signal::FORCE, _) => external.set_force(now, position, mass, *derivatives),
+            (signal::BASE, _) => external.set_base(now, position, mass, *derivatives),
+            (signal::SPEED, Some(drive)) if drive.takes_speed => drive.set_speed(now, *derivatives),
+            (signal::AMPLITUDE, Some(drive)) if drive.takes_amplitude => {
+                drive.set_amplitude(now, *derivatives);
+            }
+            _ => {}
+        }
+    }
+
+    /// Lets the engine feel the inputs as they go on from now.
+    pub(crate) fn push(&mut self) -> Outcome<()> {
+        let now = self.simulation().time();
+        self.push_until(now)
+    }
+
+    /// The same where the drive is followed up to a time.
+    fn push_until(&mut self, until: f64) -> Outcome<()> {
+        let now = self.simulation().time();
+        let force = self.more.external.at(now, self.simulation().scene().mass);
+        let Some(piece) = self
+            .more
+            .drive
+            .as_ref()
+            .map(|drive| drive.piece(now, until))
+        else {
+            return Ok(self.change().set_force(force.derivatives())?);
+        };
+        let sum = |k: usize| force.derivatives()[k] + piece.rest.derivatives()[k];
+        let force: Derivatives = std::array::from_fn(sum);
+        let simulation = self.change();
+        Ok(simulation.set_drive(piece.amplitude, piece.frequency, piece.angle, &force)?)
+    }
+
+    /// Goes on to a time that is not in the past.
+    pub(crate) fn go_to(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>> {
+        let more = &mut self.more;
+        if more.contacts.is_some() || more.origin.is_some() {
+            (more.contacts, more.origin) = (None, None);
+        }
+        more.is_open = true;
+        if !more.drive.as_ref().is_some_and(|drive| drive.varies()) {
+            return self.go_straight(until, events);
+        }
+        self.more.is_open = false;
+        let mut origin = Box::new(self.clone());
+        origin.change().mark();
+        match self.go_in_pieces(until, events) {
+            Ok(None) => {
+                self.more.origin = Some(origin);
+                Ok(Advance::Arrived)
+            }
+            Ok(Some(reason)) => Ok(Advance::Short {
+                reason,
+                before: Some(origin),
+            }),
+            Err(error) => {
+                *self = *origin;
+                Err(error)
+            }
+        }
+    }
+
+    /// The same under a drive that changes; otherwise than all the way, why.
+    fn go_in_pieces(&mut self, until: f64, events: &mut Events) -> Outcome<Option<String>> {
+        for _ in 0..MOST_PIECES {
+            let now = self.simulation().time();
+            if now >= until {
+                return Ok(None);
+            }
+            let drive = self.more.drive.as_ref();
+            let end = drive.map_or(until, |drive| drive.end_of_piece(now, until));
+            self.push_until(end)?;
+            let outcome = self.go_straight(end, events)?;
+            self.more.is_open = true;
+            self.keep_contacts();
+            if let Advance::Short { reason, .. } = outcome {
+                return Ok(Some(reason));
+            }
+        }
+        Ok(Some(format!(
+            "{MOST_PIECES} pieces of a quarter of a radian so far"
+        )))
+    }
+
+    /// Goes on under a drive and an external force that the engine has as they are.
+    fn go_straight(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>> {
+        let external = &self.more.external;
+        let force = external.varies.then(|| {
+            let simulation = self.simulation();
+            external.at(simulation.time(), simulation.scene().mass)
+        });
+        let simulation = self.change();
+        let before = (simulation.impact_count(), simulation.pierce_count());
+        let outcome = simulation.watch(until, &mut { EFFORT });
+        let impacts = simulation.impact_count() - before.0;
+        if let Some(last) = simulation.last_impact().filter(|_| impacts > 0) {
+            let pierced = simulation.pierce_count() - before.1;
+            events.tell(|| {
+                format!(
+                    "impacts: {impacts}, strips pierced: {pierced}; last impact at {} s with {} m/s",
+                    last.time, last.velocity
+                )
+            });
+        }
+        let outcome = match outcome {
+            Ok(ControlFlow::Continue(())) => Advance::Arrived,
+            Ok(ControlFlow::Break(())) => {
+                // To go through so many contacts again would take as long.
+                self.more.is_open = false;
+                let before = self.simulation().before_advance();
+                let machine = |before| Box::new(Self::new(before, self.more.clone().afresh()));
+                Advance::Short {
+                    reason: format!("{impacts} impacts so far"),
+                    before: before.map(machine),
+                }
+            }
+            // The motion has not left the point at which the step begins.
+            Err(
+                error @ (MotionError::Unbounded { .. }
+                | MotionError::Stalled { .. }
+                | MotionError::Endless { .. }),
+            ) => {
+                return Ok(Advance::Short {
+                    reason: error.to_string(),
+                    before: Some(Box::new(self.clone())),
+                });
+            }
+            Err(error) => return Err(error.into()),
+        };
+        if let Some(force) = force {
+            let work = self.simulation().work_of(&force)?;
+            self.more.external.count(work);
+        }
+        Ok(outcome)
+    }
+
+    /// Takes over other parameters; the work of tuning is not the drive's.
+    pub(crate) fn retune(&mut self, scene: &softstop::Scene) -> Outcome<()> {
+        if self.more.drive.is_none() && scene == self.simulation().scene() {
+            return Ok(());
+        }
+        let (angle, _, _) = self.drive_angle();
+        let supplied = |simulation: &Simulation| simulation.energy().supplied;
+        let before = supplied(self.simulation());
+        let mut scene = scene.clone();
+        let (now, driven) = (
+            self.simulation().time(),
+            self.simulation().scene().excitation,
+        );
+        if let Some(drive) = &mut self.more.drive {
+            let wanted = mem::replace(&mut scene.excitation, driven);
+            scene.excitation.phase = wanted.phase;
+            drive.follow(now, wanted.frequency, wanted.amplitude);
+        }
+        self.change().tune(&scene)?;
+        let work = supplied(self.simulation()) - before;
+        self.more.external.count(work);
+        if self.more.drive.is_some() {
+            return self.push();
+        }
+        let turned = angle - self.simulation().drive_angle();
+        self.more.turns = (turned / std::f64::consts::TAU).round();
+        Ok(())
+    }
+}

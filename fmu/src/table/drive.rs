@@ -1,0 +1,64 @@
+//! The drive: its inputs, whether they hold, and what it does.
+
+use softstop_fmi::variable::{Access, Kind};
+
+use super::rows::{LARGE, Row, after, continuous, fixed, real, row, with_drive, within};
+use crate::machine::Machine;
+use crate::signal;
+use crate::start::slot;
+use crate::units;
+
+/// What its angle at the start depends on.
+#[rustfmt::skip]
+const TURNED: &[&str] = &["excitation.frequency", "excitation.phase", "drive.takes.speed"];
+
+/// What its force at the start depends on.
+#[rustfmt::skip]
+const FORCED: &[&str] = &[
+    "excitation.amplitude", "excitation.frequency", "excitation.phase", "drive.amplitude", "drive.takes.speed",
+    "drive.takes.amplitude",
+];
+
+/// What its power at the start depends on.
+#[rustfmt::skip]
+const POWERED: &[&str] = &[
+    "excitation.amplitude", "excitation.frequency", "excitation.phase", "initial.velocity", "drive.amplitude",
+    "drive.takes.speed", "drive.takes.amplitude",
+];
+
+fn angle(machine: &Machine) -> f64 {
+    machine.drive_angle().0
+}
+
+fn force(machine: &Machine) -> f64 {
+    machine.drive_force().0
+}
+
+fn power(machine: &Machine) -> f64 {
+    machine.drive_power().0
+}
+
+/// All of it.
+#[rustfmt::skip]
+pub(super) const DRIVE: &[Row] = &[
+    row(103, "drive.speed", within(&units::ANGULAR_FREQUENCY, -LARGE, LARGE), Access::Signal(signal::SPEED),
+        "Speed of the drive, its angle being the integral: it holds in place of excitation.frequency if drive.takes.speed is true. With derivatives of order 1 to 7 it goes on as a polynomial"),
+    row(104, "drive.amplitude", within(&units::FORCE, -LARGE, LARGE), Access::Signal(signal::AMPLITUDE),
+        "Amplitude of the drive: it holds in place of excitation.amplitude if drive.takes.amplitude is true. With derivatives as for drive.speed"),
+    fixed(25, "drive.takes.speed", slot::TAKES_SPEED, Kind::Boolean,
+        "The input drive.speed leads the drive, which then begins at the angle excitation.phase; otherwise excitation.frequency does"),
+    fixed(26, "drive.takes.amplitude", slot::TAKES_AMPLITUDE, Kind::Boolean,
+        "The input drive.amplitude leads the drive; otherwise excitation.amplitude does"),
+    continuous(212, "drive.angle", real(&units::ANGLE), after(TURNED),
+        (angle, |of| of.of(angle)), &[|machine| machine.drive_angle().1, |machine| machine.drive_angle().2],
+        "Angle of the drive F0 cos(angle), counted on over the turns"),
+    continuous(213, "drive.force", real(&units::FORCE), with_drive(FORCED),
+        (force, |of| of.of(force)), &[|machine| machine.drive_force().1, |machine| machine.drive_force().2],
+        "Force of the drive on the mass"),
+    continuous(214, "drive.power", real(&units::POWER), with_drive(POWERED),
+        (power, |of| of.of(power)), &[|machine| machine.drive_power().1, Machine::drive_power_curvature],
+        "Power that the drive gives to the mass, force times velocity"),
+    continuous(215, "drive.work", real(&units::ENERGY), after(&[]),
+        (Machine::drive_work, |of| of.of(Machine::drive_work)), &[power, |machine| machine.drive_power().1],
+        "Work of the drive on the mass since the start, the integral of drive.power"),
+];

@@ -1,0 +1,407 @@
+//! The drive led by its inputs, the moving frame, and what both do, through the C functions.
+#![allow(unsafe_code, reason = "calls the C functions as an importer does")]
+
+use std::f64::consts::TAU;
+use std::ffi::c_int;
+
+use approx::assert_abs_diff_eq;
+use softstop_fmu::ffi::*;
+
+use crate::common::{OK, Unit, reference};
+
+/// Differences of some hundred roundings.
+const SAME: f64 = 1e-11;
+/// Force of a drive that changes its speed, by its polynomials.
+const PIECEWISE: f64 = 1e-10;
+
+fn slope(unit: &Unit, name: &str, order: c_int, value: f64) {
+    let reference = reference(name);
+    let status = unsafe {
+        fmi2SetRealInputDerivatives(
+            unit.component,
+            &raw const reference,
+            1,
+            &raw const order,
+            &raw const value,
+        )
+    };
+    assert_eq!(status, OK);
+}
+
+/// A unit whose drive its inputs lead, with this speed and the default amplitude.
+fn led(speed: f64) -> Unit {
+    let unit = Unit::new();
+    assert_eq!(unit.set_boolean("drive.takes.speed", 1), OK);
+    assert_eq!(unit.set_boolean("drive.takes.amplitude", 1), OK);
+    assert_eq!(unit.set("drive.speed", speed), OK);
+    assert_eq!(unit.set("drive.amplitude", 1.0), OK);
+    unit
+}
+
+fn assert_same(one: &Unit, other: &Unit, tolerance: f64) {
+    for name in [
+        "position",
+        "velocity",
+        "drive.force",
+        "impact.time",
+        "energy.supplied",
+        "drive.work",
+    ] {
+        assert_abs_diff_eq!(one.get(name), other.get(name), epsilon = tolerance * 100.0);
+    }
+    assert_eq!(
+        one.get_integer("impact.count"),
+        other.get_integer("impact.count")
+    );
+}
+
+/// What is not taken is not felt: the inputs may be set to anything.
+#[test]
+fn inputs_that_are_not_taken() {
+    let (plain, set) = (Unit::new(), Unit::new());
+    plain.begin();
+    assert_eq!(set.set("drive.speed", 3.0), OK);
+    set.begin();
+    assert_eq!(set.set("drive.amplitude", 7.0), OK);
+    for unit in [&plain, &set] {
+        for step in 0..20 {
+            assert_eq!(unit.step(1.5 * f64::from(step), 1.5), OK);
+        }
+    }
+    for name in [
+        "position",
+        "velocity",
+        "drive.angle",
+        "drive.work",
+        "contact.peak",
+    ] {
+        assert_eq!(plain.get(name).to_bits(), set.get(name).to_bits(), "{name}");
+    }
+}
+
+/// Speeds and amplitudes that jump: as by tuning the parameters, with the angle going on.
+#[test]
+fn jumps_are_those_of_the_parameters() {
+    let (tuned, led) = (Unit::new(), led(1.15));
+    tuned.begin();
+    led.begin();
+    let mut angle = 0.0;
+    for (step, (speed, amplitude)) in [(1.15, 1.0), (1.3, 1.0), (0.9, 1.4), (1.15, 0.7), (2.0, 1.0)]
+        .into_iter()
+        .cycle()
+        .take(25)
+        .enumerate()
+    {
+        let time = 2.7 * step as f64;
+        assert_eq!(tuned.set("excitation.frequency", speed), OK);
+        assert_eq!(tuned.set("excitation.amplitude", amplitude), OK);
+        assert_eq!(led.set("drive.speed", speed), OK);
+        assert_eq!(led.set("drive.amplitude", amplitude), OK);
+        for unit in [&tuned, &led] {
+            assert_abs_diff_eq!(unit.get("drive.angle"), angle, epsilon = SAME);
+            assert_eq!(unit.step(time, 2.7), OK);
+        }
+        angle += 2.7 * speed;
+        assert_same(&tuned, &led, SAME);
+    }
+    assert!(led.get_integer("impact.count") > 0);
+}
+
+/// A drive that runs up from rest, through zero back, and swells: the same in one step and in many.
+#[test]
+fn ramps_do_not_depend_on_the_step() {
+    let run = |steps: u32| {
+        let unit = led(-0.4);
+        assert_eq!(unit.set("force", 0.1), OK);
+        unit.begin();
+        slope(&unit, "drive.speed", 1, 0.06);
+        slope(&unit, "drive.amplitude", 1, 0.05);
+        slope(&unit, "drive.amplitude", 2, -0.001);
+        slope(&unit, "force", 1, 0.003);
+        for step in 0..steps {
+            let length = 40.0 / f64::from(steps);
+            assert_eq!(unit.step(length * f64::from(step), length), OK);
+        }
+        unit
+    };
+    let coarse = run(1);
+    assert_abs_diff_eq!(coarse.get("drive.angle"), -16.0 + 48.0, epsilon = SAME);
+    assert!(coarse.get_integer("impact.count") > 0);
+    for steps in [7, 400] {
+        assert_same(&coarse, &run(steps), PIECEWISE);
+    }
+}
+
+/// A ramp held at the middle of short steps comes to the same, with the square of their length.
+#[test]
+fn ramps_are_limits_of_steps() {
+    let end = |steps: u32| {
+        let unit = led(0.5);
+        unit.begin();
+        let length = 12.0 / f64::from(steps);
+        for step in 0..steps {
+            let time = length * f64::from(step);
+            assert_eq!(
+                unit.set("drive.speed", 0.5 + 0.05 * (time + 0.5 * length)),
+                OK
+            );
+            assert_eq!(unit.step(time, length), OK);
+        }
+        unit.get("position")
+    };
+    let ramp = led(0.5);
+    ramp.begin();
+    slope(&ramp, "drive.speed", 1, 0.05);
+    assert_eq!(ramp.step(0.0, 12.0), OK);
+    let exact = ramp.get("position");
+    let errors = [300, 600].map(|steps| (end(steps) - exact).abs());
+    assert!(errors[0] < 1e-4, "{errors:?}");
+    assert_abs_diff_eq!(errors[0] / errors[1], 4.0, epsilon = 0.02);
+}
+
+/// The drive's work is the integral of its power; the balance closes over the whole unit.
+#[test]
+fn work_of_the_drive_and_balance() {
+    let unit = led(1.15);
+    assert_eq!(unit.set("force", 0.2), OK);
+    assert_eq!(unit.set("base.acceleration", -0.1), OK);
+    unit.begin();
+    slope(&unit, "drive.speed", 1, 0.002);
+    let start = unit.get("energy.mechanical");
+    let (mut work, mut external) = (0.0, 0.0);
+    let length = 1.0 / 256.0;
+    for step in 0..5120 {
+        if step == 2000 {
+            assert_eq!(unit.set("force", -0.1), OK);
+            slope(&unit, "base.acceleration", 1, 0.01);
+        }
+        let time = length * f64::from(step);
+        let powers = |unit: &Unit| {
+            let push = unit.get("force") - unit.get("base.acceleration");
+            (unit.get("drive.power"), push * unit.get("velocity"))
+        };
+        let before = powers(&unit);
+        assert_eq!(unit.step(time, length), OK);
+        let after = powers(&unit);
+        work += 0.5 * length * (before.0 + after.0);
+        external += 0.5 * length * (before.1 + after.1);
+    }
+    assert_abs_diff_eq!(unit.get("drive.work"), work, epsilon = 1e-3);
+    let supplied = unit.get("energy.supplied");
+    assert_abs_diff_eq!(supplied - unit.get("drive.work"), external, epsilon = 1e-3);
+    let balance = unit.get("energy.dissipated") + unit.get("energy.mechanical") - start;
+    assert_abs_diff_eq!(supplied, balance, epsilon = 1e-10 * supplied.abs());
+    assert!(unit.get_integer("pierce.count") > 2);
+}
+
+/// A moving frame is a force against its acceleration.
+#[test]
+fn the_frame_moves() {
+    let (pushed, moved) = (Unit::new(), Unit::new());
+    for unit in [&pushed, &moved] {
+        assert_eq!(unit.set("mass", 1.25), OK);
+    }
+    assert_eq!(pushed.set("force", 0.25), OK);
+    assert_eq!(moved.set("base.acceleration", -0.2), OK);
+    for unit in [&pushed, &moved] {
+        unit.begin();
+    }
+    slope(&pushed, "force", 2, 0.0125);
+    slope(&moved, "base.acceleration", 2, -0.01);
+    for unit in [&pushed, &moved] {
+        assert_eq!(unit.step(0.0, 9.0), OK);
+    }
+    assert_same(&pushed, &moved, SAME);
+    let force = moved.get("drive.force") - 1.25 * moved.get("base.acceleration");
+    let frame = force - 1.25 * moved.get("acceleration");
+    assert_abs_diff_eq!(moved.get("frame.force"), frame, epsilon = SAME);
+}
+
+/// What is told of a step of many impacts is what many steps tell.
+#[test]
+fn contacts_of_a_step() {
+    for model in [2, 3, 4, 5, 6] {
+        let unit = || {
+            let unit = Unit::new();
+            assert_eq!(unit.set_integer("stop.model", model), OK);
+            unit.begin();
+            assert_eq!(unit.step(0.0, 1.0), OK);
+            unit
+        };
+        let (coarse, fine) = (unit(), unit());
+        assert_eq!(coarse.step(1.0, 30.0), OK);
+        let (mut impulse, mut peak, mut sampled) = (0.0, 0.0f64, 0.0f64);
+        let (mut impacts, mut pierced, mut times, mut hardest) = (0, 0, Vec::new(), (0.0, 0.0));
+        for step in 0..30_000 {
+            assert_eq!(fine.step(1.0 + 1e-3 * f64::from(step), 1e-3), OK);
+            impulse += fine.get("contact.impulse");
+            peak = peak.max(fine.get("contact.peak"));
+            sampled = sampled.max(fine.get("contact.force"));
+            pierced += fine.get_integer("pierce.step.count");
+            let count = fine.get_integer("impact.step.count");
+            if count > 0 {
+                impacts += count;
+                times.push((
+                    fine.get("impact.step.first.time"),
+                    fine.get("impact.step.first.velocity"),
+                ));
+                let one = (
+                    fine.get("impact.step.hardest.velocity"),
+                    fine.get("impact.step.hardest.time"),
+                );
+                hardest = if one > hardest { one } else { hardest };
+            }
+        }
+        assert_eq!(coarse.get_integer("impact.step.count"), impacts, "{model}");
+        assert_eq!(coarse.get_integer("pierce.step.count"), pierced);
+        assert!(impacts >= 4);
+        assert_abs_diff_eq!(coarse.get("contact.impulse"), impulse, epsilon = 1e-8);
+        assert_abs_diff_eq!(coarse.get("contact.peak"), peak, epsilon = 1e-8);
+        assert!(
+            peak >= sampled && peak - sampled < 1e-2 * peak,
+            "{model} {peak} {sampled}"
+        );
+        let first = (
+            coarse.get("impact.step.first.time"),
+            coarse.get("impact.step.first.velocity"),
+        );
+        assert_abs_diff_eq!(first.0, times[0].0, epsilon = 1e-9);
+        assert_abs_diff_eq!(first.1, times[0].1, epsilon = 1e-9);
+        assert_abs_diff_eq!(
+            coarse.get("impact.step.hardest.velocity"),
+            hardest.0,
+            epsilon = 1e-8
+        );
+        // Setting an input does not take it away.
+        let before = coarse.get("contact.impulse");
+        assert_eq!(coarse.set("force", 0.3), OK);
+        assert_eq!(coarse.get("contact.impulse"), before);
+        assert_eq!(coarse.get_integer("impact.step.count"), impacts);
+    }
+}
+
+/// The impulse is what is left of the balance of momentum over whole periods.
+#[test]
+fn impulse_of_a_period() {
+    let unit = Unit::new();
+    unit.begin();
+    let period = TAU / 1.15;
+    let mut sums = (0.0, 0.0);
+    let steps = 4000;
+    for step in 0..steps {
+        let length = period / f64::from(steps);
+        assert_eq!(unit.step(length * f64::from(step), length), OK);
+        sums = (
+            sums.0 + length * unit.get("position"),
+            sums.1 + unit.get("contact.impulse"),
+        );
+    }
+    // k1 times the integral of the position, and the impulse, balance each other.
+    assert_abs_diff_eq!(sums.1, -sums.0, epsilon = 1e-3);
+    assert!(sums.1 > 5.0);
+}
+
+const NEW: [&str; 9] = [
+    "drive.angle",
+    "drive.force",
+    "drive.power",
+    "drive.work",
+    "frame.force",
+    "contact.peak",
+    "contact.impulse",
+    "impact.step.first.time",
+    "impact.step.hardest.velocity",
+];
+
+/// Derivatives by every input and by the start, over a step with impacts, plain and in pieces.
+#[test]
+fn derivatives_of_what_is_new() {
+    for ramp in [0.0, 0.02] {
+        let knowns = [
+            ("force", 1.0),
+            ("base.acceleration", 0.5),
+            ("drive.speed", -0.25),
+            ("drive.amplitude", 1.5),
+            ("initial.position", 0.5),
+            ("initial.velocity", -1.0),
+        ];
+        let run = |known: &str, change: f64| {
+            let unit = led(1.15);
+            let start = |name: &str| unit.get(name) + if name == known { change } else { 0.0 };
+            let all = knowns.map(|(name, _)| (name, start(name)));
+            for (name, value) in all {
+                assert_eq!(unit.set(name, value), OK);
+            }
+            unit.begin();
+            slope(&unit, "drive.speed", 1, ramp);
+            assert_eq!(unit.step(0.0, 5.0), OK);
+            assert!(unit.get_integer("impact.step.count") > 0);
+            unit
+        };
+        let unit = run("", 0.0);
+        let names: Vec<_> = NEW.into_iter().chain(crate::common::OUTPUTS).collect();
+        for (known, seed) in knowns {
+            let found = unit
+                .derivatives(&names, &[(known, seed)])
+                .expect("available");
+            let at = |change: f64| {
+                let unit = run(known, change);
+                names.iter().map(|name| unit.get(name)).collect::<Vec<_>>()
+            };
+            let (high, low) = (at(1e-5 * seed), at(-1e-5 * seed));
+            for (n, name) in names.iter().enumerate() {
+                let expected = (high[n] - low[n]) / 2e-5;
+                let off = (found[n] - expected).abs();
+                assert!(
+                    off < 2e-5 * (1.0 + expected.abs()),
+                    "{ramp} d {name} / d {known}: {} {expected}",
+                    found[n]
+                );
+            }
+        }
+    }
+}
+
+/// A state kept on the way through a ramp goes on bit for bit, and tells the same of the last step.
+#[test]
+fn states_on_a_ramp() {
+    let unit = led(0.3);
+    unit.begin();
+    slope(&unit, "drive.speed", 1, 0.05);
+    slope(&unit, "drive.amplitude", 1, 0.1);
+    assert_eq!(unit.step(0.0, 30.0), OK);
+    let (mut state, mut size) = (std::ptr::null_mut(), 0);
+    let mut again = std::ptr::null_mut();
+    let other = led(9.0);
+    other.begin();
+    unsafe {
+        assert_eq!(fmi2GetFMUstate(unit.component, &raw mut state), OK);
+        assert_eq!(
+            fmi2SerializedFMUstateSize(unit.component, state, &raw mut size),
+            OK
+        );
+        let mut bytes = vec![0; size];
+        let data = bytes.as_mut_ptr();
+        assert_eq!(fmi2SerializeFMUstate(unit.component, state, data, size), OK);
+        assert_eq!(
+            fmi2DeSerializeFMUstate(other.component, data, size, &raw mut again),
+            OK
+        );
+        assert_eq!(fmi2SetFMUstate(other.component, again), OK);
+        assert_eq!(fmi2FreeFMUstate(other.component, &raw mut again), OK);
+        assert_eq!(fmi2FreeFMUstate(unit.component, &raw mut state), OK);
+    }
+    let by = [("initial.position", 1.0), ("drive.speed", 1.0)];
+    let read = |unit: &Unit| {
+        let values = NEW.map(|name| unit.get(name).to_bits());
+        (values, unit.derivatives(&NEW, &by))
+    };
+    assert_eq!(read(&unit), read(&other));
+    for unit in [&unit, &other] {
+        assert_eq!(unit.step(30.0, 5.0), OK);
+    }
+    assert_eq!(
+        NEW.map(|name| unit.get(name).to_bits()),
+        NEW.map(|name| other.get(name).to_bits())
+    );
+}

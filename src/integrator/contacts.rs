@@ -1,0 +1,135 @@
+//! What passed between the mass and its stop and strip over the last advance.
+
+use serde::{Deserialize, Serialize};
+
+use super::clock::{Clock, Instant};
+use super::impact::Impact;
+use super::observer::{Arc, Crossing, CrossingKind, Observer};
+use super::review::integral;
+use super::simulation::Simulation;
+use super::start::Start;
+use crate::error::MotionError;
+use crate::peak::largest;
+use crate::phases::PhaseKind;
+use crate::scene::Scene;
+
+/// Impacts, and the contact force, over a stretch of time.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Contacts {
+    /// How many impacts.
+    pub impacts: u64,
+    /// How many strips were pierced through.
+    pub pierced: u64,
+    /// The first impact.
+    pub first: Option<Impact>,
+    /// The impact with the highest velocity.
+    pub hardest: Option<Impact>,
+    /// Largest contact force in N, at least 0; the blow of a rigid stop has none.
+    pub peak: f64,
+    /// Integral of the contact force in N s, blows included.
+    pub impulse: f64,
+}
+
+impl Contacts {
+    /// These, and then those.
+    #[must_use]
+    pub fn and(&self, next: &Self) -> Self {
+        let harder = |next: &Impact| self.hardest.is_none_or(|one| next.velocity > one.velocity);
+        Self {
+            impacts: self.impacts + next.impacts,
+            pierced: self.pierced + next.pierced,
+            first: self.first.or(next.first),
+            hardest: next.hardest.filter(harder).or(self.hardest),
+            peak: self.peak.max(next.peak),
+            impulse: self.impulse + next.impulse,
+        }
+    }
+}
+
+impl Simulation {
+    /// What happened over the last advance, or since [`Simulation::mark`] was called or something was set. It is gone
+    /// through again to tell, unless the mass was free all the way.
+    ///
+    /// # Errors
+    /// [`MotionError`] if it cannot be gone through again.
+    pub fn contacts(&self) -> Result<Contacts, MotionError> {
+        if self.is_free_since_mark() {
+            return Ok(Contacts::default());
+        }
+        let (motion, from) = self.marked();
+        let mut watch = Watch {
+            scene: &self.scene,
+            clock: *motion.clock(),
+            epoch: self.epoch,
+            from,
+            contacts: Contacts::default(),
+        };
+        self.review(&mut watch)?;
+        Ok(watch.contacts)
+    }
+}
+
+/// Gathers contacts from an instant on.
+struct Watch<'a> {
+    scene: &'a Scene,
+    clock: Clock,
+    epoch: f64,
+    from: Instant,
+    contacts: Contacts,
+}
+
+impl Observer for Watch<'_> {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        let from = self.clock.elapsed(arc.start, self.from).max(0.0);
+        if arc.kind == PhaseKind::Free || elapsed <= from {
+            return;
+        }
+        let Scene {
+            mass,
+            stiffness,
+            damping,
+            ..
+        } = *self.scene;
+        let law = arc.phase.map_or(0.0, |phase| phase.law.force);
+        let rest =
+            |time: f64| mass * arc.course.push(time) - law - stiffness * arc.at(time).position;
+        let fastest = arc.course.flow.modes.fastest_rate();
+        let rate = self.scene.excitation.frequency + arc.phase.map_or(0.0, |_| fastest);
+
+        // F = push - k1 x - b1 x' - m x'', of which the last two have integrals.
+        self.contacts.impulse += integral((from, elapsed), rate, rest);
+        let (begin, end) = (arc.at(from), arc.node(elapsed));
+        self.contacts.impulse -= damping * (end.position - begin.position);
+        self.contacts.impulse -= mass * (end.velocity - begin.velocity);
+
+        let force = |time: f64| {
+            let Start { position, velocity } = arc.at(time);
+            arc.phase.map_or_else(
+                || rest(time),
+                |phase| phase.contact_force(position, velocity),
+            )
+        };
+        let peak = largest((from, elapsed), rate, force);
+        self.contacts.peak = self.contacts.peak.max(peak);
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        if crossing.kind != CrossingKind::Rest {
+            let change = crossing.velocity - crossing.velocity_after;
+            self.contacts.impulse += self.scene.mass * change;
+        }
+        let impact = crossing.impact_velocity().map(|velocity| Impact {
+            time: self.epoch + self.clock.time(crossing.instant),
+            velocity,
+        });
+        let pierced = u64::from(crossing.pierces());
+        self.contacts = self.contacts.and(&Contacts {
+            impacts: u64::from(impact.is_some()),
+            pierced,
+            first: impact,
+            hardest: impact,
+            ..Contacts::default()
+        });
+    }
+}

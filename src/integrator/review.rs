@@ -1,0 +1,74 @@
+//! The last advance, gone through again by whoever wants to know more of it.
+
+use super::clock::{Clock, Instant};
+use super::mark::Mark;
+use super::observer::{Arc, Observer};
+use super::simulation::Simulation;
+use crate::error::MotionError;
+use crate::flow::{Polynomial, gauss_nodes};
+use crate::phases::PhaseKind;
+
+/// The integral between two times of a function that oscillates no faster than with `rate` in rad/s.
+pub(super) fn integral((from, to): (f64, f64), rate: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let panels = (rate * (to - from)).ceil().max(1.0);
+    let width = (to - from) / panels;
+    let mut sum = 0.0;
+    for panel in 0..panels as u64 {
+        let start = from + width * panel as f64;
+        for (time, weight) in gauss_nodes(width) {
+            sum += weight * value(start + time);
+        }
+    }
+    sum
+}
+
+impl Simulation {
+    /// Work in J, over the stretch of [`Simulation::contacts`], of a force that has these derivatives where it begins.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the stretch cannot be gone through again.
+    pub fn work_of(&self, force: &Polynomial) -> Result<f64, MotionError> {
+        let (motion, from) = self.marked();
+        let mut watch = Working {
+            clock: *motion.clock(),
+            from,
+            force,
+            work: 0.0,
+        };
+        self.review(&mut watch)?;
+        Ok(watch.work)
+    }
+
+    /// Tells of all arcs and crossings since the mark; the first arc may have begun before it.
+    pub(super) fn review(&self, observer: &mut impl Observer) -> Result<(), MotionError> {
+        let mut motion = self.marked().0.clone();
+        motion.advance(self.motion.now(), observer)?;
+        motion.tell_arc(observer);
+        Ok(())
+    }
+
+    /// True if no arc has ended since the mark and the mass is free on this one.
+    pub(super) fn is_free_since_mark(&self) -> bool {
+        matches!(self.mark, Mark::OnArc(_)) && self.motion.kind() == PhaseKind::Free
+    }
+}
+
+/// Adds up the work of a force from an instant on.
+struct Working<'a> {
+    clock: Clock,
+    from: Instant,
+    force: &'a Polynomial,
+    work: f64,
+}
+
+impl Observer for Working<'_> {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        let since = self.clock.elapsed(arc.start, self.from);
+        let flow = &arc.course.flow;
+        let rate = flow.frequency + flow.modes.fastest_rate();
+        let power = |time: f64| self.force.at(time - since) * arc.at(time).velocity;
+        if elapsed > since {
+            self.work += integral((since.max(0.0), elapsed), rate, power);
+        }
+    }
+}
