@@ -4,13 +4,12 @@
 use std::collections::VecDeque;
 
 use anyhow::Result;
-use nalgebra::Vector2;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use softstop::Ratios;
+use softstop::{Ratios, Start};
 use softstop_dynamics::StroboscopicMap;
 use softstop_dynamics::transitions::Transition;
 use softstop_dynamics::watch::piece;
+use softstop_lanes::{Job, Machine, Watch};
 
 use crate::figure::{self, Drawn, Figure, Findings, Studio};
 use crate::table1::{matching, paper};
@@ -29,6 +28,8 @@ const ROWS: [usize; 3] = [3, 16, 17];
 const DECADES: (i32, i32, i32) = (-7, -4, 3);
 /// Drive periods for which a motion is followed, at most.
 const ENDURANCE: u64 = 1_000_000;
+/// Drive periods between two looks at which of them are known.
+const LOOK: u64 = 10_000;
 /// Stretches after which it is known well enough, and fewest from which a mean is told.
 const STRETCHES: (usize, usize) = (400, 100);
 /// Shortest stretch, in periods of the motion, that is not chance.
@@ -58,14 +59,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     let powers = (low * each..=high * each).map(|index| f64::from(index) / f64::from(each));
     let cases = found.flat_map(|case| powers.clone().map(move |power| (case, 10f64.powf(power))));
     let cases: Vec<((usize, &Transition), f64)> = cases.collect();
-    let progress = Progress::new(cases.len() as u64, "distances");
-    let kept = studio.kept;
-    let beside = cases.par_iter().map(|((row, transition), distance)| {
-        progress.step()?;
-        let of = ("laminar", row, distance);
-        piece(kept, &of, || beside(*row, transition, *distance))
-    });
-    let beside: Vec<Beside> = beside.flat_map(Result::transpose).collect::<Result<_>>()?;
+    let beside = piece(studio.kept, &"laminar", || all(&cases))?;
     let mut findings = Findings::default();
     for row in ROWS {
         let own = beside.iter().filter(|it| it.row == row);
@@ -93,56 +87,138 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     })
 }
 
-/// The stretches at a distance, if there are enough of them.
-fn beside(row: usize, transition: &Transition, distance: f64) -> Result<Option<Beside>> {
-    let (Some(state), Some(regime)) = (transition.state, transition.from.regime()) else {
-        return Ok(None);
-    };
-    let machine = Ratios::unloaded();
-    let map = |eta: f64| -> Result<StroboscopicMap> {
-        Ok(StroboscopicMap::new(
-            &machine.at_frequency(eta).scene()?,
-            1,
-        )?)
-    };
-    let mut state: Vector2<f64> = state.into();
-    let at_end = map(transition.value)?;
-    let (mut old, mut order) = (state, Vec::new());
-    for _ in 0..regime.periods {
-        let passage = at_end.apply(old)?;
-        old = passage.end;
-        order.push(passage.impacts.len());
-    }
-    let mut counter = Counter::new(order);
-    let direction = if transition.rising { 1.0 } else { -1.0 };
-    let eta = transition.value + direction * distance;
-    let map = map(eta)?;
-    state.x -= APART * machine.clearance;
-    let mut lengths: Vec<u64> = Vec::new();
-    for _ in 0..ENDURANCE {
-        let passage = map.apply(state)?;
-        state = passage.end;
-        let ended = counter.enter(passage.impacts.len());
-        lengths.extend(ended.filter(|length| *length >= CALM * regime.periods));
-        if lengths.len() > STRETCHES.0 {
-            break;
+/// The stretches at all distances at which there are enough of them: the motions go together.
+fn all(cases: &[((usize, &Transition), f64)]) -> Result<Vec<Beside>> {
+    let progress = Progress::new(cases.len() as u64, "distances");
+    let (mut motions, mut machines) = (Vec::new(), Vec::new());
+    for ((row, transition), distance) in cases {
+        if let Some((motion, machine)) = Motion::beside(*row, transition, *distance)? {
+            motions.push(motion);
+            machines.push(machine);
         }
     }
-    // The first one began where the motion was started, not where chaos throws it.
-    let lengths = lengths.get(1..).unwrap_or_default();
-    Ok((lengths.len() >= STRETCHES.1).then(|| Beside {
-        row,
-        eta,
-        distance,
-        stretches: lengths.len(),
-        mean_drive_periods: lengths.iter().sum::<u64>() as f64 / lengths.len() as f64,
-        longest_drive_periods: lengths.iter().copied().max().unwrap_or(0),
-    }))
+    let mut left: Vec<usize> = (0..motions.len()).collect();
+    for _ in 0..ENDURANCE / LOOK {
+        let job = |index: &usize| Job {
+            machine: *index,
+            start: motions[*index].state,
+            periods: LOOK,
+        };
+        let jobs: Vec<Job> = left.iter().map(job).collect();
+        let mut watch = Together {
+            motions: &mut motions,
+            left: &left,
+        };
+        let outcomes = softstop_lanes::run(&machines, &jobs, &mut watch);
+        for (index, outcome) in left.iter().zip(outcomes) {
+            outcome.error.map_or(Ok(()), Err)?;
+            motions[*index].state = outcome.end;
+        }
+        let before = left.len();
+        left.retain(|index| !motions[*index].is_known());
+        progress.steps((before - left.len()) as u64)?;
+    }
+    Ok(motions.iter().filter_map(Motion::found).collect())
+}
+
+/// A motion beside the end of another one.
+struct Motion {
+    row: usize,
+    eta: f64,
+    distance: f64,
+    state: Start,
+    /// Impacts in the present drive period.
+    impacts: usize,
+    counter: Counter,
+    /// Its stretches; the first one begins where the motion was started, not where chaos throws it.
+    lengths: Vec<u64>,
+    /// Shortest stretch that counts, in drive periods.
+    calm: u64,
+}
+
+impl Motion {
+    /// A motion at a distance, and its machine.
+    fn beside(
+        row: usize,
+        transition: &Transition,
+        distance: f64,
+    ) -> Result<Option<(Self, Machine)>> {
+        let (Some(start), Some(regime)) = (transition.state, transition.from.regime()) else {
+            return Ok(None);
+        };
+        let machine = Ratios::unloaded();
+        let scene = |eta: f64| machine.at_frequency(eta).scene();
+        let at_end = StroboscopicMap::new(&scene(transition.value)?, 1)?;
+        let (mut old, mut order) = (start.into(), Vec::new());
+        for _ in 0..regime.periods {
+            let passage = at_end.apply(old)?;
+            old = passage.end;
+            order.push(passage.impacts.len());
+        }
+        let direction = if transition.rising { 1.0 } else { -1.0 };
+        let eta = transition.value + direction * distance;
+        let motion = Self {
+            row,
+            eta,
+            distance,
+            state: Start::new(start.position - APART * machine.clearance, start.velocity),
+            impacts: 0,
+            counter: Counter::new(order),
+            lengths: Vec::new(),
+            calm: CALM * regime.periods,
+        };
+        Ok(Some((motion, Machine::new(&scene(eta)?)?)))
+    }
+
+    /// True if its stretches are known well enough.
+    fn is_known(&self) -> bool {
+        self.lengths.len() > STRETCHES.0
+    }
+
+    /// What is known of its stretches, if there are enough of them.
+    fn found(&self) -> Option<Beside> {
+        let lengths = self.lengths.get(1..).unwrap_or_default();
+        (lengths.len() >= STRETCHES.1).then(|| Beside {
+            row: self.row,
+            eta: self.eta,
+            distance: self.distance,
+            stretches: lengths.len(),
+            mean_drive_periods: lengths.iter().sum::<u64>() as f64 / lengths.len() as f64,
+            longest_drive_periods: lengths.iter().copied().max().unwrap_or(0),
+        })
+    }
+}
+
+/// Watches the motions that are not known yet.
+struct Together<'a> {
+    motions: &'a mut [Motion],
+    left: &'a [usize],
+}
+
+impl Watch for Together<'_> {
+    const IMPACTS: bool = true;
+    const PERIODS: bool = true;
+
+    fn impact(&mut self, job: usize, _: u64, _: f64, _: f64) {
+        self.motions[self.left[job]].impacts += 1;
+    }
+
+    fn period(&mut self, job: usize, _: u64, _: Start) {
+        let motion = &mut self.motions[self.left[job]];
+        let impacts = std::mem::take(&mut motion.impacts);
+        if !motion.is_known() {
+            let (ended, calm) = (motion.counter.enter(impacts), motion.calm);
+            motion
+                .lengths
+                .extend(ended.filter(|length| *length >= calm));
+        }
+    }
 }
 
 /// Counts drive periods in a row with an order of impacts, from wherever it begins.
 struct Counter {
-    order: Vec<usize>,
+    /// The order, twice in a row.
+    twice: Vec<usize>,
     last: VecDeque<usize>,
     length: u64,
 }
@@ -150,7 +226,7 @@ struct Counter {
 impl Counter {
     fn new(order: Vec<usize>) -> Self {
         Self {
-            order,
+            twice: order.repeat(2),
             last: VecDeque::new(),
             length: 0,
         }
@@ -159,11 +235,11 @@ impl Counter {
     /// The length of the stretch that this drive period ends, if it does.
     fn enter(&mut self, impacts: usize) -> Option<u64> {
         self.last.push_back(impacts);
-        if self.last.len() > self.order.len() {
+        let periods = self.twice.len() / 2;
+        if self.last.len() > periods {
             self.last.pop_front();
         }
-        let twice = self.order.repeat(2);
-        let mut orders = twice.windows(self.order.len());
+        let mut orders = self.twice.windows(periods);
         if orders.any(|order| self.last.iter().eq(order)) {
             self.length += 1;
             return None;

@@ -42,6 +42,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
         let plan = Plan::new(Parameter::Clearance, CLEARANCES, steps, PERIODS)?;
         let plan = Plan {
             tolerance: RETURN,
+            heights: false,
             ..plan
         };
         let chain = |eta: &f64| -> Result<Chain> {

@@ -103,8 +103,14 @@ fn share_cells(a: &[(i64, i64)], b: &[(i64, i64)]) -> bool {
 /// True if enough places of two logs have their nearest neighbour in the other one.
 fn are_mixed([one, other]: [(&[Place], &[f64]); 2]) -> bool {
     let abroad = |(from, own): (&[Place], &[f64]), to: &[Place]| {
-        let is_nearer =
-            |(place, gap): &(&Place, &f64)| to.iter().any(|at| square(place, at) < **gap);
+        let range = |axis: usize| extremes(to.iter().map(|at| at[axis])).unwrap_or([0.0; 2]);
+        let [across, up] = [range(0), range(1)];
+        let within = |value: f64, [low, high]: [f64; 2]| value.max(low).min(high);
+        // The nearest place of the box that holds them all is no farther than any of them.
+        let is_nearer = |(place, gap): &(&Place, &f64)| {
+            let nearest = [within(place[0], across), within(place[1], up)];
+            square(place, &nearest) < **gap && to.iter().any(|at| square(place, at) < **gap)
+        };
         from.iter().zip(own).filter(is_nearer).count()
     };
     let mixed = abroad(one, other.0) + abroad(other, one.0);

@@ -70,6 +70,8 @@ pub struct Plan {
     /// Distance within which a state has returned, in units of the motion's size. Where each step is too
     /// short to settle, it has to be larger than what a step changes.
     pub tolerance: f64,
+    /// Whether the largest position of each step is asked for: it takes the safe engine.
+    pub heights: bool,
     /// State before the first step.
     pub start: Start,
 }
@@ -121,6 +123,7 @@ impl Plan {
             steps,
             periods,
             tolerance: RETURN,
+            heights: true,
             start: Start::REST,
         })
     }

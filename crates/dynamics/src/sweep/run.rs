@@ -15,9 +15,9 @@ use crate::watch::{Kept, Watcher, piece};
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::Machine;
 
-/// Most chains that go together. Lanes that go together round together, so the groups may not depend on
-/// how many threads there are.
-const TOGETHER: usize = 8;
+/// Most chains that go together, as many as there are lanes at most. Lanes that go together round together, so the
+/// groups may not depend on how many threads there are.
+const TOGETHER: usize = 16;
 /// How long a piece takes that is kept.
 const PIECE: Duration = Duration::from_millis(250);
 
@@ -87,7 +87,8 @@ impl Plan {
                 (machine.scene.clone(), meant, direction.name())
             },
         );
-        let plan = (self.range, self.steps, self.periods, self.tolerance);
+        let looks = (self.tolerance, self.heights);
+        let plan = (self.range, self.steps, self.periods, looks);
         let chains: Vec<_> = chains.collect();
         (self.parameter.name(), plan, self.start, chains)
     }
@@ -192,7 +193,7 @@ impl Plan {
             let step = record.and_then(|record| {
                 let frequency = leg.scene.excitation.frequency;
                 let seen = Seen::of(frequency, record, self.tolerance);
-                Step::new(leg.value, &leg.scene, seen)
+                Step::new(leg.value, &leg.scene, seen, self.heights)
             });
             (leg.chain, step)
         });

@@ -21,14 +21,19 @@ pub struct Step {
     /// Before-impact velocities in m/s, ascending: of one period of what returns, else of all watched drive
     /// periods.
     pub velocities: Vec<f64>,
-    /// Largest position in m meanwhile.
+    /// Largest position in m meanwhile; not a number where the plan does not ask for it.
     pub max_position: f64,
     /// State at its end, at drive angle phi: the start of the next step.
     pub end: Start,
 }
 
 impl Step {
-    pub(super) fn new(value: f64, scene: &Scene, seen: Seen) -> Result<Self, MotionError> {
+    pub(super) fn new(
+        value: f64,
+        scene: &Scene,
+        seen: Seen,
+        heights: bool,
+    ) -> Result<Self, MotionError> {
         let map = seen.map(scene)?;
         let (motion, growth) = seen.motion(scene, &map)?;
         Ok(Self {
@@ -36,7 +41,10 @@ impl Step {
             motion,
             growth,
             impacts_per_period: seen.impacts_per_period(),
-            max_position: seen.max_position(&map)?,
+            max_position: match heights {
+                true => seen.max_position(&map)?,
+                false => f64::NAN,
+            },
             end: seen.end,
             velocities: seen.velocities,
         })

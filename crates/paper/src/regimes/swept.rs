@@ -11,7 +11,7 @@ use softstop_console::progress::Progress;
 use softstop_explore::basin::cells::RegimeMap;
 
 /// Chains that go together, and are forgotten together but for their regimes.
-const TOGETHER: usize = 8;
+const TOGETHER: usize = 16;
 /// Frequencies before the first column, in which the motion settles from rest.
 const AHEAD: usize = 6;
 
@@ -34,7 +34,10 @@ impl Sweep {
             Direction::Up => (first - ahead, last),
             Direction::Down => (first, last + ahead),
         };
-        let plan = Plan::new(Parameter::Frequency, range, columns + AHEAD, PERIODS)?;
+        let plan = Plan {
+            heights: false,
+            ..Plan::new(Parameter::Frequency, range, columns + AHEAD, PERIODS)?
+        };
         let rows: Vec<usize> = (0..rows).collect();
         let found = rows.par_chunks(TOGETHER);
         let of = (&self.machine, self.window, self.way.name(), self.size);

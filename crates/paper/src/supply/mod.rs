@@ -10,15 +10,14 @@ mod chart;
 use std::f64::consts::TAU;
 
 use anyhow::Result;
-use nalgebra::Vector2;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use serde::{Deserialize, Serialize};
-use softstop::Ratios;
-use softstop_dynamics::StroboscopicMap;
+use softstop::{Ratios, Start};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::supply::{Reading, Strokes};
 use softstop_dynamics::zone::hysteresis;
+use softstop_lanes::{Job, Machine, Watch};
 
 use crate::figure::{Drawn, Figure, Findings, Studio};
 use softstop_console::output;
@@ -34,7 +33,7 @@ pub(crate) const FIGURE: Figure = Figure {
 /// Mean lengths of runs with and without strips, in drive periods.
 const RUNS: [f64; 3] = [2.0, 5.0, 25.0];
 /// Drive periods for which a motion settles in the end, and in which its impacts are counted then.
-const CLOSE: (usize, usize) = (250, 64);
+const CLOSE: (u64, u64) = (250, 64);
 /// Shares of the range from g0 to the loaded machine's fold, that fold being 1; the unloaded one's lies beyond.
 const SHARES: (f64, f64) = (0.02, 1.1);
 
@@ -60,8 +59,10 @@ struct Outcome {
 struct Press {
     clearance: f64,
     /// Without, and with.
-    maps: [StroboscopicMap; 2],
-    start: Vector2<f64>,
+    machines: [Machine; 2],
+    start: Start,
+    /// A drive period in s.
+    period: f64,
     /// When its impact is, in drive periods.
     impact: f64,
     /// Whether it starts and ends with strips.
@@ -146,8 +147,7 @@ fn survey(
             missed: 0,
             ended: 0,
         };
-        for motion in 0..motions {
-            let (missed, ended) = press.run(mean, periods, motion as u64)?;
+        for (missed, ended) in press.run(mean, periods, motions)? {
             outcome.missed += usize::from(missed);
             outcome.ended += usize::from(ended);
         }
@@ -162,44 +162,119 @@ impl Press {
         let machine = Ratios::loaded().at_frequency(frequency);
         let scene = machine.scene()?;
         let scenes = [reading.without(&scene), scene];
-        let map = |scene| StroboscopicMap::new(scene, 1);
         let orbit = find(&scenes[usize::from(is_supplied)])?;
         Ok(Self {
             clearance: machine.clearance,
-            maps: [map(&scenes[0])?, map(&scenes[1])?],
-            start: orbit.state(),
+            machines: [Machine::new(&scenes[0])?, Machine::new(&scenes[1])?],
+            start: orbit.state().into(),
+            period: orbit.scene.period(),
             impact: orbit.impact_angles().next().unwrap_or(0.0) / TAU,
             is_supplied,
         })
     }
 
-    /// Whether a stroke was missed, and whether z = 1 has ended.
-    fn run(&self, mean: f64, periods: usize, seed: u64) -> Result<(bool, bool)> {
-        let mut chance = Xoshiro256PlusPlus::seed_from_u64(seed);
-        let (mut state, mut is_supplied) = (self.start, self.is_supplied);
-        let mut strokes = Strokes::after(self.impact - 1.0);
-        for period in 0..periods {
-            let drawn = chance.next_u64() as f64 / u64::MAX as f64;
-            if drawn * mean < 1.0 && state.x < self.clearance {
-                is_supplied = !is_supplied;
+    /// Whether a stroke was missed, and whether z = 1 has ended, of as many motions as there are seeds.
+    fn run(&self, mean: f64, periods: u64, seeds: usize) -> Result<Vec<(bool, bool)>> {
+        let motion = |seed: usize| Motion {
+            state: self.start,
+            is_supplied: self.is_supplied,
+            tries: tries(seed as u64, mean, periods),
+            strokes: Strokes::after(self.impact - 1.0),
+            impacts: 0,
+        };
+        let mut motions: Vec<Motion> = (0..seeds).map(motion).collect();
+        let most = motions.iter().map(|motion| motion.tries.len()).max();
+        for place in 1..most.unwrap_or(0) {
+            let mut jobs = Vec::new();
+            for (index, motion) in motions.iter_mut().enumerate() {
+                let Some(&[from, to]) = motion.tries.get(place - 1..=place) else {
+                    continue;
+                };
+                if place > 1 && motion.state.position < self.clearance {
+                    motion.is_supplied = !motion.is_supplied;
+                }
+                if to > from {
+                    jobs.push((index, from, to - from));
+                }
             }
-            let passage = self.maps[usize::from(is_supplied)].apply(state)?;
-            state = passage.end;
-            for impact in &passage.instants {
-                strokes.strike(period as f64 + impact.offset / self.maps[0].clock().period());
+            self.follow(&mut motions, &jobs)?;
+        }
+        let ends = motions
+            .iter()
+            .map(|motion| motion.strokes.missed(periods as f64) > 0);
+        let missed: Vec<bool> = ends.collect();
+        for length in [CLOSE.0, CLOSE.1] {
+            for motion in &mut motions {
+                (motion.is_supplied, motion.impacts) = (self.is_supplied, 0);
             }
+            let jobs: Vec<(usize, u64, u64)> = (0..motions.len())
+                .map(|index| (index, periods, length))
+                .collect();
+            self.follow(&mut motions, &jobs)?;
         }
-        let mut impacts = 0;
-        for period in 0..CLOSE.0 + CLOSE.1 {
-            let passage = self.maps[usize::from(self.is_supplied)].apply(state)?;
-            state = passage.end;
-            impacts += if period < CLOSE.0 {
-                0
-            } else {
-                passage.impacts.len()
-            };
+        let ended = motions.iter().map(|motion| motion.impacts != CLOSE.1);
+        Ok(missed.into_iter().zip(ended).collect())
+    }
+
+    /// Follows motions with or without strips: which, from which drive period, for how many.
+    fn follow(&self, motions: &mut [Motion], spans: &[(usize, u64, u64)]) -> Result<()> {
+        let job = |&(index, _, periods): &(usize, u64, u64)| Job {
+            machine: usize::from(motions[index].is_supplied),
+            start: motions[index].state,
+            periods,
+        };
+        let jobs: Vec<Job> = spans.iter().map(job).collect();
+        let mut counter = Counter {
+            period: self.period,
+            motions,
+            spans,
+        };
+        let outcomes = softstop_lanes::run(&self.machines, &jobs, &mut counter);
+        for ((index, ..), outcome) in spans.iter().zip(outcomes) {
+            outcome.error.map_or(Ok(()), Err)?;
+            motions[*index].state = outcome.end;
         }
-        Ok((strokes.missed(periods as f64) > 0, impacts != CLOSE.1))
+        Ok(())
+    }
+}
+
+/// One motion under way.
+struct Motion {
+    state: Start,
+    is_supplied: bool,
+    /// The drive periods at which the supply may change, from the first to the end.
+    tries: Vec<u64>,
+    strokes: Strokes,
+    /// Impacts since the supply is steady.
+    impacts: u64,
+}
+
+/// When the supply may change within so many drive periods, by chance once in a mean run; before them 0, the end behind.
+fn tries(seed: u64, mean: f64, periods: u64) -> Vec<u64> {
+    let mut chance = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let mut falls = |_: &u64| chance.next_u64() as f64 / u64::MAX as f64 * mean < 1.0;
+    let within = (0..periods).filter(&mut falls);
+    [0].into_iter().chain(within).chain([periods]).collect()
+}
+
+/// Counts the strokes of motions that are followed together.
+struct Counter<'a> {
+    /// A drive period in s.
+    period: f64,
+    motions: &'a mut [Motion],
+    spans: &'a [(usize, u64, u64)],
+}
+
+impl Watch for Counter<'_> {
+    const IMPACTS: bool = true;
+
+    fn impact(&mut self, job: usize, cycle: u64, offset: f64, _: f64) {
+        let (index, from, _) = self.spans[job];
+        let motion = &mut self.motions[index];
+        motion.impacts += 1;
+        motion
+            .strokes
+            .strike((from + cycle) as f64 + offset / self.period);
     }
 }
 

@@ -60,6 +60,7 @@ fn sweep(transition: &Transition, step: f64, tolerance: f64) -> Option<Vec<Step>
     let plan = Plan {
         start: transition.state?,
         tolerance,
+        heights: false,
         ..plan
     };
     let mut chain = [Chain::new(Ratios::unloaded().scene().ok()?, way)];
