@@ -33,6 +33,9 @@ static ABOUT: About<Machine> = About {
     identifier: IDENTIFIER,
     version: env!("CARGO_PKG_VERSION"),
     license: "MIT OR Apache-2.0",
+    author: "the softstop authors",
+    copyright: "Copyright (c) 2026 the softstop authors",
+    date: "2026-11-23T00:00:00Z",
     events: "impacts and pierced strips, one line for each step that has any",
     knowns: "the inputs force, base.acceleration, drive.speed and drive.amplitude, over the first step also those by initial.position and initial.velocity",
     experiment: &[
@@ -88,7 +91,7 @@ impl Unit for Machine {
 
     fn begin(values: &[f64], time: f64) -> Outcome<Self> {
         let values = StartValues::of(values);
-        let fed = values.number(slot::MATERIAL) != 0;
+        let fed = values.is_fed();
         let begin = Begin::from(values.start()).at_time(time).fed(fed);
         let scene = values.scene();
         let simulation = Simulation::new(&scene, begin).map_err(in_names)?;
@@ -111,7 +114,7 @@ impl Unit for Machine {
         let values = StartValues::of(values);
         self.close();
         self.retune(&values.scene())?;
-        let fed = values.number(slot::MATERIAL) != 0;
+        let fed = values.is_fed();
         self.change().feed_strip(fed);
         Ok(())
     }

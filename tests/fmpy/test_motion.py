@@ -203,10 +203,11 @@ def test_output_derivatives(unit):
     unit.refused(lambda: get([position], [3]), "position", "order 3")
 
 
-def test_without_material_nothing_is_pierced(unit):
+@pytest.mark.parametrize("name, no, yes", [("material", False, True), ("material.real", 0.0, 1.0)])
+def test_without_material_nothing_is_pierced(unit, name, no, yes):
     unit.begin()
     unit.step(10 * PERIOD)
-    unit.set({"material": False})
+    unit.set({name: no})
     pierced, impacts = unit.get("pierce.count"), unit.get("impact.count")
     phases = set()
     for _ in range(3000):
@@ -215,7 +216,7 @@ def test_without_material_nothing_is_pierced(unit):
     assert unit.get("pierce.count") == pierced
     assert unit.get("impact.count") > impacts
     assert phases <= {1, 4, 5, 6, 7}
-    unit.set({"material": True})
+    unit.set({name: yes})
     unit.step(10 * PERIOD)
     assert unit.get("pierce.count") > pierced
 

@@ -28,6 +28,7 @@ COMBINATIONS = {  # table in section 2.2.7: causality, variability -> allowed va
 DIMENSIONS = {  # powers of kg, m, s, rad
     "kg": (1, 0, 0, 0), "m": (0, 1, 0, 0), "s": (0, 0, 1, 0), "rad": (0, 0, 0, 1),
     "N": (1, 1, -2, 0), "J": (1, 2, -2, 0), "s2": (0, 0, 2, 0), "W": (1, 2, -3, 0),
+    "m2": (0, 2, 0, 0),
 }
 SCALES = {
     "g": 1e3, "N/mm": 1e-3, "kN": 1e-3, "mm": 1e3, "mm/s": 1e3, "ms": 1e3,

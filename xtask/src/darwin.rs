@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 
-use crate::library::Build;
+use crate::library::{Artifact, Build};
 use crate::run::{cargo_command, target};
 
 /// The standard library asks for iconv by name, but uses none of it; the linker drops it again.
@@ -34,7 +34,7 @@ pub fn kit(zig_library: &Path) -> Result<PathBuf> {
 }
 
 /// How to build for one processor.
-pub fn build(triple: &str, kit: &Path) -> Build {
+pub fn build(artifact: Artifact, triple: &str, kit: &Path) -> Build {
     let mut command = cargo_command();
     command.env("SDKROOT", kit);
     let flags = [
@@ -47,6 +47,7 @@ pub fn build(triple: &str, kit: &Path) -> Build {
         "-Clink-arg=-S",
     ];
     Build {
+        artifact,
         command,
         target: triple.to_owned(),
         flags: flags.map(str::to_owned).to_vec(),

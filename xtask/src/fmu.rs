@@ -4,17 +4,19 @@ use std::fs;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use softstop_fmu::package::{self, HOST_PLATFORM, Library};
-use softstop_fmu::{Imprint, description, guid_of};
+use softstop_fmi::package::{self, HOST_PLATFORM, Library};
+use softstop_fmi::{Imprint, Unit, description, guid_of};
+use softstop_fmu::Machine;
 use softstop_optimize::fmu::library;
+use softstop_units::Drive;
 
-use crate::library::{Build, host};
+use crate::library::{Artifact, Build, DRIVE, OSCILLATOR, build_daily, host};
 use crate::run::{cargo_command, stage, top};
 use crate::targets::{TARGETS, Target, Tools};
 
 /// Writes the model description of the default FMU at the top level, if it has changed.
 pub fn write_description() -> Result<()> {
-    let imprint = Imprint::library();
+    let imprint = Imprint::<Machine>::library();
     let xml = description::write(&imprint, &guid_of(&imprint)?)?;
     let path = top().join("modelDescription.xml");
     if fs::read_to_string(&path).is_ok_and(|present| present == xml) {
@@ -26,63 +28,71 @@ pub fn write_description() -> Result<()> {
     Ok(())
 }
 
-/// Packs the library that was built along with this program; returns the FMU's path.
+/// Packs the libraries that are built for daily work; returns the oscillator's path.
 pub fn write_package() -> Result<PathBuf> {
-    write(&[library()?])
+    write::<Drive>(&[Library::read(&build_daily(DRIVE)?)?])?;
+    write::<Machine>(&[library()?])
 }
 
-/// Builds the library for this machine as it is shipped and packs it; returns the FMU's path.
+/// Builds the libraries for this machine as they are shipped and packs them; returns the oscillator's path.
 pub fn write_shipped() -> Result<PathBuf> {
+    write::<Drive>(&[shipped(DRIVE)?])?;
+    write::<Machine>(&[shipped(OSCILLATOR)?])
+}
+
+fn shipped(artifact: Artifact) -> Result<Library> {
     let target = TARGETS
         .iter()
         .find(|target| target.platform == HOST_PLATFORM);
     let (library, note) = match target {
-        Some(target) => built_or_host(target, &Tools::new())?,
-        None => (host_library()?, String::new()),
+        Some(target) => built_or_host(artifact, target, &Tools::new())?,
+        None => (host_library(artifact)?, String::new()),
     };
     println!("{}{note}", library.platform);
-    write(&[library])
+    Ok(library)
 }
 
 /// The library for a platform, and what there is to say of it. Without the tools there is still the
 /// linker of this machine.
-fn built_or_host(target: &Target, tools: &Tools) -> Result<(Library, String)> {
+fn built_or_host(artifact: Artifact, target: &Target, tools: &Tools) -> Result<(Library, String)> {
     target
-        .build(tools)
+        .build(artifact, tools)
         .map(|library| (library, String::new()))
         .or_else(|error| {
             if target.platform != HOST_PLATFORM {
                 return Err(error);
             }
             let note = format!(", for this machine's C library or a later one: {error:#}");
-            Ok((host_library()?, note))
+            Ok((host_library(artifact)?, note))
         })
 }
 
-/// Builds the library for every platform that can be had here as it is shipped and packs them all.
+/// Builds the libraries for every platform that can be had here as they are shipped and packs them all.
 pub fn write_shipped_for_all() -> Result<()> {
     let tools = Tools::new();
-    let mut libraries = Vec::new();
-    let mut lines = Vec::new();
-    for target in &TARGETS {
-        stage(target.platform);
-        match built_or_host(target, &tools) {
-            Ok((library, note)) => {
-                let size = library.bytes.len().div_ceil(1024);
-                lines.push(format!("{:14} packed, {size} KiB{note}", target.platform));
-                libraries.push(library);
-            }
-            Err(error) => lines.push(format!("{:14} skipped: {error:#}", target.platform)),
-        }
-    }
-    stage("package");
-    write(&libraries)?;
-    lines.iter().for_each(|line| println!("{line}"));
-    Ok(())
+    write::<Drive>(&shipped_for_all(DRIVE, &tools))?;
+    write::<Machine>(&shipped_for_all(OSCILLATOR, &tools)).map(drop)
 }
 
-fn host_library() -> Result<Library> {
+fn shipped_for_all(artifact: Artifact, tools: &Tools) -> Vec<Library> {
+    let mut libraries = Vec::new();
+    for target in &TARGETS {
+        stage(target.platform);
+        match built_or_host(artifact, target, tools) {
+            Ok((library, note)) => {
+                let size = library.bytes.len().div_ceil(1024);
+                println!("{:14} {size} KiB{note}", target.platform);
+                libraries.push(library);
+            }
+            Err(error) => println!("{:14} skipped: {error:#}", target.platform),
+        }
+    }
+    libraries
+}
+
+fn host_library(artifact: Artifact) -> Result<Library> {
     let build = Build {
+        artifact,
         command: cargo_command(),
         target: host()?,
         flags: Vec::new(),
@@ -90,9 +100,9 @@ fn host_library() -> Result<Library> {
     Ok(Library::read(&build.run()?)?)
 }
 
-fn write(libraries: &[Library]) -> Result<PathBuf> {
-    let path = top().join("softstop.fmu");
-    package::write(&path, &Imprint::library(), libraries)?;
+fn write<U: Unit>(libraries: &[Library]) -> Result<PathBuf> {
+    let path = top().join(format!("{}.fmu", U::about().identifier));
+    package::write(&path, &Imprint::<U>::library(), libraries)?;
     let size = fs::metadata(&path)?.len().div_ceil(1024);
     println!("{} ({size} KiB)", path.display());
     Ok(path)

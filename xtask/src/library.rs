@@ -8,10 +8,34 @@ use std::process::Command;
 use anyhow::{Context, Result};
 use serde_json::Value;
 
-use crate::run::{output, target, top};
+use crate::run::{cargo_command, output, target, top};
+
+/// A unit's library, as cargo knows it.
+#[derive(Clone, Copy)]
+pub struct Artifact {
+    package: &'static str,
+    arguments: &'static [&'static str],
+    name: &'static str,
+}
+
+/// That of softstop.fmu.
+pub const OSCILLATOR: Artifact = Artifact {
+    package: "softstop-fmu",
+    arguments: &["--lib"],
+    name: "softstop_fmu",
+};
+
+/// That of drive.fmu.
+pub const DRIVE: Artifact = Artifact {
+    package: "softstop-units",
+    arguments: &["--example", "drive"],
+    name: "drive",
+};
 
 /// One way to call cargo.
 pub struct Build {
+    /// What is built.
+    pub artifact: Artifact,
     /// Cargo, or a program that stands in for it.
     pub command: Command,
     /// The target, as the command wants it.
@@ -27,8 +51,9 @@ impl Build {
         flags.append(&mut self.flags);
         let messages = output(
             self.command
-                .args(["rustc", "--profile", "dist", "--package", "softstop-fmu"])
-                .arg("--lib")
+                .args(["rustc", "--profile", "dist", "--package"])
+                .arg(self.artifact.package)
+                .args(self.artifact.arguments)
                 // Not also as a Rust library: only so is it optimized as a whole and left without
                 // what it does not use.
                 .args(["--crate-type", "cdylib"])
@@ -39,12 +64,13 @@ impl Build {
                 .env_remove("RUSTFLAGS")
                 .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}")),
         )?;
-        library_in(&messages).context("cargo names no library of softstop-fmu")
+        library_in(&messages, self.artifact.name)
+            .with_context(|| format!("cargo names no library {}", self.artifact.name))
     }
 }
 
 /// The shared library among the files that cargo says it made.
-fn library_in(messages: &str) -> Option<PathBuf> {
+fn library_in(messages: &str, name: &str) -> Option<PathBuf> {
     let is_library = |path: &Path| {
         path.extension()
             .and_then(OsStr::to_str)
@@ -53,7 +79,7 @@ fn library_in(messages: &str) -> Option<PathBuf> {
     messages
         .lines()
         .filter_map(|line| serde_json::from_str::<Value>(line).ok())
-        .filter(|message| message["target"]["name"] == "softstop_fmu")
+        .filter(|message| message["target"]["name"] == name)
         .filter_map(|message| message["filenames"].as_array().cloned())
         .flatten()
         .filter_map(|name| name.as_str().map(PathBuf::from))
@@ -106,4 +132,16 @@ fn rustc_says(key: &str) -> Result<String> {
 /// The target of this machine.
 pub fn host() -> Result<String> {
     rustc_says("host")
+}
+
+/// Builds the library of daily work for this machine; returns where cargo says it is.
+pub fn build_daily(artifact: Artifact) -> Result<PathBuf> {
+    let messages = output(
+        cargo_command()
+            .args(["build", "--release", "--package", artifact.package])
+            .args(artifact.arguments)
+            .arg("--message-format=json-render-diagnostics"),
+    )?;
+    library_in(&messages, artifact.name)
+        .with_context(|| format!("cargo names no library {}", artifact.name))
 }

@@ -7,6 +7,7 @@ use std::process::Command;
 use anyhow::{Context, Result, ensure};
 use softstop_fmu::{Imprint, guid_of, table};
 
+use crate::library::OSCILLATOR;
 use crate::run::{output, run, stage, target};
 use crate::targets::{Target, Tools};
 
@@ -83,7 +84,10 @@ impl Program {
         let folder = target().join("portable").join(platform);
         fs::create_dir_all(&folder)?;
         let library = folder.join("softstop.library");
-        fs::write(&library, Target::of(platform)?.build(tools)?.bytes)?;
+        fs::write(
+            &library,
+            Target::of(platform)?.build(OSCILLATOR, tools)?.bytes,
+        )?;
         let program = folder.join("portable.exe");
         run(tools
             .zig_cc()?

@@ -13,7 +13,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use softstop_fmu::package::Library;
 
 use crate::darwin;
-use crate::library::{Build, sysroot};
+use crate::library::{Artifact, Build, sysroot};
 use crate::python;
 use crate::run::{output, run, target};
 
@@ -74,12 +74,13 @@ impl Target {
             .with_context(|| format!("no target for {platform}"))
     }
 
-    /// Builds the library for this platform.
-    pub fn build(&self, tools: &Tools) -> Result<Library> {
+    /// Builds a unit's library for this platform.
+    pub fn build(&self, artifact: Artifact, tools: &Tools) -> Result<Library> {
         let bytes = match self.linked {
             Linked::Zig(triple, suffix, flags) => {
                 install_standard_library(triple)?;
                 let build = Build {
+                    artifact,
                     command: tools.cargo_zigbuild()?,
                     target: format!("{triple}{suffix}"),
                     flags: flags.iter().map(ToString::to_string).collect(),
@@ -92,7 +93,7 @@ impl Target {
                     .iter()
                     .map(|triple| {
                         install_standard_library(triple)?;
-                        Ok(fs::read(darwin::build(triple, &kit).run()?)?)
+                        Ok(fs::read(darwin::build(artifact, triple, &kit).run()?)?)
                     })
                     .collect::<Result<Vec<_>>>()?;
                 darwin::universal(&slices)?

@@ -35,9 +35,12 @@ pub fn write<U: Unit>(imprint: &Imprint<U>, guid: &str) -> io::Result<String> {
         ("modelName", imprint.name()),
         ("guid", guid),
         ("description", imprint.description()),
+        ("author", about.author),
         ("version", about.version),
+        ("copyright", about.copyright),
         ("license", about.license),
         ("generationTool", GENERATOR),
+        ("generationDateAndTime", about.date),
         ("variableNamingConvention", "structured"),
         ("numberOfEventIndicators", "0"),
     ];

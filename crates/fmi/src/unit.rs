@@ -123,6 +123,12 @@ pub struct About<U: Unit> {
     pub version: &'static str,
     /// Its licence.
     pub license: &'static str,
+    /// Who wrote it.
+    pub author: &'static str,
+    /// Who has the rights.
+    pub copyright: &'static str,
+    /// Date and time of the version (UTC), as in the XML.
+    pub date: &'static str,
     /// What the log category `events` tells.
     pub events: &'static str,
     /// What derivatives can be taken by after initialisation, to follow "there are those by".

@@ -60,7 +60,13 @@ impl StartValues {
         values.set(slot::INITIAL_POSITION, sample.position);
         values.set(slot::INITIAL_VELOCITY, sample.velocity);
         values.set(slot::MATERIAL, 1.0);
+        values.set(slot::MATERIAL_SHARE, 1.0);
         values
+    }
+
+    /// Whether a strip is fed.
+    pub const fn is_fed(&self) -> bool {
+        self.number(slot::MATERIAL) != 0 && self.get(slot::MATERIAL_SHARE) >= 0.5
     }
 
     const fn set_default_stops(&mut self, stiffness: f64, preload: f64) {

@@ -52,4 +52,5 @@ slots! {
     MATERIAL: 1,
     TAKES_SPEED: 1,
     TAKES_AMPLITUDE: 1,
+    MATERIAL_SHARE: 1,
 }

@@ -3,7 +3,7 @@
 use softstop::Impact;
 use softstop_fmi::variable::{Access, Kind};
 
-use super::rows::{Row, after, at_once, continuous, count, discrete, nominal, real, row};
+use super::rows::{Row, after, at_once, continuous, count, discrete, nominal, real, row, shown_in};
 use crate::machine::Machine;
 use crate::units;
 
@@ -68,7 +68,7 @@ const EVERYTHING: &[&str] = &[
     "stop.loading.stiffness", "stop.unloading.count", "stop.unloading.from", "stop.unloading.stiffness",
     "rigid.present", "rigid.travel", "piercing.stiffness", "piercing.friction", "piercing.thickness",
     "piercing.travel", "initial.position", "initial.velocity", "force", "base.acceleration", "drive.amplitude",
-    "drive.takes.speed", "drive.takes.amplitude", "material",
+    "drive.takes.speed", "drive.takes.amplitude", "material", "material.real",
 ];
 
 /// What the energy stored at the start depends on.
@@ -83,19 +83,19 @@ const STORES: &[&str] = &[
 /// The outputs.
 #[rustfmt::skip]
 pub(super) const OUTPUTS: &[Row] = &[
-    continuous(203, "contact.force", nominal(real(&units::FORCE), 10.0), at_once(EVERYTHING),
+    continuous(203, "contact.force", shown_in(nominal(real(&units::FORCE), 10.0), "kN"), at_once(EVERYTHING),
         (|machine| machine.sample().contact_force, |of| of.along(|of| of.contact_force, |machine| machine.sample().contact_force)),
         &[|machine| machine.rates().contact_force.0, |machine| machine.rates().contact_force.1],
         "Force of stop and strip on the mass: F in m (x'' + base.acceleration) + b1 x' + k1 x + F = F0 cos(w t + phi) + force. Positive in compression (against positive x); it includes the additional damping in contact. While the phase is resting it is what holds the mass, while it is chatter the mean over the bounces"),
-    discrete(217, "contact.peak", nominal(real(&units::FORCE), 10.0), (peak, |of| of.of(peak)),
+    discrete(217, "contact.peak", shown_in(nominal(real(&units::FORCE), 10.0), "kN"), (peak, |of| of.of(peak)),
         "Largest contact.force in the last step, found between its ends; at least 0, the blow of a rigid stop left out"),
     discrete(218, "contact.impulse", nominal(real(&units::IMPULSE), 10.0), (impulse, |of| of.of(impulse)),
         "Integral of contact.force over the last step, the blows of a rigid stop included"),
-    continuous(216, "frame.force", nominal(real(&units::FORCE), 10.0), at_once(EVERYTHING),
+    continuous(216, "frame.force", shown_in(nominal(real(&units::FORCE), 10.0), "kN"), at_once(EVERYTHING),
         (frame, |of| of.of(frame)),
         &[|machine| machine.frame_force().1, |machine| machine.frame_force().2],
         "Force of suspension, dampers, strip and stop on the frame, k1 x + b1 x' + contact.force"),
-    continuous(200, "position", nominal(real(&units::LENGTH), 10.0), after(&["initial.position"]),
+    continuous(200, "position", shown_in(nominal(real(&units::LENGTH), 10.0), "mm"), after(&["initial.position"]),
         (|machine| machine.sample().position, |of| of.along(|of| of.position, |machine| machine.sample().position)), &[velocity, acceleration],
         "Position of the mass"),
     continuous(201, "velocity", nominal(real(&units::VELOCITY), 10.0), after(&["initial.velocity"]),

@@ -10,7 +10,7 @@ use toml::Table;
 type Plan = (&'static str, Option<(f64, f64)>, &'static [&'static str]);
 
 /// The plan of the house, from the ground up.
-const PLAN: [Plan; 13] = [
+const PLAN: [Plan; 14] = [
     ("softstop", Some((1.0, 6.0)), &[]),
     ("softstop-fmi", Some((0.0, 6.0)), &[]),
     ("softstop-lanes", Some((1.0, 5.0)), &["softstop"]),
@@ -19,6 +19,7 @@ const PLAN: [Plan; 13] = [
         Some((0.0, 5.0)),
         &["softstop", "softstop-fmi"],
     ),
+    ("softstop-units", Some((2.0, 5.0)), &["softstop-fmi"]),
     ("softstop-dynamics", Some((1.0, 4.0)), &["softstop-lanes"]),
     ("softstop-console", Some((1.0, 3.0)), &["softstop-dynamics"]),
     ("softstop-draw", Some((2.0, 3.0)), &[]),
@@ -42,7 +43,12 @@ const PLAN: [Plan; 13] = [
     (
         "xtask",
         None,
-        &["softstop-fmi", "softstop-fmu", "softstop-optimize"],
+        &[
+            "softstop-fmi",
+            "softstop-fmu",
+            "softstop-optimize",
+            "softstop-units",
+        ],
     ),
 ];
 
@@ -75,7 +81,9 @@ pub fn may_import(room: &str, import: &str) -> bool {
 
 /// All rooms, from the ground up.
 pub fn all(top: &Path) -> Vec<Room> {
-    let mut places = ["", "fmu", "optimize", "xtask"].map(str::to_owned).to_vec();
+    let mut places = ["", "fmu", "optimize", "units", "xtask"]
+        .map(str::to_owned)
+        .to_vec();
     let crates = fs::read_dir(top.join("crates")).expect("crates");
     places.extend(crates.filter_map(|entry| {
         let name = entry.ok()?.file_name().into_string().ok()?;

@@ -1,0 +1,134 @@
+//! What the rows of a table are made of.
+
+use crate::quantity::Quantity;
+use crate::variable::{Access, Dependencies, Kind, RealKind, Slot, Variable};
+
+/// How a real output and its derivative along a direction are read.
+type Reading<U, T> = (fn(&U) -> f64, fn(&T) -> f64);
+
+/// A real number of a quantity.
+pub const fn real(quantity: &'static Quantity) -> Kind {
+    Kind::Real(RealKind::any(Some(quantity)))
+}
+
+/// The same within a range.
+pub const fn within(quantity: &'static Quantity, min: f64, max: f64) -> Kind {
+    between(Some(quantity), min, max)
+}
+
+/// A bare number within a range.
+pub const fn bare(min: f64, max: f64) -> Kind {
+    between(None, min, max)
+}
+
+const fn between(quantity: Option<&'static Quantity>, min: f64, max: f64) -> Kind {
+    Kind::Real(RealKind {
+        min: Some(min),
+        max: Some(max),
+        ..RealKind::any(quantity)
+    })
+}
+
+/// The same of this order of magnitude.
+pub const fn nominal(mut kind: Kind, nominal: f64) -> Kind {
+    if let Kind::Real(real) = &mut kind {
+        real.nominal = Some(nominal);
+    }
+    kind
+}
+
+/// The same, shown in this unit by default.
+pub const fn shown_in(mut kind: Kind, unit: &'static str) -> Kind {
+    if let Kind::Real(real) = &mut kind {
+        real.display_unit = Some(unit);
+    }
+    kind
+}
+
+/// Any row.
+pub const fn row<U, T>(
+    reference: u32,
+    name: &'static str,
+    kind: Kind,
+    access: Access<U, T>,
+    description: &'static str,
+) -> Variable<U, T> {
+    Variable {
+        reference,
+        name,
+        description,
+        kind,
+        access,
+    }
+}
+
+/// A parameter that is set before the start.
+pub const fn fixed<U, T>(
+    reference: u32,
+    name: &'static str,
+    slot: Slot,
+    kind: Kind,
+    description: &'static str,
+) -> Variable<U, T> {
+    let tunable = false;
+    let access = Access::Parameter { slot, tunable };
+    row(reference, name, kind, access, description)
+}
+
+/// The same parameter, to be set between steps.
+pub const fn tunable<U, T>(mut row: Variable<U, T>) -> Variable<U, T> {
+    if let Access::Parameter { tunable, .. } = &mut row.access {
+        *tunable = true;
+    }
+    row
+}
+
+/// A real output that varies continuously.
+pub const fn continuous<U, T>(
+    reference: u32,
+    name: &'static str,
+    kind: Kind,
+    depends: Dependencies,
+    (value, tangent): Reading<U, T>,
+    derivatives: &'static [fn(&U) -> f64],
+    description: &'static str,
+) -> Variable<U, T> {
+    let access = Access::Continuous {
+        value,
+        derivatives,
+        tangent,
+        depends,
+    };
+    row(reference, name, kind, access, description)
+}
+
+/// A real output that changes at events only.
+pub const fn discrete<U, T>(
+    reference: u32,
+    name: &'static str,
+    kind: Kind,
+    (value, tangent): Reading<U, T>,
+    description: &'static str,
+) -> Variable<U, T> {
+    let access = Access::Discrete { value, tangent };
+    row(reference, name, kind, access, description)
+}
+
+/// A number of things that only grows at events.
+pub const fn count<U, T>(
+    reference: u32,
+    name: &'static str,
+    value: fn(&U) -> i32,
+    description: &'static str,
+) -> Variable<U, T> {
+    let depends = after(&[]);
+    let kind = Kind::Count { min: 0, max: None };
+    let access = Access::Integer { value, depends };
+    row(reference, name, kind, access, description)
+}
+
+/// Dependencies of an output that follows the motion only: no input changes it at once.
+pub const fn after(initial: &'static [&'static str]) -> Dependencies {
+    let inputs = &[];
+    Dependencies { inputs, initial }
+}

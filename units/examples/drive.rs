@@ -1,0 +1,3 @@
+//! The library of drive.fmu.
+
+softstop_fmi::export!(softstop_units::Drive);

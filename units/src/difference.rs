@@ -1,0 +1,40 @@
+//! Derivatives of outputs along a direction, by differences of the last step gone through again.
+
+use softstop_fmi::{Known, slope};
+
+/// Width of the first differences along the direction.
+const WIDTH: f64 = 1e-3;
+
+/// How a unit goes through its last step again, from a beginning that was moved.
+pub(crate) type Repeat<U> = fn(&U, &[(Known, f64)], f64) -> Option<U>;
+
+/// A direction of change at the beginning of the last step.
+#[derive(Debug)]
+pub struct Direction<U> {
+    unit: U,
+    direction: Vec<(Known, f64)>,
+    repeat: Repeat<U>,
+}
+
+impl<U: Clone> Direction<U> {
+    pub(crate) fn new(unit: &U, direction: &[(Known, f64)], repeat: Repeat<U>) -> Self {
+        Self {
+            unit: unit.clone(),
+            direction: direction.to_vec(),
+            repeat,
+        }
+    }
+
+    /// The derivative of an output.
+    pub(crate) fn of(&self, value: fn(&U) -> f64) -> f64 {
+        let steepest = |most: f64, (_, seed): &(Known, f64)| most.max(seed.abs());
+        let steepest = self.direction.iter().fold(0.0, steepest);
+        if steepest == 0.0 {
+            return 0.0;
+        }
+        slope(value(&self.unit), WIDTH / steepest, |step| {
+            let moved = (self.repeat)(&self.unit, &self.direction, step)?;
+            Some(value(&moved))
+        })
+    }
+}

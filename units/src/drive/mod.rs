@@ -1,0 +1,271 @@
+//! `drive.fmu`: a rotating unbalance on a motor of finite power.
+//!
+//! J w' = T(voltage, w) - c w - P / w, where P is the power that the load takes. Of the load the unit is told the work, by
+//! value and derivatives: where the value jumps from what the derivatives before it have led to, the rest is taken evenly
+//! over the next step, so that nothing of it is ever lost.
+
+mod motor;
+mod table;
+
+use std::sync::OnceLock;
+
+use serde::{Deserialize, Serialize};
+use softstop_fmi::variable::Slot;
+use softstop_fmi::{About, Advance, Block, Derivatives, Events, Known, Outcome, Table, Unit};
+
+use crate::difference::Direction;
+use crate::extrapolation::integrate;
+use crate::package;
+use crate::signal::Signal;
+use motor::Motor;
+
+/// The drive under way.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Drive {
+    motor: Motor,
+    time: f64,
+    state: State,
+    voltage: Signal,
+    /// Work in J that the load has taken, as it is told.
+    load: Signal,
+    /// Where the last step began.
+    origin: Option<Box<Drive>>,
+    begun: bool,
+}
+
+/// Speed in rad/s, angle in rad, and work in J: of the motor, of friction, of the load.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+struct State {
+    speed: f64,
+    angle: f64,
+    supplied: f64,
+    dissipated: f64,
+    paid: f64,
+}
+
+const VOLTAGE: usize = 0;
+const LOAD: usize = 1;
+
+mod slot {
+    use super::Slot;
+    pub(super) const MODEL: Slot = Slot(0);
+    pub(super) const VOLTAGE: Slot = Slot(1);
+    pub(super) const TORQUE: Slot = Slot(2);
+    pub(super) const SPEED: Slot = Slot(3);
+    pub(super) const SLIP: Slot = Slot(4);
+    pub(super) const INERTIA: Slot = Slot(5);
+    pub(super) const FRICTION: Slot = Slot(6);
+    pub(super) const UNBALANCE: Slot = Slot(7);
+    pub(super) const INITIAL_SPEED: Slot = Slot(8);
+    pub(super) const INITIAL_ANGLE: Slot = Slot(9);
+}
+
+#[used]
+static BLOCK: Block<[u64; 10]> = Block::new(
+    "drive",
+    "drive",
+    "Rotating unbalance on a motor of finite power",
+    // The unbalance gives 1 N at 1.15 rad/s, as the drive of softstop.fmu does by itself.
+    &[
+        1.0,
+        1.0,
+        60.0,
+        1.22,
+        0.2,
+        40.0,
+        0.0,
+        1.0 / (1.15 * 1.15),
+        1.15,
+        0.0,
+    ],
+);
+
+static ABOUT: About<Drive> = About {
+    identifier: "drive",
+    version: env!("CARGO_PKG_VERSION"),
+    license: package::LICENSE,
+    author: package::AUTHOR,
+    copyright: package::COPYRIGHT,
+    date: package::DATE,
+    events: "nothing: a drive has no events",
+    knowns: "the inputs motor.voltage.added and load.work, over the first step also by initial.speed and initial.angle",
+    experiment: package::EXPERIMENT,
+    quantities: table::QUANTITIES,
+    enumerations: &[&motor::MODEL],
+    table: Table::new(table::GROUPS),
+    page: include_str!("../../assets/drive.html"),
+    files: &package::FILES,
+    guid: OnceLock::new(),
+};
+
+impl Drive {
+    /// The same as an array, for the equations.
+    fn numbers(&self) -> [f64; 5] {
+        let State {
+            speed,
+            angle,
+            supplied,
+            dissipated,
+            paid,
+        } = self.state;
+        [speed, angle, supplied, dissipated, paid]
+    }
+
+    /// How these change while the load takes a power in W.
+    fn rates(&self, time: f64, speed: f64, load: f64) -> [f64; 5] {
+        let torque = self.motor.torque(self.voltage_at(time), speed);
+        let friction = self.motor.friction * speed;
+        let braking = self.motor.braking(load, speed);
+        [
+            (torque - friction - braking) / self.motor.inertia,
+            speed,
+            torque * speed,
+            friction * speed,
+            braking * speed,
+        ]
+    }
+
+    fn voltage_at(&self, time: f64) -> f64 {
+        self.motor.voltage + self.voltage.at(time, 0)
+    }
+
+    /// The rates now, the load as its derivatives say.
+    fn now(&self) -> [f64; 5] {
+        self.rates(self.time, self.state.speed, self.load.at(self.time, 1))
+    }
+
+    fn torque(&self) -> f64 {
+        let voltage = self.voltage_at(self.time);
+        self.motor.torque(voltage, self.state.speed)
+    }
+
+    fn kinetic(&self) -> f64 {
+        0.5 * self.motor.inertia * self.state.speed * self.state.speed
+    }
+
+    fn amplitude(&self) -> f64 {
+        self.motor.unbalance * self.state.speed * self.state.speed
+    }
+
+    /// Goes on without telling.
+    fn go_to(&mut self, until: f64) -> bool {
+        let (time, span) = (self.time, until - self.time);
+        if span <= 0.0 {
+            return true;
+        }
+        let left = (self.load.at(time, 0) - self.state.paid) / span;
+        let of = &*self;
+        let rates = |time: f64, y: &[f64; 5]| of.rates(time, y[0], of.load.at(time, 1) + left);
+        let Some([speed, angle, supplied, dissipated, paid]) =
+            integrate((time, until), self.numbers(), rates)
+        else {
+            return false;
+        };
+        self.time = until;
+        self.state = State {
+            speed,
+            angle,
+            supplied,
+            dissipated,
+            paid,
+        };
+        true
+    }
+
+    /// The last step again, from a beginning that was moved by `step` along a direction.
+    fn repeated(&self, direction: &[(Known, f64)], step: f64) -> Option<Self> {
+        let mut drive = self.origin.as_deref().unwrap_or(self).clone();
+        for &(known, seed) in direction {
+            match known {
+                Known::Signal(VOLTAGE) => drive.voltage.derivatives[0] += step * seed,
+                Known::Signal(_) => drive.load.derivatives[0] += step * seed,
+                Known::Parameter(slot::INITIAL_SPEED) => drive.state.speed += step * seed,
+                Known::Parameter(_) => drive.state.angle += step * seed,
+            }
+        }
+        drive.go_to(self.time).then_some(drive)
+    }
+}
+
+impl Unit for Drive {
+    type Tangent = Direction<Self>;
+
+    fn about() -> &'static About<Self> {
+        &ABOUT
+    }
+
+    fn block() -> &'static Block {
+        &BLOCK
+    }
+
+    fn begin(values: &[f64], time: f64) -> Outcome<Self> {
+        Ok(Self {
+            motor: Motor::of(values),
+            time,
+            state: State {
+                speed: values[slot::INITIAL_SPEED.0],
+                angle: values[slot::INITIAL_ANGLE.0],
+                supplied: 0.0,
+                dissipated: 0.0,
+                paid: 0.0,
+            },
+            voltage: Signal::default(),
+            load: Signal::default(),
+            origin: None,
+            begun: false,
+        })
+    }
+
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn tune(&mut self, values: &[f64]) -> Outcome<()> {
+        let motor = Motor::of(values);
+        if motor != self.motor {
+            (self.motor, self.origin) = (motor, None);
+        }
+        Ok(())
+    }
+
+    fn drive(&mut self, signal: usize, derivatives: &Derivatives) -> Outcome<()> {
+        let signal = match signal {
+            VOLTAGE => &mut self.voltage,
+            _ => &mut self.load,
+        };
+        *signal = Signal::new(*derivatives, self.time);
+        self.origin = None;
+        Ok(())
+    }
+
+    fn advance(&mut self, until: f64, _events: &mut Events) -> Outcome<Advance<Self>> {
+        self.origin = None;
+        let before = Box::new(self.clone());
+        if !self.go_to(until) {
+            return Ok(Advance::Short {
+                reason: "the speed changes too fast to be followed".to_owned(),
+                before: Some(before),
+            });
+        }
+        (self.origin, self.begun) = (Some(before), true);
+        Ok(Advance::Arrived)
+    }
+
+    fn mark(&mut self) {
+        self.origin = None;
+    }
+
+    fn has_tangent(&self, known: Known) -> bool {
+        let first = self.origin.as_ref().map_or(!self.begun, |one| !one.begun);
+        match known {
+            Known::Signal(_) => true,
+            Known::Parameter(slot) => {
+                first && [slot::INITIAL_SPEED, slot::INITIAL_ANGLE].contains(&slot)
+            }
+        }
+    }
+
+    fn tangent(&self, direction: &[(Known, f64)]) -> Outcome<Direction<Self>> {
+        Ok(Direction::new(self, direction, Self::repeated))
+    }
+}

@@ -1,0 +1,132 @@
+//! The variables of the drive.
+
+use softstop_fmi::Quantity;
+use softstop_fmi::rows::{
+    after, bare, continuous, fixed, nominal, real, row, shown_in, tunable, within,
+};
+use softstop_fmi::si;
+use softstop_fmi::variable::{Access, Dependencies, Kind, Variable};
+
+use super::motor::MODEL;
+use super::{Drive, LOAD, VOLTAGE, slot};
+use crate::difference::Direction;
+use crate::package::{LARGE, SMALL};
+
+type Row = Variable<Drive, Direction<Drive>>;
+
+pub(super) static QUANTITIES: &[&Quantity] = &[
+    &si::ANGLE,
+    &si::ANGULAR_FREQUENCY,
+    &si::TORQUE,
+    &si::INERTIA,
+    &si::ROTATIONAL_DAMPING,
+    &si::UNBALANCE,
+    &si::FORCE,
+    &si::POWER,
+    &si::ENERGY,
+];
+
+pub(super) const GROUPS: &[&[Row]] = &[INPUTS, PARAMETERS, OUTPUTS];
+
+/// What sets the motor's torque at the start.
+#[rustfmt::skip]
+const DRIVES: &[&str] = &[
+    "motor.model", "motor.voltage", "motor.torque", "motor.speed", "motor.slip", "initial.speed", "voltage",
+];
+
+/// What the voltage changes at once.
+const fn at_once(initial: &'static [&'static str]) -> Dependencies {
+    Dependencies {
+        inputs: &["voltage"],
+        initial,
+    }
+}
+
+#[rustfmt::skip]
+const INPUTS: &[Row] = &[
+    row(100, "voltage", bare(-LARGE, LARGE), Access::Signal(VOLTAGE),
+        "Voltage that is added to motor.voltage; with its derivatives of order 1 to 7 it goes on as a polynomial"),
+    row(101, "load.work", within(&si::ENERGY, -LARGE, LARGE), Access::Signal(LOAD),
+        "Work that the load has taken so far, with its derivatives of order 1 to 7 if they are known: drive.work of softstop.fmu. What it jumps by is taken from the rotor evenly over the next step"),
+];
+
+#[rustfmt::skip]
+const PARAMETERS: &[Row] = &[
+    fixed(0, "motor.model", slot::MODEL, Kind::Enumeration(&MODEL),
+        "Law of the motor's torque"),
+    tunable(fixed(1, "motor.voltage", slot::VOLTAGE, bare(-LARGE, LARGE),
+        "Voltage u as a share of the rated one; 0 is a motor without current")),
+    fixed(2, "motor.torque", slot::TORQUE, within(&si::TORQUE, 0.0, LARGE),
+        "Torque at rest (directCurrent), or the largest one (asynchronous), at the rated voltage"),
+    fixed(3, "motor.speed", slot::SPEED, within(&si::ANGULAR_FREQUENCY, SMALL, LARGE),
+        "Speed without load at the rated voltage"),
+    fixed(4, "motor.slip", slot::SLIP, bare(SMALL, LARGE),
+        "Slip at the largest torque (asynchronous)"),
+    fixed(5, "inertia", slot::INERTIA, within(&si::INERTIA, SMALL, LARGE),
+        "Moment of inertia J of all that turns"),
+    fixed(6, "friction", slot::FRICTION, within(&si::ROTATIONAL_DAMPING, 0.0, LARGE),
+        "Viscous friction c of the bearings"),
+    fixed(7, "unbalance", slot::UNBALANCE, within(&si::UNBALANCE, 0.0, LARGE),
+        "Mass of the unbalance times its distance from the axis"),
+    fixed(8, "initial.speed", slot::INITIAL_SPEED, within(&si::ANGULAR_FREQUENCY, -LARGE, LARGE),
+        "Speed at the start time"),
+    fixed(9, "initial.angle", slot::INITIAL_ANGLE, shown_in(within(&si::ANGLE, -LARGE, LARGE), "deg"),
+        "Angle at the start time"),
+];
+
+fn speed(drive: &Drive) -> f64 {
+    drive.state.speed
+}
+
+fn angle(drive: &Drive) -> f64 {
+    drive.state.angle
+}
+
+fn power(drive: &Drive) -> f64 {
+    drive.torque() * drive.state.speed
+}
+
+fn supplied(drive: &Drive) -> f64 {
+    drive.state.supplied
+}
+
+fn dissipated(drive: &Drive) -> f64 {
+    drive.state.dissipated
+}
+
+fn paid(drive: &Drive) -> f64 {
+    drive.state.paid
+}
+
+#[rustfmt::skip]
+const OUTPUTS: &[Row] = &[
+    continuous(200, "speed", real(&si::ANGULAR_FREQUENCY), after(&["initial.speed"]),
+        (speed, |of| of.of(speed)), &[|drive| drive.now()[0]],
+        "Speed w of the rotor: drive.speed of softstop.fmu"),
+    continuous(201, "angle", shown_in(real(&si::ANGLE), "deg"), after(&["initial.angle"]),
+        (angle, |of| of.of(angle)), &[speed],
+        "Angle of the rotor, counted on over the turns"),
+    continuous(202, "amplitude", real(&si::FORCE), after(&["initial.speed", "unbalance"]),
+        (Drive::amplitude, |of| of.of(Drive::amplitude)),
+        &[|drive| 2.0 * drive.motor.unbalance * drive.state.speed * drive.now()[0]],
+        "Force of the rotating unbalance, unbalance w^2: drive.amplitude of softstop.fmu"),
+    continuous(203, "torque", nominal(real(&si::TORQUE), 10.0), at_once(DRIVES),
+        (Drive::torque, |of| of.of(Drive::torque)), &[],
+        "Torque of the motor"),
+    continuous(204, "power", nominal(real(&si::POWER), 10.0), at_once(DRIVES),
+        (power, |of| of.of(power)), &[],
+        "Power of the motor"),
+    continuous(205, "energy.kinetic", nominal(real(&si::ENERGY), 10.0), after(&["inertia", "initial.speed"]),
+        (Drive::kinetic, |of| of.of(Drive::kinetic)),
+        &[|drive| drive.motor.inertia * drive.state.speed * drive.now()[0]],
+        "Energy of the rotor"),
+    continuous(206, "energy.supplied", nominal(real(&si::ENERGY), 10.0), after(&[]),
+        (supplied, |of| of.of(supplied)), &[|drive| drive.now()[2]],
+        "Work of the motor since the start"),
+    continuous(207, "energy.dissipated", nominal(real(&si::ENERGY), 10.0), after(&[]),
+        (dissipated, |of| of.of(dissipated)), &[|drive| drive.now()[3]],
+        "Energy lost to friction since the start"),
+    continuous(208, "energy.load", nominal(real(&si::ENERGY), 10.0), after(&[]),
+        (paid, |of| of.of(paid)), &[|drive| drive.now()[4]],
+        "Work that the load has taken from the rotor since the start; load.work from the end of the next step on"),
+];
