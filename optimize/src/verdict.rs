@@ -63,6 +63,12 @@ pub(crate) fn traded(problem: &Problem, front: &Front) -> Record {
         .with("figure", "what is traded", figure.name())
         .with("unit", "its unit", machine.unit(figure.dimension()))
         .with(
+            "left_out",
+            "designs that fail a trial or lose machines",
+            front.left_out,
+        )
+        .with("note", "how it was found", front.note())
+        .with(
             "design",
             "its value at the design, and what is sought",
             place(&front.design),

@@ -147,6 +147,27 @@ fn best_stiffness_and_clearance() -> Outcome {
 
 /// With the preload following the stiffness, the best velocity stands on a ridge beside a jump
 /// (a second pair of folds inside the zone) and far from the broad summit of the grid's middle.
+/// With a wider margin the best design of a small clearance falls behind that of another ridge: near there both are told.
+#[test]
+fn where_the_optimum_jumps_both_ridges_are_told() -> Outcome {
+    let found = |margin| {
+        let settings = Settings {
+            seed: 0,
+            evaluations: 400,
+        };
+        search(&problem(margin), settings, &Unwatched, None)
+    };
+    let clearance = |design: &Design| design.machine.scene.clearance;
+    let (before, after) = (found(0.1)?, found(0.11)?);
+    assert_eq!(clearance(&before.design), CLEARANCE.low);
+    let rivals: Vec<f64> = before.rivals.iter().map(clearance).collect();
+    let [rival] = rivals[..] else {
+        return Err(format!("one rival, not {rivals:?}").into());
+    };
+    assert_abs_diff_eq!(rival, clearance(&after.design), epsilon = 0.5);
+    Ok(())
+}
+
 #[test]
 fn a_narrow_ridge_is_found_with_any_seed() -> Outcome {
     let problem = Problem {

@@ -241,31 +241,43 @@ impl Machine {
         self.speaks.unit(dimension)
     }
 
+    /// The sign of the unit in which it states a parameter; empty for bare numbers.
+    pub fn unit_of(&self, parameter: Parameter) -> &'static str {
+        match parameter {
+            Parameter::Preload if self.preload_deflection.is_some() => self.unit(Dimension::Length),
+            Parameter::StopStiffness if Parameter::Exponent.get(&self.scene).is_some() => {
+                "N/m^exponent"
+            }
+            _ => self.unit(parameter.about().dimension),
+        }
+    }
+
     /// The label of an axis or a column: what it is, with its unit in brackets, or with the paper's symbol
     /// if the machine speaks ratios.
     pub fn label(&self, what: &str, symbol: &str, dimension: Dimension) -> String {
-        match (self.speaks, self.unit(dimension)) {
-            (Language::Ratios, _) if !symbol.is_empty() => format!("{what} {symbol}"),
-            (_, "") => what.to_owned(),
-            (_, unit) => format!("{what} ({unit})"),
-        }
+        self.labelled(what, symbol, self.unit(dimension))
     }
 
     /// The label of a parameter.
     pub fn label_of(&self, parameter: Parameter) -> String {
         let about = parameter.about();
-        match parameter {
+        let (what, symbol) = match parameter {
             Parameter::Preload if self.preload_deflection.is_some() => {
-                let what = "preload of the stop as a deflection";
-                self.label(what, "Fₚ/k₄", Dimension::Length)
+                ("preload of the stop as a deflection", "Fₚ/k₄")
             }
-            Parameter::StopStiffness if Parameter::Exponent.get(&self.scene).is_some() => self
-                .label(
-                    "stiffness of the stop (N/m^exponent)",
-                    "",
-                    Dimension::Number,
-                ),
-            _ => self.label(about.meaning, about.symbol, about.dimension),
+            Parameter::StopStiffness if Parameter::Exponent.get(&self.scene).is_some() => {
+                (about.meaning, "")
+            }
+            _ => (about.meaning, about.symbol),
+        };
+        self.labelled(what, symbol, self.unit_of(parameter))
+    }
+
+    fn labelled(&self, what: &str, symbol: &str, unit: &str) -> String {
+        match (self.speaks, unit) {
+            (Language::Ratios, _) if !symbol.is_empty() => format!("{what} {symbol}"),
+            (_, "") => what.to_owned(),
+            (_, unit) => format!("{what} ({unit})"),
         }
     }
 }

@@ -6,7 +6,7 @@ use super::{Language, Machine, keys};
 use crate::scene::{Dimension, Release, Slope, Stop};
 
 /// Where the comments begin.
-const COMMENT: usize = 36;
+const COMMENT: usize = 35;
 
 /// What is written, in order: a table, and the lines in it.
 type Section = (&'static str, Vec<Line>);
@@ -59,7 +59,7 @@ impl Machine {
                 let stated = format!("{} = {value}", key.trim_start_matches('.'));
                 let line = match meaning.as_str() {
                     "" => stated,
-                    _ => format!("{stated:COMMENT$}# {meaning}"),
+                    _ => format!("{stated:COMMENT$} # {meaning}"),
                 };
                 text += &line;
                 text.push('\n');
@@ -82,7 +82,10 @@ impl Machine {
                 lines.push(Line(self.name(parameter), value, self.label_of(parameter)));
             }
         }
-        lines.push(Line(keys::MODEL, word(stop.model()), String::new()));
+        let is_stops = |line: &Line| line.0.starts_with("stop.");
+        let place = lines.iter().position(is_stops).unwrap_or(lines.len());
+        let model = Line(keys::MODEL, word(stop.model()), String::new());
+        lines.insert(place, model);
         match stop {
             Stop::KelvinVoigt { release, .. } => {
                 let name = match release {

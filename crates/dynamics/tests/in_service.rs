@@ -2,7 +2,7 @@
 
 use rayon::ThreadPoolBuilder;
 use softstop::{Machine, Scene};
-use softstop_dynamics::attractors::Region;
+use softstop_dynamics::attractors::{Region, starting_box};
 use softstop_dynamics::basin::{ErosionProfile, Establishment, Home, Options, basins, zone_box};
 use softstop_dynamics::run_up::{RunUp, Way};
 use softstop_dynamics::supply::{Reading, outlasts};
@@ -131,7 +131,10 @@ fn a_way_says_where_it_loses_the_motion() {
 fn integrity_falls_to_nothing_at_the_fold() {
     let zone = zone_of(&unloaded(1.15));
     let places = ErosionProfile::evenly(5);
-    let profile = ErosionProfile::of(&zone, &places, 1024, &unwatched).expect("computed");
+    let region = zone_box(&zone, &unwatched).expect("a box");
+    let profile = ErosionProfile::of(&zone, &region, (&places, 1024), &unwatched);
+    let profile = profile.expect("computed");
+    assert!(profile.region == region && !profile.widened);
     let at = |place: usize| &profile.places[place];
     assert!(at(0).certainty.share > 0.99);
     let grid = cells(&profile.region, 60);
@@ -163,15 +166,38 @@ fn integrity_falls_to_nothing_at_the_fold() {
 }
 
 #[test]
+fn one_box_tells_the_same_of_a_motion_alone_and_along_its_zone() {
+    let a = one(&unloaded(1.15));
+    let zone = zone_of(&a.scene);
+    let alone = Establishment::of(&a, 512, &unwatched).expect("computed");
+    let width = zone.frequency_sn - zone.frequency_g0;
+    let place = (a.scene.excitation.frequency - zone.frequency_g0) / width;
+    let along = ErosionProfile::of(&zone, &alone.region, (&[place], 512), &unwatched);
+    assert_eq!(
+        along.expect("computed").places[0].certainty.share,
+        alone.share
+    );
+    // Of a box that is too small for the motion a wider one is made.
+    let small = Region {
+        position: [-1.0, 1.0],
+        velocity: [-1.0, 1.0],
+    };
+    let wider = ErosionProfile::of(&zone, &small, (&[0.9], 512), &unwatched).expect("computed");
+    assert!(wider.widened && wider.region.position[1] > a.position.abs());
+    assert!(wider.places[0].radius > 0.0);
+}
+
+#[test]
 fn threads_and_watchers() {
     let all = || {
         let (a, b) = (one(&unloaded(1.15)), one(&loaded()));
         let zone = zone_of(&a.scene);
+        let region = starting_box(&a.scene, &unwatched).expect("a box");
         (
             Establishment::of(&a, 2000, &unwatched).expect("computed"),
             outlasts(&b, 3, Reading::Near, 300, &unwatched).expect("computed"),
             RunUp::of(&a, 32, &unwatched).expect("computed"),
-            ErosionProfile::of(&zone, &[0.2, 0.8], 700, &unwatched).expect("computed"),
+            ErosionProfile::of(&zone, &region, (&[0.2, 0.8], 700), &unwatched).expect("computed"),
         )
     };
     let on = |threads| {

@@ -10,6 +10,7 @@ use softstop_dynamics::{Follower, Limits, Orbit};
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// Other frequencies and clearances, by so large a share each.
+#[derive(Debug)]
 struct Shares(Scene, f64);
 
 impl Spread for Shares {
@@ -86,7 +87,7 @@ fn a_model_of_a_polynomial_is_that_polynomial() -> Outcome {
         let turn = |step: f64| 2.0 * (step * index as f64).fract() - 1.0;
         [0.618_034, 0.754_878, 0.569_840].map(turn).to_vec()
     };
-    let places: Vec<Vec<f64>> = (0..Model::<2>::wanted(3)).map(place).collect();
+    let places: Vec<Vec<f64>> = (0..Model::wanted(3)).map(place).collect();
     let known: Vec<[f64; 2]> = places.iter().map(|at| values(at)).collect();
     let model = Model::fit(&places, &known).ok_or("a model")?;
     for at in [[0.3, -0.9, 0.5], [1.0, 1.0, -1.0]] {

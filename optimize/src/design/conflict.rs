@@ -1,7 +1,7 @@
 //! What stands against a design, in words: bounds, and which of them are violated.
 
-use softstop::Machine;
 use softstop::internals::plain;
+use softstop::{Machine, Parameter};
 
 use super::judge::Met;
 use super::requirement::Requirement;
@@ -50,6 +50,14 @@ fn words(machine: &Machine, met: &Met) -> String {
         own(value),
         own(missing)
     )
+}
+
+/// A parameter of a machine with a value in its own units: `clearance = 0.01 m`.
+pub fn stated(machine: &Machine, parameter: Parameter, value: f64) -> String {
+    let (name, unit) = (machine.name(parameter), machine.unit_of(parameter));
+    format!("{name} = {} {unit}", short(value))
+        .trim_end()
+        .to_owned()
 }
 
 /// A number with seven digits, and no more of them than it has.

@@ -9,9 +9,11 @@ use super::certain::certain;
 use super::coordinates::Summit;
 use super::figure::{Figure, Sense};
 use super::gradient::{ascend, ascend_from};
+use super::hold::is_at_edge;
 use super::problem::Problem;
 use super::requirement::Requirement;
-use super::trial::certainty;
+use super::trial::{ROUGH, certainty};
+use crate::robust::first_losses;
 
 /// What is given up for more of what is sought.
 #[derive(Debug, Clone)]
@@ -22,12 +24,36 @@ pub struct Front {
     pub design: (f64, f64),
     /// Its values and the best of what is sought, in rising order of the first.
     pub points: Vec<(f64, f64)>,
+    /// Designs on the way that are not among them: they fail a requirement that takes many motions, or lose the motion
+    /// within the tolerances.
+    pub left_out: usize,
+}
+
+impl Front {
+    /// How it was found, as far as its axes do not tell; may be empty.
+    pub fn note(&self) -> String {
+        let found = match self.figure {
+            Figure::Certainty => {
+                "Shares have no derivative: these designs are good to a per cent or so. "
+            }
+            Figure::DriveForce => "For each amplitude of the drive the task was solved anew. ",
+            _ => "",
+        };
+        let left_out = match self.left_out {
+            0 => String::new(),
+            count => format!(
+                "Left out, for they fail a requirement that takes many motions (counted on a quarter of them) or lose the \
+                 motion within the tolerances: {count} of the best designs on the way."
+            ),
+        };
+        format!("{found}{left_out}").trim_end().to_owned()
+    }
 }
 
 /// Steps to either side of the design.
-const STEPS: usize = 4;
+const STEPS: usize = 3;
 /// Share of a bound by which it is moved.
-const STEP: f64 = 0.12;
+const STEP: f64 = 0.16;
 /// Largest margin M, and the step to it.
 const WIDEST: f64 = 0.5;
 const WIDENING: f64 = 0.1;
@@ -37,7 +63,7 @@ const SHARES: usize = 4;
 const FREE: f64 = 1e-6;
 
 /// What a figure costs of what is sought, around a design at a point of the unit cube; none if the design has no such
-/// figure. Requirements that take many motions are not asked of the other designs.
+/// figure. The others are sought without requirements that take many motions, and left out if they fail them.
 pub fn front(
     problem: &Problem,
     (unit, design): (&[f64], &Design),
@@ -55,8 +81,13 @@ pub fn front(
         Figure::DriveForce if is_held(Parameter::Amplitude) => forces(problem, &start),
         _ => bounds(problem, &start, figure, own.0),
     };
-    let others = others.par_iter().filter_map(|it| place(figure, it));
-    let mut points: Vec<(f64, f64)> = others.collect();
+    let whole = others
+        .par_iter()
+        .filter(|it| problem.passes(&it.design.orbit, ROUGH) && keeps_box(problem, &it.design));
+    let whole: Vec<&Summit> = whole.collect();
+    let left_out = others.len() - whole.len();
+    let whole = whole.par_iter().filter_map(|it| place(figure, it));
+    let mut points: Vec<(f64, f64)> = whole.collect();
     points.push(own);
     let score = |it: &(f64, f64)| problem.objective.score(it.1);
     points.sort_by(|a, b| a.0.total_cmp(&b.0).then(score(a).total_cmp(&score(b))));
@@ -69,6 +100,16 @@ pub fn front(
         figure,
         design: own,
         points,
+        left_out,
+    })
+}
+
+/// Whether a design keeps its motion at corners of its box of tolerances and at places all over it.
+fn keeps_box(problem: &Problem, design: &Design) -> bool {
+    let spread = problem.spread(&design.machine);
+    spread.is_none_or(|spread| {
+        let lost = first_losses(&spread, &design.orbit);
+        lost.iter().all(|(at, _)| is_at_edge(at))
     })
 }
 

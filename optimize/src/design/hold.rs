@@ -173,3 +173,8 @@ fn told(all: impl IntoIterator<Item = (Vec<f64>, Loss)>) -> Vec<Lost> {
     });
     lost.filter(|it| it.share < 1.0 - ROUNDING).collect()
 }
+
+/// Whether a place lies at the border of the box, or beyond it.
+pub(super) fn is_at_edge(at: &[f64]) -> bool {
+    at.iter().any(|part| part.abs() >= 1.0 - ROUNDING)
+}

@@ -15,6 +15,7 @@ use super::judge::{Met, violation};
 use super::problem::Problem;
 use super::reach::Known;
 use super::space::Space;
+use super::trial::FULL;
 use super::{Design, Infeasible};
 
 /// Zones of the lattice, at most.
@@ -161,11 +162,13 @@ impl Trials<'_> {
         let tries = if least > 0.0 { FEW } else { MANY };
         // The least of them passes most easily; the best ends the search.
         let spread = (0..tries).map(|index| index * last / (tries - 1));
-        let mut low = spread.filter(|index| self.passes(&all[*index])).max()?;
+        let mut low = spread
+            .filter(|index| problem.passes(&all[*index].orbit, FULL))
+            .max()?;
         let mut high = all.len();
         while high - low > 1 {
             let middle = low.midpoint(high);
-            match self.passes(&all[middle]) {
+            match problem.passes(&all[middle].orbit, FULL) {
                 true => low = middle,
                 false => high = middle,
             }
@@ -178,17 +181,12 @@ impl Trials<'_> {
         for _ in 0..HALVINGS {
             match design(0.5 * (best.place + failing)) {
                 Some(middle) if self.score(&middle) <= self.score(&best) => break,
-                Some(middle) if self.passes(&middle) => best = middle,
+                Some(middle) if problem.passes(&middle.orbit, FULL) => best = middle,
                 Some(middle) => failing = middle.place,
                 None => break,
             }
         }
         Some(best)
-    }
-
-    fn passes(&self, design: &Design) -> bool {
-        let tried = self.problem.tried(&design.orbit);
-        tried.is_ok_and(|all| all.iter().all(Met::is_met))
     }
 }
 

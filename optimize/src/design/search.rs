@@ -15,6 +15,7 @@ use argmin::core::Error;
 use rayon::prelude::*;
 use softstop_dynamics::watch::Kept;
 
+use super::conflict::stated;
 use super::coordinates::Summit;
 use super::cost::{Cost, Point, Rank};
 pub use super::cost::{Unwatched, Watch};
@@ -235,7 +236,7 @@ fn place(problem: &Problem, values: &[f64]) -> String {
         return String::new();
     }
     let said = problem.axes.iter().zip(values);
-    let said = said.map(|(axis, value)| format!("{} = {value}", axis.parameter.name()));
+    let said = said.map(|(axis, value)| stated(&problem.machine, axis.parameter, *value));
     format!(", at {}", said.collect::<Vec<_>>().join(", "))
 }
 

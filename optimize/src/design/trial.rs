@@ -13,19 +13,41 @@ use super::judge::Met;
 use super::problem::Problem;
 use super::requirement::Requirement;
 
-/// Starts of the box, and drive angles at which the drive is switched on or strips are missing.
-const STARTS: usize = 1024;
+/// Starts of the box.
+pub const STARTS: usize = 1024;
+/// Drive angles at which the drive is switched on or strips are missing.
 const ANGLES: usize = 64;
 
+/// How many motions a trial counts.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Effort {
+    starts: usize,
+    angles: usize,
+}
+
+/// As many as results are told by, and a quarter of them.
+pub(super) const FULL: Effort = Effort {
+    starts: STARTS,
+    angles: ANGLES,
+};
+pub(super) const ROUGH: Effort = Effort {
+    starts: STARTS / 4,
+    angles: ANGLES / 4,
+};
+
 impl Problem {
+    /// The requirements that take many motions.
+    fn trials(&self) -> impl Iterator<Item = &Requirement> {
+        self.requirements.iter().filter(|it| it.figure.is_trial())
+    }
+
     /// What a motion has of the requirements that take many.
     ///
     /// # Errors
     /// [`SurveyError`] if a motion cannot be computed, or somebody asked to stop.
     pub fn tried(&self, orbit: &Orbit) -> Result<Vec<Met>, SurveyError> {
-        let trials = self.requirements.iter().filter(|it| it.figure.is_trial());
-        let tried = trials.map(|requirement| {
-            let (value, starts) = value(requirement, orbit)?;
+        let tried = self.trials().map(|requirement| {
+            let (value, starts) = value(requirement, orbit, FULL)?;
             Ok(Met {
                 requirement: *requirement,
                 value,
@@ -35,9 +57,17 @@ impl Problem {
         tried.collect()
     }
 
+    /// Whether a motion meets the requirements that take many.
+    pub(super) fn passes(&self, orbit: &Orbit, effort: Effort) -> bool {
+        self.trials().all(|requirement| {
+            value(requirement, orbit, effort)
+                .is_ok_and(|(value, _)| requirement.margin(value) >= 0.0)
+        })
+    }
+
     /// True if a motion must be tried.
     pub fn has_trials(&self) -> bool {
-        self.requirements.iter().any(|it| it.figure.is_trial())
+        self.trials().next().is_some()
     }
 }
 
@@ -53,29 +83,30 @@ pub(super) fn certainty(orbit: &Orbit) -> Result<f64, SurveyError> {
 fn value(
     requirement: &Requirement,
     orbit: &Orbit,
+    Effort { starts, angles }: Effort,
 ) -> Result<(f64, Option<Establishment>), SurveyError> {
     let watcher = &interrupt::watch;
     let value = match requirement.figure {
         Figure::Certainty => {
-            let starts = Establishment::of(orbit, STARTS, watcher)?;
+            let starts = Establishment::of(orbit, starts, watcher)?;
             return Ok((starts.share, Some(starts)));
         }
         Figure::Integrity => {
-            let (starts, radius) = Establishment::with_ball(orbit, STARTS, watcher)?;
+            let (starts, radius) = Establishment::with_ball(orbit, starts, watcher)?;
             return Ok((radius, Some(starts)));
         }
-        Figure::RunUp => RunUp::of(orbit, ANGLES, watcher)?.works().count() as f64,
-        Figure::MissingStrips => f64::from(survived(requirement, orbit)?),
+        Figure::RunUp => RunUp::of(orbit, angles, watcher)?.works().count() as f64,
+        Figure::MissingStrips => f64::from(survived(requirement, orbit, angles)?),
         _ => f64::NAN,
     };
     Ok((value, None))
 }
 
 /// Strips in a row that may be missing, as many as are asked for at most.
-fn survived(requirement: &Requirement, orbit: &Orbit) -> Result<u32, SurveyError> {
+fn survived(requirement: &Requirement, orbit: &Orbit, angles: usize) -> Result<u32, SurveyError> {
     let most = requirement.least.unwrap_or(0.0) as u32;
     for missing in 1..=most {
-        let gaps = outlasts(orbit, missing, Reading::Fixed, ANGLES, &interrupt::watch)?;
+        let gaps = outlasts(orbit, missing, Reading::Fixed, angles, &interrupt::watch)?;
         if gaps.share() < 1.0 {
             return Ok(missing - 1);
         }

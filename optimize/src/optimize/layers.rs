@@ -46,6 +46,7 @@ pub(super) struct Words {
 pub(super) fn variables(machine: &Machine, table: &Table) -> Result<(Words, Vec<Link>), Failure> {
     let (mut words, mut links) = (Words::default(), Vec::<Link>::new());
     for Named { name, value } in wishes::variables(table)? {
+        wishes::parameter(machine, &name)?;
         match value {
             Variable::Range(value) => words.ranges.push(Named { name, value }),
             Variable::Catalogue(value) => words.catalogues.push(Named { name, value }),

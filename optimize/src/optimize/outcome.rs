@@ -9,9 +9,8 @@ use crate::design::front::Front;
 use crate::design::judge::Met;
 use crate::design::search::Resolution;
 
-/// Places of the erosion profile, and starts at each.
+/// Places of the erosion profile beside the design's.
 pub(super) const PLACES: usize = 25;
-pub(super) const EROSION_STARTS: usize = 2048;
 /// Drive angles at which the drive is switched on.
 pub(super) const ANGLES: usize = 64;
 

@@ -4,16 +4,18 @@ use rayon::prelude::*;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::Keep;
+use softstop_dynamics::attractors::starting_box;
 use softstop_dynamics::basin::ErosionProfile;
 use softstop_dynamics::run_up::RunUp;
 
-use super::outcome::{ANGLES, EROSION_STARTS, Interrupted, Outcome, PLACES};
+use super::outcome::{ANGLES, Interrupted, Outcome, PLACES};
 use super::progress::Best;
 use super::task::Job;
 use crate::design::figure::Figure;
 use crate::design::front::{Front, front};
 use crate::design::judge::Met;
 use crate::design::search::{self, Found, SearchError};
+use crate::design::trial::STARTS;
 use crate::design::{Design, Problem};
 
 /// Searches, and looks at what was found; a search that is interrupted ends with its best design, if that is as asked.
@@ -52,10 +54,8 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         false => ((None, None), Vec::new()),
         true => rayon::join(
             || {
-                let places = ErosionProfile::evenly(PLACES);
-                let along = || ErosionProfile::of(&design.zone, &places, EROSION_STARTS, watcher);
                 let up = || RunUp::of(&design.orbit, ANGLES, watcher);
-                rayon::join(|| along().ok(), || up().ok())
+                rayon::join(|| erosion(design), || up().ok())
             },
             || fronts(&job.problem, &found),
         ),
@@ -72,6 +72,16 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         resolution: found.resolution,
         interrupted,
     })
+}
+
+/// The integrity along the zone of a design and at the design itself, by the starts that requirements count.
+fn erosion(design: &Design) -> Option<ErosionProfile> {
+    let watcher = &interrupt::watch;
+    let region = starting_box(&design.orbit.scene, watcher).ok()?;
+    let mut places = ErosionProfile::evenly(PLACES);
+    places.push(design.place);
+    places.sort_by(f64::total_cmp);
+    ErosionProfile::of(&design.zone, &region, (&places, STARTS), watcher).ok()
 }
 
 /// What a design has of all that is required.

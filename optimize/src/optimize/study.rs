@@ -124,13 +124,16 @@ fn without(job: &Job) -> Result<Option<Without>, OrbitError> {
         ..Settings::default()
     };
     let verdict = verify(&spread, &design.orbit, settings, &interrupt::watch)?;
-    let worst = worst(&spread, &design.orbit, &interrupt::watch);
+    // Steps down end wherever the motion is lost.
     let seen = verdict.slowest.as_ref().map(|(_, it)| it.velocity);
-    let found = worst.map_or(design.before_impact_velocity(), |it| it.value);
+    let slowest = match verdict.lost {
+        0 => worst(&spread, &design.orbit, &interrupt::watch)?.value,
+        _ => design.before_impact_velocity(),
+    };
     Ok(Some(Without {
         machines: verdict.machines,
         lost: verdict.lost,
-        slowest: seen.map_or(found, |seen| seen.min(found)),
+        slowest: seen.map_or(slowest, |seen| seen.min(slowest)),
         design,
     }))
 }

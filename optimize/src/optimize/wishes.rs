@@ -84,14 +84,16 @@ fn leaves(
     flatten(table, "", &says, &mut visit)
 }
 
+/// The parameter of a key of `[vary]` and the key's unit in the machine's own.
+pub(super) fn parameter(machine: &Machine, name: &str) -> Result<(Parameter, f64), Failure> {
+    let stated = machine.stated(name);
+    stated.map_err(|error| Failure::usage(format!("vary.{error}")))
+}
+
 /// The link of one parameter to another, in the machine's own units.
 pub(super) fn link(machine: &Machine, name: &str, follow: &Follow) -> Result<Link, Failure> {
-    let of = |name: &str| {
-        let stated = machine.stated(name);
-        stated.map_err(|error| Failure::usage(format!("vary.{error}")))
-    };
-    let (parameter, unit) = of(name)?;
-    let (follows, other) = of(&follow.follows)?;
+    let (parameter, unit) = self::parameter(machine, name)?;
+    let (follows, other) = self::parameter(machine, &follow.follows)?;
     if [parameter, follows].contains(&Parameter::Frequency) {
         return Err(Failure::usage(format!(
             "vary.{name}: the drive's frequency follows nothing, and nothing follows it: it is found along the zone"

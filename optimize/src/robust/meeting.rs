@@ -55,14 +55,14 @@ impl Meeting {
     }
 }
 
-pub(super) struct Search<'a, S: ?Sized> {
-    pub spread: &'a S,
+pub(super) struct Search<'a> {
+    pub spread: &'a dyn Spread,
     pub nominal: &'a Orbit,
     pub norm: Norm,
     pub farthest: f64,
 }
 
-impl<S: Spread + ?Sized> Search<'_, S> {
+impl Search<'_> {
     /// Along the axes, all around, and where the borders over the drive's frequency are the nearest by their normals.
     pub fn directions(&self) -> Vec<Vec<f64>> {
         let dimensions = self.spread.dimensions();

@@ -44,7 +44,7 @@ pub struct Nearest {
 /// # Errors
 /// [`OrbitError::Stopped`]; [`OrbitError`] if the nominal motion is not one to start from.
 pub fn nearest(
-    spread: &(impl Spread + ?Sized),
+    spread: &dyn Spread,
     nominal: &Orbit,
     norm: Norm,
     farthest: f64,
@@ -82,10 +82,7 @@ const CORNERS: usize = 32;
 const AROUND: usize = 16;
 
 /// Where the motion is lost on the ways to corners of the box and to places all over it.
-pub(crate) fn first_losses(
-    spread: &(impl Spread + ?Sized),
-    nominal: &Orbit,
-) -> Vec<(Vec<f64>, Loss)> {
+pub(crate) fn first_losses(spread: &dyn Spread, nominal: &Orbit) -> Vec<(Vec<f64>, Loss)> {
     let dimensions = spread.dimensions();
     let mut ends = corners(dimensions, CORNERS);
     ends.extend((0..AROUND).map(|index| place(index, dimensions)));
@@ -97,7 +94,7 @@ pub(crate) fn first_losses(
     ends.par_iter().filter_map(lost).collect()
 }
 
-impl<S: Spread + ?Sized> Search<'_, S> {
+impl Search<'_> {
     /// The nearest machine of each manifold at which the motion is lost, from the nearest of those that were met.
     fn of_motion(
         &self,

@@ -5,7 +5,7 @@ use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::{BLOCK, place};
 use softstop_dynamics::spread::{Fate, Guide, Model, Spread, critical_normal, free_normal};
 use softstop_dynamics::watch::{Watcher, unwatched};
-use softstop_dynamics::zone::{ZoneError, grazing_frequencies, hysteresis_soon};
+use softstop_dynamics::zone::{ZoneError, hysteresis_soon};
 use softstop_dynamics::{Orbit, Zone};
 
 use super::indices::{Effort, Index, indices};
@@ -34,7 +34,7 @@ pub fn shares(slopes: &[f64]) -> Vec<f64> {
 /// # Errors
 /// [`ZoneError`] where a fold has no derivatives, or there is no motion to difference beside this one.
 pub fn sensitivities(
-    spread: &(impl Spread + ?Sized),
+    spread: &dyn Spread,
     nominal: &Orbit,
     zone: &Zone,
 ) -> Result<Sensitivities, ZoneError> {
@@ -58,12 +58,12 @@ pub struct Scatter {
 }
 
 /// Whose scatter that of the velocity and of the place in the zone is; none if a machine between the bounds loses the
-/// motion or has no zone. s_SN is a polynomial in the coordinates, fitted to exact ones.
+/// motion or has no zone. Its ends are polynomials in the coordinates, fitted to exact ones.
 ///
 /// # Errors
 /// [`OrbitError`] if the nominal motion is not one to start from; [`OrbitError::Stopped`].
 pub fn scatter(
-    spread: &(impl Spread + ?Sized),
+    spread: &dyn Spread,
     nominal: &Orbit,
     effort: Effort,
     watcher: Watcher<'_>,
@@ -71,25 +71,23 @@ pub fn scatter(
     let dimensions = spread.dimensions();
     // Of a sequence that the points do not use.
     let first = effort.sequences.max(2) * BLOCK;
-    let known = first..first + Model::<2>::wanted(dimensions);
+    let known = first..first + Model::wanted(dimensions);
     let known: Vec<Vec<f64>> = known.map(|index| place(index, dimensions)).collect();
     let guide = Guide::new(spread, nominal, &known)?;
     let scenes: Vec<_> = known.iter().map(|at| spread.scene(at)).collect();
     let zones = hysteresis_soon(&scenes, watcher).into_iter();
-    let folds: Result<Vec<_>, _> = zones
-        .map(|zone| zone.map(|zone| [zone.frequency_sn]))
+    let ends: Result<Vec<_>, _> = zones
+        .map(|zone| zone.map(|zone| [zone.frequency_g0, zone.frequency_sn]))
         .collect();
     if watcher(0, 0).is_break() {
         return Err(OrbitError::Stopped);
     }
-    let Some(folds) = folds.ok().and_then(|folds| Model::fit(&known, &folds)) else {
+    let Some(ends) = ends.ok().and_then(|ends| Model::fit(&known, &ends)) else {
         return Ok(None);
     };
     let outputs = |at: &[f64]| {
-        let scene = spread.scene(at);
-        let (_, free) = grazing_frequencies(&scene).ok()?;
-        let [fold] = folds.at(at);
-        let share = (scene.excitation.frequency - free) / (fold - free);
+        let [free, fold] = ends.at(at);
+        let share = (spread.scene(at).excitation.frequency - free) / (fold - free);
         match guide.fate(at) {
             Fate::Kept(settled) => Some([settled.velocity, share]),
             Fate::Lost { .. } => None,

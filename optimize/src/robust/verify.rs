@@ -139,7 +139,7 @@ impl Verdict {
 /// # Errors
 /// [`OrbitError`] if the nominal motion is not one to start from.
 pub fn verify(
-    spread: &(impl Spread + ?Sized),
+    spread: &dyn Spread,
     nominal: &Orbit,
     settings: Settings,
     watcher: Watcher<'_>,
@@ -147,7 +147,7 @@ pub fn verify(
     let dimensions = spread.dimensions();
     // A sequence of their own: the first that the machines do not use.
     let first = settings.machines.next_multiple_of(BLOCK);
-    let known = first..first + Model::<2>::wanted(dimensions);
+    let known = first..first + Model::wanted(dimensions);
     let known: Vec<Vec<f64>> = known.map(|index| place(index, dimensions)).collect();
     let guide = Guide::new(spread, nominal, &known)?;
     let mut verdict = Verdict {

@@ -42,9 +42,9 @@ pub(crate) trait Grade: Sync {
 }
 
 /// The before-impact velocity.
-pub(super) struct Velocity<'a, S: ?Sized>(pub &'a S);
+pub(super) struct Velocity<'a>(pub &'a dyn Spread);
 
-impl<S: Spread + ?Sized> Grade for Velocity<'_, S> {
+impl Grade for Velocity<'_> {
     fn value(&self, _: &[f64], orbit: &Orbit) -> Option<f64> {
         Some(orbit.before_impact_velocity())
     }
@@ -61,7 +61,7 @@ impl<S: Spread + ?Sized> Grade for Velocity<'_, S> {
 /// # Errors
 /// [`OrbitError::Stopped`]; [`OrbitError`] if the nominal motion is not one to start from.
 pub fn worst(
-    spread: &(impl Spread + ?Sized),
+    spread: &dyn Spread,
     nominal: &Orbit,
     watcher: Watcher<'_>,
 ) -> Result<Worst, OrbitError> {
@@ -70,7 +70,7 @@ pub fn worst(
 
 /// The same by any grade.
 pub(crate) fn least(
-    spread: &(impl Spread + ?Sized),
+    spread: &dyn Spread,
     nominal: &Orbit,
     grade: &impl Grade,
     watcher: Watcher<'_>,
@@ -110,14 +110,14 @@ pub(crate) fn least(
     Ok(best)
 }
 
-struct Search<'a, S: ?Sized, G> {
-    spread: &'a S,
+struct Search<'a, G> {
+    spread: &'a dyn Spread,
     nominal: &'a Orbit,
     grade: &'a G,
     watcher: Watcher<'a>,
 }
 
-impl<S: Spread + ?Sized, G: Grade> Search<'_, S, G> {
+impl<G: Grade> Search<'_, G> {
     /// The motion at some coordinates that goes on from the nominal one, and its grade.
     fn graded(&self, at: &[f64]) -> Option<(Orbit, f64)> {
         let orbit = motion(self.spread, self.nominal, at)?;
@@ -207,11 +207,7 @@ impl<S: Spread + ?Sized, G: Grade> Search<'_, S, G> {
 }
 
 /// The motion at some coordinates that goes on from the nominal one.
-pub(crate) fn motion(
-    spread: &(impl Spread + ?Sized),
-    nominal: &Orbit,
-    at: &[f64],
-) -> Option<Orbit> {
+pub(crate) fn motion(spread: &dyn Spread, nominal: &Orbit, at: &[f64]) -> Option<Orbit> {
     let reached = along(spread, nominal, at, 1.0).ok()?;
     let orbit = Orbit::near(&spread.scene(at), reached.point.state());
     orbit.ok().filter(|_| reached.loss.is_none())
@@ -219,7 +215,7 @@ pub(crate) fn motion(
 
 /// d(before-impact velocity)/d(coordinate) in m/s of the nominal motion.
 pub(super) fn nominal_slopes(
-    spread: &(impl Spread + ?Sized),
+    spread: &dyn Spread,
     nominal: &Orbit,
     watcher: Watcher<'_>,
 ) -> Result<Vec<f64>, OrbitError> {

@@ -82,6 +82,12 @@ impl Region {
         .before(scene)
     }
 
+    /// Whether a state lies in it.
+    pub(crate) fn holds(&self, state: &Start) -> bool {
+        let within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
+        within(self.position, state.position) && within(self.velocity, state.velocity)
+    }
+
     /// The smallest that holds both.
     pub fn with(&self, other: &Self) -> Self {
         let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];

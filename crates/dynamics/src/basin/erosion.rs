@@ -129,27 +129,36 @@ pub struct Integrity {
 pub struct ErosionProfile {
     /// The box of starts, one for all places.
     pub region: Region,
+    /// Whether it is wider than was asked for: a motion lies outside that.
+    pub widened: bool,
     /// The places, as they were asked for.
     pub places: Vec<Integrity>,
 }
 
 impl ErosionProfile {
-    /// The profile at places s in [0, 1] of a zone, with so many starts at each. At s_SN itself the motion attracts from
-    /// one side alone: what it still attracts has a share, but no ball lies in it. The same for any number of threads.
+    /// The profile at places s in [0, 1] of a zone, with so many starts at each in one box, which is made wider if a motion
+    /// lies outside it. At s_SN itself the motion attracts from one side alone: what it still attracts has a share, but no
+    /// ball lies in it. The same for any number of threads.
     ///
     /// # Errors
     /// [`CertaintyError`] if a place lies outside the zone, a motion is lost or the watcher says stop.
     pub fn of(
         zone: &Zone,
-        places: &[f64],
-        starts: usize,
+        region: &Region,
+        (places, starts): (&[f64], usize),
         watcher: Watcher<'_>,
     ) -> Result<Self, CertaintyError> {
-        let region = zone_box(zone, watcher)?;
+        let orbits = places.iter().map(|place| zone.orbit_at(*place));
+        let orbits: Vec<Orbit> = orbits.collect::<Result<_, _>>()?;
+        let all = orbits.iter().map(|orbit| Start::from(orbit.state()));
+        let holds_all = all.clone().all(|state| region.holds(&state));
+        let region = match orbits.last() {
+            Some(last) if !holds_all => region.with(&Region::box_with(&last.scene, all)),
+            _ => *region,
+        };
         let states = region.starts(starts, SEED);
-        let place = |place: &f64| -> Result<Integrity, CertaintyError> {
-            let orbit = zone.orbit_at(*place)?;
-            let (certainty, radius) = integrity(&orbit, &region, &states, watcher)?;
+        let place = |(place, orbit): (&f64, &Orbit)| -> Result<Integrity, CertaintyError> {
+            let (certainty, radius) = integrity(orbit, &region, &states, watcher)?;
             Ok(Integrity {
                 place: *place,
                 frequency: orbit.scene.excitation.frequency,
@@ -158,8 +167,9 @@ impl ErosionProfile {
                 radius,
             })
         };
-        let places = places.par_iter().map(place);
+        let places = places.par_iter().zip(&orbits).map(place);
         Ok(Self {
+            widened: !holds_all,
             region,
             places: places.collect::<Result<_, _>>()?,
         })

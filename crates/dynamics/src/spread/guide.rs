@@ -7,12 +7,15 @@ use super::{Model, Reached, Settled, Spread, along};
 use crate::orbit::{Orbit, OrbitError};
 use crate::zone::Loss;
 
+/// Machines to which the nominal motion is followed before others are led to.
+const FIRST: usize = 64;
+
 /// Knows the z = 1 motions of some machines of a spread, and by them where those of the others are.
 #[derive(Debug)]
-pub struct Guide<'a, S: ?Sized> {
-    spread: &'a S,
+pub struct Guide<'a> {
+    spread: &'a dyn Spread,
     nominal: &'a Orbit,
-    states: Model<2>,
+    states: Model,
 }
 
 /// What becomes of the nominal motion in another machine.
@@ -29,27 +32,41 @@ pub enum Fate {
     },
 }
 
-impl<'a, S: Spread + ?Sized> Guide<'a, S> {
-    /// Looks at machines at some places between the bounds; [`Model::wanted`] says how many serve best.
+impl<'a> Guide<'a> {
+    /// Looks at machines at some places between the bounds; [`Model::wanted`] says how many serve best. To the first of
+    /// them the motion is followed; what those tell leads to the others.
     ///
     /// # Errors
     /// [`OrbitError::NotIsolated`] if the nominal motion is not one to start from.
-    pub fn new(spread: &'a S, nominal: &'a Orbit, places: &[Vec<f64>]) -> Result<Self, OrbitError> {
-        let centre = vec![0.0; spread.dimensions()];
-        let kept = |place: &Vec<f64>| {
+    pub fn new(
+        spread: &'a dyn Spread,
+        nominal: &'a Orbit,
+        places: &[Vec<f64>],
+    ) -> Result<Self, OrbitError> {
+        let followed = |place: &Vec<f64>| {
             let reached = along(spread, nominal, place, 1.0).ok()?;
             let state = reached.point.state();
             (reached.loss.is_none()).then(|| (place.clone(), state.into()))
         };
-        let mut known: Vec<(Vec<f64>, [f64; 2])> = places.par_iter().filter_map(kept).collect();
-        known.push((centre, nominal.state().into()));
-        let (places, states): (Vec<_>, Vec<_>) = known.into_iter().unzip();
-        let states = Model::fit(&places, &states).ok_or(OrbitError::NotIsolated)?;
-        Ok(Self {
-            spread,
-            nominal,
-            states,
-        })
+        let (first, others) = places.split_at(FIRST.min(places.len()));
+        let mut known: Vec<(Vec<f64>, [f64; 2])> = first.par_iter().filter_map(followed).collect();
+        known.push((vec![0.0; spread.dimensions()], nominal.state().into()));
+        let guide = |known: &[(Vec<f64>, [f64; 2])]| {
+            let (places, states): (Vec<_>, Vec<_>) = known.iter().cloned().unzip();
+            let states = Model::fit(&places, &states).ok_or(OrbitError::NotIsolated)?;
+            Ok(Self {
+                spread,
+                nominal,
+                states,
+            })
+        };
+        let rough: Self = guide(&known)?;
+        let led = |place: &Vec<f64>| match rough.fate(place) {
+            Fate::Kept(settled) => Some((place.clone(), settled.state.into())),
+            Fate::Lost { .. } => None,
+        };
+        known.par_extend(others.par_iter().filter_map(led));
+        guide(&known)
     }
 
     /// What becomes of the nominal motion at some coordinates: by Newton's method from where the motion should be, and

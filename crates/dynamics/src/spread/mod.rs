@@ -18,10 +18,12 @@ pub use model::Model;
 pub use normal::{critical_normal, free_normal, velocity_slopes};
 pub use ray::{Reached, along};
 
+use std::fmt::Debug;
+
 use softstop::Scene;
 
 /// Machines spread about a nominal one.
-pub trait Spread: Sync {
+pub trait Spread: Debug + Sync {
     /// How many coordinates there are.
     fn dimensions(&self) -> usize;
 
@@ -32,9 +34,9 @@ pub trait Spread: Sync {
 
 /// The same machines with bounds so many times as wide.
 #[derive(Debug, Clone, Copy)]
-pub struct Scaled<'a, S: ?Sized>(pub &'a S, pub f64);
+pub struct Scaled<'a>(pub &'a dyn Spread, pub f64);
 
-impl<S: Spread + ?Sized> Spread for Scaled<'_, S> {
+impl Spread for Scaled<'_> {
     fn dimensions(&self) -> usize {
         self.0.dimensions()
     }

@@ -9,15 +9,15 @@ const HIGHEST: usize = 8;
 /// Values that are known, for each term.
 const VALUES: usize = 3;
 
-/// A polynomial in the coordinates, of a total degree, as a sum of products of Legendre's polynomials, with `N` values.
+/// A polynomial in the coordinates, of a total degree, as a sum of products of Legendre's polynomials, with two values.
 #[derive(Debug, Clone)]
-pub struct Model<const N: usize> {
+pub struct Model {
     degree: usize,
     /// Of each term, as [`each_term`] tells them.
-    factors: Vec<[f64; N]>,
+    factors: Vec<[f64; 2]>,
 }
 
-impl<const N: usize> Model<N> {
+impl Model {
     /// How many values to know at best, for so many coordinates.
     pub fn wanted(dimensions: usize) -> usize {
         VALUES * count(dimensions, degree(dimensions, usize::MAX))
@@ -25,7 +25,7 @@ impl<const N: usize> Model<N> {
 
     /// The one that is nearest to these values, each at its coordinates, by least squares; of a lower degree where they are
     /// few. None for no values.
-    pub fn fit(places: &[Vec<f64>], values: &[[f64; N]]) -> Option<Self> {
+    pub fn fit(places: &[Vec<f64>], values: &[[f64; 2]]) -> Option<Self> {
         let dimensions = places.first()?.len();
         let degree = degree(dimensions, places.len() / VALUES);
         let mut model = Self {
@@ -45,22 +45,15 @@ impl<const N: usize> Model<N> {
             let values = values.iter().map(|value| value[which]);
             normal.solve(&(matrix.transpose() * DVector::from_iterator(places.len(), values)))
         };
-        let columns: Vec<DVector<f64>> = (0..N).map(column).collect();
+        let columns: Vec<DVector<f64>> = (0..2).map(column).collect();
         let factors = |term| std::array::from_fn(|which| columns[which][term]);
         model.factors = (0..terms).map(factors).collect();
         Some(model)
     }
 
     /// Its values at some coordinates.
-    pub fn at(&self, place: &[f64]) -> [f64; N] {
-        let mut sum = [0.0; N];
-        let mut factors = self.factors.iter();
-        each_term(&self.powers(place), self.degree, 1.0, &mut |product| {
-            for (sum, factor) in sum.iter_mut().zip(factors.next().into_iter().flatten()) {
-                *sum += product * factor;
-            }
-        });
-        sum
+    pub fn at(&self, place: &[f64]) -> [f64; 2] {
+        sum(&self.powers(place), self.degree, &mut &self.factors[..])
     }
 
     fn powers(&self, place: &[f64]) -> Vec<[f64; HIGHEST + 1]> {
@@ -79,6 +72,33 @@ fn each_term(powers: &[[f64; HIGHEST + 1]], left: usize, product: f64, tell: &mu
             }
         }
     }
+}
+
+/// The sum of all products that [`each_term`] tells, each times its factors, which are taken in that order.
+fn sum(powers: &[[f64; HIGHEST + 1]], left: usize, factors: &mut &[[f64; 2]]) -> [f64; 2] {
+    let mut sums = [0.0; 2];
+    let mut add = |power: f64, [first, second]: [f64; 2]| {
+        sums[0] += power * first;
+        sums[1] += power * second;
+    };
+    match powers {
+        [] => factors
+            .split_off_first()
+            .iter()
+            .for_each(|it| add(1.0, **it)),
+        [own] => {
+            let terms = factors.split_off(..=left).unwrap_or_default();
+            own.iter()
+                .zip(terms)
+                .for_each(|(power, it)| add(*power, *it));
+        }
+        [own, others @ ..] => {
+            for (degree, power) in own[..=left].iter().enumerate() {
+                add(*power, sum(others, left - degree, factors));
+            }
+        }
+    }
+    sums
 }
 
 /// Legendre's polynomials up to a degree.

@@ -15,7 +15,7 @@ const CHANGE: f64 = 0.125;
 ///
 /// # Errors
 /// [`ZoneError`] as of [`Border::free`].
-pub fn free_normal(spread: &(impl Spread + ?Sized), at: &[f64]) -> Result<Vec<f64>, ZoneError> {
+pub fn free_normal(spread: &dyn Spread, at: &[f64]) -> Result<Vec<f64>, ZoneError> {
     let (scene, parameters) = (spread.scene(at), varied(spread, at));
     let border = Border::free(&scene, true, &parameters)?;
     Ok(in_coordinates(
@@ -32,7 +32,7 @@ pub fn free_normal(spread: &(impl Spread + ?Sized), at: &[f64]) -> Result<Vec<f6
 /// # Errors
 /// [`OrbitError`] as of [`Border::critical`].
 pub fn critical_normal(
-    spread: &(impl Spread + ?Sized),
+    spread: &dyn Spread,
     at: &[f64],
     (test, point): (Test, &BranchPoint),
 ) -> Result<Vec<f64>, OrbitError> {
@@ -51,7 +51,7 @@ pub fn critical_normal(
 /// # Errors
 /// [`OrbitError`] as of [`slopes::of`](crate::slopes::of); [`OrbitError::OtherRegime`] for a motion without impacts.
 pub fn velocity_slopes(
-    spread: &(impl Spread + ?Sized),
+    spread: &dyn Spread,
     at: &[f64],
     orbit: &Orbit,
 ) -> Result<Vec<f64>, OrbitError> {
@@ -65,7 +65,7 @@ pub fn velocity_slopes(
 }
 
 /// The machines on both sides of one along a coordinate.
-fn beside(spread: &(impl Spread + ?Sized), at: &[f64], index: usize) -> [Scene; 2] {
+fn beside(spread: &dyn Spread, at: &[f64], index: usize) -> [Scene; 2] {
     [-CHANGE, CHANGE].map(|change| {
         let mut at = at.to_vec();
         at[index] += change;
@@ -80,7 +80,7 @@ fn rate([below, above]: &[Scene; 2], parameter: Parameter) -> f64 {
 }
 
 /// The parameters that change with the coordinates.
-fn varied(spread: &(impl Spread + ?Sized), at: &[f64]) -> Vec<Parameter> {
+fn varied(spread: &dyn Spread, at: &[f64]) -> Vec<Parameter> {
     let pairs: Vec<_> = (0..at.len())
         .map(|index| beside(spread, at, index))
         .collect();
@@ -90,7 +90,7 @@ fn varied(spread: &(impl Spread + ?Sized), at: &[f64]) -> Vec<Parameter> {
 
 /// Derivatives by parameters as such by coordinates.
 fn in_coordinates(
-    spread: &(impl Spread + ?Sized),
+    spread: &dyn Spread,
     at: &[f64],
     parameters: &[Parameter],
     by: &[f64],

@@ -33,7 +33,7 @@ pub struct Reached {
 /// # Errors
 /// [`OrbitError`] if the nominal motion is not one to start from.
 pub fn along(
-    spread: &(impl Spread + ?Sized),
+    spread: &dyn Spread,
     nominal: &Orbit,
     to: &[f64],
     farthest: f64,
@@ -125,14 +125,14 @@ fn by_branch<F: Family>(
 }
 
 /// The machines on a way.
-struct Ray<'a, S: ?Sized> {
-    spread: &'a S,
+struct Ray<'a> {
+    spread: &'a dyn Spread,
     to: &'a [f64],
     scales: Scales,
     clearance: f64,
 }
 
-impl<S: Spread + ?Sized> Family for Ray<'_, S> {
+impl Family for Ray<'_> {
     fn scene(&self, [share]: [f64; 1]) -> Result<Scene, MotionError> {
         let at: Vec<f64> = self.to.iter().map(|to| share * to).collect();
         let scene = self.spread.scene(&at);

@@ -4,7 +4,6 @@ mod parts;
 
 use rayon::join;
 use softstop::{Dimension, Machine, Parameter};
-use softstop_console::table::number;
 use softstop_dynamics::Orbit;
 
 use super::outcome::Outcome;
@@ -12,6 +11,7 @@ use super::reference::Reference;
 use super::study::Study;
 use super::task::Job;
 use crate::design::Design;
+use crate::design::conflict::stated;
 use crate::design::problem::Problem;
 use crate::design::space::Interval;
 use crate::limits::at_limits;
@@ -107,10 +107,7 @@ fn task(problem: &Problem) -> String {
     let machine = &problem.machine;
     let axes = problem.axes.iter().filter(|axis| !axis.range.is_held());
     let range = |parameter: Parameter, range: Interval| {
-        let (what, unit) = (
-            parameter.about().meaning,
-            machine.unit(parameter.about().dimension),
-        );
+        let (what, unit) = (parameter.about().meaning, machine.unit_of(parameter));
         match range.is_held() {
             true => format!("{what} of {}", quantity(range.low, unit)),
             false => format!(
@@ -155,7 +152,7 @@ fn warnings(problem: &Problem, outcome: &Outcome, study: Option<&Study>) -> Vec<
         let axes = problem.axes.iter().map(|axis| axis.parameter);
         let axes = axes.chain([Parameter::Frequency]);
         let place: Vec<String> = axes
-            .filter_map(|it| Some(format!("{} = {}", rival.machine.name(it), number(rival.machine.value(it)?))))
+            .filter_map(|it| Some(stated(&rival.machine, it, rival.machine.value(it)?)))
             .collect();
         format!(
             "Another design, far from this one, is nearly as good: {} at {}. A small change of the task may lead there.",

@@ -10,9 +10,10 @@ use crate::design::figure::Figure;
 use crate::design::judge::Met;
 use crate::design::problem::Problem;
 use crate::design::space::Axis;
-use crate::optimize::outcome::{EROSION_STARTS, Outcome};
+use crate::design::trial::STARTS;
+use crate::optimize::outcome::Outcome;
 use crate::optimize::study::Study;
-use crate::page::computed::map;
+use crate::page::computed::{label_of, map};
 use crate::page::data::{self, Label};
 use crate::page::quantity;
 use crate::robust::{Scatter, Tolerance, Tolerances};
@@ -90,26 +91,10 @@ pub(super) fn fronts(problem: &Problem, outcome: &Outcome) -> Vec<data::Front> {
             y: label(sought),
             points: it.points.iter().map(place).collect(),
             design: Some(place(&it.design)),
-            note: way(problem, figure),
+            note: it.note(),
         }
     })
     .collect()
-}
-
-/// How a front was found, as far as it is not told by its axes.
-fn way(problem: &Problem, figure: Figure) -> String {
-    let held = match figure {
-        Figure::Certainty => {
-            "Shares have no derivative: these designs are good to a per cent or so. "
-        }
-        Figure::DriveForce => "For each amplitude of the drive the task was solved anew. ",
-        _ => "",
-    };
-    let untried = match problem.has_trials() {
-        true => "Other requirements that take many motions were not asked of these designs. ",
-        false => "",
-    };
-    format!("{held}{untried}").trim_end().to_owned()
 }
 
 pub(super) fn histogram(machine: &Machine, study: &Study) -> data::Histogram {
@@ -154,13 +139,16 @@ pub(super) fn erosion(
         format!("{low} to {high}")
     };
     let region = &profile.region;
+    let widened = match profile.widened {
+        true => ", made wider to hold all motions of the zone",
+        false => "",
+    };
     data::Erosion {
         points: profile.places.iter().map(point).collect(),
         design: Some(outcome.design.place),
         required: required.and_then(|it| it.least),
         starts: format!(
-            "{EROSION_STARTS} in one box for the whole zone, positions {}, velocities {}; requirements count in the box of the \
-             design alone",
+            "{STARTS} at each place, in the box of requirements and basin{widened}: positions {}, velocities {}",
             ends(Dimension::Length, region.position),
             ends(Dimension::Velocity, region.velocity)
         ),
@@ -243,7 +231,7 @@ pub(super) fn sensitivities(machine: &Machine, study: &Study) -> Vec<data::Sensi
         let index_of = |all: &Scatter| all.velocity[index];
         let shares = study.scatter.as_ref().map(index_of);
         data::Sensitivity {
-            label: Label::new(about.meaning, "", machine.unit(about.dimension)),
+            label: label_of(machine, it.parameter),
             value: machine.value(it.parameter).unwrap_or(f64::NAN),
             tolerance: own(it.half_width),
             effect: machine.to_own(Dimension::Velocity, study.sensitivities.velocity[index]),

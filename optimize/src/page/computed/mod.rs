@@ -21,21 +21,16 @@ use softstop_dynamics::{Along, BranchPoint, Orbit, Zone};
 use super::data::Label;
 
 /// The label of a parameter of a machine.
-fn label_of(machine: &Machine, parameter: Parameter) -> Label {
+pub(crate) fn label_of(machine: &Machine, parameter: Parameter) -> Label {
     let about = parameter.about();
     match machine.speaks {
         Language::Ratios => Label::new(about.meaning, about.symbol, ""),
         _ if parameter == Parameter::Preload && machine.preload_deflection.is_some() => Label::new(
             "preload of the stop as a deflection",
             "",
-            Dimension::Length.unit(),
+            machine.unit_of(parameter),
         ),
-        _ if parameter == Parameter::StopStiffness
-            && Parameter::Exponent.get(&machine.scene).is_some() =>
-        {
-            Label::new(about.meaning, "", "N/m^exponent")
-        }
-        _ => Label::new(about.meaning, "", machine.unit(about.dimension)),
+        _ => Label::new(about.meaning, "", machine.unit_of(parameter)),
     }
 }
 
