@@ -12,8 +12,6 @@ use softstop::{
 
 /// Work that a contact may cost, in scan windows: a mass that bounces longer within it does not come back.
 const MOST_WORK: u64 = 1 << 16;
-/// Parts of a drive period in which the end of a contact is looked for.
-const PARTS: f64 = 16.0;
 
 /// The phases of a scene, as seen by a mass that comes to the clearance.
 #[derive(Debug, Clone)]
@@ -89,100 +87,152 @@ impl Face {
         longest: f64,
     ) -> Result<Option<Passing>, MotionError> {
         let before = self.free_acceleration(at, velocity);
-        let mut contact = None;
-        let (kind, velocity_after, after) = match self.surface.above {
-            Beyond::Wall { restitution } => {
-                let velocity_after = -restitution * velocity;
-                let kind = CrossingKind::Rebound {
-                    impact: true,
-                    pierces: false,
-                };
-                let after = self.free_acceleration(at, velocity_after);
-                (kind, velocity_after, after)
-            }
-            Beyond::Phase(_) => {
-                let motion = contact.insert(self.motion(at, velocity)?);
-                let Mode::Moving(phase) = motion.mode() else {
-                    return Ok(None);
-                };
-                let kind = CrossingKind::Surface {
-                    forward: true,
-                    impact: true,
-                    pierces: false,
-                };
-                (kind, velocity, self.acceleration(phase, at, velocity))
-            }
-        };
-        if velocity_after == 0.0 {
+        let Some(entry) = self.enter(at, velocity)? else {
             return Ok(None);
-        }
-        let entry = saltation(&Crossing {
+        };
+        let (velocity_after, after) = (entry.velocity_after, entry.acceleration);
+        let saltation = saltation(&Crossing {
             instant: at,
-            kind,
+            kind: entry.kind,
             position: self.position(),
             velocity,
             velocity_after,
             acceleration_before: before,
             acceleration_after: after,
         });
-        let exit = match contact {
-            None => Some((Tangent::default(), at, velocity_after)),
-            Some(motion) => self.exit(motion, longest)?,
-        };
-        let Some((tangent, free_from, velocity_free)) = exit else {
+        let Some(exit) = self.exit::<Tangent>(at, entry, longest)? else {
             return Ok(None);
         };
         let by_time = -Vector2::new(velocity_after, after);
         Ok(Some(Passing {
             by_time,
             by_velocity: Vector2::new(0.0, velocity_after / velocity),
-            entry,
-            tangent,
+            entry: saltation,
+            tangent: exit.gathered,
             velocity_after,
-            lasting: self.clock.elapsed(at, free_from),
-            free_from,
-            course: self.motion(free_from, velocity_free)?.arc().course.clone(),
+            lasting: self.clock.elapsed(at, exit.instant),
+            free_from: exit.instant,
+            course: exit.course,
         }))
     }
 
-    /// Follows a contact to its end: its tangent up to the free motion, when, and how fast.
-    fn exit(
+    /// The same without its tangent: when the mass is free again, and its free motion from there on.
+    pub(super) fn leave(
+        &self,
+        at: Instant,
+        velocity: f64,
+        longest: f64,
+    ) -> Result<Option<(Instant, Course)>, MotionError> {
+        let Some(entry) = self.enter(at, velocity)? else {
+            return Ok(None);
+        };
+        let exit = self.exit::<()>(at, entry, longest)?;
+        Ok(exit.map(|exit| (exit.instant, exit.course)))
+    }
+
+    /// The impact that a contact begins with; none if the mass rests from there on.
+    fn enter(&self, at: Instant, velocity: f64) -> Result<Option<Entry>, MotionError> {
+        let entry = match self.surface.above {
+            Beyond::Wall { restitution } => {
+                let velocity_after = -restitution * velocity;
+                Entry {
+                    kind: CrossingKind::Rebound {
+                        impact: true,
+                        pierces: false,
+                    },
+                    velocity_after,
+                    acceleration: self.free_acceleration(at, velocity_after),
+                    contact: None,
+                }
+            }
+            Beyond::Phase(_) => {
+                let motion = self.motion(at, velocity)?;
+                let Mode::Moving(phase) = motion.mode() else {
+                    return Ok(None);
+                };
+                Entry {
+                    kind: CrossingKind::Surface {
+                        forward: true,
+                        impact: true,
+                        pierces: false,
+                    },
+                    velocity_after: velocity,
+                    acceleration: self.acceleration(phase, at, velocity),
+                    contact: Some(motion),
+                }
+            }
+        };
+        Ok((entry.velocity_after != 0.0).then_some(entry))
+    }
+
+    /// Follows a contact to its end.
+    fn exit<T: Observer + Default>(
+        &self,
+        at: Instant,
+        entry: Entry,
+        longest: f64,
+    ) -> Result<Option<Exit<T>>, MotionError> {
+        let (gathered, found) = match entry.contact {
+            None => (T::default(), Some((at, entry.velocity_after))),
+            Some(motion) => self.follow(motion, longest)?,
+        };
+        let Some((instant, velocity)) = found.filter(|(_, velocity)| *velocity < 0.0) else {
+            return Ok(None);
+        };
+        Ok(Some(Exit {
+            gathered,
+            instant,
+            course: self.motion(instant, velocity)?.arc().course.clone(),
+        }))
+    }
+
+    /// Follows a mass in contact until it is free: what is gathered up to there, when it is, and how fast.
+    fn follow<T: Observer + Default>(
         &self,
         mut motion: Motion,
         longest: f64,
-    ) -> Result<Option<(Tangent, Instant, f64)>, MotionError> {
+    ) -> Result<(T, Option<(Instant, f64)>), MotionError> {
         let at = motion.now();
-        let mut exit = Exit {
+        let mut contact = Contact {
             position: self.position(),
-            tangent: Tangent::default(),
+            gathered: T::default(),
             found: None,
             effort: Effort::windows(MOST_WORK),
         };
-        let part = self.clock.period() / PARTS;
-        let mut until = at;
-        while exit.found.is_none() && self.clock.elapsed(at, until) < longest {
-            until = self.clock.after(until, part);
-            if motion.watch(until, &mut exit)?.is_break() {
-                break;
-            }
-        }
-        let found = exit.found.filter(|(_, velocity)| *velocity < 0.0);
-        Ok(found.map(|(instant, velocity)| (exit.tangent, instant, velocity)))
+        let _ = motion.watch(self.clock.after(at, longest), &mut contact)?;
+        Ok((contact.gathered, contact.found))
     }
 }
 
-/// Gathers the tangent until the mass is free again.
-struct Exit {
+/// An impact, and the motion in contact after it, unless the face is rigid.
+struct Entry {
+    kind: CrossingKind,
+    /// Velocity in m/s right after it.
+    velocity_after: f64,
+    /// Acceleration in m/s^2 right after it.
+    acceleration: f64,
+    contact: Option<Motion>,
+}
+
+/// The end of a contact: what was gathered up to there, when the mass is free, and its free motion from there on.
+struct Exit<T> {
+    gathered: T,
+    instant: Instant,
+    course: Course,
+}
+
+/// Gathers until the mass is free again.
+struct Contact<T> {
     position: f64,
-    tangent: Tangent,
+    gathered: T,
     found: Option<(Instant, f64)>,
     effort: Effort,
 }
 
-impl Observer for Exit {
+impl<T: Observer> Observer for Contact<T> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         if self.found.is_none() {
-            self.tangent.arc(arc, elapsed);
+            self.gathered.arc(arc, elapsed);
         }
     }
 
@@ -190,7 +240,7 @@ impl Observer for Exit {
         if self.found.is_some() {
             return;
         }
-        self.tangent.crossing(crossing);
+        self.gathered.crossing(crossing);
         let leaves = match crossing.kind {
             CrossingKind::Surface { forward, .. } => !forward,
             CrossingKind::Release | CrossingKind::Rest => true,

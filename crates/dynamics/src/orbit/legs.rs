@@ -12,37 +12,37 @@
 
 use std::sync::Arc as Shared;
 
-use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::contact::{Face, Passing};
-use super::{NOTHING_LEFT, Orbit, OrbitError, StroboscopicMap};
-use softstop::internals::{Motion, Outlook, PhaseId, first_crossing};
-use softstop::{Clock, Instant, Scene, Tangent, Touch};
+use super::{NOTHING_LEFT, Orbit, OrbitError};
+use softstop::internals::Scales;
+use softstop::{Clock, Scene};
 
-/// Newton steps before giving up.
+/// Newton steps before giving up; and how many in a row may fail to halve the least residual so far.
 const STEPS: usize = 60;
+const PATIENCE: usize = 16;
 /// Halvings of a step that leads nowhere.
-const HALVINGS: u32 = 30;
+const HALVINGS: u32 = 8;
 /// Share of a before-impact velocity that a step may take away.
 const LARGEST_FALL: f64 = 0.9;
 /// Share of the drive period by which a step may move an impact.
 const LARGEST_SHIFT: f64 = 0.1;
-/// Share of the drive period by which an impact found by its crossing may differ from the one looked for.
-const EARLY: f64 = 1e-4;
 
 /// Impacts: times in s from drive period 0 on and before-impact velocities in m/s, by turns.
-type Unknowns = DVector<f64>;
+pub(super) type Unknowns = DVector<f64>;
 
 /// The impacts of a periodic motion to be.
 pub(super) struct Legs<'a> {
-    scene: &'a Scene,
-    face: Face,
-    periods: u64,
+    pub(super) scene: &'a Scene,
+    scales: Scales,
+    pub(super) face: Face,
+    pub(super) periods: u64,
 }
 
 /// The legs that belong to impacts, with what does not fit yet and how it changes with them.
-struct Attempt {
-    passings: Vec<Passing>,
+pub(super) struct Attempt {
+    pub passings: Vec<Passing>,
     residual: DVector<f64>,
     jacobian: DMatrix<f64>,
 }
@@ -53,12 +53,13 @@ impl<'a> Legs<'a> {
         let face = Face::new(Shared::new(scene.phases()), scene.clock())?;
         Some(Self {
             scene,
+            scales: scene.scales(),
             face,
             periods,
         })
     }
 
-    fn span(&self) -> f64 {
+    pub(super) fn span(&self) -> f64 {
         self.face.clock.time(Clock::at_cycle(self.periods))
     }
 
@@ -80,7 +81,16 @@ impl<'a> Legs<'a> {
         let flat = guess.iter().flat_map(|&(time, velocity)| [time, velocity]);
         let mut at = Unknowns::from_iterator(2 * guess.len(), flat);
         let mut attempt = self.attempt(&at).ok_or(diverged(f64::NAN))?;
+        let (mut least, mut idle) = (f64::INFINITY, 0);
         for _ in 0..STEPS {
+            let residual = attempt.residual.norm();
+            (least, idle) = match residual < 0.5 * least {
+                true => (residual, 0),
+                false => (least, idle + 1),
+            };
+            if idle > PATIENCE {
+                break;
+            }
             let step = attempt.jacobian.clone().lu().solve(&attempt.residual);
             let step = -step.ok_or(diverged(attempt.residual.norm()))?;
             let (share, next, tried) = self.step(&at, &step).ok_or(diverged(step.norm()))?;
@@ -103,15 +113,26 @@ impl<'a> Legs<'a> {
     /// What a motion with this impact alone is off by at the next one: position and velocity, scaled; none where there
     /// is no such motion.
     pub(super) fn gap(&self, time: f64, velocity: f64) -> Option<[f64; 2]> {
-        let attempt = self.attempt(&Unknowns::from_vec(vec![time, velocity]))?;
-        Some([attempt.residual[0], attempt.residual[1]])
+        let clock = &self.face.clock;
+        let from = clock.instant(time);
+        let (free_from, course) = self.face.leave(from, velocity, self.span()).ok()??;
+        let to = clock.instant(time + self.span());
+        let flight = clock.elapsed(free_from, to);
+        let gap = |(position, arriving)| self.off((position, arriving), velocity);
+        (flight > 0.0).then(|| gap(course.at(flight, clock.drive(to))).into())
+    }
+
+    /// What a state is off by where an impact of a velocity should be: position and velocity, scaled.
+    fn off(&self, (position, velocity): (f64, f64), expected: f64) -> Vector2<f64> {
+        let gap = Vector2::new(position - self.face.position(), velocity - expected);
+        self.scales.state(&gap)
     }
 
     /// True if the residual is no more than a share of what rounding alone may leave.
     fn fits(&self, at: &Unknowns, attempt: &Attempt, share: f64) -> bool {
         let velocities = at.iter().skip(1).step_by(2);
         let fastest = velocities.fold(0.0, |fastest: f64, velocity| fastest.max(*velocity));
-        let scales = self.scene.scales();
+        let scales = &self.scales;
         let state = self.face.position().abs() / scales.length + fastest / scales.speed();
         let mut jacobian = attempt.jacobian.clone();
         let units = [1.0 / scales.rate, scales.speed()].into_iter().cycle();
@@ -145,7 +166,7 @@ impl<'a> Legs<'a> {
 
     /// All legs; none where there is no such motion.
     fn attempt(&self, at: &Unknowns) -> Option<Attempt> {
-        let (count, scales) = (at.len() / 2, self.scene.scales());
+        let count = at.len() / 2;
         let mut attempt = Attempt {
             passings: Vec::with_capacity(count),
             residual: DVector::zeros(2 * count),
@@ -170,11 +191,10 @@ impl<'a> Legs<'a> {
             let acceleration = course.flow.acceleration(position, velocity, push);
             let through = course.flow.transition(flight) * passing.tangent.matrix;
             let (rows, column, ahead) = (2 * leg, 2 * leg, 2 * next);
-            let gap = Vector2::new(position - self.face.position(), velocity - at[ahead + 1]);
             let mut fit = attempt.residual.fixed_rows_mut::<2>(rows);
-            fit.copy_from(&scales.state(&gap));
+            fit.copy_from(&self.off((position, velocity), at[ahead + 1]));
             let mut add = |column: usize, by: Vector2<f64>| {
-                let by = scales.state(&by);
+                let by = self.scales.state(&by);
                 attempt.jacobian[(rows, column)] += by.x;
                 attempt.jacobian[(rows + 1, column)] += by.y;
             };
@@ -186,112 +206,6 @@ impl<'a> Legs<'a> {
         }
         Some(attempt)
     }
-
-    /// The orbit through impacts that fit.
-    fn orbit(&self, at: &Unknowns, attempt: &Attempt) -> Result<Orbit, OrbitError> {
-        self.check(at, attempt)?;
-        let clock = self.face.clock;
-        let mut impacts: Vec<(f64, f64, &Passing)> = attempt
-            .passings
-            .iter()
-            .enumerate()
-            .map(|(leg, passing)| {
-                let time = at[2 * leg].rem_euclid(self.span());
-                (time, at[2 * leg + 1], passing)
-            })
-            .collect();
-        impacts.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (time, _, last) = impacts[impacts.len() - 1];
-        let free = self.span() - time - last.lasting;
-        let (state, tail) = self.tail(time, last)?;
-        let mut factors = vec![self.head(impacts[0].0, free, state)?];
-        for pair in impacts.windows(2) {
-            let (time, _, passing) = pair[0];
-            let flight = passing
-                .course
-                .flow
-                .transition(pair[1].0 - time - passing.lasting);
-            factors.extend([passing.entry, passing.tangent.matrix, flight]);
-        }
-        factors.push(last.entry);
-        if free >= 0.0 {
-            factors.extend([last.tangent.matrix, last.course.flow.transition(free)]);
-        } else {
-            factors.push(tail);
-        }
-        let product = |product: Matrix2<f64>, factor: &Matrix2<f64>| factor * product;
-        let contacts = impacts.iter().map(|(_, _, passing)| passing);
-        let touched: f64 = contacts.clone().map(|passing| passing.lasting).sum();
-        let lost: f64 = contacts
-            .map(|passing| passing.tangent.damping_integral)
-            .sum();
-        let touch = |&(time, velocity, _): &(f64, f64, &Passing)| Touch {
-            instant: clock.instant(time),
-            before_impact_velocity: velocity,
-        };
-        let map = StroboscopicMap::new(self.scene, self.periods)?;
-        Ok(Orbit {
-            scene: self.scene.clone(),
-            periods: self.periods,
-            position: state.x,
-            velocity: state.y,
-            impacts: impacts.iter().map(touch).collect(),
-            rests: Vec::new(),
-            max_position: map.max_position(state)?.max(self.face.position()),
-            monodromy: factors.iter().fold(Matrix2::identity(), product),
-            determinant: factors.iter().map(Matrix2::determinant).product(),
-            damping_integral: lost + last.course.flow.damping() * (self.span() - touched),
-        })
-    }
-
-    /// Refuses impacts between which the free motion hits the stop.
-    fn check(&self, at: &Unknowns, attempt: &Attempt) -> Result<(), OrbitError> {
-        let count = attempt.passings.len();
-        for (leg, passing) in attempt.passings.iter().enumerate() {
-            let next = (leg + 1) % count;
-            let around = if next <= leg { self.span() } else { 0.0 };
-            let flight = at[2 * next] + around - at[2 * leg] - passing.lasting;
-            let (course, guards) = (&passing.course, &self.face.phases[PhaseId::FREE].guards);
-            let early = flight - EARLY * self.face.clock.period();
-            if let Outlook::Crossing(found) = first_crossing(course, guards, course.start(), flight)
-                && found.elapsed < early
-            {
-                return Err(OrbitError::OtherRegime { impacts: count + 1 });
-            }
-        }
-        Ok(())
-    }
-
-    /// From right after the last impact to the end of the period: the state there, and the tangent.
-    fn tail(&self, time: f64, last: &Passing) -> Result<(Vector2<f64>, Matrix2<f64>), OrbitError> {
-        let from = self.face.clock.instant(time);
-        let mut motion = self.face.motion(from, last.velocity_after)?;
-        let tangent = advanced(&mut motion, Clock::at_cycle(self.periods))?;
-        Ok((motion.state().into(), tangent.matrix))
-    }
-
-    /// From the beginning of the period to the first impact. If `free` is negative, contact lasts on for so
-    /// many seconds.
-    fn head(&self, time: f64, free: f64, state: Vector2<f64>) -> Result<Matrix2<f64>, OrbitError> {
-        let flow = self.face.phases[PhaseId::FREE].flow;
-        if free >= 0.0 {
-            return Ok(flow.transition(time));
-        }
-        let (phases, clock) = (self.face.phases.clone(), self.face.clock);
-        let mut motion = Motion::new(phases, clock, Clock::at_cycle(0), state.into())?;
-        // The mass may leave a little later than it did by the contact that began before.
-        let between = 0.5 * (time - free);
-        let tangent = advanced(&mut motion, clock.instant(between))?;
-        Ok(flow.transition(time - between) * tangent.matrix)
-    }
-}
-
-/// Advances a motion: the tangent of the way.
-fn advanced(motion: &mut Motion, until: Instant) -> Result<Tangent, OrbitError> {
-    let mut tangent = Tangent::default();
-    motion.advance(until, &mut tangent)?;
-    motion.tell_arc(&mut tangent);
-    Ok(tangent)
 }
 
 fn diverged(residual: f64) -> OrbitError {

@@ -1,6 +1,7 @@
 //! Periodic motions: shooting on the exact map, multipliers, stability.
 
 mod by_impacts;
+mod closed;
 mod contact;
 mod exponents;
 mod guess;
