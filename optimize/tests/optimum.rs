@@ -145,8 +145,6 @@ fn best_stiffness_and_clearance() -> Outcome {
     Ok(())
 }
 
-/// With the preload following the stiffness, the best velocity stands on a ridge beside a jump
-/// (a second pair of folds inside the zone) and far from the broad summit of the grid's middle.
 /// With a wider margin the best design of a small clearance falls behind that of another ridge: near there both are told.
 #[test]
 fn where_the_optimum_jumps_both_ridges_are_told() -> Outcome {
@@ -168,6 +166,8 @@ fn where_the_optimum_jumps_both_ridges_are_told() -> Outcome {
     Ok(())
 }
 
+/// With the preload following the stiffness, the best velocity stands on a ridge beside a jump
+/// (a second pair of folds inside the zone) and far from the broad summit of the grid's middle.
 #[test]
 fn a_narrow_ridge_is_found_with_any_seed() -> Outcome {
     let problem = Problem {

@@ -251,7 +251,7 @@ fn a_full_disk_is_said_and_loses_nothing() -> Outcome {
     Ok(())
 }
 
-/// Shards and merges killed at random moments, over and over into one folder.
+/// Shards and merges killed at random moments, over and over into one folder: 20 times, or `SOFTSTOP_KILLS`.
 #[test]
 fn shards_and_merges_survive_kills() -> Outcome {
     let folder = tempfile::tempdir()?;
@@ -260,6 +260,8 @@ fn shards_and_merges_survive_kills() -> Outcome {
     let begin = Instant::now();
     STUDY.json_into(&whole, &[&study, "--csv"]);
     let (longest, mut chance) = (begin.elapsed(), SplitMix64::seed_from_u64(2003));
+    let kills = std::env::var("SOFTSTOP_KILLS").ok();
+    let kills: u32 = kills.and_then(|it| it.parse().ok()).unwrap_or(20);
     let mut killed = |arguments: &[&str]| -> Outcome {
         let share = chance.next_u64() as f64 / u64::MAX as f64;
         let mut command = STUDY.command(arguments);
@@ -273,13 +275,13 @@ fn shards_and_merges_survive_kills() -> Outcome {
     };
     for shard in ["1/3", "3/3", "2/3"] {
         let line = [&study, "--shard", shard, "--resume"];
-        for _ in 0..4 {
+        for _ in 0..kills.div_ceil(5) {
             killed(&line)?;
         }
         STUDY.json_into(&parts, &line);
     }
     let merge = ["merge", &study, "--csv"];
-    for _ in 0..8 {
+    for _ in 0..(2 * kills).div_ceil(5) {
         killed(&merge)?;
         if let Ok(left) = fs::read(parts.join("study.parquet")) {
             assert_eq!(left, bytes(&whole)?[0]);

@@ -3,6 +3,12 @@
 //! They come from the crate `sobol_burley` (direction numbers of Joe and Kuo; Owen's scrambling by Laine and Karras's
 //! hash, Burley 2020), which has 2^16 of them, to 24 bits, under each seed. So a million are 16 sequences that are
 //! scrambled independently: randomised quasi-Monte-Carlo, whose scatter from sequence to sequence is its error.
+//!
+//! Whoever runs many machines does so in [`blocks`] of their numbers: what comes of them does not depend on the threads.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
 
 /// Points of a sequence; those that follow are of the next one.
 pub const BLOCK: usize = 1 << 16;
@@ -12,6 +18,19 @@ pub const DIMENSIONS: u32 = 4 * sobol_burley::NUM_DIMENSION_SETS_4D;
 const HALF: f64 = 0.5 / (1 << 24) as f64;
 /// An odd number whose multiples are far apart: no two seeds share a sequence soon.
 const APART: u32 = 0x9e37_79b9;
+
+/// The points with these numbers in blocks of so many, on all threads, in order.
+pub fn blocks(
+    points: Range<u64>,
+    size: u64,
+) -> impl IndexedParallelIterator<Item = Range<u64>> + Clone {
+    let Range { start, end } = points;
+    let count = (end - start).div_ceil(size) as usize;
+    (0..count).into_par_iter().map(move |block| {
+        let first = start + block as u64 * size;
+        first..(first + size).min(end)
+    })
+}
 
 /// One coordinate of point `index`, between 0 and 1, under a seed; there are at most [`DIMENSIONS`].
 pub fn share(seed: u32, index: u64, dimension: u32) -> f64 {

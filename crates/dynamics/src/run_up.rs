@@ -261,6 +261,7 @@ fn slowly(
     };
     let plan = Plan {
         tolerance: RETURN,
+        heights: false,
         start: at_rest(scene),
         ..plan
     };

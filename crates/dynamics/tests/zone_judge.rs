@@ -11,13 +11,14 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use rayon::prelude::*;
 use softstop::{Piercing, Ratios, Release, Scene, Slope, Start, Stop};
+use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::{Loss, Stretch, stretches};
 use softstop_dynamics::{BranchPoint, Orbit};
 use softstop_lanes::{Job, Machine, Watch};
 use softstop_testing::random;
 
-/// Machines of the test that runs every day; and after how many progress is shown.
-const MACHINES: u32 = 100;
+/// Machines of the test that runs every day, and after how many progress is shown.
+const MACHINES: u32 = 2000;
 const REPORTED: u32 = 250;
 /// Frequencies of a machine; starts at each, and how long they run.
 const FREQUENCIES: usize = 3;
@@ -116,8 +117,30 @@ impl Watch for Ends {
     }
 }
 
-/// The stable z = 1 motions that starts settle on.
-fn settled(scene: &Scene, starts: &[(f64, f64)]) -> Vec<BranchPoint> {
+fn point(scene: &Scene, orbit: &Orbit) -> BranchPoint {
+    BranchPoint {
+        parameter: scene.excitation.frequency,
+        position: orbit.position,
+        velocity: orbit.velocity,
+        impacts: vec![orbit.before_impact_velocity()],
+        monodromy: orbit.monodromy,
+    }
+}
+
+/// What was found of starts.
+#[derive(Default)]
+struct Tally {
+    /// Stable z = 1 motions that they settled on.
+    motions: usize,
+    /// Starts whose states one period apart are all but alike, and from which Newton's method leads to no motion, of z = 1
+    /// or else.
+    undecided: usize,
+    /// What is not as it should be.
+    wrong: Vec<String>,
+}
+
+/// The stable z = 1 motions that starts settle on, and how many of these are undecided.
+fn settled(scene: &Scene, starts: &[(f64, f64)]) -> (Vec<BranchPoint>, usize) {
     let size = scene.clearance.max(1.0);
     let job = |&(reach, angle): &(f64, f64)| Job {
         machine: 0,
@@ -133,56 +156,60 @@ fn settled(scene: &Scene, starts: &[(f64, f64)]) -> Vec<BranchPoint> {
     softstop_lanes::run(&[machine], &jobs, &mut ends);
     let apart =
         |a: Start, b: Start| (a.position - b.position).hypot(a.velocity - b.velocity) / size;
-    let mut found: Vec<BranchPoint> = Vec::new();
+    let (mut found, mut undecided) = (Vec::<BranchPoint>::new(), 0);
     for [before, last] in ends.0 {
         let known =
             |point: &BranchPoint| apart(Start::new(point.position, point.velocity), last) < NEAR;
         if apart(before, last) > NEAR || found.iter().any(known) {
             continue;
         }
-        let Ok(orbit) = Orbit::near(scene, last.into()) else {
-            continue;
+        let orbit = match Orbit::near(scene, last.into()) {
+            Ok(orbit) => orbit,
+            Err(OrbitError::OtherRegime { .. }) => continue,
+            Err(_) => {
+                undecided += 1;
+                continue;
+            }
         };
         let velocity = orbit.before_impact_velocity();
         if orbit.is_stable() && !orbit.chatters() && velocity > WEAK {
-            found.push(BranchPoint {
-                parameter: scene.excitation.frequency,
-                position: orbit.position,
-                velocity: orbit.velocity,
-                impacts: vec![velocity],
-                monodromy: orbit.monodromy,
-            });
+            found.push(point(scene, &orbit));
         }
     }
-    found
+    (found, undecided)
 }
 
 /// A machine, the frequencies at which it runs, as shares, and where it starts.
 type Case = (Scene, Vec<(f64, bool)>, Vec<(f64, f64)>);
 
-/// How many motions settled, and what is wrong.
-fn judge((scene, shares, starts): &Case) -> (usize, Vec<String>) {
+fn judge((scene, shares, starts): &Case) -> Tally {
+    let mut tally = Tally::default();
     let all = match stretches(scene) {
         Ok(all) => all,
-        Err(error) => return (0, vec![format!("{error} of {scene:?}")]),
+        Err(error) => {
+            tally.wrong.push(format!("{error} of {scene:?}"));
+            return tally;
+        }
     };
     let unnamed = |loss: &Loss| matches!(loss, Loss::Lost(_) | Loss::Budget);
     let ends = all.iter().flat_map(|one| [&one.low, &one.high]);
     let unnamed = ends.filter(|end| unnamed(&end.loss));
-    let mut wrong: Vec<String> = unnamed.map(|end| format!("{end:?} of {scene:?}")).collect();
-    let mut motions = 0;
+    let unnamed = unnamed.map(|end| format!("{end:?} of {scene:?}"));
+    tally.wrong.extend(unnamed);
     for (share, anywhere) in shares {
         let mut scene = scene.clone();
         scene.excitation.frequency = frequency(&all, *share, *anywhere);
-        for point in settled(&scene, starts) {
-            motions += 1;
-            let on = |one: &Stretch| one.contains(&scene, &point).unwrap_or(false);
-            if !all.iter().any(on) {
-                wrong.push(format!("{point:?} lies on no stretch of {scene:?}"));
-            }
-        }
+        let (points, undecided) = settled(&scene, starts);
+        tally.motions += points.len();
+        tally.undecided += undecided;
+        let denied = points.iter().filter(|point| {
+            let on = |one: &Stretch| one.contains(&scene, point).unwrap_or(false);
+            !all.iter().any(on)
+        });
+        let told = denied.map(|point| format!("{point:?} lies on no stretch of {scene:?}"));
+        tally.wrong.extend(told);
     }
-    (motions, wrong)
+    tally
 }
 
 /// A frequency on a stretch, or anywhere from 0.4 to 2.4.
@@ -211,20 +238,119 @@ fn assert_judged(machines_count: u32) {
     let judge = |case| {
         let judged = judge(case);
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        if done.is_multiple_of(REPORTED) || !judged.1.is_empty() {
-            eprintln!("{done} of {count} machines {:?}", judged.1);
+        if done.is_multiple_of(REPORTED) || !judged.wrong.is_empty() {
+            eprintln!("{done} of {count} machines {:?}", judged.wrong);
         }
         judged
     };
-    let judged: Vec<(usize, Vec<String>)> = pool.install(|| cases.par_iter().map(judge).collect());
-    let motions: usize = judged.iter().map(|one| one.0).sum();
-    let wrong: Vec<&String> = judged.iter().flat_map(|one| &one.1).collect();
-    println!("{count} machines, {motions} motions, {} wrong", wrong.len());
+    let judged: Vec<Tally> = pool.install(|| cases.par_iter().map(judge).collect());
+    let sum = |part: fn(&Tally) -> usize| judged.iter().map(part).sum::<usize>();
+    let (motions, undecided) = (sum(|one| one.motions), sum(|one| one.undecided));
+    let starts = cases.len() * FREQUENCIES * STARTS;
+    let wrong: Vec<&String> = judged.iter().flat_map(|one| &one.wrong).collect();
+    let denied = wrong.len();
+    println!(
+        "{count} machines, {motions} motions, {denied} wrong, {undecided} of {starts} starts undecided"
+    );
     assert!(wrong.is_empty(), "{wrong:#?}");
     assert!(
         motions as u32 > count,
         "{motions} motions of {count} machines"
     );
+}
+
+/// Motions that were denied: three of one machine within a part in a hundred of each other, beyond a touch of the stop; an
+/// isola whose two motions lie in one cell of the lattice at every frequency looked at; and a weak impact beside a fold,
+/// where no guess between two points of the branch leads to the motion.
+#[test]
+fn what_was_denied_lies_on_a_stretch() {
+    let machine = |frequency, clearance, damping, contact_damping, stop, piercing| {
+        let ratios = Ratios {
+            clearance,
+            piercing,
+            ..Ratios::unloaded()
+        };
+        let scene = ratios.scene().expect("valid").at_frequency(frequency);
+        Scene {
+            damping,
+            contact_damping,
+            stop,
+            ..scene
+        }
+    };
+    let preloaded = |stiffness, preload| Stop::Preloaded { stiffness, preload };
+    let strip = |stiffness, friction, thickness, travel| {
+        Some(Piercing {
+            stiffness,
+            friction,
+            thickness,
+            travel,
+        })
+    };
+    let kelvin_voigt = Stop::KelvinVoigt {
+        stiffness: 324.95557311297836,
+        release: Release::Clearance,
+    };
+    let (beyond, isola) = (
+        strip(
+            23.391,
+            0.3547836468118582,
+            0.8992862845647513,
+            0.5707042098947991,
+        ),
+        strip(
+            11.98138151575813,
+            28.537369546541143,
+            0.9150222518878556,
+            0.8445363265014925,
+        ),
+    );
+    let cases = [
+        (
+            machine(
+                1.0653,
+                7.540710228126493,
+                0.0902,
+                0.02968,
+                preloaded(527.0936789766142, 0.0),
+                beyond,
+            ),
+            Start::new(1.3623, 9.9324),
+        ),
+        (
+            machine(
+                0.9404,
+                8.0206,
+                0.002903,
+                0.16106,
+                preloaded(9574.3, 407.445),
+                isola,
+            ),
+            Start::new(4.9355, 9.5643),
+        ),
+        (
+            machine(
+                0.5006834554190766,
+                1.4569093802206396,
+                0.0027317914744214677,
+                0.006251750477369844,
+                kelvin_voigt,
+                None,
+            ),
+            Start::new(1.0081353669864763, -0.4993933704242126),
+        ),
+    ];
+    for (scene, start) in cases {
+        let orbit = Orbit::near(&scene, start.into()).expect("a motion");
+        assert!(orbit.is_stable());
+        let all = stretches(&scene).expect("stretches");
+        let point = point(&scene, &orbit);
+        let on = |one: &Stretch| one.contains(&scene, &point).expect("followed");
+        assert!(
+            all.iter().any(on),
+            "{point:?} lies on no stretch of {scene:?}"
+        );
+    }
 }
 
 #[test]
@@ -235,5 +361,5 @@ fn what_settles_on_z_1_lies_on_a_stretch() {
 #[test]
 #[ignore = "as many as PROPTEST_CASES says; hours for 100,000"]
 fn what_settles_on_z_1_lies_on_a_stretch_of_many() {
-    assert_judged(10 * MACHINES);
+    assert_judged(MACHINES);
 }

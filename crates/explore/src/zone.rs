@@ -151,6 +151,7 @@ pub fn lost_by(loss: &Loss) -> String {
         Loss::Border(border) => return format!("border collision: {}", met(*border)),
         Loss::Range => "not followed farther",
         Loss::Budget => "too many points",
+        Loss::Unstable => "too unstable to follow",
         Loss::Lost(error) => return error.to_string(),
         _ => "something else",
     };

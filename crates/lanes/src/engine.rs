@@ -43,7 +43,9 @@ pub(super) struct Engine<'a, S: Simd, const N: usize> {
 impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     #[inline(always)]
     pub fn new(simd: S, task: Task<'a>) -> Self {
-        let laws = || task.machines.iter().flat_map(|machine| &machine.laws);
+        // Of the machines that have jobs: there may be many more.
+        let machines = || task.jobs.iter().map(|job| &task.machines[job.machine]);
+        let laws = || machines().flat_map(|machine| &machine.laws);
         let most = laws().map(Vec::len).max().unwrap_or(1);
         let is_plain = |phase: usize| {
             let mut constants = laws().filter_map(|laws| laws.get(phase));
@@ -65,7 +67,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             laws: vec![Law::new(simd); most],
             plain: (0..most).map(is_plain).collect(),
             presses,
-            order: round(task.machines),
+            order: round(machines()),
             state: State::idle(simd),
             power: is_any.then(|| Box::new(Power::new(simd))),
             waited: 0,

@@ -5,11 +5,10 @@ use super::machine::Machine;
 
 /// All phases of these machines, each before those that follow on it, but for the step that closes a cycle: lanes go
 /// from phase to phase in one round, and all begin the next one together.
-pub(super) fn round(machines: &[Machine]) -> Vec<usize> {
+pub(super) fn round<'a>(machines: impl Iterator<Item = &'a Machine> + Clone) -> Vec<usize> {
     let laws = || {
-        machines
-            .iter()
-            .filter_map(|machine| machine.laws.as_deref())
+        let machines = machines.clone();
+        machines.filter_map(|machine| machine.laws.as_deref())
     };
     let most = laws().map(<[Constants]>::len).max().unwrap_or(1);
     let mut beyond = vec![Vec::new(); most];
@@ -49,8 +48,8 @@ mod tests {
     fn the_order_is_that_of_a_stroke() {
         let machine =
             |ratios: Ratios| Machine::new(&ratios.scene().expect("valid")).expect("valid");
-        assert_eq!(round(&[machine(Ratios::unloaded())]), [0, 1]);
-        let stroke = round(&[machine(Ratios::loaded())]);
+        assert_eq!(round([&machine(Ratios::unloaded())].into_iter()), [0, 1]);
+        let stroke = round([&machine(Ratios::loaded())].into_iter());
         let fed: Vec<_> = stroke
             .into_iter()
             .filter(|phase| ![1, 2].contains(phase))

@@ -117,6 +117,9 @@ fn all(cases: &[((usize, &Transition), f64)]) -> Result<Vec<Beside>> {
         let before = left.len();
         left.retain(|index| !motions[*index].is_known());
         progress.steps((before - left.len()) as u64)?;
+        if left.is_empty() {
+            break;
+        }
     }
     Ok(motions.iter().filter_map(Motion::found).collect())
 }

@@ -107,5 +107,7 @@ fn fronts(problem: &Problem, found: &Found) -> Vec<Front> {
     let traded = TRADED.par_iter();
     let traded = traded.filter(|figure| **figure != problem.objective.figure);
     let found = traded.filter_map(|figure| front(problem, (&found.unit, &found.design), *figure));
-    found.filter(|it| it.points.len() > 2).collect()
+    found
+        .filter(|it| it.points.len() > 2 || it.left_out > 0)
+        .collect()
 }

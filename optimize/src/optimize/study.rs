@@ -106,9 +106,6 @@ pub(super) fn study(job: &Job, design: &Design) -> Result<Option<Study>, Failure
 fn without(job: &Job) -> Result<Option<Without>, OrbitError> {
     let mut exact = Problem {
         tolerances: Vec::new(),
-        objective: Objective {
-            ..job.problem.objective
-        },
         ..job.problem.clone()
     };
     exact.requirements.retain(|it| !it.figure.is_trial());

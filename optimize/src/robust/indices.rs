@@ -5,7 +5,7 @@
 //! inputs, and for each input the points of A with that input as in B.
 
 use rayon::prelude::*;
-use softstop_dynamics::points::{BLOCK, place};
+use softstop_dynamics::points::{BLOCK, blocks, place};
 use softstop_dynamics::watch::Watcher;
 
 /// An estimate and its standard error.
@@ -44,6 +44,9 @@ impl Default for Effort {
     }
 }
 
+/// Points that one thread looks at in a row.
+const ROW: u64 = 16;
+
 /// The indices of all inputs, spread evenly between -1 and 1, for each of the outputs; none if one of these is not there,
 /// does not change at all, or if the watcher, told how many points are done, wants to stop.
 pub fn indices<const N: usize>(
@@ -57,11 +60,17 @@ pub fn indices<const N: usize>(
     let sequences = sequences.max(2);
     let mut estimates: [Vec<Vec<[f64; 2]>>; N] = std::array::from_fn(|_| Vec::new());
     for sequence in 0..sequences {
-        let rows: Option<Vec<Row<N>>> = (0..points)
-            .into_par_iter()
-            .map(|index| Row::new(&place(sequence * BLOCK + index, 2 * dimensions), &outputs))
+        let first = (sequence * BLOCK) as u64;
+        let rows = blocks(first..first + points as u64, ROW).map(|indices| {
+            let point = |index| place(index as usize, 2 * dimensions);
+            let row = |index| Row::new(&point(index), &outputs);
+            indices.map(row).collect::<Option<Vec<_>>>()
+        });
+        let rows: Vec<Row<N>> = rows
+            .collect::<Option<Vec<_>>>()?
+            .into_iter()
+            .flatten()
             .collect();
-        let rows = rows?;
         for (output, estimates) in estimates.iter_mut().enumerate() {
             estimates.push(shares(&rows, output, dimensions)?);
         }

@@ -1,19 +1,18 @@
 //! Machines of a box, one by one: how many lose the z = 1 motion, and how hard the others strike.
 
-use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::points::{BLOCK, place};
+use softstop_dynamics::points::{BLOCK, blocks, place};
 use softstop_dynamics::spread::{Fate, Guide, Model, Settled, Spread};
 use softstop_dynamics::watch::Watcher;
 use softstop_dynamics::zone::Loss;
 
 /// Machines between two looks at how many are lost, and those that one thread looks at in a row.
 const GROUP: usize = 1 << 14;
-const ROW: usize = 1 << 8;
+const ROW: u64 = 1 << 8;
 /// Lost machines that are told of one by one.
 const TOLD: usize = 8;
 
@@ -162,13 +161,12 @@ pub fn verify(
     let done = AtomicU64::new(0);
     while verdict.machines < settings.machines && verdict.lost < settings.enough {
         let machines = verdict.machines..(verdict.machines + GROUP).min(settings.machines);
-        let rows: Vec<Range<usize>> = rows(machines.clone()).collect();
-        let fates = rows.into_par_iter().map(|row| {
-            let fates: Vec<Fate> = row
-                .clone()
-                .map(|index| guide.fate(&place(index, dimensions)))
-                .collect();
-            let done = done.fetch_add(row.len() as u64, Ordering::Relaxed) + row.len() as u64;
+        let rows = blocks(machines.start as u64..machines.end as u64, ROW);
+        let fates = rows.map(|row| {
+            let fate = |index| guide.fate(&place(index as usize, dimensions));
+            let fates: Vec<Fate> = row.clone().map(fate).collect();
+            let looked = row.end - row.start;
+            let done = done.fetch_add(looked, Ordering::Relaxed) + looked;
             let go_on = watcher(done, settings.machines as u64);
             go_on.is_continue().then_some(fates)
         });
@@ -185,14 +183,6 @@ pub fn verify(
         sequence.sort_by(f64::total_cmp);
     }
     Ok(verdict)
-}
-
-/// The machines in rows.
-fn rows(machines: Range<usize>) -> impl Iterator<Item = Range<usize>> {
-    let end = machines.end;
-    machines
-        .step_by(ROW)
-        .map(move |from| from..(from + ROW).min(end))
 }
 
 impl Verdict {

@@ -1,5 +1,7 @@
 //! Points between two neighbours of a branch.
 
+use std::ops::ControlFlow;
+
 use super::Family;
 use super::arclength::Node;
 use super::follower::{Follower, WIDTH};
@@ -7,11 +9,16 @@ use super::locate::{locate, zero};
 use super::point::BranchPoint;
 use super::round::Round;
 use super::test::Test;
+use super::way::Limits;
 use crate::orbit::OrbitError;
 
 /// Distance of a point from the chord between its neighbours, as a share of the chord, within which it is taken for
 /// a point between them.
 const ASIDE: f64 = 0.2;
+/// Relative difference of a parameter within which it is the one asked for.
+const SAME: f64 = 1e-9;
+/// Most points that a branch is followed through between two neighbours.
+const WALK: usize = 200;
 
 impl<F: Family> Follower<'_, F> {
     /// The point between two neighbours at which `test` changes its sign.
@@ -89,19 +96,50 @@ impl<F: Family> Follower<'_, F> {
         to: &BranchPoint,
         parameter: f64,
     ) -> Result<BranchPoint, OrbitError> {
-        let ends = [from, to].map(|end| self.shooting.scaled(end.state(), [end.parameter]));
-        let way = &ends[1] - &ends[0];
         let share = (parameter - from.parameter) / (to.parameter - from.parameter);
         let state = from.state().lerp(&to.state(), share);
         if let Ok(node) = self.start(parameter, state) {
-            let along = way.dot(&(&node.at - &ends[0])) / way.norm_squared();
-            let off = &node.at - &ends[0] - along * &way;
             let point = self.point_at(&node)?;
-            let same_side = from.fold_test().signum() * point.fold_test().signum() > 0.0;
-            if same_side && (0.0..=1.0).contains(&along) && off.norm() < ASIDE * way.norm() {
+            if self.is_between((from, to), &point) {
                 return Ok(point);
             }
         }
-        self.locate(from, to, |point| point.parameter - parameter)
+        match self.locate(from, to, |point| point.parameter - parameter) {
+            Ok(point) if (point.parameter - parameter).abs() <= SAME * parameter.abs() => Ok(point),
+            other => {
+                let lost = other
+                    .err()
+                    .unwrap_or(OrbitError::Diverged { residual: f64::NAN });
+                self.walked(from, to, parameter).ok_or(lost)
+            }
+        }
+    }
+
+    /// The same, followed from one of the neighbours as the branch was, where no guess between them leads to it.
+    fn walked(&self, from: &BranchPoint, to: &BranchPoint, parameter: f64) -> Option<BranchPoint> {
+        [from, to].into_iter().find_map(|end| {
+            let limits = Limits {
+                range: (parameter.min(end.parameter), parameter.max(end.parameter)),
+                points: WALK,
+            };
+            let go_on = |_: &BranchPoint| ControlFlow::Continue(());
+            let branch = self
+                .branch(end.parameter, end.state(), &limits, go_on)
+                .ok()?;
+            let reached = |point: &BranchPoint| {
+                point.parameter == parameter && self.is_between((from, to), point)
+            };
+            branch.points.into_iter().find(reached)
+        })
+    }
+
+    /// True if a point lies beside the chord between two neighbours, and on their side of a fold.
+    fn is_between(&self, (from, to): (&BranchPoint, &BranchPoint), point: &BranchPoint) -> bool {
+        let place = |point: &BranchPoint| self.shooting.scaled(point.state(), [point.parameter]);
+        let (way, gone) = (place(to) - place(from), place(point) - place(from));
+        let along = way.dot(&gone) / way.norm_squared();
+        let off = gone - along * &way;
+        let same_side = from.fold_test().signum() * point.fold_test().signum() > 0.0;
+        same_side && (0.0..=1.0).contains(&along) && off.norm() < ASIDE * way.norm()
     }
 }

@@ -57,7 +57,9 @@ impl<F: Family> Follower<'_, F> {
         let dies = approach.dies_within(NEAR).then_some(Border::Surface);
         way.end = match self.border_ahead(walker, &error).or(dies) {
             Some(border) => End::Border(border),
-            None if walker.node.here.point.monodromy.norm() * DIFFERENCE > 1.0 => End::Unstable,
+            None if self.shooting.growth(&walker.node.here.point.monodromy) * DIFFERENCE > 1.0 => {
+                End::Unstable
+            }
             None => End::Lost(error),
         };
     }
@@ -94,7 +96,7 @@ impl<F: Family> Follower<'_, F> {
     ) -> bool {
         let (from, to) = (&walker.node.here.point, &stride.node.here.point);
         let same = from.sequence.agrees(&to.sequence)
-            && to.monodromy.norm() < WILD
+            && self.shooting.growth(&to.monodromy) < WILD
             && keeps_sense(
                 (&walker.direction, &from.monodromy),
                 (&stride.direction, &to.monodromy),

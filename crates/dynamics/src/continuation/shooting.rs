@@ -80,6 +80,13 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
     pub fn velocity_scale(&self) -> f64 {
         self.scales[1]
     }
+
+    /// Norm of a monodromy matrix without units.
+    pub fn growth(&self, m: &Matrix2<f64>) -> f64 {
+        let [length, speed] = self.family.state_scales();
+        let mixed = (m.m12 * speed / length).hypot(m.m21 * length / speed);
+        m.m11.hypot(m.m22).hypot(mixed)
+    }
 }
 
 impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
@@ -111,13 +118,8 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
     /// Near grazing the map bends within the square of the speed of the touch, or of what its Jacobian's reciprocal
     /// measures.
     fn width(&self, here: &Evaluation<Round>) -> f64 {
-        let [length, speed] = self.family.state_scales();
-        let m = &here.point.monodromy;
-        let size = m
-            .m11
-            .hypot(m.m22)
-            .hypot(m.m12 * speed / length)
-            .hypot(m.m21 * length / speed);
+        let size = self.growth(&here.point.monodromy);
+        let speed = self.velocity_scale();
         let touch = here.point.slowest.map_or(1.0, |touch| touch.amount / speed);
         let share = (STEEP / size).min(touch / SLOW).powi(2);
         DIFFERENCE * share.clamp(LEAST, 1.0)

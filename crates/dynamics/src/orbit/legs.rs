@@ -15,6 +15,7 @@ use std::sync::Arc as Shared;
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::contact::{Face, Passing};
+use super::deflation::factor;
 use super::{NOTHING_LEFT, Orbit, OrbitError};
 use softstop::internals::Scales;
 use softstop::{Clock, Scene};
@@ -68,7 +69,17 @@ impl<'a> Legs<'a> {
     /// # Errors
     /// [`OrbitError`] if it does not settle, or settles on impacts between which there are others.
     pub(super) fn settle(&self, guess: &[(f64, f64)]) -> Result<Orbit, OrbitError> {
-        let found = self.settle_unless(guess, |_| false)?;
+        let found = self.newton(guess, |_| false, &[])?;
+        found.ok_or(diverged(f64::NAN))
+    }
+
+    /// The same of one impact, another than those that are known.
+    pub(super) fn settle_apart(
+        &self,
+        guess: (f64, f64),
+        known: &[(f64, f64)],
+    ) -> Result<Orbit, OrbitError> {
+        let found = self.newton(&[guess], |_| false, known)?;
         found.ok_or(diverged(f64::NAN))
     }
 
@@ -77,6 +88,15 @@ impl<'a> Legs<'a> {
         &self,
         guess: &[(f64, f64)],
         known: impl Fn(&[f64]) -> bool,
+    ) -> Result<Option<Orbit>, OrbitError> {
+        self.newton(guess, known, &[])
+    }
+
+    fn newton(
+        &self,
+        guess: &[(f64, f64)],
+        known: impl Fn(&[f64]) -> bool,
+        deflated: &[(f64, f64)],
     ) -> Result<Option<Orbit>, OrbitError> {
         let flat = guess.iter().flat_map(|&(time, velocity)| [time, velocity]);
         let mut at = Unknowns::from_iterator(2 * guess.len(), flat);
@@ -93,6 +113,8 @@ impl<'a> Legs<'a> {
             }
             let step = attempt.jacobian.clone().lu().solve(&attempt.residual);
             let step = -step.ok_or(diverged(attempt.residual.norm()))?;
+            let period = self.face.clock.period();
+            let step = &step * factor((at[0], at[1]), (step[0], step[1]), deflated, period);
             let (share, next, tried) = self.step(&at, &step).ok_or(diverged(step.norm()))?;
             let whole = share == 1.0;
             let shrinks = tried.residual.norm() < attempt.residual.norm();

@@ -3,6 +3,7 @@
 mod by_impacts;
 mod closed;
 mod contact;
+mod deflation;
 mod exponents;
 mod guess;
 mod legs;

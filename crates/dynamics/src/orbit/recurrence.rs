@@ -19,11 +19,20 @@ pub(crate) fn distance(frequency: f64, a: &Start, b: &Start) -> f64 {
     (frequency * (a.position - b.position)).hypot(a.velocity - b.velocity)
 }
 
+/// The same, squared.
+fn square(frequency: f64, a: &Start, b: &Start) -> f64 {
+    let (x, v) = (
+        frequency * (a.position - b.position),
+        a.velocity - b.velocity,
+    );
+    x * x + v * v
+}
+
 /// The size of a motion in m/s: its largest state.
 pub(crate) fn size<'a>(frequency: f64, states: impl IntoIterator<Item = &'a Start>) -> f64 {
     let states = states.into_iter();
-    let sizes = states.map(|state| distance(frequency, state, &Start::REST));
-    sizes.fold(0.0, f64::max)
+    let squares = states.map(|state| square(frequency, state, &Start::REST));
+    squares.fold(0.0, f64::max).sqrt()
 }
 
 /// The least number of drive periods, up to half of the row's length, after which each state of the first
@@ -36,15 +45,20 @@ pub(crate) fn returns(frequency: f64, states: &[Start]) -> Option<Return> {
 pub(crate) fn returns_within(frequency: f64, states: &[Start], share: f64) -> Option<Return> {
     let longest = states.len().checked_sub(1)? / 2;
     let size = size(frequency, states);
+    let most = (share * size).powi(2);
     (1..=longest).find_map(|periods| {
         let mut largest = 0.0f64;
         for j in 0..=longest {
-            largest = largest.max(distance(frequency, &states[j], &states[j + periods]));
-            if largest > share * size {
+            largest = largest.max(square(frequency, &states[j], &states[j + periods]));
+            if largest > most {
                 return None;
             }
         }
-        let distance = if size > 0.0 { largest / size } else { 0.0 };
+        let distance = if size > 0.0 {
+            largest.sqrt() / size
+        } else {
+            0.0
+        };
         Some(Return { periods, distance })
     })
 }
@@ -65,7 +79,7 @@ pub(crate) fn settles_on(frequency: f64, states: &[Start], share: f64) -> Option
     let most = LEFT * share * size(frequency, states);
     let dies = |apart: usize, ratio: f64| {
         let [first, second] = gaps(frequency, states, apart);
-        second < most.min(ratio * first)
+        second < (most * most).min(ratio * ratio * first)
     };
     match returns_within(frequency, states, share) {
         Some(found) => {
@@ -77,12 +91,15 @@ pub(crate) fn settles_on(frequency: f64, states: &[Start], share: f64) -> Option
     }
 }
 
-/// Largest distances of states so many periods apart, in both halves of a row.
+/// Largest squared distances of states so many periods apart, in both halves of a row.
 fn gaps(frequency: f64, states: &[Start], apart: usize) -> [f64; 2] {
-    let pairs = states.iter().zip(&states[apart..]);
-    let gaps: Vec<f64> = pairs.map(|(a, b)| distance(frequency, a, b)).collect();
-    let (first, second) = gaps.split_at(gaps.len() / 2);
-    [first, second].map(|half| half.iter().copied().fold(0.0, f64::max))
+    let (ahead, behind) = (&states[apart..], &states[..states.len() - apart]);
+    let half = ahead.len() / 2;
+    [0..half, half..ahead.len()].map(|half| {
+        let pairs = ahead[half.clone()].iter().zip(&behind[half]);
+        let squares = pairs.map(|(a, b)| square(frequency, a, b));
+        squares.fold(0.0, f64::max)
+    })
 }
 
 #[cfg(test)]

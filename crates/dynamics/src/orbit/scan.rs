@@ -15,9 +15,10 @@ use softstop::Scene;
 const TIMES: usize = 20;
 const RATIO: f64 = 1.25;
 /// Every so many of both are looked at first; and how near to zero, in units of its change there, the residual must come
-/// in a cell of them for the others to be.
+/// in a cell of them for the others to be, and in one of these for Newton's method to begin there.
 const COARSE: usize = 2;
 const SLACK: f64 = 1.0;
+const NARROW: f64 = 0.5;
 /// The slowest impact that is looked for, in units of the motion's speed.
 const SLOWEST: f64 = 0.005;
 /// Below that, in the same units, an impact is no more than rounding about grazing.
@@ -30,6 +31,9 @@ const UTMOST: f64 = 2000.0;
 /// the same, and within which Newton's method leads from one to the other.
 const SAME: f64 = 1e-6;
 const NEAR: f64 = 1e-3;
+
+/// Most motions at one frequency: where friction holds the mass at any of many places, there is no end to them.
+const MOST: usize = 100;
 
 /// All z = 1 motions, those with the hardest impacts last.
 ///
@@ -46,16 +50,25 @@ pub(crate) fn all_single(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Orbi
     let mut found: Vec<Orbit> = Vec::new();
     for guess in guesses(scene, &legs, period, watcher)? {
         OrbitError::ask(watcher)?;
+        let impacts: Vec<(f64, f64)> = found.iter().map(impact).collect();
         let known = |at: &[f64]| {
-            let mut all = found.iter().map(|orbit| orbit.timed_impacts()[0]);
-            all.any(|impact| apart(impact, (at[0], at[1]), period) < NEAR)
+            let near = |other| apart(other, (at[0], at[1]), period) < NEAR;
+            impacts.iter().copied().any(near)
         };
-        let Ok(Some(orbit)) = legs.settle_unless(&[guess], known) else {
-            continue;
-        };
-        let real = orbit.before_impact_velocity() > FAINTEST * unit;
-        if real && !found.iter().any(|known| same(known, &orbit, period)) {
-            found.push(orbit);
+        let mut next = legs.settle_unless(&[guess], known);
+        // Others may lie beside one that Newton's method leads to.
+        while let Ok(orbit) = next {
+            OrbitError::ask(watcher)?;
+            if let Some(orbit) = orbit {
+                let real = orbit.before_impact_velocity() > FAINTEST * unit;
+                let known = found.iter().any(|known| same(known, &orbit, period));
+                if !real || known || found.len() == MOST {
+                    break;
+                }
+                found.push(orbit);
+            }
+            let impacts: Vec<(f64, f64)> = found.iter().map(impact).collect();
+            next = legs.settle_apart(guess, &impacts).map(Some);
         }
     }
     found.sort_by(|a, b| {
@@ -67,8 +80,11 @@ pub(crate) fn all_single(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Orbi
 
 /// True if two orbits have the same impact.
 fn same(a: &Orbit, b: &Orbit, period: f64) -> bool {
-    let [a, b] = [a, b].map(|orbit| orbit.timed_impacts()[0]);
-    apart(a, b, period) < SAME
+    apart(impact(a), impact(b), period) < SAME
+}
+
+fn impact(orbit: &Orbit) -> (f64, f64) {
+    orbit.timed_impacts()[0]
 }
 
 /// How far apart two impacts are, each a time and a velocity.
@@ -108,7 +124,7 @@ fn guesses(
                 (column..column + COARSE).flat_map(|c| (row..top).map(move |r| (c, r)))
             {
                 let fine = lattice.corners([column, column + 1], [row, row + 1])?;
-                if may_vanish(&fine, 0.0) {
+                if may_vanish(&fine, NARROW) {
                     let middle = (column as f64 + 0.5) * width;
                     guesses.push((middle, speeds[row] * RATIO.sqrt()));
                 }

@@ -32,7 +32,7 @@ pub(super) struct ChaosEnd {
 /// What motions on chaos do in the time given.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Lasting {
-    /// Those that go on, if no fewer than half last.
+    /// Those that go on, and those that were not asked, if no fewer than half of the others last.
     pub wandering: Option<Vec<Start>>,
     /// True if it is clear whether that is more than half.
     is_clear: bool,

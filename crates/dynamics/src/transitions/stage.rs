@@ -12,7 +12,7 @@ use softstop::Start;
 /// Relative differences between motions started side by side.
 const SPREAD: f64 = 1e-9;
 /// Motions that go first, as many as there are lanes: if all of them do the same, so do most. Where half of all
-/// would not, that is a chance of one in 2^15.
+/// would not, and each went its own way, that is a chance of one in 2^15.
 pub(super) const FIRST: usize = 16;
 
 /// Finds transitions of a family's motions.
@@ -40,10 +40,11 @@ pub(super) struct Gathering {
 /// Standard deviations by which more or fewer than half of all motions have to do something for that to be clear.
 const SURE: f64 = 4.0;
 
-/// True if it is clear whether more or fewer than half of motions do something, by the number of those that do.
+/// True if it is clear whether more or fewer than half of motions do something, by the number of those that do: all or none
+/// of however few, or by far more than chance.
 pub(super) fn is_clear(those: usize, all: usize) -> bool {
-    let lead = 2.0 * those as f64 - all as f64;
-    lead.abs() >= SURE * (all as f64).sqrt()
+    let lead = (2.0 * those as f64 - all as f64).abs();
+    lead >= (SURE * (all as f64).sqrt()).min(all as f64)
 }
 
 impl<'a, F: Family + Sync> Explorer<'a, F> {
@@ -106,11 +107,19 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
                 ..most
             });
         }
-        let lingering = wandering.iter().filter(|it| it.returns).count();
-        let states: Vec<Start> = wandering.into_iter().map(|it| it.state).collect();
         // Motions that stay beside an orbit that is not stable have not gone anywhere yet.
-        let is_chaos = 2 * lingering <= states.len()
-            && Exponents::grow(&self.family.scene([value])?, states[0].into())?;
+        let gone: Vec<Start> = wandering
+            .iter()
+            .filter(|it| !it.returns)
+            .map(|it| it.state)
+            .collect();
+        let is_chaos = match gone.first() {
+            Some(state) if 2 * gone.len() >= wandering.len() => {
+                Exponents::grow(&self.family.scene([value])?, (*state).into())?
+            }
+            _ => false,
+        };
+        let states: Vec<Start> = wandering.into_iter().map(|it| it.state).collect();
         Ok(Gathering {
             motion: is_chaos.then_some(MotionKind::Chaos),
             orbit: None,

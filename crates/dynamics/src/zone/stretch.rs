@@ -37,6 +37,8 @@ pub enum Loss {
     Range,
     /// The branch has more points than are followed.
     Budget,
+    /// It is too unstable to be followed.
+    Unstable,
     /// No step is short enough to follow it.
     Lost(OrbitError),
 }
@@ -268,6 +270,7 @@ impl Loss {
         match end {
             End::Points => Self::Budget,
             End::Border(border) => Self::Border(*border),
+            End::Unstable => Self::Unstable,
             End::Lost(error) => Self::Lost(error.clone()),
             _ => Self::Range,
         }

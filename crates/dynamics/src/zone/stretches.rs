@@ -12,10 +12,11 @@ use softstop::Scene;
 /// Frequencies in units of the natural one between which motions are looked for, and how many of them in a row: closely
 /// below, where a drive period holds several free ones and stretches are narrow.
 const LOOKED_AT: [(f64, f64, usize); 2] = [(0.25, 0.7, 70), (0.7, 4.0, 23)];
-/// Frequencies in the same units up to which they are followed.
-const FOLLOWED: (f64, f64) = (0.1, 8.0);
+/// Frequencies in the same units up to which they are followed: farther up, but no farther down, where branches wind from
+/// resonance to resonance and more of them are not looked for.
+const FOLLOWED: (f64, f64) = (0.25, 8.0);
 /// Points of a branch in each direction.
-const POINTS: usize = 5_000;
+const POINTS: usize = 20_000;
 
 /// Share of a frequency by which motions are looked for beside one at which the regime changes.
 const BESIDE: f64 = 2e-3;

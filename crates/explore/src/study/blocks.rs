@@ -14,8 +14,10 @@ use softstop_console::interrupt::{requested, under_way};
 use softstop_console::keep::KEPT;
 use softstop_console::pieces::{At, Pieces};
 use softstop_console::progress::Progress;
+use softstop_dynamics::points;
 
 use super::file::Study;
+use super::points::BLOCK;
 use super::shard::Shard;
 
 /// Blocks that are done: which file has them, and where.
@@ -217,14 +219,15 @@ impl<'a> Run<'a> {
         let progress = Progress::new(own().map(size).sum(), "points");
         let known = |block: &u64| self.blocks().places[*block as usize].is_some();
         progress.begin_at(own().filter(known).map(size).sum());
-        all.clone().into_par_iter().try_for_each(|block| {
+        points::blocks(0..self.study.points, BLOCK).try_for_each(|points| {
+            let block = points.start / BLOCK;
             if !self.shard.holds(block) || known(&block) {
                 return Ok(());
             }
             let numbers = self.study.evaluate(block)?;
             let bytes: Vec<u8> = numbers.iter().flat_map(|it| it.to_le_bytes()).collect();
             self.keep(block, &bytes)?;
-            progress.steps(size(block))
+            progress.steps(points.end - points.start)
         })
     }
 

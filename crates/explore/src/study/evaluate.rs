@@ -1,7 +1,6 @@
 //! Points of a study, block by block: the piece of work that is done, kept and merged as one.
 
 use std::cell::OnceCell;
-use std::ops::Range;
 
 use rayon::prelude::*;
 use softstop::{Machine, Scene};
@@ -19,47 +18,32 @@ use softstop_dynamics::{Exponents, MotionKind, Orbit, Regime, StroboscopicMap, S
 use super::file::Study;
 use super::outputs::{Output, Own, kind};
 
-/// Points of a block, by global index.
-pub(super) const BLOCK: u64 = 1024;
 /// Points whose motions go together in the lanes: it may not depend on how many threads there are.
 const TOGETHER: usize = 256;
 
 impl Study {
-    /// How many blocks there are.
-    pub fn blocks(&self) -> u64 {
-        self.points.div_ceil(BLOCK)
-    }
-
-    /// The points of a block.
-    pub fn block(&self, block: u64) -> Range<u64> {
-        block * BLOCK..((block + 1) * BLOCK).min(self.points)
-    }
-
     /// All outputs of a block, column by column, in the machine's own units; NaN where there is nothing.
     ///
     /// # Errors
     /// [`Failure::Interrupted`].
     pub fn evaluate(&self, block: u64) -> Result<Vec<f64>, Failure> {
         let machines: Vec<Machine> = self.block(block).map(|it| self.machine_at(it)).collect();
-        let looks = machines.par_chunks(TOGETHER).map(|machines| {
-            let looks = self.look(machines)?;
-            let outputs = &self.outputs;
-            let told = looks
-                .into_iter()
-                .map(|look| outputs.iter().map(|it| look.value(*it)).collect::<Vec<_>>());
-            Ok(told.collect::<Vec<_>>())
+        let told = machines.par_chunks(TOGETHER).map(|machines| {
+            let mut told = Vec::with_capacity(machines.len() * self.width());
+            for look in self.look(machines)? {
+                for output in &self.outputs {
+                    told.extend(&look.value(*output)[..output.width()]);
+                }
+            }
+            Ok(told)
         });
-        let rows: Vec<Vec<[f64; 2]>> = looks.collect::<Result<Vec<_>, Failure>>()?.concat();
+        let rows = told.collect::<Result<Vec<_>, Failure>>()?.concat();
         if interrupt::requested() {
             return Err(Failure::Interrupted);
         }
-        let mut columns = Vec::with_capacity(rows.len() * self.width());
-        for (column, output) in self.outputs.iter().enumerate() {
-            for part in 0..output.width() {
-                columns.extend(rows.iter().map(|row| row[column][part]));
-            }
-        }
-        Ok(columns)
+        let width = self.width();
+        let column = |column| rows.iter().skip(column).step_by(width);
+        Ok((0..width).flat_map(column).copied().collect())
     }
 
     /// Numbers that a point takes in a block.
@@ -78,9 +62,11 @@ impl Study {
             }
             false => Vec::new(),
         };
-        let scenes = || machines.iter().map(|machine| machine.scene.clone());
         let zones = match wanted(Output::is_of_zone) {
-            true => hysteresis_soon(&scenes().collect::<Vec<_>>(), &interrupt::watch),
+            true => {
+                let scenes = machines.iter().map(|machine| machine.scene.clone());
+                hysteresis_soon(&scenes.collect::<Vec<_>>(), &interrupt::watch)
+            }
             false => Vec::new(),
         };
         if interrupt::requested() {

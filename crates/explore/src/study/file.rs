@@ -15,7 +15,6 @@ use softstop_dynamics::settled::Settling;
 
 use super::axis::{Axis, Stated};
 use super::outputs::Output;
-use super::values::{Draw, share};
 
 /// The file.
 #[derive(Debug, Deserialize)]
@@ -95,6 +94,8 @@ pub(super) const MOST: u64 = 4_000_000_000;
 pub(super) struct Study {
     /// The machine; what axes change plays no part.
     pub machine: Machine,
+    /// The same without words: there is one at each point.
+    pub wordless: Machine,
     pub axes: Vec<Axis>,
     /// Samples at each point of the grid, if any axis is drawn.
     pub samples: Option<u64>,
@@ -173,6 +174,11 @@ impl Study {
             certainty: certainty(&file.certainty)?,
             samples: file.samples,
             seed: file.seed,
+            wordless: Machine {
+                name: None,
+                description: None,
+                ..machine.clone()
+            },
             machine,
             axes,
             outputs,
@@ -200,41 +206,6 @@ impl Study {
         let drawn = (self.samples, self.seed);
         let how = (self.settling, self.certainty);
         (machine.scene.clone(), stated, axes, drawn, outputs, how)
-    }
-
-    /// The values of all axes at a point: the first axis changes slowest, samples fastest.
-    pub fn values(&self, point: u64) -> Vec<f64> {
-        let samples = self.samples.unwrap_or(1);
-        let (mut rest, sample) = (point / samples, point % samples);
-        let mut values = vec![0.0; self.axes.len()];
-        let mut dimension = [0; 2];
-        for (axis, value) in self.axes.iter().zip(&mut values) {
-            if let Some(draw) = axis.draw() {
-                let dimension = &mut dimension[usize::from(draw == Draw::Sobol)];
-                *value = axis.drawn(share(draw, self.seed, sample, *dimension));
-                *dimension += 1;
-            }
-        }
-        for (axis, value) in self.axes.iter().zip(&mut values).rev() {
-            if let Some(count) = axis.values.count() {
-                *value = axis.values.at(rest % count);
-                rest /= count;
-            }
-        }
-        values
-    }
-
-    /// The machine at a point.
-    pub fn machine_at(&self, point: u64) -> Machine {
-        let mut machine = Machine {
-            name: None,
-            description: None,
-            ..self.machine.clone()
-        };
-        for (axis, value) in self.axes.iter().zip(self.values(point)) {
-            axis.set(&mut machine, value);
-        }
-        machine
     }
 }
 

@@ -2,11 +2,14 @@
 
 mod axis;
 mod blocks;
+mod column;
 mod evaluate;
 mod file;
+mod measured;
 mod outputs;
 mod picture;
 mod plot;
+mod points;
 mod read;
 mod report;
 mod schema;
@@ -30,6 +33,7 @@ use file::Study;
 use report::StudyReport;
 use shard::DONE;
 
+pub use measured::Measured;
 pub use plot::PlotArguments;
 pub use schema::schema;
 pub use shard::Shard;

@@ -39,14 +39,9 @@ impl Summary {
         }
     }
 
-    pub fn words(&mut self, words: &[Option<String>]) {
-        for word in words.iter().flatten() {
-            self.values += 1;
-            match self.words.get_mut(word) {
-                Some(count) => *count += 1,
-                None => drop(self.words.insert(word.clone(), 1)),
-            }
-        }
+    pub fn word(&mut self, word: &str, count: u64) {
+        self.values += count;
+        *self.words.entry(word.to_owned()).or_default() += count;
     }
 }
 

@@ -9,23 +9,17 @@ use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
-use softstop_console::cell::Cell;
 use softstop_console::failure::Failure;
 use softstop_console::output::Staged;
 use softstop_console::progress::Progress;
 
 use super::blocks::Blocks;
+use super::column::{self, Column};
 use super::file::Study;
 use super::report::Summary;
 
 /// Blocks of a row group.
 const GROUP: u64 = 128;
-
-/// A column of a row group.
-enum Column {
-    Numbers(Vec<f64>),
-    Words(Vec<Option<String>>),
-}
 
 /// Writes all blocks in order, and sums up what they hold.
 ///
@@ -43,26 +37,21 @@ pub(super) fn write(
         csv.row(names(study))?;
     }
     let progress = Progress::new(study.points, "points put in place");
-    for first in (0..study.blocks()).step_by(GROUP as usize) {
+    let mut firsts = (0..study.blocks()).step_by(GROUP as usize);
+    let mut group = |blocks: &mut Blocks| {
+        let first = firsts.next()?;
         let group = first..(first + GROUP).min(study.blocks());
-        let mut columns = coordinates(
-            study,
-            study.block(first).start,
-            study.block(group.end - 1).end,
+        Some(column::group(study, blocks, group))
+    };
+    let mut next = group(blocks).transpose()?;
+    while let Some(columns) = next {
+        let (read, written) = rayon::join(
+            || group(blocks).transpose(),
+            || put(&columns, &mut summaries, &mut parquet, csv.as_mut()),
         );
-        let outputs = outputs(study, blocks, group)?;
-        for (summary, column) in summaries.iter_mut().zip(&outputs) {
-            match column {
-                Column::Numbers(numbers) => summary.numbers(numbers),
-                Column::Words(words) => summary.words(words),
-            }
-        }
-        columns.extend(outputs);
-        add(&mut parquet, &columns).context("study.parquet")?;
-        if let Some(csv) = &mut csv {
-            rows(csv, &columns)?;
-        }
+        written?;
         progress.steps(columns[0].len() as u64)?;
+        next = read?;
     }
     let file = parquet.into_inner().context("study.parquet")?;
     file.sync_all().context("study.parquet")?;
@@ -70,6 +59,29 @@ pub(super) fn write(
         csv.close()?;
     }
     Ok(summaries)
+}
+
+/// Puts a row group into the files.
+fn put(
+    columns: &[Column],
+    summaries: &mut [Summary],
+    parquet: &mut SerializedFileWriter<File>,
+    csv: Option<&mut Staged>,
+) -> Result<(), Failure> {
+    let outputs = &columns[columns.len() - summaries.len()..];
+    for (summary, column) in summaries.iter_mut().zip(outputs) {
+        match column {
+            Column::Numbers(numbers) => summary.numbers(numbers),
+            Column::Words(words) => words
+                .counts()
+                .for_each(|(word, count)| summary.word(word, count)),
+        }
+    }
+    add(parquet, columns).context("study.parquet")?;
+    match csv {
+        Some(csv) => rows(csv, columns),
+        None => Ok(()),
+    }
 }
 
 /// The names of all columns: axes and outputs.
@@ -117,67 +129,6 @@ fn open(study: &Study, file: File) -> Result<SerializedFileWriter<File>, Error> 
     )?)
 }
 
-/// The values of the axes from one point to another.
-fn coordinates(study: &Study, from: u64, to: u64) -> Vec<Column> {
-    let mut columns = vec![Vec::with_capacity((to - from) as usize); study.axes.len()];
-    for point in from..to {
-        for (column, value) in columns.iter_mut().zip(study.values(point)) {
-            column.push(value);
-        }
-    }
-    columns.into_iter().map(Column::Numbers).collect()
-}
-
-/// The outputs of some blocks.
-fn outputs(
-    study: &Study,
-    blocks: &mut Blocks,
-    group: std::ops::Range<u64>,
-) -> Result<Vec<Column>, Failure> {
-    let mut columns: Vec<Column> = study
-        .outputs
-        .iter()
-        .map(|output| match output.is_word() {
-            true => Column::Words(Vec::new()),
-            false => Column::Numbers(Vec::new()),
-        })
-        .collect();
-    for block in group {
-        let numbers = blocks.read(block)?;
-        let points = numbers.len() / study.width();
-        let mut rest = numbers.as_slice();
-        for (output, column) in study.outputs.iter().zip(&mut columns) {
-            let (own, after) = rest.split_at(points * output.width());
-            rest = after;
-            match column {
-                Column::Numbers(numbers) => numbers.extend(own),
-                Column::Words(words) => {
-                    let second = |point| own.get(points + point).copied().unwrap_or(f64::NAN);
-                    words.extend((0..points).map(|point| output.word([own[point], second(point)])));
-                }
-            }
-        }
-    }
-    Ok(columns)
-}
-
-impl Column {
-    fn len(&self) -> usize {
-        match self {
-            Self::Numbers(numbers) => numbers.len(),
-            Self::Words(words) => words.len(),
-        }
-    }
-
-    /// For CSV.
-    fn cell(&self, row: usize) -> Cell {
-        match self {
-            Self::Numbers(numbers) => Some(numbers[row]).filter(|it| !it.is_nan()).into(),
-            Self::Words(words) => words[row].clone().into(),
-        }
-    }
-}
-
 /// Adds a row group.
 fn add(parquet: &mut SerializedFileWriter<File>, columns: &[Column]) -> Result<(), Error> {
     let mut group = parquet.next_row_group()?;
@@ -191,9 +142,11 @@ fn add(parquet: &mut SerializedFileWriter<File>, columns: &[Column]) -> Result<(
                 typed.write_batch(&there, Some(&levels), None)?;
             }
             Column::Words(words) => {
-                let there = words.iter().flatten();
-                let there: Vec<ByteArray> = there.map(|it| it.as_str().into()).collect();
-                let levels: Vec<i16> = words.iter().map(|it| i16::from(it.is_some())).collect();
+                let all: Vec<ByteArray> = words.all.iter().map(|it| it.as_str().into()).collect();
+                let there = words.places.iter().flatten();
+                let there: Vec<ByteArray> = there.map(|it| all[*it].clone()).collect();
+                let levels = words.places.iter().map(|it| i16::from(it.is_some()));
+                let levels: Vec<i16> = levels.collect();
                 let typed = writer.typed::<ByteArrayType>();
                 typed.write_batch(&there, Some(&levels), None)?;
             }

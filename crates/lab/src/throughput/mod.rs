@@ -1,8 +1,9 @@
 //! `softstop-lab throughput`: how fast the engines are, and whether the fast one counts the same impacts.
 //!
-//! [`fleet`] says what is run, [`measure`] takes the times; [`zones`] does both for hysteresis zones; [`random_machines`] makes random machines, [`doubt`] says which
+//! [`fleet`] says what is run, [`measure`] takes the times; [`zones`] does both for hysteresis zones, [`beside`] for studies; [`random_machines`] makes random machines, [`doubt`] says which
 //! of their motions can be compared, [`check`] compares; `report` says what came of it.
 
+pub mod beside;
 pub mod check;
 pub mod doubt;
 pub mod fleet;
@@ -11,9 +12,12 @@ pub mod random_machines;
 mod report;
 pub mod zones;
 
+use std::path::PathBuf;
+
 use anyhow::{Context, anyhow};
 use clap::Args;
 
+use beside::Beside;
 use fleet::{Machinery, RANGE, Range};
 use report::ThroughputReport;
 use softstop_console::export;
@@ -33,6 +37,8 @@ Examples:
       the same for programs
   softstop-lab throughput --check 1000000 --repeats 5
       and whether both count the same impacts in a million random motions
+  softstop-lab throughput --check 0 --study docs/studies/map.toml
+      and how much longer a study takes than the lanes alone for its motions
 
 The engines take turns, each round a measurement of each; a round ahead of them
 is not counted. Lowering the machines is part of the time. The random machines of
@@ -61,6 +67,9 @@ pub struct ThroughputArguments {
     /// grid of as many or a few more
     #[arg(long, value_name = "N", default_value_t = 400)]
     pub zones: u32,
+    /// A study of motions, to be measured beside the lanes alone
+    #[arg(long, value_name = "STUDY.toml")]
+    pub study: Option<PathBuf>,
     /// How to print the result
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
@@ -88,6 +97,8 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     drop(progress);
     let report = ThroughputReport::new(range, repeats, (&timings, threads), &sets, zones);
     let mut report = report.context("a measurement is missing")?;
+    let beside = |study| Beside::measure(study, repeats);
+    report.study = arguments.study.as_deref().map(beside).transpose()?;
     if check > 0 {
         report.check = Some(check::check(check, arguments.seed)?);
     }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use softstop_lanes::Instructions;
 
+use super::beside::Beside;
 use super::check::Check;
 use super::fleet::Range;
 use super::measure::{ROUNDS, Timing};
@@ -38,6 +39,9 @@ pub struct ThroughputReport {
     pub both_cores: Cores,
     /// Hysteresis zones on one core.
     pub zones: Zones,
+    /// A study, if asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub study: Option<Beside>,
     /// The engines on random machines, if asked for.
     pub check: Option<Check>,
 }
@@ -124,6 +128,7 @@ impl ThroughputReport {
                 factor: alone.median() / parallel.median(),
             },
             zones,
+            study: None,
             check: None,
         })
     }
@@ -204,6 +209,7 @@ impl Report for ThroughputReport {
             spread.0,
             spread.1
         );
+        said += &self.study.as_ref().map_or_else(String::new, Beside::told);
         said += &self.check.as_ref().map_or_else(String::new, told);
         said + &format!("Machine: {}\n", self.machine.line())
     }

@@ -7,6 +7,8 @@ use rayon::prelude::*;
 use softstop::{Ratios, Scene, Start};
 use softstop_dynamics::attractors::{Arrival, Options, SurveyError, settle};
 use softstop_dynamics::internals::evenly;
+use softstop_dynamics::points::blocks;
+use softstop_dynamics::settled::wanders;
 use softstop_dynamics::watch::{Kept, piece};
 use softstop_dynamics::{MotionKind, Orbit, StroboscopicMap};
 
@@ -19,9 +21,8 @@ use softstop_explore::basin::cells::RegimeMap;
 const REGION: (f64, f64) = (1.5, 2.0);
 /// Drive periods before motions are looked at, and the longest period looked for.
 const OPTIONS: (u64, usize) = (250, 12);
-/// Drive periods in which small differences have to grow a hundredfold in chaos.
+/// Drive periods in which small differences have to grow in chaos.
 const WATCHED: u64 = 64;
-const MUCH: f64 = 100.0;
 
 /// The map of the hardest periodic motion among those from some starts in each cell.
 pub(super) fn hardest(
@@ -36,14 +37,15 @@ pub(super) fn hardest(
         progress.steps(STARTS as u64)?;
         Ok(found)
     };
-    let row = |row: usize| -> Result<Vec<MotionKind>> {
+    let cells = (columns * rows) as u64;
+    let cells = blocks(0..cells, columns as u64).map(|row| {
+        let row = row.start as usize / columns;
         let of = ("hardest", machine, window, (columns, rows), row);
         piece(kept, &of, || {
-            let columns = (0..columns).into_par_iter();
-            columns.map(|column| cell((column, row))).collect()
+            let cells = (0..columns).map(|column| cell((column, row)));
+            cells.collect::<Result<Vec<MotionKind>>>()
         })
-    };
-    let cells = (0..rows).into_par_iter().map(row);
+    });
     Ok(RegimeMap {
         eta: window.eta,
         rho: window.rho,
@@ -94,8 +96,8 @@ fn wandering(scene: &Scene, arrivals: &[Arrival]) -> Option<MotionKind> {
     let mut restless = arrivals.iter().filter(|arrival| arrival.orbit.is_none());
     let map = StroboscopicMap::new(scene, WATCHED).ok()?;
     let grows = |arrival: &Arrival| {
-        let passage = map.apply(arrival.state.into());
-        passage.is_ok_and(|passage| passage.monodromy.norm() > MUCH)
+        let motion = wanders(&map, arrival.state);
+        motion.is_ok_and(|(motion, _)| motion == MotionKind::Chaos)
     };
     restless.any(grows).then_some(MotionKind::Chaos)
 }

@@ -1,8 +1,11 @@
 //! Regimes of sweeps along the frequency, one for each clearance.
 
+use std::ops::Range;
+
 use anyhow::Result;
 use rayon::prelude::*;
 use softstop::{Parameter, Ratios, Scene};
+use softstop_dynamics::points::blocks;
 use softstop_dynamics::watch::{Kept, piece};
 use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Step};
 
@@ -11,7 +14,7 @@ use softstop_console::progress::Progress;
 use softstop_explore::basin::cells::RegimeMap;
 
 /// Chains that go together, and are forgotten together but for their regimes.
-const TOGETHER: usize = 16;
+const TOGETHER: u64 = 16;
 /// Frequencies before the first column, in which the motion settles from rest.
 const AHEAD: usize = 6;
 
@@ -38,11 +41,9 @@ impl Sweep {
             heights: false,
             ..Plan::new(Parameter::Frequency, range, columns + AHEAD, PERIODS)?
         };
-        let rows: Vec<usize> = (0..rows).collect();
-        let found = rows.par_chunks(TOGETHER);
         let of = (&self.machine, self.window, self.way.name(), self.size);
-        let found = found.map(|rows| {
-            let of = ("regimes", of, rows[0]);
+        let found = blocks(0..rows as u64, TOGETHER).map(|rows| {
+            let of = ("regimes", of, rows.start);
             piece(kept, &of, || self.cells(&plan, rows, progress))
         });
         Ok(RegimeMap {
@@ -54,12 +55,14 @@ impl Sweep {
     }
 
     /// The cells of a few rows.
-    fn cells(&self, plan: &Plan, rows: &[usize], progress: &Progress) -> Result<Vec<MotionKind>> {
-        let chain = |row: &usize| {
-            let machine = self.window.machine(&self.machine, (0, *row), self.size);
+    fn cells(&self, plan: &Plan, rows: Range<u64>, progress: &Progress) -> Result<Vec<MotionKind>> {
+        let chain = |row| {
+            let machine = self
+                .window
+                .machine(&self.machine, (0, row as usize), self.size);
             Ok(Chain::new(machine.scene()?, self.way))
         };
-        let mut chains: Vec<Chain> = rows.iter().map(chain).collect::<Result<_>>()?;
+        let mut chains: Vec<Chain> = rows.map(chain).collect::<Result<_>>()?;
         plan.run(&mut chains, &progress.watcher());
         progress.steps(0)?;
         Ok(chains.iter().flat_map(|chain| row(plan, chain)).collect())

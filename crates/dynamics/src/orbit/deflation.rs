@@ -1,0 +1,24 @@
+//! Newton's method kept away from motions that are known already, so that it finds others beside them.
+//!
+//! Deflation multiplies the residual F by M = prod (1 + w^2 / d_k^2), with the distances d_k from what is known: known
+//! zeros are none any more, all others stay. The step of Newton's method for M F is that for F times
+//! 1 / (1 - grad(ln M) . step) (Farrell, Birkisson and Funke 2015, SIAM J. Sci. Comput. 37, A2026).
+
+/// Width w: a share of the drive period in time, and of the velocity in velocity.
+const WIDTH: f64 = 0.05;
+
+/// An impact: its time in s and its before-impact velocity in m/s.
+type Impact = (f64, f64);
+
+/// By what a step from an impact is to be multiplied.
+pub(super) fn factor(at: Impact, step: Impact, known: &[Impact], period: f64) -> f64 {
+    let slope = |&(time, velocity): &Impact| {
+        let turns = (at.0 - time) / period;
+        let apart = [turns - turns.round(), (at.1 - velocity) / velocity];
+        let moved = [step.0 / period, step.1 / velocity];
+        let square = apart[0] * apart[0] + apart[1] * apart[1];
+        let change = 2.0 * (apart[0] * moved[0] + apart[1] * moved[1]);
+        -WIDTH * WIDTH * change / (square * (square + WIDTH * WIDTH))
+    };
+    1.0 / (1.0 - known.iter().map(slope).sum::<f64>())
+}

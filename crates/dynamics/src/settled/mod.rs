@@ -1,0 +1,112 @@
+//! What motions have come to, each of a machine of its own: many are followed together in the lanes, first unwatched,
+//! then watched, and looked at after that.
+//!
+//! ```
+//! use softstop::{Ratios, Start};
+//! use softstop_dynamics::settled::Settling;
+//! use softstop_dynamics::watch::unwatched;
+//!
+//! let scene = Ratios::unloaded().scene()?;
+//! let starts = [Start::REST, Start::new(0.0, 14.0)];
+//! let seen = Settling::default().follow(&starts.map(|start| (&scene, start)), &unwatched);
+//! let seen = seen.unwrap_or_default();
+//! let regimes = seen.iter().map(|seen| Some(seen.as_ref().ok()?.regime()?.to_string()));
+//! assert_eq!(regimes.collect::<Vec<_>>(), [Some("0".to_owned()), Some("1".to_owned())]);
+//! # Ok::<(), softstop::SceneError>(())
+//! ```
+
+mod record;
+mod seen;
+
+pub(crate) use record::watched;
+pub use seen::{Seen, wanders};
+
+use serde::{Deserialize, Serialize};
+
+use crate::attractors::Region;
+use crate::orbit::Regime;
+use crate::watch::Watcher;
+use softstop::{MotionError, Scene, Start};
+use softstop_lanes::Machine;
+
+/// Distance within which a state has returned unless it is said otherwise.
+pub(crate) const RETURN: f64 = 1e-4;
+
+/// How motions are followed, and looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Settling {
+    /// Drive periods, all together.
+    pub periods: u64,
+    /// The last of them, in which they are looked at: a period of up to half as many is told.
+    pub watched: u64,
+    /// Distance within which a state has returned, in units of the motion's size.
+    pub tolerance: f64,
+}
+
+impl Default for Settling {
+    fn default() -> Self {
+        Self {
+            periods: 500,
+            watched: 64,
+            tolerance: RETURN,
+        }
+    }
+}
+
+impl Settling {
+    /// Follows a motion of each scene from its start; an error where the scene or the start cannot be, or the motion
+    /// cannot be computed. Nothing if the watcher, which is not told how much is done, wants to stop.
+    pub fn follow(
+        &self,
+        motions: &[(&Scene, Start)],
+        watcher: Watcher<'_>,
+    ) -> Option<Vec<Result<Seen, MotionError>>> {
+        let (mut machines, mut starts) = (Vec::new(), Vec::new());
+        let lowered: Vec<Result<(), MotionError>> = motions
+            .iter()
+            .map(|(scene, start)| {
+                start.validate()?;
+                let machine = Machine::new(scene)?;
+                starts.push((machines.len(), *start));
+                machines.push(machine);
+                Ok(())
+            })
+            .collect();
+        let settling = self.periods - self.watched;
+        let records = watched(&machines, &starts, settling, self.watched, || watcher(0, 0))?;
+        let mut records = records.into_iter();
+        let seen = lowered.into_iter().zip(motions);
+        let seen = seen.filter_map(|(lowered, (scene, _))| match lowered {
+            Ok(()) => {
+                let frequency = scene.excitation.frequency;
+                let of = |record| Seen::of(frequency, record, self.tolerance);
+                Some(records.next()?.map(of))
+            }
+            Err(error) => Some(Err(error)),
+        });
+        Some(seen.collect())
+    }
+
+    /// The share of so many starts, spread evenly over a region, that lead to z = 1; what cannot be computed does not.
+    /// Without a region it is the box of the scene's own size that commands take starts from. Nothing if the scene is
+    /// invalid, or the watcher wants to stop.
+    pub fn certainty(
+        &self,
+        scene: &Scene,
+        starts: usize,
+        region: Option<Region>,
+        watcher: Watcher<'_>,
+    ) -> Option<f64> {
+        let machine = [Machine::new(scene).ok()?];
+        let region = region.unwrap_or_else(|| Region::box_with(scene, []));
+        let starts = region.starts(starts, 0).into_iter();
+        let starts: Vec<(usize, Start)> = starts.map(|start| (0, start)).collect();
+        let settling = self.periods - self.watched;
+        let records = watched(&machine, &starts, settling, self.watched, || watcher(0, 0))?;
+        let frequency = scene.excitation.frequency;
+        let regime = |record| Seen::of(frequency, record, self.tolerance).regime();
+        let regimes = records.into_iter().flatten().map(regime);
+        let come = regimes.filter(|regime| *regime == Some(Regime::ONE));
+        Some(come.count() as f64 / starts.len() as f64)
+    }
+}

@@ -1,0 +1,90 @@
+//! Motions that are followed, and what is written down of them.
+
+use std::ops::ControlFlow;
+
+use crate::batch::follow;
+use softstop::{Instant, MotionError, Start};
+use softstop_lanes::{Job, Machine, Watch};
+
+/// Follows motions, each of the machine with this number from a state, first unwatched, then watched; none if they were
+/// stopped on the way.
+pub(crate) fn watched(
+    machines: &[Machine],
+    starts: &[(usize, Start)],
+    settling: u64,
+    watched: u64,
+    ask: impl Fn() -> ControlFlow<()>,
+) -> Option<Vec<Result<Record, MotionError>>> {
+    let job = |(machine, start): &(usize, Start)| Job {
+        machine: *machine,
+        start: *start,
+        periods: settling,
+    };
+    let mut jobs: Vec<Job> = starts.iter().map(job).collect();
+    let settled = follow(machines, &jobs, &mut (), &ask)?;
+    for (job, outcome) in jobs.iter_mut().zip(&settled) {
+        job.start = outcome.end;
+        job.periods = watched;
+    }
+    let mut log = Log {
+        periods: watched as usize,
+        records: jobs
+            .iter()
+            .map(|job| Record::new(job.start, watched as usize))
+            .collect(),
+    };
+    let outcomes = follow(machines, &jobs, &mut log, &ask)?;
+    let errors = settled.into_iter().zip(outcomes);
+    let errors = errors.map(|(settled, outcome)| settled.error.or(outcome.error));
+    let records = log.records.into_iter().zip(errors);
+    let records = records.map(|(record, error)| error.map_or(Ok(record), Err));
+    Some(records.collect())
+}
+
+/// What is seen of one motion.
+#[derive(Debug, Clone)]
+pub(crate) struct Record {
+    /// States at drive angle phi: that at the beginning, and one after each drive period.
+    pub states: Vec<Start>,
+    /// When, from the beginning on, and before-impact velocity in m/s of each impact.
+    pub impacts: Vec<(Instant, f64)>,
+}
+
+impl Record {
+    fn new(start: Start, periods: usize) -> Self {
+        let mut states = Vec::with_capacity(periods + 1);
+        states.push(start);
+        Self {
+            states,
+            impacts: Vec::new(),
+        }
+    }
+}
+
+/// Keeps records.
+struct Log {
+    /// How long they are.
+    periods: usize,
+    records: Vec<Record>,
+}
+
+impl Watch for Log {
+    const IMPACTS: bool = true;
+    const PERIODS: bool = true;
+
+    fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
+        let instant = Instant {
+            cycles: cycle as f64,
+            offset,
+        };
+        let impacts = &mut self.records[job].impacts;
+        if impacts.capacity() == 0 {
+            impacts.reserve(self.periods);
+        }
+        impacts.push((instant, velocity));
+    }
+
+    fn period(&mut self, job: usize, _: u64, state: Start) {
+        self.records[job].states.push(state);
+    }
+}

@@ -1,0 +1,142 @@
+//! What a motion is seen to have come to.
+
+use super::record::Record;
+use crate::motion::MotionKind;
+use crate::orbit::recurrence::settles_on;
+use crate::orbit::{ImpactPattern, Regime, StroboscopicMap};
+use softstop::{Instant, MotionError, Scene, Start};
+
+/// ln of a hundredfold growth.
+const MUCH: f64 = 4.605_170_185_988_092;
+
+/// What a motion has come to.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Seen {
+    /// Drive periods after which it returns, if it does.
+    pub periods: Option<u64>,
+    /// Before-impact velocities in m/s, ascending: of one period of what returns, else of all watched drive
+    /// periods.
+    pub velocities: Vec<f64>,
+    /// State at drive angle phi, a period of what returns before the end, else where it was first watched.
+    pub from: Start,
+    /// State at the end, at drive angle phi.
+    pub end: Start,
+    /// When the impacts of these velocities were, counted from there.
+    instants: Vec<Instant>,
+    /// Drive periods from there to the end.
+    length: u64,
+}
+
+impl Seen {
+    pub(crate) fn of(frequency: f64, record: Record, tolerance: f64) -> Self {
+        let Record { states, impacts } = record;
+        let watched = states.len() - 1;
+        let found = settles_on(frequency, &states, tolerance);
+        let length = found.unwrap_or(watched);
+        let first = (watched - length) as f64;
+        // They are in order of time.
+        let own = impacts.partition_point(|(instant, _)| instant.cycles < first);
+        let own = &impacts[own..];
+        let mut velocities: Vec<f64> = own.iter().map(|(_, velocity)| *velocity).collect();
+        velocities.sort_by(f64::total_cmp);
+        let since = |(instant, _): &(Instant, f64)| Instant {
+            cycles: instant.cycles - first,
+            ..*instant
+        };
+        Self {
+            periods: found.map(|periods| periods as u64),
+            velocities,
+            from: states[watched - length],
+            end: states[watched],
+            instants: own.iter().map(since).collect(),
+            length: length as u64,
+        }
+    }
+
+    /// The regime z = p/n of what returns; of complete chatter the impacts before the summed ones count.
+    pub fn regime(&self) -> Option<Regime> {
+        Some(Regime {
+            impacts: self.instants.len() as u64,
+            periods: self.periods?,
+        })
+    }
+
+    /// Mean number of impacts per drive period: p/n of what returns, else over the watched periods.
+    pub fn impacts_per_period(&self) -> f64 {
+        self.instants.len() as f64 / self.length as f64
+    }
+
+    /// Largest before-impact velocity in m/s; 0 without impacts.
+    pub fn hardest(&self) -> f64 {
+        self.velocities.last().copied().unwrap_or(0.0)
+    }
+
+    /// The map over the drive periods that it was looked at, for what takes more than a look.
+    ///
+    /// # Errors
+    /// [`MotionError::Scene`] if the scene is invalid.
+    pub fn map(&self, scene: &Scene) -> Result<StroboscopicMap, MotionError> {
+        StroboscopicMap::new(scene, self.length)
+    }
+
+    /// The motion that returns, with the order of its impacts; none if it does not.
+    ///
+    /// # Errors
+    /// [`MotionError`] if it cannot be computed.
+    pub fn returning(
+        &self,
+        scene: &Scene,
+        map: &StroboscopicMap,
+    ) -> Result<Option<MotionKind>, MotionError> {
+        let Some(regime) = self.regime() else {
+            return Ok(None);
+        };
+        // Nothing chatters where nothing rebounds from a face.
+        let rests = match scene.wall() {
+            Some(_) => map.apply(self.from.into())?.rests,
+            None => Vec::new(),
+        };
+        let order = ImpactPattern::new(&self.instants, &rests, self.length, scene.period());
+        Ok(Some(MotionKind::repeating(regime, order)))
+    }
+
+    /// What it is: chaos if it does not return and small differences have grown more than a hundredfold; and their
+    /// growth then, ln of the tangent's norm per drive period.
+    ///
+    /// # Errors
+    /// [`MotionError`] if it cannot be computed.
+    pub fn motion(
+        &self,
+        scene: &Scene,
+        map: &StroboscopicMap,
+    ) -> Result<(MotionKind, Option<f64>), MotionError> {
+        if let Some(motion) = self.returning(scene, map)? {
+            return Ok((motion, None));
+        }
+        let (motion, growth) = wanders(map, self.from)?;
+        Ok((motion, Some(growth / self.length as f64)))
+    }
+
+    /// Largest position in m meanwhile.
+    ///
+    /// # Errors
+    /// [`MotionError`] if it cannot be computed.
+    pub fn max_position(&self, map: &StroboscopicMap) -> Result<f64, MotionError> {
+        map.max_position(self.from.into())
+    }
+}
+
+/// What a motion is that does not return, chaos or unsettled, by the growth of small differences along a map from a
+/// state on: ln of the tangent's norm, which is told, too.
+///
+/// # Errors
+/// [`MotionError`] if it cannot be computed.
+pub fn wanders(map: &StroboscopicMap, from: Start) -> Result<(MotionKind, f64), MotionError> {
+    let growth = map.apply(from.into())?.monodromy.norm().ln();
+    let motion = match growth > MUCH {
+        true => MotionKind::Chaos,
+        false => MotionKind::Unsettled,
+    };
+    Ok((motion, growth))
+}
