@@ -1,8 +1,11 @@
-//! A machine in SI has the zone of the same machine in ratios, whatever its stop.
+//! A machine in SI has the zone of the same machine in ratios, whatever its stop, and the same motions.
 
 use proptest::prelude::*;
-use softstop::{Language, Machine, Piercing, Ratios, Scene, Stop, Units};
+use softstop::{Language, Machine, Piercing, Ratios, Scene, Start, Stop, Units};
+use softstop_dynamics::MotionKind;
 use softstop_dynamics::continuation::{Heading, Test};
+use softstop_dynamics::settled::Settling;
+use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::zone::{BranchEnd, ZoneError, hysteresis, loss_of_stability};
 use softstop_testing::random;
 
@@ -77,6 +80,30 @@ proptest! {
             }
             (plain, other) => prop_assert!(plain.is_err() && other.is_err(), "{plain:?} {other:?}"),
         }
+    }
+}
+
+/// A free motion that dies away slowly: its tangent never grows, but in fast units of time one of its entries is large.
+#[test]
+fn what_has_not_settled_is_no_chaos_in_any_units() {
+    let plain = machine(10.0, 0.001, 0).at_frequency(1.5);
+    let units = |mass, stiffness| Units {
+        mass,
+        stiffness,
+        force: 1.0,
+    };
+    let settling = Settling {
+        periods: 80,
+        ..Settling::default()
+    };
+    for units in [units(1.0, 1.0), units(1e-6, 1e6)] {
+        let scene = plain.in_units(units).expect("valid");
+        let start = Start::new(0.5 * units.length(), 0.0);
+        let seen = settling.follow(&[(&scene, start)], &unwatched);
+        let seen = seen.expect("followed").remove(0).expect("a motion");
+        let map = seen.map(&scene).expect("valid");
+        let (motion, growth) = seen.motion(&scene, &map).expect("a motion");
+        assert_eq!(motion, MotionKind::Unsettled, "{growth:?}");
     }
 }
 

@@ -7,7 +7,7 @@ use softstop_dynamics::orbit::OrbitError;
 
 use super::task::Job;
 use crate::design::Design;
-use crate::design::problem::{Objective, Problem};
+use crate::design::problem::Problem;
 use crate::design::search::{self, Unwatched};
 use crate::robust::{
     Effort, Nearest, Norm, Scatter, Sensitivities, Settings, Tolerance, Verdict, Worst, nearest,

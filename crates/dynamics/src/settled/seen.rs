@@ -128,12 +128,13 @@ impl Seen {
 }
 
 /// What a motion is that does not return, chaos or unsettled, by the growth of small differences along a map from a
-/// state on: ln of the tangent's norm, which is told, too.
+/// state on: ln of the norm of the tangent without units, which is told, too.
 ///
 /// # Errors
 /// [`MotionError`] if it cannot be computed.
 pub fn wanders(map: &StroboscopicMap, from: Start) -> Result<(MotionKind, f64), MotionError> {
-    let growth = map.apply(from.into())?.monodromy.norm().ln();
+    let tangent = map.apply(from.into())?.monodromy;
+    let growth = map.scales().jacobian(&tangent).norm().ln();
     let motion = match growth > MUCH {
         true => MotionKind::Chaos,
         false => MotionKind::Unsettled,

@@ -92,7 +92,7 @@ fn lanes(study: &Measured) -> Result<f64, MotionError> {
         let begin = Instant::now();
         let jobs = machines.iter().enumerate().map(|(machine, it)| Job {
             machine,
-            start: it.start.into(),
+            start: it.start,
             periods: study.periods(),
         });
         let jobs: Vec<Job> = jobs.collect();
