@@ -20,6 +20,7 @@ mod spread;
 mod stop_invariants;
 mod stroke;
 mod sweep;
+mod zone_denied;
 mod zone_judge;
 mod zone_light;
 mod zone_reference;

@@ -6,7 +6,7 @@ use super::Family;
 use super::arclength::Node;
 use super::follower::{Follower, WIDTH};
 use super::graze::Approach;
-use super::locate::{locate, on_step};
+use super::locate::{is_beside, locate, on_step};
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::round::Round;
 use super::test::Test;
@@ -86,7 +86,7 @@ impl<F: Family> Follower<'_, F> {
             for special in Approach::of(&self.shooting, node)?.grazes(&self.shooting) {
                 let at = self.place(&special.point)?;
                 let share = (&at - &from.at).dot(&way) / way.norm_squared();
-                if !(0.0..=1.0).contains(&share) {
+                if !(0.0..=1.0).contains(&share) || !is_beside((&from.at, &way), &at) {
                     continue;
                 }
                 let mut special = special.clone();

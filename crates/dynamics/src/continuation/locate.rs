@@ -92,7 +92,7 @@ pub(crate) fn zero<E: Equations>(
 
 /// True if a place is no farther from the line between two neighbours than they are from each other: what Newton's method
 /// finds farther off lies on another curve.
-fn is_beside((from, way): (&DVector<f64>, &DVector<f64>), at: &DVector<f64>) -> bool {
+pub(super) fn is_beside((from, way): (&DVector<f64>, &DVector<f64>), at: &DVector<f64>) -> bool {
     let gone = at - from;
     let off = &gone - way * (gone.dot(way) / way.norm_squared());
     off.norm() <= way.norm()
