@@ -51,6 +51,12 @@ pub fn compare_under_wine() -> Result<()> {
     under_wine.arg(&windows.program).env("WINEDEBUG", "-all");
     let windows = windows.results(under_wine)?;
     stage("outputs on Linux and on Windows");
+    ensure!(
+        !linux.is_empty() && linux.len() == windows.len(),
+        "{} outputs on Linux, {} on Windows",
+        linux.len(),
+        windows.len()
+    );
     for ((name, linux), (_, windows)) in linux.iter().zip(&windows) {
         println!("{name:18} {linux:.17e} {windows:.17e}");
         let difference = (linux - windows).abs();
