@@ -201,6 +201,30 @@ fn inner_surfaces_end_a_branch_too() {
     }
 }
 
+/// Begun at either end of its range, a branch ends there at once: no point lies beyond it or is told at another parameter
+/// than its own.
+#[test]
+fn a_branch_from_an_end_of_its_range() {
+    let whole = all_of_z1();
+    let from = &whole.points[whole.points.len() / 2];
+    let eta = from.parameter;
+    for (low, high) in [(eta, 2.0), (0.5, eta)] {
+        let found = branch(eta, 1, (from.position, from.velocity), (low, high));
+        assert!(
+            matches!(found.ends, (End::Range, _) | (_, End::Range)),
+            "{:?}",
+            found.ends
+        );
+        for point in &found.points {
+            assert!((low..=high).contains(&point.parameter), "{point:?}");
+            let machine = Ratios::unloaded().at_frequency(point.parameter);
+            let map = StroboscopicMap::new(&machine.scene().expect("a scene"), 1).expect("a map");
+            let image = map.image(point.state()).expect("a passage");
+            assert_abs_diff_eq!(image, point.state(), epsilon = SOLVED);
+        }
+    }
+}
+
 /// Both ways along the branch, and from another start on it, give the same points to 1e-10.
 #[test]
 fn start_and_direction_do_not_matter() {

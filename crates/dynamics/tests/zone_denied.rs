@@ -87,3 +87,31 @@ fn one_on_a_step_on_which_a_grazing_far_off_was_taken_for_its_own() {
     ";
     assert!(is_told(machine, (9.268867954931542, 6.939802765497669)));
 }
+
+/// Its branch begins at the lowest frequency that is looked at and leads out of the range there.
+#[test]
+fn one_at_the_end_of_the_frequencies_that_are_followed() {
+    let machine = "
+        damping = 0.009093879386146458
+        clearance = 1.0322322516199183
+        contact.damping = 0.04773586427391478
+        excitation.frequency = 0.25
+        stop = { model = 'rigid', restitution = 0.24014324975839776 }
+    ";
+    assert!(is_told(machine, (1.0086977011087712, -0.03553960160912532)));
+}
+
+#[test]
+fn a_weak_one_at_the_end_of_the_frequencies_that_are_followed() {
+    let machine = "
+        damping = 0.012444320113856539
+        clearance = 1.0070225186298458
+        contact.damping = 0.1897849389316958
+        excitation.frequency = 0.25
+        stop = { model = 'preloaded', stiffness = 363.8090274997799, preload = 0.2674011704804397 }
+    ";
+    assert!(is_told(
+        machine,
+        (0.9753343494744439, -0.021087647923136096)
+    ));
+}

@@ -261,10 +261,11 @@ impl<'a, F: Family> Follower<'a, F> {
         limits: &Limits,
     ) -> Result<Option<End>, OrbitError> {
         let closes = way.points.len() >= SHORTEST_LOOP && self.closes(from, to, origin);
-        let bound = self.bound_between(from, to, limits);
+        let bound = self.bound_passed((from, to), limits);
         let merged = self.merging(from, to);
         let (to, end) = match (bound, merged) {
-            (Some(bound), _) => {
+            (Some((_, true)), _) => return Ok(Some(End::Range)),
+            (Some((bound, false)), _) => {
                 let test = |node: &Node<Round>| self.shooting.parameters(&node.at)[0] - bound;
                 let (node, _) = locate(&self.shooting, (from, to), WIDTH, test)?;
                 (node, Some(End::Range))
@@ -281,7 +282,7 @@ impl<'a, F: Family> Follower<'a, F> {
         way.points
             .extend(specials.iter().map(|special| special.point.clone()));
         way.specials.extend(specials);
-        if let Some(bound) = bound {
+        if let Some((bound, _)) = bound {
             // Scaled unknowns may round its last digit.
             last.parameter = bound;
         }

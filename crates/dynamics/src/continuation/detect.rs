@@ -24,17 +24,17 @@ const CLOSED: f64 = 0.05;
 const SAME: f64 = 1e-3;
 
 impl<F: Family> Follower<'_, F> {
-    pub(super) fn bound_between(
+    /// The end of the range beyond which a step leads, and whether the step begins there, or beyond it by rounding.
+    pub(super) fn bound_passed(
         &self,
-        from: &Node<Round>,
-        to: &Node<Round>,
+        (from, to): (&Node<Round>, &Node<Round>),
         limits: &Limits,
-    ) -> Option<f64> {
+    ) -> Option<(f64, bool)> {
         let (low, high) = limits.range;
-        let [now] = self.shooting.parameters(&to.at);
-        let [before] = self.shooting.parameters(&from.at);
+        let [before, now] = [from, to].map(|node| self.shooting.parameters(&node.at)[0]);
         let bound = now.clamp(low, high);
-        (bound != now && before != bound).then_some(bound)
+        let is_at = (before - bound) * (now - bound) >= 0.0;
+        (bound != now).then_some((bound, is_at))
     }
 
     /// The orbit at the end of the range that a node has reached to within `AT_BOUND`.

@@ -104,7 +104,8 @@ fn limits(scene: &Scene) -> Limits {
     }
 }
 
-/// g0 and what lies beside both grazing frequencies, and the row.
+/// g0 and what lies beside both grazing frequencies, the row, and what lies beside its lower end, beyond which there is
+/// none to lead to a stretch that ends there.
 fn frequencies(scene: &Scene) -> Vec<f64> {
     let natural = scene.scales().rate;
     let row = LOOKED_AT.into_iter().flat_map(|(low, high, count)| {
@@ -114,7 +115,13 @@ fn frequencies(scene: &Scene) -> Vec<f64> {
     let (below, above) =
         grazing_frequencies(scene).map_or((None, None), |(below, above)| (below, Some(above)));
     let grazing = below.into_iter().chain(above).flat_map(beside);
-    above.into_iter().chain(grazing).chain(row).collect()
+    let lowest = FOLLOWED.0 * natural;
+    let all = above
+        .into_iter()
+        .chain(grazing)
+        .chain(row)
+        .chain(beside(lowest));
+    all.filter(|frequency| *frequency >= lowest).collect()
 }
 
 /// Points at which a branch ends but does not leave the range.
