@@ -1,7 +1,7 @@
 """Fixtures: the packaged unit, and a driver that speaks to it by variable names."""
 
+import contextlib
 import os
-import pathlib
 
 import fmpy
 import numpy as np
@@ -17,8 +17,8 @@ from fmpy.fmi2 import (
     free,
 )
 from fmpy.logging import addLoggerProxy
+from packages import TOP, UNITS, package
 
-TOP = pathlib.Path(__file__).resolve().parents[2]
 PERIOD = 2 * np.pi / 1.15
 """Drive period of the default unit in s."""
 
@@ -112,6 +112,12 @@ def path():
     return os.environ.get("SOFTSTOP_FMU", str(TOP / "softstop.fmu"))
 
 
+@pytest.fixture(scope="session", params=UNITS)
+def each(request, path):
+    """The package of each unit."""
+    return package(path, request.param)
+
+
 @pytest.fixture(scope="session")
 def folder(path, tmp_path_factory):
     return fmpy.extract(path, unzipdir=str(tmp_path_factory.mktemp("unit")))
@@ -122,9 +128,9 @@ def description(folder):
     return fmpy.read_model_description(folder)
 
 
-@pytest.fixture
-def make(folder, description):
-    """Makes instances and frees them after the test."""
+@contextlib.contextmanager
+def maker(folder, description):
+    """Makes instances and frees them in the end."""
     units = []
 
     def make_one(**arguments):
@@ -134,6 +140,12 @@ def make(folder, description):
     yield make_one
     for unit in units:
         unit.fmu.fmi2FreeInstance(unit.fmu.component)
+
+
+@pytest.fixture
+def make(folder, description):
+    with maker(folder, description) as make_one:
+        yield make_one
 
 
 @pytest.fixture

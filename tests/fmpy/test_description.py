@@ -10,8 +10,8 @@ from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 
 
-def test_validation_finds_nothing(path):
-    assert validate_fmu(path) == []
+def test_validation_finds_nothing(each):
+    assert validate_fmu(each) == []
 
 
 def test_top_level_description_is_the_packaged_one(path):

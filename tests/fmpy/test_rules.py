@@ -37,8 +37,8 @@ SCALES = {
 
 
 @pytest.fixture(scope="module")
-def root(path):
-    with zipfile.ZipFile(path) as archive:
+def root(each):
+    with zipfile.ZipFile(each) as archive:
         return ElementTree.fromstring(archive.read("modelDescription.xml"))
 
 
@@ -72,9 +72,9 @@ def test_head(root):
     assert 0 < float(experiment.get("stepSize")) < stop - start
 
 
-def test_archive(path, root):
+def test_archive(each, root):
     identifier = root.find("CoSimulation").get("modelIdentifier")
-    with zipfile.ZipFile(path) as archive:
+    with zipfile.ZipFile(each) as archive:
         assert archive.testzip() is None
         names = archive.namelist()
     assert unique(names)

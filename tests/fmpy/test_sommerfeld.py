@@ -4,13 +4,11 @@ A master with roll back: both units go through a step until the work that the dr
 has received. The reference integrates motor and machine as one system of equations, from contact to contact.
 """
 
-import os
-import pathlib
-
 import fmpy
 import numpy as np
 import pytest
-from conftest import TOP, Unit
+from conftest import Unit
+from packages import package
 from scipy.integrate import solve_ivp
 
 MACHINE = {
@@ -26,11 +24,8 @@ PLATEAU = 80.0
 
 @pytest.fixture(scope="session")
 def drive(path, tmp_path_factory):
-    """Folder and description of the drive, which stands beside the machine."""
-    package = os.environ.get("SOFTSTOP_DRIVE", str(pathlib.Path(path).parent / "drive.fmu"))
-    if not pathlib.Path(package).exists():
-        package = str(TOP / "drive.fmu")
-    folder = fmpy.extract(package, unzipdir=str(tmp_path_factory.mktemp("drive")))
+    """Folder and description of the drive."""
+    folder = fmpy.extract(package(path, "drive"), unzipdir=str(tmp_path_factory.mktemp("drive")))
     return folder, fmpy.read_model_description(folder)
 
 

@@ -5,9 +5,9 @@ import sys
 
 import numpy as np
 
-TOP = pathlib.Path(__file__).resolve().parents[2]
-sys.path.append(str(TOP / "tests" / "fmpy"))
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "fmpy"))
 
+from packages import TOP, UNITS, package  # noqa: E402, F401
 from reference import simulate  # noqa: E402
 
 PERIOD = 2 * np.pi / 1.15

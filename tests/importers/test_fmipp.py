@@ -28,8 +28,8 @@ def place(path, tmp_path_factory):
     return f"file://{folder}"
 
 
-def start(place, values, stop=None):
-    unit = fmipp.FMUCoSimulationV2(place, "softstop", False, 1e-9)
+def start(place, values, stop=None, identifier="softstop"):
+    unit = fmipp.FMUCoSimulationV2(place, identifier, False, 1e-9)
     assert unit.instantiate("unit", 0.0, False, False) == 0
     for name, value in values.items():
         assert unit.setRealValue(name, value) == 0

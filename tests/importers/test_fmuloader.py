@@ -36,7 +36,7 @@ class Loaded:
 
     def __init__(self, path, description, values=None):
         self.references = {v.name: v.value_reference for v in description.model_variables}
-        self.slave = Fmi2Slave(path, model_identifier="softstop")
+        self.slave = Fmi2Slave(path, model_identifier=description.co_simulation.model_identifier)
         self.slave.instantiate(
             "unit", Fmi2Type.CO_SIMULATION, guid=description.guid,
             cannot_use_memory_management_functions=True,

@@ -20,9 +20,9 @@ from machine import OBSERVED, PERIOD, check_orbit, orbit_values  # noqa: E402
 
 
 @pytest.mark.parametrize("check", [OperationGenericCheck, OperationSemanticCheck])
-def test_checker_finds_nothing(path, check, caplog):
+def test_checker_finds_nothing(each, check, caplog):
     with caplog.at_level(logging.WARNING, logger="fmu_manipulation_toolbox"):
-        fmu, operation = FMU(path), check()
+        fmu, operation = FMU(each), check()
         fmu.apply_operation(operation)
         fmu.close()
     assert [record.getMessage() for record in caplog.records] == []
@@ -31,8 +31,9 @@ def test_checker_finds_nothing(path, check, caplog):
 
 def container(path, folder, step, *options):
     """Packs the unit into a container with this step of its own; returns the new FMU."""
-    shutil.copy(path, folder / "softstop.fmu")
-    plan = {"name": "box.fmu", "fmu": ["softstop.fmu"], "step_size": step}
+    name = pathlib.Path(path).name
+    shutil.copy(path, folder / name)
+    plan = {"name": "box.fmu", "fmu": [name], "step_size": step}
     (folder / "box.json").write_text(json.dumps(plan))
     run = [pathlib.Path(sys.executable).with_name("fmucontainer"), "-fmu-directory", folder]
     run += ["-container", "box.json", "-auto-parameter", *options]

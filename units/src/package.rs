@@ -1,4 +1,4 @@
-//! What both units' packages have in common.
+//! What the units' packages have in common.
 
 pub(crate) const LICENSE: &str = "MIT OR Apache-2.0";
 pub(crate) const AUTHOR: &str = "the softstop authors";

@@ -1,16 +1,16 @@
 //! Building the FMU.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use softstop_fmi::package::{self, HOST_PLATFORM, Library};
 use softstop_fmi::{Imprint, Unit, description, guid_of};
 use softstop_fmu::Machine;
 use softstop_optimize::fmu::library;
-use softstop_units::Drive;
+use softstop_units::{Drive, Feeder};
 
-use crate::library::{Artifact, Build, DRIVE, OSCILLATOR, build_daily, host};
+use crate::library::{Artifact, Build, DRIVE, FEEDER, OSCILLATOR, build_daily, host};
 use crate::run::{cargo_command, stage, top};
 use crate::targets::{TARGETS, Target, Tools};
 
@@ -30,14 +30,21 @@ pub fn write_description() -> Result<()> {
 
 /// Packs the libraries that are built for daily work; returns the oscillator's path.
 pub fn write_package() -> Result<PathBuf> {
-    write::<Drive>(&[Library::read(&build_daily(DRIVE)?)?])?;
-    write::<Machine>(&[library()?])
+    let daily = |artifact| anyhow::Ok(vec![Library::read(&build_daily(artifact)?)?]);
+    write_all(&daily(DRIVE)?, &daily(FEEDER)?, &[library()?])
 }
 
 /// Builds the libraries for this machine as they are shipped and packs them; returns the oscillator's path.
 pub fn write_shipped() -> Result<PathBuf> {
-    write::<Drive>(&[shipped(DRIVE)?])?;
-    write::<Machine>(&[shipped(OSCILLATOR)?])
+    let [drive, feeder, press] = [DRIVE, FEEDER, OSCILLATOR].map(shipped);
+    write_all(&[drive?], &[feeder?], &[press?])
+}
+
+/// Writes the units.
+fn write_all(drive: &[Library], feeder: &[Library], press: &[Library]) -> Result<PathBuf> {
+    write::<Drive>(drive)?;
+    write::<Feeder>(feeder)?;
+    write::<Machine>(press)
 }
 
 fn shipped(artifact: Artifact) -> Result<Library> {
@@ -70,8 +77,9 @@ fn built_or_host(artifact: Artifact, target: &Target, tools: &Tools) -> Result<(
 /// Builds the libraries for every platform that can be had here as they are shipped and packs them all.
 pub fn write_shipped_for_all() -> Result<()> {
     let tools = Tools::new();
-    write::<Drive>(&shipped_for_all(DRIVE, &tools))?;
-    write::<Machine>(&shipped_for_all(OSCILLATOR, &tools)).map(drop)
+    let [drive, feeder, press] =
+        [DRIVE, FEEDER, OSCILLATOR].map(|artifact| shipped_for_all(artifact, &tools));
+    write_all(&drive, &feeder, &press).map(drop)
 }
 
 fn shipped_for_all(artifact: Artifact, tools: &Tools) -> Vec<Library> {
@@ -103,7 +111,12 @@ fn host_library(artifact: Artifact) -> Result<Library> {
 fn write<U: Unit>(libraries: &[Library]) -> Result<PathBuf> {
     let path = top().join(format!("{}.fmu", U::about().identifier));
     package::write(&path, &Imprint::<U>::library(), libraries)?;
-    let size = fs::metadata(&path)?.len().div_ceil(1024);
-    println!("{} ({size} KiB)", path.display());
+    say(&path)?;
     Ok(path)
+}
+
+fn say(path: &Path) -> Result<()> {
+    let size = fs::metadata(path)?.len().div_ceil(1024);
+    println!("{} ({size} KiB)", path.display());
+    Ok(())
 }

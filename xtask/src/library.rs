@@ -32,6 +32,13 @@ pub const DRIVE: Artifact = Artifact {
     name: "drive",
 };
 
+/// That of feeder.fmu.
+pub const FEEDER: Artifact = Artifact {
+    package: "softstop-units",
+    arguments: &["--example", "feeder"],
+    name: "feeder",
+};
+
 /// One way to call cargo.
 pub struct Build {
     /// What is built.

@@ -27,7 +27,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Task {
-    /// Write softstop.fmu and modelDescription.xml at the top level
+    /// Write softstop.fmu, drive.fmu, feeder.fmu and modelDescription.xml at the top level
     Fmu {
         /// As it is shipped: optimized as a whole, and for any Linux with version 2.17 of the C library or a
         /// later one; without it the library of the daily build, for this machine's C library

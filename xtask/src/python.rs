@@ -8,15 +8,10 @@ use anyhow::{Context, Result};
 
 use crate::run::{run, target, top};
 
-/// Runs the tests with FMPy on this FMU, and those of the standard's rules on the drive beside it.
+/// Runs the tests with FMPy on this FMU and the units beside it.
 pub fn test(package: &Path) -> Result<()> {
     let python = environment("python", "tests/fmpy/requirements.txt")?;
-    pytest(&python, "tests/fmpy", package)?;
-    pytest(
-        &python,
-        "tests/fmpy/test_rules.py",
-        &package.with_file_name("drive.fmu"),
-    )
+    pytest(&python, "tests/fmpy", package)
 }
 
 /// Runs the tests with other importers on this FMU. Not every one of them installs on every machine:

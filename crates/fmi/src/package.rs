@@ -144,10 +144,17 @@ pub fn write<U: Unit>(
     imprint: &Imprint<U>,
     libraries: &[Library],
 ) -> Result<(), PackageError> {
-    let bytes = archive(imprint, libraries)?;
+    write_file(path, &archive(imprint, libraries)?)
+}
+
+/// Writes a file that is there whole or not at all.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), PackageError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let beside = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
-    let written = write_whole(&beside, &bytes)
+    let written = write_whole(&beside, bytes)
         .and_then(|()| fs::rename(&beside, path))
         .map_err(at(path));
     if written.is_err() {
@@ -189,8 +196,15 @@ pub fn archive<U: Unit>(
             library.with_imprint(imprint)?,
         ));
     }
-    entries.sort();
+    zipped(entries)
+}
 
+/// The bytes of an archive with these files.
+///
+/// # Errors
+/// If it cannot be made.
+pub fn zipped(mut entries: Vec<(String, Vec<u8>)>) -> Result<Vec<u8>, PackageError> {
+    entries.sort();
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .compression_level(Some(QUICKLY))

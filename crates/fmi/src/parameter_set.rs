@@ -20,8 +20,20 @@ const COMMON: &str = "http://ssp-standard.org/SSP1/SystemStructureCommon";
 /// # Errors
 /// If writing to memory fails.
 pub fn write<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
+    write_some(imprint, |_| true)
+}
+
+/// The same with some of the parameters only.
+///
+/// # Errors
+/// If writing to memory fails.
+pub fn write_some<U: Unit>(
+    imprint: &Imprint<U>,
+    wanted: impl Fn(&Row<U>) -> bool,
+) -> io::Result<String> {
     let about = U::about();
-    let is_parameter = |row: &&'static Row<U>| matches!(row.access, Access::Parameter { .. });
+    let is_parameter =
+        |row: &&'static Row<U>| matches!(row.access, Access::Parameter { .. }) && wanted(row);
     let parameters: Vec<&Row<U>> = about.table.rows().filter(is_parameter).collect();
     let uses_unit = |of: &Quantity| {
         parameters
@@ -48,18 +60,24 @@ pub fn write<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
                 .iter()
                 .try_for_each(|row| parameter(xml, row, imprint))
         })?;
-        element(xml, "ssv:Enumerations", NONE, |xml| {
-            let mut used = about.enumerations.iter().filter(|of| uses_type(of));
-            used.try_for_each(|of| {
-                let named = [("name", of.type_name), ("description", of.description)];
-                element(xml, "ssc:Enumeration", named, |xml| {
-                    of.items.iter().try_for_each(|item| {
-                        let value = item.value.to_string();
-                        empty(xml, "ssc:Item", [("name", item.name), ("value", &value)])
+        let mut used = about
+            .enumerations
+            .iter()
+            .filter(|of| uses_type(of))
+            .peekable();
+        if used.peek().is_some() {
+            element(xml, "ssv:Enumerations", NONE, |xml| {
+                used.try_for_each(|of| {
+                    let named = [("name", of.type_name), ("description", of.description)];
+                    element(xml, "ssc:Enumeration", named, |xml| {
+                        of.items.iter().try_for_each(|item| {
+                            let value = item.value.to_string();
+                            empty(xml, "ssc:Item", [("name", item.name), ("value", &value)])
+                        })
                     })
                 })
-            })
-        })?;
+            })?;
+        }
         element(xml, "ssv:Units", NONE, |xml| {
             let mut used = about.quantities.iter().filter(|of| uses_unit(of));
             used.try_for_each(|of| unit(xml, ["ssc:Unit", "ssc:BaseUnit"], of, |_| Ok(())))

@@ -110,7 +110,11 @@ pub const fn discrete<U, T>(
     (value, tangent): Reading<U, T>,
     description: &'static str,
 ) -> Variable<U, T> {
-    let access = Access::Discrete { value, tangent };
+    let access = Access::Discrete {
+        value,
+        tangent,
+        depends: after(&[]),
+    };
     row(reference, name, kind, access, description)
 }
 

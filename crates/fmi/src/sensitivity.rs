@@ -155,7 +155,7 @@ pub fn slope(here: f64, mut width: f64, at: impl Fn(f64) -> Option<f64>) -> f64 
 fn unknown<U: Unit>(reference: u32) -> Result<(Output<U>, Tangent<U>), Fault> {
     let variable = find::<U>(reference, Type::Real)?;
     match variable.access {
-        Access::Continuous { value, tangent, .. } | Access::Discrete { value, tangent } => {
+        Access::Continuous { value, tangent, .. } | Access::Discrete { value, tangent, .. } => {
             Ok((value, tangent))
         }
         _ => Err(Fault::NoUnknown(variable.name)),

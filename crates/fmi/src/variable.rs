@@ -166,8 +166,10 @@ pub enum Access<U: 'static, T> {
         value: fn(&U) -> f64,
         /// Its derivative along a direction.
         tangent: fn(&T) -> f64,
+        /// What it depends on.
+        depends: Dependencies,
     },
-    /// An integer or enumeration output; it changes at events only.
+    /// An integer, Boolean or enumeration output; it changes at events only.
     Integer {
         /// Its value.
         value: fn(&U) -> i32,
@@ -223,11 +225,9 @@ impl<U, T> Variable<U, T> {
     /// The dependencies of an output.
     pub const fn dependencies(&self) -> Option<&Dependencies> {
         match &self.access {
-            Access::Continuous { depends, .. } | Access::Integer { depends, .. } => Some(depends),
-            Access::Discrete { .. } => Some(&Dependencies {
-                inputs: &[],
-                initial: &[],
-            }),
+            Access::Continuous { depends, .. }
+            | Access::Discrete { depends, .. }
+            | Access::Integer { depends, .. } => Some(depends),
             _ => None,
         }
     }

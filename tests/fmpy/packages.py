@@ -1,0 +1,14 @@
+"""The units' packages."""
+
+import pathlib
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+UNITS = ["softstop", "drive", "feeder"]
+
+
+def package(path, name):
+    """The unit of this name: softstop.fmu is at `path`, the others stand beside it or at the top."""
+    beside = pathlib.Path(path).parent / f"{name}.fmu"
+    if name == "softstop":
+        return path
+    return str(beside if beside.exists() else TOP / f"{name}.fmu")

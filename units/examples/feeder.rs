@@ -1,0 +1,3 @@
+//! The library of feeder.fmu.
+
+softstop_fmi::export!(softstop_units::Feeder);
