@@ -12,6 +12,7 @@ use softstop_units::{Drive, Feeder};
 
 use crate::library::{Artifact, Build, DRIVE, FEEDER, OSCILLATOR, build_daily, host};
 use crate::run::{cargo_command, stage, top};
+use crate::system::{self, Libraries};
 use crate::targets::{TARGETS, Target, Tools};
 
 /// Writes the model description of the default FMU at the top level, if it has changed.
@@ -40,10 +41,18 @@ pub fn write_shipped() -> Result<PathBuf> {
     write_all(&[drive?], &[feeder?], &[press?])
 }
 
-/// Writes the units.
+/// Writes the units, and the machine that they make together.
 fn write_all(drive: &[Library], feeder: &[Library], press: &[Library]) -> Result<PathBuf> {
     write::<Drive>(drive)?;
     write::<Feeder>(feeder)?;
+    let path = top().join("piercing-machine.ssp");
+    let libraries = Libraries {
+        drive,
+        feeder,
+        press,
+    };
+    system::write(&path, &libraries)?;
+    say(&path)?;
     write::<Machine>(press)
 }
 

@@ -7,6 +7,7 @@ mod notices;
 mod portable;
 mod python;
 mod run;
+mod system;
 mod targets;
 
 use std::path::{Path, PathBuf};
@@ -27,7 +28,8 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Task {
-    /// Write softstop.fmu, drive.fmu, feeder.fmu and modelDescription.xml at the top level
+    /// Write softstop.fmu, drive.fmu, feeder.fmu, the machine that they make (piercing-machine.ssp) and
+    /// modelDescription.xml at the top level
     Fmu {
         /// As it is shipped: optimized as a whole, and for any Linux with version 2.17 of the C library or a
         /// later one; without it the library of the daily build, for this machine's C library

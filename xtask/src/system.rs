@@ -1,0 +1,123 @@
+//! `piercing-machine.ssp`: drive, feeder and press, connected, with the parameters of three machines.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use softstop::internals::samples::{LOADED, Sample, UNLOADED};
+use softstop::{Begin, Machine, Scene, Simulation, Start};
+use softstop_fmi::package::{self, Library};
+use softstop_fmi::variable::Kind;
+use softstop_fmi::{Imprint, Row, Unit, parameter_set};
+use softstop_fmu::StartValues;
+use softstop_units::{Drive, Feeder};
+
+const STRUCTURE: &str = include_str!("../assets/SystemStructure.ssd");
+const DESIGN: &str = include_str!("../../docs/system/design.toml");
+
+/// Torque at rest of the motor in N m.
+const TORQUE: f64 = 60.0;
+
+/// The libraries of the three units.
+pub struct Libraries<'a> {
+    pub drive: &'a [Library],
+    pub feeder: &'a [Library],
+    pub press: &'a [Library],
+}
+
+/// One machine: its name, and its units as they begin.
+struct Variant {
+    name: &'static str,
+    press: Imprint<softstop_fmu::Machine>,
+    drive: Imprint<Drive>,
+}
+
+/// Writes the system; the units inside begin as the machine B.
+pub fn write(path: &Path, libraries: &Libraries) -> Result<()> {
+    let sample =
+        |of: &Sample| anyhow::Ok((of.ratios.scene()?, Start::new(of.position, of.velocity)));
+    let design = Machine::from_toml(DESIGN)?;
+    let variants = [
+        variant("B", sample(&LOADED)?)?,
+        variant("A", sample(&UNLOADED)?)?,
+        variant("design", (design.scene, design.start))?,
+    ];
+    let [Variant { press, drive, .. }, ..] = &variants;
+    let feeder = with(Imprint::<Feeder>::library(), &[("feed.takes.angle", 1.0)])?;
+    let press_archive = package::archive(&press.clone().named("press")?, libraries.press)?;
+    let mut entries = vec![
+        ("SystemStructure.ssd".to_owned(), STRUCTURE.into()),
+        ("resources/press.fmu".to_owned(), press_archive),
+        (
+            "resources/drive.fmu".to_owned(),
+            package::archive(drive, libraries.drive)?,
+        ),
+        (
+            "resources/feeder.fmu".to_owned(),
+            package::archive(&feeder, libraries.feeder)?,
+        ),
+    ];
+    entries.extend(sets(&variants, "press", |of| &of.press)?);
+    entries.extend(sets(&variants, "drive", |of| &of.drive)?);
+    package::write_file(path, &package::zipped(entries)?)?;
+    Ok(())
+}
+
+/// A machine on a motor whose torque is, at the speed of the motion, what this motion takes.
+fn variant(name: &'static str, (scene, start): (Scene, Start)) -> Result<Variant> {
+    let speed = scene.excitation.frequency;
+    let mut run = Simulation::new(&scene, Begin::from(start))?;
+    run.advance(TAU / speed)?;
+    let taken = run.energy().supplied / TAU;
+    let values = StartValues::from_scene(&scene, start)?;
+    let takes = [("drive.takes.speed", 1.0), ("drive.takes.amplitude", 1.0)];
+    let motor = [
+        ("motor.torque", TORQUE),
+        ("motor.speed", speed / (1.0 - taken / TORQUE)),
+        ("unbalance", scene.excitation.amplitude / (speed * speed)),
+        ("initial.speed", speed),
+        ("initial.angle", scene.excitation.phase),
+    ];
+    Ok(Variant {
+        name,
+        press: with(values.into(), &takes)?,
+        drive: with(Imprint::library(), &motor)?,
+    })
+}
+
+/// An imprint with other values of some parameters.
+fn with<U: Unit>(imprint: Imprint<U>, changes: &[(&str, f64)]) -> Result<Imprint<U>> {
+    let mut values = imprint.values().to_vec();
+    for &(name, value) in changes {
+        let row = U::about().table.by_name(name);
+        let slot = row
+            .and_then(Row::<U>::slot)
+            .with_context(|| name.to_owned())?;
+        values[slot.0] = value;
+    }
+    Ok(Imprint::new(&values))
+}
+
+/// The parameters in which the machines differ, a set for each machine.
+fn sets<U: Unit>(
+    variants: &[Variant],
+    unit: &str,
+    of: impl Fn(&Variant) -> &Imprint<U>,
+) -> Result<Vec<(String, Vec<u8>)>> {
+    let differs = |row: &Row<U>| {
+        let value = |of: &Imprint<U>| row.slot().map(|slot| of.values()[slot.0]);
+        let first = value(of(&variants[0]));
+        matches!(row.kind, Kind::Real(_)) && variants.iter().any(|other| value(of(other)) != first)
+    };
+    variants
+        .iter()
+        .map(|variant| {
+            let imprint = of(variant).clone().named(variant.name)?;
+            let text = parameter_set::write_some(&imprint, differs)?;
+            Ok((
+                format!("resources/{}-{unit}.ssv", variant.name),
+                text.into_bytes(),
+            ))
+        })
+        .collect()
+}
