@@ -64,6 +64,10 @@ pub(crate) struct Node<P> {
 /// corner of the motion make it fall by a share only.
 const CORRECTIONS: usize = 12;
 const MOST_CORRECTIONS: usize = 48;
+/// Residual in units of what rounding may leave up to which it is worth a look whether it leaves more, and changes of the
+/// unknowns in units of their rounding with which that is looked at.
+const WORTH_A_LOOK: f64 = 100.0;
+const LAST_DIGITS: [f64; 4] = [-4.0, -2.0, 2.0, 4.0];
 /// A step with kept slopes that leaves more than this share of the residual is the last with them.
 const STALE: f64 = 0.02;
 /// Scaled half-width of the central differences.
@@ -124,6 +128,9 @@ pub(super) fn correct_with<E: Equations>(
             return Ok(Node { at, here });
         }
         if late && size > 0.5 * last {
+            if size < WORTH_A_LOOK * here.tolerance && size <= noise(equations, &at, &here) {
+                return Ok(Node { at, here });
+            }
             return Err(OrbitError::Diverged { residual: size });
         }
         let kept = slopes
@@ -158,6 +165,16 @@ pub(super) fn correct_with<E: Equations>(
         }
     }
     Err(OrbitError::Diverged { residual: last })
+}
+
+/// The norm of the residual that rounding really leaves: how much it changes within the last digits of the unknowns. An
+/// orbit may magnify, and forget again, more than its monodromy matrix tells.
+fn noise<E: Equations>(equations: &E, at: &DVector<f64>, here: &Evaluation<E::Point>) -> f64 {
+    let change = |digits: &f64| {
+        let there = equations.evaluate(&(at * (1.0 + digits * f64::EPSILON)));
+        there.map_or(0.0, |there| (there.residual - &here.residual).norm())
+    };
+    LAST_DIGITS.iter().map(change).fold(0.0, f64::max)
 }
 
 pub(super) fn bordered(matrix: &DMatrix<f64>, normal: &DVector<f64>) -> DMatrix<f64> {

@@ -35,6 +35,8 @@ pub struct Branch {
 const LONGEST_CRAWL: usize = 60;
 /// Scaled distance within which an orbit repeats.
 const REPEATS: f64 = 1e-7;
+/// First step after a corner: others, and folds, may lie as near.
+const AFTER_CORNER: f64 = 1e-5;
 /// Points after which a branch may be found closed.
 const SHORTEST_LOOP: usize = 8;
 
@@ -228,8 +230,9 @@ impl<'a, F: Family> Follower<'a, F> {
                         .and_then(|specials| {
                             let ahead = Approach::of(&self.shooting, &node)?;
                             let end = self.record(way, step, specials, &origin, limits)?;
-                            let next =
+                            let mut next =
                                 Walker::new(&self.shooting, node.clone(), &along, self.largest)?;
+                            next.step = AFTER_CORNER;
                             Ok((end, ahead, next))
                         });
                     let (end, ahead, next) = match beyond {

@@ -7,7 +7,7 @@ use crate::orbit::OrbitError;
 
 /// First, smallest and largest arclength steps.
 const FIRST_STEP: f64 = 0.02;
-const SMALLEST_STEP: f64 = 1e-9;
+const SMALLEST_STEP: f64 = 1e-11;
 pub(crate) const LARGEST_STEP: f64 = 0.25;
 /// Largest turn of the direction per step, as a cosine, and that up to which steps grow.
 const LARGEST_TURN: f64 = 0.96;

@@ -48,6 +48,39 @@ pub(super) struct Attempt {
     jacobian: DMatrix<f64>,
 }
 
+/// Why Newton's method settled on no orbit, and where it came nearest to one.
+pub(super) struct Failed {
+    error: OrbitError,
+    pub nearest: Nearest,
+}
+
+/// The first impact where the residual was least.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Nearest {
+    pub impact: (f64, f64),
+    pub residual: f64,
+}
+
+impl Nearest {
+    const NONE: Self = Self {
+        impact: (0.0, 0.0),
+        residual: f64::INFINITY,
+    };
+}
+
+impl From<OrbitError> for Failed {
+    fn from(error: OrbitError) -> Self {
+        let nearest = Nearest::NONE;
+        Self { error, nearest }
+    }
+}
+
+impl From<Failed> for OrbitError {
+    fn from(failed: Failed) -> Self {
+        failed.error
+    }
+}
+
 impl<'a> Legs<'a> {
     /// None if the scene has no stop.
     pub(super) fn new(scene: &'a Scene, periods: u64) -> Option<Self> {
@@ -88,7 +121,7 @@ impl<'a> Legs<'a> {
         &self,
         guess: &[(f64, f64)],
         known: impl Fn(&[f64]) -> bool,
-    ) -> Result<Option<Orbit>, OrbitError> {
+    ) -> Result<Option<Orbit>, Failed> {
         self.newton(guess, known, &[])
     }
 
@@ -97,13 +130,18 @@ impl<'a> Legs<'a> {
         guess: &[(f64, f64)],
         known: impl Fn(&[f64]) -> bool,
         deflated: &[(f64, f64)],
-    ) -> Result<Option<Orbit>, OrbitError> {
+    ) -> Result<Option<Orbit>, Failed> {
         let flat = guess.iter().flat_map(|&(time, velocity)| [time, velocity]);
         let mut at = Unknowns::from_iterator(2 * guess.len(), flat);
         let mut attempt = self.attempt(&at).ok_or(diverged(f64::NAN))?;
         let (mut least, mut idle) = (f64::INFINITY, 0);
+        let mut nearest = Nearest::NONE;
         for _ in 0..STEPS {
             let residual = attempt.residual.norm();
+            if residual < nearest.residual {
+                let impact = (at[0], at[1]);
+                nearest = Nearest { impact, residual };
+            }
             (least, idle) = match residual < 0.5 * least {
                 true => (residual, 0),
                 false => (least, idle + 1),
@@ -112,24 +150,29 @@ impl<'a> Legs<'a> {
                 break;
             }
             let step = attempt.jacobian.clone().lu().solve(&attempt.residual);
-            let step = -step.ok_or(diverged(attempt.residual.norm()))?;
+            let Some(step) = step.map(|step| -step) else {
+                break;
+            };
             let period = self.face.clock.period();
             let step = &step * factor((at[0], at[1]), (step[0], step[1]), deflated, period);
-            let (share, next, tried) = self.step(&at, &step).ok_or(diverged(step.norm()))?;
+            let Some((share, next, tried)) = self.step(&at, &step) else {
+                break;
+            };
             let whole = share == 1.0;
             let shrinks = tried.residual.norm() < attempt.residual.norm();
             if whole && !shrinks && self.fits(&at, &attempt, 1.0) {
-                return self.orbit(&at, &attempt).map(Some);
+                return Ok(Some(self.orbit(&at, &attempt)?));
             }
             (at, attempt) = (next, tried);
             if whole && known(at.as_slice()) {
                 return Ok(None);
             }
             if self.fits(&at, &attempt, NOTHING_LEFT) {
-                return self.orbit(&at, &attempt).map(Some);
+                return Ok(Some(self.orbit(&at, &attempt)?));
             }
         }
-        Err(diverged(attempt.residual.norm()))
+        let error = diverged(attempt.residual.norm());
+        Err(Failed { error, nearest })
     }
 
     /// What a motion with this impact alone is off by at the next one: position and velocity, scaled; none where there

@@ -1,5 +1,6 @@
 //! Periodic motions: shooting on the exact map, multipliers, stability.
 
+mod beside;
 mod by_impacts;
 mod closed;
 mod contact;
@@ -25,7 +26,7 @@ pub use newton::fixed_point;
 pub use pattern::{Count, ImpactPattern};
 pub use periodic::Orbit;
 pub use regime::Regime;
-pub(crate) use scan::{FAINTEST, all_single};
+pub(crate) use scan::{all_about, singles_near};
 pub(crate) use search::find_soon;
 pub use search::{find, find_watched};
 

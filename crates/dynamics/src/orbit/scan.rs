@@ -5,10 +5,11 @@
 //! up shows the cells in which it may vanish, and Newton's method from there finds where it does. How small the basin
 //! of a motion is plays no part.
 
-use super::legs::Legs;
+use super::beside::beside_frequency;
+use super::legs::{Legs, Nearest};
 use super::{Orbit, OrbitError};
 use crate::extremes::extremes;
-use crate::watch::Watcher;
+use crate::watch::{Watcher, unwatched};
 use softstop::Scene;
 
 /// Times in a drive period, and velocities, each so many times the one before.
@@ -32,6 +33,11 @@ const UTMOST: f64 = 2000.0;
 const SAME: f64 = 1e-6;
 const NEAR: f64 = 1e-3;
 
+/// Residual in units of the velocity, or of the motion's speed if that is higher, up to which a miss is a near one; and
+/// difference from another one, as above, within which it is none of its own.
+const MISSED: f64 = 1.0;
+const TOLD: f64 = 0.05;
+
 /// Most motions at one frequency: where friction holds the mass at any of many places, there is no end to them.
 const MOST: usize = 100;
 
@@ -40,42 +46,117 @@ const MOST: usize = 100;
 /// # Errors
 /// [`OrbitError::Motion`] if the scene is none; [`OrbitError::Stopped`].
 pub(crate) fn all_single(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Orbit>, OrbitError> {
-    scene.validate()?;
-    OrbitError::ask(watcher)?;
-    let Some(legs) = Legs::new(scene, 1) else {
+    Ok(scan(scene, watcher)?.map_or(Vec::new(), |singles| singles.found))
+}
+
+/// The same, and before them those at frequencies within a share of the scene's that near misses lead to.
+///
+/// # Errors
+/// As [`all_single`].
+pub(crate) fn all_about(
+    scene: &Scene,
+    share: f64,
+    watcher: Watcher<'_>,
+) -> Result<Vec<Orbit>, OrbitError> {
+    let Some(singles) = scan(scene, watcher)? else {
         return Ok(Vec::new());
     };
-    let period = scene.clock().period();
-    let unit = scene.motion_scales().speed();
-    let mut found: Vec<Orbit> = Vec::new();
-    for guess in guesses(scene, &legs, period, watcher)? {
+    let beside = |impact| beside_frequency(scene, impact, share);
+    let beside = singles.missed.iter().copied().filter_map(beside);
+    let mut all: Vec<Orbit> = beside.filter(|orbit| singles.is_real(orbit)).collect();
+    all.extend(singles.found);
+    Ok(all)
+}
+
+/// The z = 1 motions that Newton's method leads to from the time in s and the before-impact velocity in m/s of an impact,
+/// first to one and then, kept away from it, to others.
+pub(crate) fn singles_near(scene: &Scene, impact: (f64, f64)) -> Vec<Orbit> {
+    Singles::new(scene).map_or(Vec::new(), |mut singles| {
+        singles.look(impact, &unwatched).unwrap_or_default();
+        singles.found
+    })
+}
+
+fn scan<'a>(scene: &'a Scene, watcher: Watcher<'_>) -> Result<Option<Singles<'a>>, OrbitError> {
+    scene.validate()?;
+    OrbitError::ask(watcher)?;
+    let Some(mut singles) = Singles::new(scene) else {
+        return Ok(None);
+    };
+    for guess in guesses(scene, &singles.legs, singles.period, watcher)? {
+        singles.look(guess, watcher)?;
+    }
+    singles.found.sort_by(|a, b| {
+        let [a, b] = [a, b].map(Orbit::before_impact_velocity);
+        a.total_cmp(&b)
+    });
+    Ok(Some(singles))
+}
+
+/// What guesses led to.
+struct Singles<'a> {
+    legs: Legs<'a>,
+    period: f64,
+    /// The motion's speed.
+    unit: f64,
+    /// Motions.
+    found: Vec<Orbit>,
+    /// Impacts that Newton's method came near to fitting at, and settled nowhere.
+    missed: Vec<(f64, f64)>,
+}
+
+impl<'a> Singles<'a> {
+    /// None if the scene has no stop.
+    fn new(scene: &'a Scene) -> Option<Self> {
+        Some(Self {
+            legs: Legs::new(scene, 1)?,
+            period: scene.clock().period(),
+            unit: scene.motion_scales().speed(),
+            found: Vec::new(),
+            missed: Vec::new(),
+        })
+    }
+
+    /// Follows Newton's method from a guess, and from there to others that may lie beside the motion that it leads to.
+    fn look(&mut self, guess: (f64, f64), watcher: Watcher<'_>) -> Result<(), OrbitError> {
         OrbitError::ask(watcher)?;
-        let impacts: Vec<(f64, f64)> = found.iter().map(impact).collect();
+        let (period, impacts) = (self.period, self.impacts());
         let known = |at: &[f64]| {
             let near = |other| apart(other, (at[0], at[1]), period) < NEAR;
             impacts.iter().copied().any(near)
         };
-        let mut next = legs.settle_unless(&[guess], known);
-        // Others may lie beside one that Newton's method leads to.
+        let settled = self.legs.settle_unless(&[guess], known);
+        let mut next = settled.map_err(|failed| self.miss(failed.nearest));
         while let Ok(orbit) = next {
             OrbitError::ask(watcher)?;
             if let Some(orbit) = orbit {
-                let real = orbit.before_impact_velocity() > FAINTEST * unit;
-                let known = found.iter().any(|known| same(known, &orbit, period));
-                if !real || known || found.len() == MOST {
+                let known = self.found.iter().any(|known| same(known, &orbit, period));
+                if !self.is_real(&orbit) || known || self.found.len() == MOST {
                     break;
                 }
-                found.push(orbit);
+                self.found.push(orbit);
             }
-            let impacts: Vec<(f64, f64)> = found.iter().map(impact).collect();
-            next = legs.settle_apart(guess, &impacts).map(Some);
+            let apart = self.legs.settle_apart(guess, &self.impacts());
+            next = apart.map(Some).map_err(drop);
+        }
+        Ok(())
+    }
+
+    /// True if an orbit does more than graze.
+    fn is_real(&self, orbit: &Orbit) -> bool {
+        orbit.before_impact_velocity() > FAINTEST * self.unit
+    }
+
+    fn impacts(&self) -> Vec<(f64, f64)> {
+        self.found.iter().map(impact).collect()
+    }
+
+    fn miss(&mut self, Nearest { impact, residual }: Nearest) {
+        let told = |other: &(f64, f64)| apart(*other, impact, self.period) < TOLD;
+        if residual < MISSED * (impact.1 / self.unit).max(1.0) && !self.missed.iter().any(told) {
+            self.missed.push(impact);
         }
     }
-    found.sort_by(|a, b| {
-        let [a, b] = [a, b].map(Orbit::before_impact_velocity);
-        a.total_cmp(&b)
-    });
-    Ok(found)
 }
 
 /// True if two orbits have the same impact.

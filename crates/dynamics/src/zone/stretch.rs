@@ -110,8 +110,7 @@ impl Stretch {
     /// [`OrbitError`] if the stretch is lost.
     pub fn contains(&self, scene: &Scene, point: &BranchPoint) -> Result<bool, OrbitError> {
         let own = self.point_at(scene, point.parameter)?;
-        let size = point.state().norm().max(scene.scales().length);
-        Ok(own.is_some_and(|own| (own.state() - point.state()).norm() < SAME * size))
+        Ok(own.is_some_and(|own| is_same(&own, point, scene)))
     }
 
     /// True if it is a part of a hysteresis zone.
@@ -123,6 +122,12 @@ impl Stretch {
         };
         zone.branch.iter().any(inside)
     }
+}
+
+/// True if the states of two points at one frequency differ by no more than rounding.
+pub(super) fn is_same(one: &BranchPoint, other: &BranchPoint, scene: &Scene) -> bool {
+    let size = other.state().norm().max(scene.scales().length);
+    (one.state() - other.state()).norm() < SAME * size
 }
 
 /// Units of positions, velocities and frequencies.

@@ -2,10 +2,10 @@
 
 use std::collections::VecDeque;
 
-use super::stretch::{Stretch, lies_between, sizes, stable};
+use super::stretch::{Stretch, is_same, lies_between, sizes, stable};
 use super::{Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{Branch, BranchPoint, End, Follower, Limits};
-use crate::orbit::{FAINTEST, Orbit, OrbitError, all_single};
+use crate::orbit::{Orbit, OrbitError, all_about, singles_near};
 use crate::watch::{Watcher, unwatched};
 use softstop::Scene;
 
@@ -18,6 +18,8 @@ const FOLLOWED: (f64, f64) = (0.25, 8.0);
 /// Points of a branch in each direction.
 const POINTS: usize = 20_000;
 
+/// Share of a frequency within which they are looked for where one there is nearly one: as far as the row is wide.
+const BETWEEN: f64 = 0.08;
 /// Share of a frequency by which motions are looked for beside one at which the regime changes.
 const BESIDE: f64 = 2e-3;
 /// The same where they are looked for by the impact that a branch ends with.
@@ -52,7 +54,7 @@ pub fn stretches_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Stre
     let mut next = 0;
     while let Some(&frequency) = frequencies.get(next).filter(|_| next < MOST) {
         next += 1;
-        let mut met = VecDeque::from(all_single(&scene.at_frequency(frequency), watcher)?);
+        let mut met = VecDeque::from(all_about(&scene.at_frequency(frequency), BETWEEN, watcher)?);
         while let Some(orbit) = met.pop_front().filter(|_| branches.len() < MOST) {
             let frequency = orbit.scene.excitation.frequency;
             let point = BranchPoint {
@@ -64,7 +66,10 @@ pub fn stretches_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Stre
             };
             let is_known = branches.iter().any(|branch| {
                 let mut pairs = branch.points.windows(2);
-                pairs.any(|pair| lies_between(pair, &point, sizes))
+                pairs.any(|pair| {
+                    lies_between(pair, &point, sizes)
+                        && !is_beside(&follower, pair, (&point, scene))
+                })
             });
             if is_known {
                 continue;
@@ -94,6 +99,19 @@ pub fn stretches_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Stre
         }
     }
     Ok(distinct)
+}
+
+/// True if a point that lies near the chord between two neighbours is not the one between them on their branch, as far as
+/// that can be told.
+fn is_beside(
+    follower: &Follower<'_, Frequencies<'_>>,
+    pair: &[BranchPoint],
+    (point, scene): (&BranchPoint, &Scene),
+) -> bool {
+    let [from, to] = [&pair[0], &pair[1]];
+    let is_inside = (from.parameter < point.parameter) != (to.parameter < point.parameter);
+    let own = || follower.between(from, to, point.parameter);
+    is_inside && own().is_ok_and(|own| !is_same(&own, point, scene))
 }
 
 fn limits(scene: &Scene) -> Limits {
@@ -143,11 +161,9 @@ fn beyond(scene: &Scene, border: &Orbit) -> Vec<Orbit> {
     let shares = BEYOND.into_iter().flat_map(|share| [-share, share]);
     let near = |share: f64| {
         let there = scene.at_frequency(border.scene.excitation.frequency * (1.0 + share));
-        let orbit = Orbit::by_impacts(&there, 1, impacts.get(..1)?).ok()?;
-        let faintest = FAINTEST * scene.motion_scales().speed();
-        (orbit.before_impact_velocity() > faintest).then_some(orbit)
+        impacts.first().map(|impact| singles_near(&there, *impact))
     };
-    shares.filter_map(near).collect()
+    shares.filter_map(near).flatten().collect()
 }
 
 fn beside(frequency: f64) -> [f64; 2] {

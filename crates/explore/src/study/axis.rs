@@ -50,8 +50,8 @@ impl Axis {
             "initial.position" => (Target::Position, 1.0),
             "initial.velocity" => (Target::Velocity, 1.0),
             _ => {
-                let found = machine.stated(key);
-                let (parameter, unit) = found.map_err(|error| wrong(error.to_string()))?;
+                let unknown = |error| Failure::usage(format!("axis {error}"));
+                let (parameter, unit) = machine.stated(key).map_err(unknown)?;
                 (Target::Parameter(parameter), unit)
             }
         };
