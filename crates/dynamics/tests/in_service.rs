@@ -32,7 +32,7 @@ fn cells(region: &Region, size: usize) -> Grid {
 fn who_comes_home_is_in_the_basin_of_z_1() {
     for scene in [unloaded(1.15), loaded()] {
         let zone = zone_of(&scene);
-        let region = zone_box(&zone, &unwatched).expect("a box");
+        let (region, _) = zone_box(&scene, &zone, &unwatched).expect("a box");
         for place in [0.01, 0.3, 0.6, 0.97] {
             let orbit = zone.orbit_at(place).expect("z = 1");
             let grid = cells(&region, 40);
@@ -131,7 +131,7 @@ fn a_way_says_where_it_loses_the_motion() {
 fn integrity_falls_to_nothing_at_the_fold() {
     let zone = zone_of(&unloaded(1.15));
     let places = ErosionProfile::evenly(5);
-    let region = zone_box(&zone, &unwatched).expect("a box");
+    let (region, _) = zone_box(&zone.scene, &zone, &unwatched).expect("a box");
     let profile = ErosionProfile::of(&zone, &region, (&places, 1024), &unwatched);
     let profile = profile.expect("computed");
     assert!(profile.region == region && !profile.widened);

@@ -4,8 +4,7 @@ use rayon::prelude::*;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::Keep;
-use softstop_dynamics::attractors::starting_box;
-use softstop_dynamics::basin::ErosionProfile;
+use softstop_dynamics::basin::{ErosionProfile, zone_box};
 use softstop_dynamics::run_up::RunUp;
 
 use super::outcome::{ANGLES, Interrupted, Outcome, PLACES};
@@ -77,11 +76,13 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
 /// The integrity along the zone of a design and at the design itself, by the starts that requirements count.
 fn erosion(design: &Design) -> Option<ErosionProfile> {
     let watcher = &interrupt::watch;
-    let region = starting_box(&design.orbit.scene, watcher).ok()?;
+    let (region, widened) = zone_box(&design.orbit.scene, &design.zone, watcher).ok()?;
     let mut places = ErosionProfile::evenly(PLACES);
     places.push(design.place);
     places.sort_by(f64::total_cmp);
-    ErosionProfile::of(&design.zone, &region, (&places, STARTS), watcher).ok()
+    let mut profile = ErosionProfile::of(&design.zone, &region, (&places, STARTS), watcher).ok()?;
+    profile.widened |= widened;
+    Some(profile)
 }
 
 /// What a design has of all that is required.

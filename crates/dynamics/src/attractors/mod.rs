@@ -16,6 +16,7 @@ mod search;
 pub(crate) mod starts;
 
 pub use chaos::Chaos;
+pub(crate) use search::stays;
 pub use search::{attractors, classify, settle, starting_box};
 pub use starts::Region;
 

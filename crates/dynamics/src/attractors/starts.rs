@@ -82,8 +82,16 @@ impl Region {
         .before(scene)
     }
 
+    /// The box, and if states lie outside it a wider one that holds them with the same room.
+    pub(crate) fn holding(&self, scene: &Scene, states: &[Start]) -> Self {
+        match states.iter().all(|state| self.holds(state)) {
+            true => *self,
+            false => self.with(&Self::box_with(scene, states.iter().copied())),
+        }
+    }
+
     /// Whether a state lies in it.
-    pub(crate) fn holds(&self, state: &Start) -> bool {
+    fn holds(&self, state: &Start) -> bool {
         let within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
         within(self.position, state.position) && within(self.velocity, state.velocity)
     }

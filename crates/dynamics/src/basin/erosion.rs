@@ -11,11 +11,11 @@ use super::certainty::CertaintyError;
 use super::home::Home;
 use super::share::wilson;
 use crate::attractors::starts::evenly;
-use crate::attractors::{Region, SurveyError, starting_box};
+use crate::attractors::{Region, SurveyError, starting_box, stays};
 use crate::orbit::Orbit;
 use crate::watch::Watcher;
 use crate::zone::Zone;
-use softstop::Start;
+use softstop::{Scene, Start};
 
 /// How certainly a motion establishes itself: the share of starts in a box that settle on it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -91,18 +91,23 @@ const FEWEST: usize = 64;
 /// Radius below which a ball counts as none.
 const LEAST: f64 = 1e-4;
 
-/// One box of starts for a whole hysteresis zone: it holds those of the machine ([`starting_box`]) at both ends and in
-/// the middle.
+/// One box of starts for a whole hysteresis zone: that of the machine at its own frequency ([`starting_box`]), and whether
+/// it is wider, as motions that are found at the ends of the zone or in the middle lie outside that.
 ///
 /// # Errors
 /// As [`starting_box`].
-pub fn zone_box(zone: &Zone, watcher: Watcher<'_>) -> Result<Region, SurveyError> {
-    let [first, others @ ..] = BOXED.map(|place| zone.scene_at(place));
-    let mut all = starting_box(&first, watcher)?;
-    for scene in &others {
-        all = all.with(&starting_box(scene, watcher)?);
+pub fn zone_box(
+    scene: &Scene,
+    zone: &Zone,
+    watcher: Watcher<'_>,
+) -> Result<(Region, bool), SurveyError> {
+    let own = starting_box(scene, watcher)?;
+    let mut all = Vec::new();
+    for place in BOXED {
+        all.extend(stays(&zone.scene_at(place), watcher)?);
     }
-    Ok(all)
+    let region = own.holding(scene, &all);
+    Ok((region, region != own))
 }
 
 /// The integrity of z = 1 at one place of the zone.
@@ -151,11 +156,9 @@ impl ErosionProfile {
         let orbits = places.iter().map(|place| zone.orbit_at(*place));
         let orbits: Vec<Orbit> = orbits.collect::<Result<_, _>>()?;
         let all = orbits.iter().map(|orbit| Start::from(orbit.state()));
-        let holds_all = all.clone().all(|state| region.holds(&state));
-        let region = match orbits.last() {
-            Some(last) if !holds_all => region.with(&Region::box_with(&last.scene, all)),
-            _ => *region,
-        };
+        let held = region.holding(&zone.scene, &all.collect::<Vec<_>>());
+        let widened = held != *region;
+        let region = held;
         let states = region.starts(starts, SEED);
         let place = |(place, orbit): (&f64, &Orbit)| -> Result<Integrity, CertaintyError> {
             let (certainty, radius) = integrity(orbit, &region, &states, watcher)?;
@@ -169,7 +172,7 @@ impl ErosionProfile {
         };
         let places = places.par_iter().zip(&orbits).map(place);
         Ok(Self {
-            widened: !holds_all,
+            widened,
             region,
             places: places.collect::<Result<_, _>>()?,
         })

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Error, anyhow};
 use clap::Args;
-use softstop::{Machine, Parameter};
+use softstop::Machine;
 use softstop_dynamics::attractors::starting_box;
 use softstop_dynamics::basin::{Options, basins, establishing, zone_box};
 use softstop_dynamics::watch::Kept;
@@ -39,7 +39,8 @@ Examples:
       over drive angle and velocity, from position 0
   softstop basin --along-zone 21 --size 200
       establishing certainty of z = 1 at 21 places from g0 to s_SN: the share of initial states
-      that lead to it, for the same plane at all of them
+      that lead to it, for the same plane at all of them: that of the machine at its own frequency,
+      wider if motions of the zone lie outside it
   softstop basin docs/scenes/rigid.toml --size 400 --format json
       any machine with any stop, in its own units
   softstop basin --size 4000 --resume
@@ -122,13 +123,7 @@ pub fn run(arguments: &BasinArguments) -> Result<(), Failure> {
     arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
     match arguments.along_zone {
-        Some(places) => {
-            let why = "is not used, for the zone has its own frequencies";
-            arguments
-                .machine
-                .refuse(&machine, Parameter::Frequency, why)?;
-            along(arguments, &options, &machine, places)
-        }
+        Some(places) => along(arguments, &options, &machine, places),
         None => picture(arguments, &options, &machine),
     }
 }
@@ -184,7 +179,12 @@ fn along(
 ) -> Result<(), Failure> {
     let zone = zone::hysteresis_watched(&machine.scene, &interrupt::watch)
         .with_context(|| format!("no hysteresis zone found of {}", title(machine)))?;
-    let region = || zone_box(&zone, &interrupt::watch);
+    let mut widened = false;
+    let region = || {
+        let (region, is_wider) = zone_box(&machine.scene, &zone, &interrupt::watch)?;
+        widened = is_wider;
+        Ok(region)
+    };
     let grid = plane::grid(arguments, &zone.scene, region)?;
     let export = Export::open(&arguments.output, &ALONG)?;
     let shares: Vec<f64> = (0..places)
@@ -199,7 +199,7 @@ fn along(
     drop(progress);
     let title = format!("Establishing certainty: {}", title(machine));
     let chart = certainty::chart(machine, &found, &title);
-    let report = CertaintyReport::new(machine, &grid, &found);
+    let report = CertaintyReport::new(machine, (&grid, widened), &found);
     let rows = found.iter().map(|place| (machine, place));
     export.sheet(["csv", "svg"], &report::places(), rows, &chart)?;
     export.finish(&report, arguments.format)?;

@@ -37,10 +37,12 @@ struct Named {
 /// The certainty of z = 1 along the hysteresis zone.
 #[derive(Debug, Serialize)]
 pub(super) struct CertaintyReport {
-    /// The machine; its own frequency plays no part.
+    /// The machine; its own frequency says where the cells lie.
     machine: MachineReport,
     /// Where the cells lie.
     grid: Grid,
+    /// Whether that is wider than at the machine's own frequency, for the motions of the zone.
+    widened: bool,
     places: Vec<PlaceReport>,
     #[serde(skip)]
     text: String,
@@ -160,7 +162,11 @@ impl BasinReport {
 }
 
 impl CertaintyReport {
-    pub(super) fn new(machine: &Machine, grid: &Grid, found: &[Establishing]) -> Self {
+    pub(super) fn new(
+        machine: &Machine,
+        (grid, widened): (&Grid, bool),
+        found: &[Establishing],
+    ) -> Self {
         let columns = places();
         let share: [Column<Class>; 1] = columns! { Class, it;
             "share" [None], "of the cells" => it.share;
@@ -176,12 +182,15 @@ impl CertaintyReport {
         let places: Vec<PlaceReport> = places.collect();
         let figures = places.iter().map(|place| place.figures.clone());
         let figures: Vec<Record> = figures.collect();
+        let wider = "Wider than at the machine's own frequency, for motions of the zone lie outside that.\n\n";
         Self {
             machine: MachineReport::of(machine),
             grid: *grid,
+            widened,
             text: "Establishing certainty of z = 1, from g0 (place 0) to s_SN (place 1)\n"
                 .to_owned()
                 + &head(machine, grid)
+                + if widened { wider } else { "" }
                 + &below(&figures, &Units::of(machine)),
             places,
         }

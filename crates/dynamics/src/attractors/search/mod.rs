@@ -96,6 +96,11 @@ pub fn attractors(
 /// # Errors
 /// As [`attractors`].
 pub fn starting_box(scene: &Scene, watcher: Watcher<'_>) -> Result<Region, SurveyError> {
+    Ok(Region::box_with(scene, stays(scene, watcher)?))
+}
+
+/// States of the motions that [`orbit::find`] or 64 starts from far and wide come to.
+pub(crate) fn stays(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Start>, SurveyError> {
     let options = Options::default();
     let mut search = Search::new(scene, &options, watcher)?;
     search.fleet.planned = (options.transient + search.logged() as u64) * PILOT as u64;
@@ -105,7 +110,7 @@ pub fn starting_box(scene: &Scene, watcher: Watcher<'_>) -> Result<Region, Surve
     let own = orbit::find_watched(scene, &go_on).ok();
     search.fleet.note(0)?;
     let own = own.map(|orbit| Start::new(orbit.position, orbit.velocity));
-    Ok(Region::box_with(scene, stays.copied().chain(own)))
+    Ok(stays.copied().chain(own).collect())
 }
 
 /// What the motion from one start settles on.
