@@ -69,7 +69,10 @@ fn what_settles_is_the_orbit() -> Outcome {
         let nominal = find(&spread.0)?;
         for to in [[0.0, 0.0], [1.0, -1.0], [-0.3, 0.8]] {
             let scene = spread.scene(&to);
-            let settled = Settled::near(&scene, nominal.state()).ok_or("a motion")?;
+            let settled = Settled::near(&scene, nominal.state(), 1.0).ok_or("a motion")?;
+            let is_away = to != [0.0, 0.0];
+            let near = Settled::near(&scene, nominal.state(), 1e-9);
+            assert_eq!(near.is_none(), is_away, "no farther than told");
             let orbit = Orbit::near(&scene, nominal.state())?;
             let velocity = orbit.before_impact_velocity();
             assert_relative_eq!(settled.velocity, velocity, max_relative = 1e-9);

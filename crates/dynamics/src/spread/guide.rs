@@ -7,6 +7,10 @@ use super::{Model, Reached, Settled, Spread, along};
 use crate::orbit::{Orbit, OrbitError};
 use crate::zone::Loss;
 
+/// How many times farther from where they should be other motions may be than those that are known, and so far anyway, in
+/// the scales of the motion.
+const FARTHER: f64 = 10.0;
+const NEAR: f64 = 1e-3;
 /// Machines to which the nominal motion is followed before others are led to.
 const FIRST: usize = 64;
 
@@ -16,6 +20,8 @@ pub struct Guide<'a> {
     spread: &'a dyn Spread,
     nominal: &'a Orbit,
     states: Model,
+    /// How far from where a motion should be it may be found, in the scales of the motion.
+    reach: f64,
 }
 
 /// What becomes of the nominal motion in another machine.
@@ -51,13 +57,20 @@ impl<'a> Guide<'a> {
         let (first, others) = places.split_at(FIRST.min(places.len()));
         let mut known: Vec<(Vec<f64>, [f64; 2])> = first.par_iter().filter_map(followed).collect();
         known.push((vec![0.0; spread.dimensions()], nominal.state().into()));
+        let scales = nominal.scene.motion_scales();
         let guide = |known: &[(Vec<f64>, [f64; 2])]| {
             let (places, states): (Vec<_>, Vec<_>) = known.iter().cloned().unzip();
-            let states = Model::fit(&places, &states).ok_or(OrbitError::NotIsolated)?;
+            let model = Model::fit(&places, &states).ok_or(OrbitError::NotIsolated)?;
+            let missed = |(place, state): (&Vec<f64>, &[f64; 2])| {
+                let miss = Vector2::from(model.at(place)) - Vector2::from(*state);
+                scales.state(&miss).norm()
+            };
+            let farthest = places.iter().zip(&states).map(missed).fold(0.0, f64::max);
             Ok(Self {
                 spread,
                 nominal,
-                states,
+                states: model,
+                reach: (FARTHER * farthest).max(NEAR),
             })
         };
         let rough: Self = guide(&known)?;
@@ -73,7 +86,7 @@ impl<'a> Guide<'a> {
     /// where that is in any doubt, by following it there.
     pub fn fate(&self, at: &[f64]) -> Fate {
         let guess = Vector2::from(self.states.at(at));
-        if let Some(settled) = Settled::near(&self.spread.scene(at), guess) {
+        if let Some(settled) = Settled::near(&self.spread.scene(at), guess, self.reach) {
             return Fate::Kept(settled);
         }
         match along(self.spread, self.nominal, at, 1.0) {

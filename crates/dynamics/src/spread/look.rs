@@ -96,17 +96,20 @@ impl Settled {
         }
     }
 
-    /// The stable z = 1 motion of a machine to which a few steps of Newton's method lead from a state near it; none where
-    /// that is in any doubt.
-    pub fn near(scene: &Scene, state: Vector2<f64>) -> Option<Self> {
+    /// The stable z = 1 motion of a machine to which a few steps of Newton's method lead from a state near it, no farther
+    /// than `reach` in the scales of the motion; none where that is in any doubt.
+    pub fn near(scene: &Scene, guess: Vector2<f64>, reach: f64) -> Option<Self> {
         scene.validate().ok()?;
         let (phases, scales) = (Shared::new(scene.phases()), scene.motion_scales());
-        let mut state = state;
+        let mut state = guess;
         for _ in 0..LOOKS {
             let look = Look::at((scene, &phases), state).ok()?;
             let step = look.step(state).filter(|_| look.impacts == 1)?;
             state += step;
-            let far = (step.x / scales.length).hypot(step.y / scales.speed());
+            if scales.state(&(state - guess)).norm() > reach {
+                return None;
+            }
+            let far = scales.state(&step).norm();
             let matrix = &look.tangent.matrix;
             let clear = |test: Test| test.value(matrix) > CLEAR * far;
             let sure = far <= SHORT && clear(Test::Fold) && clear(Test::Flip);
