@@ -13,8 +13,10 @@ pub(super) const LETTERS: u32 = 14;
 pub(super) const LINE: f64 = 19.0;
 /// Room left of a panel for numbers and name, and below it.
 pub(super) const ROOM: (f64, f64) = (80.0, 50.0);
-/// Room above and at the right.
+/// Room above.
 pub(super) const EDGE: f64 = 16.0;
+/// Room at the right: half of a wide number under the end of an axis.
+pub(super) const RIGHT: f64 = 28.0;
 /// What stands for a colour of a drawing in the page, light or dark.
 const COLORS: [(&str, &str); 7] = [
     ("#222222", "var(--ink)"),
@@ -179,7 +181,7 @@ impl Names {
             };
             pen.line(&[(x, y - 10.0), (x, panel.area.1)], whole);
             panel.curve(pen, &[(*at, panel.y.0), (*at, panel.y.1)], stroke);
-            let room = panel.right() + EDGE - 0.86 * width(LETTERS, name);
+            let room = panel.right() + RIGHT - 0.86 * width(LETTERS, name);
             match x + 4.0 < room {
                 true => pen.text((x + 4.0, y), LETTERS, Align::Left, name),
                 false => pen.text((x - 4.0, y), LETTERS, Align::Right, name),

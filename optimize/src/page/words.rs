@@ -80,9 +80,11 @@ pub(super) fn capital(text: &str) -> String {
     first.chain(letters).collect()
 }
 
-/// A text as it is typed, with g0 and g₀ as `g_0`, and a sign in front of a number as a minus sign.
+/// A text as it is typed, with g0 and g₀ as `g_0`, a sign in front of a number as a minus sign, and signs and letters that
+/// stand for others as these.
 fn plain(text: &str) -> String {
-    let text = text.replace('₀', "_0");
+    let text = text.replace('₀', "_0").replace("<=", "≤");
+    let text = text.replace("angle phi", "angle φ").replace("x'", "x′");
     let mut plain = String::new();
     let mut before = ' ';
     let mut letters = text.chars().peekable();
@@ -204,6 +206,10 @@ mod tests {
         assert_eq!(
             html("above g0, -0.5 to 2-3"),
             "above g<sub>0</sub>, −0.5 to 2-3"
+        );
+        assert_eq!(
+            html("-1 <= x' <= 1 at drive angle phi"),
+            "−1 ≤ x′ ≤ 1 at drive angle φ"
         );
         assert_eq!(html("X_m, a_b_c"), "X<sub>m</sub>, a<sub>b</sub>_c");
     }

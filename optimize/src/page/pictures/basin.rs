@@ -4,7 +4,7 @@ use softstop_draw::panel::{Axes, Panel};
 use softstop_draw::pen::{Area, Pen, width};
 
 use crate::page::data::Basin;
-use crate::page::figure::{EDGE, Figure, HALF, LETTERS, LINE, ROOM, ends};
+use crate::page::figure::{EDGE, Figure, HALF, LETTERS, LINE, RIGHT, ROOM, ends};
 
 /// Radius of the spot where a motion passes the plane.
 const SPOT: f64 = 4.5;
@@ -12,7 +12,7 @@ const SPOT: f64 = 4.5;
 /// The picture.
 pub(in crate::page) fn figure(basin: &Basin) -> Figure {
     let mut pen = Pen::new(HALF.width, HALF.height);
-    let right = HALF.width - EDGE;
+    let right = HALF.width - RIGHT;
     let top = key(&mut pen, basin, right);
     let area = (ROOM.0, top, right - ROOM.0, HALF.height - top - ROOM.1);
     let panel = Panel::new(area, ends(basin.x_range), ends(basin.y_range));
@@ -61,7 +61,7 @@ pub(in crate::page) fn figure(basin: &Basin) -> Figure {
         format!(" The ring is the largest ball inside the basin of the design: {radius:.3} of half of each axis.")
     });
     let caption = format!(
-        "Shares of the initial states, with 95 % intervals: {}. White spot: the design at drive angle 0.{ball}",
+        "Shares of the initial states, with 95 % intervals: {}. The spot is the design at drive angle 0.{ball}",
         shares.join("; ")
     );
     Figure::new(&pen, HALF, "Which start leads to which motion", caption)

@@ -6,7 +6,7 @@ use softstop_draw::shapes::Sign;
 use softstop_draw::style;
 
 use crate::page::data::Erosion;
-use crate::page::figure::{EDGE, Figure, HALF, LETTERS, LINE, Names, ROOM, legend};
+use crate::page::figure::{EDGE, Figure, HALF, LETTERS, LINE, Names, RIGHT, ROOM, legend};
 
 const SHARE: Stroke = Stroke::solid(style::DESIGN, 2.5);
 const INTEGRITY: Stroke = Stroke::dashed(style::REFERENCE, 2.5, (9.0, 4.0));
@@ -16,7 +16,7 @@ const DESIGN: Stroke = Stroke::dashed(style::OPTIMUM, 1.6, (5.0, 4.0));
 /// The picture.
 pub(in crate::page) fn figure(erosion: &Erosion) -> Figure {
     let mut pen = Pen::new(HALF.width, HALF.height);
-    let right = HALF.width - EDGE;
+    let right = HALF.width - RIGHT;
     let points = || erosion.points.iter().filter(|it| it.share.is_finite());
     let shares: Vec<(f64, f64)> = points().map(|it| (it.place, it.share)).collect();
     let integrity = points().filter_map(|it| Some((it.place, it.integrity?)));

@@ -7,7 +7,7 @@ use softstop_draw::shapes::{Mark, Sign};
 use softstop_draw::style;
 
 use crate::page::data::Front;
-use crate::page::figure::{EDGE, Figure, HALF, LETTERS, LINE, ROOM, finite, legend};
+use crate::page::figure::{EDGE, Figure, HALF, LETTERS, LINE, RIGHT, ROOM, finite, legend};
 use crate::page::words::capital;
 
 const LINED: Stroke = Stroke::solid(style::DESIGN, 1.6);
@@ -15,7 +15,7 @@ const LINED: Stroke = Stroke::solid(style::DESIGN, 1.6);
 /// The picture.
 pub(in crate::page) fn figure(front: &Front) -> Figure {
     let mut pen = Pen::new(HALF.width, HALF.height);
-    let right = HALF.width - EDGE;
+    let right = HALF.width - RIGHT;
     let mut entries = vec![(
         Sign::Mark(Mark::Circle, style::DESIGN),
         "best designs".to_owned(),

@@ -6,7 +6,7 @@ use softstop_draw::scale::around;
 use softstop_draw::style;
 
 use crate::page::data::Histogram;
-use crate::page::figure::{EDGE, Figure, HALF, LETTERS, Names, ROOM, ends};
+use crate::page::figure::{EDGE, Figure, HALF, LETTERS, Names, RIGHT, ROOM, ends};
 use crate::page::words::{count, quantity};
 
 const AT: Stroke = Stroke::dashed(style::OPTIMUM, 1.8, (5.0, 4.0));
@@ -14,7 +14,7 @@ const AT: Stroke = Stroke::dashed(style::OPTIMUM, 1.8, (5.0, 4.0));
 /// The picture.
 pub(in crate::page) fn figure(histogram: &Histogram) -> Figure {
     let mut pen = Pen::new(HALF.width, HALF.height);
-    let right = HALF.width - EDGE;
+    let right = HALF.width - RIGHT;
     let mut marks = vec![("design".to_owned(), histogram.nominal)];
     marks.extend(histogram.worst.map(|worst| ("worst".to_owned(), worst)));
     let (low, high) = ends(histogram.range);

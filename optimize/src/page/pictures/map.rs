@@ -9,7 +9,7 @@ use softstop_draw::style;
 
 use super::stroke;
 use crate::page::data::Map;
-use crate::page::figure::{EDGE, Figure, LETTERS, LINE, ROOM, Size, ends, finite, legend};
+use crate::page::figure::{EDGE, Figure, LETTERS, LINE, RIGHT, ROOM, Size, ends, finite, legend};
 use crate::page::words::{capital, quantity};
 
 /// Width of the scale of shades, and the room for its numbers at its left.
@@ -20,7 +20,7 @@ const MARK: f64 = 8.0;
 /// The picture.
 pub(in crate::page) fn figure(map: &Map, size: Size) -> Figure {
     let mut pen = Pen::new(size.width, size.height);
-    let right = size.width - EDGE;
+    let right = size.width - RIGHT;
     let mark = Sign::Mark(Mark::Diamond, style::OPTIMUM);
     let mut entries: Vec<(Sign, String)> = vec![(mark, "design".to_owned())];
     for curve in &map.curves {

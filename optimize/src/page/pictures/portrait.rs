@@ -7,7 +7,9 @@ use softstop_draw::shapes::Sign;
 
 use super::stroke;
 use crate::page::data::Portrait;
-use crate::page::figure::{BOUND, EDGE, Figure, LETTERS, LINE, Names, ROOM, WIDE, finite, legend};
+use crate::page::figure::{
+    BOUND, EDGE, Figure, LETTERS, LINE, Names, RIGHT, ROOM, WIDE, finite, legend,
+};
 
 /// How far before the first face the near part begins, in units of how far the mass goes beyond it.
 const BEFORE: f64 = 0.8;
@@ -15,7 +17,7 @@ const BEFORE: f64 = 0.8;
 /// The picture.
 pub(in crate::page) fn figure(portrait: &Portrait) -> Figure {
     let mut pen = Pen::new(WIDE.width, WIDE.height);
-    let right = WIDE.width - EDGE;
+    let right = WIDE.width - RIGHT;
     let mut entries: Vec<(Sign, String)> = Vec::new();
     for curve in &portrait.curves {
         if !entries.iter().any(|(_, name)| *name == curve.name) {

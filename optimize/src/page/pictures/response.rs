@@ -8,7 +8,9 @@ use softstop_draw::style;
 
 use super::stroke;
 use crate::page::data::{Response, Role};
-use crate::page::figure::{BOUND, EDGE, Figure, LETTERS, LINE, Names, ROOM, WIDE, finite, legend};
+use crate::page::figure::{
+    BOUND, EDGE, Figure, LETTERS, LINE, Names, RIGHT, ROOM, WIDE, finite, legend,
+};
 use crate::page::words::quantity;
 
 /// Half the size of the design's mark.
@@ -19,7 +21,7 @@ const BAND: &str = style::OPTIMUM;
 /// The picture.
 pub(in crate::page) fn figure(response: &Response) -> Figure {
     let mut pen = Pen::new(WIDE.width, WIDE.height);
-    let right = WIDE.width - EDGE;
+    let right = WIDE.width - RIGHT;
     let mark = Sign::Mark(Mark::Triangle, style::OPTIMUM);
     let mut entries = vec![(mark, "design".to_owned())];
     for curve in &response.curves {
