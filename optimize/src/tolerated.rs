@@ -94,17 +94,17 @@ fn width(one: &One<'_>) -> f64 {
 fn price(machine: &Machine, study: &Study, without: &Without) -> String {
     let unit = machine.unit(Dimension::Velocity);
     let own = |velocity| number(machine.to_own(Dimension::Velocity, velocity));
-    let lost = match without.lost {
-        0 => String::new(),
+    let slowest = own(without.slowest);
+    let worst = match without.lost {
+        0 => format!("{slowest} worst"),
         lost => format!(
-            " of those that are not lost ({lost} of {})",
+            "where {lost} of {} machines lose the motion ({slowest} the least seen of the others)",
             without.machines
         ),
     };
     let told = format!(
-        "Without tolerances {} {unit} nominal, {} worst{lost}; robust design {} nominal, {} worst",
+        "Without tolerances {} {unit} nominal, {worst}; robust design {} nominal, {} worst",
         own(without.design.before_impact_velocity()),
-        own(without.slowest),
         own(study.nominal),
         own(study.slowest()),
     );
@@ -124,7 +124,7 @@ impl Tolerated {
                 )
                 .with("machines", "machines within the tolerances", it.machines)
                 .with("lost", "that lose the motion", it.lost)
-                .with("slowest", "least velocity of the others", it.slowest)
+                .with("slowest", "least velocity seen of the others", it.slowest)
         });
         Self {
             machines: Record::of(&machines(), &(machine, study)),

@@ -46,7 +46,8 @@ pub struct Without {
     pub machines: usize,
     /// Those of them that lose the motion.
     pub lost: usize,
-    /// The slowest impact of the others in m/s that was found.
+    /// The slowest impact of the others in m/s: by steps down from the design if none is lost, otherwise the least that was
+    /// seen, which bounds nothing, for it falls towards the fold.
     pub slowest: f64,
 }
 
