@@ -10,6 +10,7 @@ use super::coordinates::Summit;
 use super::figure::{Figure, Sense};
 use super::gradient::{ascend, ascend_from};
 use super::hold::is_at_edge;
+use super::pass::nearby;
 use super::problem::Problem;
 use super::requirement::Requirement;
 use super::trial::{ROUGH, certainty};
@@ -24,6 +25,8 @@ pub struct Front {
     pub design: (f64, f64),
     /// Its values and the best of what is sought, in rising order of the first.
     pub points: Vec<(f64, f64)>,
+    /// How many of them had to give way to requirements that take many motions.
+    pub moved: usize,
     /// Designs on the way that are not among them: they fail a requirement that takes many motions, or lose the motion
     /// within the tolerances.
     pub left_out: usize,
@@ -46,7 +49,13 @@ impl Front {
                  motion within the tolerances: {count} of the best designs on the way."
             ),
         };
-        format!("{found}{left_out}").trim_end().to_owned()
+        let moved = match self.moved {
+            0 => String::new(),
+            count => format!(
+                "Of these {count} had to give way to a requirement that takes many motions: they are good to a per cent or so. "
+            ),
+        };
+        format!("{found}{moved}{left_out}").trim_end().to_owned()
     }
 }
 
@@ -59,11 +68,14 @@ const WIDEST: f64 = 0.5;
 const WIDENING: f64 = 0.1;
 /// Shares of starts between that of the design and all of them.
 const SHARES: usize = 4;
+/// Share of what is sought that a design must keep that gives way to a requirement.
+const LITTLE: f64 = 0.9;
 /// Change of what is sought, relative, below which the bound no longer holds the design.
 const FREE: f64 = 1e-6;
 
 /// What a figure costs of what is sought, around a design at a point of the unit cube; none if the design has no such
-/// figure. The others are sought without requirements that take many motions, and left out if they fail them.
+/// figure. The others are sought without requirements that take many motions; those that fail them give way to ones near
+/// them, and are left out if there is none.
 pub fn front(
     problem: &Problem,
     (unit, design): (&[f64], &Design),
@@ -81,12 +93,10 @@ pub fn front(
         Figure::DriveForce if is_held(Parameter::Amplitude) => forces(problem, &start),
         _ => bounds(problem, &start, figure, own.0),
     };
-    let whole = others
-        .par_iter()
-        .filter(|it| problem.passes(&it.design.orbit, ROUGH) && keeps_box(problem, &it.design));
-    let whole: Vec<&Summit> = whole.collect();
+    let whole: Vec<Tried> = others.par_iter().filter_map(tried).collect();
     let left_out = others.len() - whole.len();
-    let whole = whole.par_iter().filter_map(|it| place(figure, it));
+    let moved = whole.iter().filter(|it| it.is_moved).count();
+    let whole = whole.par_iter().filter_map(|it| place(figure, &it.summit));
     let mut points: Vec<(f64, f64)> = whole.collect();
     points.push(own);
     let score = |it: &(f64, f64)| problem.objective.score(it.1);
@@ -100,8 +110,35 @@ pub fn front(
         figure,
         design: own,
         points,
+        moved,
         left_out,
     })
+}
+
+/// A design on the way, and the task that it solves.
+type Bounded = (Problem, Summit);
+
+/// A design that passes its trials and keeps its box.
+struct Tried {
+    summit: Summit,
+    /// Whether it had to give way for that.
+    is_moved: bool,
+}
+
+/// A design on the way, or one near it that passes; none if there is none.
+fn tried((problem, summit): &Bounded) -> Option<Tried> {
+    let is_moved = !problem.passes(&summit.design.orbit, ROUGH);
+    let summit = match is_moved {
+        true => nearby(problem, summit).filter(|it| gives_way_little(problem, summit, it))?,
+        false => summit.clone(),
+    };
+    keeps_box(problem, &summit.design).then_some(Tried { summit, is_moved })
+}
+
+/// Whether a design near another one costs no more of what is sought than a front can show as one of the best.
+fn gives_way_little(problem: &Problem, from: &Summit, to: &Summit) -> bool {
+    let score = |it: &Summit| problem.objective.score(it.design.value);
+    score(to) > LITTLE * score(from)
 }
 
 /// Whether a design keeps its motion at corners of its box of tolerances and at places all over it.
@@ -123,7 +160,7 @@ fn place(figure: Figure, at: &Summit) -> Option<(f64, f64)> {
 }
 
 /// Over the margin M from both ends of the zone.
-fn margins(problem: &Problem, mut from: Summit) -> Vec<Summit> {
+fn margins(problem: &Problem, mut from: Summit) -> Vec<Bounded> {
     let steps = 0..=(WIDEST / WIDENING) as usize;
     let steps = steps.filter_map(|step| {
         let wider = Problem {
@@ -131,24 +168,24 @@ fn margins(problem: &Problem, mut from: Summit) -> Vec<Summit> {
             ..problem.clone()
         };
         from = ascend(&wider, &from.unit)?;
-        Some(from.clone())
+        Some((wider, from.clone()))
     });
     steps.collect()
 }
 
 /// Over the share of starts that lead to the motion, from that of the design towards all of them.
-fn shares(problem: &Problem, start: &Summit, own: f64) -> Vec<Summit> {
+fn shares(problem: &Problem, start: &Summit, own: f64) -> Vec<Bounded> {
     let mut from = start.clone();
     let shares = (1..=SHARES).map(|step| own + (1.0 - own) * step as f64 / (SHARES + 1) as f64);
     let all = shares.map_while(|share| {
         from = certain(problem, &from, share)?;
-        Some(from.clone())
+        Some((problem.clone(), from.clone()))
     });
     all.collect()
 }
 
 /// Over the drive's amplitude that the task holds.
-fn forces(problem: &Problem, start: &Summit) -> Vec<Summit> {
+fn forces(problem: &Problem, start: &Summit) -> Vec<Bounded> {
     let Some(held) = problem.machine.value(Parameter::Amplitude) else {
         return Vec::new();
     };
@@ -157,31 +194,23 @@ fn forces(problem: &Problem, start: &Summit) -> Vec<Summit> {
         other.machine.set(Parameter::Amplitude, bound);
         other
     };
-    both_ways(start, held, |bound, from| {
-        ascend_from(&of(bound), &from.unit, from.design.place)
-    })
+    both_ways(start, held, of)
 }
 
 /// Over a bound of a figure, tighter and looser.
-fn bounds(problem: &Problem, start: &Summit, figure: Figure, own: f64) -> Vec<Summit> {
-    both_ways(start, own, |bound, from| {
-        let bounded = bounded(problem, figure, bound);
-        ascend_from(&bounded, &from.unit, from.design.place)
-    })
+fn bounds(problem: &Problem, start: &Summit, figure: Figure, own: f64) -> Vec<Bounded> {
+    both_ways(start, own, |bound| bounded(problem, figure, bound))
 }
 
 /// Step by step from the design on, down and up, until there is no design or its bound no longer holds it.
-fn both_ways(
-    start: &Summit,
-    own: f64,
-    next: impl Fn(f64, &Summit) -> Option<Summit>,
-) -> Vec<Summit> {
+fn both_ways(start: &Summit, own: f64, with_bound: impl Fn(f64) -> Problem) -> Vec<Bounded> {
     let mut all = Vec::new();
     for change in [-STEP, STEP] {
         let (mut from, mut bound) = (start.clone(), own);
         for _ in 0..STEPS {
             bound *= 1.0 + change;
-            let Some(summit) = next(bound, &from) else {
+            let problem = with_bound(bound);
+            let Some(summit) = ascend_from(&problem, &from.unit, from.design.place) else {
                 break;
             };
             let gain = (summit.design.value - from.design.value).abs();
@@ -189,7 +218,7 @@ fn both_ways(
                 break;
             }
             from = summit;
-            all.push(from.clone());
+            all.push((problem, from.clone()));
         }
     }
     all

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use softstop_console::interrupt;
 
+use super::certain::certain;
 use super::conflict::conflict;
 use super::coordinates::{Coordinates, Summit};
 use super::gradient::ascend_from;
@@ -85,6 +86,13 @@ pub(super) fn pass(
     })
 }
 
+/// A design near one that does not pass its trials and passes them: without the search that [`pass`] takes, and good to a
+/// per cent or so.
+pub(super) fn nearby(problem: &Problem, from: &Summit) -> Option<Summit> {
+    let known = &Known::default();
+    Trials { problem, known }.first(from)
+}
+
 struct Trials<'a> {
     problem: &'a Problem,
     known: &'a Known,
@@ -97,17 +105,8 @@ impl Trials<'_> {
 
     /// The best design that passes, sought from one that does not.
     fn best(&self, from: &Summit) -> Option<Summit> {
-        let wider = |margin: &f64| {
-            let wider = Problem {
-                margin: margin.max(self.problem.margin),
-                ..self.problem.clone()
-            };
-            Some(ascend_from(&wider, &from.unit, from.design.place)?.unit)
-        };
-        let starts = MARGINS.iter().filter_map(wider);
-        let starts: Vec<_> = [from.unit.clone()].into_iter().chain(starts).collect();
         let coordinates = Coordinates::new(self.problem, &from.unit);
-        let mut best = self.best_of(&starts, None);
+        let mut best = self.first(from);
         let lattice = lattice(coordinates.axes().len());
         let lattice: Vec<_> = lattice.iter().map(|at| coordinates.unit(at)).collect();
         best = self.best_of(&lattice, best.as_ref()).or(best);
@@ -123,6 +122,40 @@ impl Trials<'_> {
         Some(best)
     }
 
+    /// The best of the zone of a design, of those with wider margins, and of what linear models of the share of starts lead
+    /// to, if that is required.
+    fn first(&self, from: &Summit) -> Option<Summit> {
+        let wider = |margin: &f64| {
+            let wider = Problem {
+                margin: margin.max(self.problem.margin),
+                ..self.problem.clone()
+            };
+            ascend_from(&wider, &from.unit, from.design.place)
+        };
+        let wider = MARGINS.par_iter().filter_map(wider);
+        let starts: Vec<Summit> = [from.clone()]
+            .into_iter()
+            .chain(wider.collect::<Vec<_>>())
+            .collect();
+        let share = self.problem.least_share();
+        let led = |start: &Summit| certain(self.problem, start, share?);
+        let led = starts
+            .par_iter()
+            .filter_map(led)
+            .filter(|it| self.passes(it));
+        let best = self.better_of(led.collect());
+        let units: Vec<_> = starts.into_iter().map(|it| it.unit).collect();
+        self.best_of(&units, best.as_ref()).or(best)
+    }
+
+    /// Whether a design keeps what is known of its box, and passes.
+    fn passes(&self, it: &Summit) -> bool {
+        let design = &it.design;
+        let here = Here::on(design.machine.clone(), &design.zone, design.place);
+        here.is_some_and(|here| self.known.value(self.problem, &here).is_some())
+            && self.problem.passes(&design.orbit, FULL)
+    }
+
     /// The best of some zones that is better than one that is known.
     fn best_of(&self, units: &[Vec<f64>], known: Option<&Summit>) -> Option<Summit> {
         let least = known.map_or(0.0, |it| (1.0 + GAIN) * self.score(&it.design));
@@ -132,7 +165,11 @@ impl Trials<'_> {
                 design: self.along(unit, least)?,
             })
         });
-        let found: Vec<Summit> = found.collect();
+        self.better_of(found.collect())
+    }
+
+    /// The best of some designs.
+    fn better_of(&self, found: Vec<Summit>) -> Option<Summit> {
         let score = |it: &Summit| self.score(&it.design);
         found.into_iter().reduce(|one, other| {
             if score(&other) > score(&one) {

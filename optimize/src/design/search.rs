@@ -9,6 +9,7 @@
 //! All see the unit cube. The swarm keeps to it by itself; Nelder-Mead does not, so points
 //! outside are pulled in, and an optimum on the boundary (common here) is met exactly.
 
+use std::mem::swap;
 use std::slice;
 
 use argmin::core::Error;
@@ -28,6 +29,7 @@ use super::polish::polish;
 use super::space::Space;
 use super::survey::survey;
 use super::swarm::swarm_best;
+use super::trial::FULL;
 use super::{Design, Infeasible, Problem};
 
 /// Fewest zones a search makes sense with.
@@ -194,9 +196,15 @@ fn finish(cost: &Cost<'_>, seen: Seen) -> Result<Found, SearchError> {
         })));
     };
     let exchanged = exchange(problem, first);
-    let (best, resolution) = pass(problem, exchanged).map_err(none)?;
+    let (mut best, resolution) = pass(problem, exchanged).map_err(none)?;
+    let others = held.into_iter().map(|it| it.summit);
+    let mut others: Vec<Summit> = others
+        .filter(|it| score(it) > RIVAL * score(&best) && problem.passes(&it.design.orbit, FULL))
+        .collect();
+    if let Some(better) = others.first_mut().filter(|it| score(it) > score(&best)) {
+        swap(better, &mut best);
+    }
     cost.note(&best, Rank::Passed);
-    let others: Vec<Summit> = held.into_iter().map(|it| it.summit).collect();
     Ok(Found {
         resolution,
         ..Found::new(problem, best, &others)

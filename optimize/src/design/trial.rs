@@ -65,6 +65,12 @@ impl Problem {
         })
     }
 
+    /// The share of starts that must lead to a motion, if any.
+    pub(super) fn least_share(&self) -> Option<f64> {
+        let mut all = self.trials();
+        all.find(|it| it.figure == Figure::Certainty)?.least
+    }
+
     /// True if a motion must be tried.
     pub fn has_trials(&self) -> bool {
         self.trials().next().is_some()
