@@ -68,8 +68,6 @@ const WIDEST: f64 = 0.5;
 const WIDENING: f64 = 0.1;
 /// Shares of starts between that of the design and all of them.
 const SHARES: usize = 4;
-/// Share of what is sought that a design must keep that gives way to a requirement.
-const LITTLE: f64 = 0.9;
 /// Change of what is sought, relative, below which the bound no longer holds the design.
 const FREE: f64 = 1e-6;
 
@@ -93,26 +91,36 @@ pub fn front(
         Figure::DriveForce if is_held(Parameter::Amplitude) => forces(problem, &start),
         _ => bounds(problem, &start, figure, own.0),
     };
-    let whole: Vec<Tried> = others.par_iter().filter_map(tried).collect();
-    let left_out = others.len() - whole.len();
-    let moved = whole.iter().filter(|it| it.is_moved).count();
-    let whole = whole.par_iter().filter_map(|it| place(figure, &it.summit));
-    let mut points: Vec<(f64, f64)> = whole.collect();
-    points.push(own);
-    let score = |it: &(f64, f64)| problem.objective.score(it.1);
-    points.sort_by(|a, b| a.0.total_cmp(&b.0).then(score(a).total_cmp(&score(b))));
-    if figure == Figure::Certainty {
-        // Linear models may miss the best: what another one betters in both goes.
-        let all = points.clone();
-        points.retain(|it| !all.iter().any(|one| one.0 > it.0 && score(one) > score(it)));
-    }
+    let mut tried: Vec<Tried> = others
+        .par_iter()
+        .filter_map(|it| tried(figure, it))
+        .collect();
+    let left_out = others.len() - tried.len();
+    tried.push(Tried {
+        place: own,
+        is_moved: false,
+    });
+    let mut best = undominated(problem, figure, &tried);
+    best.sort_by(|a, b| a.place.0.total_cmp(&b.place.0));
     Some(Front {
         figure,
         design: own,
-        points,
-        moved,
+        points: best.iter().map(|it| it.place).collect(),
+        moved: best.iter().filter(|it| it.is_moved).count(),
         left_out,
     })
+}
+
+/// Those that no other one beats in both quantities.
+fn undominated<'a>(problem: &Problem, figure: Figure, tried: &'a [Tried]) -> Vec<&'a Tried> {
+    let is_better = |it: f64, than: f64| match figure.sense() {
+        Sense::Least => it > than,
+        Sense::Most => it < than,
+    };
+    let score = |value| problem.objective.score(value);
+    let beats = |a: (f64, f64), b: (f64, f64)| is_better(a.0, b.0) && score(a.1) > score(b.1);
+    let is_beaten = |it: &&Tried| tried.iter().any(|other| beats(other.place, it.place));
+    tried.iter().filter(|it| !is_beaten(it)).collect()
 }
 
 /// A design on the way, and the task that it solves.
@@ -120,25 +128,24 @@ type Bounded = (Problem, Summit);
 
 /// A design that passes its trials and keeps its box.
 struct Tried {
-    summit: Summit,
+    /// Its figure, and what is sought.
+    place: (f64, f64),
     /// Whether it had to give way for that.
     is_moved: bool,
 }
 
 /// A design on the way, or one near it that passes; none if there is none.
-fn tried((problem, summit): &Bounded) -> Option<Tried> {
+fn tried(figure: Figure, (problem, summit): &Bounded) -> Option<Tried> {
     let is_moved = !problem.passes(&summit.design.orbit, ROUGH);
     let summit = match is_moved {
-        true => nearby(problem, summit).filter(|it| gives_way_little(problem, summit, it))?,
+        true => nearby(problem, summit)?,
         false => summit.clone(),
     };
-    keeps_box(problem, &summit.design).then_some(Tried { summit, is_moved })
-}
-
-/// Whether a design near another one costs no more of what is sought than a front can show as one of the best.
-fn gives_way_little(problem: &Problem, from: &Summit, to: &Summit) -> bool {
-    let score = |it: &Summit| problem.objective.score(it.design.value);
-    score(to) > LITTLE * score(from)
+    if !keeps_box(problem, &summit.design) {
+        return None;
+    }
+    let place = place(figure, &summit)?;
+    Some(Tried { place, is_moved })
 }
 
 /// Whether a design keeps its motion at corners of its box of tolerances and at places all over it.
