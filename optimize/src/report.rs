@@ -14,6 +14,7 @@ use softstop_console::table::{heading, number};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::zone::{Stretch, stretches_watched};
 
+use crate::design::conflict::short;
 use crate::design::judge::Met;
 use crate::design::problem::Objective;
 use crate::design::{Design, Problem};
@@ -72,7 +73,7 @@ impl OptimizeReport {
     ) -> Self {
         let design = &found.design;
         let tolerances = study.map(|it| Tolerated::of(&design.machine, it));
-        let limits = at_limits(problem, found);
+        let limits = at_limits(problem, found, short);
         let one = |machine: &Machine, orbit: &Orbit, more: Record| Found {
             machine: Stated::of(machine),
             motion: motion(machine, orbit).and(more),

@@ -61,7 +61,7 @@ pub fn stated(machine: &Machine, parameter: Parameter, value: f64) -> String {
 }
 
 /// A number with seven digits, and no more of them than it has.
-fn short(value: f64) -> String {
+pub fn short(value: f64) -> String {
     plain(format!("{value:.6e}").parse().unwrap_or(value))
 }
 

@@ -16,7 +16,7 @@ use super::requirement::Requirement;
 /// Starts of the box.
 pub const STARTS: usize = 1024;
 /// Drive angles at which the drive is switched on or strips are missing.
-const ANGLES: usize = 64;
+pub const ANGLES: usize = 64;
 
 /// How many motions a trial counts.
 #[derive(Debug, Clone, Copy)]

@@ -242,15 +242,17 @@ fn named(problem: &Problem, outcome: &Outcome) -> Machine {
     let words = problem.objective.words();
     let machine = &design.machine;
     let name = machine.name.as_deref().unwrap_or("machine");
-    let frequency = design.frequency();
-    let unit = machine.unit(Dimension::Frequency);
+    let own = |value: f64, dimension| {
+        let value = format!("{value:.6} {}", machine.unit(dimension));
+        value.trim_end().to_owned()
+    };
     Machine {
         name: Some(format!("{name} design")),
         description: Some(format!(
-            "Design of the machine {name} with the {words} inside its hysteresis zone: drive frequency \
-             {frequency:.6} {unit}, before-impact velocity {:.6} {}{}",
-            design.before_impact_velocity(),
-            machine.unit(Dimension::Velocity),
+            "Design of the machine {name} with the {words} inside its hysteresis zone: drive frequency {}, \
+             before-impact velocity {}{}",
+            own(design.frequency(), Dimension::Frequency),
+            own(design.before_impact_velocity(), Dimension::Velocity),
             interrupted.unwrap_or_default()
         )),
         ..machine.clone()

@@ -11,8 +11,6 @@ use crate::design::search::Resolution;
 
 /// Places of the erosion profile beside the design's.
 pub(super) const PLACES: usize = 25;
-/// Drive angles at which the drive is switched on.
-pub(super) const ANGLES: usize = 64;
 
 /// What a run was doing when it was asked to end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

@@ -7,14 +7,14 @@ use softstop_console::keep::Keep;
 use softstop_dynamics::basin::{ErosionProfile, zone_box};
 use softstop_dynamics::run_up::RunUp;
 
-use super::outcome::{ANGLES, Interrupted, Outcome, PLACES};
+use super::outcome::{Interrupted, Outcome, PLACES};
 use super::progress::Best;
 use super::task::Job;
 use crate::design::figure::Figure;
 use crate::design::front::{Front, front};
 use crate::design::judge::Met;
 use crate::design::search::{self, Found, SearchError};
-use crate::design::trial::STARTS;
+use crate::design::trial::{ANGLES, STARTS};
 use crate::design::{Design, Problem};
 
 /// Searches, and looks at what was found; a search that is interrupted ends with its best design, if that is as asked.

@@ -65,6 +65,10 @@ fn optimize_prints_json_only_and_writes_the_files_it_names() -> Outcome {
     }
     let written: Value = serde_json::from_slice(&fs::read(target.join("design.json"))?)?;
     assert_eq!(written, report);
+    for file in words("design.toml design.json") {
+        let text = fs::read_to_string(target.join(file))?;
+        assert!(!text.contains(" ,"), "{file}: a space before a comma");
+    }
     assert!(
         fs::read_to_string(target.join("design.svg"))?
             .trim_end()

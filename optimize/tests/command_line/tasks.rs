@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
+use softstop_optimize::design::figure::Figure;
 
 use super::{Outcome, SOFTSTOP, near, number};
 
@@ -142,6 +143,17 @@ fn conflicts_are_named_with_how_much_is_missing() -> Outcome {
         ("certainty = 0.999", "certainty = "),
         ("integrity = 0.9", "integrity = "),
     ];
+    let elsewhere = [
+        "margin",
+        "rigid_gap",
+        "missing_strips",
+        "run_up",
+        "clearance_margin_pd",
+    ];
+    for figure in Figure::ALL.iter().map(|it| it.name()) {
+        let is_here = cases.iter().any(|it| it.0.starts_with(&format!("{figure} =")));
+        assert!(is_here || elsewhere.contains(&figure), "{figure}");
+    }
     for (require, told) in cases {
         let file = folder.path().join("press.toml");
         fs::write(
@@ -201,6 +213,12 @@ fn conflicts_of_other_machines_are_named_too() -> Outcome {
             ),
             "clearance_margin_pd has no bound (no flip on this branch",
         ),
+        (
+            format!(
+                "{PRESS}[vary]\nclearance = 0.008\nexcitation.frequency_hz = [34.3, 34.4]\n[require]\nmargin = 0.45\n"
+            ),
+            "it would have to be at least 34.300000 and at most 31.43447",
+        ),
     ];
     for (task, told) in cases {
         let file = folder.path().join("machine.toml");
@@ -213,7 +231,7 @@ fn conflicts_of_other_machines_are_named_too() -> Outcome {
             "--output",
             output.to_str().ok_or("path")?,
         ];
-        SOFTSTOP.ends_with(&words, 1, &[told, "must be at"]);
+        SOFTSTOP.ends_with(&words, 1, &[told, "be at "]);
         assert!(!output.exists(), "{told}: something is left behind");
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! The integrity of a basin: the largest ball inside it.
 
-use super::grid::Grid;
+use super::grid::{Axis, Grid};
 
 /// A ball inside a basin.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +40,16 @@ pub fn clearing(grid: &Grid, inside: impl Fn(usize) -> bool) -> Option<Clearing>
     }
     let places = (1..rows - 1).flat_map(|row| (1..columns - 1).map(move |column| (row, column)));
     // The first of equals.
-    let squares = places.map(|(row, column)| (squares[row][column], row, column));
+    let to_edge =
+        |axis: &Axis, cell: usize| (cell.min(axis.cells - 1 - cell) as f64 + 0.5) * axis.spacing();
+    let squares = places.map(|(row, column)| {
+        let (across, up) = (
+            to_edge(&grid.across, column - 1),
+            to_edge(&grid.up, row - 1),
+        );
+        let edge = across.min(up);
+        (squares[row][column].min(edge * edge), row, column)
+    });
     let larger = |best: (f64, usize, usize), it: (f64, usize, usize)| match it.0 > best.0 {
         true => it,
         false => best,
@@ -90,7 +99,6 @@ fn transform(f: &[f64], h: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::basin::Axis;
     use approx::assert_abs_diff_eq;
     use softstop_testing::tolerance::MOTION;
 
@@ -125,8 +133,9 @@ mod tests {
         };
         let mut best = 0.0f64;
         for (row, column) in (0..12).flat_map(|row| (0..17).map(move |column| (row, column))) {
-            let mut nearest = f64::INFINITY;
-            for (r, c) in (-1..13).flat_map(|r| (-1..18).map(move |c| (r, c))) {
+            let edge = |at: i64, cells: i64| at.min(cells - 1 - at) as f64 + 0.5;
+            let mut nearest = (edge(column, 17) * 2.0 / 17.0).min(edge(row, 12) / 6.0);
+            for (r, c) in (0..12).flat_map(|r| (0..17).map(move |c| (r, c))) {
                 if !at(r, c) {
                     let (x, y) = ((c - column) as f64 * 2.0 / 17.0, (r - row) as f64 / 6.0);
                     nearest = nearest.min(x.hypot(y));

@@ -97,6 +97,10 @@ pub enum PlanError {
 }
 
 impl Plan {
+    /// Most chains that go together, as many as there are lanes at most. Lanes that go together round together, so the
+    /// groups may not depend on how many threads there are.
+    pub const TOGETHER: usize = 16;
+
     /// A plan that starts from rest at the origin.
     ///
     /// # Errors

@@ -15,9 +15,6 @@ use crate::watch::{Kept, Watcher, piece};
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::Machine;
 
-/// Most chains that go together, as many as there are lanes at most. Lanes that go together round together, so the
-/// groups may not depend on how many threads there are.
-const TOGETHER: usize = 16;
 /// How long a piece takes that is kept.
 const PIECE: Duration = Duration::from_millis(250);
 
@@ -51,7 +48,7 @@ impl Plan {
     fn run_for(&self, time: Duration, chains: &mut [Chain], watcher: Watcher<'_>) -> bool {
         let begin = Instant::now();
         let all = (self.steps * chains.len()) as u64;
-        let groups = chains.len().div_ceil(TOGETHER).max(1);
+        let groups = chains.len().div_ceil(Self::TOGETHER).max(1);
         let size = chains.len().div_ceil(groups).max(1);
         let stopped = AtomicBool::new(false);
         let done = chains.iter().map(|chain| chain.steps.len() as u64);

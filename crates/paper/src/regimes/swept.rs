@@ -13,8 +13,6 @@ use super::{PERIODS, Window, middle};
 use softstop_console::progress::Progress;
 use softstop_explore::basin::cells::RegimeMap;
 
-/// Chains that go together, and are forgotten together but for their regimes.
-const TOGETHER: u64 = 16;
 /// Frequencies before the first column, in which the motion settles from rest.
 const AHEAD: usize = 6;
 
@@ -42,7 +40,8 @@ impl Sweep {
             ..Plan::new(Parameter::Frequency, range, columns + AHEAD, PERIODS)?
         };
         let of = (&self.machine, self.window, self.way.name(), self.size);
-        let found = blocks(0..rows as u64, TOGETHER).map(|rows| {
+        // Chains that go together are forgotten together but for their regimes.
+        let found = blocks(0..rows as u64, Plan::TOGETHER as u64).map(|rows| {
             let of = ("regimes", of, rows.start);
             piece(kept, &of, || self.cells(&plan, rows, progress))
         });

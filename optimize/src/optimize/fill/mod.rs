@@ -215,7 +215,7 @@ fn highlights(problem: &Problem, design: &Design, study: Option<&Study>) -> Vec<
 }
 
 fn limit(problem: &Problem, outcome: &Outcome) -> Option<String> {
-    let limits = at_limits(problem, outcome).into_iter();
+    let limits = at_limits(problem, outcome, |value| quantity(value, "")).into_iter();
     let limits: Vec<String> = limits.map(|it| it.words).collect();
     Some(match limits.is_empty() {
         true => format!(
