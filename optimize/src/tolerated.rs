@@ -61,7 +61,7 @@ pub(crate) fn name(manifold: &Manifold) -> String {
 
 type One<'a> = (&'a Machine, &'a Study, usize);
 
-fn parameters<'a>() -> [Column<One<'a>>; 7] {
+fn parameters<'a>() -> [Column<One<'a>>; 8] {
     columns! { One<'a>, it;
         "parameter" [None] Plain, "which" => it.0.name(parameter(it));
         "tolerance" [None] Seven, "half-width" => width(it);
@@ -70,6 +70,7 @@ fn parameters<'a>() -> [Column<One<'a>>; 7] {
         "to_g0" [Frequency] Seven, "of the margin to g0" => own(it, it.1.sensitivities.to_free[it.2]);
         "first_index" [None] Fixed(4), "Sobol index of the velocity" => it.1.scatter.as_ref().map(|all| all.velocity[it.2].first.value);
         "total_index" [None] Fixed(4), "with all others" => it.1.scatter.as_ref().map(|all| all.velocity[it.2].total.value);
+        "margin_index" [None] Fixed(4), "of the place in the zone, with all others; g0 and s_SN as fitted polynomials" => it.1.scatter.as_ref().map(|all| all.place[it.2].total.value);
     }
 }
 

@@ -148,6 +148,7 @@ fn effect(name: &str, unit: &str, value: f64, tolerance: f64, effect: f64) -> Se
         effect_unit: "m/s".to_owned(),
         share: Some(0.4),
         total: Some(0.45),
+        margin: Some(0.3),
     }
 }
 

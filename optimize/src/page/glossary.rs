@@ -49,8 +49,8 @@ const MARGIN: Entry = (
     "how far the design's value is from what is required, in the unit of the value; negative if it is not met",
 );
 const SOBOL: Entry = (
-    "share alone, with others",
-    "Sobol indices: how much of the variance of the before-impact velocity comes from one value by itself, and together with all others",
+    "share alone, with others, of the margin",
+    "Sobol indices: how much of the variance of the before-impact velocity comes from one value by itself, and together with all others; and of the variance of the place in the zone",
 );
 
 /// What the parts of a report speak of.

@@ -127,7 +127,7 @@ fn sheets(report: &Report) -> Vec<Sheet> {
     let rows = report.sensitivities.iter().map(|it| {
         let named = [it.label.name.clone(), it.label.unit.clone()];
         let values = [it.value, it.tolerance, it.effect].map(digits);
-        let shares = [optional(it.share), optional(it.total)];
+        let shares = [it.share, it.total, it.margin].map(optional);
         named
             .into_iter()
             .chain(values)
@@ -144,6 +144,7 @@ fn sheets(report: &Report) -> Vec<Sheet> {
         "effect_unit",
         "share",
         "total",
+        "margin",
     ]);
     sheets.push(("sensitivities".to_owned(), head, rows.collect()));
     sheets

@@ -151,7 +151,9 @@ fn conflicts_are_named_with_how_much_is_missing() -> Outcome {
         "clearance_margin_pd",
     ];
     for figure in Figure::ALL.iter().map(|it| it.name()) {
-        let is_here = cases.iter().any(|it| it.0.starts_with(&format!("{figure} =")));
+        let is_here = cases
+            .iter()
+            .any(|it| it.0.starts_with(&format!("{figure} =")));
         assert!(is_here || elsewhere.contains(&figure), "{figure}");
     }
     for (require, told) in cases {

@@ -228,8 +228,8 @@ pub(super) fn sensitivities(machine: &Machine, study: &Study) -> Vec<data::Sensi
             Parameter::Preload if machine.preload_deflection.is_some() => value,
             _ => machine.to_own(about.dimension, value),
         };
-        let index_of = |all: &Scatter| all.velocity[index];
-        let shares = study.scatter.as_ref().map(index_of);
+        let scatter: Option<&Scatter> = study.scatter.as_ref();
+        let shares = scatter.map(|all| all.velocity[index]);
         data::Sensitivity {
             label: label_of(machine, it.parameter),
             value: machine.value(it.parameter).unwrap_or(f64::NAN),
@@ -238,6 +238,7 @@ pub(super) fn sensitivities(machine: &Machine, study: &Study) -> Vec<data::Sensi
             effect_unit: machine.unit(Dimension::Velocity).to_owned(),
             share: shares.map(|it| it.first.value),
             total: shares.map(|it| it.total.value),
+            margin: scatter.map(|all| all.place[index].total.value),
         }
     };
     study.tolerances.iter().enumerate().map(one).collect()

@@ -129,6 +129,8 @@ pub struct Sensitivity {
     pub share: Option<f64>,
     /// The same together with all others (total Sobol index).
     pub total: Option<f64>,
+    /// The same of the variance of the place in the zone.
+    pub margin: Option<f64>,
 }
 
 /// A way to bring the machine into its motion.
