@@ -102,6 +102,7 @@ pub fn front(
     });
     let mut best = undominated(problem, figure, &tried);
     best.sort_by(|a, b| a.place.0.total_cmp(&b.place.0));
+    best.dedup_by(|a, b| a.place == b.place);
     Some(Front {
         figure,
         design: own,

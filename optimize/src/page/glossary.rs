@@ -38,7 +38,7 @@ const PLACE: Entry = (
 );
 const INTEGRITY: Entry = (
     "integrity",
-    "radius of the largest ball of initial states that all lead to the motion, in units of half of each axis of the plane of states",
+    "radius of the largest ball of initial states about the motion that all lead to it, in units of half of each axis of the plane of states",
 );
 const SHARE: Entry = (
     "share",

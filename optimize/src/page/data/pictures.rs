@@ -153,7 +153,7 @@ pub struct ErosionPoint {
     pub share: f64,
     /// Its 95 % interval.
     pub interval: [f64; 2],
-    /// Radius of the largest ball inside the basin, in units of half of each axis.
+    /// Radius of the largest ball about the motion inside its basin, in units of half of each axis.
     pub integrity: Option<f64>,
 }
 

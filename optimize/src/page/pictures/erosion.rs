@@ -56,7 +56,7 @@ pub(in crate::page) fn figure(erosion: &Erosion) -> Figure {
     };
     let caption = format!(
         "Share of the initial states that lead to the design's kind of motion, with its 95 % interval, and the radius of \
-         the largest ball inside its basin.{starts}"
+         the largest ball about the motion inside its basin.{starts}"
     );
     Figure::new(&pen, HALF, "How the basin shrinks along the zone", caption)
 }
