@@ -151,6 +151,6 @@ mod tests {
     fn nothing_is_inside_of_nothing() {
         assert_eq!(clearing(&grid(5, 5), |_| false), None);
         let all = clearing(&grid(5, 5), |_| true).expect("the whole grid");
-        assert_abs_diff_eq!(all.radius, 1.2, epsilon = MOTION);
+        assert_abs_diff_eq!(all.radius, 1.0, epsilon = MOTION);
     }
 }
