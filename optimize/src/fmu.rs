@@ -1,10 +1,10 @@
 //! `softstop fmu`: a machine as an FMU, the library that this program holds with the machine's start values,
 //! name and description.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::slice;
 
-use anyhow::{Context, Result, anyhow, ensure};
+use anyhow::{Context, Result, ensure};
 use clap::Args;
 use softstop::{Machine, Start};
 use softstop_console::arguments::MachineArguments;
@@ -92,12 +92,8 @@ pub fn run(arguments: &FmuArguments) -> Result<(), Failure> {
         Some(place) => place.clone(),
         None => format!("{}.fmu", name.replace(['/', '\\'], "_")).into(),
     };
-    let file = place.file_name().and_then(|name| name.to_str());
-    let file = file.ok_or_else(|| anyhow!("{}: is no name of a file", place.display()))?;
-    let folder = place
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
-    let folder = Folder::open(folder.unwrap_or(Path::new(".")), &[file])?;
+    let (folder, file) = output::folder_and_file(&place)?;
+    let folder = Folder::open(folder, &[file])?;
     folder.stage(file, &archive(&library()?, &machine, machine.start)?)?;
     folder.commit(&[file])?;
     output::print(&format!("Written: {}\n", place.display()))

@@ -23,7 +23,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 use softstop_console::failure::Failure;
 use softstop_console::{output, schema};
 use softstop_explore::{
-    basin, continuation, fidelity, motions, orbit, simulate, stops, study, sweep, zone,
+    basin, continuation, fidelity, motions, orbit, simulate, stops, study, sweep, watch, zone,
 };
 
 /// Exact dynamics and optimal design of impact oscillators with soft, preloaded and rigid stops.
@@ -46,6 +46,7 @@ Examples:
   softstop basin --size 1000                       which start leads to which motion
   softstop study docs/studies/map.toml             a map over two parameters, or millions of machines
   softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
+  softstop watch loaded                            the same as a page that plays the motion
   softstop fmu docs/scenes/hertz.toml              the same machine for FMI 2.0 co-simulation
   softstop schema > machine.schema.json            what machine files may hold, for editors
   softstop schema task > task.schema.json          what the files of optimize --config may hold
@@ -85,6 +86,8 @@ pub enum Command {
     },
     /// Run any scene: a motion as tables, a chart and a summary
     Simulate(simulate::SimulateArguments),
+    /// Play a run in a browser: one page with machine, time series, phase plane and sound
+    Watch(watch::WatchArguments),
     /// Draw the laws of all stops: contact force over deflection
     Stops(stops::StopsArguments),
     /// How simple a model of a scene may be: error and cost of ever simpler stops
@@ -126,6 +129,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
             Files::Study => study::schema(),
         })?),
         Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Watch(arguments) => watch::run(&arguments),
         Command::Stops(arguments) => stops::run(&arguments),
         Command::Fidelity(arguments) => fidelity::run(&arguments),
     }

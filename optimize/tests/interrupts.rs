@@ -39,6 +39,11 @@ fn simulate() {
 }
 
 #[test]
+fn watch() {
+    ends("watch --periods 1000000", &[]);
+}
+
+#[test]
 fn motions() {
     ends("motions --clearance -3", &[]);
     ends("motions SCENES/chatter.toml --starts 100000", &[]);

@@ -223,7 +223,12 @@ fn bad_scenes_are_named_with_key_value_and_range() -> Outcome {
 #[test]
 fn bad_arguments_are_named_with_their_range() {
     let file = scene("rigid.toml");
-    let cases: [(&[&str], &[&str]); 6] = [
+    let cases: [(&[&str], &[&str]); 8] = [
+        (&["--missing-strips", "7:5"], &["7:5", "FIRST <= LAST"]),
+        (
+            &["--missing-strips", "5:7"],
+            &["missing-strips = 5:7", "no strip"],
+        ),
         (&["--periods", "0"], &["periods = 0", "1 to 1000000"]),
         (
             &["--samples-per-period", "0"],
@@ -275,7 +280,7 @@ fn stops_writes_the_whole_zoo() -> Outcome {
 
 #[test]
 fn help_teaches_by_example() -> Outcome {
-    for command in ["simulate", "stops"] {
+    for command in ["simulate", "watch", "stops"] {
         let output = SOFTSTOP.run(&[command, "--help"]);
         let text = String::from_utf8(output.stdout)?;
         assert!(

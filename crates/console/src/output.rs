@@ -37,6 +37,18 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// The folder and the name of a file that is to be written.
+///
+/// # Errors
+/// [`Failure::Run`] if the path is none of a file.
+pub fn folder_and_file(path: &Path) -> Result<(&Path, &str), Failure> {
+    let file = path.file_name().and_then(|name| name.to_str());
+    let file = file.ok_or_else(|| anyhow!("{}: is no name of a file", path.display()))?;
+    let folder = path.parent();
+    let folder = folder.filter(|folder| !folder.as_os_str().is_empty());
+    Ok((folder.unwrap_or(Path::new(".")), file))
+}
+
 /// The value as indented JSON with a final line feed.
 pub fn json(value: &impl Serialize) -> Result<String, Failure> {
     let mut text = serde_json::to_string_pretty(value).context("cannot write JSON")?;

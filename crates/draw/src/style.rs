@@ -24,6 +24,9 @@ pub const INK: &str = "#222222";
 /// The letters.
 pub const FONTS: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";
 
+/// Colours and letters of pages, light and dark, as CSS.
+pub const PAGE: &str = include_str!("../assets/page.css");
+
 /// Axes of these ranges in the style of all charts.
 pub fn plain(x: (f64, f64), y: (f64, f64)) -> Layout {
     Layout::new(x, y)

@@ -1,5 +1,5 @@
 //! The commands that look at one machine, each with its own picture: [`orbit`], [`zone`], [`simulate`],
-//! [`motions`], [`continuation`], [`sweep`], [`basin`], [`stops`] and [`fidelity`]; and the one
+//! [`watch`], [`motions`], [`continuation`], [`sweep`], [`basin`], [`stops`] and [`fidelity`]; and the one
 //! that looks at many, [`study`].
 //!
 //! Whatever fails does so with [`Failure::Usage`] for values that cannot be, with [`Failure::Run`] if nothing can be
@@ -19,4 +19,5 @@ pub mod simulate;
 pub mod stops;
 pub mod study;
 pub mod sweep;
+pub mod watch;
 pub mod zone;

@@ -15,6 +15,8 @@ use minijinja::value::{Serde, Value};
 use minijinja::{Environment, Error, UndefinedBehavior, context};
 use serde::Serialize;
 
+use softstop_draw::style;
+
 use data::Report;
 use figure::{Figure, HALF, WIDE};
 use pictures::{basin, effects, erosion, front, histogram, map, portrait, response};
@@ -56,7 +58,7 @@ pub fn html(report: &Report) -> Result<String, Error> {
     let template = environment.get_template("report.html")?;
     let page = template.render(context! {
         version => env!("CARGO_PKG_VERSION"),
-        style => include_str!("../../assets/report.css"),
+        style => style::PAGE.to_owned() + include_str!("../../assets/report.css"),
         sections => Serde(sections(report)),
         glossary => Serde(glossary::of(report)),
         report => Serde(report),

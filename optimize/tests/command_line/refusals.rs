@@ -79,7 +79,7 @@ fn what_a_machine_does_not_have_is_refused_by_every_command() -> Outcome {
     let range = ["--from", "0.9", "--to", "1.5", "--output", output];
     let follow = [&["continue", "--parameter", "eta"], &range[..]].concat();
     let sweep = [&["sweep"], &range[..]].concat();
-    let commands: [&[&str]; 10] = [
+    let commands: [&[&str]; 11] = [
         &["orbit"],
         &["zone"],
         &["motions"],
@@ -88,12 +88,13 @@ fn what_a_machine_does_not_have_is_refused_by_every_command() -> Outcome {
         &["basin", "--output", output],
         &["fidelity", "--output", output],
         &["simulate", "--output", output],
+        &["watch", "--output", output],
         &["fmu", "--output", output],
         &["optimize", "--output", output],
     ];
     for command in commands {
         let with = |more: &[&'static str]| [command, more].concat();
-        let starts = ["simulate", "fidelity", "fmu"].contains(&command[0]);
+        let starts = ["simulate", "watch", "fidelity", "fmu"].contains(&command[0]);
         if !starts {
             SOFTSTOP.ends_with(
                 &with(&["--set", "initial.velocity=3"]),

@@ -11,11 +11,11 @@ use softstop_draw::style;
 
 /// A motion as it is drawn.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Drawing {
+pub(crate) struct Drawing {
     /// Time in s, position in m, velocity in m/s, contact force in N.
-    pub(super) points: Vec<[f64; 4]>,
+    pub(crate) points: Vec<[f64; 4]>,
     /// Phase, begin and end in s, in order of time.
-    pub(super) phases: Vec<(PhaseKind, f64, f64)>,
+    pub(crate) phases: Vec<(PhaseKind, f64, f64)>,
 }
 
 /// The line of the motion, and that of positions at which laws change.
@@ -33,16 +33,18 @@ const LETTERS: u32 = 14;
 /// Room around what is drawn, as a share of it.
 const ROOM: f64 = 0.06;
 
+/// Points drawn at most.
+const MOST_POINTS: usize = 200_000;
+
 impl Drawing {
+    /// Whether no more is taken in.
+    pub(crate) fn is_full(&self) -> bool {
+        self.points.len() >= MOST_POINTS
+    }
+
     /// The chart as an SVG document; `faces` are the positions in m at which laws change.
     pub(super) fn svg(&self, machine: &Machine, title: &str, faces: &[f64]) -> String {
-        let names = [
-            ("time t", Dimension::Time),
-            ("position x", Dimension::Length),
-            ("velocity v", Dimension::Velocity),
-            ("contact force F", Dimension::Force),
-        ];
-        let names = names.map(|(what, dimension)| machine.label(what, "", dimension));
+        let names = labels(machine);
         let mut pen = Pen::page(PAGE.0, PAGE.1);
         heading(&mut pen, (FIRST.0, 36.0), title, "");
         for row in 1..4 {
@@ -100,6 +102,17 @@ impl Drawing {
         let entry = |kind| Some((Sign::Patch(color(kind)?), super::name(kind).to_owned()));
         kinds.into_iter().filter_map(entry).collect()
     }
+}
+
+/// What time, position, velocity and contact force are called.
+pub(crate) fn labels(machine: &Machine) -> [String; 4] {
+    let names = [
+        ("time t", Dimension::Time),
+        ("position x", Dimension::Length),
+        ("velocity v", Dimension::Velocity),
+        ("contact force F", Dimension::Force),
+    ];
+    names.map(|(what, dimension)| machine.label(what, "", dimension))
 }
 
 /// Tints of Okabe and Ito's colours for the phases, grey for a mass at rest; free flight stays

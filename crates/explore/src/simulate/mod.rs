@@ -1,18 +1,23 @@
 //! `softstop simulate`: any scene, from a start, over whole drive periods.
 
+mod begin;
 pub mod chart;
 mod record;
 mod report;
 mod run;
 mod tally;
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::Args;
-use softstop::{Allowed, Machine, PhaseKind, Start};
+use softstop::PhaseKind;
 
-use report::SimulateReport;
-use softstop_console::arguments::MachineArguments;
+pub use begin::MotionArguments;
+pub(crate) use record::Crossed;
+pub(crate) use report::SimulateReport;
+pub(crate) use run::{Outcome, Plan, faces};
+
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
@@ -61,12 +66,6 @@ pub struct SimulateArguments {
     /// Whole drive periods to run, 1 to 1000000
     #[arg(long, value_name = "N", default_value_t = 100)]
     pub periods: u64,
-    /// Position to start from [default: that of the machine]
-    #[arg(long, value_name = "X")]
-    pub position: Option<f64>,
-    /// Velocity to start with [default: that of the machine]
-    #[arg(long, value_name = "V")]
-    pub velocity: Option<f64>,
     /// Rows of motion.csv in each period, 1 to 100000; they change nothing in the motion
     #[arg(long, value_name = "K", default_value_t = 200)]
     pub samples_per_period: u64,
@@ -76,9 +75,9 @@ pub struct SimulateArguments {
     /// How to print the summary
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
-    /// The machine.
+    /// The machine, and where its motion begins.
     #[command(flatten)]
-    pub machine: MachineArguments,
+    pub motion: MotionArguments,
 }
 
 const FILES: [(&str, &str); 3] = [
@@ -86,53 +85,45 @@ const FILES: [(&str, &str); 3] = [
     ("crossings_csv", "crossings.csv"),
     ("svg", "motion.svg"),
 ];
+/// Drive periods of a run.
+pub(crate) const PERIODS: RangeInclusive<u64> = 1..=1_000_000;
 /// Rows of motion.csv at most.
 const MOST_ROWS: u64 = 20_000_000;
+
+/// Periods that are drawn, the last ones.
+const DRAWN: u64 = 4;
 
 /// Runs the scene, writes the files and prints the summary.
 pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
     check(arguments)?;
-    let given = [
-        ("position", arguments.position),
-        ("velocity", arguments.velocity),
-    ];
-    for (flag, _) in given.iter().filter(|(_, value)| value.is_some()) {
-        arguments.machine.refuse_start_beside(flag)?;
-    }
-    let machine = arguments.machine.machine()?;
-    let Machine { scene, start, .. } = &machine;
-    let start = Start::new(
-        arguments.position.unwrap_or(start.position),
-        arguments.velocity.unwrap_or(start.velocity),
-    );
-    let motion = scene.motion(start)?;
+    let begun = arguments.motion.begin()?;
     let export = Export::open(&arguments.output, &FILES)?;
     let (samples, crossings) = (run::columns(), record::columns());
-    let plan = run::Plan {
-        scene,
+    let mut samples = export.open_table("motion_csv", &samples)?;
+    let mut crossings = export.open_table("crossings_csv", &crossings)?;
+    let plan = Plan {
+        begun: &begun,
         periods: arguments.periods,
         samples: arguments.samples_per_period,
+        drawn: DRAWN,
     };
-    let outcome = plan.run(
-        motion,
-        export.open_table("motion_csv", &samples)?,
-        export.open_table("crossings_csv", &crossings)?,
-    )?;
-    let report = SimulateReport::new(arguments, &machine, start, &outcome);
-    let title = report::chart_title(&machine, arguments.periods);
-    let chart = outcome.drawing.svg(&machine, &title, &run::faces(scene));
+    let outcome = plan.run(|row| samples.row(row), |row| crossings.row(row))?;
+    samples.close()?;
+    crossings.close()?;
+    let report = SimulateReport::new(&plan, &outcome);
+    let machine = &begun.machine;
+    let title = report::chart_title(machine, plan.periods, plan.drawn);
+    let chart = outcome.drawing.svg(machine, &title, &faces(&machine.scene));
     export.file("svg", chart.as_bytes())?;
     export.finish(&report, arguments.format)
 }
 
 fn check(arguments: &SimulateArguments) -> Result<(), Failure> {
-    within("periods", arguments.periods, 1..=1_000_000)?;
+    within("periods", arguments.periods, PERIODS)?;
     let samples = arguments.samples_per_period;
     within("samples-per-period", samples, 1..=100_000)?;
     let rows = arguments.periods * samples;
-    within("periods x samples-per-period", rows, 1..=MOST_ROWS)?;
-    Allowed::Finite.check("position", arguments.position.unwrap_or(0.0))?;
-    Ok(Allowed::Finite.check("velocity", arguments.velocity.unwrap_or(0.0))?)
+    within("periods x samples-per-period", rows, 1..=MOST_ROWS)
 }
 
 /// A phase's name in the tables, as in the library's own JSON.

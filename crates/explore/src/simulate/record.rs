@@ -10,7 +10,6 @@ use super::tally::{Rest, Tally};
 use crate::simulate::chart::Drawing;
 use softstop_console::column::Column;
 use softstop_console::columns;
-use softstop_console::export::Table;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 
@@ -18,21 +17,34 @@ use softstop_console::interrupt;
 const FINENESS: f64 = 250.0;
 /// Steps that an arc is drawn with, at least.
 const FEWEST: f64 = 8.0;
-/// Points drawn at most.
-const MOST_POINTS: usize = 200_000;
 
 /// A row of crossings.csv.
-pub(super) struct Crossed {
-    time: f64,
-    before: PhaseKind,
-    crossing: Crossing,
+pub(crate) struct Crossed {
+    pub time: f64,
+    pub before: PhaseKind,
+    pub crossing: Crossing,
+}
+
+impl Crossed {
+    /// The crossing's kind as in the table.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self.crossing.kind {
+            CrossingKind::Surface { forward: true, .. } => "forward",
+            CrossingKind::Surface { forward: false, .. } => "backward",
+            CrossingKind::Rebound { .. } => "rebound",
+            CrossingKind::Reversal => "reversal",
+            CrossingKind::Switch => "switch",
+            CrossingKind::Rest => "rest",
+            CrossingKind::Release => "release",
+        }
+    }
 }
 
 /// The columns of crossings.csv.
 pub(super) fn columns() -> [Column<Crossed>; 10] {
     columns! { Crossed, it;
         "time" [Time], "when" => it.time;
-        "kind" [None], "of the crossing" => kind(&it.crossing);
+        "kind" [None], "of the crossing" => it.kind();
         "phase_before" [None], "phase that it ends" => name(it.before);
         "position" [Length], "where" => it.crossing.position;
         "velocity_before" [Velocity], "before it" => it.crossing.velocity;
@@ -45,10 +57,10 @@ pub(super) fn columns() -> [Column<Crossed>; 10] {
 }
 
 /// Watches a motion.
-pub(super) struct Recorder<'a> {
+pub(super) struct Recorder<'a, F> {
     scene: &'a Scene,
     clock: Clock,
-    crossings: Table<'a, Crossed>,
+    crossed: F,
     /// The first thing that went wrong while writing.
     failure: Option<Failure>,
     /// Phase of the arc that ended last.
@@ -59,17 +71,12 @@ pub(super) struct Recorder<'a> {
     drawn_from: f64,
 }
 
-impl<'a> Recorder<'a> {
-    pub(super) fn new(
-        scene: &'a Scene,
-        motion: &Motion,
-        crossings: Table<'a, Crossed>,
-        drawn_from: f64,
-    ) -> Self {
+impl<'a, F> Recorder<'a, F> {
+    pub(super) fn new(scene: &'a Scene, motion: &Motion, crossed: F, drawn_from: f64) -> Self {
         Self {
             scene,
             clock: *motion.clock(),
-            crossings,
+            crossed,
             failure: None,
             before: motion.kind(),
             tally: Tally::default(),
@@ -84,12 +91,11 @@ impl<'a> Recorder<'a> {
     }
 
     /// Takes up the arc that is under way at the end.
-    pub(super) fn finish(mut self, motion: &Motion) -> Result<(Tally, Drawing), Failure> {
+    pub(super) fn finish(mut self, motion: &Motion) -> (Tally, Drawing) {
         let arc = motion.arc();
         let elapsed = motion.clock().elapsed(arc.start, motion.now());
         self.take(&arc, elapsed, true);
-        self.crossings.close()?;
-        Ok((self.tally, self.drawing))
+        (self.tally, self.drawing)
     }
 
     fn take(&mut self, arc: &Arc<'_>, elapsed: f64, last: bool) {
@@ -107,7 +113,7 @@ impl<'a> Recorder<'a> {
                 position: arc.course.departure.position,
             });
         }
-        if begin + elapsed > self.drawn_from && self.drawing.points.len() < MOST_POINTS {
+        if begin + elapsed > self.drawn_from && !self.drawing.is_full() {
             self.draw(arc, begin, elapsed);
         }
     }
@@ -131,7 +137,7 @@ impl<'a> Recorder<'a> {
     }
 }
 
-impl Observer for Recorder<'_> {
+impl<F: FnMut(&Crossed) -> Result<(), Failure>> Observer for Recorder<'_, F> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         self.take(arc, elapsed, false);
     }
@@ -139,12 +145,12 @@ impl Observer for Recorder<'_> {
     fn crossing(&mut self, crossing: &Crossing) {
         let time = self.clock.time(crossing.instant);
         self.tally.crossing(crossing, time, self.scene.mass);
-        let line = self.crossings.row(&Crossed {
+        let taken = (self.crossed)(&Crossed {
             time,
             before: self.before,
             crossing: *crossing,
         });
-        if let Err(failure) = line {
+        if let Err(failure) = taken {
             self.failure.get_or_insert(failure);
         }
     }
@@ -167,18 +173,5 @@ pub(super) fn force(
     match phase {
         Some(phase) => phase.contact_force(position, velocity),
         None => scene.excitation.amplitude * drive.cos - scene.stiffness * position,
-    }
-}
-
-/// A crossing's kind as in the table.
-fn kind(crossing: &Crossing) -> &'static str {
-    match crossing.kind {
-        CrossingKind::Surface { forward: true, .. } => "forward",
-        CrossingKind::Surface { forward: false, .. } => "backward",
-        CrossingKind::Rebound { .. } => "rebound",
-        CrossingKind::Reversal => "reversal",
-        CrossingKind::Switch => "switch",
-        CrossingKind::Rest => "rest",
-        CrossingKind::Release => "release",
     }
 }

@@ -4,9 +4,9 @@ use serde::Serialize;
 use serde_json::json;
 use softstop::{Machine, Start};
 
-use super::run::{DRAWN, Outcome};
+use super::name;
+use super::run::{Outcome, Plan};
 use super::tally::{Impact, Rest, Visit};
-use super::{SimulateArguments, name};
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Told, Units};
 use softstop_console::columns;
@@ -89,7 +89,7 @@ fn state(state: Start) -> Told {
 
 /// The summary.
 #[derive(Debug, Serialize)]
-pub(super) struct SimulateReport {
+pub(crate) struct SimulateReport {
     machine: MachineReport,
     #[serde(flatten)]
     overview: Record,
@@ -115,17 +115,12 @@ struct ImpactsReport {
 }
 
 impl SimulateReport {
-    pub(super) fn new(
-        arguments: &SimulateArguments,
-        machine: &Machine,
-        start: Start,
-        outcome: &Outcome,
-    ) -> Self {
-        let tally = &outcome.tally;
+    pub(crate) fn new(plan: &Plan<'_>, outcome: &Outcome) -> Self {
+        let (tally, machine) = (&outcome.tally, &plan.begun.machine);
         let run = Run {
             machine,
-            periods: arguments.periods,
-            start,
+            periods: plan.periods,
+            start: plan.begun.start,
             outcome,
         };
         let seen = tally.phases.iter();
@@ -148,8 +143,8 @@ impl SimulateReport {
 }
 
 /// The chart's title.
-pub(super) fn chart_title(machine: &Machine, periods: u64) -> String {
-    let (name, drawn) = (title(machine), periods.min(DRAWN));
+pub(super) fn chart_title(machine: &Machine, periods: u64, drawn: u64) -> String {
+    let (name, drawn) = (title(machine), periods.min(drawn));
     match drawn == periods {
         true => format!("{name}: {drawn} drive periods"),
         false => format!("{name}: the last {drawn} of {periods} drive periods"),

@@ -4,29 +4,29 @@ use anyhow::anyhow;
 use softstop::internals::{Motion, mechanical_energy};
 use softstop::{Instant, Scene, Start};
 
+use super::begin::Begun;
 use super::name;
 use super::record::{Crossed, Recorder, force};
 use super::tally::Tally;
 use crate::simulate::chart::Drawing;
 use softstop_console::column::Column;
 use softstop_console::columns;
-use softstop_console::export::Table;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
-/// Periods that are drawn, the last ones.
-pub(super) const DRAWN: u64 = 4;
-
 /// What to run.
-pub(super) struct Plan<'a> {
-    pub scene: &'a Scene,
+pub(crate) struct Plan<'a> {
+    pub begun: &'a Begun,
     pub periods: u64,
+    /// In each period.
     pub samples: u64,
+    /// Periods that are drawn, the last ones.
+    pub drawn: u64,
 }
 
 /// What came of it.
-pub(super) struct Outcome {
+pub(crate) struct Outcome {
     pub tally: Tally,
     pub drawing: Drawing,
     /// Energy in J stored at the end less that at the start.
@@ -67,17 +67,22 @@ impl Outcome {
 }
 
 impl Plan<'_> {
-    /// Runs the motion and writes its tables.
-    pub(super) fn run(
+    /// Time in s from which on the motion is drawn.
+    pub(crate) fn drawn_from(&self) -> f64 {
+        self.periods.saturating_sub(self.drawn) as f64 * self.begun.machine.scene.period()
+    }
+
+    /// Runs the motion; what tables have is handed on as it comes.
+    pub(crate) fn run(
         &self,
-        mut motion: Motion,
-        mut table: Table<'_, Sample>,
-        crossings: Table<'_, Crossed>,
+        mut sampled: impl FnMut(&Sample) -> Result<(), Failure>,
+        crossed: impl FnMut(&Crossed) -> Result<(), Failure>,
     ) -> Result<Outcome, Failure> {
+        let scene = &self.begun.machine.scene;
+        let mut motion = self.begun.motion()?;
         let period = motion.clock().period();
-        let drawn_from = self.periods.saturating_sub(DRAWN) as f64 * period;
-        let before = mechanical_energy(self.scene, &motion);
-        let mut recorder = Recorder::new(self.scene, &motion, crossings, drawn_from);
+        let before = mechanical_energy(scene, &motion);
+        let mut recorder = Recorder::new(scene, &motion, crossed, self.drawn_from());
         let progress = Progress::new(self.periods, "periods");
         for sample in 0..=self.periods * self.samples {
             let (cycle, part) = (sample / self.samples, sample % self.samples);
@@ -96,20 +101,22 @@ impl Plan<'_> {
             if stopped {
                 return Err(Failure::Interrupted);
             }
-            table.row(&self.sample(&motion))?;
+            sampled(&self.sample(&motion))?;
+            if part == 0 {
+                motion.feed_strip(self.begun.is_fed(cycle));
+            }
         }
         drop(progress);
-        table.close()?;
-        let (tally, drawing) = recorder.finish(&motion)?;
+        let (tally, drawing) = recorder.finish(&motion);
         let outcome = Outcome {
             tally,
             drawing,
-            stored: mechanical_energy(self.scene, &motion) - before,
+            stored: mechanical_energy(scene, &motion) - before,
             end: motion.state(),
             duration: motion.clock().time(motion.now()),
         };
-        let speed = self.scene.motion_scales().speed();
-        outcome.check(before, self.scene.mass * speed * speed)?;
+        let speed = scene.motion_scales().speed();
+        outcome.check(before, scene.mass * speed * speed)?;
         Ok(outcome)
     }
 
@@ -119,14 +126,14 @@ impl Plan<'_> {
         Sample {
             time: motion.clock().time(motion.now()),
             state,
-            force: force(self.scene, motion.phase(), state, drive),
+            force: force(&self.begun.machine.scene, motion.phase(), state, drive),
             phase: name(motion.kind()),
         }
     }
 }
 
 /// A row of motion.csv.
-pub(super) struct Sample {
+pub(crate) struct Sample {
     time: f64,
     state: Start,
     force: f64,
@@ -145,7 +152,7 @@ pub(super) fn columns() -> [Column<Sample>; 5] {
 }
 
 /// The positions in m at which the law of force changes.
-pub(super) fn faces(scene: &Scene) -> Vec<f64> {
+pub(crate) fn faces(scene: &Scene) -> Vec<f64> {
     let surfaces = scene.phases().surfaces;
     let mut faces: Vec<f64> = surfaces.iter().map(|it| it.position).collect();
     faces.sort_by(f64::total_cmp);

@@ -1,0 +1,98 @@
+//! How a run begins: the machine, its start, and the strips that it does not get.
+
+use std::ops::RangeInclusive;
+
+use clap::Args;
+use softstop::internals::Motion;
+use softstop::{Allowed, Machine, Start};
+
+use softstop_console::arguments::MachineArguments;
+use softstop_console::failure::Failure;
+use softstop_console::range::require;
+
+/// What says which machine runs, and from where.
+#[derive(Debug, Args)]
+pub struct MotionArguments {
+    /// Position to start from [default: that of the machine]
+    #[arg(long, value_name = "X")]
+    pub position: Option<f64>,
+    /// Velocity to start with [default: that of the machine]
+    #[arg(long, value_name = "V")]
+    pub velocity: Option<f64>,
+    /// Drive periods, counted from 1, in which no strip is fed: a stroke that begins in them finds none, and the stop
+    /// stays where it is
+    #[arg(long, value_name = "FIRST:LAST", value_parser = counted)]
+    pub missing_strips: Option<RangeInclusive<u64>>,
+    /// The machine.
+    #[command(flatten)]
+    pub machine: MachineArguments,
+}
+
+/// A machine at the beginning of a run.
+pub(crate) struct Begun {
+    pub machine: Machine,
+    pub start: Start,
+    /// Drive periods without a strip, counted from 1.
+    pub missing: Option<RangeInclusive<u64>>,
+}
+
+impl MotionArguments {
+    /// The machine and its start.
+    pub(crate) fn begin(&self) -> Result<Begun, Failure> {
+        for (flag, value) in [("position", self.position), ("velocity", self.velocity)] {
+            Allowed::Finite.check(flag, value.unwrap_or(0.0))?;
+            if value.is_some() {
+                self.machine.refuse_start_beside(flag)?;
+            }
+        }
+        let machine = self.machine.machine()?;
+        let missing = self.missing_strips.clone();
+        if let Some(periods) = &missing {
+            let given = format!("{}:{}", periods.start(), periods.end());
+            let has_strip = machine.scene.piercing.is_some();
+            require(
+                has_strip,
+                "missing-strips",
+                given,
+                "left out: the machine has no strip",
+            )?;
+        }
+        let start = Start::new(
+            self.position.unwrap_or(machine.start.position),
+            self.velocity.unwrap_or(machine.start.velocity),
+        );
+        let begun = Begun {
+            machine,
+            start,
+            missing,
+        };
+        begun.motion().map(|_| begun)
+    }
+}
+
+impl Begun {
+    /// The motion that begins there.
+    pub(crate) fn motion(&self) -> Result<Motion, Failure> {
+        Ok(self.machine.scene.motion(self.start)?)
+    }
+
+    /// Whether strips come in a drive period, counted from 0.
+    pub(crate) fn is_fed(&self, period: u64) -> bool {
+        let missing = self.missing.as_ref();
+        !missing.is_some_and(|missing| missing.contains(&(period + 1)))
+    }
+}
+
+/// `FIRST:LAST`.
+fn counted(text: &str) -> Result<RangeInclusive<u64>, String> {
+    let number = |part: &str| part.trim().parse::<u64>().ok();
+    match text.split_once(':') {
+        Some((first, last)) => match (number(first), number(last)) {
+            (Some(first), Some(last)) if 1 <= first && first <= last => Ok(first..=last),
+            _ => Err(COUNTED.to_owned()),
+        },
+        None => Err(COUNTED.to_owned()),
+    }
+}
+
+const COUNTED: &str = "must be FIRST:LAST, two whole numbers with 1 <= FIRST <= LAST, as in 5:7";

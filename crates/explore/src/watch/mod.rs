@@ -1,0 +1,94 @@
+//! `softstop watch`: a run of any machine as a page to look at.
+
+mod page;
+mod strip;
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use page::{Hit, Page};
+use softstop_console::export::Export;
+use softstop_console::failure::Failure;
+use softstop_console::output::{Format, folder_and_file};
+use softstop_console::range::within;
+use strip::Strips;
+
+use crate::simulate::{MotionArguments, PERIODS, Plan, SimulateReport};
+
+const EXAMPLES: &str = "\
+Examples:
+  softstop watch loaded
+      the paper's loaded machine from its start on, as watch.html
+  softstop watch docs/scenes/chatter.toml --periods 5 --output chatter.html
+      bounces that pile up to rest on a rigid stop
+  softstop watch --frequency 0.9875 --periods 2000 --last 40
+      chaos, once the start is forgotten
+  softstop watch loaded --missing-strips 5:7
+      what three missing strips do
+
+Open the page in any browser: it needs nothing from elsewhere. It shows the machine with its springs, stop, strip
+and drive, displacement and contact force over time and the phase plane, all moving along; every impact is marked at
+its exact time, and heard with a loudness after its before-impact velocity if the sound is switched on.
+Space plays and pauses, the arrows step, with Shift from impact to impact; the page lists its keys.";
+
+/// Arguments of `softstop watch`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub struct WatchArguments {
+    /// Whole drive periods to run, 1 to 1000000
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    pub periods: u64,
+    /// So many of them are shown at most, the last ones, 1 to 400
+    #[arg(long, value_name = "K", default_value_t = 100)]
+    pub last: u64,
+    /// The page to write
+    #[arg(long, value_name = "FILE.html", default_value = "watch.html")]
+    pub output: PathBuf,
+    /// How to print the summary
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// The machine, and where its motion begins.
+    #[command(flatten)]
+    pub motion: MotionArguments,
+}
+
+/// Drive periods on a page at most.
+const MOST_SHOWN: u64 = 400;
+
+/// Runs the machine, writes the page and prints the summary.
+pub fn run(arguments: &WatchArguments) -> Result<(), Failure> {
+    within("periods", arguments.periods, PERIODS)?;
+    within("last", arguments.last, 1..=MOST_SHOWN)?;
+    let (folder, file) = folder_and_file(&arguments.output)?;
+    let begun = arguments.motion.begin()?;
+    let export = Export::open(folder, &[("html", file)])?;
+    let plan = Plan {
+        begun: &begun,
+        periods: arguments.periods,
+        samples: 1,
+        drawn: arguments.last,
+    };
+    let scene = &begun.machine.scene;
+    let mut strips = scene.piercing.map(|_| Strips::new(scene.clearance));
+    let (mut hits, from) = (Vec::new(), plan.drawn_from());
+    let outcome = plan.run(
+        |_| Ok(()),
+        |crossed| {
+            strips.iter_mut().for_each(|strips| strips.take(crossed));
+            hits.extend(Hit::of(crossed).filter(|hit| hit.time >= from));
+            Ok(())
+        },
+    )?;
+    if outcome.drawing.is_full() {
+        return Err(Failure::usage(format!(
+            "last = {}: too many impacts for a page; must be fewer drive periods",
+            arguments.last
+        )));
+    }
+    let last = outcome.drawing.phases.last();
+    let strips = strips.zip(last).map(|(strips, last)| strips.finish(last.0));
+    let page = Page::new(&plan, &outcome, strips.unwrap_or_default(), hits);
+    export.file("html", page.html()?.as_bytes())?;
+    export.finish(&SimulateReport::new(&plan, &outcome), arguments.format)
+}

@@ -1,0 +1,192 @@
+//! `softstop watch`: the page holds the run of `softstop simulate`.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+use softstop_testing::{Program, words};
+
+type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
+
+const SOFTSTOP: Program = Program {
+    file: env!("CARGO_BIN_EXE_softstop"),
+    first: &[],
+};
+
+fn numbers(value: &Value) -> Vec<f64> {
+    let values = value.as_array().expect("a list").iter();
+    values.map(|it| it.as_f64().expect("a number")).collect()
+}
+
+/// The page of a run, and the motion in it.
+fn page(folder: &Path, arguments: &[&str]) -> Outcome<(String, Value)> {
+    let file = folder.join("page.html");
+    let output = ["--output", file.to_str().ok_or("path")?];
+    let summary = SOFTSTOP.json(&[&["watch"], arguments, &output].concat());
+    assert_eq!(summary["files"]["html"], file.to_str().ok_or("path")?);
+    let page = fs::read_to_string(file)?;
+    let (_, motion) = page
+        .split_once("<script type=\"application/json\" id=\"motion\">")
+        .ok_or("no motion")?;
+    let (motion, _) = motion.split_once("</script>").ok_or("no end")?;
+    let motion = serde_json::from_str(motion)?;
+    Ok((page, motion))
+}
+
+/// The rows of crossings.csv of the same run that are impacts or rebounds, and the summary's `impacts`.
+fn crossings(folder: &Path, arguments: &[&str]) -> Outcome<(Vec<Vec<String>>, Value)> {
+    let output = ["--output", folder.to_str().ok_or("path")?];
+    let summary = SOFTSTOP.json(&[&["simulate"], arguments, &output].concat());
+    let table = fs::read_to_string(folder.join("crossings.csv"))?;
+    let rows = table.lines().skip(1);
+    let rows = rows.map(|row| row.split(',').map(str::to_owned).collect());
+    let hits = rows.filter(|row: &Vec<String>| row[8] == "1" || row[1] == "rebound");
+    Ok((hits.collect(), summary["impacts"].clone()))
+}
+
+/// Every impact of the run is on the page to the bit, and its time is the time of samples, one of which has its state.
+fn holds_every_impact(arguments: &[&str]) -> Outcome<Value> {
+    let folder = tempfile::tempdir()?;
+    let (_, motion) = page(folder.path(), arguments)?;
+    let (rows, impacts) = crossings(folder.path(), arguments)?;
+    let hits = motion["hits"].as_array().ok_or("hits")?;
+    assert_eq!(hits.len(), rows.len(), "{arguments:?}");
+    let time = numbers(&motion["samples"]["time"]);
+    let position = numbers(&motion["samples"]["position"]);
+    assert!(time.is_sorted(), "{arguments:?}");
+    for (hit, row) in hits.iter().zip(&rows) {
+        let columns = [
+            ("time", 0),
+            ("position", 3),
+            ("velocity_before", 4),
+            ("velocity_after", 5),
+        ];
+        for (name, column) in columns {
+            assert_eq!(hit[name].as_f64(), Some(row[column].parse()?), "{name}");
+        }
+        assert_eq!(hit["impact"], row[8] == "1");
+        let at = hit["time"].as_f64().ok_or("time")?;
+        let index = time.partition_point(|it| *it <= at) - 1;
+        assert_eq!(time[index], at, "{arguments:?}: no sample at an impact");
+        assert_eq!(Some(position[index]), hit["position"].as_f64());
+    }
+    let count = hits.iter().filter(|hit| hit["impact"] == true).count();
+    assert_eq!(impacts["count"], count as u64);
+    assert_eq!(
+        [time[0], time[time.len() - 1]],
+        numbers(&motion["span"])[..]
+    );
+    Ok(motion)
+}
+
+#[test]
+fn the_page_holds_every_impact_of_every_stop() -> Outcome {
+    let scenes = format!("{}/../docs/scenes", env!("CARGO_MANIFEST_DIR"));
+    let mut count = 0;
+    for entry in fs::read_dir(scenes)? {
+        let path = entry?.path();
+        let file = path.to_str().ok_or("path")?;
+        let motion = holds_every_impact(&[file, "--periods", "9"])?;
+        count += motion["hits"].as_array().ok_or("hits")?.len();
+        assert_eq!(motion["machine"]["language"], "si");
+        assert_eq!(motion["labels"]["position"], "position x (m)");
+    }
+    assert!(count > 300, "{count}");
+    Ok(())
+}
+
+#[test]
+fn ratios_speak_ratios_and_take_the_options_of_simulate() -> Outcome {
+    let line = "--frequency 1.2 --clearance 9 --position 0.5 --velocity 12 --periods 15";
+    let motion = holds_every_impact(&words(line))?;
+    assert_eq!(motion["machine"]["language"], "ratios");
+    assert_eq!(motion["labels"]["position"], "position x");
+    assert_eq!(motion["samples"]["position"][0], 0.5);
+    assert_eq!(motion["samples"]["velocity"][0], 12.0);
+    assert_eq!(motion["places"]["stop"], 9.0);
+    Ok(())
+}
+
+#[test]
+fn strips_are_pierced_one_after_the_other_and_missing_where_asked() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let line = words("loaded --periods 12 --position 4.8 --velocity 11.9");
+    let kinds = |motion: &Value, which: &str| {
+        let strips = motion["strips"].as_array().expect("strips").iter();
+        strips.filter(|it| it[1] == which).count()
+    };
+    let motion = holds_every_impact(&line)?;
+    let pierced = |motion: &Value| kinds(motion, "pierced");
+    assert_eq!((pierced(&motion), kinds(&motion, "missing")), (12, 0));
+    let (_, motion) = page(
+        folder.path(),
+        &[&line[..], &["--missing-strips", "5:7"]].concat(),
+    )?;
+    assert_eq!((pierced(&motion), kinds(&motion, "missing")), (9, 3));
+    let phases = motion["phases"].as_array().ok_or("phases")?;
+    assert!(phases.iter().any(|it| it["kind"] == "gap"));
+    Ok(())
+}
+
+#[test]
+fn the_last_periods_alone_are_shown() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let line = words("loaded --periods 50 --last 3");
+    let (_, motion) = page(folder.path(), &line)?;
+    let period = motion["drive"]["period"].as_f64().ok_or("period")?;
+    assert_eq!(numbers(&motion["span"])[0], 47.0 * period);
+    let (all, _) = crossings(folder.path(), &line[..3])?;
+    let times = all.iter().map(|row| row[0].parse::<f64>());
+    let times: Vec<f64> = times.collect::<Result<_, _>>()?;
+    let last = times.iter().filter(|it| **it >= 47.0 * period).count();
+    assert_eq!(motion["hits"].as_array().map(Vec::len), Some(last));
+    assert_eq!(motion["samples"]["time"][0], motion["span"][0]);
+    Ok(())
+}
+
+#[test]
+fn the_page_needs_nothing_from_elsewhere() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let file = folder.path().join("odd.toml");
+    let scene = format!("{}/../docs/scenes/rigid.toml", env!("CARGO_MANIFEST_DIR"));
+    let odd =
+        "name = \"</script><b>odd</b>{{motion.js}}\"\n".to_owned() + &fs::read_to_string(scene)?;
+    fs::write(&file, odd)?;
+    let (page, motion) = page(folder.path(), &[file.to_str().ok_or("path")?])?;
+    assert_eq!(motion["title"], "</script><b>odd</b>{{motion.js}}");
+    assert_eq!(page.matches("</script>").count(), 2);
+    for word in ["http://", "https://", "src=", "@import", "url(", "fetch("] {
+        let found = page.replace("url(#in-", "").find(word);
+        assert_eq!(found, None, "{word}");
+    }
+    assert!(page.contains("default-src 'none'"));
+    Ok(())
+}
+
+#[test]
+fn bad_input_is_refused_and_writes_nothing() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let place = folder.path().join("out").join("page.html");
+    let output = ["--output", place.to_str().ok_or("path")?];
+    let cases: [(&str, i32, &[&str]); 8] = [
+        ("--periods 0", 2, &["periods = 0", "1 to 1000000"]),
+        ("--last 401", 2, &["last = 401", "1 to 400"]),
+        ("--position nan", 2, &["position = NaN", "finite"]),
+        ("--position 3 --set initial.position=2", 2, &["--position"]),
+        ("--frequency 0", 2, &["frequency = 0", "> 0"]),
+        (
+            "--missing-strips 1:2",
+            2,
+            &["missing-strips = 1:2", "no strip"],
+        ),
+        ("loaded --missing-strips 0:2", 2, &["0:2", "FIRST:LAST"]),
+        ("nowhere.toml", 2, &["nowhere.toml"]),
+    ];
+    for (line, code, told) in cases {
+        let line = words(line);
+        SOFTSTOP.ends_with(&[&["watch"], &line[..], &output].concat(), code, told);
+    }
+    SOFTSTOP.ends_with(&["watch", "--output", ".."], 1, &["no name of a file"]);
+    assert_eq!(fs::read_dir(folder.path())?.count(), 0);
+    Ok(())
+}
