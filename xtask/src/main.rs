@@ -51,6 +51,8 @@ enum Task {
     Fmpy,
     /// Build the FMU of daily work and run the tests with other importers only
     Importers,
+    /// Build the program and run the tests of its pages in a headless Chromium only
+    Pages,
     /// Run the benchmarks
     Bench,
 }
@@ -91,6 +93,7 @@ fn run_task(task: &Task) -> Result<()> {
                 .env("SOFTSTOP_FMU", &package))?;
             test_with_fmpy(&package)?;
             test_with_importers(&package)?;
+            test_pages()?;
             stage("the library for Windows under Wine");
             portable::compare_under_wine()?;
             stage("all passed");
@@ -98,6 +101,11 @@ fn run_task(task: &Task) -> Result<()> {
         }
         Task::Fmpy => test_with_fmpy(&build()?),
         Task::Importers => test_with_importers(&build()?),
+        Task::Pages => {
+            stage("program");
+            cargo(&["build", "--release", "--package", "softstop-optimize"])?;
+            test_pages()
+        }
         Task::Bench => {
             let run = |arguments: &str| cargo(&arguments.split(' ').collect::<Vec<_>>());
             run("bench --profile dist --package softstop-benches")?;
@@ -114,6 +122,11 @@ fn build() -> Result<PathBuf> {
 fn test_with_fmpy(package: &Path) -> Result<()> {
     stage("FMPy tests");
     python::test(package)
+}
+
+fn test_pages() -> Result<()> {
+    stage("pages in a headless Chromium");
+    python::test_pages()
 }
 
 fn test_with_importers(package: &Path) -> Result<()> {

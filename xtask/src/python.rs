@@ -26,10 +26,20 @@ pub fn test_importers(package: &Path) -> Result<()> {
     }
 }
 
+/// Runs the tests of pages in a headless Chromium, which are left out with a message where none is installed.
+pub fn test_pages() -> Result<()> {
+    let python = environment("page", "tests/page/requirements.txt")?;
+    run(pytest_of(&python, "tests/page").arg("-rs"))
+}
+
 fn pytest(python: &Path, folder: &str, package: &Path) -> Result<()> {
-    run(Command::new(python)
-        .args(["-m", "pytest", "-p", "no:cacheprovider", "-q", folder])
-        .env("SOFTSTOP_FMU", package))
+    run(pytest_of(python, folder).env("SOFTSTOP_FMU", package))
+}
+
+fn pytest_of(python: &Path, folder: &str) -> Command {
+    let mut command = Command::new(python);
+    command.args(["-m", "pytest", "-p", "no:cacheprovider", "-q", folder]);
+    command
 }
 
 /// The interpreter of an environment, made anew when the requirements have changed.

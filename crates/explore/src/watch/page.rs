@@ -112,6 +112,7 @@ impl Page {
     ) -> Self {
         let machine = &plan.begun.machine;
         let excitation = &machine.scene.excitation;
+        let samples = samples(&outcome.drawing);
         let shown = |(kind, from, to): &(PhaseKind, f64, f64)| Shown {
             kind: name(*kind),
             from: *from,
@@ -128,8 +129,12 @@ impl Page {
                 angle: excitation.phase,
             },
             places: places(machine),
-            span: [plan.drawn_from(), outcome.duration],
-            samples: samples(&outcome.drawing),
+            // The last sample's time may differ from the duration by rounding.
+            span: [
+                plan.drawn_from(),
+                samples.time.last().copied().unwrap_or(outcome.duration),
+            ],
+            samples,
             phases: outcome.drawing.phases.iter().map(shown).collect(),
             strips,
             hits,
