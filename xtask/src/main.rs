@@ -1,5 +1,6 @@
 //! Tasks of the workspace, run as `cargo xtask <task>`.
 
+mod book;
 mod darwin;
 mod fmu;
 mod library;
@@ -51,6 +52,8 @@ enum Task {
     Fmpy,
     /// Build the FMU of daily work and run the tests with other importers only
     Importers,
+    /// Test the pages of the guide with all that they show, and build it as a book with mdBook
+    Book,
     /// Run the benchmarks
     Bench,
 }
@@ -98,6 +101,10 @@ fn run_task(task: &Task) -> Result<()> {
         }
         Task::Fmpy => test_with_fmpy(&build()?),
         Task::Importers => test_with_importers(&build()?),
+        Task::Book => {
+            println!("written: {}", book::write()?.display());
+            Ok(())
+        }
         Task::Bench => {
             let run = |arguments: &str| cargo(&arguments.split(' ').collect::<Vec<_>>());
             run("bench --profile dist --package softstop-benches")?;

@@ -123,7 +123,9 @@ impl Page {
         for event in self.events() {
             match event {
                 Event::Start(Tag::Table(_)) => tables.push(0),
-                Event::Start(Tag::TableRow) => tables.iter_mut().rev().take(1).for_each(|it| *it += 1),
+                Event::Start(Tag::TableRow) => {
+                    tables.iter_mut().rev().take(1).for_each(|it| *it += 1)
+                }
                 _ => {}
             }
         }
@@ -162,7 +164,10 @@ impl Page {
             Event::Code(words) => Some(words.to_string()),
             _ => None,
         }));
-        lines.iter().filter_map(|line| call(program, line)).collect()
+        lines
+            .iter()
+            .filter_map(|line| call(program, line))
+            .collect()
     }
 }
 
@@ -201,7 +206,9 @@ impl Link {
 
 fn anchor(heading: &str) -> String {
     let lower = heading.to_lowercase();
-    let kept = lower.chars().filter(|it| it.is_alphanumeric() || " -_".contains(*it));
+    let kept = lower
+        .chars()
+        .filter(|it| it.is_alphanumeric() || " -_".contains(*it));
     kept.map(|it| if it == ' ' { '-' } else { it }).collect()
 }
 
@@ -211,6 +218,8 @@ fn call(program: &str, line: &str) -> Option<Vec<String>> {
     let line = line.split(" > ").next()?;
     let rest = line.strip_prefix(program)?.strip_prefix(' ')?;
     let is_whole = !rest.contains("...") && !rest.contains('…') && !rest.contains('|');
-    let words = rest.split_whitespace().map(|it| it.replace(['\'', '"'], ""));
+    let words = rest
+        .split_whitespace()
+        .map(|it| it.replace(['\'', '"'], ""));
     is_whole.then(|| words.collect())
 }

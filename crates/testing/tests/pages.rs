@@ -38,7 +38,11 @@ fn every_link_leads_somewhere() {
 fn every_page_is_in_the_summary() {
     let pages = all();
     let summary = find(&pages, Path::new("docs/SUMMARY.md")).expect("the summary");
-    let listed: Vec<_> = summary.links().iter().filter_map(|it| it.file(summary)).collect();
+    let listed: Vec<_> = summary
+        .links()
+        .iter()
+        .filter_map(|it| it.file(summary))
+        .collect();
     let left_out = pages.iter().filter(|page| {
         page.place.starts_with("docs")
             && page.place != summary.place
@@ -55,7 +59,10 @@ fn every_page_is_in_the_summary() {
 fn no_table_is_empty() {
     let pages = all();
     let empty = pages.iter().filter(|it| it.tables().contains(&0));
-    judge("an empty table", empty.map(|it| it.place.display().to_string()).collect());
+    judge(
+        "an empty table",
+        empty.map(|it| it.place.display().to_string()).collect(),
+    );
 }
 
 #[test]
@@ -64,11 +71,16 @@ fn every_picture_shows_something_and_says_what() {
     for page in all() {
         for link in page.links().into_iter().filter(|it| it.is_picture) {
             let file = link.file(&page).map(|(place, _)| top().join(place));
-            let length = file.and_then(|it| fs::metadata(it).ok()).map_or(0, |it| it.len());
+            let length = file
+                .and_then(|it| fs::metadata(it).ok())
+                .map_or(0, |it| it.len());
             if length < 1000 || link.words.len() < 10 {
                 faults.push(format!("{}: {}", page.place.display(), link.target));
             }
         }
     }
-    judge("pictures that are empty or without words in their place", faults);
+    judge(
+        "pictures that are empty or without words in their place",
+        faults,
+    );
 }
