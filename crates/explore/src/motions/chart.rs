@@ -74,10 +74,7 @@ pub(super) fn svg(machine: &Machine, survey: &Survey) -> Result<String, MotionEr
 
 impl Loop {
     fn of(scene: &Scene, attractor: &Attractor) -> Result<Self, MotionError> {
-        let periods = attractor
-            .orbit
-            .as_ref()
-            .map(|it| it.regime().periods);
+        let periods = attractor.orbit.as_ref().map(|it| it.regime().periods);
         let drawn = periods.unwrap_or(WANDERING.0).max(1);
         let dotted = periods.unwrap_or(WANDERING.1).max(1);
         let motion = scene.trajectory(attractor.state, drawn.max(dotted))?;
