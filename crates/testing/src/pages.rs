@@ -153,21 +153,25 @@ impl Page {
         blocks
     }
 
-    /// The arguments of each call of a program that the page shows, in its blocks of code and within its sentences.
+    /// The arguments of each call of a program that the page shows, in its blocks of commands and within its sentences,
+    /// where a command alone is but named. The changelog tells of calls that were.
     pub fn calls(&self, program: &str) -> Vec<Vec<String>> {
-        let joined = |block: String| block.replace("\\\n", " ");
+        if self.place == Path::new("CHANGELOG.md") {
+            return Vec::new();
+        }
         let blocks = self.blocks().into_iter();
-        let mut lines: Vec<String> = blocks
-            .flat_map(|(_, block)| joined(block).lines().map(str::to_owned).collect::<Vec<_>>())
+        let commands = blocks.filter(|(language, _)| language.is_empty());
+        let commands = commands.map(|(_, block)| block.replace("\\\n", " "));
+        let lines: Vec<String> = commands
+            .flat_map(|it| it.lines().map(str::to_owned).collect::<Vec<_>>())
             .collect();
-        lines.extend(self.events().filter_map(|event| match event {
-            Event::Code(words) => Some(words.to_string()),
+        let mut calls: Vec<_> = lines.iter().filter_map(|it| call(program, it)).collect();
+        let sentences = self.events().filter_map(|event| match event {
+            Event::Code(words) => call(program, &words),
             _ => None,
-        }));
-        lines
-            .iter()
-            .filter_map(|line| call(program, line))
-            .collect()
+        });
+        calls.extend(sentences.filter(|it| it.len() > 1));
+        calls
     }
 }
 
