@@ -1,5 +1,6 @@
 //! Tasks of the workspace, run as `cargo xtask <task>`.
 
+mod book;
 mod darwin;
 mod fmu;
 mod library;
@@ -53,6 +54,8 @@ enum Task {
     Importers,
     /// Build the program and run the tests of its pages in a headless Chromium only
     Pages,
+    /// Test the pages of the guide with all that they show, and build it as a book with mdBook
+    Book,
     /// Run the benchmarks
     Bench,
 }
@@ -105,6 +108,10 @@ fn run_task(task: &Task) -> Result<()> {
             stage("program");
             cargo(&["build", "--release", "--package", "softstop-optimize"])?;
             test_pages()
+        }
+        Task::Book => {
+            println!("written: {}", book::write()?.display());
+            Ok(())
         }
         Task::Bench => {
             let run = |arguments: &str| cargo(&arguments.split(' ').collect::<Vec<_>>());

@@ -1,5 +1,5 @@
 //! Ctrl-C and the signals to end: the first asks the run to end in good order and ends it itself a little later, or later
-//! still if it [saves](save) what it has; the second ends it at once. What was staged goes with it.
+//! still if it saves what it has ([`save`]); the second ends it at once. What was staged goes with it.
 
 use std::fs;
 use std::io::{self, Write};

@@ -65,3 +65,8 @@ pub mod internals {
 
 pub use nalgebra;
 pub use softstop;
+
+/// The tutorial in Rust, which runs as printed.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/tutorials/rust.md")]
+mod guide {}

@@ -228,7 +228,7 @@ fn an_interrupt_leaves_nothing_behind() -> Outcome {
 
 #[test]
 fn the_page_shows_every_map_and_scene() -> Outcome {
-    let page = fs::read_to_string(docs("failures.md"))?;
+    let page = fs::read_to_string(docs("methods.md"))?;
     let views = View::built_in().map_err(|failure| failure.to_string())?;
     for view in &views {
         for end in ["svg", "toml"] {

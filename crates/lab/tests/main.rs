@@ -5,6 +5,7 @@ mod diagrams;
 mod failures;
 mod figure;
 mod grazing;
+mod guide;
 mod interrupts;
 mod methods;
 mod methods_limits;

@@ -2,6 +2,7 @@
 
 pub mod machines;
 pub mod meets;
+pub mod pages;
 mod program;
 pub mod random;
 pub mod reference;

@@ -21,8 +21,11 @@ const LINE: f64 = 17.0;
 /// Half the size of marks.
 const MARK: f64 = 6.0;
 
-/// Models with both axes logarithmic, as an SVG document: what has no error stands at the lower edge, what
-/// has no value at the upper one.
+/// Height of the strips off the scale, in decades.
+const STRIP: f64 = 0.5;
+
+/// Models with both axes logarithmic, as an SVG document: what has no error stands in a strip below the scale, what
+/// has no value in one above it.
 pub(super) fn svg(arguments: &FidelityArguments, machine: &Machine, study: &Study) -> String {
     let tolerance = arguments.tolerance;
     let errors = study.entries.iter().filter_map(|entry| entry.error);
@@ -31,7 +34,7 @@ pub(super) fn svg(arguments: &FidelityArguments, machine: &Machine, study: &Stud
     let (small, large) = around(errors.map(f64::log10), 0.0);
     let (cheap, dear) = around(study.entries.iter().map(cost), 0.0);
     let x = ((cheap - 0.15).floor().min(1.0), dear + 0.4);
-    let y = (small.floor() - 1.0, (large.floor() + 2.0).min(3.0));
+    let y = (small.floor() - STRIP, large.ceil().min(2.0) + STRIP);
     let panel = Panel::new(AREA, x, y);
     let mut pen = Pen::page(PAGE.0, PAGE.1);
     let head = "How simple a model may be";
@@ -50,6 +53,10 @@ pub(super) fn svg(arguments: &FidelityArguments, machine: &Machine, study: &Stud
         )
     };
     panel.ground(&mut pen, &axes);
+    let high = STRIP / (y.1 - y.0) * AREA.3;
+    for top in [AREA.1, panel.bottom() - high] {
+        pen.tint((AREA.0, top, AREA.2, high), style::ASIDE, 0.12);
+    }
     if tolerance > 0.0 {
         let height = tolerance.log10();
         let line = [(panel.x.0, height), (panel.x.1, height)];
@@ -85,8 +92,8 @@ pub(super) fn svg(arguments: &FidelityArguments, machine: &Machine, study: &Stud
         let note = match entry.error {
             Some(0.0) => ": exact",
             Some(error) if error.is_finite() => "",
-            Some(_) => ": another regime",
-            None => ": no value",
+            Some(_) => ": another regime, no error",
+            None => ": no such motion, no error",
         };
         let name = format!("{}{note}", entry.name());
         let (x, mut y) = place(entry);
@@ -117,8 +124,8 @@ fn cost(entry: &Entry) -> f64 {
 /// The error as a power of ten, where it has one.
 fn height(entry: &Entry, panel: &Panel) -> f64 {
     match entry.error {
-        Some(0.0) => panel.y.0 + 0.3,
-        Some(error) if error.is_finite() => error.log10(),
-        _ => panel.y.1 - 0.5,
+        Some(0.0) => panel.y.0 + 0.5 * STRIP,
+        Some(error) if error.is_finite() => error.log10().min(panel.y.1 - STRIP),
+        _ => panel.y.1 - 0.5 * STRIP,
     }
 }

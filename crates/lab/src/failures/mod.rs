@@ -37,7 +37,7 @@ Examples:
 Machines of the atlas: pressed (stability), bounce (energy), graze (short contacts), chatter
 (endlessly many events), driven (the paper's machine). Each is run with stops of 1 to 1e8 N/m and
 steps of 1e-5 to 0.3 drive periods, and each run is put in a class: converged, inaccurate, wrong
-impact count, missed contact, energy gain, blow-up, stuck. docs/failures.md explains them.
+impact count, missed contact, energy gain, blow-up, stuck. docs/methods.md explains them.
 
 Files, whole or not at all: a page NAME.svg for each machine, failures.csv with a row for each
 run, failures.json with the maps and the limits that theory sets.";

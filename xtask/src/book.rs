@@ -1,0 +1,188 @@
+//! The guide as a book: mdBook over `docs`, and what its pages link to elsewhere in the project.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result};
+
+use crate::run::{cargo, cargo_command, run, stage, target, top};
+
+const MDBOOK: &str = "0.5.4";
+
+/// The folder of the book that holds what lies outside `docs`.
+const OUTSIDE: &str = "top";
+
+/// Tests the pages, with the commands and examples that they show, and builds the book.
+pub fn write() -> Result<PathBuf> {
+    stage("pages, commands and examples");
+    cargo(&[
+        "test",
+        "--release",
+        "-p",
+        "softstop-testing",
+        "--test",
+        "pages",
+    ])?;
+    cargo(&[
+        "test",
+        "--release",
+        "-p",
+        "softstop-optimize",
+        "--test",
+        "guide",
+    ])?;
+    cargo(&[
+        "test",
+        "--release",
+        "-p",
+        "softstop-lab",
+        "--test",
+        "lab",
+        "guide",
+    ])?;
+    cargo(&[
+        "test",
+        "--release",
+        "-p",
+        "softstop-dynamics",
+        "--doc",
+        "guide",
+    ])?;
+    stage("book");
+    let folder = target().join("guide");
+    if folder.exists() {
+        fs::remove_dir_all(&folder)?;
+    }
+    lay_out(&folder)?;
+    run(Command::new(mdbook()?).arg("build").arg(&folder))?;
+    Ok(folder.join("book/index.html"))
+}
+
+/// The program mdbook, built once into the target folder.
+fn mdbook() -> Result<PathBuf> {
+    let root = target().join("tools");
+    let program = root.join(format!("bin/mdbook{}", std::env::consts::EXE_SUFFIX));
+    if !program.exists() {
+        run(cargo_command()
+            .args(["install", "mdbook", "--version", MDBOOK, "--locked"])
+            .args(["--no-default-features", "--features", "search", "--root"])
+            .arg(root))
+        .context("mdBook cannot be installed")?;
+    }
+    Ok(program)
+}
+
+/// Copies `docs` and the files outside that its pages link to, with the links as they have to be there.
+fn lay_out(folder: &Path) -> Result<()> {
+    let source = folder.join("src");
+    let mut waiting = files(Path::new("docs"))?;
+    let mut done = BTreeSet::new();
+    while let Some(place) = waiting.pop() {
+        if !done.insert(place.clone()) {
+            continue;
+        }
+        let copy = source.join(in_book(&place));
+        fs::create_dir_all(copy.parent().unwrap_or(&source))?;
+        let original = top().join(&place);
+        if place.extension().is_some_and(|it| it == "md") {
+            let text = fs::read_to_string(&original)?;
+            let (text, outside) = relinked(&text, &place);
+            waiting.extend(outside);
+            fs::write(copy, text)?;
+        } else {
+            fs::copy(&original, copy).with_context(|| original.display().to_string())?;
+        }
+    }
+    fs::rename(source.join("book.toml"), folder.join("book.toml"))?;
+    Ok(())
+}
+
+/// All files below a folder, from the top.
+fn files(folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(top().join(folder))? {
+        let entry = entry?;
+        let place = folder.join(entry.file_name());
+        if entry.file_type()?.is_dir() {
+            found.extend(files(&place)?);
+        } else {
+            found.push(place);
+        }
+    }
+    Ok(found)
+}
+
+/// Where a file of the project stands in the book.
+fn in_book(place: &Path) -> PathBuf {
+    place
+        .strip_prefix("docs")
+        .map_or_else(|_| Path::new(OUTSIDE).join(place), Path::to_owned)
+}
+
+/// A page with its links as they are in the book, and the files outside `docs` that it links to.
+fn relinked(text: &str, place: &Path) -> (String, Vec<PathBuf>) {
+    let mut pieces = text.split("](");
+    let mut whole = pieces.next().unwrap_or_default().to_owned();
+    let mut outside = Vec::new();
+    for piece in pieces {
+        let (link, rest) = piece.split_once(')').unwrap_or((piece, ""));
+        let (file, anchor) = link.split_at(link.find('#').unwrap_or(link.len()));
+        let leads_to = resolved(place, file);
+        whole.push_str("](");
+        if !file.is_empty() && !file.contains(':') && top().join(&leads_to).is_file() {
+            whole.push_str(&way(&in_book(place), &in_book(&leads_to)));
+            if !leads_to.starts_with("docs") {
+                outside.push(leads_to);
+            }
+        } else {
+            whole.push_str(file);
+        }
+        whole.push_str(anchor);
+        whole.push(')');
+        whole.push_str(rest);
+    }
+    (whole, outside)
+}
+
+/// The file that a link of a page leads to.
+fn resolved(page: &Path, link: &str) -> PathBuf {
+    let mut place = page.to_owned();
+    place.pop();
+    for part in link.split('/') {
+        match part {
+            ".." => drop(place.pop()),
+            "." => {}
+            part => place.push(part),
+        }
+    }
+    place
+}
+
+/// A link from one file to another.
+fn way(from: &Path, to: &Path) -> String {
+    let up = from.components().count() - 1;
+    let to = to.components().map(|it| it.as_os_str().to_string_lossy());
+    let parts: Vec<_> = std::iter::repeat_n("..".into(), up).chain(to).collect();
+    parts.join("/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn links_lead_to_the_same_files_in_the_book() {
+        let page =
+            "[a](../install.md#the-crates) ![b](../../fmu/assets/machine.svg) [c](https://x.y) `x`";
+        let (text, outside) = relinked(page, Path::new("docs/tutorials/rust.md"));
+        assert_eq!(
+            text,
+            "[a](../install.md#the-crates) ![b](../top/fmu/assets/machine.svg) [c](https://x.y) `x`"
+        );
+        assert_eq!(outside, [Path::new("fmu/assets/machine.svg")]);
+        let (text, _) = relinked("[s](docs/scale.md)", Path::new("CHANGELOG.md"));
+        assert_eq!(text, "[s](../scale.md)");
+    }
+}
