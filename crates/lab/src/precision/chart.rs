@@ -10,7 +10,7 @@ use crate::precision::measure::Row;
 use crate::precision::report::SceneReport;
 
 /// The page, and the panel on it.
-const PAGE: (f64, f64) = (1040.0, 600.0);
+const PAGE: (f64, f64) = (1160.0, 600.0);
 const AREA: Area = (76.0, 76.0, 640.0, 456.0);
 /// Where the legend begins, the height of its rows, and the length of its lines.
 const LEGEND: (f64, f64) = (740.0, 92.0);
