@@ -6,16 +6,17 @@ parameters, ecos the one that is asked for, FMPy none by itself; FMPy does not c
 
 import pathlib
 import sys
-import zipfile
 
 import numpy as np
 import pytest
 
 fmpy = pytest.importorskip("fmpy", reason="fmpy, which drives the reference, is not installed")
 
-from fmpy.fmi2 import FMU2Slave  # noqa: E402
-from fmpy.ssp.ssd import get_connections, read_ssd, read_ssv  # noqa: E402
-from machine import PERIOD, TOP  # noqa: E402
+from machine import TOP  # noqa: E402
+
+sys.path.insert(0, str(TOP / "examples"))
+
+from piercing_machine import System  # noqa: E402
 
 STEP, STEPS = 0.02, 3000
 MACHINES = ["B", "A", "design"]
@@ -29,60 +30,21 @@ def system(path):
     return str(beside if beside.exists() else TOP / "piercing-machine.ssp")
 
 
-class Hand:
-    """The units of the system, stepped by hand as its description connects them."""
+class Hand(System):
+    """The units of the system, stepped without roll back as its description connects them."""
 
     def __init__(self, system, folder, machine=None, connected_initially=True):
-        structure = read_ssd(system)
-        self.wires = [(a.parent.name, a.name, b.parent.name, b.name) for a, b in get_connections(structure.system)]
-        fmpy.extract(system, unzipdir=str(folder))
-        self.units, self.references = {}, {}
-        for component in structure.system.elements:
-            name = component.name
-            unpacked = fmpy.extract(str(folder / component.source), unzipdir=str(folder / name))
-            description = fmpy.read_model_description(unpacked)
-            self.references[name] = {v.name: v for v in description.modelVariables}
-            unit = FMU2Slave(guid=description.guid, unzipDirectory=unpacked, instanceName=name,
-                             modelIdentifier=description.coSimulation.modelIdentifier)
-            unit.instantiate()
-            unit.setupExperiment()
-            self.units[name] = unit
-            if machine and name != "feeder":
-                for parameter in read_ssv(system, f"resources/{machine}-{name}.ssv").parameters:
-                    self.set(name, parameter.name, float(parameter.value))
-        for unit in self.units.values():
-            unit.enterInitializationMode()
-        if connected_initially:
-            # What the drive tells first the feeder and the press need, and so on.
-            for _ in self.units:
-                self.connect()
-        else:
-            for _, _, unit, name in self.wires:
-                self.set(unit, name, 0.0)
-        for unit in self.units.values():
-            unit.exitInitializationMode()
+        self.unconnected = not connected_initially
+        super().__init__(system, folder, machine)
 
-    def set(self, unit, name, value):
-        self.units[unit].setReal([self.references[unit][name].valueReference], [value])
-
-    def get(self, name):
-        unit, name = name.split(".", 1)
-        variable = self.references[unit][name]
-        read = self.units[unit].getReal if variable.type == "Real" else self.units[unit].getInteger
-        return read([variable.valueReference])[0]
-
-    def connect(self):
-        values = [self.get(f"{unit}.{name}") for unit, name, _, _ in self.wires]
-        for (_, _, unit, name), value in zip(self.wires, values):
-            self.set(unit, name, value)
+    def outputs(self):
+        return [0.0] * len(self.wires) if self.unconnected else super().outputs()
 
     def run(self, steps):
-        for number in range(steps):
-            if number:
-                self.connect()
-            for unit in self.units.values():
-                unit.doStep(number * STEP, STEP)
-        ends = [self.get(name) for name in WATCHED]
+        for _ in range(steps):
+            self.step(STEP, repeats=0)
+            self.unconnected = False
+        ends = [self.get(*name.split(".", 1)) for name in WATCHED]
         for unit in self.units.values():
             unit.terminate()
             unit.freeInstance()
@@ -92,9 +54,9 @@ class Hand:
 def test_no_parameter_is_wired(system, tmp_path):
     hand = Hand(system, tmp_path)
     for begin, output, end, name in hand.wires:
-        assert hand.references[begin][output].causality == "output"
-        assert hand.references[end][name].causality == "input"
-        assert hand.references[begin][output].unit == hand.references[end][name].unit
+        assert hand.variables[begin][output].causality == "output"
+        assert hand.variables[end][name].causality == "input"
+        assert hand.variables[begin][output].unit == hand.variables[end][name].unit
     hand.run(1)
 
 
@@ -135,3 +97,20 @@ def test_libcosim(system, tmp_path):
         last = observer.last_integer_values if count else observer.last_real_values
         ends.append(last(unit, [reference])[0])
     np.testing.assert_allclose(ends, Hand(system, tmp_path, "B").run(STEPS), atol=1e-8)
+
+
+@pytest.mark.parametrize(("repeats", "order"), [(0, 1), (20, 2)])
+def test_order_of_the_coupling(system, repeats, order, tmp_path):
+    """Speed and impact time at three steps: what is left falls by 2^order."""
+    ends = []
+    for size in (0.05, 0.025, 0.0125):
+        machine = System(system, tmp_path / str(size), "B")
+        for _ in range(round(12 / size)):
+            machine.step(size, repeats)
+        ends.append([machine.get("drive", "speed"), machine.get("press", "impact.time")])
+        for unit in machine.units.values():
+            unit.terminate()
+            unit.freeInstance()
+    coarse, middle, fine = np.array(ends)
+    observed = np.log2(abs((coarse - middle) / (middle - fine)))
+    np.testing.assert_allclose(observed, order, atol=0.1)
