@@ -1,7 +1,10 @@
 """The page of `softstop watch` in a headless Chromium: what it shows is what its motion says."""
 
+import re
+
 import pytest
 from conftest import TOP
+from playwright.sync_api import expect
 
 SCENES = sorted(path.name for path in (TOP / "docs" / "scenes").glob("*.toml"))
 LOADED = ("loaded", "--periods", "8", "--missing-strips", "4:5")
@@ -45,25 +48,25 @@ def test_it_plays_pauses_and_ends(watch):
     play = page.page.locator("#play")
     assert (play.text_content(), page.number("time")) == ("Play", 0)
     page.press("Space")
-    page.page.wait_for_function("+document.getElementById('at').value > 0.2")
-    assert play.text_content() == "Pause"
+    expect(play).to_have_text("Pause")
+    expect(page.page.locator("#at")).not_to_have_value(re.compile(r"^0(\.[01].*)?$"))
     page.press("Space")
     time = page.number("time")
     assert play.text_content() == "Play" and time > 0.2
     page.press("ArrowRight")
     assert page.number("time") == pytest.approx(time + page.motion["drive"]["period"] / 200, rel=1e-4)
     page.press("End", "Shift+ArrowLeft", "s", "+", "+", "+", "Space")
-    page.page.wait_for_function("document.getElementById('play').textContent == 'Play'")
+    expect(play).to_have_text("Play")
     assert page.number("time") == near(page.motion["span"][1])
     assert page.page.locator("#sound").get_attribute("aria-pressed") == "true"
 
 
 def test_no_impact_passes_unheard(watch):
     page = watch("docs/scenes/chatter.toml", "--periods", "2")
-    page.page.evaluate("window.heard = []; strike = hit => heard.push(hit.time)")
+    page.page.evaluate("() => { window.heard = []; strike = hit => heard.push(hit.time); }")
     page.press("s")
     page.page.evaluate("byId('speed').value = 0.5; play(true)")
-    page.page.wait_for_function("document.getElementById('play').textContent == 'Play'", timeout=60000)
+    expect(page.page.locator("#play")).to_have_text("Play", timeout=60000)
     heard = page.page.evaluate("heard")
     assert heard == [hit["time"] for hit in page.motion["hits"]]
 

@@ -30,9 +30,8 @@ function count(times, t) {
 function ticks([low, high], wanted) {
   const rough = (high - low) / wanted, power = 10 ** Math.floor(Math.log10(rough));
   const step = power * ([1, 2, 5].find(it => it * power >= rough) ?? 10);
-  const all = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) all.push(+(k * step).toPrecision(12));
-  return all;
+  const [first, last] = [Math.ceil(low / step - 1e-9), Math.floor(high / step + 1e-9)];
+  return Array.from({ length: Math.max(last - first + 1, 0) }, (_, k) => +((first + k) * step).toPrecision(12));
 }
 function roomy([low, high], room) {
   const more = high > low ? room * (high - low) : Math.abs(low) || 1;

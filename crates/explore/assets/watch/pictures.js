@@ -101,9 +101,9 @@ function drawMachine(t, now, hit) {
   }
   show(figure, width, HEIGHT, body + flash(to, t, hit));
 }
-// The deepest contact, and what lies before it, many times larger.
-const near = Math.min(...faces), depth = Math.max(positions[1], ...faces) - near;
-const isClose = faces.length > 0 && depth > 0 && depth < .12 * (reach[1] - reach[0]) && positions[1] > near;
+// The deepest contact, unless it is rounding, and what lies before it, many times larger.
+const near = Math.min(...faces), depth = Math.max(positions[1], ...faces) - near, whole = reach[1] - reach[0];
+const isClose = faces.length > 0 && positions[1] > near && depth > 1e-6 * whole && depth < .12 * whole;
 function drawCloseup(t, now, hit) {
   const figure = byId('closeup'), width = wide(figure), right = width - 12;
   const ends = [near - .5 * depth, near + 1.08 * depth], room = places.stop != null ? .3 * width : 30;
