@@ -248,3 +248,42 @@ fn ends_where_a_branch_bends_within_a_billionth() {
     ";
     assert!(are_named(machine));
 }
+
+#[test]
+fn an_isola_so_flat_that_its_frequency_tells_its_sides_apart_by_a_thousandth() {
+    let machine = "
+        damping = 0.0023146245074345045
+        clearance = 1.8767313932687464
+        contact.damping = 0.002361272145129286
+        excitation.frequency = 0.5026007498174982
+        stop = { model = 'preloaded', stiffness = 1.214619100975209, preload = 3.8693613236562703 }
+        piercing = { stiffness = 10.806760795085063, friction = 18.43664124335621, thickness = 0.2779983426861644, travel = 0.019179703115514 }
+    ";
+    assert!(is_told(machine, (0.7689488844469032, -0.9595454870441067)));
+}
+
+#[test]
+fn ends_where_rounding_leaves_more_than_its_neighbours_tell() {
+    let machine = "
+        damping = 0.021383071793465817
+        clearance = 0.38350930474631645
+        contact.damping = 0.13029291999042028
+        excitation.frequency = 1.15
+        stop = { model = 'preloaded', stiffness = 2581.4583061696444, preload = 200.78527172810269 }
+        piercing = { stiffness = 10.691316338866132, friction = 25.577189590775173, thickness = 0.15467698198168145, travel = 0.5232139746173134 }
+    ";
+    assert!(are_named(machine));
+}
+
+#[test]
+fn ends_where_rounding_leaves_a_hundred_times_what_the_monodromy_matrix_tells() {
+    let machine = "
+        damping = 0.002070478913793451
+        clearance = 0.47541371888294964
+        contact.damping = 0.00555294555283473
+        excitation.frequency = 1.15
+        stop = { model = 'preloaded', stiffness = 0.6313069578007628, preload = 22.905384841383142 }
+        piercing = { stiffness = 8.876940545223665, friction = 22.139197015361002, thickness = 0.19746014847192814, travel = 0.8916167974004743 }
+    ";
+    assert!(are_named(machine));
+}

@@ -66,8 +66,8 @@ const CORRECTIONS: usize = 12;
 const MOST_CORRECTIONS: usize = 48;
 /// Residual in units of what rounding may leave up to which it is worth a look whether it leaves more, and changes of the
 /// unknowns in units of their rounding with which that is looked at.
-const WORTH_A_LOOK: f64 = 100.0;
-const LAST_DIGITS: [f64; 4] = [-4.0, -2.0, 2.0, 4.0];
+const WORTH_A_LOOK: f64 = 1000.0;
+const LAST_DIGITS: [f64; 4] = [-8.0, -4.0, 4.0, 8.0];
 /// A step with kept slopes that leaves more than this share of the residual is the last with them.
 const STALE: f64 = 0.02;
 /// Scaled half-width of the central differences.

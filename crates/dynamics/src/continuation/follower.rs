@@ -246,8 +246,8 @@ fn is_same_piece<F: Family>(
     Test::change_little(from, to) && keeps_sense((&walker.direction, from), (&stride.direction, to))
 }
 
-/// The product of senses that rounding may leave where they are the same.
-const SENSELESS: f64 = -1e-9;
+/// Sense that rounding may leave where there is none.
+const SENSELESS: f64 = 1e-8;
 
 /// True if directions at two places of a branch, each with the monodromy matrix there, may be one: the parameter turns
 /// back where 1 - tr + det changes its sign, and nowhere else. Its rate along the curve is that test times a factor of one
@@ -257,5 +257,6 @@ pub(super) fn keeps_sense(
     (to, after): (&DVector<f64>, &Matrix2<f64>),
 ) -> bool {
     let sense = |direction: &DVector<f64>, matrix| Test::Fold.value(matrix) * direction[2];
-    sense(from, before) * sense(to, after) >= SENSELESS
+    let [from, to] = [sense(from, before), sense(to, after)];
+    from * to >= 0.0 || from.abs().min(to.abs()) <= SENSELESS
 }
