@@ -210,7 +210,7 @@ fn what_a_command_does_not_use_is_refused() -> Outcome {
         ("fidelity", "--sweep 1:2", &["--structure"]),
         ("stops", "--set clearance=3", &["--set"]),
         ("stops", "unloaded", &["unloaded"]),
-        ("motions", "--output there", &["--output"]),
+        ("zone", "--output there", &["--output"]),
     ];
     for (line, more, told) in cases {
         let command = words(line);
