@@ -125,6 +125,11 @@ impl Machine {
             }
             let drive = self.more.drive.as_ref();
             let end = drive.map_or(until, |drive| drive.end_of_piece(now, until));
+            if end <= now {
+                return Ok(Some(format!(
+                    "drive.speed or drive.amplitude changes faster than the time {now} s tells"
+                )));
+            }
             self.push_until(end)?;
             let outcome = self.go_straight(end, events)?;
             self.more.is_open = true;
@@ -190,11 +195,21 @@ impl Machine {
         Ok(outcome)
     }
 
-    /// Takes over other parameters; the work of tuning is not the drive's.
+    /// Takes over other parameters, all of them or none.
     pub(crate) fn retune(&mut self, scene: &softstop::Scene) -> Outcome<()> {
         if self.more.drive.is_none() && scene == self.simulation().scene() {
             return Ok(());
         }
+        let before = self.clone();
+        let outcome = self.take_over(scene);
+        if outcome.is_err() {
+            *self = before;
+        }
+        outcome
+    }
+
+    /// The work of tuning is not the drive's.
+    fn take_over(&mut self, scene: &softstop::Scene) -> Outcome<()> {
         let (angle, _, _) = self.drive_angle();
         let supplied = |simulation: &Simulation| simulation.energy().supplied;
         let before = supplied(self.simulation());

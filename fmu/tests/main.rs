@@ -19,3 +19,4 @@ mod stops;
 mod table;
 mod threads;
 mod traces;
+mod tuning;

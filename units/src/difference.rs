@@ -2,7 +2,7 @@
 
 use softstop_fmi::{Known, slope};
 
-/// Width of the first differences along the direction.
+/// Width of the first differences along the direction, in units of what is typical of each known.
 const WIDTH: f64 = 1e-3;
 
 /// How a unit goes through its last step again, from a beginning that was moved.
@@ -13,26 +13,33 @@ pub(crate) type Repeat<U> = fn(&U, &[(Known, f64)], f64) -> Option<U>;
 pub struct Direction<U> {
     unit: U,
     direction: Vec<(Known, f64)>,
+    /// The largest seed in units of what is typical of its known.
+    steepest: f64,
     repeat: Repeat<U>,
 }
 
 impl<U: Clone> Direction<U> {
-    pub(crate) fn new(unit: &U, direction: &[(Known, f64)], repeat: Repeat<U>) -> Self {
+    pub(crate) fn new(
+        unit: &U,
+        direction: &[(Known, f64)],
+        typical: impl Fn(Known) -> f64,
+        repeat: Repeat<U>,
+    ) -> Self {
+        let steep = |(known, seed): &(Known, f64)| seed.abs() / typical(*known);
         Self {
             unit: unit.clone(),
             direction: direction.to_vec(),
+            steepest: direction.iter().map(steep).fold(0.0, f64::max),
             repeat,
         }
     }
 
     /// The derivative of an output.
     pub(crate) fn of(&self, value: fn(&U) -> f64) -> f64 {
-        let steepest = |most: f64, (_, seed): &(Known, f64)| most.max(seed.abs());
-        let steepest = self.direction.iter().fold(0.0, steepest);
-        if steepest == 0.0 {
+        if self.steepest == 0.0 {
             return 0.0;
         }
-        slope(value(&self.unit), WIDTH / steepest, |step| {
+        slope(value(&self.unit), WIDTH / self.steepest, |step| {
             let moved = (self.repeat)(&self.unit, &self.direction, step)?;
             Some(value(&moved))
         })

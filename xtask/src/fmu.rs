@@ -68,16 +68,15 @@ fn shipped(artifact: Artifact) -> Result<Library> {
     Ok(library)
 }
 
-/// The library for a platform, and what there is to say of it. Without the tools there is still the
-/// linker of this machine.
+/// The library for a platform, and what there is to say of it. Where Zig cannot link for this machine there is still its
+/// own linker.
 fn built_or_host(artifact: Artifact, target: &Target, tools: &Tools) -> Result<(Library, String)> {
-    target
-        .build(artifact, tools)
+    let built = target
+        .prepare(tools)
+        .and_then(|()| target.build(artifact, tools));
+    built
         .map(|library| (library, String::new()))
         .or_else(|error| {
-            if target.platform != HOST_PLATFORM {
-                return Err(error);
-            }
             let note = format!(", for this machine's C library or a later one: {error:#}");
             Ok((host_library(artifact)?, note))
         })
@@ -86,25 +85,28 @@ fn built_or_host(artifact: Artifact, target: &Target, tools: &Tools) -> Result<(
 /// Builds the libraries for every platform that can be had here as they are shipped and packs them all.
 pub fn write_shipped_for_all() -> Result<()> {
     let tools = Tools::new();
-    let [drive, feeder, press] =
-        [DRIVE, FEEDER, OSCILLATOR].map(|artifact| shipped_for_all(artifact, &tools));
-    write_all(&drive, &feeder, &press).map(drop)
+    let all = |artifact| shipped_for_all(artifact, &tools);
+    write_all(&all(DRIVE)?, &all(FEEDER)?, &all(OSCILLATOR)?).map(drop)
 }
 
-fn shipped_for_all(artifact: Artifact, tools: &Tools) -> Vec<Library> {
+/// Left out are platforms for which something cannot be had; where all is there, a build that fails is an error.
+fn shipped_for_all(artifact: Artifact, tools: &Tools) -> Result<Vec<Library>> {
     let mut libraries = Vec::new();
     for target in &TARGETS {
         stage(target.platform);
-        match built_or_host(artifact, target, tools) {
-            Ok((library, note)) => {
-                let size = library.bytes.len().div_ceil(1024);
-                println!("{:14} {size} KiB{note}", target.platform);
-                libraries.push(library);
+        let (library, note) = match target.prepare(tools) {
+            _ if target.platform == HOST_PLATFORM => built_or_host(artifact, target, tools)?,
+            Ok(()) => (target.build(artifact, tools)?, String::new()),
+            Err(error) => {
+                println!("{:14} skipped: {error:#}", target.platform);
+                continue;
             }
-            Err(error) => println!("{:14} skipped: {error:#}", target.platform),
-        }
+        };
+        let size = library.bytes.len().div_ceil(1024);
+        println!("{:14} {size} KiB{note}", target.platform);
+        libraries.push(library);
     }
-    libraries
+    Ok(libraries)
 }
 
 fn host_library(artifact: Artifact) -> Result<Library> {

@@ -33,19 +33,19 @@ pub fn compare_under_wine() -> Result<()> {
         return Ok(());
     };
     let tools = Tools::new();
-    let programs = Program::build("linux64", "x86_64-linux-gnu", &tools).and_then(|linux| {
-        Ok((
-            linux,
-            Program::build("win64", "x86_64-windows-gnu", &tools)?,
-        ))
-    });
-    let (linux, windows) = match programs {
-        Ok(programs) => programs,
-        Err(error) => {
+    let platforms = [
+        ("linux64", "x86_64-linux-gnu"),
+        ("win64", "x86_64-windows-gnu"),
+    ];
+    for (platform, _) in platforms {
+        if let Err(error) = Target::of(platform)?.prepare(&tools) {
             println!("left out: {error:#}");
             return Ok(());
         }
-    };
+    }
+    let [linux, windows] =
+        platforms.map(|(platform, zig_target)| Program::build(platform, zig_target, &tools));
+    let (linux, windows) = (linux?, windows?);
     let linux = linux.results(Command::new(&linux.program))?;
     let mut under_wine = Command::new(wine);
     under_wine.arg(&windows.program).env("WINEDEBUG", "-all");

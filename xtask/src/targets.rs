@@ -74,11 +74,21 @@ impl Target {
             .with_context(|| format!("no target for {platform}"))
     }
 
-    /// Builds a unit's library for this platform.
+    /// Gets what it takes to build for this platform, or says what of it cannot be had.
+    pub fn prepare(&self, tools: &Tools) -> Result<()> {
+        tools.python()?;
+        match &self.linked {
+            Linked::Zig(triple, ..) => install_standard_library(triple),
+            Linked::Darwin(triples) => triples
+                .iter()
+                .try_for_each(|triple| install_standard_library(triple)),
+        }
+    }
+
+    /// Builds a unit's library for this platform, for which all is prepared.
     pub fn build(&self, artifact: Artifact, tools: &Tools) -> Result<Library> {
         let bytes = match self.linked {
             Linked::Zig(triple, suffix, flags) => {
-                install_standard_library(triple)?;
                 let build = Build {
                     artifact,
                     command: tools.cargo_zigbuild()?,
@@ -91,10 +101,7 @@ impl Target {
                 let kit = darwin::kit(&tools.zig_library()?)?;
                 let slices = triples
                     .iter()
-                    .map(|triple| {
-                        install_standard_library(triple)?;
-                        Ok(fs::read(darwin::build(artifact, triple, &kit).run()?)?)
-                    })
+                    .map(|triple| Ok(fs::read(darwin::build(artifact, triple, &kit).run()?)?))
                     .collect::<Result<Vec<_>>>()?;
                 darwin::universal(&slices)?
             }

@@ -266,6 +266,12 @@ impl Unit for Drive {
     }
 
     fn tangent(&self, direction: &[(Known, f64)]) -> Outcome<Direction<Self>> {
-        Ok(Direction::new(self, direction, Self::repeated))
+        let typical = |known| match known {
+            Known::Signal(VOLTAGE) => 1.0,
+            Known::Signal(_) => self.motor.typical_energy(),
+            Known::Parameter(slot::INITIAL_SPEED) => self.motor.speed,
+            Known::Parameter(_) => 1.0,
+        };
+        Ok(Direction::new(self, direction, typical, Self::repeated))
     }
 }

@@ -35,7 +35,7 @@ pub(super) struct Motor {
     model: i32,
     pub voltage: f64,
     torque: f64,
-    speed: f64,
+    pub speed: f64,
     slip: f64,
     pub inertia: f64,
     pub friction: f64,
@@ -68,6 +68,11 @@ impl Motor {
             }
             _ => self.torque * (voltage - share),
         }
+    }
+
+    /// Energy in J of the rotor at the motor's speed.
+    pub fn typical_energy(&self) -> f64 {
+        0.5 * self.inertia * self.speed * self.speed
     }
 
     /// Torque in N m by which a load of a power in W brakes.

@@ -228,6 +228,6 @@ impl Unit for Feeder {
     }
 
     fn tangent(&self, direction: &[(Known, f64)]) -> Outcome<Direction<Self>> {
-        Ok(Direction::new(self, direction, Self::repeated))
+        Ok(Direction::new(self, direction, |_| 1.0, Self::repeated))
     }
 }

@@ -1,0 +1,38 @@
+//! Derivatives by differences, of machines of any size.
+
+use approx::assert_relative_eq;
+use softstop_fmi::variable::Access;
+use softstop_fmi::{Advance, Derivatives, Events, Imprint, Known, Row, Unit};
+use softstop_units::Drive;
+
+const LOAD: usize = 1;
+
+fn row(name: &str) -> &'static Row<Drive> {
+    Drive::about().table.by_name(name).expect("a variable")
+}
+
+/// A drive at 1 rad/s that the load takes work from over a short step: J w dw = -dW.
+#[test]
+fn of_the_speed_by_the_work_of_the_load() {
+    for size in [1e-8, 1.0, 1e8] {
+        let mut values = Imprint::<Drive>::library().values().to_vec();
+        for (name, value) in [
+            ("inertia", size),
+            ("motor.torque", size),
+            ("motor.speed", 1.0),
+            ("initial.speed", 1.0),
+        ] {
+            values[row(name).slot().expect("a parameter").0] = value;
+        }
+        let mut drive = Drive::begin(&values, 0.0).expect("a drive");
+        drive.drive(LOAD, &Derivatives::default()).expect("a load");
+        let advance = drive.advance(1e-9, &mut Events::default());
+        assert!(matches!(advance, Ok(Advance::Arrived)));
+        let Access::Continuous { tangent, .. } = row("speed").access else {
+            unreachable!("speed is continuous");
+        };
+        let along = drive.tangent(&[(Known::Signal(LOAD), 1.0)]);
+        let found = tangent(&along.expect("a derivative"));
+        assert_relative_eq!(found * size, -1.0, max_relative = 1e-6);
+    }
+}
