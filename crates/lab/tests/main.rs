@@ -14,4 +14,5 @@ mod paper_motions;
 mod precision;
 mod reference;
 mod solvers;
+mod system;
 mod throughput;

@@ -15,9 +15,10 @@ const TOP: f64 = 96.0;
 const BETWEEN: f64 = 86.0;
 const RIGHT: f64 = 26.0;
 const ROW: f64 = 502.0;
-/// Height of a row of the table, and width of its columns: names, shares.
-const LINE: f64 = 26.0;
-const COLUMNS: (f64, f64) = (270.0, 150.0);
+/// Height of a row of the legend, how many columns it has, and how wide each is.
+const LINE: f64 = 30.0;
+const COLUMNS: usize = 4;
+const COLUMN: f64 = 330.0;
 /// Letters: title, headings, text.
 const LETTERS: (u32, u32, u32) = (24, 19, 18);
 /// The axes of all maps.
@@ -29,14 +30,14 @@ const NAMES_AT: f64 = 0.2;
 /// eta and rho of the points A and B.
 const POINT: (f64, f64) = (1.15, 10.0);
 
-/// The maps with their boundaries, and a table of shares, as PNG.
+/// The maps with their boundaries as PNG.
 pub(super) fn png(maps: &[RegimeMap], boundaries: &[Boundaries; 2]) -> Result<Vec<u8>, String> {
     let classes = MotionClass::ALL.iter().copied();
     let is_there = |class: &MotionClass| maps.iter().any(|map| map.share(*class) > 0.0);
     let classes: Vec<MotionClass> = classes.filter(is_there).collect();
     let bottom = TOP + ROW * maps.len().div_ceil(2) as f64;
     let width = LEFT + 2.0 * MAP.0 + BETWEEN + RIGHT;
-    let height = bottom + LINE * (classes.len() as f64 + 2.0);
+    let height = bottom + LINE * (classes.len().div_ceil(COLUMNS) as f64 + 0.2);
     let mut pen = Pen::new(width, height);
     pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
     let title = "Regimes z = p/n: p impacts in n drive periods";
@@ -48,34 +49,19 @@ pub(super) fn png(maps: &[RegimeMap], boundaries: &[Boundaries; 2]) -> Result<Ve
         let panel = Panel::new((left, top, MAP.0, MAP.1), map.eta, map.rho);
         draw(&mut pen, &panel, index, map, &lines);
     }
-    table(&mut pen, bottom, &classes, maps);
+    legend(&mut pen, bottom, &classes);
     pen.png_at(SCALE)
 }
 
-/// Colours, names and shares of each map.
-fn table(pen: &mut Pen, top: f64, classes: &[MotionClass], maps: &[RegimeMap]) {
-    pen.heading((LEFT, top), LETTERS.1, Align::Left, "share of the map in %");
-    let column = |index: usize| LEFT + COLUMNS.0 + COLUMNS.1 * (index as f64 + 0.6);
-    for index in 0..maps.len() {
-        let place = (column(index), top);
-        pen.heading(place, LETTERS.1, Align::Right, &letter(index));
-    }
-    for (row, class) in classes.iter().enumerate() {
-        let line = top + LINE * (row as f64 + 1.2);
-        let square = (LEFT, line - 15.0, 30.0, 18.0);
+/// What the colours mean.
+fn legend(pen: &mut Pen, top: f64, classes: &[MotionClass]) {
+    for (index, class) in classes.iter().enumerate() {
+        let left = LEFT + COLUMN * (index % COLUMNS) as f64;
+        let line = top + LINE * (index / COLUMNS) as f64;
+        let square = (left, line - 15.0, 30.0, 18.0);
         pen.fill(&[square], color(*class));
         pen.frame(square);
-        let place = (LEFT + 42.0, line);
-        pen.text(place, LETTERS.2, Align::Left, class.name());
-        for (index, map) in maps.iter().enumerate() {
-            let share = match map.share(*class) {
-                0.0 => "–".to_owned(),
-                share if share < 0.0001 => "< 0.01".to_owned(),
-                share => format!("{:.2}", 100.0 * share),
-            };
-            let place = (column(index), line);
-            pen.text(place, LETTERS.2, Align::Right, &share);
-        }
+        pen.text((left + 42.0, line), LETTERS.2, Align::Left, class.name());
     }
 }
 
