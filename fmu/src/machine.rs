@@ -35,6 +35,9 @@ pub(crate) struct More {
     #[serde(skip_serializing_if = "is_default")]
     pub contacts: Option<Box<Contacts>>,
     pub is_open: bool,
+    /// The machine where the last step ended, if contacts of this step are told from it: something was set since.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ended: Option<Box<Machine>>,
     /// The machine where the last step began, if that was taken in pieces.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub origin: Option<Box<Machine>>,
@@ -82,6 +85,9 @@ impl Machine {
 
     /// What happened in the last step.
     pub(crate) fn contacts(&self) -> &Contacts {
+        if let Some(ended) = &self.more.ended {
+            return ended.contacts();
+        }
         self.seen.contacts.get_or_init(|| {
             let kept = self.more.contacts.as_deref().copied().unwrap_or_default();
             if self.more.is_open {
@@ -92,12 +98,17 @@ impl Machine {
         })
     }
 
-    /// Keeps what is known of the last step, before something is set that hides it.
+    /// Keeps what contacts of the last step are told from, before something is set that hides it: to tell them takes as long
+    /// as the step, and few ask for them.
     pub(crate) fn close(&mut self) {
         self.more.origin = None;
-        self.keep_contacts();
+        if self.more.is_open && !self.simulation.was_free() {
+            self.more.ended = Some(Box::new(self.clone()));
+        }
+        self.more.is_open = false;
     }
 
+    /// Keeps the contacts of a piece of a step.
     pub(crate) fn keep_contacts(&mut self) {
         if self.more.is_open {
             let contacts = *self.contacts();

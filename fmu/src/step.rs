@@ -23,6 +23,7 @@ impl More {
         Self {
             contacts: None,
             is_open: false,
+            ended: None,
             origin: None,
             ..self
         }
@@ -90,8 +91,8 @@ impl Machine {
     /// Goes on to a time that is not in the past.
     pub(crate) fn go_to(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>> {
         let more = &mut self.more;
-        if more.contacts.is_some() || more.origin.is_some() {
-            (more.contacts, more.origin) = (None, None);
+        if more.contacts.is_some() || more.origin.is_some() || more.ended.is_some() {
+            (more.contacts, more.origin, more.ended) = (None, None, None);
         }
         more.is_open = true;
         if !more.drive.as_ref().is_some_and(|drive| drive.varies()) {

@@ -54,7 +54,7 @@ impl Simulation {
     /// # Errors
     /// [`MotionError`] if it cannot be gone through again.
     pub fn contacts(&self) -> Result<Contacts, MotionError> {
-        if self.is_free_since_mark() {
+        if self.was_free() {
             return Ok(Contacts::default());
         }
         let (motion, from) = self.marked();

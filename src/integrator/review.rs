@@ -47,8 +47,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// True if no arc has ended since the mark and the mass is free on this one.
-    pub(super) fn is_free_since_mark(&self) -> bool {
+    /// True if the mass was free all over the last advance, or since [`Simulation::mark`] was called or something was set.
+    pub fn was_free(&self) -> bool {
         matches!(self.mark, Mark::OnArc(_)) && self.motion.kind() == PhaseKind::Free
     }
 }
