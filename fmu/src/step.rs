@@ -85,7 +85,8 @@ impl Machine {
         let sum = |k: usize| force.derivatives()[k] + piece.rest.derivatives()[k];
         let force: Derivatives = std::array::from_fn(sum);
         let simulation = self.change();
-        Ok(simulation.set_drive(piece.amplitude, piece.frequency, piece.angle, &force)?)
+        let outcome = simulation.set_drive(piece.amplitude, piece.frequency, piece.angle, &force);
+        outcome.map_err(|error| format!("under drive.speed and drive.amplitude: {error}").into())
     }
 
     /// Goes on to a time that is not in the past.

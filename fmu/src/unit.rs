@@ -32,9 +32,9 @@ const IDENTIFIER: &str = "softstop";
 static ABOUT: About<Machine> = About {
     identifier: IDENTIFIER,
     version: env!("CARGO_PKG_VERSION"),
-    license: "MIT OR Apache-2.0",
-    author: "the softstop authors",
-    copyright: "Copyright (c) 2026 the softstop authors",
+    license: env!("CARGO_PKG_LICENSE"),
+    author: env!("CARGO_PKG_AUTHORS"),
+    copyright: concat!("Copyright (c) 2026 ", env!("CARGO_PKG_AUTHORS")),
     date: "2026-11-23T00:00:00Z",
     events: "impacts and pierced strips, one line for each step that has any",
     knowns: "the inputs force, base.acceleration, drive.speed and drive.amplitude, over the first step also those by initial.position and initial.velocity",
@@ -60,9 +60,7 @@ const FILES: [(&str, &[u8]); 6] = [
     ),
     (
         "documentation/licenses/license.txt",
-        b"softstop is licensed under either of the MIT licence (LICENSE-MIT.txt) or the Apache\n\
-          licence, version 2.0 (LICENSE-APACHE.txt), at your option. Its libraries hold parts of\n\
-          others: see third-party.txt.\n",
+        include_bytes!("../assets/license.txt"),
     ),
     (
         "documentation/licenses/LICENSE-MIT.txt",

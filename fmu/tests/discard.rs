@@ -4,7 +4,7 @@
 use std::ffi::c_int;
 use std::ptr;
 
-use crate::common::{DISCARD, OK, Unit};
+use crate::common::{DISCARD, ERROR, OK, Unit, reference};
 use softstop_fmu::ffi::*;
 
 fn last_successful_time(unit: &Unit) -> f64 {
@@ -123,4 +123,43 @@ fn a_step_beyond_the_resolution_of_time_is_refused() {
     assert_eq!((unit.get("position"), unit.get("velocity")), before);
     assert_eq!(last_successful_time(&unit), 1.0);
     assert_eq!(unit.step(1.0, 1.0), OK, "{:?}", unit.take_log());
+}
+
+/// Inputs that grow beyond all numbers in the step, or at once: it is discarded or refused, and goes well with others.
+#[test]
+fn a_step_whose_inputs_overflow_can_be_repeated_with_others() {
+    for (input, takes, order, slope, status) in [
+        ("force", "", 3, 1e300, DISCARD),
+        ("base.acceleration", "", 3, 1e300, DISCARD),
+        ("drive.speed", "drive.takes.speed", 1, 1e300, ERROR),
+        ("drive.speed", "drive.takes.speed", 3, 1e100, DISCARD),
+        ("drive.amplitude", "drive.takes.amplitude", 6, 1e308, ERROR),
+    ] {
+        let units = [Unit::new(), Unit::new()];
+        for unit in &units {
+            if !takes.is_empty() {
+                assert_eq!(unit.set_boolean(takes, 1), OK);
+            }
+            unit.begin();
+            assert_eq!(unit.step(0.0, 0.5), OK);
+        }
+        let [unit, other] = units;
+        let (of, start) = (reference(input), unit.get(input));
+        let (of, at, slope) = (&raw const of, &raw const order, &raw const slope);
+        let set = unsafe { fmi2SetRealInputDerivatives(unit.component, of, 1, at, slope) };
+        assert_eq!(set, OK);
+        let found = unit.step(0.5, 4.0);
+        let lines = unit.take_log();
+        assert_eq!((found, lines.len()), (status, 1), "{input}: {lines:?}");
+        assert!(found == DISCARD || lines[0].contains(input), "{lines:?}");
+        let reached = last_successful_time(&unit);
+        assert!((0.5..4.5).contains(&reached), "{input}: {reached}");
+        assert_eq!(unit.set(input, start), OK);
+        assert_eq!(unit.step(0.5, 1.0), OK, "{:?}", unit.take_log());
+        assert_eq!(other.step(0.5, 1.0), OK);
+        for name in ["position", "drive.angle", "energy.supplied"] {
+            let difference = unit.get(name) - other.get(name);
+            assert!(difference.abs() < 1e-12, "{input}, {name}: {difference}");
+        }
+    }
 }

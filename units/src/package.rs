@@ -1,8 +1,6 @@
 //! What the units' packages have in common.
 
-pub(crate) const LICENSE: &str = "MIT OR Apache-2.0";
-pub(crate) const AUTHOR: &str = "the softstop authors";
-pub(crate) const COPYRIGHT: &str = "Copyright (c) 2026 the softstop authors";
+pub(crate) const COPYRIGHT: &str = concat!("Copyright (c) 2026 ", env!("CARGO_PKG_AUTHORS"));
 pub(crate) const DATE: &str = "2026-11-23T00:00:00Z";
 
 /// A number far above any machine's.
@@ -20,20 +18,18 @@ pub(crate) const EXPERIMENT: &[(&str, &str)] = &[
 pub(crate) const FILES: [(&str, &[u8]); 4] = [
     (
         "documentation/licenses/license.txt",
-        b"softstop is licensed under either of the MIT licence (LICENSE-MIT.txt) or the Apache\n\
-          licence, version 2.0 (LICENSE-APACHE.txt), at your option. Its libraries hold parts of\n\
-          others: see third-party.txt.\n",
+        include_bytes!("../assets/license.txt"),
     ),
     (
         "documentation/licenses/LICENSE-MIT.txt",
-        include_bytes!("../../LICENSE-MIT"),
+        include_bytes!("../LICENSE-MIT"),
     ),
     (
         "documentation/licenses/LICENSE-APACHE.txt",
-        include_bytes!("../../LICENSE-APACHE"),
+        include_bytes!("../LICENSE-APACHE"),
     ),
     (
         "documentation/licenses/third-party.txt",
-        include_bytes!("../../fmu/assets/third-party.txt"),
+        include_bytes!("../assets/third-party.txt"),
     ),
 ];

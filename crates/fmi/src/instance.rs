@@ -20,8 +20,10 @@ pub(crate) struct Instance<U: Unit> {
     pub(crate) unit: Option<U>,
     /// Values were set that have not reached the unit yet.
     pub(crate) tuned: bool,
-    /// The unit and the signals with which the last step began, if it was discarded.
-    pub(crate) discarded: Option<Box<(U, Vec<Signal>)>>,
+    /// The last step was discarded.
+    pub(crate) fell_short: bool,
+    /// The unit and the signals with which it began, if it can be repeated.
+    pub(crate) retreat: Option<Box<(U, Vec<Signal>)>>,
 }
 
 /// What `fmi2SetupExperiment` said.
@@ -40,7 +42,8 @@ impl<U: Unit> Clone for Instance<U> {
             experiment: self.experiment,
             unit: self.unit.clone(),
             tuned: self.tuned,
-            discarded: self.discarded.clone(),
+            fell_short: self.fell_short,
+            retreat: self.retreat.clone(),
         }
     }
 
@@ -52,7 +55,8 @@ impl<U: Unit> Clone for Instance<U> {
         self.experiment = kept.experiment;
         self.unit.clone_from(&kept.unit);
         self.tuned = kept.tuned;
-        self.discarded.clone_from(&kept.discarded);
+        self.fell_short = kept.fell_short;
+        self.retreat.clone_from(&kept.retreat);
     }
 }
 
@@ -66,16 +70,17 @@ impl<U: Unit> Instance<U> {
             experiment: None,
             unit: None,
             tuned: false,
-            discarded: None,
+            fell_short: false,
+            retreat: None,
         }
     }
 
     /// How the last step ended.
     pub(crate) fn last_status(&self) -> Status {
-        match (self.lifecycle, &self.discarded) {
+        match (self.lifecycle, self.fell_short) {
             (Lifecycle::Failed, _) => Status::Error,
-            (_, Some(_)) => Status::Discard,
-            (_, None) => Status::Ok,
+            (_, true) => Status::Discard,
+            (_, false) => Status::Ok,
         }
     }
 

@@ -82,11 +82,12 @@ impl<U: Unit> Instance<U> {
         let advance = unit.advance(end.max(present), &mut report.events)?;
         let reached = unit.time();
         report.gap = Some(point - present).filter(|gap| gap.abs() > rounding_of(present, step));
+        self.fell_short = matches!(advance, Advance::Short { .. });
         let Advance::Short { reason, before } = advance else {
-            self.discarded = None;
+            self.retreat = None;
             return Ok(());
         };
-        self.discarded = before.map(|before| Box::new((*before, self.signals.clone())));
+        self.retreat = before.map(|before| Box::new((*before, self.signals.clone())));
         Err(Fault::Discarded {
             end,
             reached,
@@ -102,9 +103,10 @@ impl<U: Unit> Instance<U> {
         if begins_at(self.time()) {
             return;
         }
-        let Some((unit, signals)) = self.discarded.take_if(repeats).map(|kept| *kept) else {
+        let Some((unit, signals)) = self.retreat.take_if(repeats).map(|kept| *kept) else {
             return;
         };
+        self.fell_short = false;
         self.tuned = true;
         for (signal, before) in self.signals.iter_mut().zip(&signals) {
             if signal != before {

@@ -105,6 +105,15 @@ impl Instance {
         value
     }
 
+    fn status_of_step(&self) -> c_int {
+        let mut status = -1;
+        assert_eq!(
+            unsafe { fmi2GetStatus(self.component, 0, &raw mut status) },
+            OK
+        );
+        status
+    }
+
     fn step(&self, point: f64, size: f64) -> c_int {
         unsafe { fmi2DoStep(self.component, point, size, 1) }
     }
@@ -202,6 +211,16 @@ fn a_discarded_step_can_be_repeated() {
     assert_eq!(tank.set(INFLOW, 3.0), OK);
     assert_eq!(tank.step(0.0, 10.0), OK);
     assert_eq!((tank.get(LEVEL), tank.steps()), (31.5, 1));
+}
+
+#[test]
+fn a_discarded_step_is_told_even_if_it_cannot_be_repeated() {
+    let tank = Instance::begun();
+    assert_eq!(tank.step(0.0, 2e3), DISCARD);
+    assert_eq!(tank.status_of_step(), DISCARD);
+    assert_eq!(tank.step(0.0, 10.0), ERROR);
+    assert_eq!(tank.step(100.0, 10.0), OK);
+    assert_eq!(tank.status_of_step(), OK);
 }
 
 #[test]

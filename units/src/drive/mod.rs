@@ -83,8 +83,8 @@ static BLOCK: Block<[u64; 10]> = Block::new(
 static ABOUT: About<Drive> = About {
     identifier: "drive",
     version: env!("CARGO_PKG_VERSION"),
-    license: package::LICENSE,
-    author: package::AUTHOR,
+    license: env!("CARGO_PKG_LICENSE"),
+    author: env!("CARGO_PKG_AUTHORS"),
     copyright: package::COPYRIGHT,
     date: package::DATE,
     events: "nothing: a drive has no events",

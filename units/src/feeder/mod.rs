@@ -84,8 +84,8 @@ static BLOCK: Block<[u64; slot::SLOTS]> = Block::new(
 static ABOUT: About<Feeder> = About {
     identifier: "feeder",
     version: env!("CARGO_PKG_VERSION"),
-    license: package::LICENSE,
-    author: package::AUTHOR,
+    license: env!("CARGO_PKG_LICENSE"),
+    author: env!("CARGO_PKG_AUTHORS"),
     copyright: package::COPYRIGHT,
     date: package::DATE,
     events: "strokes without a strip, one line for each step that has any",

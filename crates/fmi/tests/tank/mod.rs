@@ -15,6 +15,8 @@ const OPEN: Slot = Slot(2);
 /// It fills for so many seconds at a time, and no further than to this time.
 const SPAN: f64 = 100.0;
 const FAR: f64 = 1e6;
+/// Steps up to this size in s can be repeated.
+const SHORT: f64 = 1e3;
 
 static VOLUME: Quantity = Quantity {
     type_name: "Volume",
@@ -166,7 +168,7 @@ impl Unit for Tank {
         }
         Ok(Advance::Short {
             reason: format!("{SPAN} s at a time"),
-            before: Some(Box::new(before)),
+            before: (until - before.time <= SHORT).then(|| Box::new(before)),
         })
     }
 
