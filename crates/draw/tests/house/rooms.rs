@@ -37,7 +37,7 @@ const PLAN: [Plan; 14] = [
     (
         "softstop-lab",
         Some((1.0, 0.0)),
-        &["softstop-paper", "softstop-fmu"],
+        &["softstop-paper", "softstop-fmu", "softstop-units"],
     ),
     ("softstop-testing", None, &["softstop"]),
     (

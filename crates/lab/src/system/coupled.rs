@@ -287,3 +287,39 @@ fn derivatives(coefficients: &[f64]) -> Vec<f64> {
     };
     coefficients.iter().enumerate().map(derivative).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Coupling, Motor, Point, System};
+
+    /// What the motor has supplied over a thousand periods, strips failing by chance, is in the rotor or in the press, or
+    /// dissipated there.
+    #[test]
+    fn the_energies_of_all_units_balance() -> anyhow::Result<()> {
+        let point = Point::b()?;
+        let supply = [("supply.model", 3.0), ("supply.probability", 0.9)];
+        let motor = Some(Motor::SYSTEM);
+        let mut system = System::new(point.in_motion(), motor, &supply, Coupling::RollBack)?;
+        let kept = |system: &System| {
+            let kinetic = system
+                .drive
+                .as_ref()
+                .map(|drive| drive.get("energy.kinetic"));
+            let of_press = |name| system.press.get(name);
+            let press = of_press("energy.mechanical")? + of_press("energy.dissipated")?;
+            anyhow::Ok(press + kinetic.transpose()?.unwrap_or_default())
+        };
+        let begin = kept(&system)?;
+        system.go_to(1000.0 * point.scene.period(), point.scene.period() / 16.0)?;
+        let drive = system
+            .drive
+            .as_ref()
+            .map(|drive| drive.get("energy.supplied"));
+        let supplied = drive.transpose()?.unwrap_or_default();
+        let defect = (supplied - (kept(&system)? - begin)).abs();
+        assert!(supplied > 1e4, "{supplied}");
+        assert!(system.press.get("impact.count")? > 990.0);
+        assert!(defect < 1e-6 * supplied, "{defect} of {supplied}");
+        Ok(())
+    }
+}
