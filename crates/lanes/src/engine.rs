@@ -157,8 +157,8 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         } else {
             self.scan(law, active, due * law.per_window)
         };
-        if !GUARDED && reached.go.any() {
-            self.leap(phase, &mut reached);
+        if !GUARDED {
+            self.leap(phase, active, &mut reached);
         }
         let (ended, doubtful) = self.look::<GUARDED>(phase, active, &reached, due);
         if (ended | doubtful).any() {
@@ -168,9 +168,13 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
 
     /// The job of a lane and how many of its periods are complete.
     pub fn progress(&self, lane: usize) -> Option<(usize, u64)> {
+        self.progress_with(lane, self.state.left.get(lane))
+    }
+
+    /// The same with so many periods left.
+    pub fn progress_with(&self, lane: usize, left: f64) -> Option<(usize, u64)> {
         let job = self.lanes[lane]?;
-        let left = self.state.left.get(lane) as u64;
-        Some((job, self.task.jobs[job].periods - left))
+        Some((job, self.task.jobs[job].periods - left as u64))
     }
 
     /// Puts the next job into a lane.

@@ -9,6 +9,8 @@ use super::law::Law;
 use super::parts::Parts;
 use super::scan::Reached;
 use super::search::Found;
+use super::state::State;
+use softstop::Start;
 
 /// Shortest stretch, in windows, that is looked at.
 const LEAST: f64 = 1e-12;
@@ -212,11 +214,22 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
 
     /// Tells the watcher of lanes that have begun a period.
     fn tell_periods(&mut self, lanes: Mask<S, N>) {
+        let State { left, x, v, .. } = self.state;
+        self.tell_states(lanes, left, (x, v));
+    }
+
+    /// Tells the watcher of lanes that are, with so many periods left, at a beginning of one with this state.
+    pub fn tell_states(
+        &mut self,
+        lanes: Mask<S, N>,
+        left: Lanes<S, N>,
+        (x, v): (Lanes<S, N>, Lanes<S, N>),
+    ) {
         for lane in 0..Lanes::<S, N>::COUNT {
             if lanes.get(lane)
-                && let Some((job, cycle)) = self.progress(lane)
+                && let Some((job, cycle)) = self.progress_with(lane, left.get(lane))
             {
-                let state = self.state.state(lane);
+                let state = Start::new(x.get(lane), v.get(lane));
                 self.task.watch.period(job, cycle, state);
             }
         }

@@ -120,24 +120,43 @@ fn endless_bounces_under_a_slow_drive_are_left_to_the_safe_engine() {
     assert!(impacts > 10_000, "{impacts}");
 }
 
-struct EachPeriod;
+/// Writes down what it hears of the periods of one job.
+#[derive(Default)]
+struct EachPeriod(Vec<(u64, Start)>);
 
 impl Watch for EachPeriod {
     const PERIODS: bool = true;
+
+    fn period(&mut self, _: usize, cycle: u64, state: Start) {
+        self.0.push((cycle, state));
+    }
 }
 
-/// A watcher of periods sees each; without one, motions that never meet the stop again leap.
+/// Motions that never meet the stop again leap; who watches them hears of each period all the same.
 #[test]
 fn a_leap_comes_to_where_the_periods_do() {
-    let ratios = Ratios::unloaded().at_frequency(1.36);
-    let scene = ratios.scene().expect("valid");
-    for index in 0..50 {
+    for (index, damping) in (0..60).zip([0.02, 0.05, 0.2].into_iter().cycle()) {
+        let mut ratios = Ratios::unloaded().at_frequency(1.36);
+        ratios.damping = damping;
+        let scene = ratios.scene().expect("valid");
         let start = start(index, &scene);
         for periods in [5, 60, 997] {
+            let mut each = EachPeriod::default();
+            let (last, counted) = one_by_one(&scene, start, periods, &mut each);
+            let mut motion = scene.motion(start).expect("valid");
+            let mut meets = Meets::default();
+            for (cycle, (told, state)) in (1..=periods).zip(&each.0) {
+                motion
+                    .advance(Clock::at_cycle(cycle), &mut meets)
+                    .expect("bounded");
+                assert_eq!(*told, cycle);
+                let exact = motion.state();
+                assert!(distance(*state, exact) < 1e-10, "{state:?} for {exact:?}");
+            }
+            assert_eq!((each.0.len() as u64, counted), (periods, meets.impacts));
             let (end, impacts) = one_by_one(&scene, start, periods, &mut ());
-            let (each, counted) = one_by_one(&scene, start, periods, &mut EachPeriod);
             assert_eq!(impacts, counted);
-            assert!(distance(end, each) < 1e-11, "{end:?} for {each:?}");
+            assert!(distance(end, last) < 1e-11, "{end:?} for {last:?}");
         }
     }
 }
