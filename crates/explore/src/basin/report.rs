@@ -67,7 +67,7 @@ const NAMING: usize = 3;
 pub(super) fn columns<'a>() -> [Column<Basin<'a>>; 10] {
     columns! { Basin<'a>, it;
         "kind" [None] Plain, "of what the basin's motions settle on" => it.0.motion.key();
-        "z" [None] Plain, "its p/n, if it repeats" => it.0.motion.z();
+        "z" [None] Plain, "regime z = p/n, if the motion repeats" => it.0.motion.z();
         "order" [None] Plain, "impacts in each of its drive periods" => it.0.motion.order().map(ToString::to_string);
         "before_impact_velocity" [Velocity] Fixed(4), "of its hardest impact" => it.0.orbit.as_ref().map(|it| it.before_impact_velocity());
         "exponent" [None], "Lyapunov's, per drive period, unless periodic" => it.0.exponents.map(|it| it.per_period[0]);

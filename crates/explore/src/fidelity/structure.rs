@@ -153,7 +153,7 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 6] {
         "start" [None], "rest, or flung towards the stop" => row.start.name();
         "frequency" [Frequency], "of the drive" => row.frequency;
         "kind" [None], "of the motion: periodic or unsettled" => row.motion.kind;
-        "z" [None], "its p/n, if it repeats" => row.motion.z.as_deref();
+        "z" [None], "regime z = p/n, if the motion repeats" => row.motion.z.as_deref();
     }
 }
 

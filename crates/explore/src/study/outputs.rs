@@ -32,7 +32,7 @@ macro_rules! outputs {
 
 outputs! {
     Kind "kind" [None], "what the motion from the start settles on: periodic, chatter, chaos, unsettled, lost";
-    Z "z" [None], "its p/n, if it repeats";
+    Z "z" [None], "regime z = p/n, if the motion repeats";
     Impacts "impacts_per_period" [None], "its impacts per drive period";
     Exponent "exponent" [None], "its larger Lyapunov exponent per drive period";
     Trace "trace" [None], "trace of its monodromy, if it repeats";

@@ -26,8 +26,8 @@ const BELOW: f64 = 74.0;
 const SCALE: f32 = 2.0;
 /// Radius of a dot.
 const DOT: f64 = 1.4;
-/// Entries of a legend at most.
-const ENTRIES: usize = 20;
+/// Words of a colour that the legend tells at most.
+const TOLD: usize = 3;
 
 impl View<'_> {
     fn axis(&self, place: usize) -> &AxisReport {
@@ -101,20 +101,32 @@ impl View<'_> {
         Ok(png.map_err(|error| anyhow!("cannot draw the map: {error}"))?)
     }
 
-    /// The words of the whole study with their colours, the most frequent first.
+    /// The words of the whole study, those of a colour in one line, the most frequent first.
     fn legend(&self, pen: &mut Pen, (left, top): (f64, f64)) {
         let mut words: Vec<_> = self.column.summary.words.iter().collect();
         words.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+        let mut lines: Vec<(&str, Vec<&str>)> = Vec::new();
+        for (word, _) in words {
+            let color = color(class(Some(word)));
+            match lines.iter_mut().find(|line| line.0 == color) {
+                Some(line) => line.1.push(word),
+                None => lines.push((color, vec![word])),
+            }
+        }
+        if self.column.summary.values < self.manifest.points {
+            lines.push((color(class(None)), vec!["does not repeat"]));
+        }
         let size = f64::from(LETTERS);
-        for (row, (word, _)) in words.iter().take(ENTRIES).enumerate() {
+        for (row, (color, words)) in lines.iter().enumerate() {
             let line = top + 1.7 * size * row as f64;
             let square = (left, line - size, 1.2 * size, 1.2 * size);
-            pen.fill(&[square], color(class(Some(word))));
+            pen.fill(&[square], color);
             pen.frame(square);
-            let text = match word.starts_with(|it: char| it.is_ascii_digit() || it == '∞') {
-                true => format!("z = {word}"),
-                false => (*word).clone(),
-            };
+            let is_z = words[0].starts_with(|it: char| it.is_ascii_digit() || it == '∞');
+            let z = if is_z { "z = " } else { "" };
+            let more = if words.len() > TOLD { ", …" } else { "" };
+            let told = words[..words.len().min(TOLD)].join(", ");
+            let text = format!("{z}{told}{more}");
             pen.text((left + 1.8 * size, line), LETTERS, Align::Left, &text);
         }
     }

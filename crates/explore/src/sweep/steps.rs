@@ -19,7 +19,7 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 14] {
         "direction" [None], "up or down" => row.direction.name();
         "value" [Of("own")], "of the parameter, in its own unit" => row.step.value;
         "kind" [None], "of the motion" => row.step.motion.key();
-        "z" [None], "its p/n, if it repeats" => row.step.motion.z();
+        "z" [None], "regime z = p/n, if the motion repeats" => row.step.motion.z();
         "order" [None], "impacts in each drive period of n" => row.step.motion.told_order().map(ToString::to_string);
         "impacts_per_period" [None], "mean per drive period" => row.step.impacts_per_period;
         "growth_per_period" [None], "ln of that of small differences, unless p/n" => row.step.growth;
