@@ -4,7 +4,7 @@
 use softstop::{Machine, Release, Scene, SceneError, Simulation, Slope, Start, Stop};
 use softstop_testing::loaded;
 
-/// The promise of docs/method.md.
+/// The promise of docs/machine.md.
 const EIGHT_DIGITS: f64 = 1e-8;
 const LIMIT: f64 = 1e7;
 const DAMPER_LIMIT: f64 = 1e9;

@@ -67,7 +67,7 @@ The zone of a machine reaches from g0 to s_SN; the drive frequency is g0 + s (s_
 [M, 1 - M]. What --set, --stiffness, --clearance or --frequency say of a searched value is held, as by
 --fix.
 
-A machine's file may hold a task (docs/press.md takes a press from file to report):
+A machine's file may hold a task (docs/tutorials/press.md takes a press from file to report):
     [vary]                                   what is searched, instead of the usual
     clearance = [5e-3, 40e-3]                a range; a single number is held
     stop.stiffness = { values = [1e7, 2e7] } a catalogue
