@@ -83,7 +83,7 @@ fn limit_of_rk4(ratio: f64) -> f64 {
 
 const DECADES: [f64; 5] = [1.0, 1e2, 1e4, 1e6, 1e8];
 
-/// Holds theory and runs in contact to a limit, and prints a row of the table in docs/methods.md.
+/// Holds theory and runs in contact to a limit, and prints a row: docs/methods.md sums them up.
 fn check(scheme: Scheme, ratio: f64, limit: f64, steps: u32) {
     let theory = scheme.stability_limit(ratio).expect("there is a limit");
     assert_abs_diff_eq!(theory, limit, epsilon = DIFFERENCED);
