@@ -2,12 +2,13 @@
 
 use kuva::render::render::{Primitive, TextAnchor, TextSpan};
 
-use crate::pen::width;
-
 /// How far below the line an index stands, in units of the letters.
 const DROP: f64 = 0.22;
 /// Size of an index, in units of the letters.
-pub(crate) const SMALL: f64 = 0.75;
+const SMALL: f64 = 0.75;
+/// Mean width of a letter in units of its size, of the letters in use, and of those of indices.
+const LETTER: f64 = 0.61;
+const INDEX: f64 = 0.72 * SMALL;
 
 /// The pieces of a text, and whether each is an index: up to three letters or digits behind the underscore of a single
 /// letter.
@@ -36,6 +37,16 @@ pub fn pieces(text: &str) -> Vec<(String, bool)> {
         pieces.push((line, false));
     }
     pieces
+}
+
+/// About how wide a text of this size is.
+pub fn width(size: u32, text: &str) -> f64 {
+    pieces(text).iter().map(|piece| wide(size, piece)).sum()
+}
+
+fn wide(size: u32, (text, is_index): &(String, bool)) -> f64 {
+    let letter = if *is_index { INDEX } else { LETTER };
+    letter * f64::from(size) * text.chars().count() as f64
 }
 
 /// An SVG document, one element in each line, whose texts are written anew and have their indices below the line.
@@ -101,10 +112,6 @@ pub(crate) fn placed(element: &Primitive) -> Vec<Primitive> {
     }
     let letters = f64::from(*size);
     let small = (SMALL * letters).round() as u32;
-    let wide = |(text, is_index): &(String, bool)| match is_index {
-        true => width(*size, &format!("s_{text}")) - width(*size, "s"),
-        false => width(*size, text),
-    };
     let whole = width(*size, content);
     let mut along = match (pieces.len(), anchor) {
         (1, _) | (_, TextAnchor::Start) => 0.0,
@@ -118,7 +125,10 @@ pub(crate) fn placed(element: &Primitive) -> Vec<Primitive> {
     let (sin, cos) = rotate.unwrap_or(0.0).to_radians().sin_cos();
     let mut elements = Vec::new();
     for piece in pieces {
-        let (below, step) = (if piece.1 { DROP * letters } else { 0.0 }, wide(&piece));
+        let (below, step) = (
+            if piece.1 { DROP * letters } else { 0.0 },
+            wide(*size, &piece),
+        );
         elements.push(Primitive::Text {
             x: x + along * cos - below * sin,
             y: y + along * sin + below * cos,

@@ -8,11 +8,8 @@ use crate::index;
 use crate::stroke::{Point, dashed};
 use crate::style;
 
+pub use crate::index::width;
 pub use crate::stroke::Stroke;
-
-/// Mean width of a letter in units of its size, of the letters in use, and of those of indices.
-const LETTER: f64 = 0.61;
-const INDEX: f64 = 0.72 * index::SMALL;
 
 /// Shapes on a page; lengths are pixels, y points down.
 pub struct Pen {
@@ -46,15 +43,6 @@ impl Align {
 
 /// A rectangle: left, top, width, height.
 pub type Area = (f64, f64, f64, f64);
-
-/// About how wide a text of this size is.
-pub fn width(size: u32, text: &str) -> f64 {
-    let wide = |(piece, is_index): &(String, bool)| {
-        let letter = if *is_index { INDEX } else { LETTER };
-        letter * piece.chars().count() as f64
-    };
-    f64::from(size) * index::pieces(text).iter().map(wide).sum::<f64>()
-}
 
 impl Pen {
     /// A page of this width and height.
