@@ -267,7 +267,7 @@ pub fn title(machine: &Machine) -> String {
         return name.to_owned();
     }
     format!(
-        "the {name} machine at eta = {}, rho = {}",
+        "the {name} machine at η = {}, ρ = {}",
         machine.scene.excitation.frequency, machine.scene.clearance
     )
 }

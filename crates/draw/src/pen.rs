@@ -4,13 +4,12 @@ use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 
+use crate::index;
 use crate::stroke::{Point, dashed};
 use crate::style;
 
+pub use crate::index::width;
 pub use crate::stroke::Stroke;
-
-/// Mean width of a letter in units of its size, of the letters in use.
-const LETTER: f64 = 0.61;
 
 /// Shapes on a page; lengths are pixels, y points down.
 pub struct Pen {
@@ -44,11 +43,6 @@ impl Align {
 
 /// A rectangle: left, top, width, height.
 pub type Area = (f64, f64, f64, f64);
-
-/// About how wide a text of this size is.
-pub fn width(size: u32, text: &str) -> f64 {
-    LETTER * f64::from(size) * text.chars().count() as f64
-}
 
 impl Pen {
     /// A page of this width and height.
@@ -113,12 +107,17 @@ impl Pen {
         let corners = areas
             .iter()
             .map(|(x, y, width, height)| format!("M{x} {y}h{width}v{height}h-{width}z"));
+        self.crisp(|pen| pen.outline(corners.collect(), color, None));
+    }
+
+    /// What has its edges on whole pixels.
+    fn crisp(&mut self, draw: impl FnOnce(&mut Self)) {
         self.scene.add(Primitive::GroupStart {
             transform: None,
             title: None,
             extra_attrs: Some("shape-rendering=\"crispEdges\"".to_owned()),
         });
-        self.outline(corners.collect(), color, None);
+        draw(self);
         self.scene.add(Primitive::GroupEnd);
     }
 
@@ -212,16 +211,17 @@ impl Pen {
         self.write((x, y), size, align, (false, color), text);
     }
 
-    /// Rectangles of many colours.
+    /// Rectangles of many colours that leave no seams between them.
     pub fn mosaic(&mut self, tiles: &[(Area, &str)]) {
         let side = |pick: fn(&Area) -> f64| tiles.iter().map(|(area, _)| pick(area)).collect();
-        self.scene.add(Primitive::RectBatch {
+        let batch = Primitive::RectBatch {
             x: side(|area| area.0),
             y: side(|area| area.1),
             w: side(|area| area.2),
             h: side(|area| area.3),
             fills: tiles.iter().map(|(_, color)| (*color).into()).collect(),
-        });
+        };
+        self.crisp(|pen| pen.scene.add(batch));
     }
 
     /// A white spot with a dark rim, seen on any ground.
@@ -255,15 +255,20 @@ impl Pen {
     /// # Errors
     /// Why it cannot be made.
     pub fn png_at(&self, scale: f32) -> Result<Vec<u8>, String> {
-        PngBackend::new()
-            .with_scale(scale)
-            .render_scene(&self.scene)
+        let mut scene = Scene::new(self.scene.width, self.scene.height);
+        scene.font_family.clone_from(&self.scene.font_family);
+        scene.elements = self.scene.elements.iter().flat_map(index::placed).collect();
+        PngBackend::new().with_scale(scale).render_scene(&scene)
     }
 
     /// The page as an SVG document.
     pub fn svg(&self) -> String {
-        SvgBackend::new()
-            .with_pretty(true)
-            .render_scene(&self.scene)
+        self.svg_with(str::to_owned)
+    }
+
+    /// The same, its texts written anew.
+    pub fn svg_with(&self, anew: impl Fn(&str) -> String) -> String {
+        let svg = SvgBackend::new().with_pretty(true);
+        index::document(&svg.render_scene(&self.scene), anew)
     }
 }

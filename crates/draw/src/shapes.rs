@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::pen::{Align, Pen};
+use crate::pen::{Align, Pen, width};
 use crate::stroke::{Point, Stroke};
 use crate::style;
 
@@ -31,6 +31,8 @@ pub enum Mark {
 pub enum Sign {
     /// A colour.
     Patch(&'static str),
+    /// A colour of a share of its opacity.
+    Band(&'static str, f64),
     /// A line.
     Line(Stroke),
     /// A mark and its colour.
@@ -69,7 +71,7 @@ impl Pen {
     /// Text on a white ground, its middle at this place.
     pub fn label(&mut self, (x, y): Point, size: u32, text: &str) {
         let letters = f64::from(size);
-        let width = 0.6 * letters * text.chars().count() as f64 + 4.0;
+        let width = width(size, text) + 4.0;
         let height = 1.15 * letters;
         let ground = (x - 0.5 * width, y - 0.5 * height, width, height);
         self.fill(&[ground], "#ffffff");
@@ -108,11 +110,11 @@ impl Pen {
         for (row, (sign, text)) in entries.iter().enumerate() {
             let line = top + 1.6 * letters * row as f64;
             let middle = line - 0.36 * letters;
+            let (side, wide) = (0.9 * letters, 1.4 * letters);
+            let patch = (left, middle - 0.5 * side, wide, side);
             match *sign {
-                Sign::Patch(color) => {
-                    let (side, wide) = (0.9 * letters, 1.4 * letters);
-                    self.fill(&[(left, middle - 0.5 * side, wide, side)], color);
-                }
+                Sign::Patch(color) => self.fill(&[patch], color),
+                Sign::Band(color, opacity) => self.tint(patch, color, opacity),
                 Sign::Line(stroke) => {
                     self.line(&[(left, middle), (left + 2.2 * letters, middle)], stroke);
                 }

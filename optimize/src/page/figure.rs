@@ -5,7 +5,7 @@ use softstop_draw::pen::{Align, Pen, Stroke, width};
 use softstop_draw::shapes::Sign;
 use softstop_draw::style;
 
-use super::words::indexed;
+use super::words::plain;
 
 /// Letters of all pictures.
 pub(super) const LETTERS: u32 = 14;
@@ -64,20 +64,20 @@ impl Figure {
     pub(super) fn new(pen: &Pen, size: Size, title: &str, caption: String) -> Self {
         Self {
             title: title.to_owned(),
-            svg: inline(&pen.svg(), size, title),
+            svg: inline(&pen.svg_with(plain), size, title),
             caption,
             is_wide: size == WIDE,
         }
     }
 }
 
-/// The elements of a document, in colours of the page and with indices below the line.
+/// The elements of a document, in colours of the page.
 fn inline(document: &str, size: Size, title: &str) -> String {
     let body = document
         .split_once("fill=\"white\" />")
         .map_or(document, |(_, body)| body);
     let body = body.replace("</svg>", "");
-    let body: String = body.lines().map(|line| lowered(line.trim())).collect();
+    let body: String = body.lines().map(str::trim).collect();
     let body = COLORS
         .iter()
         .fold(body, |body, (from, to)| body.replace(from, to));
@@ -88,33 +88,6 @@ fn inline(document: &str, size: Size, title: &str) -> String {
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\">{body}</svg>"
     )
-}
-
-/// A line of a document, the indices in its text below the line.
-fn lowered(line: &str) -> String {
-    let Some((tag, text)) = line
-        .strip_prefix("<text")
-        .and_then(|rest| rest.split_once('>'))
-    else {
-        return line.to_owned();
-    };
-    let Some(text) = text.strip_suffix("</text>") else {
-        return line.to_owned();
-    };
-    let size = tag
-        .split_once("font-size=\"")
-        .and_then(|(_, rest)| rest.split_once('"'));
-    let size: f64 = size
-        .and_then(|(size, _)| size.parse().ok())
-        .unwrap_or(f64::from(LETTERS));
-    let (drop, small) = (0.22 * size, 0.75 * size);
-    let index = |index: &str| {
-        format!(
-            "<tspan dy=\"{drop:.1}\" font-size=\"{small:.1}\">{index}</tspan><tspan dy=\"{:.1}\">\u{200b}</tspan>",
-            -drop
-        )
-    };
-    format!("<text{tag}>{}</text>", indexed(text, index, str::to_owned))
 }
 
 /// Signs and what they mean, in lines from the left end on; where the next line would be.

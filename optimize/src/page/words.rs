@@ -1,5 +1,6 @@
 //! Numbers and symbols as people read them.
 
+use softstop_draw::index::pieces;
 use softstop_draw::scale::power_of_ten;
 
 use super::data::Label;
@@ -82,7 +83,7 @@ pub(super) fn capital(text: &str) -> String {
 
 /// A text as it is typed, with g0 and g₀ as `g_0`, a sign in front of a number as a minus sign, and signs and letters that
 /// stand for others as these.
-fn plain(text: &str) -> String {
+pub(super) fn plain(text: &str) -> String {
     let text = text.replace('₀', "_0").replace("<=", "≤");
     let text = text.replace("angle phi", "angle φ").replace("x'", "x′");
     let mut plain = String::new();
@@ -104,11 +105,11 @@ fn plain(text: &str) -> String {
 /// A text with its indices below the line, as HTML: `s_SN` becomes s with SN as its index. What a text holds besides
 /// is escaped.
 pub(super) fn html(text: &str) -> String {
-    indexed(
-        text,
-        |index| format!("<sub>{}</sub>", escaped(index)),
-        escaped,
-    )
+    let write = |(text, is_index): (String, bool)| match is_index {
+        true => format!("<sub>{}</sub>", escaped(&text)),
+        false => escaped(&text),
+    };
+    pieces(&plain(text)).into_iter().map(write).collect()
 }
 
 fn escaped(text: &str) -> String {
@@ -116,35 +117,6 @@ fn escaped(text: &str) -> String {
         .replace('<', "&lt;")
         .replace('>', "&gt;")
         .replace('"', "&quot;")
-}
-
-/// Puts a text together again whose indices and other pieces are written anew. An index is up to three letters or
-/// digits behind the underscore of a single letter.
-pub(super) fn indexed(
-    text: &str,
-    index: impl Fn(&str) -> String,
-    other: impl Fn(&str) -> String,
-) -> String {
-    let text = plain(text);
-    let mut done = String::new();
-    let mut rest = text.as_str();
-    while let Some((head, tail)) = rest.split_once('_') {
-        let mut before = head.chars().rev();
-        let is_letter = before.next().is_some_and(char::is_alphabetic)
-            && !before.next().is_some_and(char::is_alphanumeric);
-        let end = tail
-            .find(|letter: char| !letter.is_alphanumeric())
-            .unwrap_or(tail.len());
-        done += &other(head);
-        if is_letter && (1..=3).contains(&end) {
-            done += &index(&tail[..end]);
-            rest = &tail[end..];
-        } else {
-            done += &other("_");
-            rest = tail;
-        }
-    }
-    done + &other(rest)
 }
 
 impl Label {

@@ -7,21 +7,21 @@ use softstop_dynamics::{Axis, Grid, MotionKind};
 /// Radius of a place, in units of half the map, that has room for its name.
 const WIDE: f64 = 0.09;
 
-/// Okabe and Ito's colours, and greys.
+/// Okabe and Ito's colours, greys, and others that those who see no green tell from them.
 pub const fn color(class: MotionClass) -> &'static str {
     match class {
         MotionClass::Zero => "#E4E4E4",
         MotionClass::One => "#56B4E9",
         MotionClass::Doubled => "#0072B2",
         MotionClass::TwoThirds => "#009E73",
-        MotionClass::Between => "#9AD6B4",
+        MotionClass::Between => "#7FC8A0",
         MotionClass::Half => "#E69F00",
         MotionClass::Paired => "#D55E00",
-        MotionClass::Few => "#CC79A7",
+        MotionClass::Few => "#AA4499",
         MotionClass::Many => "#F0E442",
-        MotionClass::Rest => "#B8A98C",
+        MotionClass::Rest => "#8A6D3B",
         MotionClass::Chaos => "#000000",
-        MotionClass::Unsettled => "#8C8C8C",
+        MotionClass::Unsettled => "#5A5A5A",
         MotionClass::Lost => "#FFFFFF",
     }
 }

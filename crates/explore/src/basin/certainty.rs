@@ -23,8 +23,8 @@ pub struct CertaintyPoint {
 pub struct CertaintyCurve {
     /// What it is called in the legend.
     pub label: String,
-    /// Which colour of eight.
-    pub color: usize,
+    /// Its colour.
+    pub color: &'static str,
     /// Dashed instead of solid.
     pub is_dashed: bool,
     /// Its points.
@@ -53,10 +53,6 @@ pub struct CertaintyPage {
     pub panels: Vec<CertaintyPanel>,
 }
 
-/// Okabe and Ito's colours, and a grey.
-const COLORS: [&str; 8] = [
-    "#E69F00", "#56B4E9", "#0072B2", "#009E73", "#D55E00", "#CC79A7", "#000000", "#8C8C8C",
-];
 /// Size of a panel; from one to the next across and down; left and top of the first.
 const AREA: (f64, f64) = (540.0, 350.0);
 const NEXT: (f64, f64) = (660.0, 480.0);
@@ -73,7 +69,7 @@ const SHARES: (f64, f64) = (0.0, 1.02);
 
 impl CertaintyCurve {
     fn stroke(&self) -> Stroke {
-        let line = Stroke::solid(COLORS[self.color % COLORS.len()], 2.2);
+        let line = Stroke::solid(self.color, 2.2);
         let dashes = self.is_dashed.then_some((8.0, 5.0));
         Stroke { dashes, ..line }
     }
@@ -106,7 +102,7 @@ impl CertaintyPanel {
         let (left, top, ..) = panel.area;
         pen.heading((left, top - 12.0), LETTERS + 2, Align::Left, &self.title);
         if self.has_legend {
-            let place = (panel.right() - 190.0, top + 26.0);
+            let place = (panel.right() - 214.0, top + 26.0);
             pen.legend(place, LETTERS, &self.entries(false));
         }
     }
@@ -162,7 +158,7 @@ pub fn chart(machine: &Machine, places: &[Establishing], title: &str) -> String 
         up: "establishing certainty of z = 1",
         curves: vec![CertaintyCurve {
             label: String::new(),
-            color: 0,
+            color: style::DESIGN,
             is_dashed: false,
             points: points.collect(),
         }],

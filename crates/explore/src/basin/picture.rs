@@ -21,7 +21,7 @@ pub struct BasinPicture<'a> {
 
 /// Colours of motions whose class has its colour from another motion.
 const OTHERS: [&str; 6] = [
-    "#CC79A7", "#F0E442", "#0072B2", "#009E73", "#E69F00", "#D55E00",
+    "#AA4499", "#F0E442", "#0072B2", "#009E73", "#E69F00", "#D55E00",
 ];
 /// Length that the longer side of the grid has about; finer grids are longer.
 const SIDE: usize = 720;

@@ -34,7 +34,7 @@ fn sign(kind: &SpecialKind) -> (&'static str, Mark, Stroke) {
 /// Room around what is drawn, as a share of it.
 const ROOM: f64 = 0.06;
 /// Colours of branches by the number of doublings.
-const COLOURS: [&str; 4] = [style::DESIGN, style::REFERENCE, "#009E73", "#CC79A7"];
+const COLOURS: [&str; 4] = [style::DESIGN, style::REFERENCE, "#009E73", "#882255"];
 /// The page, and the panel on it.
 const PAGE: (f64, f64) = (1040.0, 620.0);
 const AREA: (f64, f64, f64, f64) = (92.0, 84.0, 720.0, 460.0);

@@ -8,15 +8,15 @@ use softstop_dynamics::Regime;
 
 use super::structure::Structure;
 
-/// Classes of regimes, with their colours: Okabe and Ito's, grey for no impacts and black for what does
-/// not repeat.
+/// Classes of regimes, with their colours: Okabe and Ito's but for a wine red, which those who see no green tell from
+/// it, grey for no impacts and black for what does not repeat.
 const CLASSES: [(&str, &str); 7] = [
     ("z = 0", "#D9D9D9"),
     ("z = 1", "#0072B2"),
     ("z = p, p > 1", "#56B4E9"),
     ("z = p/2", "#E69F00"),
     ("z = p/3", "#009E73"),
-    ("z = p/n, n > 3", "#CC79A7"),
+    ("z = p/n, n > 3", "#882255"),
     ("unsettled", "#000000"),
 ];
 

@@ -148,16 +148,16 @@ fn blocks(columns: &[Vec<Cell>]) -> Vec<Block> {
 }
 
 /// The colour of a class of outcomes: blues where the motion is right at least in kind, all others apart from
-/// them and from each other in lightness too.
+/// them and from each other in lightness too, so that readers who see no green and red tell them apart.
 pub(super) const fn color(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Converged => "#0072B2",
         Verdict::Inaccurate => "#9CCDEC",
         Verdict::WrongCount => "#F0E442",
         Verdict::MissedContact => "#009E73",
-        Verdict::EnergyGain => "#E69F00",
+        Verdict::EnergyGain => "#CC6D00",
         Verdict::BlownUp => "#3A3A3A",
-        Verdict::Stuck => "#CC79A7",
+        Verdict::Stuck => "#7F3B08",
         Verdict::Unsuited => "#EEEEEE",
     }
 }

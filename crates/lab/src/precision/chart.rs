@@ -30,7 +30,7 @@ const LOOKS: [(&str, Mark); 13] = [
     ("#009E73", Mark::Circle),
     ("#009E73", Mark::Square),
     ("#009E73", Mark::Diamond),
-    ("#CC79A7", Mark::Diamond),
+    ("#882255", Mark::Triangle),
     (style::OPTIMUM, Mark::Circle),
     (style::OPTIMUM, Mark::Square),
     (style::OPTIMUM, Mark::Diamond),

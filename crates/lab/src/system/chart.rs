@@ -17,8 +17,14 @@ const AREA: (f64, f64) = (460.0, 330.0);
 const NEXT: f64 = 590.0;
 const FIRST: (f64, f64) = (110.0, 112.0);
 const LETTERS: u32 = 14;
-/// Colours of the ways of coupling.
-const COLORS: [&str; 3] = [style::DESIGN, style::REFERENCE, "#009E73"];
+/// Marks and colours of the ways of coupling.
+const LOOKS: [(Mark, &str); 3] = [
+    (Mark::Circle, style::DESIGN),
+    (Mark::Square, style::REFERENCE),
+    (Mark::Triangle, "#009E73"),
+];
+/// Half the size of marks.
+const MARK: f64 = 4.5;
 /// Height of a row of the picture of strips.
 const ROW: f64 = AREA.1 / (MISSING.len() + PROBABILITIES.len()) as f64;
 
@@ -31,11 +37,15 @@ fn area(index: usize) -> (f64, f64, f64, f64) {
     (FIRST.0 + NEXT * index as f64, FIRST.1, AREA.0, AREA.1)
 }
 
+/// Where an entry of a legend below the panels stands, if they are so far apart.
+fn entry(apart: f64, index: usize) -> (f64, f64) {
+    (FIRST.0 + apart * index as f64, FIRST.1 + AREA.1 + 84.0)
+}
+
 /// A legend below the panels, its entries so far apart.
 fn legend(pen: &mut Pen, apart: f64, signs: impl IntoIterator<Item = (Sign, String)>) {
     for (index, sign) in signs.into_iter().enumerate() {
-        let place = (FIRST.0 + apart * index as f64, FIRST.1 + AREA.1 + 84.0);
-        pen.legend(place, LETTERS, &[sign]);
+        pen.legend(entry(apart, index), LETTERS, &[sign]);
     }
 }
 
@@ -214,6 +224,9 @@ fn jumping(pen: &mut Pen, found: &RunUpReport) {
     panel.axes(pen, &axes);
 }
 
+/// Distance of the entries of its legend.
+const APART: f64 = 320.0;
+
 /// One of the errors of a run.
 type Of = fn(&Error) -> f64;
 
@@ -242,20 +255,25 @@ pub(super) fn order(found: &OrderReport) -> String {
             ..Axes::new(LETTERS, Some("step of the master (s)"), name, (4, 8))
         };
         panel.ground(&mut pen, &axes);
-        for (coupling, color) in COUPLINGS.into_iter().zip(COLORS) {
+        for (coupling, (mark, color)) in COUPLINGS.into_iter().zip(LOOKS) {
             let own = found.errors.iter().filter(|it| it.coupling == coupling);
             let points: Vec<(f64, f64)> = own.map(|it| (log(it.step), log(of(it)))).collect();
             panel.curve(&mut pen, &points, Stroke::solid(color, 2.0));
             for point in points {
-                pen.mark(panel.place(point), Mark::Circle, 3.5, color);
+                pen.mark(panel.place(point), mark, MARK, color);
             }
         }
         panel.axes(&mut pen, &axes);
     }
-    let sign = |((coupling, order), color): (&(Coupling, f64), &'static str)| {
+    let sign = |((coupling, order), (_, color)): (&(Coupling, f64), (Mark, &'static str))| {
         let name = format!("{}: order {order:.1}", coupling.name());
         (Sign::Line(Stroke::solid(color, 2.0)), name)
     };
-    legend(&mut pen, 320.0, found.orders.iter().zip(COLORS).map(sign));
+    legend(&mut pen, APART, found.orders.iter().zip(LOOKS).map(sign));
+    for (index, (mark, color)) in LOOKS.into_iter().enumerate() {
+        let (left, line) = entry(APART, index);
+        let size = f64::from(LETTERS);
+        pen.mark((left + 1.1 * size, line - 0.36 * size), mark, MARK, color);
+    }
     pen.svg()
 }

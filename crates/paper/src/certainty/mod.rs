@@ -11,6 +11,8 @@ use softstop_dynamics::basin::Establishing;
 use crate::figure::{self, Drawn, Figure, Studio};
 use curve::{Curve, Starts, integrity, motions};
 use softstop_console::progress::Progress;
+use softstop_draw::shade::ordered;
+use softstop_draw::style;
 use softstop_explore::basin::certainty::{
     CertaintyCurve, CertaintyPage, CertaintyPanel, CertaintyPoint,
 };
@@ -35,8 +37,8 @@ const REGIONS: [Starts; 4] = [
     Starts::Square(REGION),
     Starts::Square(4.0),
 ];
-/// Their colours: that of clearance 10 where the region is the usual one.
-const REGION_COLORS: [usize; 4] = [5, 7, MIDDLE, 6];
+/// Their colours but that of the usual one, which is that of its clearance.
+const REGION_COLORS: [&str; 3] = [style::REFERENCE, "#8C8C8C", style::POINT];
 /// Cells on each side of the region.
 const CELLS: [usize; 2] = [52, 24];
 /// Places of the zone between its ends; at the ends themselves one of the motions is not stable.
@@ -90,7 +92,7 @@ const INTEGRITY: Show = (
     "radius of the largest ball in z = 1",
 );
 
-fn line(curve: &Curve, label: String, color: usize, (show, _): Show) -> CertaintyCurve {
+fn line(curve: &Curve, label: String, color: &'static str, (show, _): Show) -> CertaintyCurve {
     let point = |at: &Establishing| {
         let (value, interval) = show(at);
         CertaintyPoint {
@@ -107,22 +109,31 @@ fn line(curve: &Curve, label: String, color: usize, (show, _): Show) -> Certaint
     }
 }
 
+/// The colour of a clearance.
+fn color_of(index: usize) -> &'static str {
+    ordered(index, CLEARANCES.len())
+}
+
 fn panels(curves: &[Curve]) -> Vec<CertaintyPanel> {
     let (unloaded, rest) = curves.split_at(CLEARANCES.len());
     let (loaded, others) = rest.split_at(CLEARANCES.len());
     let clearances = |curves: &[Curve], show: Show| -> Vec<CertaintyCurve> {
         let lines = curves.iter().enumerate();
-        let lines = lines
-            .map(|(color, curve)| line(curve, format!("ρ = {}", curve.clearance()), color, show));
+        let lines = lines.map(|(index, curve)| {
+            let name = format!("ρ = {}", curve.clearance());
+            line(curve, name, color_of(index), show)
+        });
         lines.collect()
     };
     let mut regions: Vec<&Curve> = others.iter().collect();
+    let mut colors = REGION_COLORS.to_vec();
     regions.insert(2, &unloaded[MIDDLE]);
-    let regions = regions.into_iter().zip(REGION_COLORS);
+    colors.insert(2, color_of(MIDDLE));
+    let regions = regions.into_iter().zip(colors);
     let regions = regions.map(|(curve, color)| line(curve, curve.starts.label(), color, CERTAINTY));
     let regions: Vec<CertaintyCurve> = regions.collect();
     let mut integrities = clearances(unloaded, INTEGRITY);
-    let extra = line(&loaded[MIDDLE], String::new(), MIDDLE, INTEGRITY);
+    let extra = line(&loaded[MIDDLE], String::new(), color_of(MIDDLE), INTEGRITY);
     integrities.push(CertaintyCurve {
         is_dashed: true,
         ..extra

@@ -90,7 +90,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     let marks = [
         named("A", point),
         named("lowest", stable),
-        ("λ → 0 at the fold s_SN".to_owned(), fold),
+        ("s_SN, the fold: λ → 0".to_owned(), fold),
     ];
     let mut findings = Findings::default();
     findings.add("lambda at A", point[2]);

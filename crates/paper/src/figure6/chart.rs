@@ -6,14 +6,11 @@ use super::boundaries::Boundaries;
 use crate::diagram::{is_one, steps};
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{Align, Pen, Stroke};
+use softstop_draw::shade::ordered;
 use softstop_draw::style;
 use softstop_dynamics::sweep::Jump;
 use softstop_dynamics::{Chain, Step};
 
-/// A colour for each clearance, in the order of the rainbow, all of Okabe and Ito's.
-const COLOURS: [&str; 6] = [
-    "#D55E00", "#E69F00", "#009E73", "#56B4E9", "#0072B2", "#CC79A7",
-];
 /// Pixels for each unit of length.
 const SCALE: f32 = 2.0;
 const WIDTH: f64 = 1200.0;
@@ -139,8 +136,14 @@ impl Chart<'_> {
 
     /// The sweeps of each clearance, and its colour.
     fn rows(&self) -> impl Iterator<Item = (&[Chain], &'static str)> {
-        self.chains.chunks_exact(2).zip(COLOURS)
+        rows(self.chains)
     }
+}
+
+/// The sweeps of each clearance, and its colour.
+fn rows(chains: &[Chain]) -> impl Iterator<Item = (&[Chain], &'static str)> {
+    let rows = chains.chunks_exact(2).enumerate();
+    rows.map(|(index, ways)| (ways, ordered(index, chains.len() / 2)))
 }
 
 /// Dots of all motions, and a line where z = 1 is stable.
@@ -259,7 +262,7 @@ fn pierced(pen: &mut Pen, panel: &Panel, chains: &[Chain]) {
     let text = "the strip is pierced: Xₘ > ρ + σ";
     let place = (panel.right() - 8.0, panel.bottom() - 9.0);
     pen.words(place, LETTERS - 1, Align::Right, (style::INK, false), text);
-    for (index, (ways, color)) in chains.chunks_exact(2).zip(COLOURS).enumerate() {
+    for (index, (ways, color)) in rows(chains).enumerate() {
         let middle = top + 4.0 + ROW * (index as f64 + 0.5);
         for (way, (chain, shift)) in ways.iter().zip([-3.6, 3.6]).enumerate() {
             for (from, to) in ranges(chain) {

@@ -7,6 +7,7 @@ use super::swept::{KINDS, Kind, RANGE, Swept, kind};
 use super::{DECADES, SUBHARMONIC};
 use softstop_draw::panel::{Axes, Panel, heading};
 use softstop_draw::pen::{self, Align, Area, Pen, Stroke};
+use softstop_draw::shade::ordered;
 use softstop_draw::style;
 
 /// What is drawn.
@@ -34,12 +35,8 @@ const GRAZING: Stroke = Stroke::dashed(style::INK, 1.2, (5.0, 4.0));
 const DOT: f64 = 1.0;
 /// Room beside the curves of widths in decades.
 const ROOM: f64 = 0.4;
-/// Colours of the stops whose subharmonic motions are shown, and how much lower the dots of each are drawn.
-const STOPS: [(&str, f64); 3] = [
-    ("#009E73", -0.17),
-    (style::DESIGN, 0.0),
-    (style::OPTIMUM, 0.17),
-];
+/// How much lower the dots of each stop whose subharmonic motions are shown are drawn.
+const STOPS: [f64; 3] = [-0.17, 0.0, 0.17];
 
 const FOLD: Stroke = Stroke::solid(style::INK, 2.0);
 
@@ -120,7 +117,12 @@ impl Chart<'_> {
             let points = points.filter_map(|fold| Some((eta(fold)?, fold.stiffness.log10())));
             panel.curve(pen, &points.collect::<Vec<_>>(), FOLD);
         }
-        let axes = Axes::new(LETTERS, Some("η"), "log₁₀ k₂/k₁", (12, 5));
+        let axes = Axes::new(LETTERS, Some("η"), "", (12, 0));
+        panel.axes(pen, &axes);
+        let axes = Axes {
+            is_log: true,
+            ..Axes::new(LETTERS, None, "k₂/k₁", (0, 5))
+        };
         panel.axes(pen, &axes);
         if let Some(last) = self.folds.iter().rfind(|fold| fold.strong.is_some()) {
             let mut name = |eta: f64, shift: f64, y: f64, name: &str| {
@@ -175,7 +177,10 @@ impl Chart<'_> {
         let (weak, strong) = (curve(1), curve(2));
         let lowest = weak.iter().map(|point| point.1).fold(0.0, f64::min);
         let panel = Panel::new(WIDTHS, (0.0, DECADES.1), (lowest - ROOM, ROOM));
-        let axes = Axes::new(LETTERS, Some("log₁₀ k₂/k₁"), "log₁₀ width in η", (4, 5));
+        let axes = Axes {
+            is_log: true,
+            ..Axes::new(LETTERS, Some("k₂/k₁"), "width in η", (4, 5))
+        };
         panel.ground(pen, &axes);
         let hysteresis = "hysteresis, from s_SN back to the weak fold";
         for (points, color, shift, name) in [
@@ -211,7 +216,8 @@ impl Chart<'_> {
         let (_, eta) = grazing(NARROW);
         panel.curve(pen, &[(eta, panel.y.0), (eta, panel.y.1)], GRAZING);
         let mut right = panel.right() - 8.0;
-        for (stiffness, (color, shift)) in SUBHARMONIC.into_iter().zip(STOPS).rev() {
+        for (index, (stiffness, shift)) in SUBHARMONIC.into_iter().zip(STOPS).enumerate().rev() {
+            let color = ordered(index, STOPS.len());
             let own = found.clone().filter(|motion| motion.stiffness == stiffness);
             let points = own.map(|motion| (motion.frequency, motion.periods as f64 - shift));
             panel.dots(pen, points, 3.2, color);

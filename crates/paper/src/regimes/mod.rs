@@ -71,7 +71,7 @@ const MAPS: [Named; 6] = named! {
     "unloaded" "down", "falling", ", falling frequency";
     "unloaded" "up, zoom", "zoom, rising", ", rising frequency: the subharmonic region";
     "unloaded" "hardest of several starts", "zoom, hardest of several starts",
-        ": the hardest periodic motion of 12 starts each";
+        ": the hardest motion of 12 starts";
     "loaded" "up", "rising", ", rising frequency";
     "loaded" "down", "falling", ", falling frequency";
 };

@@ -15,7 +15,7 @@ use crate::page::data::{Basin, BasinMotion};
 const CELLS: usize = 64;
 
 /// Colours of motions whose own colour is taken.
-const OTHERS: [&str; 5] = ["#E69F00", "#009E73", "#CC79A7", "#F0E442", "#D55E00"];
+const OTHERS: [&str; 5] = ["#E69F00", "#009E73", "#AA4499", "#F0E442", "#D55E00"];
 /// Distance of states of one motion, in units of their size.
 const SAME: f64 = 1e-6;
 

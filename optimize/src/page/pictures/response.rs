@@ -15,8 +15,9 @@ use crate::page::words::quantity;
 
 /// Half the size of the design's mark.
 const MARK: f64 = 8.0;
-/// The colour of machines within the tolerances.
-const BAND: &str = style::OPTIMUM;
+/// Colour and opacity of machines within the tolerances, and the opacity of the tolerance of the frequency.
+const BAND: (&str, f64) = (style::OPTIMUM, 0.35);
+const ALLOWED: f64 = 0.3;
 
 /// The picture.
 pub(in crate::page) fn figure(response: &Response) -> Figure {
@@ -30,11 +31,11 @@ pub(in crate::page) fn figure(response: &Response) -> Figure {
         }
     }
     if response.tolerance.is_some() {
-        let patch = Sign::Patch(style::ALLOWED);
+        let patch = Sign::Band(style::ALLOWED, ALLOWED);
         entries.push((patch, "tolerance of the frequency".to_owned()));
     }
     if !response.bands.is_empty() {
-        let patch = Sign::Patch(BAND);
+        let patch = Sign::Band(BAND.0, BAND.1);
         entries.push((patch, "within the tolerances".to_owned()));
     }
     let top = legend(&mut pen, (ROOM.0, EDGE + 4.0), right, &entries) - LINE + 14.0;
@@ -69,7 +70,7 @@ pub(in crate::page) fn figure(response: &Response) -> Figure {
         pen.tint(
             (low, area.1, (high - low).max(1.0), area.3),
             style::ALLOWED,
-            0.3,
+            ALLOWED,
         );
     }
     panel.ground(&mut pen, &axes);
@@ -77,7 +78,7 @@ pub(in crate::page) fn figure(response: &Response) -> Figure {
         let inside = |it: &&[f64; 3]| it.iter().all(|value| value.is_finite());
         let band = band.iter().filter(inside);
         let band: Vec<(f64, [f64; 2])> = band.map(|[x, low, high]| (*x, [*low, *high])).collect();
-        panel.band(&mut pen, &band, BAND, 0.35);
+        panel.band(&mut pen, &band, BAND.0, BAND.1);
     }
     names.draw(&mut pen, &panel, BOUND);
     for role in [Role::Unstable, Role::Beside, Role::Design] {
