@@ -211,14 +211,20 @@ impl Pen {
         self.write((x, y), size, align, (false, color), text);
     }
 
-    /// Rectangles of many colours that leave no seams between them.
+    /// Rectangles of many colours that leave no seams between them: their edges lie on half units, which are whole pixels
+    /// of a PNG of twice the size.
     pub fn mosaic(&mut self, tiles: &[(Area, &str)]) {
-        let side = |pick: fn(&Area) -> f64| tiles.iter().map(|(area, _)| pick(area)).collect();
+        let edge = |place: f64| (2.0 * place).round() / 2.0;
+        let side = |pick: fn(&Area) -> f64| tiles.iter().map(move |(area, _)| edge(pick(area)));
+        let long = |begin: fn(&Area) -> f64, end: fn(&Area) -> f64| {
+            let sides = side(begin).zip(side(end));
+            sides.map(|(begin, end)| end - begin).collect()
+        };
         let batch = Primitive::RectBatch {
-            x: side(|area| area.0),
-            y: side(|area| area.1),
-            w: side(|area| area.2),
-            h: side(|area| area.3),
+            x: side(|area| area.0).collect(),
+            y: side(|area| area.1).collect(),
+            w: long(|area| area.0, |area| area.0 + area.2),
+            h: long(|area| area.1, |area| area.1 + area.3),
             fills: tiles.iter().map(|(_, color)| (*color).into()).collect(),
         };
         self.crisp(|pen| pen.scene.add(batch));
