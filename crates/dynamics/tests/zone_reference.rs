@@ -2,7 +2,7 @@
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use softstop::{Ratios, Scene};
-use softstop_dynamics::zone::{grazing_frequencies, hysteresis};
+use softstop_dynamics::zone::{grazing_frequencies, hysteresis, stretches};
 use softstop_testing::reference::{FOLDS, MACHINE, list, number, ratios};
 use softstop_testing::tolerance::{DIFFERENCED, GROWN, ROUNDING, SOLVED, printed};
 
@@ -129,7 +129,8 @@ fn peaks_agree_with_thirty_digits() {
             Ratios::unloaded()
         };
         let clearance = number(expected, "clearance");
-        let zone = hysteresis(&scene(&Ratios { clearance, ..base })).expect("a zone");
+        let machine = scene(&Ratios { clearance, ..base });
+        let zone = hysteresis(&machine).expect("a zone");
         let share = |frequency: f64| {
             (frequency - zone.frequency_g0) / (zone.frequency_sn - zone.frequency_g0)
         };
@@ -148,6 +149,10 @@ fn peaks_agree_with_thirty_digits() {
             ),
             "{expected}"
         );
+        let stretches = stretches(&machine).expect("stretches");
+        let tops = stretches.iter().filter(|one| one.is_part_of(&zone));
+        let tops = tops.map(|one| one.hardest.before_impact_velocity());
+        assert_abs_diff_eq!(tops.fold(0.0, f64::max), highest, epsilon = 10.0 * SOLVED);
         assert!(velocity(peak - 1e-3) < highest && velocity(peak + 1e-3) < highest);
     }
 }

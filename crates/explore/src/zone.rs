@@ -132,7 +132,7 @@ fn stretch_columns<'a>() -> [Column<Stretched<'a>>; 7] {
         "to" [Frequency] Six, "upper end" => own(it.0, it.1.high.frequency);
         "to_by" [None] Plain, "what ends it there" => lost_by(&it.1.high.loss);
         "hardest" [Velocity] Six, "highest before-impact velocity" => it.1.hardest.before_impact_velocity();
-        "hardest_at" [Frequency] Six, "where, to the nearest point of the branch" => own(it.0, it.1.hardest.parameter);
+        "hardest_at" [Frequency] Six, "where" => own(it.0, it.1.hardest.parameter);
         "in_zone" [None] Plain, "part of the hysteresis zone" => it.2;
     }
 }

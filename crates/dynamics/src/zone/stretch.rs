@@ -8,6 +8,7 @@ use crate::continuation::{
 };
 use crate::orbit::OrbitError;
 use softstop::Scene;
+use softstop::internals::highest;
 
 /// Distance of an orbit from the chord between two points of a branch, as a share of the chord, within which it lies
 /// on that branch.
@@ -63,7 +64,7 @@ pub struct Stretch {
     pub low: StretchEnd,
     /// Its upper end.
     pub high: StretchEnd,
-    /// The hardest of its points.
+    /// The motion that hits hardest.
     pub hardest: BranchPoint,
     /// Its points, in rising order of frequency.
     points: Vec<BranchPoint>,
@@ -234,17 +235,43 @@ impl Part {
             losses.reverse();
         }
         let [below, above] = losses;
-        let harder = |a: &&BranchPoint, b: &&BranchPoint| {
-            let [a, b] = [a, b].map(|point| point.before_impact_velocity());
-            a.total_cmp(&b)
-        };
         Some(Stretch {
             low: StretchEnd::new(&points[0], below),
             high: StretchEnd::new(&points[points.len() - 1], above),
-            hardest: points.iter().max_by(harder)?.clone(),
+            hardest: hardest(follower, &points)?,
             points,
         })
     }
+}
+
+/// Share of the way between the neighbours of the hardest point to which the top is known: being flat, its height is
+/// then known to ten digits.
+const WIDTH: f64 = 1e-5;
+
+/// The hardest motion along points in rising order: about the hardest of them, by golden section between its neighbours.
+fn hardest(
+    follower: &Follower<'_, Frequencies<'_>>,
+    points: &[BranchPoint],
+) -> Option<BranchPoint> {
+    let velocity = BranchPoint::before_impact_velocity;
+    let harder = |a: usize, b: usize| velocity(&points[a]).total_cmp(&velocity(&points[b]));
+    let best = (0..points.len()).max_by(|a, b| harder(*a, *b))?;
+    let (below, above) = (best.saturating_sub(1), (best + 1).min(points.len() - 1));
+    let between = |frequency: f64| {
+        let near = if frequency < points[best].parameter {
+            below
+        } else {
+            best
+        };
+        follower
+            .between(&points[near], points.get(near + 1)?, frequency)
+            .ok()
+    };
+    let [low, high] = [below, above].map(|at| points[at].parameter);
+    let height = |frequency: f64| between(frequency).map_or(f64::NEG_INFINITY, |it| velocity(&it));
+    let (top, _) = highest(low, high, WIDTH * (high - low), height);
+    let top = between(top).filter(|top| velocity(top) > velocity(&points[best]));
+    Some(top.unwrap_or_else(|| points[best].clone()))
 }
 
 impl StretchEnd {
