@@ -92,7 +92,7 @@ impl OptimizeReport {
                 &rivals,
             ),
             (
-                "Left out, for they are no part of the zone: stable z = 1",
+                "Other ranges of stable z = 1, left out because they are no part of the zone",
                 &left_out,
             ),
         ];
@@ -107,7 +107,7 @@ impl OptimizeReport {
             reference: references.iter().map(reference).collect(),
             text: search.text()
                 + &text(problem, design, references, &limits)
-                + &told.collect::<String>()
+                + &told.collect::<Vec<_>>().join("\n")
                 + &tolerances
                     .as_ref()
                     .map_or_else(String::new, |it| it.text(&units)),
@@ -170,7 +170,7 @@ fn stretch<'a>() -> [Column<(&'a Design, &'a Stretch)>; 3] {
 /// Before-impact velocity of the design over that of a reference.
 fn gain(design: &Design, reference: &Reference) -> Record {
     let gain = design.before_impact_velocity() / reference.orbit.before_impact_velocity();
-    Record::default().with("gain", "design over this one", gain)
+    Record::default().with("gain", "velocity, design over this one", gain)
 }
 
 fn own(design: &Design, frequency: f64) -> f64 {
@@ -196,10 +196,11 @@ fn text(
     let mut text = heading(&(what + &margin));
     text += &comparison(problem, design, references);
     text += &format!(
-        "\nZone of the design: g0 = {} to s_SN = {}; the design stands at s = {} of it.\n",
+        "\nZone of the design: {} from {} (g0) to {} (s_SN); the design stands at {:.1} % of the way.\n",
+        design.machine.label_of(Parameter::Frequency),
         number(own(design, design.zone.frequency_g0)),
         number(own(design, design.zone.frequency_sn)),
-        number(design.place),
+        100.0 * design.place,
     );
     if !at_limits.is_empty() {
         let limits: Vec<&str> = at_limits.iter().map(|it| it.words.as_str()).collect();
@@ -224,7 +225,7 @@ fn comparison(problem: &Problem, design: &Design, references: &[Reference]) -> S
         let motion = values.and(state(machine, orbit));
         motion.with("largest", "largest multiplier |mu|", largest)
     };
-    let none = Record::default().with("gain", "design over this one", "");
+    let none = Record::default().with("gain", "velocity, design over this one", "");
     let own = column("design".to_owned(), &design.machine, &design.orbit, none);
     let others = references.iter().map(|it| {
         let name = match it.machine.name.as_deref() {
