@@ -23,7 +23,7 @@ impl Segment {
     /// The step from a departure that lies `deflection` m beyond the face.
     pub fn new(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
         let mut segment = if deflection <= 0.0 && from.velocity == 0.0 {
-            Self::from_rest(flow, hertz, from)
+            Self::without_press(flow, hertz, from, 0.0)
         } else if is_spherical(hertz, from) {
             Self::from_root(flow, hertz, from, deflection)
         } else if hertz.exponent == 2.0 {
@@ -32,6 +32,7 @@ impl Segment {
             let raised = deflection.max(0.0).powf(hertz.exponent);
             if is_off_face(hertz, (deflection, raised), from.velocity) {
                 Self::pressed(flow, hertz, from, (deflection, raised))
+                    .unwrap_or_else(|| Self::without_press(flow, hertz, from, deflection))
             } else {
                 Self::from_root(flow, hertz, from, deflection)
             }
@@ -81,11 +82,12 @@ impl Segment {
         (segment.end > LONGER * usual).then_some(segment)
     }
 
-    /// The linear law's motion from rest at the face, in time itself.
-    fn from_rest(flow: &Flow, hertz: &Hertz, from: &Departure) -> Self {
-        let start = (hertz.origin, 0.0);
+    /// The linear law's motion from a deflection next to nothing, in time itself, as long as the power law's part of it
+    /// is below rounding.
+    fn without_press(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
+        let start = (hertz.origin + deflection, from.velocity);
         let mut segment = Self::in_time(flow, hertz, from, start);
-        segment.depth[0] = 0.0;
+        segment.depth[0] = deflection;
         let bounds = [segment.depth, segment.velocity()].map(|series| majorant(&series));
         let reach = segment.reach_in_time(flow, from);
         segment.ends_at(if hertz.stiffness > 0.0 {

@@ -14,21 +14,25 @@ use super::{Departure, Flow};
 const WAYS: f64 = 1.25;
 
 impl Segment {
-    /// The step from a departure beyond the face, by the deflection in m and its n-th power.
+    /// The step from a departure beyond the face, by the deflection in m and its n-th power; none so close to the
+    /// face that the coefficients of a fast mass overflow.
     pub(super) fn pressed(
         flow: &Flow,
         hertz: &Hertz,
         from: &Departure,
         (deflection, raised): (f64, f64),
-    ) -> Self {
+    ) -> Option<Self> {
         let mut segment = Self::blank(flow, hertz);
         segment.push = push_series(flow, from);
         segment.is_pressed = true;
         let start = (deflection, from.velocity, raised);
         let velocity = segment.press(flow, start);
+        if !velocity[DEGREE].is_finite() {
+            return None;
+        }
         let ways = WAYS * deflection / from.velocity.abs();
         segment.ends_before(flow.reach.min(ways), from, &velocity);
-        segment
+        Some(segment)
     }
 
     /// The same where n = 2: the law is regular at the face, too.

@@ -240,7 +240,11 @@ impl Motion {
     fn cross(&mut self, found: Found, observer: &mut impl Observer) {
         // A mass that leaves rest and is back at once has not moved.
         let moved = self.course.departure.velocity != 0.0 || !self.is_instant(found.elapsed);
-        let before = Start::new(found.position, found.velocity);
+        let velocity = match self.mode {
+            Mode::Moving(phase) => self.phases.onward(phase, &found),
+            Mode::Held(_) | Mode::Chattering(_) => found.velocity,
+        };
+        let before = Start::new(found.position, velocity);
         let drive = self.end_arc(found.elapsed, Some(before), observer);
         if let Some(surface) = self.surface_of(found.guard) {
             self.hum.count(surface, found.velocity);

@@ -44,6 +44,15 @@ impl Phases {
         };
         endless.then_some(surface)
     }
+
+    /// The velocity of a crossing out of a phase: rounding may turn that of a touch the other way.
+    pub(super) fn onward(&self, phase: PhaseId, found: &Found) -> f64 {
+        match self[phase].exits[found.guard] {
+            Exit::Forward(_) => found.velocity.max(0.0),
+            Exit::Backward(_) => found.velocity.min(0.0),
+            Exit::Reversal { .. } | Exit::Switch(_) => found.velocity,
+        }
+    }
 }
 
 impl Motion {
@@ -128,6 +137,7 @@ impl Ground<'_> {
     /// State and mode right after a crossing out of a phase; `moved` is false for a mass that is back at
     /// once where it left rest.
     pub(crate) fn leave(&self, phase: PhaseId, found: &Found, push: f64, moved: bool) -> Landing {
+        let onward = self.phases.onward(phase, found);
         let phase = &self.phases[phase];
         let position = phase.confine(found.position);
         match phase.exits[found.guard] {
@@ -138,11 +148,11 @@ impl Ground<'_> {
             }
             Exit::Switch(to) => {
                 let mode = Mode::Moving(to);
-                Landing::new(position, found.velocity, mode, CrossingKind::Switch)
+                Landing::new(position, onward, mode, CrossingKind::Switch)
             }
             Exit::Forward(surface) => {
                 let at = &self.phases[surface];
-                let velocity = if moved { found.velocity.max(0.0) } else { 0.0 };
+                let velocity = if moved { onward } else { 0.0 };
                 match self.phases.beyond(at, self.fed) {
                     Beyond::Wall { restitution } => self.rebound(at, velocity, push, restitution),
                     Beyond::Phase(_) => self.pass(at, velocity, push, true),
@@ -150,7 +160,7 @@ impl Ground<'_> {
             }
             Exit::Backward(surface) => {
                 let at = &self.phases[surface];
-                self.pass(at, found.velocity.min(0.0), push, false)
+                self.pass(at, onward, push, false)
             }
         }
     }

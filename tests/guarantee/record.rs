@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use softstop::{Arc, Crossing, Observer, PhaseKind, Scene, Start};
+use softstop::{Arc, Crossing, MotionError, Observer, PhaseKind, Scene, Start};
 
 /// The motion from one crossing to the next.
 #[derive(Debug, Clone)]
@@ -76,13 +76,21 @@ impl Observer for Recorder<'_> {
     }
 }
 
+/// Why there is no record.
+pub enum Refusal {
+    /// The library says that a drive period takes too much work.
+    Endless,
+    /// Anything else.
+    Failure(String),
+}
+
 /// The legs of the motion over some periods, or up to `most` crossings.
 ///
 /// # Errors
 /// What the library refuses, or that it runs away, with the last legs.
-pub fn record(scene: &Scene, start: Start, periods: f64, most: usize) -> Result<Vec<Leg>, String> {
+pub fn record(scene: &Scene, start: Start, periods: f64, most: usize) -> Result<Vec<Leg>, Refusal> {
     let clock = scene.clock();
-    let mut motion = scene.motion(start).map_err(|error| error.to_string())?;
+    let mut motion = scene.motion(start)?;
     let mut recorder = Recorder {
         scene,
         legs: Vec::new(),
@@ -94,9 +102,9 @@ pub fn record(scene: &Scene, start: Start, periods: f64, most: usize) -> Result<
     for slice in 1..=slices {
         let until = clock.instant(scene.period() * f64::from(slice) / 16.0);
         recorder.arcs = 0;
-        let flow = motion.watch(until, &mut recorder);
-        if flow.map_err(|error| error.to_string())?.is_break() {
-            return Err(format!("runs away: {:?}", recorder.last()));
+        if motion.watch(until, &mut recorder)?.is_break() {
+            let last = format!("runs away: {:?}", recorder.last());
+            return Err(Refusal::Failure(last));
         }
         if recorder.legs.len() >= most {
             return Ok(recorder.legs);
@@ -105,6 +113,15 @@ pub fn record(scene: &Scene, start: Start, periods: f64, most: usize) -> Result<
     motion.tell_arc(&mut recorder);
     recorder.legs.extend(recorder.open.take());
     Ok(recorder.legs)
+}
+
+impl From<MotionError> for Refusal {
+    fn from(error: MotionError) -> Self {
+        match error {
+            MotionError::Endless { .. } => Self::Endless,
+            other => Self::Failure(other.to_string()),
+        }
+    }
 }
 
 impl Recorder<'_> {

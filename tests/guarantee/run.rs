@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::cases::case;
 use super::check::{Stop, check};
 use super::law::Machine;
-use super::record::{Leg, record};
+use super::record::{Leg, Refusal, record};
 use super::tally::Tally;
 
 /// Crossings that are checked in one case.
@@ -22,8 +22,12 @@ pub fn one(seed: u64) -> Tally {
     let case = case(seed);
     let legs = match record(&case.scene, case.start, case.periods, MOST) {
         Ok(legs) => legs,
-        Err(refusal) => {
+        // Bounces on a stiff face that the drive presses: too many to follow, and said so.
+        Err(Refusal::Endless) => {
             tally.refused = 1;
+            return tally;
+        }
+        Err(Refusal::Failure(refusal)) => {
             tally
                 .failures
                 .push(format!("seed {seed}: {refusal}\n{case:?}"));

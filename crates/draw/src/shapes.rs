@@ -91,7 +91,7 @@ impl Pen {
     /// A filled shape of this half-size about a place.
     pub fn mark(&mut self, (x, y): Point, mark: Mark, half: f64, color: &str) {
         let (sides, turn) = match mark {
-            Mark::Circle => (SIDES, 0.0),
+            Mark::Circle => return self.dots(&[(x, y)], half, color),
             Mark::Square => (4, 0.125),
             Mark::Triangle => (3, 0.25),
             Mark::Diamond => (4, 0.0),
