@@ -100,12 +100,18 @@ impl Flow {
     fn of(modes: Modes, amplitude: f64, frequency: f64) -> Self {
         let window = 1.0 / frequency.max(modes.slow_rate());
         let reach = 1.0 / frequency.max(modes.fastest_rate());
+        // b - w^2 and 2 a w.
+        let real = (-frequency).mul_add(frequency, modes.stiffness);
+        let imaginary = 2.0 * modes.decay * frequency;
+        let impedance = real.hypot(imaginary);
+        let scale = amplitude / impedance;
+        let response = (scale * (real / impedance), scale * (imaginary / impedance));
         Self {
             modes,
             amplitude,
             frequency,
-            steady: steady_state(&modes, amplitude, frequency),
-            late: late_state(&modes, amplitude, frequency),
+            steady: describes(&modes, impedance, frequency).then_some(response),
+            late: slowest(&modes).map(|slow| (response, LIFETIMES / slow)),
             window,
             long_window: 1.0 / frequency,
             window_bounds: modes.bounds(window),
@@ -137,38 +143,20 @@ impl Flow {
     }
 }
 
-/// A / (b - w^2 + 2 i a w) as coefficients of cos and sin, unless it (or the static deflection)
-/// dwarfs the motion it has to describe.
-fn steady_state(modes: &Modes, amplitude: f64, w: f64) -> Option<(f64, f64)> {
+/// True if the steady state A / (b - w^2 + 2 i a w), or the static deflection, does not dwarf the motion that it has to
+/// describe.
+fn describes(modes: &Modes, impedance: f64, w: f64) -> bool {
     let (a, b) = (modes.decay, modes.stiffness);
-    let (real, imaginary) = impedance(modes, w);
-    let resonant = real.hypot(imaginary) * LARGEST_LOSS < b.abs().max(w * w);
+    let resonant = impedance * LARGEST_LOSS < b.abs().max(w * w);
     let limp = b.abs() * LARGEST_LOSS < 4.0 * a * a || b == 0.0;
-    (!resonant && !limp).then(|| response_to(amplitude, (real, imaginary)))
+    !resonant && !limp
 }
 
-/// The steady state in the end, where the free motion dies out: after [`LIFETIMES`] of its slower mode.
-fn late_state(modes: &Modes, amplitude: f64, w: f64) -> Option<((f64, f64), f64)> {
+/// Rate in 1/s of the slower mode, where the free motion dies out.
+fn slowest(modes: &Modes) -> Option<f64> {
     let (slow, _) = modes.decay_rates();
-    let dies = modes.stiffness > 0.0 && slow > 0.0;
-    dies.then(|| {
-        (
-            response_to(amplitude, impedance(modes, w)),
-            LIFETIMES / slow,
-        )
-    })
+    (modes.stiffness > 0.0 && slow > 0.0).then_some(slow)
 }
 
 /// Lifetimes of a mode after which nothing of it is left beside a motion 10^10 times smaller.
 const LIFETIMES: f64 = 60.0;
-
-/// b - w^2 and 2 a w.
-fn impedance(modes: &Modes, w: f64) -> (f64, f64) {
-    ((-w).mul_add(w, modes.stiffness), 2.0 * modes.decay * w)
-}
-
-fn response_to(amplitude: f64, (real, imaginary): (f64, f64)) -> (f64, f64) {
-    let size = real.hypot(imaginary);
-    let scale = amplitude / size;
-    (scale * (real / size), scale * (imaginary / size))
-}

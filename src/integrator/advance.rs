@@ -187,7 +187,7 @@ impl Motion {
             Mode::Moving(phase) => Cow::Borrowed(&self.phases[phase].guards),
             Mode::Held(hold) => {
                 let since = &self.course.departure;
-                let push = since.push.value() + self.phases.held.amplitude * since.drive.cos;
+                let push = since.push.value() + self.phases.amplitude * since.drive.cos;
                 Cow::Owned(self.phases.releases(hold, since.position, push))
             }
             Mode::Chattering(_) => Cow::Borrowed(&[]),

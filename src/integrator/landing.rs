@@ -214,7 +214,7 @@ impl Ground<'_> {
         let rest = |phase| phases.acceleration(phase, at.position, 0.0, push);
         let slopes = [out, back].map(|phase| phases[phase].slopes(at.position, 0.0));
         let largest = |values: [f64; 2]| values[0].abs().max(values[1].abs()) / phases.mass;
-        let drive = phases.held.amplitude * phases.held.frequency;
+        let drive = phases.amplitude * phases.frequency;
         let two_laws = back != out || phases.pressing(out, at.position, -speed) != out;
         let pressing = Pressing {
             accelerations: (rest(out), rest(back)),

@@ -71,7 +71,7 @@ impl Motion {
             push: Polynomial::default(),
             acceleration: None,
         };
-        let course = Course::held(&phases.held, departure);
+        let course = Course::held(&phases.held(), departure);
         let push = phases.push(drive, &force);
         let mode = phases.locate(start.position, start.velocity, push, fed);
         let outlook = Outlook::Never;
@@ -228,7 +228,7 @@ impl Motion {
         finer: Option<Finer>,
         chatter: Option<Chatter>,
     ) {
-        let held = &self.phases.held;
+        let held = || self.phases.held();
         match (mode, chatter) {
             (Mode::Moving(phase), _) => {
                 let phase = &self.phases[phase];
@@ -246,9 +246,11 @@ impl Motion {
                 }
             }
             (Mode::Chattering(_), Some(chatter)) => {
-                self.course = Course::chattering(held, departure, chatter);
+                self.course = Course::chattering(&held(), departure, chatter);
             }
-            (Mode::Held(_) | Mode::Chattering(_), _) => self.course = Course::held(held, departure),
+            (Mode::Held(_) | Mode::Chattering(_), _) => {
+                self.course = Course::held(&held(), departure);
+            }
         }
         self.mode = mode;
         self.outlook = Outlook::ClearUntil(self.course.start());

@@ -30,7 +30,8 @@ pub(super) fn lower(scene: &Scene) -> Phases {
     Phases {
         phases: builder.phases,
         surfaces: builder.surfaces,
-        held: Flow::new(scene.mass, 0.0, 0.0, drive.amplitude, drive.frequency),
+        amplitude: drive.amplitude / scene.mass,
+        frequency: drive.frequency,
         mass: scene.mass,
         fed,
         unfed,

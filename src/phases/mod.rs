@@ -138,8 +138,10 @@ pub struct Phases {
     pub phases: Vec<Phase>,
     /// The surfaces between them.
     pub surfaces: Vec<Surface>,
-    /// The drive alone, for a mass that is held.
-    pub held: Flow,
+    /// Amplitude of the drive per mass, F0/m, in m/s^2.
+    pub amplitude: f64,
+    /// Frequency w of the drive in rad/s.
+    pub frequency: f64,
     /// The mass in kg.
     pub mass: f64,
     fed: Stack,
@@ -175,7 +177,7 @@ impl Scene {
 impl Phases {
     /// Changes the frequency in rad/s of the drive, and with it no law.
     pub fn tune(&mut self, frequency: f64) {
-        self.held = self.held.tuned(frequency);
+        self.frequency = frequency;
         for phase in &mut self.phases {
             phase.flow = phase.flow.tuned(frequency);
         }
@@ -187,7 +189,7 @@ impl Phases {
     pub(crate) fn driven(&self, amplitude: f64, frequency: f64) -> Self {
         let mut phases = self.clone();
         let amplitude = amplitude / self.mass;
-        phases.held = self.held.driven(amplitude, frequency);
+        (phases.amplitude, phases.frequency) = (amplitude, frequency);
         for phase in &mut phases.phases {
             phase.flow = phase.flow.driven(amplitude, frequency);
         }
@@ -243,9 +245,14 @@ impl Phases {
         self.fed.wall.map(|wall| self[wall].position)
     }
 
+    /// The drive alone, for a mass that is held.
+    pub(crate) fn held(&self) -> Flow {
+        Flow::new(1.0, 0.0, 0.0, self.amplitude, self.frequency)
+    }
+
     /// Push of drive and external force per mass, in m/s^2.
     pub(crate) fn push(&self, drive: Drive, force: &Polynomial) -> f64 {
-        self.held.amplitude * drive.cos + force.value() / self.mass
+        self.amplitude * drive.cos + force.value() / self.mass
     }
 
     /// [`Phase::acceleration`] of a phase.

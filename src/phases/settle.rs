@@ -227,7 +227,7 @@ impl Phases {
     pub(crate) fn is_faint(&self, at: &Surface, velocity: f64, push: f64, fed: bool) -> bool {
         let above = self.beyond(at, fed);
         let height = self.bounce(at, above, velocity, push);
-        let period = std::f64::consts::TAU / self.held.frequency;
+        let period = std::f64::consts::TAU / self.frequency;
         let resolution = 4.0 * f64::EPSILON * period;
         // A bounce of height h under the acceleration a takes v / a each way.
         2.0 * height < resolution * velocity.abs()

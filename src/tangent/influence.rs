@@ -29,7 +29,7 @@ impl<'a> Influence<'a> {
         (columns[0].x, columns[1].y) = (1.0, 1.0);
         Self {
             phases,
-            drive: phases.held.amplitude * phases.mass,
+            drive: phases.amplitude * phases.mass,
             by,
             columns,
             supplied: 0.0,

@@ -67,7 +67,7 @@ impl Face {
     }
 
     fn acceleration(&self, phase: PhaseId, at: Instant, velocity: f64) -> f64 {
-        let push = self.phases.held.amplitude * self.clock.drive(at).cos;
+        let push = self.phases.amplitude * self.clock.drive(at).cos;
         self.phases
             .acceleration(phase, self.position(), velocity, push)
     }

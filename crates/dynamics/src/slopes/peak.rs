@@ -18,7 +18,7 @@ pub(super) fn peaks<'a>(
     let free = &phases[PhaseId::FREE].law;
     let state = move |time: f64| {
         let at = arc.at(time);
-        let push = phases.held.amplitude * arc.drive(time).cos;
+        let push = phases.amplitude * arc.drive(time).cos;
         let (x, v) = (at.position, at.velocity);
         [x, v, phases.acceleration(phase.id, x, v, push)]
     };
@@ -28,7 +28,7 @@ pub(super) fn peaks<'a>(
         (stiffness - free.stiffness) * v + (damping - free.damping) * a
     };
     let (each, least, most) = PIECES;
-    let fastest = phase.flow.modes.fastest_rate().max(phases.held.frequency);
+    let fastest = phase.flow.modes.fastest_rate().max(phases.frequency);
     let pieces = (each * fastest * elapsed).ceil().clamp(least, most);
     let piece = elapsed / pieces;
     let mut before = rate(0.0);

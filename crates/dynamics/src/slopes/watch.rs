@@ -47,7 +47,7 @@ impl<'a> Watch<'a> {
             phases,
             by,
             clock,
-            frequency: phases.held.frequency,
+            frequency: phases.frequency,
             phase: None,
             edge: None,
         }

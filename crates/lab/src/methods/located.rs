@@ -102,7 +102,7 @@ impl<'a, 'b> Located<'a, 'b> {
     /// What rounding may leave of a guard that begins on zero.
     fn noise(&self, guard: &Guard, (span, to): &(f64, State)) -> f64 {
         let speed = to.velocity.abs().max(self.at.from.velocity.abs());
-        let push = self.machine.phases.held.amplitude;
+        let push = self.machine.phases.amplitude;
         let gained = span * (push + to.acceleration.abs());
         let position = (guard.position * to.position).abs() + guard.level.abs();
         let velocity = guard.velocity.abs() * (speed.min(gained));

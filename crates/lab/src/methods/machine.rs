@@ -128,7 +128,7 @@ impl Machine {
 
     /// Push of the drive per mass in m/s^2.
     pub fn push(&self, time: f64) -> f64 {
-        let drive = &self.phases.held;
+        let drive = &self.phases;
         drive.amplitude * (drive.frequency * time + self.angle).cos()
     }
 
