@@ -17,12 +17,12 @@ def lines(worker, truth, program):
     its engines, if it has the command; and a remark if not."""
     told, remark = _throughput(program)
     own = [_scalar(worker, truth)]
-    for engine in ("safe", "scalar", "batch"):
+    for engine in ("safe", "scalar", "batch", "each_impact"):
         if engine in told:
             setting = "softstop-lab " + " ".join(THROUGHPUT)
             if "lanes" in told[engine]:
                 setting += f": {told[engine]['instructions']}, {told[engine]['lanes']} lanes"
-            name = "softstop safe (program)" if engine == "safe" else f"softstop {engine}"
+            name = "softstop safe (program)" if engine == "safe" else f"softstop {engine}".replace("_", " ")
             lead = {"times_safe": told[engine]["times_safe"]} if engine == "batch" else {}
             own.append(
                 {

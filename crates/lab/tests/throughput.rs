@@ -27,7 +27,7 @@ fn the_report_holds_what_scripts_look_for() -> Outcome {
     let registers = Instructions::Widest.registers();
     assert_eq!(report["batch"]["lanes"], registers.lanes);
     assert_eq!(report["batch"]["instructions"], registers.name);
-    let mut engines = vec!["safe", "scalar", "batch"];
+    let mut engines = vec!["safe", "scalar", "batch", "each_impact"];
     for set in narrower() {
         let name = if set == Instructions::Avx2 {
             "avx2"
@@ -41,6 +41,8 @@ fn the_report_holds_what_scripts_look_for() -> Outcome {
         let rate = &report[engine]["periods_per_second_per_core"];
         assert!(rate.as_f64().ok_or("rate")? > 0.0, "{engine}");
     }
+    let leapt = |engine: &str| report[engine]["leapt"].as_u64();
+    assert!(leapt("batch") > leapt("each_impact"));
     let cores = &report["both_cores"];
     assert!(cores["threads"].as_u64().ok_or("threads")? >= 1);
     assert!(cores["periods_per_second"].is_f64() && cores["factor"].is_f64());
@@ -80,7 +82,7 @@ fn values_out_of_range_are_named() {
 
 #[test]
 fn both_engines_count_the_same_impacts_on_random_machines() -> Outcome {
-    let check = check(2000, 7).map_err(|failure| failure.to_string())?;
+    let check = check(2000, 20, 7).map_err(|failure| failure.to_string())?;
     let tally = check.tally;
     assert_eq!((tally.trajectories, tally.different), (2000, 0));
     assert!(tally.chaotic < 20, "{} left out", tally.chaotic);

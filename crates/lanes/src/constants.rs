@@ -20,12 +20,13 @@ const GRAIN: f64 = 1e-10;
 const SLOW: f64 = 1e-5;
 
 impl Constants {
-    /// The constants of a phase, unless it is one that only the safe engine follows.
-    pub fn of(phases: &Phases, phase: &Phase) -> Option<Self> {
+    /// Sets those of a phase, from none; none if only the safe engine follows it.
+    pub fn set_to(&mut self, phases: &Phases, phase: &Phase) -> Option<()> {
         if let Some(hertz) = &phase.hertz {
-            return Self::of_power(phases, phase, hertz);
+            return self.set_to_power(phases, phase, hertz);
         }
-        let mut constants = Self::of_flow(phases, phase)?;
+        let constants = self;
+        constants.set_flow(phases, phase)?;
         let mut guarded = false;
         (constants.low, constants.high) = (f64::NEG_INFINITY, f64::INFINITY);
         for (guard, exit) in phase.guards.iter().zip(&phase.exits) {
@@ -67,12 +68,13 @@ impl Constants {
         if constants.releases_first() {
             constants.low = f64::NEG_INFINITY;
         }
-        Some(constants.turned(constants.side))
+        constants.turn(constants.side);
+        Some(())
     }
 
-    /// The constants under a power law with nothing behind it.
-    fn of_power(phases: &Phases, phase: &Phase, hertz: &Hertz) -> Option<Self> {
-        let mut constants = Self::default();
+    /// Sets those under a power law with nothing behind it.
+    fn set_to_power(&mut self, phases: &Phases, phase: &Phase, hertz: &Hertz) -> Option<()> {
+        let constants = self;
         for exit in &phase.exits {
             match *exit {
                 Exit::Backward(surface) => {
@@ -93,7 +95,7 @@ impl Constants {
         }
         let press = hertz.stiffness / hertz.mass;
         let push = phase.law.force / phases.mass - flow.modes.stiffness * hertz.origin;
-        Some(Self {
+        *constants = Self {
             damping: -2.0 * flow.modes.decay,
             stiffness: -flow.modes.stiffness,
             window: 1.0 / flow.frequency.max(flow.modes.fastest_rate()),
@@ -105,8 +107,9 @@ impl Constants {
             push,
             high: f64::INFINITY,
             level: f64::INFINITY,
-            ..constants
-        })
+            ..*constants
+        };
+        Some(())
     }
 
     /// True if a power law acts.
@@ -119,12 +122,6 @@ impl Constants {
     fn releases_first(&self) -> bool {
         let off = self.by_position * self.low - self.level;
         self.by_velocity < 0.0 && off.abs() <= 4.0 * f64::EPSILON * self.level.abs()
-    }
-
-    /// The same with velocities below this one not decided.
-    pub fn no_slower_than(self, slowest: f64) -> Self {
-        let slow = self.slow.max(slowest);
-        Self { slow, ..self }
     }
 
     /// True if one position and nothing else ends the phase, and its free motion never grows.
@@ -147,25 +144,25 @@ impl Constants {
 
     /// The same with x itself in the place of the guard.
     pub fn of_position(&self) -> Self {
-        Self {
-            side: 1.0,
-            edge: -self.offset,
-            ..self.turned(self.side)
-        }
+        let mut constants = *self;
+        constants.turn(self.side);
+        (constants.side, constants.edge) = (1.0, -self.offset);
+        constants
     }
 
-    /// The steady motion seen from the guard's side.
-    fn turned(&self, side: f64) -> Self {
-        Self {
-            cosine: side * self.cosine,
-            sine: side * self.sine,
-            cosine_rate: side * self.cosine_rate,
-            sine_rate: side * self.sine_rate,
-            cosine_of_position: side * self.cosine_of_position,
-            cosine_of_velocity: side * self.cosine_of_velocity,
-            sine_of_position: side * self.sine_of_position,
-            sine_of_velocity: side * self.sine_of_velocity,
-            ..*self
+    /// Sees the steady motion from the guard's side.
+    fn turn(&mut self, side: f64) {
+        for constant in [
+            &mut self.cosine,
+            &mut self.sine,
+            &mut self.cosine_rate,
+            &mut self.sine_rate,
+            &mut self.cosine_of_position,
+            &mut self.cosine_of_velocity,
+            &mut self.sine_of_position,
+            &mut self.sine_of_velocity,
+        ] {
+            *constant *= side;
         }
     }
 
@@ -179,7 +176,7 @@ impl Constants {
         };
     }
 
-    fn of_flow(phases: &Phases, phase: &Phase) -> Option<Self> {
+    fn set_flow(&mut self, phases: &Phases, phase: &Phase) -> Option<()> {
         let flow = &phase.flow;
         let (cosine, sine) = flow.steady()?;
         let w = flow.frequency;
@@ -193,7 +190,7 @@ impl Constants {
         let (sin, cos) = (w * window).sin_cos();
         let force = phase.law.force / phases.mass;
         let square = (cosine * cosine + sine * sine).max(f64::MIN_POSITIVE);
-        Some(Self {
+        *self = Self {
             damping: -2.0 * flow.modes.decay,
             stiffness: -flow.modes.stiffness,
             offset: force / flow.modes.stiffness,
@@ -217,8 +214,9 @@ impl Constants {
             window,
             third: window / 3.0,
             per_window: 1.0 / window,
-            ..Self::default()
-        })
+            ..*self
+        };
+        Some(())
     }
 
     /// Chooses the one end of a phase.

@@ -4,8 +4,10 @@ use pulp::Simd;
 
 use super::job::{Job, Outcome};
 use super::lanes::{Lanes, Mask};
-use super::law::{Constants, Law};
+use super::law::Law;
+use super::outline::Outline;
 use super::power::Power;
+use super::returns::Returns;
 use super::round::round;
 use super::safe::{self, Place, Resumed};
 use super::state::State;
@@ -30,6 +32,8 @@ pub(super) struct Engine<'a, S: Simd, const N: usize> {
     pub state: State<S, N>,
     /// The series of contacts under a power law, where there are any.
     pub power: Option<Box<Power<S, N>>>,
+    /// The returns of each lane to its impacts.
+    pub returns: Vec<Returns>,
     /// Rounds that lanes in contact have waited.
     pub waited: usize,
     /// The job of each lane.
@@ -44,32 +48,33 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     #[inline(always)]
     pub fn new(simd: S, task: Task<'a>) -> Self {
         // Of the machines that have jobs: there may be many more.
-        let machines = || task.jobs.iter().map(|job| &task.machines[job.machine]);
-        let laws = || machines().flat_map(|machine| &machine.laws);
-        let most = laws().map(Vec::len).max().unwrap_or(1);
-        let is_plain = |phase: usize| {
-            let mut constants = laws().filter_map(|laws| laws.get(phase));
-            constants.all(Constants::is_plain)
-        };
-        let presses = |phase: usize| {
-            let mut constants = laws().filter_map(|laws| laws.get(phase));
-            constants.any(Constants::presses)
-        };
+        let machines = task.jobs.iter().map(|job| &task.machines[job.machine]);
+        let outlines = machines.filter_map(|machine| machine.outline.as_ref());
+        let outlines = Outline::different(outlines);
+        let most = outlines
+            .iter()
+            .map(|outline| outline.count)
+            .max()
+            .unwrap_or(1);
+        let is_plain = |phase: usize| outlines.iter().all(|outline| outline.is_plain(phase));
+        let presses = |phase: usize| outlines.iter().any(|outline| outline.presses(phase));
         let presses: Vec<bool> = (0..most).map(presses).collect();
         let is_any = presses.contains(&true);
         let outcomes = task.jobs.iter().map(|job| Outcome {
             end: job.start,
             impacts: 0,
             handed_over: 0,
+            leapt: 0,
             error: None,
         });
         Self {
             laws: vec![Law::new(simd); most],
             plain: (0..most).map(is_plain).collect(),
             presses,
-            order: round(machines()),
+            order: round(&outlines, most),
             state: State::idle(simd),
             power: is_any.then(|| Box::new(Power::new(simd))),
+            returns: vec![Returns::default(); Lanes::<S, N>::COUNT],
             waited: 0,
             lanes: vec![None; Lanes::<S, N>::COUNT],
             installed: vec![None; Lanes::<S, N>::COUNT],
@@ -103,6 +108,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             steps += 1;
             if steps % RENEWAL == 0 {
                 self.state.set_angle();
+                self.call_back();
                 if self.task.watch.worked(ROUNDS).is_break() {
                     break;
                 }
@@ -113,9 +119,13 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
 
     pub fn serve(&mut self, ended: Mask<S, N>, doubtful: Mask<S, N>) {
         for lane in 0..Lanes::<S, N>::COUNT {
-            if doubtful.get(lane) {
+            let (ended, doubtful) = (ended.get(lane), doubtful.get(lane));
+            if !(ended || doubtful) || self.goes_back(lane) {
+                continue;
+            }
+            if doubtful {
                 self.hand_over(lane);
-            } else if ended.get(lane) {
+            } else {
                 self.finish(lane);
             }
         }
@@ -237,6 +247,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     fn resume(&mut self, lane: usize, job: usize, resumed: &Resumed) {
         let left = self.task.jobs[job].periods - resumed.cycle;
         self.state.resume(lane, resumed.state, resumed.phase, left);
+        self.begin_noting(lane);
     }
 
     /// Lets the safe engine follow a job; where it can go on in a lane, unless it has come to its end.
@@ -292,6 +303,13 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             position
         };
         Start { position, velocity }
+    }
+
+    /// Counts drive periods that a lane leaps over.
+    pub fn count_leapt(&mut self, lane: usize, periods: f64) {
+        if let Some(job) = self.lanes[lane] {
+            self.outcomes[job].leapt += periods as u64;
+        }
     }
 
     fn finish(&mut self, lane: usize) {

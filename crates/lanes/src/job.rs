@@ -22,6 +22,8 @@ pub struct Outcome {
     pub impacts: u64,
     /// Drive periods that the safe engine followed, in part or whole.
     pub handed_over: u64,
+    /// Drive periods that were leapt over, since nothing happens in them or each is like the one before.
+    pub leapt: u64,
     /// Why it ended early, if it did.
     pub error: Option<MotionError>,
 }

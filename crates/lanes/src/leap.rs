@@ -30,6 +30,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         if self.task.watch.periods {
             self.tell_calm(phase, calm, reached);
         }
+        self.count_calm(calm);
         let law = &self.laws[phase];
         let time = (left - last) * self.state.drive.period;
         let frequency = self.state.drive.frequency;
@@ -38,6 +39,17 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         reached.parts = Parts::choose(calm, &later, &parts);
         reached.go = reached.go | calm;
         self.state.left = calm.choose(last, left);
+    }
+
+    /// Counts the periods that these lanes leap over, unless they try a guess.
+    #[cold]
+    #[inline(never)]
+    fn count_calm(&mut self, calm: Mask<S, N>) {
+        for lane in 0..Lanes::<S, N>::COUNT {
+            if calm.get(lane) && !self.returns[lane].is_guess() {
+                self.count_leapt(lane, self.state.left.get(lane) - LAST);
+            }
+        }
     }
 
     /// Tells the watcher of all ends of periods that lanes leap over.

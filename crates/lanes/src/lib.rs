@@ -9,6 +9,9 @@
 //! lies within rounding of two answers, or is not a plain crossing (rest, sticking, chatter), is handed to the safe
 //! engine up to the end of the drive period. Machines with other power laws go there altogether.
 //!
+//! Motions that settle are leapt over, unless somebody watches them: those that meet nothing any more, and those
+//! whose returns to the same impact show where they are going.
+//!
 //! A lane turns cos and sin of the drive angle on with the motion, and takes them anew from the time since the
 //! beginning of its drive period every few rounds: the drive never drifts. Nothing in the loop calls the mathematical
 //! library, and no closure stands in it: one that is not inlined would lose the instruction set.
@@ -28,11 +31,15 @@ mod leap;
 mod local;
 mod look;
 mod machine;
+mod outline;
 mod parts;
 mod power;
 mod reach;
 mod registers;
 mod release;
+mod repeat;
+mod return_map;
+mod returns;
 mod root;
 mod round;
 mod run;

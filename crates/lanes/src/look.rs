@@ -157,10 +157,15 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         if !self.task.watch.periods {
             state.wrap();
         }
+        let impacts = hits & time.like(0.0).below(end.impact);
         if self.task.watch.impacts {
-            let impacts = hits & time.like(0.0).below(end.impact);
             if impacts.any() {
                 self.tell_impacts(impacts, end.before);
+            }
+        } else {
+            let noted = impacts & self.state.left.at_most(self.state.noted);
+            if noted.any() {
+                self.note(noted);
             }
         }
     }

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
 use super::law::Constants;
+use super::outline::{MOST_PHASES, Outline};
 use softstop::internals::{Beyond, Exit, Phase, PhaseId, Phases, Surface};
 use softstop::{Clock, Excitation, Scene, SceneError};
 
@@ -14,13 +15,11 @@ pub struct Machine {
     phases: OnceLock<Arc<Phases>>,
     pub(super) clock: Clock,
     pub(super) laws: Option<Vec<Constants>>,
+    pub(super) outline: Option<Outline>,
     /// The drive: frequency in rad/s, cos and sin of its angle at time 0.
     pub(super) frequency: f64,
     pub(super) angle: (f64, f64),
 }
-
-/// Most phases that lanes choose between.
-const MOST_PHASES: usize = 16;
 
 impl Machine {
     /// Lowers a scene.
@@ -37,18 +36,14 @@ impl Machine {
             drive,
         };
         let for_lanes = count <= MOST_PHASES && hum.is_short();
-        let laws = phases.phases.iter();
-        let laws = laws.map(|phase| {
-            let constants = Constants::of(&phases, phase)?;
-            Some(constants.no_slower_than(hum.slowest(phase)))
-        });
-        let laws = if for_lanes { laws.collect() } else { None };
+        let laws = if for_lanes { hum.laws() } else { None };
         let kept = OnceLock::new();
         if laws.is_none() {
             let _ = kept.set(Arc::new(phases));
         }
         let (sin, cos) = drive.phase.sin_cos();
         Ok(Self {
+            outline: laws.as_deref().map(Outline::of),
             laws,
             clock: scene.clock(),
             scene: scene.clone(),
@@ -101,6 +96,16 @@ struct Hum<'a> {
 }
 
 impl Hum<'_> {
+    /// The laws of all phases, if lanes can follow them.
+    fn laws(&self) -> Option<Vec<Constants>> {
+        let mut laws = vec![Constants::default(); self.phases.phases.len()];
+        for (law, phase) in laws.iter_mut().zip(&self.phases.phases) {
+            law.set_to(self.phases, phase)?;
+            law.slow = law.slow.max(self.slowest(phase));
+        }
+        Some(laws)
+    }
+
     /// The constant force on the mass at a position in a phase.
     fn force(&self, phase: PhaseId, position: f64) -> f64 {
         let law = &self.phases[phase].law;

@@ -1,21 +1,17 @@
 //! The order in which a round comes to the phases.
 
-use super::law::Constants;
-use super::machine::Machine;
+use super::outline::Outline;
 
-/// All phases of these machines, each before those that follow on it, but for the step that closes a cycle: lanes go
+/// All phases of machines with these outlines, each before those that follow on it, but for the step that closes a cycle: lanes go
 /// from phase to phase in one round, and all begin the next one together.
-pub(super) fn round<'a>(machines: impl Iterator<Item = &'a Machine> + Clone) -> Vec<usize> {
-    let laws = || {
-        let machines = machines.clone();
-        machines.filter_map(|machine| machine.laws.as_deref())
-    };
-    let most = laws().map(<[Constants]>::len).max().unwrap_or(1);
+pub(super) fn round(outlines: &[Outline], most: usize) -> Vec<usize> {
     let mut beyond = vec![Vec::new(); most];
-    for (phase, law) in laws().flat_map(|laws| laws.iter().enumerate()) {
-        for next in law.beyond() {
-            if !beyond[phase].contains(&next) {
-                beyond[phase].push(next);
+    for outline in outlines {
+        for (phase, after) in beyond.iter_mut().enumerate().take(outline.count) {
+            for next in outline.beyond(phase) {
+                if !after.contains(&next) {
+                    after.push(next);
+                }
             }
         }
     }
@@ -41,15 +37,19 @@ fn visit(phase: usize, beyond: &[Vec<usize>], seen: &mut [bool], done: &mut Vec<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Machine;
     use softstop::Ratios;
 
     /// Through the strip, to the stop, and back.
     #[test]
     fn the_order_is_that_of_a_stroke() {
-        let machine =
-            |ratios: Ratios| Machine::new(&ratios.scene().expect("valid")).expect("valid");
-        assert_eq!(round([&machine(Ratios::unloaded())].into_iter()), [0, 1]);
-        let stroke = round([&machine(Ratios::loaded())].into_iter());
+        let order = |ratios: Ratios| {
+            let machine = Machine::new(&ratios.scene().expect("valid")).expect("valid");
+            let outline = machine.outline.expect("for lanes");
+            round(&[outline], outline.count)
+        };
+        assert_eq!(order(Ratios::unloaded()), [0, 1]);
+        let stroke = order(Ratios::loaded());
         let fed: Vec<_> = stroke
             .into_iter()
             .filter(|phase| ![1, 2].contains(phase))

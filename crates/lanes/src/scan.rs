@@ -63,13 +63,13 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     #[inline(always)]
     pub fn scan(&self, law: &Law<S, N>, active: Mask<S, N>, cap: Lanes<S, N>) -> Reached<S, N> {
         let one = cap.like(1.0);
+        let mut reached = self.stand(law, active);
         let Reached {
             mut parts,
             mut next,
             slack,
-            mut count,
             ..
-        } = self.stand(law, active);
+        } = reached;
         let (x, v) = (parts.y + parts.p, parts.u + parts.q);
         let mut apart = (law.edge - law.grain).below(x).not();
         let leaves = v.below(-law.slow);
@@ -81,7 +81,9 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let leaving = slack.mul_add(one.like(-LEAVING), law.edge);
         let mut below = apart.choose(limit, leaving);
         let capped = (go & cap.below(one.like(MOST_WINDOWS as f64))).any();
-        for _ in 0..MOST_WINDOWS {
+        // All lanes move on, those that have stopped too, or each window would wait for the verdict on the one before.
+        for window in 0..MOST_WINDOWS {
+            let count = one.like(window as f64);
             let (x, v) = (next.y + next.p, next.u + next.q);
             let before = x.minus_product(law.third, v);
             let mut clear = top.max(x.max(before)).below(below);
@@ -91,25 +93,41 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
                 let top = Cubic::new(left, (x, v), law.window).top();
                 clear = clear | (suspect & top.below(limit));
             }
-            go = go & clear;
             if capped {
-                go = go & (count + one).at_most(cap);
+                clear = clear & (count + one).at_most(cap);
             }
-            if !go.any() {
-                break;
+            let stops = go.and_not(clear);
+            if stops.any() {
+                reached.stop(stops, &parts, &next, count);
+                go = go & clear;
+                if !go.any() {
+                    break;
+                }
             }
-            parts = Parts::choose(go, &next, &parts);
-            count = go.choose(count + one, count);
+            parts = next;
             next = parts.next(law);
             apart = one.at_most(one);
             (top, below) = (law.third.mul_add(v, x), limit);
         }
-        Reached {
-            parts,
-            next,
-            slack,
-            count,
-            go,
+        if go.any() {
+            reached.stop(go, &parts, &next, one.like(MOST_WINDOWS as f64));
         }
+        Reached { go, ..reached }
+    }
+}
+
+impl<S: Simd, const N: usize> Reached<S, N> {
+    /// Lanes stand here from now on.
+    #[inline(always)]
+    fn stop(
+        &mut self,
+        lanes: Mask<S, N>,
+        parts: &Parts<S, N>,
+        next: &Parts<S, N>,
+        count: Lanes<S, N>,
+    ) {
+        self.parts = Parts::choose(lanes, parts, &self.parts);
+        self.next = Parts::choose(lanes, next, &self.next);
+        self.count = lanes.choose(count, self.count);
     }
 }

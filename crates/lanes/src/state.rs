@@ -4,6 +4,7 @@ use pulp::Simd;
 
 use super::lanes::{Lanes, Mask};
 use super::machine::Machine;
+use super::returns::Return;
 use super::taylor::cos_sin;
 use softstop::Start;
 
@@ -22,6 +23,8 @@ pub(super) struct State<S: Simd, const N: usize> {
     pub phase: Lanes<S, N>,
     /// Impacts so far.
     pub impacts: Lanes<S, N>,
+    /// Drive periods left from which on returns to an impact are noted; none in a lane whose are not.
+    pub noted: Lanes<S, N>,
     /// Share of a window that is looked at next: 1, or less where a whole one could not be decided.
     pub share: Lanes<S, N>,
     pub drive: Drive<S, N>,
@@ -51,6 +54,7 @@ impl<S: Simd, const N: usize> State<S, N> {
             left: none,
             phase: none,
             impacts: none,
+            noted: none,
             share: one,
             drive: Drive {
                 frequency: one,
@@ -104,6 +108,33 @@ impl<S: Simd, const N: usize> State<S, N> {
             position: self.x.get(lane),
             velocity: self.v.get(lane),
         }
+    }
+
+    /// The state of a lane just after an impact.
+    pub fn returned(&self, lane: usize) -> Return {
+        Return {
+            position: self.x.get(lane),
+            velocity: self.v.get(lane),
+            offset: self.offset.get(lane),
+            left: self.left.get(lane),
+            impacts: self.impacts.get(lane),
+            phase: self.phase.get(lane),
+        }
+    }
+
+    /// Puts a lane there.
+    pub fn put(&mut self, lane: usize, to: Return) {
+        self.x.set(lane, to.position);
+        self.v.set(lane, to.velocity);
+        self.offset.set(lane, to.offset);
+        self.left.set(lane, to.left);
+        self.impacts.set(lane, to.impacts);
+        self.phase.set(lane, to.phase);
+        self.share.set(lane, 1.0);
+        let (s, c) = (self.drive.frequency.get(lane) * to.offset).sin_cos();
+        let (c0, s0) = (self.drive.begin.0.get(lane), self.drive.begin.1.get(lane));
+        self.angle.0.set(lane, c0 * c - s0 * s);
+        self.angle.1.set(lane, s0 * c + c0 * s);
     }
 
     /// The impacts that a lane has counted, once.

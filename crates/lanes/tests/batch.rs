@@ -1,5 +1,6 @@
 //! The lanes against the scalar engine: the same impacts, the same states, whatever the instruction set.
 
+mod leaps;
 mod power;
 mod single;
 
@@ -74,10 +75,14 @@ fn start(index: usize, scene: &Scene) -> Start {
 }
 
 fn scalar(scene: &Scene, start: Start) -> (Start, u64) {
+    scalar_for(scene, start, PERIODS)
+}
+
+fn scalar_for(scene: &Scene, start: Start, periods: u64) -> (Start, u64) {
     let mut motion = scene.motion(start).expect("valid");
     let mut meets = Meets::default();
     motion
-        .advance(Clock::at_cycle(PERIODS), &mut meets)
+        .advance(Clock::at_cycle(periods), &mut meets)
         .expect("bounded");
     (motion.state(), meets.impacts)
 }
@@ -93,13 +98,13 @@ fn distance(a: Start, b: Start) -> f64 {
 }
 
 /// How much a difference of the start grows: chaos cannot be compared.
-fn growth(scene: &Scene, from: Start, end: Start) -> f64 {
+fn growth(scene: &Scene, from: Start, end: Start, periods: u64) -> f64 {
     let small = 1e-9;
     let beside = Start {
         position: from.position - small,
         ..from
     };
-    distance(scalar(scene, beside).0, end) / small
+    distance(scalar_for(scene, beside, periods).0, end) / small
 }
 
 struct Batch {
@@ -189,7 +194,7 @@ fn compare(batch: Batch) -> f64 {
         handed += outcome.handed_over;
         let off = distance(outcome.end, end);
         if outcome.impacts != impacts || off > 1e-9 {
-            let growth = growth(&scenes[index], job.start, end);
+            let growth = growth(&scenes[index], job.start, end, PERIODS);
             let chaotic = growth > 1e6;
             assert!(
                 chaotic || (outcome.impacts == impacts && off < 1e-10 * growth),

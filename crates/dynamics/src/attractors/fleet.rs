@@ -96,59 +96,52 @@ impl<'a> Fleet<'a> {
         logged: usize,
     ) -> Result<(), SurveyError> {
         let stretch = if self.is_fast() { STRETCH.0 } else { STRETCH.1 };
-        for voyage in voyages.iter_mut() {
-            voyage.log = Vec::with_capacity(logged);
-        }
-        let mut left = periods;
+        let logged = periods.min(logged as u64);
+        let mut left = periods - logged;
         while left > 0 {
             let now = left.min(stretch);
-            let from = left.saturating_sub(logged as u64);
-            self.sail_stretch(voyages, now, from)?;
+            self.sail_stretch(voyages, now, &mut ())?;
             left -= now;
+        }
+        let mut log = Log(vec![Vec::with_capacity(logged as usize); voyages.len()]);
+        self.sail_stretch(voyages, logged, &mut log)?;
+        for (voyage, log) in voyages.iter_mut().zip(log.0) {
+            voyage.log = log;
         }
         Ok(())
     }
 
-    /// Carries those on that can be, and logs their states after more than `from` drive periods.
+    /// Carries those on that can be, under a watch that knows them by their numbers.
     fn sail_stretch(
         &self,
         voyages: &mut [&mut Voyage],
         periods: u64,
-        from: u64,
+        watch: &mut impl Watch,
     ) -> Result<(), SurveyError> {
-        let afloat = voyages.iter_mut().filter(|voyage| voyage.error.is_none());
-        let mut afloat: Vec<&mut &mut Voyage> = afloat.collect();
-        let job = |voyage: &&mut &mut Voyage| Job {
+        let job = |voyage: &&mut Voyage| Job {
             machine: 0,
             start: voyage.state,
-            periods,
+            periods: if voyage.error.is_none() { periods } else { 0 },
         };
-        let jobs: Vec<Job> = afloat.iter().map(job).collect();
-        let logs = vec![Vec::new(); jobs.len()];
-        let mut log = Log { from, logs };
+        let jobs: Vec<Job> = voyages.iter().map(job).collect();
         let ask = || stop_if(self.note(0).is_err());
-        let outcomes = follow(&self.machine, &jobs, &mut log, ask).ok_or(SurveyError::Stopped)?;
-        for ((voyage, outcome), log) in afloat.iter_mut().zip(outcomes).zip(log.logs) {
+        let outcomes = follow(&self.machine, &jobs, watch, ask).ok_or(SurveyError::Stopped)?;
+        let afloat = voyages.iter_mut().zip(outcomes);
+        for (voyage, outcome) in afloat.filter(|(voyage, _)| voyage.error.is_none()) {
             voyage.state = outcome.end;
             voyage.error = outcome.error;
-            voyage.log.extend(log);
         }
-        self.note(periods * jobs.len() as u64)
+        self.note(jobs.iter().map(|job| job.periods).sum())
     }
 }
 
-/// Keeps the states from one drive period on.
-struct Log {
-    from: u64,
-    logs: Vec<Vec<Start>>,
-}
+/// Keeps all states.
+struct Log(Vec<Vec<Start>>);
 
 impl Watch for Log {
     const PERIODS: bool = true;
 
-    fn period(&mut self, job: usize, cycle: u64, state: Start) {
-        if cycle > self.from {
-            self.logs[job].push(state);
-        }
+    fn period(&mut self, job: usize, _: u64, state: Start) {
+        self.0[job].push(state);
     }
 }

@@ -14,8 +14,6 @@ use super::random_machines::{Draw, Kind};
 use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
 
-/// Drive periods of each motion.
-pub const PERIODS: u64 = 20;
 /// Motions that are drawn and run together.
 const PART: u64 = 256;
 /// Differing motions that are told one by one.
@@ -89,17 +87,17 @@ impl AddAssign for Tally {
     }
 }
 
-/// Compares so many motions on all cores.
+/// Compares so many motions, each over so many drive periods, on all cores.
 ///
 /// # Errors
 /// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
-pub fn check(trajectories: u64, seed: u64) -> Result<Check, Failure> {
+pub fn check(trajectories: u64, periods: u64, seed: u64) -> Result<Check, Failure> {
     let begin = Instant::now();
     let progress = Progress::new(trajectories, "random motions");
     let parts = trajectories.div_ceil(PART);
     let tallies = (0..parts).into_par_iter().map(|part| {
         let count = PART.min(trajectories - part * PART);
-        let tally = compare(&mut Draw::new(seed, part), count)?;
+        let tally = compare(&mut Draw::new(seed, part), count, periods)?;
         progress.steps(count)?;
         Ok::<_, Failure>(tally)
     });
@@ -110,7 +108,7 @@ pub fn check(trajectories: u64, seed: u64) -> Result<Check, Failure> {
     let tally = tallies.try_reduce(Tally::default, add)?;
     Ok(Check {
         tally,
-        periods: PERIODS,
+        periods,
         seed,
         rounding: doubt::ROUNDING,
         chaos: doubt::CHAOS,
@@ -118,7 +116,7 @@ pub fn check(trajectories: u64, seed: u64) -> Result<Check, Failure> {
     })
 }
 
-fn compare(draw: &mut Draw, count: u64) -> Result<Tally, Failure> {
+fn compare(draw: &mut Draw, count: u64, periods: u64) -> Result<Tally, Failure> {
     let motions = (0..count).map(|_| draw.machine());
     let motions = motions.collect::<Result<Vec<(Kind, Scene, Start)>, _>>();
     let motions = motions.context("a random machine")?;
@@ -128,13 +126,13 @@ fn compare(draw: &mut Draw, count: u64) -> Result<Tally, Failure> {
     let job = |(machine, (_, _, start)): (usize, &(Kind, Scene, Start))| Job {
         machine,
         start: *start,
-        periods: PERIODS,
+        periods,
     };
     let jobs: Vec<Job> = motions.iter().enumerate().map(job).collect();
     let outcomes = run_with(Instructions::Widest, &machines, &jobs, &mut ());
     let mut tally = Tally::default();
     for ((kind, scene, start), outcome) in motions.into_iter().zip(outcomes) {
-        let verdict = doubt::judge(&scene, start, PERIODS).context("a random motion")?;
+        let verdict = doubt::judge(&scene, start, periods).context("a random motion")?;
         if let Some(error) = outcome.error {
             return Err(Failure::Run(anyhow::Error::new(error).context("lanes")));
         }

@@ -1,11 +1,13 @@
 //! What is run: a machine of the paper's at a thousand frequencies, by either engine.
 
+use std::ops::AddAssign;
+
 use clap::ValueEnum;
 use rayon::prelude::*;
 use serde::Serialize;
 use softstop::{Clock, MotionError, Ratios, Scene, SceneError, Start};
 use softstop_dynamics::internals::ImpactCounter;
-use softstop_lanes::{Instructions, Job, Machine, Outcome, run_parallel, run_with};
+use softstop_lanes::{Instructions, Job, Machine, Outcome, Watch, run_parallel, run_with};
 
 /// The motions.
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -58,6 +60,9 @@ pub const RANGE: Range = Range {
     start: (0.0, 14.0),
 };
 
+/// Machines that are lowered together: they stay in the processor's cache, and all lanes are busy nearly to the end.
+const PART: usize = 256;
+
 /// The machines of a range, not yet lowered.
 #[derive(Debug, Clone)]
 pub struct Fleet {
@@ -72,6 +77,8 @@ pub struct Count {
     pub impacts: u64,
     /// Drive periods that lanes left to the scalar engine.
     pub handed_over: u64,
+    /// Drive periods that lanes leapt over.
+    pub leapt: u64,
 }
 
 impl Range {
@@ -116,7 +123,7 @@ impl Fleet {
         }
         Ok(Count {
             impacts: impacts.0,
-            handed_over: 0,
+            ..Count::default()
         })
     }
 
@@ -125,9 +132,31 @@ impl Fleet {
     /// # Errors
     /// As [`Fleet::safe`].
     pub fn batch(&self, instructions: Instructions) -> Result<Count, MotionError> {
-        let machines = self.scenes.iter().map(Machine::new);
-        let machines: Vec<Machine> = machines.collect::<Result<_, _>>()?;
-        Count::of(&run_with(instructions, &machines, &self.jobs, &mut ()))
+        self.batch_watched(instructions, &mut ())
+    }
+
+    /// The same, each impact told, so that no motion with impacts is leapt over.
+    ///
+    /// # Errors
+    /// As [`Fleet::safe`].
+    pub fn each_impact(&self, instructions: Instructions) -> Result<Count, MotionError> {
+        self.batch_watched(instructions, &mut EachImpact)
+    }
+
+    fn batch_watched(
+        &self,
+        instructions: Instructions,
+        watch: &mut impl Watch,
+    ) -> Result<Count, MotionError> {
+        let mut all = Count::default();
+        for (scenes, jobs) in self.scenes.chunks(PART).zip(self.jobs.chunks(PART)) {
+            let machines = scenes.iter().map(Machine::new);
+            let machines: Vec<Machine> = machines.collect::<Result<_, _>>()?;
+            let own = |(machine, job): (usize, &Job)| Job { machine, ..*job };
+            let jobs: Vec<Job> = jobs.iter().enumerate().map(own).collect();
+            all += Count::of(&run_with(instructions, &machines, &jobs, watch))?;
+        }
+        Ok(all)
     }
 
     /// All in lanes, `rounds` times over, on the threads of the pool that this is called in.
@@ -143,6 +172,21 @@ impl Fleet {
     }
 }
 
+impl AddAssign for Count {
+    fn add_assign(&mut self, other: Self) {
+        self.impacts += other.impacts;
+        self.handed_over += other.handed_over;
+        self.leapt += other.leapt;
+    }
+}
+
+/// Hears of each impact.
+struct EachImpact;
+
+impl Watch for EachImpact {
+    const IMPACTS: bool = true;
+}
+
 impl Count {
     fn of(outcomes: &[Outcome]) -> Result<Self, MotionError> {
         let mut count = Self::default();
@@ -152,6 +196,7 @@ impl Count {
             }
             count.impacts += outcome.impacts;
             count.handed_over += outcome.handed_over;
+            count.leapt += outcome.leapt;
         }
         Ok(count)
     }

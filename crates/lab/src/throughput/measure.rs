@@ -44,7 +44,7 @@ pub fn narrower() -> Vec<Instructions> {
 
 /// Measurements that [`measure`] makes in so many repeats, and that of the zones.
 pub fn measurements(sets: &[Instructions], repeats: usize) -> u64 {
-    ((repeats + 1) * (sets.len() + 6)) as u64
+    ((repeats + 1) * (sets.len() + 7)) as u64
 }
 
 /// So many threads; 0 for all cores.
@@ -56,8 +56,8 @@ pub fn pool(threads: usize) -> Result<ThreadPool, Failure> {
     Ok(pool.context("no threads to be had")?)
 }
 
-/// Measures so many rounds after one that is not counted: the safe engine, one lane, all lanes, all cores and one of
-/// them, each [`ROUNDS`] times over, lanes with the narrower sets. Gives the number of threads of all cores, too.
+/// Measures so many rounds after one that is not counted: the safe engine, one lane, all lanes, all lanes with each impact
+/// told, all cores and one of them, each [`ROUNDS`] times over, lanes with the narrower sets. Gives the number of threads of all cores, too.
 ///
 /// # Errors
 /// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
@@ -74,6 +74,7 @@ pub fn measure(
         Box::new(|| fleet.safe()),
         lanes(Instructions::OneByOne),
         lanes(Instructions::Widest),
+        Box::new(|| fleet.each_impact(Instructions::Widest)),
         Box::new(|| all.install(|| fleet.parallel(ROUNDS))),
         Box::new(|| one.install(|| fleet.parallel(ROUNDS))),
     ];

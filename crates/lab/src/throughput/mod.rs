@@ -37,6 +37,8 @@ Examples:
       the same for programs
   softstop-lab throughput --check 1000000 --repeats 5
       and whether both count the same impacts in a million random motions
+  softstop-lab throughput --check 50000 --check-periods 400
+      the same in fewer ones that have time to settle, so that lanes leap over most periods
   softstop-lab throughput --check 0 --study docs/studies/map.toml
       and how much longer a study takes than the lanes alone for its motions
 
@@ -57,6 +59,9 @@ pub struct ThroughputArguments {
     /// Random motions to compare both engines on, 0 to 1000000000
     #[arg(long, value_name = "N", default_value_t = 10_000)]
     pub check: u64,
+    /// Drive periods of each of them, 1 to 1000000
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    pub check_periods: u64,
     /// Seed of the random machines
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
@@ -83,6 +88,7 @@ pub struct ThroughputArguments {
 pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     let ThroughputArguments { check, repeats, .. } = *arguments;
     within("check", check, 0..=1_000_000_000)?;
+    within("check-periods", arguments.check_periods, 1..=1_000_000)?;
     within("repeats", repeats, 1..=1000)?;
     within("zones", arguments.zones, 4..=1_000_000)?;
     let range = Range {
@@ -100,7 +106,11 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     let beside = |study| Beside::measure(study, repeats);
     report.study = arguments.study.as_deref().map(beside).transpose()?;
     if check > 0 {
-        report.check = Some(check::check(check, arguments.seed)?);
+        report.check = Some(check::check(
+            check,
+            arguments.check_periods,
+            arguments.seed,
+        )?);
     }
     export::print(&report, arguments.format)?;
     match report.check.map_or(0, |check| check.tally.different) {

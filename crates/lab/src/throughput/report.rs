@@ -29,7 +29,9 @@ pub struct ThroughputReport {
     pub scalar: LaneEngine,
     /// The lanes with the widest instruction set.
     pub batch: LaneEngine,
-    /// The same with registers of 256 bits, where the processor has wider ones.
+    /// The same with each impact told, so that no motion with impacts is leapt over.
+    pub each_impact: LaneEngine,
+    /// The lanes with registers of 256 bits, where the processor has wider ones.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub avx2: Option<LaneEngine>,
     /// The same without vector instructions, where it has some.
@@ -69,6 +71,8 @@ pub struct LaneEngine {
     pub instructions: &'static str,
     /// Forcing periods that the safe engine followed, in part or whole.
     pub handed_over: u64,
+    /// Forcing periods that were leapt over, since each is like the one before.
+    pub leapt: u64,
     /// How many times as fast as one lane.
     pub times_scalar: f64,
     /// How many times as fast as the safe engine.
@@ -96,7 +100,16 @@ impl ThroughputReport {
         sets: &[Instructions],
         zones: Zones,
     ) -> Option<Self> {
-        let [safe, scalar, batch, parallel, alone, narrower @ ..] = timings else {
+        let [
+            safe,
+            scalar,
+            batch,
+            each_impact,
+            parallel,
+            alone,
+            narrower @ ..,
+        ] = timings
+        else {
             return None;
         };
         let work = scene.all_periods() as f64;
@@ -105,6 +118,7 @@ impl ThroughputReport {
             lanes: set.registers().lanes,
             instructions: set.registers().name,
             handed_over: timing.count.handed_over,
+            leapt: timing.count.leapt,
             times_scalar: scalar.median() / timing.median(),
             times_safe: safe.median() / timing.median(),
         };
@@ -120,6 +134,7 @@ impl ThroughputReport {
             safe: Engine::new(safe, work),
             scalar: lanes(Instructions::OneByOne, scalar),
             batch: lanes(Instructions::Widest, batch),
+            each_impact: lanes(Instructions::Widest, each_impact),
             avx2: narrower(Instructions::Avx2),
             portable: narrower(Instructions::Portable),
             both_cores: Cores {
@@ -149,7 +164,7 @@ impl Engine {
 type Line<'a> = (String, &'a Engine, Option<&'a LaneEngine>);
 
 /// Its columns.
-fn table<'a>() -> [Column<Line<'a>>; 6] {
+fn table<'a>() -> [Column<Line<'a>>; 7] {
     columns! { Line<'a>, it;
         "engine" [None] Plain, "and instruction set" => it.0.as_str();
         "median" [None] Fixed(2), "of all rounds" => it.1.periods_per_second_per_core / 1e6;
@@ -157,6 +172,7 @@ fn table<'a>() -> [Column<Line<'a>>; 6] {
         "fastest" [None] Fixed(2), "round" => it.1.spread.1 / 1e6;
         "lanes" [None] Plain, "motions in lock-step" => it.2.map(|of| of.lanes);
         "handed_over" [None] Plain, "periods left to the safe engine" => it.2.map(|of| of.handed_over);
+        "leapt" [None] Plain, "periods leapt over, since each is like the one before" => it.2.map(|of| of.leapt);
     }
 }
 
@@ -165,8 +181,10 @@ impl Report for ThroughputReport {
         let (scene, cores) = (&self.scene, &self.both_cores);
         let (low, high) = scene.frequencies;
         let narrower = [&self.avx2, &self.portable].into_iter().flatten();
-        let batches = [&self.batch].into_iter().chain(narrower);
-        let batches = batches.map(|lanes| ("batch", lanes));
+        let batches = [("batch", &self.batch), ("each impact", &self.each_impact)];
+        let batches = batches
+            .into_iter()
+            .chain(narrower.map(|lanes| ("batch", lanes)));
         let mut lines: Vec<Line<'_>> = vec![("safe".to_owned(), &self.safe, None)];
         for (name, lanes) in [("scalar", &self.scalar)].into_iter().chain(batches) {
             let name = format!("{name}, {}", lanes.instructions);

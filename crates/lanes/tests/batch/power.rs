@@ -60,7 +60,7 @@ fn a_contact_across_the_end_of_a_period_is_one() {
             .expect("bounded");
         let (end, impacts) = single::one_by_one(&scene, start, PERIODS, &mut single::Periods);
         let off = distance(end, motion.state());
-        let chaotic = growth(&scene, start, motion.state()) > 1e4;
+        let chaotic = growth(&scene, start, motion.state(), PERIODS) > 1e4;
         assert!(
             chaotic || (impacts, off < 1e-8) == (counter.impacts, true),
             "{index}: {off:e}"
@@ -83,7 +83,7 @@ fn a_mass_that_the_stop_would_pull_is_pressed_again() {
         let (end, impacts) = scalar(&scene, start);
         let lanes = single::one_by_one(&scene, start, PERIODS, &mut single::Periods);
         let off = distance(lanes.0, end);
-        let chaotic = growth(&scene, start, end) > 1e4;
+        let chaotic = growth(&scene, start, end, PERIODS) > 1e4;
         assert!(
             chaotic || (lanes.1, off < 1e-8) == (impacts, true),
             "{index}: {off:e}"

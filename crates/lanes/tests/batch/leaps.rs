@@ -1,0 +1,86 @@
+//! Motions that settle: lanes leap over them, and end where the scalar engine does.
+
+use super::*;
+
+/// A motion of each machine, over 100 to 700 drive periods.
+fn long(count: usize) -> Batch {
+    let mut batch = batch(count);
+    for (index, job) in batch.jobs.iter_mut().enumerate() {
+        job.periods = 100 + (600.0 * spread(index, 6)) as u64;
+    }
+    batch
+}
+
+#[test]
+fn what_settles_ends_where_the_scalar_engine_ends() {
+    let Batch {
+        machines,
+        jobs,
+        scenes,
+    } = long(1500);
+    let outcomes = run(&machines, &jobs, &mut ());
+    let (mut near, mut leapt, mut all) = (0, 0, 0);
+    for (index, (outcome, job)) in outcomes.iter().zip(&jobs).enumerate() {
+        assert_eq!(outcome.error, None, "{index}");
+        assert!(outcome.leapt < job.periods);
+        (leapt, all) = (leapt + outcome.leapt, all + job.periods);
+        let scene = &scenes[index];
+        let (end, impacts) = scalar_for(scene, job.start, job.periods);
+        let off = distance(outcome.end, end);
+        near += usize::from(off < 1e-10 && outcome.impacts == impacts);
+        if outcome.impacts != impacts || off > 1e-9 {
+            let growth = growth(scene, job.start, end, job.periods);
+            let settled = growth < 1e3 && outcome.leapt > 0;
+            assert!(
+                !settled,
+                "{index}: {} impacts for {impacts}, off by {off:e}, growth {growth:e}",
+                outcome.impacts
+            );
+        }
+    }
+    assert!(near > jobs.len() * 9 / 10, "{near} near");
+    assert!(leapt > all / 2, "{leapt} of {all} periods leapt over");
+}
+
+/// Hears of impacts, and so of each.
+struct Impacts(Vec<u64>);
+
+impl Watch for Impacts {
+    const IMPACTS: bool = true;
+    fn impact(&mut self, job: usize, _: u64, _: f64, _: f64) {
+        self.0[job] += 1;
+    }
+}
+
+#[test]
+fn a_watcher_of_impacts_hears_of_each() {
+    let Batch { machines, jobs, .. } = long(400);
+    let mut watch = Impacts(vec![0; jobs.len()]);
+    let watched = run(&machines, &jobs, &mut watch);
+    let unwatched = run(&machines, &jobs, &mut ());
+    let mut same = 0;
+    for (index, (watched, unwatched)) in watched.iter().zip(&unwatched).enumerate() {
+        assert_eq!(watch.0[index], watched.impacts);
+        assert!(watched.leapt == 0 || watched.leapt <= unwatched.leapt);
+        let off = distance(watched.end, unwatched.end);
+        same += usize::from(watched.impacts == unwatched.impacts && off < 1e-10);
+    }
+    assert!(same > jobs.len() * 9 / 10, "{same}");
+}
+
+#[test]
+fn settled_motions_cost_nothing_more() {
+    let scene = Ratios::unloaded().scene().expect("valid");
+    let machines = [Machine::new(&scene).expect("valid")];
+    let job = |periods| Job {
+        machine: 0,
+        start: Start::new(6.9, 9.5),
+        periods,
+    };
+    let outcomes = run(&machines, &[job(1_000), job(1_000_000_000)], &mut ());
+    let [short, long] = &outcomes[..] else {
+        panic!("two");
+    };
+    assert!(long.leapt > 999_999_800 && distance(short.end, long.end) < 1e-12);
+    assert_eq!(long.impacts - short.impacts, 1_000_000_000 - 1_000);
+}
