@@ -10,7 +10,7 @@
 //! engine up to the end of the drive period. Machines with other power laws go there altogether.
 //!
 //! Motions that settle are leapt over, unless somebody watches them: those that meet nothing any more, and those
-//! whose returns to the same impact show where they are going.
+//! whose returns to the same impact show where they are going. The latter rests on what was measured, not on a certificate.
 //!
 //! A lane turns cos and sin of the drive angle on with the motion, and takes them anew from the time since the
 //! beginning of its drive period every few rounds: the drive never drifts. Nothing in the loop calls the mathematical

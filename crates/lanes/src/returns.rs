@@ -153,7 +153,7 @@ impl Returns {
         !same || (self.point(now).1 - map.fixed).norm() > NEAR
     }
 
-    /// What four returns lead to.
+    /// What the returns lead to.
     fn turn(&mut self, left: f64) -> Turn {
         let turn = match self.stage {
             Stage::Guess(most) => self.confirm(most),
