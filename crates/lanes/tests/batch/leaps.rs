@@ -42,6 +42,58 @@ fn what_settles_ends_where_the_scalar_engine_ends() {
     assert!(leapt > all / 2, "{leapt} of {all} periods leapt over");
 }
 
+/// Machines with little damping, where both multipliers are close to 1: rounding in four returns alone would leave their
+/// limit up to 1e-8 off.
+#[test]
+fn what_settles_slowly_ends_there_too() {
+    let slope = |from, stiffness| Slope { from, stiffness };
+    let spring = Stop::KelvinVoigt {
+        stiffness: 842.3299739426583,
+        release: Release::Clearance,
+    };
+    let slopes = Stop::PiecewiseLinear {
+        loading: vec![
+            slope(0.0, 4.17115533397688),
+            slope(0.3024845763230613, 5.024272048077657),
+        ],
+        unloading: Vec::new(),
+    };
+    let cases = [
+        (
+            [
+                0.0058104657886155165,
+                1.9379628959315218,
+                0.28053304905459187,
+                0.03961603703772339,
+            ],
+            spring,
+            Start::new(-20.49537832506224, 1.8008227577523572),
+            2403,
+        ),
+        (
+            [
+                0.014042523349777868,
+                1.4296154208287393,
+                -0.7144158456970466,
+                0.006603860336300004,
+            ],
+            slopes,
+            Start::new(-52.66706794979574, 47.023787208558545),
+            1412,
+        ),
+    ];
+    for ([damping, frequency, clearance, contact_damping], stop, start, periods) in cases {
+        let mut scene = Ratios::unloaded().scene().expect("valid");
+        scene.excitation.frequency = frequency;
+        (scene.damping, scene.clearance) = (damping, clearance);
+        (scene.contact_damping, scene.stop) = (contact_damping, stop);
+        let (end, impacts) = scalar_for(&scene, start, periods);
+        let lanes = single::one_by_one(&scene, start, periods, &mut ());
+        let off = distance(lanes.0, end);
+        assert!(lanes.1 == impacts && off < 1e-10, "{off:e}");
+    }
+}
+
 /// Hears of impacts, and so of each.
 struct Impacts(Vec<u64>);
 
