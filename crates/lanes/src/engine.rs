@@ -5,6 +5,7 @@ use pulp::Simd;
 use super::job::{Job, Outcome};
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
+use super::machine::Machine;
 use super::outline::Outline;
 use super::power::Power;
 use super::returns::Returns;
@@ -34,6 +35,8 @@ pub(super) struct Engine<'a, S: Simd, const N: usize> {
     pub power: Option<Box<Power<S, N>>>,
     /// The returns of each lane to its impacts.
     pub returns: Vec<Returns>,
+    /// How many lanes try a cycle.
+    pub trials: usize,
     /// Rounds that lanes in contact have waited.
     pub waited: usize,
     /// The job of each lane.
@@ -67,6 +70,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             leapt: 0,
             error: None,
         });
+        let returns = (0..Lanes::<S, N>::COUNT).map(|_| Returns::default());
         Self {
             laws: vec![Law::new(simd); most],
             plain: (0..most).map(is_plain).collect(),
@@ -74,7 +78,8 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             order: round(&outlines, most),
             state: State::idle(simd),
             power: is_any.then(|| Box::new(Power::new(simd))),
-            returns: vec![Returns::default(); Lanes::<S, N>::COUNT],
+            returns: returns.collect(),
+            trials: 0,
             waited: 0,
             lanes: vec![None; Lanes::<S, N>::COUNT],
             installed: vec![None; Lanes::<S, N>::COUNT],
@@ -223,6 +228,11 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
                 return;
             }
         }
+    }
+
+    /// The machine of a lane's job.
+    pub fn machine(&self, lane: usize) -> Option<&'a Machine> {
+        self.installed[lane].map(|index| &self.task.machines[index])
     }
 
     /// Gives a lane the laws of a job's machine.

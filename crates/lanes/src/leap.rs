@@ -46,7 +46,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     #[inline(never)]
     fn count_calm(&mut self, calm: Mask<S, N>) {
         for lane in 0..Lanes::<S, N>::COUNT {
-            if calm.get(lane) && !self.returns[lane].is_guess() {
+            if calm.get(lane) && !self.returns[lane].is_trial() {
                 self.count_leapt(lane, self.state.left.get(lane) - LAST);
             }
         }

@@ -16,9 +16,12 @@
 //! beginning of its drive period every few rounds: the drive never drifts. Nothing in the loop calls the mathematical
 //! library, and no closure stands in it: one that is not inlined would lose the instruction set.
 
+mod certificate;
 mod constants;
 mod contact;
+mod contraction;
 mod cubic;
+mod cycle;
 mod dash;
 mod dispatch;
 mod engine;
@@ -38,7 +41,6 @@ mod reach;
 mod registers;
 mod release;
 mod repeat;
-mod return_map;
 mod returns;
 mod root;
 mod round;
@@ -50,6 +52,7 @@ mod state;
 mod task;
 mod taylor;
 mod watch;
+mod window;
 
 pub use job::{Instructions, Job, Outcome};
 pub use machine::Machine;

@@ -157,6 +157,9 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         if !self.task.watch.periods {
             state.wrap();
         }
+        if self.trials > 0 {
+            self.note_crossings(hits, end.before);
+        }
         let impacts = hits & time.like(0.0).below(end.impact);
         if self.task.watch.impacts {
             if impacts.any() {

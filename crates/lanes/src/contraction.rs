@@ -1,0 +1,97 @@
+//! A norm in which a stable linear map contracts.
+
+use nalgebra::{Matrix2, Vector2};
+
+/// How far above the spectral radius the norm of the map may lie, as a share of what is left to 1.
+const EXCESS: f64 = 0.02;
+/// Doublings of the sum that gives the norm: 256 terms. Where more would count, the map contracts a little less in it.
+const DOUBLINGS: usize = 8;
+
+/// The norm |P y| with the Euclidean length, in which a map shortens every vector.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ContractionNorm {
+    /// P and its inverse.
+    to: Matrix2<f64>,
+    pub from: Matrix2<f64>,
+    /// Norm of the map.
+    pub rate: f64,
+}
+
+impl ContractionNorm {
+    /// That of a map with a spectral radius below 1: with g a little above that radius, P'P is the sum of
+    /// (M'/g)^k (M/g)^k over all k (Stein's equation).
+    pub fn of_map(map: &Matrix2<f64>) -> Option<Self> {
+        let radius = spectral_radius(map.trace(), map.determinant());
+        let bound = radius + EXCESS * (1.0 - radius);
+        let (mut power, mut sum) = (map / bound, Matrix2::identity());
+        for _ in 0..DOUBLINGS {
+            sum += power.transpose() * sum * power;
+            power *= power;
+        }
+        let to = sum.cholesky()?.l().transpose();
+        let from = to.try_inverse()?;
+        let rate = length(&(to * map * from));
+        (rate < 1.0).then_some(Self { to, from, rate })
+    }
+
+    /// Length of a vector.
+    pub fn length(&self, vector: &Vector2<f64>) -> f64 {
+        (self.to * vector).norm()
+    }
+
+    /// The largest length of vectors with entries of these sizes at most.
+    pub fn largest(&self, entries: &Vector2<f64>) -> f64 {
+        (self.to.abs() * entries).norm()
+    }
+
+    /// The most that a vector of length 1 is in Euclidean length.
+    pub fn spread(&self) -> f64 {
+        self.from.norm()
+    }
+}
+
+/// The larger absolute value of the eigenvalues of a 2 x 2 matrix.
+pub(super) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
+    let half = 0.5 * trace.abs();
+    let square = half.mul_add(half, -determinant);
+    match square >= 0.0 {
+        true => half + square.sqrt(),
+        false => determinant.sqrt(),
+    }
+}
+
+/// The most that a matrix lengthens a vector.
+fn length(matrix: &Matrix2<f64>) -> f64 {
+    let (square, area) = (matrix.norm_squared(), matrix.determinant());
+    let spread = (square * square - 4.0 * area * area).max(0.0).sqrt();
+    (0.5 * (square + spread)).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stable_maps_shorten_every_vector() {
+        let maps = [
+            Matrix2::new(0.5, -0.7, 0.7, 0.5),
+            Matrix2::new(0.9, 40.0, 0.0, 0.3),
+            Matrix2::new(0.95, 1.0, 0.0, 0.95),
+            Matrix2::new(-0.98, 0.0, 3.0, 0.2),
+            Matrix2::zeros(),
+        ];
+        for map in maps {
+            let radius = spectral_radius(map.trace(), map.determinant());
+            let norm = ContractionNorm::of_map(&map).expect("stable");
+            assert!(radius <= norm.rate * (1.0 + 1e-12), "{map}");
+            for angle in 0..32 {
+                let (sin, cos) = (0.2 * f64::from(angle)).sin_cos();
+                let vector = Vector2::new(cos, sin);
+                let mapped = norm.length(&(map * vector));
+                assert!(mapped <= norm.rate * norm.length(&vector) * (1.0 + 1e-9));
+            }
+        }
+        let saddle = Matrix2::new(1.01, 0.0, 0.0, 0.5);
+        assert!(ContractionNorm::of_map(&saddle).is_none());
+    }
+}

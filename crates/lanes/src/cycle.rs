@@ -1,0 +1,346 @@
+//! One cycle of a motion from impact to impact, linearised, and how far other motions may be from it.
+//!
+//! [`Cycle::linearise`] gathers the exact derivatives from crossing to crossing; `certificate` bounds what they leave out
+//! for all motions that begin in a ball about the cycle.
+
+use std::ops::Range;
+
+use nalgebra::{Complex, Matrix2, RowVector2, Vector2, Vector4};
+
+use super::law::Constants;
+use super::returns::Return;
+use super::window::Window;
+use softstop::internals::Modes;
+
+/// Most windows of a cycle, and the shortest, as a share of the usual ones.
+const MAX_WINDOWS: usize = 4096;
+const SHORTEST: f64 = 1.0 / 256.0;
+/// Difference of the two ways to the end of an arc, relative to the size of the motion, from which it is not trusted.
+const AGREEMENT: f64 = 1e-9;
+
+/// A crossing that a lane has met.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Passage {
+    pub position: f64,
+    /// Velocities before and after it.
+    pub velocity: f64,
+    pub velocity_after: f64,
+    /// The phase after it.
+    pub phase: usize,
+    /// Drive periods left, and seconds into the present one.
+    pub left: f64,
+    pub offset: f64,
+}
+
+/// The drive of a machine.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Drive {
+    pub frequency: f64,
+    pub period: f64,
+    /// cos + i sin of its angle at the beginning of a period.
+    pub begin: Complex<f64>,
+}
+
+/// Position, velocity, acceleration and jerk.
+pub(super) type Jet = [f64; 4];
+
+/// A motion in one phase at one instant.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub jet: Jet,
+    /// The free part, position and velocity, and the rate of the steady part.
+    pub free: Vector2<f64>,
+    pub steady_rate: Vector2<f64>,
+}
+
+/// A linear function of position and velocity that is negative inside a phase.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Face {
+    pub position: f64,
+    pub velocity: f64,
+    pub level: f64,
+}
+
+/// An arc with the crossing that ends it. A motion beside the cycle is compared with it at equal times since their own
+/// crossings: it deviates by a state, and by a delay of its crossing, which turns the drive.
+#[derive(Debug)]
+pub(super) struct CycleArc {
+    phase: usize,
+    /// The cycle and cos + i sin of the drive's angle at its start, its length in s, and its way out.
+    start: Place,
+    angle: Complex<f64>,
+    duration: f64,
+    exit: Face,
+    modes: Modes,
+    /// Its windows among those of the cycle.
+    pub windows: Range<usize>,
+    /// 2 a, |b| and the window of its law, the amplitudes of the force per mass and of the steady motion.
+    pub damping: f64,
+    pub stiffness: f64,
+    pub window: f64,
+    pub force: f64,
+    pub swing: f64,
+    /// The cycle at its end, and the gradient of the exit over the rate at which the cycle passes it.
+    pub end: Jet,
+    pub gradient: RowVector2<f64>,
+    /// Derivative of the state just after a motion's own crossing by that at the end.
+    pub reset: Matrix2<f64>,
+    /// Derivatives of the state at the end, and of the next return by that state.
+    pub at_end: Derivatives,
+    pub to_return: Matrix2<f64>,
+    /// Derivatives of state and delay at the start by the return that the cycle begins with.
+    state: Matrix2<f64>,
+    pub delay: RowVector2<f64>,
+}
+
+/// Derivatives of a state by the state at the start of its arc, by the delay there, and by the return that the cycle
+/// begins with.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Derivatives {
+    pub transition: Matrix2<f64>,
+    pub response: Vector2<f64>,
+    pub tangent: Matrix2<f64>,
+}
+
+/// A cycle with its derivatives by the return that it begins with: velocity over a velocity, drive angle.
+#[derive(Debug, Default)]
+pub(super) struct Cycle {
+    pub arcs: Vec<CycleArc>,
+    pub windows: Vec<Window>,
+    /// Derivative of the next return.
+    pub map: Matrix2<f64>,
+    /// The drive's frequency.
+    pub frequency: f64,
+}
+
+impl Cycle {
+    /// Linearises the cycle from `from` through all `passages`; none if a law is not linear or a crossing not transversal.
+    pub fn linearise(
+        &mut self,
+        laws: &[Constants],
+        drive: &Drive,
+        (from, passages): (&Return, &[Passage]),
+        velocity: f64,
+    ) -> Option<()> {
+        self.arcs.clear();
+        self.windows.clear();
+        self.frequency = drive.frequency;
+        let mut at = Passage {
+            position: from.position,
+            velocity: from.velocity,
+            velocity_after: from.velocity,
+            phase: from.phase as usize,
+            left: from.left,
+            offset: from.offset,
+        };
+        let mut state = Matrix2::new(0.0, 0.0, velocity, 0.0);
+        let mut delay = RowVector2::new(0.0, 1.0 / drive.frequency);
+        for passage in passages {
+            self.arc(laws, drive, (&at, passage), (&state, &delay))?;
+            let arc = self.arcs.last()?;
+            state = arc.reset * arc.at_end.tangent;
+            delay -= arc.gradient * arc.at_end.tangent;
+            at = *passage;
+        }
+        self.map = Matrix2::from_rows(&[state.row(1) / velocity, delay * drive.frequency]);
+        let mut by_state = Matrix2::new(0.0, 1.0 / velocity, 0.0, 0.0);
+        let mut by_delay = Vector2::new(0.0, drive.frequency);
+        for arc in self.arcs.iter_mut().rev() {
+            arc.to_return = by_state * arc.reset - by_delay * arc.gradient;
+            by_state = arc.to_return * arc.at_end.transition;
+            by_delay += arc.to_return * arc.at_end.response;
+        }
+        let is_finite = self.map.iter().all(|entry| entry.is_finite());
+        (is_finite && !self.arcs.is_empty()).then_some(())
+    }
+
+    /// One arc, from a passage to the next, with the derivatives of state and delay at its start.
+    fn arc(
+        &mut self,
+        laws: &[Constants],
+        drive: &Drive,
+        (from, to): (&Passage, &Passage),
+        (state, delay): (&Matrix2<f64>, &RowVector2<f64>),
+    ) -> Option<()> {
+        let law = &laws[from.phase];
+        let duration = (from.left - to.left) * drive.period + (to.offset - from.offset);
+        if law.presses() || !(duration > 0.0) {
+            return None;
+        }
+        let (kept, velocity) = match to.position == law.high {
+            true => (law.bounce, to.velocity),
+            false => (1.0, to.velocity_after),
+        };
+        let angle = drive.angle(from.offset);
+        let start = law.place(drive, (from.position, from.velocity_after), angle);
+        let end = law.place(drive, (to.position, velocity), drive.angle(to.offset));
+        let modes = Modes::new(-0.5 * law.damping, -law.stiffness);
+        let transition = modes.at(duration);
+        let off = transition * start.free - end.free;
+        let size = law.swing + law.offset.abs() + to.position.abs();
+        let [_, v, a, _] = end.jet;
+        let exit = law.face_at(to);
+        let rate = exit.position * v + exit.velocity * a;
+        if off.x.abs() + off.y.abs() * law.window > AGREEMENT * size || !(rate > 0.0) {
+            return None;
+        }
+        let gradient = RowVector2::new(exit.position, exit.velocity) / rate;
+        let onto = Matrix2::identity() - Vector2::new(v, a) * gradient;
+        let mut arc = CycleArc {
+            phase: from.phase,
+            start,
+            angle,
+            duration,
+            modes,
+            exit,
+            windows: 0..0,
+            damping: law.damping.abs(),
+            stiffness: law.stiffness.abs(),
+            window: law.window,
+            force: law.force(drive.frequency),
+            swing: law.swing,
+            end: end.jet,
+            gradient,
+            reset: Matrix2::new(1.0, 0.0, 0.0, kept) * onto,
+            at_end: Derivatives::default(),
+            to_return: Matrix2::zeros(),
+            state: *state,
+            delay: *delay,
+        };
+        arc.at_end = arc.derivatives(transition, &end);
+        self.arcs.push(arc);
+        Some(())
+    }
+
+    /// Divides the arcs into windows that show what the faces of their phases tolerate; none if that takes too many.
+    pub fn divide(&mut self, laws: &[Constants], drive: &Drive) -> Option<()> {
+        for arc in &mut self.arcs {
+            let first = self.windows.len();
+            arc.divide(&laws[arc.phase], drive, &mut self.windows)?;
+            arc.windows = first..self.windows.len();
+        }
+        Some(())
+    }
+}
+
+impl CycleArc {
+    /// The derivatives at a place of the arc, with the transition up to there.
+    fn derivatives(&self, transition: Matrix2<f64>, place: &Place) -> Derivatives {
+        let response = place.steady_rate - transition * self.start.steady_rate;
+        Derivatives {
+            transition,
+            response,
+            tangent: transition * self.state + response * self.delay,
+        }
+    }
+
+    /// Adds the windows of the arc; those that show nothing are halved.
+    fn divide(&self, law: &Constants, drive: &Drive, windows: &mut Vec<Window>) -> Option<()> {
+        let whole = self.duration / (self.duration * law.per_window).ceil().max(1.0);
+        let (mut here, mut transition) = (self.start, Matrix2::identity());
+        let (mut angle, mut elapsed, mut step) = (self.angle, 0.0, whole);
+        let mut over = self.over(drive, step);
+        while elapsed < self.duration {
+            let (free, turn) = over;
+            let turned = turn * angle;
+            let there = law.place_of(drive, free * here.free, law.steady_at(turned));
+            let is_last = elapsed + 1.5 * step > self.duration;
+            let at_start = self.derivatives(transition, &here);
+            let ends = (elapsed == 0.0, is_last);
+            let window = Window::new(law, (&here, &there), step, ends, &self.exit, at_start);
+            if !window.tolerates(&Vector4::zeros()) {
+                step *= 0.5;
+                if step < whole * SHORTEST {
+                    return None;
+                }
+                over = self.over(drive, step);
+                continue;
+            }
+            if windows.len() == MAX_WINDOWS {
+                return None;
+            }
+            windows.push(window);
+            (here, transition, angle) = (there, free * transition, turned);
+            elapsed = if is_last {
+                self.duration
+            } else {
+                elapsed + step
+            };
+        }
+        Some(())
+    }
+
+    /// Transition and turn of the drive over a step.
+    fn over(&self, drive: &Drive, step: f64) -> (Matrix2<f64>, Complex<f64>) {
+        let turn = Complex::cis(drive.frequency * step);
+        (self.modes.at(step), turn)
+    }
+}
+
+impl Drive {
+    /// cos + i sin of the angle so many seconds into a period.
+    fn angle(&self, offset: f64) -> Complex<f64> {
+        self.begin * Complex::cis(self.frequency * offset)
+    }
+}
+
+impl Constants {
+    /// Position and velocity of the steady motion.
+    fn steady_at(&self, Complex { re: cos, im: sin }: Complex<f64>) -> Vector2<f64> {
+        let p = self.cosine * cos + self.sine * sin;
+        let q = self.cosine_rate * cos + self.sine_rate * sin;
+        Vector2::new(p, q) * self.side
+    }
+
+    fn place(&self, drive: &Drive, (x, v): (f64, f64), angle: Complex<f64>) -> Place {
+        let steady = self.steady_at(angle);
+        self.place_of(drive, Vector2::new(x - self.offset, v) - steady, steady)
+    }
+
+    fn place_of(&self, drive: &Drive, free: Vector2<f64>, steady: Vector2<f64>) -> Place {
+        let square = drive.frequency * drive.frequency;
+        let second = self.stiffness * free.x + self.damping * free.y;
+        let third = self.stiffness * free.y + self.damping * second;
+        let state = free + steady;
+        Place {
+            jet: [
+                state.x + self.offset,
+                state.y,
+                second - square * steady.x,
+                third - square * steady.y,
+            ],
+            free,
+            steady_rate: Vector2::new(steady.y, -square * steady.x),
+        }
+    }
+
+    /// The face of the phase that a passage crosses.
+    fn face_at(&self, passage: &Passage) -> Face {
+        let [high, low, further] = self.faces();
+        match passage.position {
+            x if x == high.level => high,
+            x if x == -low.level => low,
+            _ => further,
+        }
+    }
+
+    /// The faces that end the phase: above, below, and the further guard; at infinity where there is none.
+    pub fn faces(&self) -> [Face; 3] {
+        let face = |position, velocity, level| Face {
+            position,
+            velocity,
+            level,
+        };
+        [
+            face(1.0, 0.0, self.high),
+            face(-1.0, 0.0, -self.low),
+            face(self.by_position, self.by_velocity, self.level),
+        ]
+    }
+
+    /// Amplitude of the drive's force per mass.
+    fn force(&self, w: f64) -> f64 {
+        let (elastic, damped) = (self.stiffness + w * w, self.damping * w);
+        self.swing * elastic.hypot(damped)
+    }
+}

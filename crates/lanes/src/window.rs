@@ -1,0 +1,140 @@
+//! How far a motion may be from another one that provably meets no face in a window of time.
+
+use nalgebra::Vector4;
+
+use super::cycle::{Derivatives, Face, Place};
+use super::law::{Constants, SPAN};
+
+/// Error of the first and second derivative of a cubic Hermite interpolant over a step h, in units of its own error
+/// M h^4 / 384: sqrt(3)/216 M h^3 and M h^2 / 12 (Birkhoff and Priver 1967).
+const FIRST: f64 = 384.0 * 0.008_018_753_738_744_818;
+const SECOND: f64 = 384.0 / 12.0;
+
+/// A window of an arc.
+#[derive(Debug)]
+pub(super) struct Window {
+    /// Derivatives of the state at its start.
+    pub at_start: Derivatives,
+    /// Its length in s, and the most that a free motion may grow in it.
+    pub step: f64,
+    pub growth: f64,
+    margins: [Margin; 3],
+}
+
+/// What a face tolerates: deviations of its value, rate and second derivative with which it is provably not met, or at
+/// the end of an arc not before that end.
+#[derive(Debug, Clone, Copy)]
+struct Margin {
+    /// Weights of position and velocity.
+    position: f64,
+    velocity: f64,
+    /// All of the window is that far from the face.
+    clear: f64,
+    /// Or both ends are, and the value is convex or the rate keeps its sign.
+    ends: f64,
+    slope: f64,
+    convex: f64,
+}
+
+impl Window {
+    /// The window between two places of an arc that leaves through `exit`.
+    pub fn new(
+        law: &Constants,
+        (from, to): (&Place, &Place),
+        step: f64,
+        (is_first, is_last): (bool, bool),
+        exit: &Face,
+        at_start: Derivatives,
+    ) -> Self {
+        let share = step * law.per_window;
+        let scale = (share * share) * (share * share);
+        let (y, u) = (from.free.x, from.free.y);
+        let fifth = (law.fifth_x * y + law.fifth_v * u).abs();
+        let slack = scale * (law.steady + (law.fourth_x * y + law.fourth_v * u).abs() + fifth);
+        let rate_fifth = (law.rate_fifth_x * y + law.rate_fifth_v * u).abs();
+        let rate_sixth = (law.rate_sixth_x * y + law.rate_sixth_v * u).abs();
+        let rate_slack = scale * (law.rate_steady + rate_fifth + rate_sixth);
+        let margin = |face: Face| {
+            let slack = face.position.abs() * slack + face.velocity.abs() * rate_slack;
+            let grain = match face.velocity {
+                0.0 => law.grain,
+                _ => law.grain * law.guard_scale,
+            };
+            let is_exit = is_last && face.is(exit);
+            Margin::new(&face, (from, to), step, (slack, grain), (is_first, is_exit))
+        };
+        Self {
+            at_start,
+            step,
+            growth: if law.stiffness < 0.0 { 1.0 } else { SPAN.exp() },
+            margins: law.faces().map(margin),
+        }
+    }
+
+    /// True if no motion meets another face whose position and its derivatives deviate by no more than this.
+    pub fn tolerates(&self, most: &Vector4<f64>) -> bool {
+        self.margins.iter().all(|margin| margin.tolerates(most))
+    }
+}
+
+impl Face {
+    fn is(&self, other: &Self) -> bool {
+        (self.position, self.velocity) == (other.position, other.velocity)
+    }
+}
+
+impl Margin {
+    fn new(
+        face: &Face,
+        (from, to): (&Place, &Place),
+        step: f64,
+        (slack, grain): (f64, f64),
+        (is_first, is_exit): (bool, bool),
+    ) -> Self {
+        let Face {
+            position,
+            velocity,
+            level,
+        } = *face;
+        let mut margin = Self {
+            position,
+            velocity,
+            clear: f64::INFINITY,
+            ends: f64::INFINITY,
+            slope: f64::NEG_INFINITY,
+            convex: f64::NEG_INFINITY,
+        };
+        if level == f64::INFINITY {
+            return margin;
+        }
+        let value = |[x, v, ..]: [f64; 4]| position * x + velocity * v - level;
+        let rate = |[_, v, a, _]: [f64; 4]| position * v + velocity * a;
+        let (g0, g1) = (value(from.jet), value(to.jet));
+        let (r0, r1) = (rate(from.jet), rate(to.jet));
+        let is_start = is_first && g0 >= -grain;
+        let third = step / 3.0;
+        let (b1, b2) = (g0 + third * r0, g1 - third * r1);
+        margin.clear = -(g0.max(g1).max(b1.max(b2)) + slack) - grain;
+        let start = if is_start { f64::INFINITY } else { -g0 - grain };
+        let end = if is_exit { f64::INFINITY } else { -g1 - grain };
+        margin.ends = start.min(end);
+        // The rate's Bernstein coefficients are three times the differences of the value's.
+        let differences = [b1 - g0, b2 - b1, g1 - b2].map(|difference| difference / third);
+        let [d0, d1, d2] = differences;
+        if is_start {
+            margin.slope = -d0.max(d1).max(d2) - FIRST * slack / step;
+        } else if is_exit {
+            margin.slope = d0.min(d1).min(d2) - FIRST * slack / step;
+        }
+        let second = (d1 - d0).min(d2 - d1) * 2.0 / step;
+        margin.convex = second - SECOND * slack / (step * step);
+        margin
+    }
+
+    fn tolerates(&self, most: &Vector4<f64>) -> bool {
+        let [position, velocity] = [self.position.abs(), self.velocity.abs()];
+        let of = |order: usize| position * most[order] + velocity * most[order + 1];
+        let (value, rate, second) = (of(0), of(1), of(2));
+        value < self.clear || (value < self.ends && (rate < self.slope || second < self.convex))
+    }
+}
