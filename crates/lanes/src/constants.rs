@@ -142,11 +142,12 @@ impl Constants {
         real.map(|(_, beyond)| beyond as usize)
     }
 
-    /// The same with x itself in the place of the guard.
+    /// Those of a phase that not one position alone ends, with x itself in the place of the guard.
     pub fn of_position(&self) -> Self {
         let mut constants = *self;
         constants.turn(self.side);
         (constants.side, constants.edge) = (1.0, -self.offset);
+        constants.guarded = 1.0;
         constants
     }
 

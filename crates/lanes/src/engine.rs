@@ -15,17 +15,16 @@ use super::state::State;
 use super::task::Task;
 use softstop::Start;
 
-/// Rounds after which the drive angle is taken anew from the time.
-const RENEWAL: usize = 16;
-/// What they cost, in scan windows.
-const ROUNDS: u64 = 1 << 10;
+/// Rounds after which the watcher is asked, and what they cost, in scan windows.
+const ROUNDS: usize = 16;
+const WINDOWS: u64 = 1 << 10;
 
 /// All lanes and what they work at.
 pub(super) struct Engine<'a, S: Simd, const N: usize> {
     pub task: Task<'a>,
     pub laws: Vec<Law<S, N>>,
-    /// Phases that in all machines end at one position alone.
-    plain: Vec<bool>,
+    /// Phases that in some machine end not at one position alone.
+    guarded: Vec<bool>,
     /// Phases that in some machine have a power law.
     presses: Vec<bool>,
     /// The phases in the order of a round.
@@ -59,7 +58,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             .map(|outline| outline.count)
             .max()
             .unwrap_or(1);
-        let is_plain = |phase: usize| outlines.iter().all(|outline| outline.is_plain(phase));
+        let guarded = |phase: usize| outlines.iter().any(|outline| !outline.is_plain(phase));
         let presses = |phase: usize| outlines.iter().any(|outline| outline.presses(phase));
         let presses: Vec<bool> = (0..most).map(presses).collect();
         let is_any = presses.contains(&true);
@@ -73,7 +72,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         let returns = (0..Lanes::<S, N>::COUNT).map(|_| Returns::default());
         Self {
             laws: vec![Law::new(simd); most],
-            plain: (0..most).map(is_plain).collect(),
+            guarded: (0..most).map(guarded).collect(),
             presses,
             order: round(&outlines, most),
             state: State::idle(simd),
@@ -103,18 +102,25 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
                 if self.presses[phase] {
                     active = self.contact(phase, active);
                 }
-                if !active.any() {
-                } else if self.plain[phase] {
+                if self.guarded[phase] {
+                    let guarded = active
+                        & self.laws[phase]
+                            .guarded
+                            .like(0.0)
+                            .below(self.laws[phase].guarded);
+                    if guarded.any() {
+                        self.step::<true>(phase, guarded);
+                    }
+                    active = active.and_not(guarded);
+                }
+                if active.any() {
                     self.step::<false>(phase, active);
-                } else {
-                    self.step::<true>(phase, active);
                 }
             }
             steps += 1;
-            if steps % RENEWAL == 0 {
-                self.state.set_angle();
+            if steps % ROUNDS == 0 {
                 self.call_back();
-                if self.task.watch.worked(ROUNDS).is_break() {
+                if self.task.watch.worked(WINDOWS).is_break() {
                     break;
                 }
             }
@@ -243,9 +249,8 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             return;
         }
         let machine = &self.task.machines[index];
-        let constants = machine.laws.iter().flatten().zip(&self.plain);
-        for (law, (constants, plain)) in self.laws.iter_mut().zip(constants) {
-            if *plain {
+        for (law, constants) in self.laws.iter_mut().zip(machine.laws.iter().flatten()) {
+            if constants.is_plain() {
                 law.set(lane, constants);
             } else {
                 law.set(lane, &constants.of_position());

@@ -73,6 +73,8 @@ law! {
     window,
     third,
     per_window,
+    /// 1 for a phase that not one position alone ends.
+    guarded,
     /// The guard of a phase that only one position ends: side (x - offset) rising through edge.
     side,
     edge,

@@ -25,16 +25,16 @@ impl<S: Simd, const N: usize> Power<S, N> {
     #[inline(always)]
     pub fn reach(&self, guess: Lanes<S, N>, of: Mask<S, N>) -> (Lanes<S, N>, Mask<S, N>) {
         let mut reach = guess;
-        let mut near = of;
+        let mut open = of;
         for _ in 0..MOST_GUESSES {
-            let (next, enough) = self.reach_about(reach);
-            reach = of.choose(next, reach);
-            near = enough;
-            if !of.and_not(near).any() {
+            let (next, near) = self.reach_about(reach);
+            reach = open.choose(next, reach);
+            open = open.and_not(near);
+            if !open.any() {
                 break;
             }
         }
-        (reach, of & near)
+        (reach, of.and_not(open))
     }
 
     /// The same judged at a length `near`, and where that is near enough.

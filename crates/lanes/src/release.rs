@@ -123,18 +123,18 @@ fn zero_of<S: Simd, const N: usize>(
 ) -> (Lanes<S, N>, Mask<S, N>) {
     let zero = sigma.like(0.0);
     let mut at = sigma * share;
-    let mut found = of.and_not(of);
+    let mut open = of;
     for _ in 0..MOST_TRIES {
         let (value, rate) = value(series, at);
         let step = (value - level) / rate;
         let next = (at - step).max(zero).min(sigma);
-        found = step.abs().below(sigma * zero.like(SHORT));
-        at = next;
-        if !of.and_not(found).any() {
+        at = open.choose(next, at);
+        open = open.and_not(step.abs().below(sigma * zero.like(SHORT)));
+        if !open.any() {
             break;
         }
     }
-    (at, found & of)
+    (at, of.and_not(open))
 }
 
 /// Value and rate of a polynomial.

@@ -8,6 +8,9 @@ use super::returns::Return;
 use super::taylor::cos_sin;
 use softstop::Start;
 
+/// Drive periods after which a lane takes the drive angle anew from the time.
+const RENEWAL: f64 = 32.0;
+
 /// The state of all lanes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct State<S: Simd, const N: usize> {
@@ -145,18 +148,21 @@ impl<S: Simd, const N: usize> State<S, N> {
         impacts
     }
 
-    /// Takes the drive angle anew from the time.
+    /// Takes the drive angle anew from the time in these lanes.
     #[inline(always)]
-    pub fn set_angle(&mut self) {
+    fn set_angle(&mut self, lanes: Mask<S, N>) {
         let (c, s) = cos_sin(self.offset * self.drive.per_period);
         let (c0, s0) = self.drive.begin;
-        self.angle = (c0 * c - s0 * s, s0 * c + c0 * s);
+        self.angle.0 = lanes.choose(c0 * c - s0 * s, self.angle.0);
+        self.angle.1 = lanes.choose(s0 * c + c0 * s, self.angle.1);
     }
 
-    /// Counts the ends of periods that have passed.
+    /// Counts the ends of periods that have passed. Every few periods of its own, whatever the others do, a lane takes
+    /// the drive angle anew.
     #[inline(always)]
     pub fn wrap(&mut self) {
         let one = self.left.like(1.0);
+        let before = (self.left * one.like(1.0 / RENEWAL)).floor();
         loop {
             let wraps = self.drive.period.at_most(self.offset) & one.below(self.left);
             if !wraps.any() {
@@ -164,6 +170,11 @@ impl<S: Simd, const N: usize> State<S, N> {
             }
             self.left = wraps.choose(self.left - one, self.left);
             self.offset = wraps.choose(self.offset - self.drive.period, self.offset);
+        }
+        let after = (self.left * one.like(1.0 / RENEWAL)).floor();
+        let renewed = after.below(before);
+        if renewed.any() {
+            self.set_angle(renewed);
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::*;
 
 /// A motion of each machine, over 100 to 700 drive periods.
-fn long(count: usize) -> Batch {
+pub fn long(count: usize) -> Batch {
     let mut batch = batch(count);
     for (index, job) in batch.jobs.iter_mut().enumerate() {
         job.periods = 100 + (600.0 * spread(index, 6)) as u64;
