@@ -127,7 +127,7 @@ impl CycleArc {
     /// The share of a derivative that damping and stiffness do not change in a time, if that is brief.
     fn keeps(&self, time: f64) -> Option<f64> {
         let changes = self.damping * time + self.stiffness * time * time;
-        (changes <= MAX_CHANGE).then(|| 1.0 - changes)
+        (changes <= MAX_CHANGE).then_some(1.0 - changes)
     }
 
     /// Bounds on the rates of a deviation within `time` of its instant.

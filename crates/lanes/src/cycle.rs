@@ -32,6 +32,9 @@ pub(super) struct Passage {
     pub offset: f64,
 }
 
+/// A passage and cos + i sin of the drive's angle then.
+type Instant<'a> = (&'a Passage, Complex<f64>);
+
 /// The drive of a machine.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Drive {
@@ -135,9 +138,13 @@ impl Cycle {
         };
         let mut state = Matrix2::new(0.0, 0.0, velocity, 0.0);
         let mut delay = RowVector2::new(0.0, 1.0 / drive.frequency);
+        let mut angle = drive.angle(at.offset);
         for passage in passages {
-            self.arc(laws, drive, (&at, passage), (&state, &delay))?;
+            let turned = drive.angle(passage.offset);
+            let between = ((&at, angle), (passage, turned));
+            self.arc(&laws[at.phase], drive, between, (&state, &delay))?;
             let arc = self.arcs.last()?;
+            angle = turned;
             state = arc.reset * arc.at_end.tangent;
             delay -= arc.gradient * arc.at_end.tangent;
             at = *passage;
@@ -154,26 +161,24 @@ impl Cycle {
         (is_finite && !self.arcs.is_empty()).then_some(())
     }
 
-    /// One arc, from a passage to the next, with the derivatives of state and delay at its start.
+    /// One arc, from a passage to the next, each with cos + i sin of the drive's angle there; with the derivatives of state and delay at its start.
     fn arc(
         &mut self,
-        laws: &[Constants],
+        law: &Constants,
         drive: &Drive,
-        (from, to): (&Passage, &Passage),
+        ((from, angle), (to, turned)): (Instant, Instant),
         (state, delay): (&Matrix2<f64>, &RowVector2<f64>),
     ) -> Option<()> {
-        let law = &laws[from.phase];
         let duration = (from.left - to.left) * drive.period + (to.offset - from.offset);
-        if law.presses() || !(duration > 0.0) {
+        if law.presses() || duration <= 0.0 {
             return None;
         }
         let (kept, velocity) = match to.position == law.high {
             true => (law.bounce, to.velocity),
             false => (1.0, to.velocity_after),
         };
-        let angle = drive.angle(from.offset);
         let start = law.place(drive, (from.position, from.velocity_after), angle);
-        let end = law.place(drive, (to.position, velocity), drive.angle(to.offset));
+        let end = law.place(drive, (to.position, velocity), turned);
         let modes = Modes::new(-0.5 * law.damping, -law.stiffness);
         let transition = modes.at(duration);
         let off = transition * start.free - end.free;
@@ -181,7 +186,7 @@ impl Cycle {
         let [_, v, a, _] = end.jet;
         let exit = law.face_at(to);
         let rate = exit.position * v + exit.velocity * a;
-        if off.x.abs() + off.y.abs() * law.window > AGREEMENT * size || !(rate > 0.0) {
+        if off.x.abs() + off.y.abs() * law.window > AGREEMENT * size || rate <= 0.0 {
             return None;
         }
         let gradient = RowVector2::new(exit.position, exit.velocity) / rate;

@@ -42,7 +42,7 @@ const SLOWEST: f64 = 1e-3;
 /// Bounds on the error of the limit, and on that of how far from it the motion ends; the latter adds up what is left
 /// out in all returns, as if each bent the motion the same way.
 const ERROR: f64 = 4e-12;
-const MAX_SUM: f64 = 4e-11;
+const MAX_SUM: f64 = 2e-10;
 /// Balls that are tried, and how much smaller each is than the one before.
 const MAX_BALLS: usize = 8;
 const SHRINK: f64 = 0.25;
@@ -302,7 +302,7 @@ impl Returns {
         let step = inverse * (self.point(now).1 - tried);
         let limit = tried + step;
         let length = step.norm();
-        if !(length <= FINAL) {
+        if length > FINAL || length.is_nan() {
             let goes_on = length < SMALLER * before && limit.x > 0.0;
             return goes_on.then(|| self.set_off(limit, length));
         }
