@@ -1,7 +1,7 @@
 //! `softstop-lab throughput` as users and scripts meet it. Times are not looked at.
 
 use softstop::{Ratios, Scene, Start};
-use softstop_lab::throughput::check::check;
+use softstop_lab::throughput::check::{Plan, check, compare};
 use softstop_lab::throughput::doubt::judge;
 use softstop_lab::throughput::fleet::{Machinery, Range};
 use softstop_lab::throughput::measure::narrower;
@@ -82,7 +82,13 @@ fn values_out_of_range_are_named() {
 
 #[test]
 fn both_engines_count_the_same_impacts_on_random_machines() -> Outcome {
-    let check = check(2000, 20, 7).map_err(|failure| failure.to_string())?;
+    let plan = Plan {
+        trajectories: 2000,
+        periods: 20,
+        seed: 7,
+        aimed: false,
+    };
+    let check = check(plan).map_err(|failure| failure.to_string())?;
     let tally = check.tally;
     assert_eq!((tally.trajectories, tally.different), (2000, 0));
     assert!(tally.chaotic < 20, "{} left out", tally.chaotic);

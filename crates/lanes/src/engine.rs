@@ -65,6 +65,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         let outcomes = task.jobs.iter().map(|job| Outcome {
             end: job.start,
             impacts: 0,
+            crossings: 0,
             handed_over: 0,
             leapt: 0,
             error: None,
@@ -298,7 +299,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
                 self.state.state(lane)
             },
         };
-        self.outcomes[job].impacts += self.state.take_impacts(lane);
+        self.state.take_counts(lane, &mut self.outcomes[job]);
         match self.follow(place) {
             Some(resumed) => self.resume(lane, job, &resumed),
             None => self.take_next(lane),
@@ -330,7 +331,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     fn finish(&mut self, lane: usize) {
         if let Some(job) = self.lanes[lane] {
             self.outcomes[job].end = self.state.state(lane);
-            self.outcomes[job].impacts += self.state.take_impacts(lane);
+            self.state.take_counts(lane, &mut self.outcomes[job]);
         }
         self.take_next(lane);
     }

@@ -20,6 +20,8 @@ pub struct Outcome {
     pub end: Start,
     /// Impacts on the way.
     pub impacts: u64,
+    /// Crossings of all faces on the way: of the stop, the strip, corners, the wall, and reversals that change the law.
+    pub crossings: u64,
     /// Drive periods that the safe engine followed, in part or whole.
     pub handed_over: u64,
     /// Drive periods that were leapt over, since nothing happens in them or each is like the one before.

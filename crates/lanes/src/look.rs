@@ -151,6 +151,8 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         state.v = moved.choose(end.v, state.v);
         state.phase = hits.choose(end.beyond, state.phase);
         state.impacts = hits.choose(state.impacts + end.impact, state.impacts);
+        let crossings = state.crossings + time.like(1.0);
+        state.crossings = hits.choose(crossings, state.crossings);
         state.angle.0 = moved.choose(cos, state.angle.0);
         state.angle.1 = moved.choose(sin, state.angle.1);
         state.offset = moved.choose(state.offset + time, state.offset);

@@ -58,6 +58,7 @@ pub(super) struct Return {
     pub offset: f64,
     pub left: f64,
     pub impacts: f64,
+    pub crossings: f64,
     pub phase: f64,
 }
 
@@ -251,6 +252,7 @@ impl Returns {
             offset: (periods - whole) / self.per_period,
             left: self.left - (number + times * self.every + whole),
             impacts: times.mul_add(self.each, after.impacts),
+            crossings: times.mul_add(self.passages.len() as f64, after.crossings),
             ..*after
         }
     }

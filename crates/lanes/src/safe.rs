@@ -66,6 +66,7 @@ pub(super) fn follow(
         job: place.job,
         watch,
         impacts: 0,
+        crossings: 0,
     };
     let mut followed = Ok(None);
     for cycle in place.cycle + 1..=periods {
@@ -94,6 +95,7 @@ pub(super) fn follow(
         }
     }
     outcome.impacts += counter.impacts;
+    outcome.crossings += counter.crossings;
     followed
 }
 
@@ -104,10 +106,12 @@ struct Counter<'a, 'b> {
     job: usize,
     watch: &'a mut Listener<'b>,
     impacts: u64,
+    crossings: u64,
 }
 
 impl Observer for Counter<'_, '_> {
     fn crossing(&mut self, crossing: &Crossing) {
+        self.crossings += 1;
         if let Some(velocity) = crossing.impact_velocity() {
             self.impacts += 1;
             if self.watch.impacts {

@@ -2,6 +2,7 @@
 
 use pulp::Simd;
 
+use super::job::Outcome;
 use super::lanes::{Lanes, Mask};
 use super::machine::Machine;
 use super::returns::Return;
@@ -26,6 +27,8 @@ pub(super) struct State<S: Simd, const N: usize> {
     pub phase: Lanes<S, N>,
     /// Impacts so far.
     pub impacts: Lanes<S, N>,
+    /// Crossings so far.
+    pub crossings: Lanes<S, N>,
     /// Drive periods left from which on returns to an impact are noted; none in a lane whose are not.
     pub noted: Lanes<S, N>,
     /// Share of a window that is looked at next: 1, or less where a whole one could not be decided.
@@ -57,6 +60,7 @@ impl<S: Simd, const N: usize> State<S, N> {
             left: none,
             phase: none,
             impacts: none,
+            crossings: none,
             noted: none,
             share: one,
             drive: Drive {
@@ -121,6 +125,7 @@ impl<S: Simd, const N: usize> State<S, N> {
             offset: self.offset.get(lane),
             left: self.left.get(lane),
             impacts: self.impacts.get(lane),
+            crossings: self.crossings.get(lane),
             phase: self.phase.get(lane),
         }
     }
@@ -132,6 +137,7 @@ impl<S: Simd, const N: usize> State<S, N> {
         self.offset.set(lane, to.offset);
         self.left.set(lane, to.left);
         self.impacts.set(lane, to.impacts);
+        self.crossings.set(lane, to.crossings);
         self.phase.set(lane, to.phase);
         self.share.set(lane, 1.0);
         let (s, c) = (self.drive.frequency.get(lane) * to.offset).sin_cos();
@@ -140,12 +146,13 @@ impl<S: Simd, const N: usize> State<S, N> {
         self.angle.1.set(lane, s0 * c + c0 * s);
     }
 
-    /// The impacts that a lane has counted, once.
+    /// Adds the impacts and crossings that a lane has counted, once.
     #[inline(always)]
-    pub fn take_impacts(&mut self, lane: usize) -> u64 {
-        let impacts = self.impacts.get(lane) as u64;
+    pub fn take_counts(&mut self, lane: usize, outcome: &mut Outcome) {
+        outcome.impacts += self.impacts.get(lane) as u64;
+        outcome.crossings += self.crossings.get(lane) as u64;
         self.impacts.set(lane, 0.0);
-        impacts
+        self.crossings.set(lane, 0.0);
     }
 
     /// Takes the drive angle anew from the time in these lanes.

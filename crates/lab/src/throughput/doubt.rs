@@ -1,14 +1,16 @@
-//! Whether rounding can change the number of impacts of a motion.
+//! Whether rounding can change the number of crossings of a motion, and how far it can move the end.
 //!
 //! The covariance of the rounding errors is carried along with the exact tangent of the motion,
 //! C -> T C T' + [`ROUNDING`]^2 I for each arc and C -> S C S' at each crossing with saltation matrix S,
-//! so that errors count from where they are made on. A number of impacts can change where the mass turns as
-//! near to a surface of impact as the errors go, where it passes one so slowly that it goes no further beyond
+//! so that errors count from where they are made on. A number of crossings can change where the mass turns as
+//! near to a face as the errors go, where it passes one so slowly that it goes no further beyond
 //! it than that, and wherever the errors have grown so far that the tangent says nothing of them.
 
 use nalgebra::Matrix2;
 use softstop::internals::Course;
-use softstop::{Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene, Start, Tangent};
+use softstop::{
+    Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene, Start, Stop, Tangent,
+};
 use softstop_dynamics::internals::turns;
 
 /// Errors of position (m) and velocity (m/s) made on one arc. An arc has some ten windows and the motions are
@@ -19,12 +21,18 @@ pub const ROUNDING: f64 = 1e-10;
 /// no longer small against what the tangent leaves out.
 pub const CHAOS: f64 = 1e6;
 
-/// What is known of a motion's impacts.
+/// What is known of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Verdict {
     /// How many there are.
     pub impacts: u64,
-    /// Rounding can change that.
+    /// Crossings of all faces.
+    pub crossings: u64,
+    /// State at its end.
+    pub end: Start,
+    /// Errors of position (m) and velocity (m/s) that have come together there.
+    pub errors: f64,
+    /// Rounding can change the numbers, or says nothing of the end.
     pub doubtful: bool,
 }
 
@@ -33,13 +41,15 @@ pub struct Verdict {
 /// # Errors
 /// [`MotionError`] if it cannot be computed.
 pub fn judge(scene: &Scene, start: Start, periods: u64) -> Result<Verdict, MotionError> {
-    let wall = scene.wall().map_or(f64::INFINITY, |wall| wall.position);
     let mut doubt = Doubt {
-        levels: [scene.clearance, wall],
+        levels: levels(scene),
         covariance: Matrix2::identity() * (ROUNDING * ROUNDING),
         tangent: Tangent::default(),
         verdict: Verdict {
             impacts: 0,
+            crossings: 0,
+            end: start,
+            errors: 0.0,
             doubtful: false,
         },
     };
@@ -47,12 +57,32 @@ pub fn judge(scene: &Scene, start: Start, periods: u64) -> Result<Verdict, Motio
     let end = Clock::at_cycle(periods);
     motion.advance(end, &mut doubt)?;
     motion.tell_arc(&mut doubt);
-    Ok(doubt.verdict)
+    Ok(Verdict {
+        end: motion.state(),
+        errors: doubt.errors(),
+        ..doubt.verdict
+    })
+}
+
+/// Where a machine has faces, in m.
+pub fn levels(scene: &Scene) -> Vec<f64> {
+    let stop = scene.stop_position();
+    let mut levels = vec![scene.clearance, stop];
+    levels.extend(
+        scene
+            .piercing
+            .map(|strip| scene.clearance + strip.thickness),
+    );
+    levels.extend(scene.wall().map(|wall| wall.position));
+    if let Stop::PiecewiseLinear { loading, unloading } = &scene.stop {
+        let corners = loading.iter().chain(unloading);
+        levels.extend(corners.map(|slope| stop + slope.from));
+    }
+    levels
 }
 
 struct Doubt {
-    /// Where impacts happen, and where the mass can go no further, in m.
-    levels: [f64; 2],
+    levels: Vec<f64>,
     covariance: Matrix2<f64>,
     tangent: Tangent,
     verdict: Verdict,
@@ -96,6 +126,7 @@ impl Observer for Doubt {
 
     fn crossing(&mut self, crossing: &Crossing) {
         self.verdict.impacts += u64::from(crossing.impact_velocity().is_some());
+        self.verdict.crossings += 1;
         if self.verdict.doubtful {
             return;
         }
@@ -103,9 +134,7 @@ impl Observer for Doubt {
         let (before, after) = (crossing.acceleration_before, crossing.acceleration_after);
         let depth = 0.5 * crossing.velocity.powi(2) / before.abs().max(after.abs());
         self.verdict.doubtful |= match crossing.kind {
-            CrossingKind::Surface { impact: true, .. } | CrossingKind::Rebound { .. } => {
-                depth <= errors
-            }
+            CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } => depth <= errors,
             CrossingKind::Reversal => self.passes_near(crossing.position, errors),
             _ => false,
         };

@@ -17,7 +17,14 @@ pub enum Kind {
     Other,
     /// A stop with a power law.
     Power,
+    /// With a face beside a turning point of a settled motion.
+    Face,
+    /// At a frequency beside one at which the settled motion changes.
+    Change,
 }
+
+/// A machine and where its motion starts.
+pub type Motion = (Kind, Scene, Start);
 
 /// Draws machines; the same ones for the same seed and part.
 pub struct Draw(Xoshiro256PlusPlus);
@@ -36,7 +43,7 @@ impl Draw {
     ///
     /// # Errors
     /// [`SceneError`] if the drawing went wrong.
-    pub fn machine(&mut self) -> Result<(Kind, Scene, Start), SceneError> {
+    pub fn machine(&mut self) -> Result<Motion, SceneError> {
         let kind = [Kind::Unloaded, Kind::Loaded, Kind::Other, Kind::Power][self.below(4)];
         let base = match kind {
             Kind::Loaded => Ratios::loaded(),
@@ -47,20 +54,30 @@ impl Draw {
         match kind {
             Kind::Other => scene.stop = self.stop(),
             Kind::Power => scene.stop = self.power(),
-            Kind::Unloaded | Kind::Loaded => {}
+            _ => {}
         }
         let is_last = kind == Kind::Power || matches!(scene.stop, Stop::Rigid { .. });
         if self.below(10) == 0 && !is_last {
-            let (travel, restitution) = (self.between(0.1, 2.0), self.between(0.2, 0.95));
-            scene.rigid = Some(RigidStop {
-                travel,
-                restitution,
-            });
+            let travel = self.between(0.1, 2.0);
+            scene.rigid = Some(self.wall(travel));
         }
+        let start = self.start(&scene);
+        Ok((kind, scene, start))
+    }
+
+    /// Somewhere before the wall.
+    pub(super) fn start(&mut self, scene: &Scene) -> Start {
         let wall = scene.wall().map_or(f64::INFINITY, |wall| wall.position);
         let position = self.between(-12.0, wall.min(12.0));
-        let start = Start::new(position, self.between(-15.0, 15.0));
-        Ok((kind, scene, start))
+        Start::new(position, self.between(-15.0, 15.0))
+    }
+
+    /// A rigid stop behind the stop.
+    pub(super) fn wall(&mut self, travel: f64) -> RigidStop {
+        RigidStop {
+            travel,
+            restitution: self.between(0.2, 0.95),
+        }
     }
 
     fn stop(&mut self) -> Stop {
@@ -98,12 +115,12 @@ impl Draw {
     }
 
     /// Evenly in [low, high).
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
         let share = (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
         low + (high - low) * share
     }
 
-    fn below(&mut self, count: usize) -> usize {
+    pub(super) fn below(&mut self, count: usize) -> usize {
         (self.between(0.0, count as f64) as usize).min(count - 1)
     }
 }

@@ -236,22 +236,28 @@ impl Report for ThroughputReport {
 fn told(check: &Check) -> String {
     let tally = &check.tally;
     let mut text = format!(
-        "\nBoth engines on {} random motions of {} periods with {} impacts, in {:.1} s:\n\
-         {} count different impacts; of {} more that are chaotic or graze within rounding, {} do\n\
+        "\nBoth engines on {} random motions of {} periods with {} impacts, {} of them leapt over in part, in {:.1} s:\n\
+         {} differ in impacts, crossings or end; the ends are {:.0e} times the growth of an error apart at most\n\
+         {} more are chaotic or graze within rounding: {} count other impacts; {} of them leapt and agree from there on\n\
+         but for the differing ones, {} leapt and could not be compared\n\
          {} periods in {} motions were handed over\n",
         tally.trajectories,
-        check.periods,
+        check.plan.periods,
         tally.impacts,
+        tally.leapt,
         check.seconds,
         tally.different,
+        tally.farthest,
         tally.chaotic,
         tally.different_in_chaos,
+        tally.compared_from_leap,
+        tally.not_compared,
         tally.handed_over_periods,
         tally.handed_over,
     );
     for difference in &tally.first {
         text += &format!(
-            "  {} impacts in lanes, {} by the safe engine: {:?} from {:?}\n",
+            "  impacts, crossings, position, velocity: {:?} in lanes, {:?} by the safe engine: {:?} from {:?}\n",
             difference.batch, difference.scalar, difference.scene, difference.start
         );
     }
