@@ -17,6 +17,7 @@ mod slopes;
 mod slopes_of_borders;
 mod slopes_of_designs;
 mod spread;
+mod steep;
 mod stop_invariants;
 mod stroke;
 mod sweep;

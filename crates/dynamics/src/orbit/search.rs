@@ -8,7 +8,7 @@ use super::newton::fixed_point_unless;
 use super::periodic::STEEP;
 use super::returning::{Candidate, Distance, returning};
 use super::scan::{FAINTEST, all_single};
-use super::{Orbit, OrbitError, Passage, StroboscopicMap, is_stable};
+use super::{Monodromy, Orbit, OrbitError, Passage, StroboscopicMap};
 use crate::watch::{Watcher, unwatched};
 use softstop::Scene;
 use softstop_lanes::Machine;
@@ -164,11 +164,11 @@ struct Fixed {
 }
 
 impl Fixed {
-    fn new(state: Vector2<f64>, jacobian: Matrix2<f64>) -> Self {
+    fn new(state: Vector2<f64>, monodromy: Monodromy) -> Self {
         Self {
             state,
-            lead: (Matrix2::identity() - jacobian).try_inverse(),
-            reach: if is_stable(&jacobian) {
+            lead: monodromy.resolvent(),
+            reach: if monodromy.is_stable() {
                 SAME
             } else {
                 SAME_UNSTABLE
@@ -203,7 +203,7 @@ impl Met<'_> {
             Ok(None) => return,
             Ok(Some((state, passage))) if steepness(&passage) <= STEEP => {
                 self.all.push(Fixed::new(state, passage.monodromy));
-                if !is_stable(&passage.monodromy) {
+                if !passage.monodromy.is_stable() {
                     return;
                 }
                 let orbit = Orbit::on(self.scene, &self.map, state, &passage);
