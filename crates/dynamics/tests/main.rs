@@ -22,6 +22,7 @@ mod stop_invariants;
 mod stroke;
 mod sweep;
 mod zone_denied;
+mod zone_found;
 mod zone_judge;
 mod zone_light;
 mod zone_reference;
