@@ -23,6 +23,9 @@ pub struct Tangent {
     /// nor sticks under dry friction, det(matrix) = exp(-damping_integral) times R^2 for each rebound
     /// from a rigid stop (Liouville).
     pub damping_integral: f64,
+    /// Determinant of the product, the product of the determinants of its factors: free of the cancellation between
+    /// entries that a weak impact makes large.
+    pub determinant: f64,
 }
 
 impl Default for Tangent {
@@ -30,6 +33,7 @@ impl Default for Tangent {
         Self {
             matrix: Matrix2::identity(),
             damping_integral: 0.0,
+            determinant: 1.0,
         }
     }
 }
@@ -37,18 +41,19 @@ impl Default for Tangent {
 impl Tangent {
     /// Goes along an arc: its transition.
     fn along(&mut self, arc: &Arc<'_>, elapsed: f64) -> Matrix2<f64> {
-        let transition = match (arc.phase, arc.course.segment()) {
-            (Some(_), Some(segment)) => {
-                let (transition, damping) = segment.transition(elapsed);
-                self.damping_integral += damping;
-                transition
+        let (transition, damping) = match (arc.phase, arc.course.segment()) {
+            (Some(_), Some(segment)) => segment.transition(elapsed),
+            (Some(phase), None) => (
+                phase.flow.transition(elapsed),
+                phase.flow.damping() * elapsed,
+            ),
+            (None, _) => {
+                self.determinant = 0.0;
+                (Matrix2::new(1.0, 0.0, 0.0, 0.0), 0.0)
             }
-            (Some(phase), None) => {
-                self.damping_integral += phase.flow.damping() * elapsed;
-                phase.flow.transition(elapsed)
-            }
-            (None, _) => Matrix2::new(1.0, 0.0, 0.0, 0.0),
         };
+        self.damping_integral += damping;
+        self.determinant *= (-damping).exp();
         self.matrix = transition * self.matrix;
         transition
     }
@@ -60,7 +65,9 @@ impl Observer for Tangent {
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
-        self.matrix = saltation(crossing) * self.matrix;
+        let saltation = saltation(crossing);
+        self.determinant *= saltation.determinant();
+        self.matrix = saltation * self.matrix;
     }
 }
 

@@ -123,7 +123,7 @@ fn from_impact_to_impact_strong_motions_are_the_same() {
             epsilon = 10.0 * MOTION
         );
         assert_abs_diff_eq!(
-            (again.monodromy - orbit.monodromy).norm(),
+            (again.monodromy.matrix - orbit.monodromy.matrix).norm(),
             0.0,
             epsilon = SOLVED
         );

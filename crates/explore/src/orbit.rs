@@ -3,7 +3,8 @@
 use anyhow::anyhow;
 use clap::Args;
 use serde::Serialize;
-use softstop_dynamics::orbit::{OrbitError, find_watched};
+use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::zone::find_watched;
 
 use softstop::{Machine, Parameter};
 use softstop_console::arguments::MachineArguments;
@@ -29,6 +30,9 @@ Examples:
           regime = \"loaded\"
           clearance = 8.0
           contact_damping = 0.1
+
+It is the motion with the hardest impact, of those on all stretches that `softstop zone` lists
+and of those that a search at this frequency finds.
 
 Position and velocity are those at drive angle 0 (a multiple of the drive's period). The
 motion is stable if both Floquet multipliers lie inside the unit circle, and neutral if they lie on it,

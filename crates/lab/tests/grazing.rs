@@ -35,7 +35,7 @@ fn near_grazing_the_jacobian_is_that_of_differences_in_many_digits() {
         (ahead - behind) / (2.0 * WIDTH)
     };
     let differences = Matrix2::from_columns(&[column(Vector2::x()), column(Vector2::y())]);
-    let off = (orbit.monodromy - differences).norm() / differences.norm();
+    let off = (orbit.monodromy.matrix - differences).norm() / differences.norm();
     // The state is rounded to 1.8e-15, which is 3e-7 of the same distance.
     assert!(off < 1e-6, "{off:e}");
     let largest = orbit.multipliers()[0].re;

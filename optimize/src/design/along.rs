@@ -5,7 +5,6 @@ use std::cell::RefCell;
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentOpt;
 use softstop::Machine;
-use softstop_dynamics::orbit::multipliers;
 use softstop_dynamics::{BranchPoint, Orbit, Zone};
 
 use super::Infeasible;
@@ -207,7 +206,9 @@ const LOST: f64 = 10.0;
 
 /// The grade of an unstable motion: how far its largest multiplier is outside the unit circle.
 fn instability(point: &BranchPoint) -> f64 {
-    let largest = multipliers(&point.monodromy)
+    let largest = point
+        .monodromy
+        .multipliers()
         .iter()
         .map(|multiplier| multiplier.norm())
         .fold(0.0, f64::max);

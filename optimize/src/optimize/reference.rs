@@ -5,7 +5,7 @@ use softstop::Machine;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::machine::Regime;
-use softstop_dynamics::{Orbit, orbit};
+use softstop_dynamics::{Orbit, zone};
 
 /// A motion and its machine.
 #[derive(Debug, Clone)]
@@ -22,7 +22,7 @@ pub struct Reference {
 /// machine itself, if it has a stable z = 1 motion as it is.
 pub(super) fn references(machine: &Machine) -> Result<Vec<Reference>, Failure> {
     if machine.ratios().is_none() {
-        let found = orbit::find_watched(&machine.scene, &interrupt::watch).ok();
+        let found = zone::find_watched(&machine.scene, &interrupt::watch).ok();
         return Ok(Vec::from_iter(found.map(|orbit| Reference {
             name: "given",
             machine: machine.clone(),
@@ -35,7 +35,7 @@ pub(super) fn references(machine: &Machine) -> Result<Vec<Reference>, Failure> {
             let point = || format!("the paper's point {}", regime.point());
             let machine = Machine::named(regime.name()).with_context(point)?;
             let orbit =
-                orbit::find_watched(&machine.scene, &interrupt::watch).with_context(point)?;
+                zone::find_watched(&machine.scene, &interrupt::watch).with_context(point)?;
             Ok(Reference {
                 name: regime.point(),
                 machine,

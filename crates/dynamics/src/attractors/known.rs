@@ -124,7 +124,7 @@ impl<'a> Book<'a> {
         let gap = Start::new(state.position - passage.end.x, state.velocity);
         let creep = distance(self.frequency(), &gap, &Start::from(Vector2::zeros()));
         let size = size(self.frequency(), [state]);
-        Ok((passage.monodromy - held).norm() <= CREEP && creep <= ARRIVED * size)
+        Ok((passage.monodromy.matrix - held).norm() <= CREEP && creep <= ARRIVED * size)
     }
 
     /// The known orbit that another one is.

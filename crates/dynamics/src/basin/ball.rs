@@ -61,7 +61,7 @@ impl Ball {
         while radius > LEAST * size {
             let contracts = |point: Vector2<f64>| {
                 map.apply(centre + back * point).is_ok_and(|passage| {
-                    let tangent = shape * passage.monodromy * back;
+                    let tangent = shape * passage.monodromy.matrix * back;
                     passage.impacts.len() == impacts && largest(&tangent) <= 0.5 * (1.0 + rate)
                 })
             };

@@ -8,8 +8,8 @@ use super::ball::Ball;
 use super::section::at_section;
 use crate::attractors::SurveyError;
 use crate::batch::follow;
+use crate::orbit::Orbit;
 use crate::orbit::recurrence::{distance, size};
-use crate::orbit::{Orbit, multipliers};
 use crate::strokes::Strokes;
 use crate::watch::Watcher;
 use crate::zone::free_amplitude;
@@ -76,7 +76,7 @@ impl Home {
         let scene = &orbit.scene;
         let states: Vec<Start> = orbit.states()?.into_iter().map(Start::from).collect();
         let size = size(scene.excitation.frequency, &states);
-        let slowest = multipliers(&orbit.monodromy)[0].norm();
+        let slowest = orbit.multipliers()[0].norm();
         let decay = -slowest.ln() / orbit.periods as f64;
         let (patience, arrived) = match decay {
             _ if decay > SLOWEST => {

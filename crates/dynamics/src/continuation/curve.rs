@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::{DVector, Matrix2};
+use nalgebra::DVector;
 
 use super::Family;
 use super::arclength::{Equations, Node, correct};
@@ -14,7 +14,7 @@ use super::sequence::Sequence;
 use super::shooting::{Critical, Shooting};
 use super::touching::{Contact, Touching};
 use super::walker::Walker;
-use crate::orbit::OrbitError;
+use crate::orbit::{Monodromy, OrbitError};
 
 /// The part of the plane of two parameters in which a curve is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +40,7 @@ pub struct CurvePoint {
     /// Before-impact velocities in m/s.
     pub impacts: Vec<f64>,
     /// Jacobian of the map, a touch left out.
-    pub monodromy: Matrix2<f64>,
+    pub monodromy: Monodromy,
 }
 
 impl CurvePoint {

@@ -12,6 +12,7 @@ use super::round::Round;
 use super::test::Test;
 use super::way::Limits;
 use crate::orbit::OrbitError;
+use softstop::internals::highest;
 
 /// Share of its way across that half a round may have left where an orbit has become one of half as many
 /// periods.
@@ -22,6 +23,8 @@ const AT_BOUND: f64 = 1e-4;
 const CLOSED: f64 = 0.05;
 /// The same of the orbit found there.
 const SAME: f64 = 1e-3;
+/// Share of a step to which the place is found where a multiplier is farthest beyond -1.
+const DIP: f64 = 1e-6;
 
 impl<F: Family> Follower<'_, F> {
     /// The end of the range beyond which a step leads, and whether the step begins there, or beyond it by rounding.
@@ -68,11 +71,42 @@ impl<F: Family> Follower<'_, F> {
                 found.push((share, Special { kind, point }));
             }
         }
+        found.extend(self.flips_there_and_back(from, to)?);
         if a.sequence.crossings() != b.sequence.crossings() {
             found.extend(self.graze_between(from, to)?);
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(found.into_iter().map(|(_, special)| special).collect())
+    }
+
+    /// The two flips of a step on which the multipliers meet on the negative real axis and part again, one of them beyond
+    /// -1 meanwhile: at little damping, in narrow windows of frequency. The sense in which they turn changes there.
+    fn flips_there_and_back(
+        &self,
+        from: &Node<Round>,
+        to: &Node<Round>,
+    ) -> Result<Vec<(f64, Special)>, OrbitError> {
+        let value = |node: &Node<Round>| Test::Flip.value(&node.here.point.monodromy);
+        let [a, b] = [from, to].map(|node| &node.here.point.monodromy);
+        let turns_over = a.m12 * b.m12 < 0.0 || a.m21 * b.m21 < 0.0;
+        if !turns_over || a.trace() > 0.0 || value(from).min(value(to)) <= 0.0 {
+            return Ok(Vec::new());
+        }
+        let at = |share| on_step(&self.shooting, (from, to), share);
+        let depth = |share| at(share).map_or(f64::NEG_INFINITY, |node| -value(&node));
+        let (share, deepest) = highest(0.0, 1.0, DIP, depth);
+        if deepest <= 0.0 {
+            return Ok(Vec::new());
+        }
+        let middle = at(share)?;
+        let halves = [(from, &middle, 0.0, share), (&middle, to, share, 1.0)];
+        let flips = halves.map(|(from, to, begins, ends)| {
+            let (node, own) = locate(&self.shooting, (from, to), WIDTH, value)?;
+            let kind = SpecialKind::Critical(Test::Flip);
+            let point = self.point_at(&node)?;
+            Ok((begins + own * (ends - begins), Special { kind, point }))
+        });
+        flips.into_iter().collect()
     }
 
     /// The grazing of a stop without a jump of its force, where the branch goes on.

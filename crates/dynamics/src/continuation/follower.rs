@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::{DVector, Matrix2, Vector2};
+use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Node, correct, correct_at};
@@ -11,7 +11,7 @@ use super::round::Round;
 use super::shooting::{Critical, Shooting};
 use super::test::Test;
 use super::walker::{LARGEST_STEP, Stride, Walker};
-use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
+use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 
 /// Scaled distance along a branch to which special points are located.
 pub(crate) const WIDTH: f64 = 1e-12;
@@ -253,8 +253,8 @@ const SENSELESS: f64 = 1e-8;
 /// back where 1 - tr + det changes its sign, and nowhere else. Its rate along the curve is that test times a factor of one
 /// sign, at corners as well: it is the index of a fixed point of a map that is continuous.
 pub(super) fn keeps_sense(
-    (from, before): (&DVector<f64>, &Matrix2<f64>),
-    (to, after): (&DVector<f64>, &Matrix2<f64>),
+    (from, before): (&DVector<f64>, &Monodromy),
+    (to, after): (&DVector<f64>, &Monodromy),
 ) -> bool {
     let sense = |direction: &DVector<f64>, matrix| Test::Fold.value(matrix) * direction[2];
     let [from, to] = [sense(from, before), sense(to, after)];

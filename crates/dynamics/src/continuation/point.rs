@@ -1,10 +1,10 @@
 //! Points of branches, and what is special about some.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 
 use super::face::Face;
 use super::test::Test;
-use crate::orbit::is_stable;
+use crate::orbit::Monodromy;
 
 /// A point of a branch.
 #[derive(Debug, Clone)]
@@ -18,7 +18,7 @@ pub struct BranchPoint {
     /// Before-impact velocities in m/s over the period, in order of time.
     pub impacts: Vec<f64>,
     /// Jacobian of the map over the period; of an orbit that grazes, that without the touch.
-    pub monodromy: Matrix2<f64>,
+    pub monodromy: Monodromy,
 }
 
 impl BranchPoint {
@@ -34,12 +34,12 @@ impl BranchPoint {
 
     /// 1 - tr + det: zero at a fold, positive on its stable side.
     pub fn fold_test(&self) -> f64 {
-        1.0 - self.monodromy.trace() + self.monodromy.determinant()
+        self.monodromy.fold_test()
     }
 
     /// True if the orbit is stable.
     pub fn is_stable(&self) -> bool {
-        is_stable(&self.monodromy)
+        self.monodromy.is_stable()
     }
 }
 

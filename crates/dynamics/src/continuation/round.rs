@@ -2,10 +2,11 @@
 
 use std::sync::Arc as Shared;
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 
 use super::face::{Face, Touch};
 use super::sequence::Sequence;
+use crate::orbit::Monodromy;
 use softstop::internals::{Detuning, Motion, Phases};
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Scene, Start,
@@ -19,7 +20,7 @@ pub(crate) struct Round {
     /// States after each drive period.
     pub ends: Vec<Vector2<f64>>,
     /// Exact Jacobian of the last one.
-    pub monodromy: Matrix2<f64>,
+    pub monodromy: Monodromy,
     /// Its exact derivative by the drive's frequency in m s/rad and m/rad, where all laws have one in closed form.
     pub by_frequency: Option<Vector2<f64>>,
     /// Before-impact velocities in m/s, in order of time.
@@ -70,8 +71,8 @@ impl Round {
             ends,
             // Whatever comes to rest at a rigid stop goes on alike.
             monodromy: match at_wall && watch.margin == 0.0 {
-                true => Matrix2::zeros(),
-                false => watch.detuning.tangent.matrix,
+                true => Monodromy::ZERO,
+                false => Monodromy::from(&watch.detuning.tangent),
             },
             by_frequency: watch.detuning.at_drive_angle(&motion),
             impacts: watch.impacts,

@@ -1,6 +1,6 @@
 //! What the monodromy matrix says: folds, flips, Neimark-Sacker points.
 
-use nalgebra::Matrix2;
+use crate::orbit::Monodromy;
 
 /// A function of the monodromy matrix that vanishes at a bifurcation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,7 +21,7 @@ impl Test {
 
     /// The value, scaled by the size of trace and determinant: bounded also where they grow beyond all
     /// bounds, at grazing.
-    pub fn value(self, monodromy: &Matrix2<f64>) -> f64 {
+    pub fn value(self, monodromy: &Monodromy) -> f64 {
         let (trace, determinant) = (monodromy.trace(), monodromy.determinant());
         let size = 1.0f64.hypot(trace).hypot(determinant);
         match self {
@@ -32,20 +32,20 @@ impl Test {
     }
 
     /// True if no test changes much between two orbits, as on one short piece of a branch.
-    pub(crate) fn change_little(from: &Matrix2<f64>, to: &Matrix2<f64>) -> bool {
+    pub(crate) fn change_little(from: &Monodromy, to: &Monodromy) -> bool {
         let change = |test: &Self| (test.value(from) - test.value(to)).abs();
         Self::ALL.iter().all(|test| change(test) < LARGEST_CHANGE)
     }
 
     /// True if the test passes zero between two orbits. Without damping the determinant is 1 to rounding
     /// all along: nothing passes there.
-    pub(crate) fn passes(self, from: &Matrix2<f64>, to: &Matrix2<f64>) -> bool {
+    pub(crate) fn passes(self, from: &Monodromy, to: &Monodromy) -> bool {
         let (a, b) = (self.value(from), self.value(to));
         let changes = (a > 0.0) != (b > 0.0);
         match self {
             Self::Fold | Self::Flip => changes,
             Self::NeimarkSacker => {
-                let rotates = |matrix: &Matrix2<f64>| matrix.trace().abs() < 2.0;
+                let rotates = |monodromy: &Monodromy| monodromy.trace().abs() < 2.0;
                 let moves = (a - b).abs() > CONSERVATIVE;
                 changes && moves && rotates(from) && rotates(to)
             }
@@ -62,11 +62,16 @@ const CONSERVATIVE: f64 = 1e-9;
 #[cfg(test)]
 mod tests {
     use super::Test;
+    use crate::orbit::Monodromy;
     use nalgebra::{Matrix2, Rotation2};
+
+    fn of(matrix: Matrix2<f64>) -> Monodromy {
+        Monodromy::product(&[(matrix, matrix.determinant())])
+    }
 
     #[test]
     fn tests_vanish_at_their_multipliers() {
-        let vanishes = |test: Test, matrix| assert!(test.value(&matrix).abs() < 1e-15);
+        let vanishes = |test: Test, matrix| assert!(test.value(&of(matrix)).abs() < 1e-15);
         vanishes(Test::Fold, Matrix2::new(1.0, 5.0, 0.0, 0.3));
         vanishes(Test::Flip, Matrix2::new(-1.0, 5.0, 0.0, 0.3));
         vanishes(Test::NeimarkSacker, Rotation2::new(1.0).into_inner());
@@ -74,12 +79,12 @@ mod tests {
 
     #[test]
     fn neimark_sacker_needs_complex_multipliers_and_a_change() {
-        let turned = |size: f64| Rotation2::new(1.0).into_inner() * size;
-        let passes = |from: Matrix2<f64>, to: Matrix2<f64>| Test::NeimarkSacker.passes(&from, &to);
+        let turned = |size: f64| of(Rotation2::new(1.0).into_inner() * size);
+        let passes = |from: Monodromy, to: Monodromy| Test::NeimarkSacker.passes(&from, &to);
         assert!(passes(turned(0.9), turned(1.1)));
         assert!(!passes(turned(0.9), turned(0.95)));
         assert!(!passes(turned(1.0 - 1e-14), turned(1.0 + 1e-14)));
-        let stretched = |size: f64| Matrix2::new(3.0 * size, 0.0, 0.0, size / 3.0);
+        let stretched = |size: f64| of(Matrix2::new(3.0 * size, 0.0, 0.0, size / 3.0));
         assert!(!passes(stretched(0.9), stretched(1.1)));
     }
 }

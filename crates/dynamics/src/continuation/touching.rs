@@ -7,14 +7,14 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Evaluation, Node};
 use super::face::Face;
 use super::round::carry_on;
 use super::shooting::round_off;
-use crate::orbit::OrbitError;
+use crate::orbit::{Monodromy, OrbitError};
 use softstop::{Arc, Clock, Crossing, Instant, Observer, Scene, Tangent};
 
 /// Grazing orbits of a family, in unknowns: drive angle of the touch, scaled parameters.
@@ -32,7 +32,7 @@ pub(crate) struct Touching<'a, F, const N: usize> {
 #[derive(Debug, Clone)]
 pub(crate) struct Contact {
     /// Jacobian of the map as if the stop were not there, from touch to touch.
-    pub monodromy: Matrix2<f64>,
+    pub monodromy: Monodromy,
     /// Before-impact velocities in m/s, that of the touch left out.
     pub impacts: Vec<f64>,
 }
@@ -101,7 +101,7 @@ impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
         motion.tell_arc(&mut watch);
         let end = watch.found.ok_or(LOST)?;
         let Seen { tangent, impacts } = watch.seen;
-        let monodromy = tangent.matrix;
+        let monodromy = Monodromy::from(&tangent);
         let drift = end - touch;
         let [length, speed] = self.family.state_scales();
         Ok(Evaluation {

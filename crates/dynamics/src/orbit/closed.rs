@@ -4,8 +4,8 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::contact::Passing;
 use super::legs::{Attempt, Legs, Unknowns};
-use super::{Orbit, OrbitError, StroboscopicMap};
-use softstop::internals::{Motion, Outlook, PhaseId, first_crossing};
+use super::{Monodromy, Orbit, OrbitError, StroboscopicMap};
+use softstop::internals::{Flow, Motion, Outlook, PhaseId, first_crossing};
 use softstop::{Clock, Instant, Tangent, Touch};
 
 /// Share of the drive period by which an impact found by its crossing may differ from the one looked for.
@@ -32,19 +32,16 @@ impl Legs<'_> {
         let mut factors = vec![self.head(impacts[0].0, free, state)?];
         for pair in impacts.windows(2) {
             let (time, _, passing) = pair[0];
-            let flight = passing
-                .course
-                .flow
-                .transition(pair[1].0 - time - passing.lasting);
-            factors.extend([passing.entry, passing.tangent.matrix, flight]);
+            let flight = pair[1].0 - time - passing.lasting;
+            let free = along(&passing.course.flow, flight);
+            factors.extend([entry(passing), factor(&passing.tangent), free]);
         }
-        factors.push(last.entry);
+        factors.push(entry(last));
         if free >= 0.0 {
-            factors.extend([last.tangent.matrix, last.course.flow.transition(free)]);
+            factors.extend([factor(&last.tangent), along(&last.course.flow, free)]);
         } else {
             factors.push(tail);
         }
-        let product = |product: Matrix2<f64>, factor: &Matrix2<f64>| factor * product;
         let contacts = impacts.iter().map(|(_, _, passing)| passing);
         let touched: f64 = contacts.clone().map(|passing| passing.lasting).sum();
         let lost: f64 = contacts
@@ -63,8 +60,7 @@ impl Legs<'_> {
             impacts: impacts.iter().map(touch).collect(),
             rests: Vec::new(),
             max_position: map.max_position(state)?.max(self.face.position()),
-            monodromy: factors.iter().fold(Matrix2::identity(), product),
-            determinant: factors.iter().map(Matrix2::determinant).product(),
+            monodromy: Monodromy::product(&factors),
             damping_integral: lost + last.course.flow.damping() * (self.span() - touched),
         })
     }
@@ -88,27 +84,44 @@ impl Legs<'_> {
     }
 
     /// From right after the last impact to the end of the period: the state there, and the tangent.
-    fn tail(&self, time: f64, last: &Passing) -> Result<(Vector2<f64>, Matrix2<f64>), OrbitError> {
+    fn tail(&self, time: f64, last: &Passing) -> Result<(Vector2<f64>, Factor), OrbitError> {
         let from = self.face.clock.instant(time);
         let mut motion = self.face.motion(from, last.velocity_after)?;
         let tangent = advanced(&mut motion, Clock::at_cycle(self.periods))?;
-        Ok((motion.state().into(), tangent.matrix))
+        Ok((motion.state().into(), factor(&tangent)))
     }
 
     /// From the beginning of the period to the first impact. If `free` is negative, contact lasts on for so
     /// many seconds.
-    fn head(&self, time: f64, free: f64, state: Vector2<f64>) -> Result<Matrix2<f64>, OrbitError> {
+    fn head(&self, time: f64, free: f64, state: Vector2<f64>) -> Result<Factor, OrbitError> {
         let flow = self.face.phases[PhaseId::FREE].flow;
         if free >= 0.0 {
-            return Ok(flow.transition(time));
+            return Ok(along(&flow, time));
         }
         let (phases, clock) = (self.face.phases.clone(), self.face.clock);
         let mut motion = Motion::new(phases, clock, Clock::at_cycle(0), state.into())?;
         // The mass may leave a little later than it did by the contact that began before.
         let between = 0.5 * (time - free);
         let tangent = advanced(&mut motion, clock.instant(between))?;
-        Ok(flow.transition(time - between) * tangent.matrix)
+        let (transition, kept) = along(&flow, time - between);
+        Ok((transition * tangent.matrix, kept * tangent.determinant))
     }
+}
+
+/// A factor of a monodromy matrix, with its determinant.
+type Factor = (Matrix2<f64>, f64);
+
+fn factor(tangent: &Tangent) -> Factor {
+    (tangent.matrix, tangent.determinant)
+}
+
+fn entry(passing: &Passing) -> Factor {
+    (passing.entry, passing.entry.determinant())
+}
+
+/// Free motion over a time in s.
+fn along(flow: &Flow, elapsed: f64) -> Factor {
+    (flow.transition(elapsed), (-flow.damping() * elapsed).exp())
 }
 
 /// Advances a motion: the tangent of the way.

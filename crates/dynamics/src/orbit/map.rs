@@ -2,8 +2,9 @@
 
 use std::sync::Arc as Shared;
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 
+use super::Monodromy;
 use super::turn::turns;
 use softstop::internals::{Motion, Phases, Scales};
 use softstop::{
@@ -26,7 +27,7 @@ pub struct Passage {
     /// Position and velocity after the periods.
     pub end: Vector2<f64>,
     /// Exact Jacobian of the map.
-    pub monodromy: Matrix2<f64>,
+    pub monodromy: Monodromy,
     /// Integral of damping over mass along the way.
     pub damping_integral: f64,
     /// Before-impact velocities in m/s, in order of time.
@@ -77,7 +78,7 @@ impl StroboscopicMap {
         let end = self.run(state, &mut watch)?;
         Ok(Passage {
             end,
-            monodromy: watch.tangent.matrix,
+            monodromy: Monodromy::from(&watch.tangent),
             damping_integral: watch.tangent.damping_integral,
             impacts: watch.impacts,
             instants: watch.instants,

@@ -9,6 +9,7 @@ mod exponents;
 mod guess;
 mod legs;
 mod map;
+mod monodromy;
 mod newton;
 mod pattern;
 mod periodic;
@@ -21,6 +22,7 @@ pub(crate) mod turn;
 
 pub use exponents::Exponents;
 pub use map::{Passage, StroboscopicMap};
+pub use monodromy::Monodromy;
 pub(crate) use newton::NOTHING_LEFT;
 pub use newton::fixed_point;
 pub use pattern::{Count, ImpactPattern};
@@ -114,15 +116,4 @@ fn roots(trace: f64, determinant: f64) -> [Complex<f64>; 2] {
         determinant / large
     };
     [Complex::new(large, 0.0), Complex::new(small, 0.0)]
-}
-
-/// What rounding may leave of 1 in a determinant.
-const NEUTRAL: f64 = 1e-12;
-
-/// Jury's conditions: 1 - tr + det > 0 (no fold), 1 + tr + det > 0 (no flip), det < 1; or det = 1 to rounding, as
-/// without any damping: neutral.
-pub fn is_stable(matrix: &Matrix2<f64>) -> bool {
-    let (trace, determinant) = (matrix.trace(), matrix.determinant());
-    let spirals_in = determinant < 1.0 + NEUTRAL;
-    1.0 - trace + determinant > 0.0 && 1.0 + trace + determinant > 0.0 && spirals_in
 }

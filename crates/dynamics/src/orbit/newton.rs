@@ -36,7 +36,7 @@ pub(super) fn fixed_point_unless(
     let size = |residual: &Vector2<f64>| scales.state(residual).norm();
     let mut residual = passage.end - state;
     for _ in 0..NEWTON_STEPS {
-        let matrix = Matrix2::identity() - passage.monodromy;
+        let matrix = Matrix2::identity() - passage.monodromy.matrix;
         let Some(step) = matrix.lu().solve(&residual) else {
             break;
         };

@@ -1,13 +1,11 @@
 //! A periodic motion of any regime, stable or not.
 
-use nalgebra::{Complex, Matrix2, Vector2};
+use nalgebra::{Complex, Vector2};
 use serde::{Deserialize, Serialize};
 
 use super::guess::guesses;
 use super::newton::fixed_point;
-use super::{
-    ImpactPattern, NEUTRAL, OrbitError, Passage, Regime, StroboscopicMap, is_stable, roots,
-};
+use super::{ImpactPattern, Monodromy, OrbitError, Passage, Regime, StroboscopicMap};
 use softstop::{Instant, MotionError, Scene, Touch};
 
 /// Distance in units of 1 + |state| within which a state that has returned after n periods has also
@@ -34,28 +32,10 @@ pub struct Orbit {
     /// Largest position in m.
     pub max_position: f64,
     /// Jacobian of the map over the period, saltation included.
-    #[serde(with = "columns")]
-    pub monodromy: Matrix2<f64>,
+    pub monodromy: Monodromy,
     /// Integral of damping over mass along the period: det = exp(-integral), times R^2 for each rebound
     /// from a rigid stop, unless the mass turns or sticks under dry friction.
     pub damping_integral: f64,
-    /// Determinant of the monodromy matrix, free of the cancellation between entries that a weak impact makes
-    /// large.
-    pub(super) determinant: f64,
-}
-
-/// A matrix as its columns.
-mod columns {
-    use super::{Deserialize, Matrix2, Serialize};
-    use serde::{Deserializer, Serializer};
-
-    pub fn serialize<S: Serializer>(matrix: &Matrix2<f64>, to: S) -> Result<S::Ok, S::Error> {
-        <[[f64; 2]; 2]>::from(*matrix).serialize(to)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Matrix2<f64>, D::Error> {
-        <[[f64; 2]; 2]>::deserialize(from).map(Matrix2::from)
-    }
 }
 
 /// Impacts up to which orbits are sought from impact to impact: a mass that bounces more often chatters, and the
@@ -174,7 +154,6 @@ impl Orbit {
             max_position: map.max_position(state)?,
             monodromy: passage.monodromy,
             damping_integral: passage.damping_integral,
-            determinant: passage.monodromy.determinant(),
         })
     }
 
@@ -255,22 +234,22 @@ impl Orbit {
 
     /// Determinant of the monodromy matrix.
     pub fn determinant(&self) -> f64 {
-        self.determinant
+        self.monodromy.determinant()
     }
 
     /// Floquet multipliers, the roots of mu^2 - trace mu + determinant.
     pub fn multipliers(&self) -> [Complex<f64>; 2] {
-        roots(self.trace(), self.determinant)
+        self.monodromy.multipliers()
     }
 
     /// True if neighbouring motions neither come nearer nor go away: both multipliers lie on the unit circle, as a
     /// stable motion's do without any damping.
     pub fn is_neutral(&self) -> bool {
-        self.is_stable() && (self.determinant() - 1.0).abs() < NEUTRAL
+        self.monodromy.is_neutral()
     }
 
     /// True if both multipliers lie inside the unit circle, or on it where it is neutral.
     pub fn is_stable(&self) -> bool {
-        is_stable(&self.monodromy)
+        self.monodromy.is_stable()
     }
 }

@@ -8,7 +8,7 @@ use super::newton::fixed_point_unless;
 use super::periodic::STEEP;
 use super::returning::{Candidate, Distance, returning};
 use super::scan::{FAINTEST, all_single};
-use super::{Orbit, OrbitError, Passage, StroboscopicMap, is_stable};
+use super::{Monodromy, Orbit, OrbitError, Passage, StroboscopicMap};
 use crate::watch::{Watcher, unwatched};
 use softstop::Scene;
 use softstop_lanes::Machine;
@@ -26,7 +26,8 @@ const STANDS_FOR: f64 = 0.5;
 const SAME_SPEED: f64 = 1e-9;
 
 /// The stable z = 1 motion of a scene with the highest before-impact velocity: of those that starts spread over the
-/// plane of states lead to, and of those that a lattice of impacts shows.
+/// plane of states lead to, and of those that a lattice of impacts shows. Motions of narrow stretches of frequency may
+/// show in neither: [`zone::find`](crate::zone::find) looks at all frequencies, too.
 ///
 /// # Errors
 /// [`OrbitError::NotFound`] if no start leads to one; [`OrbitError::Motion`] if the scene is
@@ -44,16 +45,17 @@ pub fn find_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Orbit, OrbitE
     let mut all = all_single(scene, watcher)?;
     all.retain(Orbit::is_stable);
     match (settled, all.pop()) {
-        (Ok(settled), Some(other)) if is_harder(&other, &settled) => Ok(other),
+        (Ok(settled), Some(other)) if other.is_harder(&settled) => Ok(other),
         (Err(OrbitError::NotFound { .. }), Some(other)) => Ok(other),
         (settled, _) => settled,
     }
 }
 
-/// True if the impact of one motion is harder, beyond rounding.
-fn is_harder(one: &Orbit, other: &Orbit) -> bool {
-    let [one, other] = [one, other].map(Orbit::before_impact_velocity);
-    one > (1.0 + SAME_SPEED) * other
+impl Orbit {
+    /// True if its impact is harder than that of another one, beyond rounding.
+    pub(crate) fn is_harder(&self, other: &Self) -> bool {
+        self.before_impact_velocity() > (1.0 + SAME_SPEED) * other.before_impact_velocity()
+    }
 }
 
 /// The same of many scenes at once, from those motions that come back near to where they were, and only if they lead to
@@ -164,11 +166,11 @@ struct Fixed {
 }
 
 impl Fixed {
-    fn new(state: Vector2<f64>, jacobian: Matrix2<f64>) -> Self {
+    fn new(state: Vector2<f64>, monodromy: Monodromy) -> Self {
         Self {
             state,
-            lead: (Matrix2::identity() - jacobian).try_inverse(),
-            reach: if is_stable(&jacobian) {
+            lead: monodromy.resolvent(),
+            reach: if monodromy.is_stable() {
                 SAME
             } else {
                 SAME_UNSTABLE
@@ -203,7 +205,7 @@ impl Met<'_> {
             Ok(None) => return,
             Ok(Some((state, passage))) if steepness(&passage) <= STEEP => {
                 self.all.push(Fixed::new(state, passage.monodromy));
-                if !is_stable(&passage.monodromy) {
+                if !passage.monodromy.is_stable() {
                     return;
                 }
                 let orbit = Orbit::on(self.scene, &self.map, state, &passage);

@@ -216,7 +216,7 @@ fn fold(
     parameters: &[Parameter],
 ) -> Result<Vec<f64>, OrbitError> {
     let round = Round::of(scene, point.state(), periods, parameters)?;
-    let a = round.monodromy() - Matrix2::identity();
+    let a = round.monodromy.matrix - Matrix2::identity();
     let candidates = [Vector2::new(a.m21, -a.m11), Vector2::new(a.m22, -a.m12)];
     let speed = scene.scales().rate;
     let size = |w: &Vector2<f64>| w.x.hypot(w.y * speed);

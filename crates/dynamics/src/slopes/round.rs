@@ -1,13 +1,13 @@
 //! One round of a motion with all its derivatives.
 
-use nalgebra::{Matrix2, Vector2, Vector3};
+use nalgebra::{Vector2, Vector3};
 
 use softstop::internals::{Lowered, Motion, Phases};
-use softstop::{Clock, MotionError, Parameter, Scene, Start};
+use softstop::{Clock, MotionError, Parameter, Scene, Start, Tangent};
 
 use super::figure::Figure;
 use super::watch::{Row, Watch, Watched};
-use crate::orbit::OrbitError;
+use crate::orbit::{Monodromy, OrbitError};
 
 /// 1 - tr + det in units of the size of the monodromy matrix up to which a motion is at a fold to rounding.
 const SINGULAR: f64 = 1e-11;
@@ -17,6 +17,8 @@ pub(super) struct Round {
     pub parameters: Vec<Parameter>,
     pub start: Vector2<f64>,
     frequency: f64,
+    /// The Jacobian of the map.
+    pub monodromy: Monodromy,
     /// As [`Influence`](softstop::internals::Influence) has them in the end.
     pub columns: Vec<Vector3<f64>>,
     pub watched: Watched,
@@ -55,8 +57,10 @@ impl Round {
         begin.validate()?;
         let mut motion = Motion::new(phases.clone(), clock, Clock::at_cycle(0), begin)?;
         let mut watch = Watch::new(&phases, &by, clock);
-        motion.advance(Clock::at_cycle(periods), &mut watch)?;
-        motion.tell_arc(&mut watch);
+        let mut tangent = Tangent::default();
+        let observer = &mut (&mut watch, &mut tangent);
+        motion.advance(Clock::at_cycle(periods), observer)?;
+        motion.tell_arc(observer);
         let columns = watch.influence.columns().ok_or_else(|| none(parameters))?;
         let supplied = Row {
             value: watch.influence.supplied,
@@ -66,6 +70,7 @@ impl Round {
             parameters: parameters.to_vec(),
             start,
             frequency: scene.excitation.frequency,
+            monodromy: Monodromy::from(&tangent),
             columns: columns.to_vec(),
             supplied,
             watched: watch.watched,
@@ -76,18 +81,12 @@ impl Round {
         none(&self.parameters)
     }
 
-    /// The Jacobian of the map, with the drive's frequency held.
-    pub fn monodromy(&self) -> Matrix2<f64> {
-        Matrix2::from_columns(&[self.columns[0].xy(), self.columns[1].xy()])
-    }
-
     /// Changes of the state at time 0 with each parameter, velocities with the drive's frequency held.
     pub fn starts(&self) -> Result<Vec<Vector2<f64>>, OrbitError> {
-        let monodromy = self.monodromy();
-        let matrix = Matrix2::identity() - monodromy;
+        let monodromy = &self.monodromy;
         let size = 1.0 + monodromy.trace().abs() + monodromy.determinant().abs();
-        let inverse = (matrix.determinant().abs() > SINGULAR * size)
-            .then(|| matrix.try_inverse())
+        let inverse = (monodromy.fold_test().abs() > SINGULAR * size)
+            .then(|| monodromy.resolvent())
             .flatten()
             .ok_or(OrbitError::NotIsolated)?;
         let forced = self.columns[2..].iter();

@@ -1,12 +1,12 @@
 //! How the multipliers of a periodic motion change: they are first derivatives themselves, so their own are differences.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 
 use softstop::{Parameter, Scene};
 
 use super::figure::Figure;
 use super::round::{Round, none};
-use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
+use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 
 /// Shares of a parameter over which the monodromy matrix is differenced: the next where the orbit beside crosses something
 /// else, or the map bends too much.
@@ -107,6 +107,6 @@ impl Round {
 /// What rounding may leave of a derivative that vanishes, times the parameter.
 const SAME: f64 = 1e-7;
 
-fn invariants(matrix: &Matrix2<f64>) -> Vector2<f64> {
-    Vector2::new(matrix.trace(), matrix.determinant())
+fn invariants(monodromy: &Monodromy) -> Vector2<f64> {
+    Vector2::new(monodromy.trace(), monodromy.determinant())
 }

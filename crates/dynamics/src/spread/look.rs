@@ -2,10 +2,10 @@
 
 use std::sync::Arc as Shared;
 
-use nalgebra::{Matrix2, RowVector2, Vector2};
+use nalgebra::{RowVector2, Vector2};
 
 use crate::continuation::{BranchPoint, Test, carry_on};
-use crate::orbit::{is_stable, multipliers};
+use crate::orbit::Monodromy;
 use softstop::internals::{Motion, Phases};
 use softstop::{Arc, Clock, Crossing, MotionError, Observer, Scene, Start, Tangent};
 
@@ -52,7 +52,7 @@ impl Look {
 
     /// From the state to the fixed point, as the Jacobian has it.
     fn step(&self, state: Vector2<f64>) -> Option<Vector2<f64>> {
-        let inverse = (Matrix2::identity() - self.tangent.matrix).try_inverse()?;
+        let inverse = Monodromy::from(&self.tangent).resolvent()?;
         Some(inverse * (self.end - state))
     }
 }
@@ -92,7 +92,7 @@ impl Settled {
         Self {
             state: point.state(),
             velocity: point.before_impact_velocity(),
-            multiplier: multipliers(&point.monodromy)[0].norm(),
+            multiplier: point.monodromy.multipliers()[0].norm(),
         }
     }
 
@@ -110,14 +110,14 @@ impl Settled {
                 return None;
             }
             let far = scales.state(&step).norm();
-            let matrix = &look.tangent.matrix;
-            let clear = |test: Test| test.value(matrix) > CLEAR * far;
+            let monodromy = Monodromy::from(&look.tangent);
+            let clear = |test: Test| test.value(&monodromy) > CLEAR * far;
             let sure = far <= SHORT && clear(Test::Fold) && clear(Test::Flip);
-            if sure && is_stable(matrix) {
+            if sure && monodromy.is_stable() {
                 return Some(Self {
                     state,
                     velocity: look.velocity + (look.by_state * step).x,
-                    multiplier: multipliers(matrix)[0].norm(),
+                    multiplier: monodromy.multipliers()[0].norm(),
                 });
             }
         }

@@ -3,6 +3,7 @@
 //! section 3); and all stretches of stable z = 1, wherever they are. In the scene's own units, with any stop.
 
 mod bounds;
+mod find;
 mod grazing;
 mod hysteresis;
 mod loss;
@@ -10,6 +11,7 @@ mod stretch;
 mod stretches;
 
 pub use bounds::Bounds;
+pub use find::{find, find_among, find_watched};
 pub use grazing::{free_amplitude, grazing_frequencies};
 pub use hysteresis::{Zone, hysteresis, hysteresis_soon, hysteresis_watched};
 pub use loss::{end_along, loss_of_stability};

@@ -44,6 +44,14 @@ pub fn stretches(scene: &Scene) -> Result<Vec<Stretch>, ZoneError> {
 /// # Errors
 /// As [`stretches`]; [`OrbitError::Stopped`].
 pub fn stretches_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Stretch>, ZoneError> {
+    Ok(all_stretches(scene, watcher)?)
+}
+
+/// All stretches of a scene.
+pub(super) fn all_stretches(
+    scene: &Scene,
+    watcher: Watcher<'_>,
+) -> Result<Vec<Stretch>, OrbitError> {
     scene.validate()?;
     let family = Frequencies(scene);
     let follower = Follower::new(&family, 1);

@@ -7,7 +7,7 @@ use anyhow::Error;
 use softstop::{Allowed, Dimension, Machine, Scene};
 use softstop_dynamics::attractors::{Region, SurveyError};
 use softstop_dynamics::basin::Quantity;
-use softstop_dynamics::{Axis, Grid, orbit};
+use softstop_dynamics::{Axis, Grid, zone};
 
 use super::BasinArguments;
 use softstop_console::failure::Failure;
@@ -96,7 +96,7 @@ pub(super) fn beyond(machine: &Machine, grid: &Grid) -> Option<String> {
     if !is_own || shows.contains(&Quantity::Angle) {
         return None;
     }
-    let orbit = orbit::find_watched(&machine.scene, &interrupt::watch).ok()?;
+    let orbit = zone::find_watched(&machine.scene, &interrupt::watch).ok()?;
     let outside = |axis: &Axis| {
         let value = match axis.quantity {
             Quantity::Position => orbit.position,

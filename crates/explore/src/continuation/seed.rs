@@ -4,7 +4,7 @@ use anyhow::{Error, anyhow};
 use nalgebra::Vector2;
 use softstop::Scene;
 use softstop_dynamics::attractors::{Options, attractors};
-use softstop_dynamics::orbit::find_watched;
+use softstop_dynamics::zone::find_watched;
 use softstop_dynamics::{Orbit, Regime};
 
 use softstop_console::failure::Failure;

@@ -4,7 +4,6 @@ use nalgebra::Complex;
 use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_dynamics::continuation::{Curve, CurvePoint};
-use softstop_dynamics::orbit::multipliers;
 use softstop_dynamics::{Branch, BranchPoint};
 
 /// A row of `branches.csv`.
@@ -41,7 +40,7 @@ pub(super) fn branch_rows(branches: &[Branch]) -> impl Iterator<Item = BranchRow
             number,
             branch,
             point,
-            multipliers: multipliers(&point.monodromy),
+            multipliers: point.monodromy.multipliers(),
         })
     })
 }

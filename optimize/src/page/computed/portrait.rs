@@ -1,7 +1,7 @@
 //! One period of a design's motion in the phase plane, with and without its strip.
 
 use softstop::{Arc, Clock, Dimension, Observer, Scene, Start};
-use softstop_dynamics::{Orbit, orbit};
+use softstop_dynamics::{Orbit, zone};
 
 use super::{label, unfed};
 use crate::design::Design;
@@ -17,7 +17,7 @@ pub fn portrait(design: &Design) -> Portrait {
     let scene = &machine.scene;
     let bare = unfed(scene).and_then(|scene| {
         let near = Orbit::near(&scene, design.orbit.state());
-        near.or_else(|_| orbit::find(&scene)).ok()
+        near.or_else(|_| zone::find(&scene)).ok()
     });
     let mut curves = vec![Curve {
         name: if bare.is_some() {

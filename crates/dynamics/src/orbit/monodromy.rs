@@ -1,0 +1,110 @@
+//! The Jacobian of the map over a period, and what it says of stability.
+
+use std::ops::Deref;
+
+use nalgebra::{Complex, Matrix2};
+use serde::{Deserialize, Serialize};
+
+use super::roots;
+use softstop::Tangent;
+
+/// What rounding may leave of 1 in a determinant.
+const NEUTRAL: f64 = 1e-12;
+
+/// The Jacobian of the stroboscopic map over a period, with its determinant.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Monodromy {
+    /// Its entries, saltation included.
+    #[serde(with = "columns")]
+    pub matrix: Matrix2<f64>,
+    determinant: f64,
+}
+
+impl Monodromy {
+    /// That of a state on which the motion over the period does not depend.
+    pub(crate) const ZERO: Self = Self {
+        matrix: Matrix2::new(0.0, 0.0, 0.0, 0.0),
+        determinant: 0.0,
+    };
+
+    /// The product of factors, the first one first, of which each has its determinant beside it.
+    pub(crate) fn product(factors: &[(Matrix2<f64>, f64)]) -> Self {
+        let matrices = factors.iter().map(|factor| factor.0);
+        Self {
+            matrix: matrices.fold(Matrix2::identity(), |product, factor| factor * product),
+            determinant: factors.iter().map(|factor| factor.1).product(),
+        }
+    }
+
+    /// Determinant: the product of those of arcs and resets, free of the cancellation between entries that a weak
+    /// impact makes large.
+    pub fn determinant(&self) -> f64 {
+        self.determinant
+    }
+
+    /// 1 - tr + det, the determinant of 1 - M: zero at a fold, positive on its stable side.
+    pub fn fold_test(&self) -> f64 {
+        1.0 - self.trace() + self.determinant
+    }
+
+    /// The inverse of 1 - M: changes of the fixed point by what the map is moved by; none at a fold.
+    pub(crate) fn resolvent(&self) -> Option<Matrix2<f64>> {
+        let m = &self.matrix;
+        let adjugate = Matrix2::new(1.0 - m.m22, m.m12, m.m21, 1.0 - m.m11);
+        let inverse = adjugate / self.fold_test();
+        inverse
+            .iter()
+            .all(|entry| entry.is_finite())
+            .then_some(inverse)
+    }
+
+    /// Floquet multipliers, the roots of mu^2 - trace mu + determinant, the one of larger modulus first.
+    pub fn multipliers(&self) -> [Complex<f64>; 2] {
+        roots(self.trace(), self.determinant)
+    }
+
+    /// Jury's conditions: 1 - tr + det > 0 (no fold), 1 + tr + det > 0 (no flip), det < 1; or det = 1 to rounding, as
+    /// without any damping: neutral.
+    pub fn is_stable(&self) -> bool {
+        let (trace, determinant) = (self.trace(), self.determinant);
+        let spirals_in = determinant < 1.0 + NEUTRAL;
+        self.fold_test() > 0.0 && 1.0 + trace + determinant > 0.0 && spirals_in
+    }
+
+    /// True if both multipliers lie on the unit circle, as a stable motion's do without any damping.
+    pub fn is_neutral(&self) -> bool {
+        self.is_stable() && (self.determinant - 1.0).abs() < NEUTRAL
+    }
+}
+
+impl Deref for Monodromy {
+    type Target = Matrix2<f64>;
+
+    fn deref(&self) -> &Matrix2<f64> {
+        &self.matrix
+    }
+}
+
+impl From<&Tangent> for Monodromy {
+    fn from(tangent: &Tangent) -> Self {
+        Self {
+            matrix: tangent.matrix,
+            determinant: tangent.determinant,
+        }
+    }
+}
+
+/// A matrix as its columns.
+mod columns {
+    use super::{Deserialize, Matrix2, Serialize};
+    use serde::{Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(matrix: &Matrix2<f64>, to: S) -> Result<S::Ok, S::Error> {
+        <[[f64; 2]; 2]>::from(*matrix).serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Matrix2<f64>, D::Error> {
+        <[[f64; 2]; 2]>::deserialize(from).map(Matrix2::from)
+    }
+}

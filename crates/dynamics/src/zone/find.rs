@@ -1,0 +1,59 @@
+//! The stable z = 1 motion of a scene at the frequency of its drive.
+
+use super::Frequencies;
+use super::stretch::Stretch;
+use super::stretches::all_stretches;
+use crate::continuation::Follower;
+use crate::orbit::{self, Orbit, OrbitError};
+use crate::watch::{Watcher, unwatched};
+use softstop::Scene;
+
+/// The stable z = 1 motion of a scene with the highest before-impact velocity: of those on all stretches of stable z = 1
+/// ([`stretches`](super::stretches)) that hold the frequency of the drive, and of those that a search at that frequency
+/// alone finds, from starts spread over the plane of states and from a lattice of impacts.
+///
+/// # Errors
+/// [`OrbitError::NotFound`] if there is none; [`OrbitError::Motion`] if the scene is invalid.
+pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
+    find_watched(scene, &unwatched)
+}
+
+/// The motion that [`find`] finds, as long as a watcher, which is not told how much is done, lets the search go on.
+///
+/// # Errors
+/// As [`find`]; [`OrbitError::Stopped`].
+pub fn find_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Orbit, OrbitError> {
+    let stretches = all_stretches(scene, watcher)?;
+    find_among(scene, &stretches, watcher)
+}
+
+/// The motion that [`find`] finds, with the stretches of the scene, which do not depend on the frequency of its drive,
+/// known already.
+///
+/// # Errors
+/// As [`find_watched`].
+pub fn find_among(
+    scene: &Scene,
+    stretches: &[Stretch],
+    watcher: Watcher<'_>,
+) -> Result<Orbit, OrbitError> {
+    let here = orbit::find_watched(scene, watcher);
+    let on = stretches.iter().filter_map(|one| on_stretch(scene, one));
+    let hardest = on.max_by(|a, b| {
+        let [a, b] = [a, b].map(Orbit::before_impact_velocity);
+        a.total_cmp(&b)
+    });
+    match (here, hardest) {
+        (Ok(here), Some(other)) if other.is_harder(&here) => Ok(other),
+        (Err(OrbitError::NotFound { .. }), Some(other)) => Ok(other),
+        (here, _) => here,
+    }
+}
+
+/// The motion of a stretch at the frequency of the scene's drive.
+fn on_stretch(scene: &Scene, stretch: &Stretch) -> Option<Orbit> {
+    let point = stretch.point_at(scene, scene.excitation.frequency).ok()??;
+    let family = Frequencies(scene);
+    let orbit = Follower::new(&family, 1).orbit(&point).ok()?;
+    (orbit.is_stable() && orbit.impacts.len() == 1).then_some(orbit)
+}

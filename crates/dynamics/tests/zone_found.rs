@@ -1,0 +1,141 @@
+//! What `zone` lists of lightly damped machines, `orbit` finds: at frequencies within each stretch of stable z = 1, however
+//! narrow.
+//!
+//! 2,000 machines, in an hour of processor time:
+//! `PROPTEST_CASES=2000 cargo test --release -p softstop-dynamics --test dynamics zone_found -- --ignored --nocapture`
+
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
+use softstop::{Ratios, Scene};
+use softstop_dynamics::watch::unwatched;
+use softstop_dynamics::zone::{Stretch, find, find_among, stretches};
+use softstop_testing::random;
+use softstop_testing::tolerance::GROWN;
+
+/// Machines of the test that runs every day, and of the long one unless it is said otherwise.
+const MACHINES: u32 = 20;
+const MANY: u32 = 2000;
+/// Frequencies within a stretch.
+const FREQUENCIES: u32 = 20;
+/// Machines after which progress is shown.
+const REPORTED: usize = 50;
+
+/// Numbers evenly spread in their logarithm.
+fn spread(low: f64, high: f64) -> impl Strategy<Value = f64> {
+    (low.ln()..high.ln()).prop_map(f64::exp)
+}
+
+/// Machines with damping ratios from 1e-5 to 1e-2, in flight and in contact.
+fn machines() -> impl Strategy<Value = Scene> {
+    let damping = (spread(1e-5, 1e-2), spread(1e-5, 1e-2));
+    let stop = (spread(0.2, 12.0), spread(0.1, 1e4), spread(0.1, 500.0));
+    (damping, stop).prop_map(
+        |((damping, contact_damping), (clearance, stiffness, preload))| {
+            let ratios = Ratios {
+                clearance,
+                stiffness,
+                preload,
+                damping,
+                contact_damping,
+                ..Ratios::unloaded()
+            };
+            ratios.scene().expect("valid")
+        },
+    )
+}
+
+/// What is wrong at a frequency of a stretch.
+fn wrong(scene: &Scene, all: &[Stretch], stretch: &Stretch) -> Option<String> {
+    let orbit = match find_among(scene, all, &unwatched) {
+        Ok(orbit) => orbit,
+        Err(error) => return Some(error.to_string()),
+    };
+    let on = stretch.point_at(scene, scene.excitation.frequency);
+    let least = on
+        .ok()
+        .flatten()
+        .map_or(0.0, |point| point.before_impact_velocity());
+    let velocity = orbit.before_impact_velocity();
+    let closes = orbit
+        .residual()
+        .is_ok_and(|(gap, rounding)| gap <= rounding);
+    let holds = orbit.is_stable() && closes && velocity > (1.0 - GROWN) * least;
+    (!holds).then(|| format!("velocity {velocity} where {least} is, closes: {closes}"))
+}
+
+fn assert_found(machines_count: u32) {
+    let config = random::cases(machines_count);
+    let count = config.cases as usize;
+    let mut runner = TestRunner::new(config);
+    let mut draw = || {
+        machines()
+            .new_tree(&mut runner)
+            .expect("a machine")
+            .current()
+    };
+    let (mut listed, mut narrow, mut tried, mut denied) = (0, 0, 0, Vec::new());
+    for machine in 0..count {
+        let mut scene = draw();
+        let all = stretches(&scene).expect("a machine");
+        listed += all.len();
+        for stretch in &all {
+            let (low, high) = (stretch.low.frequency, stretch.high.frequency);
+            narrow += usize::from(high - low < 1e-3 * high);
+            for part in 0..FREQUENCIES {
+                let share = (f64::from(part) + 0.5) / f64::from(FREQUENCIES);
+                scene.excitation.frequency = low + share * (high - low);
+                tried += 1;
+                let told = wrong(&scene, &all, stretch).map(|wrong| format!("{wrong}: {scene:?}"));
+                denied.extend(told);
+            }
+        }
+        if (machine + 1).is_multiple_of(REPORTED) || machine + 1 == count {
+            eprintln!(
+                "{} of {count} machines, {listed} stretches, {narrow} narrow, {tried} frequencies, {} denied",
+                machine + 1,
+                denied.len()
+            );
+        }
+    }
+    assert!(
+        listed > count && narrow > 0,
+        "{listed} stretches, {narrow} narrow"
+    );
+    assert!(denied.is_empty(), "{denied:#?}");
+}
+
+#[test]
+fn what_zone_lists_orbit_finds() {
+    assert_found(MACHINES);
+}
+
+#[test]
+#[ignore = "as many as PROPTEST_CASES says; an hour for 2,000"]
+fn what_zone_lists_orbit_finds_of_many() {
+    assert_found(MANY);
+}
+
+/// A stretch of a relative width of 1e-4, where no start and no lattice shows the motion: its state is known.
+#[test]
+fn a_motion_of_a_narrow_stretch() {
+    let ratios = Ratios {
+        clearance: 0.32501198094201733,
+        damping: 0.00022857649680422946,
+        contact_damping: 0.0004507634334646064,
+        stiffness: 3.496589449532183,
+        preload: 0.2733947917988244,
+        ..Ratios::unloaded()
+    };
+    let scene = ratios.scene().expect("valid").at_frequency(0.386);
+    let orbit = find(&scene).expect("a motion");
+    assert!(
+        (orbit.position - 0.4762689079367844).abs() < GROWN,
+        "{orbit:?}"
+    );
+    assert!(
+        (orbit.velocity - 0.000336828461386103).abs() < GROWN,
+        "{orbit:?}"
+    );
+    assert!(orbit.is_stable() && orbit.impacts.len() == 1);
+}
