@@ -27,6 +27,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::Format;
+use softstop_console::scene_file;
 
 use crate::design::Problem;
 use crate::fmu::{archive, library, parameters};
@@ -89,6 +90,11 @@ Files, whole or not at all: report.html (for people, one page), design.json (wha
 design.toml (the machine, for every command), design.fmu (FMI 2.0 co-simulation, starting in the design's
 motion), design.ssv (its parameters for SSP), design.svg (velocity over frequency), CSVs of the report.
 Ctrl-C writes the best design so far, marked as such and without its report; a second one ends at once.";
+
+/// Has the tasks checked that stand in machine files, by every command.
+pub fn check_tasks() {
+    scene_file::check_tasks(task::check);
+}
 
 /// The JSON Schema of task files.
 pub fn task_schema() -> serde_json::Value {
