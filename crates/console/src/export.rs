@@ -105,6 +105,14 @@ impl Export {
         })
     }
 
+    /// Refuses folders that stand where files will, whose names are not yet known but for their ending.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming one.
+    pub fn refuse_folders_called(&self, ending: &str) -> Result<(), Failure> {
+        self.folder.refuse_folders_called(ending)
+    }
+
     /// Writes one more file, of which nothing was known before.
     pub fn further(&mut self, name: &str, content: &[u8]) -> Result<(), Failure> {
         let kind = name.replace('.', "_");

@@ -41,7 +41,7 @@ pub fn main<C: Parser>(run: impl FnOnce(C) -> Result<(), Failure>) -> ExitCode {
         Err(told) => match told.kind() {
             ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => output::written(told.print()),
             _ => {
-                let _ = told.print();
+                say(&told.render().to_string());
                 return Failure::usage("").exit_code();
             }
         },
@@ -49,11 +49,15 @@ pub fn main<C: Parser>(run: impl FnOnce(C) -> Result<(), Failure>) -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            // A reader that has gone away (`2>&1 | head`) is no reason to panic.
             if !matches!(failure, Failure::Unread) {
-                let _ = writeln!(io::stderr(), "{}", names::escaped(&failure.to_string()));
+                say(&format!("{failure}\n"));
             }
             failure.exit_code()
         }
     }
+}
+
+/// Writes to the standard error. A reader that has gone away (`2>&1 | head`) is no reason to panic.
+fn say(text: &str) {
+    let _ = io::stderr().write_all(names::escaped(text).as_bytes());
 }

@@ -110,10 +110,7 @@ impl Folder {
     fn locked(path: &Path, part: &str, names: &[&str]) -> Result<Self, Failure> {
         let mut places = names.iter().map(|name| path.join(name));
         if let Some(place) = places.find(|place| place.is_dir()) {
-            let place = place.display();
-            return Err(Failure::Run(anyhow!(
-                "{place}: cannot be written, a folder is in its place"
-            )));
+            return Err(in_place(&place));
         }
         let hidden = format!(".softstop-{:08x}", crc32fast::hash(part.as_bytes()));
         let mut making = Making {
@@ -145,6 +142,18 @@ impl Folder {
             making,
             _lock: lock,
         })
+    }
+
+    /// Refuses folders in it whose names end so.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming one.
+    pub fn refuse_folders_called(&self, ending: &str) -> Result<(), Failure> {
+        let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
+        let mut places = entries.map(|entry| entry.path());
+        let is_called = |path: &Path| path.to_string_lossy().ends_with(ending) && path.is_dir();
+        let place = places.find(|path| is_called(path));
+        place.map_or(Ok(()), |place| Err(in_place(&place)))
     }
 
     /// Where the file of this name is until [`Folder::commit`].
@@ -250,6 +259,13 @@ fn missing(path: &Path) -> Vec<PathBuf> {
         .collect();
     folders.reverse();
     folders
+}
+
+fn in_place(place: &Path) -> Failure {
+    let place = place.display();
+    Failure::Run(anyhow!(
+        "{place}: cannot be written, a folder is in its place"
+    ))
 }
 
 /// Takes away the staging folders of runs that were killed: nobody else holds the lock.
