@@ -118,18 +118,19 @@ impl Keep {
     }
 
     fn append(&self, state: &mut State, key: &[u8], piece: &[u8]) -> io::Result<()> {
-        if state.file.is_none() {
-            let Some(file) = Pieces::create(&self.path, &self.of)? else {
-                state.is_open = false;
-                return Ok(());
-            };
-            state.file = Some(file);
-            under_way().close_with(KEPT);
+        if let Some(file) = &mut state.file {
+            return file.append(key, piece).map(drop);
         }
-        match &mut state.file {
-            Some(file) => file.append(key, piece).map(drop),
-            None => Ok(()),
-        }
+        let Some(mut file) = Pieces::create(&self.path, &self.of)? else {
+            state.is_open = false;
+            return Ok(());
+        };
+        let first = file.append(key, piece);
+        // Nobody goes on with a file that holds nothing.
+        first.inspect_err(|_| drop(fs::remove_file(&self.path)))?;
+        state.file = Some(file);
+        under_way().close_with(KEPT);
+        Ok(())
     }
 
     /// Takes the file away: the results are in place, or there are none to come.

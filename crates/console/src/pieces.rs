@@ -3,7 +3,7 @@
 //! Each record has a key, a piece of work and their checksum. Its first, with an empty key, says what the file is of. A
 //! record that a kill cuts off ends the file.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -49,7 +49,8 @@ impl Pieces {
         };
         file.set_len(0)?;
         let mut pieces = Self::of(path, file);
-        pieces.append(&[], of)?;
+        let begun = pieces.append(&[], of);
+        begun.inspect_err(|_| drop(fs::remove_file(path)))?;
         Ok(Some(pieces))
     }
 

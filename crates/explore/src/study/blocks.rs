@@ -239,7 +239,15 @@ impl<'a> Run<'a> {
         let file = files.last_mut().context("no file to keep blocks in")?;
         let at = file.append(&block.to_le_bytes(), bytes).with_context(|| {
             let place = place(&self.path);
-            format!("cannot write {place}; what is done is kept, --resume goes on with it")
+            match places.iter().any(Option::is_some) {
+                true => {
+                    format!("cannot write {place}; what is done is kept, --resume goes on with it")
+                }
+                false => {
+                    let _ = fs::remove_file(&self.path);
+                    format!("cannot write {place}")
+                }
+            }
         })?;
         places[block as usize] = Some((0, at));
         Ok(())
