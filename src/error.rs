@@ -122,6 +122,14 @@ pub enum MachineError {
         /// The value.
         value: String,
     },
+    /// A text that would act on a terminal, or break a file that it stands in.
+    #[error("{key} = {value:?}: must have no control characters")]
+    ControlCharacters {
+        /// The key.
+        key: &'static str,
+        /// The text.
+        value: String,
+    },
     /// Two keys for one thing.
     #[error("{0} and {1}: only one of the two can be given")]
     Both(&'static str, &'static str),

@@ -9,6 +9,7 @@ use clap::Args;
 use softstop::{Machine, Start};
 use softstop_console::arguments::MachineArguments;
 use softstop_console::failure::Failure;
+use softstop_console::names::file_stem;
 use softstop_console::output::{self, Folder};
 use softstop_fmu::package::{self, HOST_PLATFORM, Library};
 use softstop_fmu::{Imprint, StartValues, parameter_set};
@@ -90,10 +91,10 @@ pub fn run(arguments: &FmuArguments) -> Result<(), Failure> {
     let name = machine.name.as_deref().unwrap_or("machine");
     let place = match &arguments.output {
         Some(place) => place.clone(),
-        None => format!("{}.fmu", name.replace(['/', '\\'], "_")).into(),
+        None => format!("{}.fmu", file_stem(name)).into(),
     };
     let (folder, file) = output::folder_and_file(&place)?;
-    let folder = Folder::open(folder, &[file])?;
+    let folder = Folder::of_file(folder, file)?;
     folder.stage(file, &archive(&library()?, &machine, machine.start)?)?;
     folder.commit(&[file])?;
     output::print(&format!("Written: {}\n", place.display()))

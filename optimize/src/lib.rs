@@ -54,7 +54,8 @@ Examples:
   softstop stops                                   pictures of all the stops' laws
   softstop fidelity B --tolerance 0.02             the simplest model that will do
 
-Exit codes: 0 done, 1 the run could not do it, 2 bad usage or values, 130 interrupted.
+Exit codes: 0 done, 1 the run could not do it, 2 bad usage or values, 128 + n
+ended by signal n (130: Ctrl-C; 141: nobody reads the output).
 A MACHINE is a TOML file in SI units or ratios, or one of the paper's, unloaded or loaded; --set changes it.";
 
 /// The subcommands.
@@ -108,11 +109,12 @@ pub enum Files {
 
 /// Reads the command line, does what it says and turns the outcome into an exit code.
 pub fn main() -> ExitCode {
-    softstop_console::main(|| run(CommandLine::parse().command))
+    softstop_console::main(|line: CommandLine| run(line.command))
 }
 
 /// Carries out one subcommand.
 pub fn run(command: Command) -> Result<(), Failure> {
+    optimize::check_tasks();
     match command {
         Command::Orbit(arguments) => orbit::run(&arguments),
         Command::Motions(arguments) => motions::run(&arguments),

@@ -1,5 +1,11 @@
-//! Every long command of `softstop` ends on a signal, and leaves nothing half written.
+//! Every long command of `softstop` ends on a signal, unless it inherits that it is ignored, and leaves nothing half
+//! written.
 #![cfg(unix)]
+
+#[path = "interrupts/dispositions.rs"]
+mod dispositions;
+#[path = "interrupts/writers.rs"]
+mod writers;
 
 use std::fs;
 use std::process::{Command, Stdio};
@@ -17,9 +23,9 @@ const SOFTSTOP: Program = Program {
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes");
 const STUDIES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/studies");
-const SIGNALS: [&str; 3] = ["INT", "TERM", "HUP"];
+const SIGNALS: [&str; 5] = ["INT", "TERM", "HUP", "QUIT", "USR1"];
 
-/// It ends by itself: no step of it takes long.
+/// It ends by itself: no step of it takes long. It goes on where the signals are ignored.
 fn ends(line: &str, kept: &[&str]) {
     let line = line.replace("SCENES", SCENES).replace("STUDIES", STUDIES);
     for signal in SIGNALS {
@@ -27,6 +33,8 @@ fn ends(line: &str, kept: &[&str]) {
         let said = SOFTSTOP.ends_on(signal, &words(&line), folder.path(), kept);
         assert!(!said.contains(LATE), "{line}: {said}");
     }
+    let folder = tempfile::tempdir().expect("a folder");
+    SOFTSTOP.outlives_ignored_signals(&words(&line), folder.path(), kept);
 }
 
 #[test]
@@ -171,52 +179,4 @@ fn nothing_is_lost_to_kills() {
         let folder = tempfile::tempdir().expect("a folder");
         SOFTSTOP.survives_kills(&words(&line), 6, folder.path());
     }
-}
-
-/// What a run that was killed has left is taken away by the next one into the same folder; that of a run that lives
-/// is not.
-#[test]
-fn the_next_run_clears_up_after_a_killed_one() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let basin = |size: &str| {
-        let mut command = Command::new(SOFTSTOP.file);
-        command
-            .args(["basin", "--size", size, "--output"])
-            .arg(folder.path());
-        command.stdout(Stdio::null()).stderr(Stdio::null());
-        command
-    };
-    let names = || -> std::io::Result<Vec<_>> {
-        let entries = fs::read_dir(folder.path())?;
-        let mut names: Vec<_> = entries
-            .map(|entry| Ok(entry?.file_name()))
-            .collect::<Result<_, std::io::Error>>()?;
-        names.sort();
-        // The run that lives keeps what is done from some time on.
-        names.retain(|name| name != "basin.part");
-        Ok(names)
-    };
-    let begun = |count: usize| -> Outcome {
-        let deadline = Instant::now() + Duration::from_secs(20);
-        while names()?.len() < count && Instant::now() < deadline {
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        std::thread::sleep(Duration::from_millis(100));
-        assert_eq!(names()?.len(), count);
-        Ok(())
-    };
-    let (mut killed, mut alive) = (basin("3000").spawn()?, basin("3001").spawn()?);
-    begun(2)?;
-    killed.kill()?;
-    killed.wait()?;
-    assert_eq!(names()?.len(), 2);
-    assert!(basin("20").status()?.success());
-    let left = names()?;
-    assert_eq!(left[1..], ["basin.csv", "basin.json", "basin.png"]);
-    assert!(left[0].to_string_lossy().starts_with(".softstop-"));
-    alive.kill()?;
-    alive.wait()?;
-    assert!(basin("20").status()?.success());
-    assert_eq!(fs::read_dir(folder.path())?.count(), 3);
-    Ok(())
 }

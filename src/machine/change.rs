@@ -37,7 +37,7 @@ impl Machine {
             done.push(name);
         }
         self.validate()?;
-        Ok(())
+        self.check_texts()
     }
 
     /// Sets one key; its name.

@@ -54,7 +54,7 @@ impl Machine {
             None => Language::Si,
         };
         let mut places = Vec::new();
-        walk(table.get_ref(), "", text, &mut places);
+        walk(table.get_ref(), "", &Lines::new(text), &mut places);
         places.sort_by_key(|place| place.line);
         known(&places, language)?;
         numbers(&places)?;
@@ -73,6 +73,7 @@ impl Machine {
             line: line_of(&source, &places),
             source,
         })?;
+        machine.check_texts()?;
         Ok(machine)
     }
 }
@@ -87,8 +88,26 @@ impl Scene {
     }
 }
 
+/// A text and where its lines end.
+struct Lines<'t> {
+    text: &'t str,
+    ends: Vec<usize>,
+}
+
+impl<'t> Lines<'t> {
+    fn new(text: &'t str) -> Self {
+        let ends = text.match_indices('\n').map(|(at, _)| at).collect();
+        Self { text, ends }
+    }
+
+    /// The number of the line of a place.
+    fn number(&self, at: usize) -> usize {
+        1 + self.ends.partition_point(|end| *end < at)
+    }
+}
+
 /// The keys of a table and of those in it.
-fn walk(table: &DeTable<'_>, path: &str, text: &str, places: &mut Vec<Place>) {
+fn walk(table: &DeTable<'_>, path: &str, lines: &Lines<'_>, places: &mut Vec<Place>) {
     for (name, value) in table {
         let key = match (path, name.get_ref().as_ref()) {
             ("", RATIOS) => String::new(),
@@ -98,13 +117,13 @@ fn walk(table: &DeTable<'_>, path: &str, text: &str, places: &mut Vec<Place>) {
             (path, name) => format!("{path}.{name}"),
         };
         match value.get_ref() {
-            DeValue::Table(inner) => walk(inner, &key, text, places),
+            DeValue::Table(inner) => walk(inner, &key, lines, places),
             _ => places.push(Place {
                 key,
-                line: 1 + text[..name.span().start].matches('\n').count(),
+                line: lines.number(name.span().start),
                 word: match value.get_ref() {
                     DeValue::Integer(_) | DeValue::Float(_) => None,
-                    _ => Some(text[value.span()].to_owned()),
+                    _ => Some(lines.text[value.span()].to_owned()),
                 },
             }),
         }

@@ -60,8 +60,14 @@ pub(super) fn meant(key: &str, keys: &[&'static str]) -> Option<&'static str> {
     table.or_else(|| nearest(key, keys))
 }
 
+/// Letters of a misspelt name at most; no name has a third of that.
+const LONGEST: usize = 200;
+
 /// The one of these names that a misspelt one may mean; dots part a name, and its last part may stand alone.
 pub fn nearest(name: &str, known: &[&'static str]) -> Option<&'static str> {
+    if name.len() > LONGEST {
+        return None;
+    }
     let last = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
     let distance =
         |known: &&'static str| edits(name, known).min(1 + edits(&last(name), &last(known)));

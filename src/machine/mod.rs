@@ -7,7 +7,7 @@ mod write;
 
 pub use keys::nearest;
 
-use crate::error::SceneError;
+use crate::error::{MachineError, SceneError};
 use crate::integrator::Start;
 use crate::scene::{Allowed, Dimension, Parameter, Ratios, Scene};
 
@@ -165,6 +165,26 @@ impl Machine {
         Allowed::Finite.check(keys::POSITION, self.start.position)?;
         Allowed::Finite.check(keys::VELOCITY, self.start.velocity)?;
         self.scene.validate().map_err(|error| self.in_own(error))
+    }
+
+    /// Checks its name and its description: a name has no control characters, a description none but line feeds and
+    /// tabs.
+    ///
+    /// # Errors
+    /// [`MachineError::ControlCharacters`] with the text.
+    pub(crate) fn check_texts(&self) -> Result<(), MachineError> {
+        let texts = [("name", &self.name), ("description", &self.description)];
+        for (key, text) in texts {
+            let allowed = |c| key == "description" && matches!(c, '\n' | '\t');
+            match text {
+                Some(text) if text.contains(|c: char| c.is_control() && !allowed(c)) => {
+                    let value = text.clone();
+                    return Err(MachineError::ControlCharacters { key, value });
+                }
+                _ => {}
+            }
+        }
+        Ok(())
     }
 
     /// A limit of the scene in its own units.

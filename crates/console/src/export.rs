@@ -97,6 +97,22 @@ impl Export {
         })
     }
 
+    /// Makes the folder of one file of a kind if need be, and tries whether that file can be written there.
+    pub fn of_file(kind: &str, path: &Path, name: &str) -> Result<Self, Failure> {
+        Ok(Self {
+            folder: Folder::of_file(path, name)?,
+            files: vec![(kind.to_owned(), name.to_owned())],
+        })
+    }
+
+    /// Refuses folders that stand where files will, whose names are not yet known but for their ending.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming one.
+    pub fn refuse_folders_called(&self, ending: &str) -> Result<(), Failure> {
+        self.folder.refuse_folders_called(ending)
+    }
+
     /// Writes one more file, of which nothing was known before.
     pub fn further(&mut self, name: &str, content: &[u8]) -> Result<(), Failure> {
         let kind = name.replace('.', "_");

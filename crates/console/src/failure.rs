@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use softstop::{MotionError, SceneError};
 
-use crate::interrupt;
+use crate::{interrupt, signals};
 
 /// Why there is no result.
 #[derive(Debug)]
@@ -15,8 +15,10 @@ pub enum Failure {
     Usage(String),
     /// The values are good, but the run could not do the job.
     Run(anyhow::Error),
-    /// Ctrl-C or a termination signal.
+    /// Ctrl-C or another signal to end.
     Interrupted,
+    /// Nobody reads the standard output any more (`softstop … | head`).
+    Unread,
 }
 
 impl Failure {
@@ -34,12 +36,13 @@ impl Failure {
         }
     }
 
-    /// 2 for bad usage (as clap does), 1 for a failed run, 130 for an interrupt (128 + SIGINT).
+    /// 2 for bad usage (as clap does), 1 for a failed run, 128 and the number of the signal for a run that one ended.
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
             Self::Usage(_) => 2,
             Self::Run(_) => 1,
-            Self::Interrupted => 130,
+            Self::Interrupted => interrupt::exit_code(),
+            Self::Unread => signals::exit_code(signals::PIPE),
         })
     }
 }
@@ -53,6 +56,7 @@ impl fmt::Display for Failure {
             ),
             Self::Run(error) => write!(formatter, "error: {error:#}"),
             Self::Interrupted => formatter.write_str(interrupt::under_way().closing()),
+            Self::Unread => formatter.write_str("nobody reads the standard output"),
         }
     }
 }

@@ -1,16 +1,19 @@
-//! Ctrl-C and the signals to end: the first asks the run to end in good order and ends it itself a little later, or later
-//! still if it saves what it has ([`save`]); the second ends it at once. What was staged goes with it.
+//! Ctrl-C and the other [`signals`] to end: the first asks the run to end in good order and ends it itself a little
+//! later, or later still if it saves what it has ([`save`]); the second ends it at once. What was staged goes with it.
 
 use std::fs;
 use std::io::{self, Write};
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 use std::sync::{Mutex, MutexGuard, Once, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-static REQUESTED: AtomicBool = AtomicBool::new(false);
+use crate::signals;
+
+/// The signal that asked the run to end; 0 before.
+static REQUESTED: AtomicI32 = AtomicI32::new(0);
 static SAVING: AtomicBool = AtomicBool::new(false);
 static INSTALL: Once = Once::new();
 static UNDER_WAY: Mutex<UnderWay> = Mutex::new(UnderWay {
@@ -35,11 +38,13 @@ pub struct UnderWay {
     closing: &'static str,
 }
 
-/// Folders of an output that is not whole yet.
+/// What there is of an output that is not whole yet.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Making {
-    /// Where its files are until then.
+    /// The folder where its files are until then.
     pub staging: PathBuf,
+    /// The file that its run holds locked.
+    pub lock: PathBuf,
     /// Folders made for it, outermost first.
     pub made: Vec<PathBuf>,
 }
@@ -47,23 +52,17 @@ pub struct Making {
 impl Making {
     /// Takes away what is there of it; a folder that has been filled meanwhile stays.
     pub fn undo(&self) {
-        clear(&self.staging);
+        let _ = fs::remove_dir_all(&self.staging);
+        let _ = fs::remove_file(&self.lock);
+        self.unmake();
+    }
+
+    /// Takes away the folders made for it that are empty.
+    pub fn unmake(&self) {
         for folder in self.made.iter().rev() {
             let _ = fs::remove_dir(folder);
         }
     }
-}
-
-/// The file in a staging folder that its run holds locked.
-pub const ALIVE: &str = "alive";
-
-/// Takes a staging folder away, the file that tells of its run last: this may be cut short as well.
-pub fn clear(staging: &Path) {
-    let entries = fs::read_dir(staging).into_iter().flatten().flatten();
-    for entry in entries.filter(|entry| entry.file_name() != ALIVE) {
-        let _ = fs::remove_file(entry.path());
-    }
-    let _ = fs::remove_dir_all(staging);
 }
 
 impl UnderWay {
@@ -93,23 +92,35 @@ pub fn under_way() -> MutexGuard<'static, UnderWay> {
     UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Takes over Ctrl-C and the signals to terminate and to hang up. Without a handler (a system that refuses
-/// one) the default stands: the process ends at once, and staged files stay out of sight.
+/// Takes over Ctrl-C and the other signals to end. Without handlers (a system that refuses them) the default
+/// stands: the process ends at once, and staged files stay out of sight.
 pub fn install() {
     INSTALL.call_once(|| {
-        let handler = || {
-            if REQUESTED.swap(true, Ordering::SeqCst) {
-                if let Ok(under_way) = UNDER_WAY.try_lock() {
-                    end(&under_way);
-                }
-                std::process::exit(130);
-            }
-            let _ = thread::Builder::new().spawn(end_late);
-        };
-        if let Err(error) = ctrlc::set_handler(handler) {
-            eprintln!("warning: Ctrl-C will end the run at once ({error})");
+        if let Err(error) = signals::listen(receive) {
+            let _ = writeln!(
+                io::stderr(),
+                "warning: Ctrl-C will end the run at once ({error})"
+            );
         }
     });
+}
+
+/// The first signal asks the run to end, any further one ends it.
+fn receive(signal: i32) {
+    let first = REQUESTED.compare_exchange(0, signal, Ordering::SeqCst, Ordering::SeqCst);
+    if first.is_ok() {
+        let _ = thread::Builder::new().spawn(end_late);
+        return;
+    }
+    if let Ok(under_way) = UNDER_WAY.try_lock() {
+        end(&under_way);
+    }
+    std::process::exit(exit_code().into());
+}
+
+/// 128 and the number of the signal that asked the run to end.
+pub fn exit_code() -> u8 {
+    signals::exit_code(REQUESTED.load(Ordering::SeqCst))
 }
 
 /// Ends a run that has not ended by itself: one in the middle of a step that knows of no requests.
@@ -126,7 +137,7 @@ fn end_late() {
 fn end(under_way: &UnderWay) -> ! {
     under_way.outputs.iter().for_each(Making::undo);
     let _ = writeln!(io::stderr(), "{}", under_way.closing);
-    std::process::exit(130)
+    std::process::exit(exit_code().into())
 }
 
 /// Stops work that is watched once the user asked the run to end.
@@ -144,7 +155,7 @@ pub fn watch(_: u64, _: u64) -> ControlFlow<()> {
 
 /// Whether the user asked the run to end, and it does not save what it has.
 pub fn requested() -> bool {
-    REQUESTED.load(Ordering::SeqCst) && !SAVING.load(Ordering::SeqCst)
+    REQUESTED.load(Ordering::SeqCst) != 0 && !SAVING.load(Ordering::SeqCst)
 }
 
 /// The run that was asked to end saves what it has: it has some seconds for that and is not asked again. Another signal

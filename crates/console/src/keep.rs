@@ -18,6 +18,7 @@ use softstop_dynamics::watch::Memory;
 
 use crate::failure::Failure;
 use crate::interrupt::{requested, under_way};
+use crate::lock;
 use crate::pieces::{At, Pieces};
 
 /// Whether a run goes on with what an earlier one has done.
@@ -52,12 +53,11 @@ pub const KEPT: &str =
     "interrupted: what is done is kept; the same line with --resume goes on from there";
 
 impl Keep {
-    /// The file `NAME.part` in a folder, for a run of these settings. Without `--resume` an older one is taken away;
-    /// where that is of a run that lives, nothing is kept of this one.
+    /// The file `NAME.part` in a folder, for a run of these settings. Without `--resume` an older one is taken away.
     ///
     /// # Errors
-    /// [`Failure::Usage`] if the run to go on with is another one, or lives; [`Failure::Run`] if its file cannot be
-    /// read.
+    /// [`Failure::Usage`] if the run to go on with is another one; [`Failure::Run`] if its file cannot be read, or that
+    /// run goes on.
     pub fn open(
         folder: &Path,
         name: &str,
@@ -77,11 +77,7 @@ impl Keep {
         let place = keep.path.display();
         match (Pieces::open(&keep.path), arguments.resume) {
             (Err(error), _) if error.kind() == ErrorKind::NotFound => {}
-            (Ok(None), true) => {
-                let message = format!("--resume: {place} is of a run that goes on");
-                return Err(Failure::usage(message));
-            }
-            (Ok(None), false) => keep.state().is_open = false,
+            (Ok(None), _) => return Err(lock::refusal(&keep.path)),
             (Ok(Some(file)), true) => keep.restore(file)?,
             (Err(error), true) => {
                 let error = anyhow!(error).context(format!("cannot read {place}"));
@@ -122,18 +118,19 @@ impl Keep {
     }
 
     fn append(&self, state: &mut State, key: &[u8], piece: &[u8]) -> io::Result<()> {
-        if state.file.is_none() {
-            let Some(file) = Pieces::create(&self.path, &self.of)? else {
-                state.is_open = false;
-                return Ok(());
-            };
-            state.file = Some(file);
-            under_way().close_with(KEPT);
+        if let Some(file) = &mut state.file {
+            return file.append(key, piece).map(drop);
         }
-        match &mut state.file {
-            Some(file) => file.append(key, piece).map(drop),
-            None => Ok(()),
-        }
+        let Some(mut file) = Pieces::create(&self.path, &self.of)? else {
+            state.is_open = false;
+            return Ok(());
+        };
+        let first = file.append(key, piece);
+        // Nobody goes on with a file that holds nothing.
+        first.inspect_err(|_| drop(fs::remove_file(&self.path)))?;
+        state.file = Some(file);
+        under_way().close_with(KEPT);
+        Ok(())
     }
 
     /// Takes the file away: the results are in place, or there are none to come.

@@ -1,7 +1,6 @@
 //! What the programs share: the [`machine`] as the user states it, [`scene_file`]s, [`progress`],
 //! [`interrupt`], what long runs [`keep`] in files of [`pieces`], [`failure`], and one [`export`] of every report: [`mod@column`]s and [`record`]s said once, text [`table`]s, [`units`], [`range`]s, and
 //! [`output`] that is there whole or not at all.
-#![forbid(unsafe_code)]
 
 pub mod arguments;
 pub mod cell;
@@ -10,8 +9,10 @@ pub mod export;
 pub mod failure;
 pub mod interrupt;
 pub mod keep;
+pub mod lock;
 pub mod machine;
 pub mod median;
+pub mod names;
 pub mod output;
 pub mod pieces;
 pub mod progress;
@@ -20,23 +21,43 @@ pub mod record;
 pub mod report;
 pub mod scene_file;
 pub mod schema;
+pub mod signals;
 pub mod table;
 pub mod units;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
 
+use clap::Parser;
+use clap::error::ErrorKind;
+
 use failure::Failure;
 
-/// Runs a program's command; says what went wrong and turns the outcome into an exit code.
-pub fn main(command: impl FnOnce() -> Result<(), Failure>) -> ExitCode {
+/// Reads the command line, does what it says, says what went wrong and turns the outcome into an exit code.
+pub fn main<C: Parser>(run: impl FnOnce(C) -> Result<(), Failure>) -> ExitCode {
     interrupt::install();
-    match command() {
+    let outcome = match C::try_parse() {
+        Ok(command) => run(command),
+        Err(told) => match told.kind() {
+            ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => output::written(told.print()),
+            _ => {
+                say(&told.render().to_string());
+                return Failure::usage("").exit_code();
+            }
+        },
+    };
+    match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            // A reader that has gone away (`2>&1 | head`) is no reason to panic.
-            let _ = writeln!(io::stderr(), "{failure}");
+            if !matches!(failure, Failure::Unread) {
+                say(&format!("{failure}\n"));
+            }
             failure.exit_code()
         }
     }
+}
+
+/// Writes to the standard error. A reader that has gone away (`2>&1 | head`) is no reason to panic.
+fn say(text: &str) {
+    let _ = io::stderr().write_all(names::escaped(text).as_bytes());
 }

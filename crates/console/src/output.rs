@@ -10,7 +10,9 @@ use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
-use crate::interrupt::{self, ALIVE, Making, clear, under_way};
+use crate::interrupt::{self, Making, under_way};
+use crate::lock::{self, Locked};
+use crate::names::{check_file, escaped};
 
 /// How a subcommand prints its result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
@@ -23,27 +25,36 @@ pub enum Format {
     Json,
 }
 
-/// Prints to stdout. A reader that has gone away (`softstop … | head`) is not an error.
+/// Prints to stdout, control characters [`escaped`].
+///
+/// # Errors
+/// As [`written`].
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
-    match stdout
-        .write_all(text.as_bytes())
-        .and_then(|()| stdout.flush())
-    {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Run(
-            anyhow!(error).context("cannot write to stdout"),
-        )),
-        _ => Ok(()),
-    }
+    let done = stdout.write_all(escaped(text).as_bytes());
+    written(done.and_then(|()| stdout.flush()))
+}
+
+/// What became of a write to stdout.
+///
+/// # Errors
+/// [`Failure::Unread`] if its reader has gone away (`softstop … | head`), [`Failure::Run`] with what else went wrong.
+pub fn written(done: io::Result<()>) -> Result<(), Failure> {
+    done.map_err(|error| match error.kind() {
+        io::ErrorKind::BrokenPipe => Failure::Unread,
+        _ => Failure::Run(anyhow!(error).context("cannot write to stdout")),
+    })
 }
 
 /// The folder and the name of a file that is to be written.
 ///
 /// # Errors
-/// [`Failure::Run`] if the path is none of a file.
+/// [`Failure::Usage`] if the path is none of a file, or no name for one.
 pub fn folder_and_file(path: &Path) -> Result<(&Path, &str), Failure> {
     let file = path.file_name().and_then(|name| name.to_str());
-    let file = file.ok_or_else(|| anyhow!("{}: is no name of a file", path.display()))?;
+    let none = || Failure::usage(format!("{}: is no name of a file", path.display()));
+    let file = file.ok_or_else(none)?;
+    check_file(file)?;
     let folder = path.parent();
     let folder = folder.filter(|folder| !folder.as_os_str().is_empty());
     Ok((folder.unwrap_or(Path::new(".")), file))
@@ -65,63 +76,84 @@ pub fn csv(rows: impl IntoIterator<Item = impl Serialize>) -> Result<Vec<u8>, Fa
     Ok(table.into_inner().context("cannot write a table")?)
 }
 
-/// An output folder that is known to be writable. Files are staged in a hidden folder inside
-/// it and renamed into place together; a folder made in vain is taken away again.
+/// An output folder that is known to be writable, and written by no other run. Files are staged in a hidden folder
+/// inside it and renamed into place together; a folder made in vain is taken away again.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
     making: Making,
-    /// Locked as long as the run lives.
-    _alive: fs::File,
+    /// As long as the run lives.
+    _lock: Locked,
 }
 
 /// What is said of a run that is ended with its files in place.
 const WRITTEN: &str = "interrupted: the files are written";
-/// How the names of staging folders begin.
-const STAGING: &str = ".softstop-";
 
 impl Folder {
-    /// Makes the folder if need be and tries whether it and the files of these names in it
-    /// can be written.
+    /// Makes the folder if need be, locks it and tries whether files of these names in it can be written.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] if they cannot be, or another run writes into the folder.
     pub fn open(path: &Path, names: &[&str]) -> Result<Self, Failure> {
-        if let Some(place) = names
-            .iter()
-            .map(|name| path.join(name))
-            .find(|place| place.is_dir())
-        {
-            let place = place.display();
-            return Err(Failure::Run(anyhow!(
-                "{place}: cannot be written, a folder is in its place"
-            )));
+        Self::locked(path, "", names)
+    }
+
+    /// The folder of a file, in which other runs may write other files.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] if the file cannot be written, or another run writes it.
+    pub fn of_file(path: &Path, name: &str) -> Result<Self, Failure> {
+        Self::locked(path, name, &[name])
+    }
+
+    /// A folder of which a part of this name is locked, the whole if it is empty.
+    fn locked(path: &Path, part: &str, names: &[&str]) -> Result<Self, Failure> {
+        let mut places = names.iter().map(|name| path.join(name));
+        if let Some(place) = places.find(|place| place.is_dir()) {
+            return Err(in_place(&place));
         }
+        let hidden = format!(".softstop-{:08x}", crc32fast::hash(part.as_bytes()));
         let mut making = Making {
             staging: PathBuf::new(),
+            lock: path.join(format!("{hidden}.lock")),
             made: missing(path),
         };
         let mut under_way = under_way();
-        let alive = fs::create_dir_all(path).and_then(|()| {
-            remove_dead(path);
-            let (staging, alive) = staging(path).or_else(|_| staging(path))?;
-            making.staging = staging;
-            Ok(alive)
-        });
-        match alive {
-            Ok(alive) => {
-                under_way.begin(making.clone());
-                Ok(Self {
-                    path: path.to_owned(),
-                    making,
-                    _alive: alive,
-                })
-            }
-            Err(error) => {
-                making.undo();
-                let place = path.display();
-                Err(Failure::Run(anyhow!(error).context(format!(
-                    "output folder {place}: cannot be written"
-                ))))
-            }
+        let cannot = |error: io::Error| {
+            let context = format!("output folder {}: cannot be written", path.display());
+            Failure::Run(anyhow!(error).context(context))
+        };
+        let made = fs::create_dir_all(path).and_then(|()| lock::open(&making.lock, true));
+        let Some(lock) = made.inspect_err(|_| making.unmake()).map_err(cannot)? else {
+            return Err(lock::refusal(&path.join(part)));
+        };
+        let hidden = format!("{hidden}-");
+        if lock.is_held {
+            remove_dead(path, &hidden);
         }
+        let staging = tempfile::Builder::new().prefix(&hidden).tempdir_in(path);
+        making.staging = staging
+            .inspect_err(|_| making.undo())
+            .map_err(cannot)?
+            .keep();
+        under_way.begin(making.clone());
+        Ok(Self {
+            path: path.to_owned(),
+            making,
+            _lock: lock,
+        })
+    }
+
+    /// Refuses folders in it whose names end so.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] naming one.
+    pub fn refuse_folders_called(&self, ending: &str) -> Result<(), Failure> {
+        let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
+        let mut places = entries.map(|entry| entry.path());
+        let is_called = |path: &Path| path.to_string_lossy().ends_with(ending) && path.is_dir();
+        let place = places.find(|path| is_called(path));
+        place.map_or(Ok(()), |place| Err(in_place(&place)))
     }
 
     /// Where the file of this name is until [`Folder::commit`].
@@ -229,27 +261,17 @@ fn missing(path: &Path) -> Vec<PathBuf> {
     folders
 }
 
-/// A staging folder and the file in it that this run holds locked. An error where another run that clears up came
-/// before the lock.
-fn staging(path: &Path) -> io::Result<(PathBuf, fs::File)> {
-    let staging = tempfile::Builder::new().prefix(STAGING).tempdir_in(path)?;
-    let place = staging.path().join(ALIVE);
-    let alive = fs::File::create_new(&place)?;
-    // Without locks, what a killed run leaves stays.
-    let _ = alive.lock();
-    fs::metadata(place)?;
-    Ok((staging.keep(), alive))
+fn in_place(place: &Path) -> Failure {
+    let place = place.display();
+    Failure::Run(anyhow!(
+        "{place}: cannot be written, a folder is in its place"
+    ))
 }
 
-/// Takes away the staging folders of runs that were killed: nobody holds their locks any more.
-fn remove_dead(path: &Path) {
+/// Takes away the staging folders of runs that were killed: nobody else holds the lock.
+fn remove_dead(path: &Path, hidden: &str) {
     let entries = fs::read_dir(path).into_iter().flatten().flatten();
-    for entry in entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(STAGING)) {
-        match fs::File::open(entry.path().join(ALIVE)) {
-            Ok(alive) if alive.try_lock().is_ok() => clear(&entry.path()),
-            Ok(_) => {}
-            // Killed right at its begin or end: it is empty.
-            Err(_) => drop(fs::remove_dir(entry.path())),
-        }
+    for entry in entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(hidden)) {
+        let _ = fs::remove_dir_all(entry.path());
     }
 }

@@ -3,7 +3,7 @@
 //! Each record has a key, a piece of work and their checksum. Its first, with an empty key, says what the file is of. A
 //! record that a kill cuts off ends the file.
 
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -11,6 +11,8 @@ use std::time::{Duration, Instant};
 use anyhow::Context;
 use serde::Serialize;
 use uuid::Uuid;
+
+use crate::lock::{self, Locked};
 
 /// A file of records, locked by this run.
 #[derive(Debug)]
@@ -42,12 +44,13 @@ impl Pieces {
     /// # Errors
     /// What the system says.
     pub fn create(path: &Path, of: &[u8]) -> io::Result<Option<Self>> {
-        let Some(file) = locked(path, true)? else {
+        let Some(Locked { file, .. }) = lock::open(path, true)? else {
             return Ok(None);
         };
         file.set_len(0)?;
         let mut pieces = Self::of(path, file);
-        pieces.append(&[], of)?;
+        let begun = pieces.append(&[], of);
+        begun.inspect_err(|_| drop(fs::remove_file(path)))?;
         Ok(Some(pieces))
     }
 
@@ -56,7 +59,7 @@ impl Pieces {
     /// # Errors
     /// What the system says; [`io::ErrorKind::NotFound`].
     pub fn open(path: &Path) -> io::Result<Option<Self>> {
-        Ok(locked(path, false)?.map(|file| Self::of(path, file)))
+        Ok(lock::open(path, false)?.map(|locked| Self::of(path, locked.file)))
     }
 
     fn of(path: &Path, file: File) -> Self {
@@ -146,20 +149,6 @@ impl At {
     fn end(self) -> u64 {
         self.offset + HEAD as u64 + u64::from(self.key) + u64::from(self.piece)
     }
-}
-
-/// Opens a file and locks it; none if a run that lives has it.
-fn locked(path: &Path, create: bool) -> io::Result<Option<File>> {
-    let mut options = OpenOptions::new();
-    let options = options.read(true).write(true).create(create);
-    let file = options.truncate(false).open(path)?;
-    Ok(match file.try_lock() {
-        Err(TryLockError::WouldBlock) => None,
-        // The other run has ended in between, and taken its file away.
-        _ if !path.exists() => None,
-        // Where there are no locks, no other run is expected.
-        _ => Some(file),
-    })
 }
 
 fn record(key: &[u8], piece: &[u8]) -> io::Result<Vec<u8>> {

@@ -1,13 +1,15 @@
 //! Files that users write: machines, and layers of settings in TOML.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
+use std::sync::OnceLock;
 
 use serde::de::DeserializeOwned;
 use softstop::Machine;
 
 use crate::failure::Failure;
+use crate::names::file_stem;
 
 /// Reads a machine file. A machine without a name is called as the file.
 ///
@@ -15,25 +17,55 @@ use crate::failure::Failure;
 /// [`Failure::Usage`] naming the file, and line, key, value and range of what is wrong in it.
 pub fn read(path: &Path) -> Result<Machine, Failure> {
     let wrong = |error| Failure::usage(format!("{}: {error}", path.display()));
-    let mut machine = Machine::from_toml(&text(path)?).map_err(wrong)?;
-    let stem = || Some(path.file_stem()?.to_string_lossy().into_owned());
+    let text = text(path)?;
+    let mut machine = Machine::from_toml(&text).map_err(wrong)?;
+    if let Some(check) = TASKS.get() {
+        check(&machine, &text).map_err(|failure| failure.in_file(path))?;
+    }
+    let stem = || Some(file_stem(&path.file_stem()?.to_string_lossy()));
     machine.name = machine.name.or_else(stem);
     Ok(machine)
+}
+
+/// A check of what a file of this machine and text says is to be done with the machine ([`Machine::TASK`]).
+pub type Check = fn(&Machine, &str) -> Result<(), Failure>;
+
+static TASKS: OnceLock<Check> = OnceLock::new();
+
+/// Has each machine file checked that is read from now on: a program that knows tasks calls this once, at its start. So
+/// every command refuses what `softstop optimize` would refuse.
+pub fn check_tasks(check: Check) {
+    TASKS.get_or_init(|| check);
 }
 
 /// Bytes of a file at most.
 const LONGEST: u64 = 1 << 20;
 
-/// Reads a file that a user has written, or a pipe.
+/// Opens a file to read it. A pipe is read if it is open already (`/dev/stdin`, or `<(…)` of a shell); one that has a
+/// place among the files is refused: it might wait for its writer for ever.
 ///
 /// # Errors
-/// [`Failure::Usage`] naming the file if it cannot be read, or has more than 1 MiB.
+/// What the system says.
+pub fn open(path: &Path) -> io::Result<File> {
+    #[cfg(unix)]
+    if let Ok(place) = fs::canonicalize(path) {
+        use std::os::unix::fs::FileTypeExt;
+
+        if fs::metadata(place)?.file_type().is_fifo() {
+            return Err(io::Error::other("it is a named pipe"));
+        }
+    }
+    File::open(path)
+}
+
+/// Reads a file that a user has written.
+///
+/// # Errors
+/// [`Failure::Usage`] naming the file if it cannot be read ([`open`]), or has more than 1 MiB.
 pub fn text(path: &Path) -> Result<String, Failure> {
     let read = || {
         let mut text = String::new();
-        File::open(path)?
-            .take(LONGEST + 1)
-            .read_to_string(&mut text)?;
+        open(path)?.take(LONGEST + 1).read_to_string(&mut text)?;
         match text.len() as u64 > LONGEST {
             true => Err(io::Error::other("it has more than 1 MiB")),
             false => Ok(text),

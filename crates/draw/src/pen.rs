@@ -11,6 +11,11 @@ use crate::style;
 pub use crate::index::width;
 pub use crate::stroke::Stroke;
 
+/// Whether XML, and so SVG, has no place for a character (XML 1.0, section 2.2).
+fn is_no_xml(c: char) -> bool {
+    matches!(c, '\0'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}')
+}
+
 /// Shapes on a page; lengths are pixels, y points down.
 pub struct Pen {
     scene: Scene,
@@ -275,6 +280,7 @@ impl Pen {
     /// The same, its texts written anew.
     pub fn svg_with(&self, anew: impl Fn(&str) -> String) -> String {
         let svg = SvgBackend::new().with_pretty(true);
-        index::document(&svg.render_scene(&self.scene), anew)
+        let document = index::document(&svg.render_scene(&self.scene), anew);
+        document.replace(is_no_xml, "\u{fffd}")
     }
 }

@@ -37,7 +37,8 @@ Examples:
   softstop-lab chart failures             where fixed-step methods fail, and how
   softstop-lab throughput                 how many drive periods a second
 
-Exit codes: 0 done, 1 the run could not do it, 2 bad usage or values, 130 interrupted.";
+Exit codes: 0 done, 1 the run could not do it, 2 bad usage or values, 128 + n
+ended by signal n (130: Ctrl-C; 141: nobody reads the output).";
 
 /// The subcommands.
 #[derive(Debug, Subcommand)]
@@ -66,7 +67,7 @@ pub enum Chart {
 
 /// Reads the command line, does what it says and turns the outcome into an exit code.
 pub fn main() -> ExitCode {
-    softstop_console::main(|| run(CommandLine::parse().command))
+    softstop_console::main(|line: CommandLine| run(line.command))
 }
 
 /// Carries out one subcommand.

@@ -7,6 +7,7 @@ mod program;
 pub mod random;
 pub mod reference;
 pub mod scenes;
+mod signals;
 pub mod tangent;
 pub mod tolerance;
 

@@ -9,6 +9,8 @@ use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use serde_json::Value;
 
+use crate::signals::kill;
+
 /// The arguments of a line.
 pub fn words(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()
@@ -137,49 +139,6 @@ impl Program {
         assert!(!folder.exists(), "{} is left", folder.display());
     }
 
-    /// Sends the program a signal (`INT`, say) in the middle of a long job that works in an empty folder: it
-    /// ends with exit code 130 within 10 s, and leaves no file but those of the names in `kept`. What it says.
-    ///
-    /// # Panics
-    /// If it does otherwise, or is over before.
-    #[track_caller]
-    pub fn ends_on(
-        &self,
-        signal: &str,
-        arguments: &[&str],
-        folder: &Path,
-        kept: &[&str],
-    ) -> String {
-        let mut command = self.command(arguments);
-        let heard = command.stdout(Stdio::null()).stderr(Stdio::piped());
-        let mut run = heard
-            .current_dir(folder)
-            .spawn()
-            .expect("the program starts");
-        std::thread::sleep(Duration::from_millis(600));
-        let early = run.try_wait().expect("a process");
-        assert_eq!(early, None, "{arguments:?} is over too soon");
-        kill(signal, run.id());
-        let deadline = Instant::now() + Duration::from_secs(10);
-        let mut status = None;
-        while status.is_none() && Instant::now() < deadline {
-            std::thread::sleep(Duration::from_millis(10));
-            status = run.try_wait().expect("a process");
-        }
-        if status.is_none() {
-            run.kill().expect("a process");
-        }
-        let code = status.and_then(|status| status.code());
-        assert_eq!(code, Some(130), "SIG{signal} of {arguments:?}: {status:?}");
-        let left = files(folder);
-        let strange = left
-            .iter()
-            .find(|file| !kept.iter().any(|name| file.ends_with(name)));
-        assert_eq!(strange, None, "SIG{signal} of {arguments:?}");
-        let said = run.wait_with_output().expect("a process").stderr;
-        String::from_utf8_lossy(&said).into_owned()
-    }
-
     /// Kills the program at random moments of a job that writes into the folder `out`, and takes the job up again with
     /// `--resume`, over and over: in the end its files, and no others, hold what they hold after an undisturbed run.
     /// So many kills, or `SOFTSTOP_KILLS`, of a seed or `SOFTSTOP_KILLS_SEED`; `folder` is empty.
@@ -266,14 +225,8 @@ fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     files(folder).into_iter().map(content).collect()
 }
 
-fn kill(signal: &str, process: u32) {
-    let arguments = [format!("-{signal}"), process.to_string()];
-    let status = Command::new("kill").args(arguments).status();
-    assert!(status.expect("kill starts").success(), "kill -{signal}");
-}
-
 /// All files in a folder and below.
-fn files(folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn files(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).expect("a folder");
     let paths = entries.map(|entry| entry.expect("an entry").path());
     paths

@@ -27,6 +27,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::Format;
+use softstop_console::scene_file;
 
 use crate::design::Problem;
 use crate::fmu::{archive, library, parameters};
@@ -90,6 +91,11 @@ design.toml (the machine, for every command), design.fmu (FMI 2.0 co-simulation,
 motion), design.ssv (its parameters for SSP), design.svg (velocity over frequency), CSVs of the report.
 Ctrl-C writes the best design so far, marked as such and without its report; a second one ends at once.";
 
+/// Has the tasks checked that stand in machine files, by every command.
+pub fn check_tasks() {
+    scene_file::check_tasks(task::check);
+}
+
 /// The JSON Schema of task files.
 pub fn task_schema() -> serde_json::Value {
     configuration::Task::schema()
@@ -142,6 +148,7 @@ pub struct OptimizeArguments {
 /// Searches, prints and writes the files.
 pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let job = Job::new(arguments)?;
+    can_be_packed(&job.problem.machine)?;
     let files = [
         ("json", "design.json"),
         ("svg", "design.svg"),
@@ -152,6 +159,7 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     ];
     let files = &files[..files.len() - usize::from(!job.report)];
     let mut export = Export::open(&job.output, files)?;
+    export.refuse_folders_called(".csv")?;
     let library = library()?;
     let keep = Keep::open(&job.output, "optimize", &job.identity(), arguments.keep)?;
     let mut outcome = match solve(&job, &keep) {
@@ -235,22 +243,38 @@ fn looked(job: &Job, outcome: &Outcome) -> Result<(Option<Study>, Option<Page>),
     }
 }
 
+/// Refuses a machine whose design no FMU could hold, before it is searched.
+fn can_be_packed(machine: &Machine) -> Result<(), Failure> {
+    let design = Machine {
+        name: Some(design_name(machine)),
+        description: None,
+        ..machine.clone()
+    };
+    let packed = parameters(&design, machine.start);
+    packed.map(drop).map_err(|error| {
+        let name = machine.name.as_deref().unwrap_or_default();
+        Failure::usage(format!("name = {name:?}: its design: {error:#}"))
+    })
+}
+
+fn design_name(machine: &Machine) -> String {
+    format!("{} design", machine.name.as_deref().unwrap_or("machine"))
+}
+
 /// The design's machine under the name of a design.
 fn named(problem: &Problem, outcome: &Outcome) -> Machine {
     let design = &outcome.design;
     let interrupted = outcome.interrupted.map(|it| format!(" ({})", it.words()));
     let words = problem.objective.words();
     let machine = &design.machine;
-    let name = machine.name.as_deref().unwrap_or("machine");
     let own = |value: f64, dimension| {
         let value = format!("{value:.6} {}", machine.unit(dimension));
         value.trim_end().to_owned()
     };
     Machine {
-        name: Some(format!("{name} design")),
+        name: Some(design_name(machine)),
         description: Some(format!(
-            "Design of the machine {name} with the {words} inside its hysteresis zone: drive frequency {}, \
-             before-impact velocity {}{}",
+            "Design with the {words} inside its hysteresis zone: drive frequency {}, before-impact velocity {}{}",
             own(design.frequency(), Dimension::Frequency),
             own(design.before_impact_velocity(), Dimension::Velocity),
             interrupted.unwrap_or_default()

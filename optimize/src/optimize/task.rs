@@ -166,6 +166,19 @@ impl Job {
     }
 }
 
+/// Refuses a task beside a machine in its file that no search could take up.
+///
+/// # Errors
+/// [`Failure::Usage`] naming the key, its value and what is allowed.
+pub(super) fn check(machine: &Machine, text: &str) -> Result<(), Failure> {
+    let task = Task::beside_machine(text)?;
+    tolerances(machine, &task.tolerance)?;
+    requirements(machine, &task.require)?;
+    objective(machine, &task.objective)?;
+    layers::variables(machine, &task.vary)?;
+    Ok(())
+}
+
 /// Refuses a tolerance within which there are no machines even about the highest value that is searched.
 fn leaves_machines(
     machine: &Machine,

@@ -149,6 +149,7 @@ fn picture(
     machine: &Machine,
 ) -> Result<(), Failure> {
     let scene = &machine.scene;
+    plane::check(arguments)?;
     let export = Export::open(&arguments.output, &PICTURE)?;
     let grid = plane::grid(arguments, scene, || starting_box(scene, &interrupt::watch))?;
     let of = (scene, grid, options);
@@ -177,6 +178,8 @@ fn along(
     machine: &Machine,
     places: usize,
 ) -> Result<(), Failure> {
+    plane::check(arguments)?;
+    let export = Export::open(&arguments.output, &ALONG)?;
     let zone = zone::hysteresis_watched(&machine.scene, &interrupt::watch)
         .with_context(|| format!("no hysteresis zone found of {}", title(machine)))?;
     let mut widened = false;
@@ -186,7 +189,6 @@ fn along(
         Ok(region)
     };
     let grid = plane::grid(arguments, &zone.scene, region)?;
-    let export = Export::open(&arguments.output, &ALONG)?;
     let shares: Vec<f64> = (0..places)
         .map(|k| k as f64 / (places - 1) as f64)
         .collect();

@@ -39,29 +39,47 @@ impl FromStr for Plane {
     }
 }
 
-/// The grid in the box of starts, unless the arguments say it all.
+/// Refuses values of the plane that cannot be.
+///
+/// # Errors
+/// [`Failure::Usage`] naming the argument.
+pub(super) fn check(arguments: &BasinArguments) -> Result<(), Failure> {
+    Allowed::Finite.check("at", arguments.at)?;
+    let hidden = ranges(arguments)
+        .into_iter()
+        .find(|(_, range, quantity)| range.is_some() && !arguments.plane.shows(*quantity));
+    hidden.map_or(Ok(()), |(flag, ..)| {
+        let message =
+            format!("--{flag}: the plane does not show it; --at has the value of all cells");
+        Err(Failure::usage(message))
+    })
+}
+
+/// The ranges that are given, with their flags.
+fn ranges(arguments: &BasinArguments) -> [(&'static str, Option<[f64; 2]>, Quantity); 3] {
+    [
+        ("x", arguments.x, Quantity::Position),
+        ("v", arguments.v, Quantity::Velocity),
+        ("phi", arguments.phi, Quantity::Angle),
+    ]
+}
+
+impl Plane {
+    fn shows(self, quantity: Quantity) -> bool {
+        self.across == quantity || self.up == quantity
+    }
+}
+
+/// The grid in the box of starts, unless the arguments say it all. They are [checked](check).
 pub(super) fn grid(
     arguments: &BasinArguments,
     scene: &Scene,
     region: impl FnOnce() -> Result<Region, SurveyError>,
 ) -> Result<Grid, Failure> {
-    Allowed::Finite.check("at", arguments.at)?;
     let Plane { across, up } = arguments.plane;
-    let shows = |quantity| across == quantity || up == quantity;
-    let given = [
-        ("x", arguments.x, Quantity::Position),
-        ("v", arguments.v, Quantity::Velocity),
-        ("phi", arguments.phi, Quantity::Angle),
-    ];
-    for (flag, range, quantity) in given {
-        if range.is_some() && !shows(quantity) {
-            let message =
-                format!("--{flag}: the plane does not show it; --at has the value of all cells");
-            return Err(Failure::usage(message));
-        }
-    }
+    let shows = |quantity| arguments.plane.shows(quantity);
     let is_left = |(_, range, quantity): &(_, Option<_>, _)| range.is_none() && shows(*quantity);
-    let region = match given[..2].iter().any(is_left) {
+    let region = match ranges(arguments)[..2].iter().any(is_left) {
         true => Some(region().map_err(Error::from)?),
         false => None,
     };

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt::{requested, under_way};
 use softstop_console::keep::KEPT;
+use softstop_console::lock;
 use softstop_console::pieces::{At, Pieces};
 use softstop_console::progress::Progress;
 use softstop_dynamics::points;
@@ -67,13 +68,13 @@ impl Blocks {
     /// All blocks that files of finished shards hold.
     ///
     /// # Errors
-    /// [`Failure::Usage`] if a file holds another study's; [`Failure::Run`] if one cannot be read.
+    /// [`Failure::Usage`] if a file holds another study's; [`Failure::Run`] if one cannot be read, or is being written.
     pub fn merged(study: &Study, paths: &[PathBuf]) -> Result<Self, Failure> {
         let mut blocks = Self::none(study);
         for path in paths {
             let file =
                 Pieces::open(path).with_context(|| format!("cannot read {}", place(path)))?;
-            let busy = || Failure::usage(format!("{}: is of a run that goes on", place(path)));
+            let busy = || lock::refusal(path);
             blocks.take(study, file.ok_or_else(busy)?)?;
         }
         Ok(blocks)
@@ -166,7 +167,8 @@ impl<'a> Run<'a> {
     /// Begins one with a file of this name, or goes on with it.
     ///
     /// # Errors
-    /// [`Failure::Usage`] if the file is another study's; [`Failure::Run`] if it cannot be read or written.
+    /// [`Failure::Usage`] if the file is another study's; [`Failure::Run`] if it cannot be read or written, or another
+    /// run writes it.
     pub fn open(
         study: &'a Study,
         shard: Shard,
@@ -189,7 +191,7 @@ impl<'a> Run<'a> {
             // The lock of a file without any block goes before it is made anew.
             blocks.files.clear();
             let file = Pieces::create(&path, study.hash.as_bytes()).map_err(cannot)?;
-            let busy = || Failure::usage(format!("{}: is of a run that goes on", place(&path)));
+            let busy = || lock::refusal(&path);
             blocks.files = vec![file.ok_or_else(busy)?];
         }
         under_way().close_with(KEPT);
@@ -237,7 +239,15 @@ impl<'a> Run<'a> {
         let file = files.last_mut().context("no file to keep blocks in")?;
         let at = file.append(&block.to_le_bytes(), bytes).with_context(|| {
             let place = place(&self.path);
-            format!("cannot write {place}; what is done is kept, --resume goes on with it")
+            match places.iter().any(Option::is_some) {
+                true => {
+                    format!("cannot write {place}; what is done is kept, --resume goes on with it")
+                }
+                false => {
+                    let _ = fs::remove_file(&self.path);
+                    format!("cannot write {place}")
+                }
+            }
         })?;
         places[block as usize] = Some((0, at));
         Ok(())

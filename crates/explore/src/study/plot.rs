@@ -1,7 +1,7 @@
 //! `softstop study plot`: a map over two axes of a study, or a slice along one, from its Parquet.
 
 use std::collections::BTreeMap;
-use std::fs;
+use std::io;
 use std::path::PathBuf;
 
 use anyhow::{Context, Error, anyhow};
@@ -9,7 +9,9 @@ use clap::Args;
 use serde::Serialize;
 use softstop_console::export::{Export, Report};
 use softstop_console::failure::Failure;
+use softstop_console::names::check_file;
 use softstop_console::output::Format;
+use softstop_console::scene_file;
 
 use super::read::{Column, read};
 use super::report::{ColumnReport, Manifest};
@@ -73,7 +75,8 @@ pub(super) struct View<'a> {
 pub(super) fn run(arguments: &PlotArguments) -> Result<(), Failure> {
     let place = arguments.folder.join(MANIFEST);
     let cannot = || format!("{}: cannot be read", place.display());
-    let text = fs::read_to_string(&place).with_context(cannot)?;
+    let text = scene_file::open(&place).and_then(io::read_to_string);
+    let text = text.with_context(cannot)?;
     let manifest: Manifest = serde_json::from_str(&text).with_context(cannot)?;
     let view = View::new(&manifest, arguments)?;
     let is_map = view.over.len() == 2;
@@ -83,7 +86,8 @@ pub(super) fn run(arguments: &PlotArguments) -> Result<(), Failure> {
         ("svg", "svg")
     };
     let name = format!("{}.{ending}", view.column.name);
-    let export = Export::open(&arguments.folder, &[(kind, &name)])?;
+    check_file(&name)?;
+    let export = Export::of_file(kind, &arguments.folder, &name)?;
     let table = arguments.folder.join(TABLE);
     let in_table = |error: Error| error.context(format!("{}: cannot be read", table.display()));
     let points = view.points(&table).map_err(in_table)?;

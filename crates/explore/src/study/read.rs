@@ -1,11 +1,11 @@
 //! Results of a study, read from Parquet.
 
-use std::fs::File;
 use std::path::Path;
 
 use anyhow::{Context, Error, bail};
 use parquet::column::reader::ColumnReader;
 use parquet::file::reader::{FileReader, SerializedFileReader};
+use softstop_console::scene_file;
 
 /// A column as it was written; a number is NaN, a word none where there is nothing.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +23,7 @@ pub(super) fn read(
     names: &[&str],
     mut visit: impl FnMut(u64, &[Column]),
 ) -> Result<(), Error> {
-    let reader = SerializedFileReader::new(File::open(path)?)?;
+    let reader = SerializedFileReader::new(scene_file::open(path)?)?;
     let schema = reader.metadata().file_metadata().schema_descr();
     let column = |name: &&str| {
         let place = schema.columns().iter().position(|it| it.name() == *name);

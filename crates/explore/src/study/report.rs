@@ -134,7 +134,7 @@ impl StudyReport {
 }
 
 /// A unit by its name in JSON.
-fn unit(machine: &Machine, unit: Unit) -> &'static str {
+pub(super) fn unit(machine: &Machine, unit: Unit) -> &'static str {
     match unit {
         Unit::Own(dimension) => units::name(machine, dimension),
         other => Units::of(machine).name(other),

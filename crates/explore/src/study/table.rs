@@ -4,11 +4,13 @@ use std::fs::File;
 use std::sync::Arc;
 
 use anyhow::{Context, Error};
-use parquet::basic::{LogicalType, Repetition, Type as Physical};
+use parquet::basic::{Compression, Encoding, GzipLevel, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
+use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
+use serde_json::{Value, json};
 use softstop_console::failure::Failure;
 use softstop_console::output::Staged;
 use softstop_console::progress::Progress;
@@ -16,7 +18,7 @@ use softstop_console::progress::Progress;
 use super::blocks::Blocks;
 use super::column::{self, Column};
 use super::file::Study;
-use super::report::Summary;
+use super::report::{Summary, unit};
 
 /// Blocks of a row group.
 const GROUP: u64 = 128;
@@ -112,21 +114,51 @@ fn open(study: &Study, file: File) -> Result<SerializedFileWriter<File>, Error> 
     let schema = Type::group_type_builder("study")
         .with_fields(fields)
         .build()?;
-    let words = study.outputs.iter().filter(|output| output.is_word());
-    let properties = WriterProperties::builder()
-        .set_created_by(concat!("softstop ", env!("CARGO_PKG_VERSION")).to_owned())
-        .set_statistics_enabled(EnabledStatistics::None)
-        .set_offset_index_disabled(true)
-        .set_dictionary_enabled(false);
-    let properties = words.fold(properties, |properties, output| {
-        properties.set_column_dictionary_enabled(output.name().into(), true)
-    });
-    let properties = Arc::new(properties.build());
     Ok(SerializedFileWriter::new(
         file,
         Arc::new(schema),
-        properties,
+        Arc::new(properties(study)?),
     )?)
+}
+
+/// How columns are written: words and the values of grids by dictionaries, other numbers byte by byte, first all
+/// first bytes; least and greatest of each row group; compressed.
+fn properties(study: &Study) -> Result<WriterProperties, Error> {
+    let properties = WriterProperties::builder()
+        .set_created_by(concat!("softstop ", env!("CARGO_PKG_VERSION")).to_owned())
+        .set_key_value_metadata(Some(told(study)?))
+        .set_statistics_enabled(EnabledStatistics::Chunk)
+        .set_offset_index_disabled(true)
+        .set_compression(Compression::GZIP(GzipLevel::try_new(1)?))
+        .set_encoding(Encoding::BYTE_STREAM_SPLIT)
+        .set_dictionary_enabled(false);
+    let words = study.outputs.iter().filter(|output| output.is_word());
+    let grids = study.axes.iter().filter(|axis| axis.draw().is_none());
+    let properties = words.fold(properties, |properties, output| {
+        let properties = properties.set_column_dictionary_enabled(output.name().into(), true);
+        properties.set_column_encoding(output.name().into(), Encoding::PLAIN)
+    });
+    let properties = grids.fold(properties, |properties, axis| {
+        properties.set_column_dictionary_enabled(axis.name.as_str().into(), true)
+    });
+    Ok(properties.build())
+}
+
+/// What the file tells of itself: the study, and name, unit and meaning of each column as JSON.
+fn told(study: &Study) -> Result<Vec<KeyValue>, Error> {
+    let machine = &study.machine;
+    let axes = study.axes.iter().map(|axis| {
+        let (unit, label) = axis.told(machine);
+        json!({ "name": axis.name, "unit": unit, "meaning": label })
+    });
+    let outputs = study.outputs.iter().map(|it| {
+        json!({ "name": it.name(), "unit": unit(machine, it.unit()), "meaning": it.meaning() })
+    });
+    let columns: Vec<Value> = axes.chain(outputs).collect();
+    Ok(vec![
+        KeyValue::new("study".to_owned(), study.hash.clone()),
+        KeyValue::new("columns".to_owned(), serde_json::to_string(&columns)?),
+    ])
 }
 
 /// Adds a row group.

@@ -62,7 +62,7 @@ pub fn run(arguments: &WatchArguments) -> Result<(), Failure> {
     within("last", arguments.last, 1..=MOST_SHOWN)?;
     let (folder, file) = folder_and_file(&arguments.output)?;
     let begun = arguments.motion.begin()?;
-    let export = Export::open(folder, &[("html", file)])?;
+    let export = Export::of_file("html", folder, file)?;
     let plan = Plan {
         begun: &begun,
         periods: arguments.periods,
