@@ -16,6 +16,7 @@ pub(crate) use jets::is_clear_soon;
 
 use serde::{Deserialize, Serialize};
 
+use crate::budget;
 use crate::flow::{Course, Node, Window};
 use isolate::{Candidate, Point, Verdict, judge};
 use jets::{Ends, Jets};
@@ -58,6 +59,22 @@ const WINDOWS_PER_LOOK: u32 = 8;
 /// The windows are laid from the departure, so the answer does not depend on how a search is
 /// divided into calls.
 pub fn first_crossing(course: &Course, guards: &[Guard], node: Node, until: f64) -> Outlook {
+    let begin = node.elapsed;
+    let outlook = search(course, guards, node, until);
+    let reached = match &outlook {
+        Outlook::Crossing(found) => found.elapsed,
+        Outlook::ClearUntil(node) | Outlook::Unbounded(node) => node.elapsed,
+        Outlook::Ends(_) | Outlook::Never => begin,
+    };
+    budget::charge(match course.segment() {
+        Some(_) => budget::TAYLOR_STEP,
+        None => 1 + ((reached - begin) / course.flow.window) as u64,
+    });
+    outlook
+}
+
+/// The same, without counting what it costs.
+fn search(course: &Course, guards: &[Guard], node: Node, until: f64) -> Outlook {
     if let Some(segment) = course.segment() {
         return step::first_crossing(segment, guards, node);
     }

@@ -10,6 +10,7 @@ use super::landing::Landing;
 use super::motion::Motion;
 use super::observer::{Arc, Crossing, CrossingKind, Observer};
 use super::start::Start;
+use crate::budget;
 use crate::error::MotionError;
 use crate::events::{Found, Guard, Outlook, first_crossing};
 use crate::flow::{Drive, Finer, Node};
@@ -29,8 +30,8 @@ impl Motion {
     /// # Errors
     /// [`MotionError::TimeBackwards`] if `until` lies in the past, [`MotionError::Unbounded`] if the
     /// motion grows beyond all bounds, [`MotionError::Stalled`] if crossings pile up,
-    /// [`MotionError::Endless`] if a drive period takes too much work; the motion is then known no further than its
-    /// present time.
+    /// [`MotionError::Endless`] if a drive period takes too much work, [`MotionError::OverBudget`] if a budget set around
+    /// the call is spent; the motion is then known no further than its present time.
     pub fn advance(
         &mut self,
         until: Instant,
@@ -54,6 +55,9 @@ impl Motion {
             let (until, present) = (self.clock.time(until), self.clock.time(self.now));
             return Err(MotionError::TimeBackwards { until, present });
         }
+        if budget::is_spent() {
+            return Err(self.over_budget());
+        }
         let mut at_once = 0;
         let (mut cycle, mut work) = (self.now.cycles, 0);
         while !self.glide(until)? {
@@ -71,11 +75,12 @@ impl Motion {
             let windows = match self.outlook {
                 Outlook::Crossing(found) => {
                     self.cross(found, observer);
-                    effort::CROSSING
+                    budget::charge(budget::CROSSING);
+                    budget::CROSSING
                 }
                 Outlook::Ends(elapsed) => {
                     self.go_on(elapsed, observer);
-                    effort::TAYLOR_STEP
+                    budget::TAYLOR_STEP
                 }
                 Outlook::ClearUntil(node) => {
                     self.now = self.clock.after(self.start, node.elapsed);
@@ -85,6 +90,9 @@ impl Motion {
             };
             if observer.progress(windows).is_break() {
                 return Ok(ControlFlow::Break(()));
+            }
+            if budget::is_spent() {
+                return Err(self.over_budget());
             }
             if self.now.cycles != cycle {
                 (cycle, work) = (self.now.cycles, 0);
@@ -145,6 +153,11 @@ impl Motion {
     fn stalled(&self) -> MotionError {
         let (time, position) = (self.clock.time(self.start), self.course.departure.position);
         MotionError::Stalled { time, position }
+    }
+
+    fn over_budget(&self) -> MotionError {
+        let time = self.clock.time(self.now);
+        MotionError::OverBudget { time }
     }
 
     fn endless(&self) -> MotionError {

@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 pub mod arguments;
+pub mod budget;
 pub mod cell;
 pub mod column;
 pub mod export;
