@@ -10,6 +10,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// What a crossing costs, in windows: a window takes some 10 ns, a crossing with the arc after it half a
 /// microsecond to two.
 pub(crate) const CROSSING: u64 = 64;
+/// What the derivatives at a node of a scan cost, in windows, where a window is not passed at once.
+pub(crate) const JETS: u64 = 8;
+/// What a search of a window costs, in windows, on its Taylor polynomial.
+pub(crate) const POLYNOMIAL: u64 = 128;
+/// What a step of Newton's method for slow motion under heavy damping costs, in windows.
+pub(crate) const CREEP: u64 = 768;
 /// What a Taylor step costs, in windows, for a microsecond.
 pub(crate) const TAYLOR_STEP: u64 = 128;
 

@@ -55,9 +55,6 @@ impl Motion {
             let (until, present) = (self.clock.time(until), self.clock.time(self.now));
             return Err(MotionError::TimeBackwards { until, present });
         }
-        if budget::is_spent() {
-            return Err(self.over_budget());
-        }
         let mut at_once = 0;
         let (mut cycle, mut work) = (self.now.cycles, 0);
         while !self.glide(until)? {
@@ -90,9 +87,6 @@ impl Motion {
             };
             if observer.progress(windows).is_break() {
                 return Ok(ControlFlow::Break(()));
-            }
-            if budget::is_spent() {
-                return Err(self.over_budget());
             }
             if self.now.cycles != cycle {
                 (cycle, work) = (self.now.cycles, 0);
@@ -176,7 +170,10 @@ impl Motion {
             } else {
                 horizon
             };
-            self.outlook = self.search(node, until);
+            let is_open = !budget::is_spent();
+            let found = is_open.then(|| self.search(node, until));
+            let found = found.filter(|_| !budget::is_spent());
+            self.outlook = found.ok_or_else(|| self.over_budget())?;
         }
         if let Outlook::Unbounded(node) = &self.outlook
             && node.elapsed < horizon
