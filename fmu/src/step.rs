@@ -3,7 +3,7 @@
 use std::mem;
 use std::ops::ControlFlow;
 
-use softstop::internals::Polynomial;
+use softstop::internals::{Polynomial, budget};
 use softstop::{Effort, MotionError, Simulation};
 use softstop_fmi::{Advance, Derivatives, Events, Outcome};
 
@@ -14,6 +14,8 @@ use crate::signal;
 /// Work that one step may cost, all together: half a million crossings, about a second. A step that would take longer
 /// is carried out in part, so that no importer waits for ever.
 const EFFORT: Effort = Effort::windows(1 << 25);
+/// Work after which a step ends in the middle of the search for a crossing, where none can be carried out in part.
+const BACKSTOP: u64 = 1 << 27;
 /// Pieces of a drive that changes its speed that one step may take, for about as long.
 const MOST_PIECES: usize = 1 << 18;
 
@@ -165,7 +167,8 @@ impl Machine {
         });
         let simulation = self.change();
         let before = (simulation.impact_count(), simulation.pierce_count());
-        let outcome = simulation.watch(until, effort);
+        let backstop = || simulation.watch(until, effort);
+        let (outcome, _) = budget::within(BACKSTOP, backstop);
         let impacts = simulation.impact_count() - before.0;
         if let Some(last) = simulation.last_impact().filter(|_| impacts > 0) {
             let pierced = simulation.pierce_count() - before.1;
@@ -192,7 +195,8 @@ impl Machine {
             Err(
                 error @ (MotionError::Unbounded { .. }
                 | MotionError::Stalled { .. }
-                | MotionError::Endless { .. }),
+                | MotionError::Endless { .. }
+                | MotionError::OverBudget { .. }),
             ) => {
                 return Ok(Advance::Short {
                     reason: error.to_string(),

@@ -9,12 +9,13 @@ use serde::Serialize;
 use softstop::internals::budget;
 
 use crate::failure::Failure;
+use crate::interrupt;
 
 /// The option that limits the work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Args)]
 pub struct BudgetArguments {
-    /// Work that the answer may cost, in millions of scan windows; what would cost more is refused, the same on every
-    /// computer
+    /// Work that the answer may cost, or each thousand steps of a sweep or cells of a basin, in millions of scan windows;
+    /// what would cost more is refused, the same on every computer
     #[arg(long, value_name = "MILLIONS", default_value_t = Budget::MACHINE)]
     pub budget: Budget,
 }
@@ -45,14 +46,25 @@ impl Budget {
     /// # Errors
     /// Those of the work; [`Failure::Run`] if it is over the budget.
     pub fn limit<T>(self, work: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
-        let (done, spent) = budget::within(self.windows(), work);
+        self.limit_many(1, work)
+    }
+
+    /// Does work on many steps or cells within it for each thousand of them.
+    ///
+    /// # Errors
+    /// As [`Budget::limit`].
+    pub fn limit_many<T>(
+        self,
+        count: usize,
+        work: impl FnOnce() -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        let windows = self.windows().saturating_mul(count.div_ceil(1000) as u64);
+        let (done, spent) = budget::within(windows, work);
         match done {
-            Err(Failure::Interrupted) => Err(Failure::Interrupted),
-            Err(Failure::Run(error)) if spent == self.windows() => {
-                Err(Failure::Run(anyhow!("{}: {error:#}", self.refusal())))
-            }
-            _ if spent == self.windows() => Err(Failure::Run(anyhow!(self.refusal()))),
-            done => done,
+            _ if interrupt::requested() => Err(Failure::Interrupted),
+            done if spent < windows => done,
+            Err(Failure::Run(error)) => Err(anyhow!("{}: {error:#}", self.refusal()).into()),
+            _ => Err(anyhow!(self.refusal()).into()),
         }
     }
 }
