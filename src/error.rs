@@ -254,6 +254,12 @@ pub enum MotionError {
         /// The position in m.
         position: f64,
     },
+    /// The work that was allowed is done, and the motion has not come to its end.
+    #[error("all work that the budget allows is done at t = {time} s")]
+    OverBudget {
+        /// The time in s that was reached.
+        time: f64,
+    },
     /// A snapshot that no machine left behind.
     #[error("the snapshot cannot be taken up: {what}")]
     Snapshot {

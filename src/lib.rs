@@ -29,6 +29,8 @@
 //! ```
 #![forbid(unsafe_code)]
 
+#[doc(hidden)]
+pub mod budget;
 mod error;
 mod events;
 mod flow;

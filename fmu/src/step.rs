@@ -3,7 +3,7 @@
 use std::mem;
 use std::ops::ControlFlow;
 
-use softstop::internals::Polynomial;
+use softstop::internals::{Polynomial, budget};
 use softstop::{Effort, MotionError, Simulation};
 use softstop_fmi::{Advance, Derivatives, Events, Outcome};
 
@@ -11,11 +11,13 @@ use crate::drive::Drive;
 use crate::machine::{Machine, More};
 use crate::signal;
 
-/// Work that one step may cost: eight million crossings, some seconds. A step that would take longer
+/// Work that one step may cost, all together: half a million crossings, about a second. A step that would take longer
 /// is carried out in part, so that no importer waits for ever.
-const EFFORT: Effort = Effort::windows(1 << 27);
-/// Pieces of a drive that changes its speed that one step may take.
-const MOST_PIECES: usize = 1 << 20;
+const EFFORT: Effort = Effort::windows(1 << 25);
+/// Work after which a step ends in the middle of the search for a crossing, where none can be carried out in part.
+const BACKSTOP: u64 = 1 << 27;
+/// Pieces of a drive that changes its speed that one step may take, for about as long.
+const MOST_PIECES: usize = 1 << 18;
 
 impl More {
     /// The same without what is known of the last step.
@@ -96,13 +98,14 @@ impl Machine {
             (more.contacts, more.origin, more.ended) = (None, None, None);
         }
         more.is_open = true;
+        let mut effort = EFFORT;
         if !more.drive.as_ref().is_some_and(|drive| drive.varies()) {
-            return self.go_straight(until, events);
+            return self.go_straight(until, &mut effort, events);
         }
         self.more.is_open = false;
         let mut origin = Box::new(self.clone());
         origin.change().mark();
-        match self.go_in_pieces(until, events) {
+        match self.go_in_pieces(until, &mut effort, events) {
             Ok(None) => {
                 self.more.origin = Some(origin);
                 Ok(Advance::Arrived)
@@ -119,7 +122,12 @@ impl Machine {
     }
 
     /// The same under a drive that changes; otherwise than all the way, why.
-    fn go_in_pieces(&mut self, until: f64, events: &mut Events) -> Outcome<Option<String>> {
+    fn go_in_pieces(
+        &mut self,
+        until: f64,
+        effort: &mut Effort,
+        events: &mut Events,
+    ) -> Outcome<Option<String>> {
         for _ in 0..MOST_PIECES {
             let now = self.simulation().time();
             if now >= until {
@@ -133,7 +141,7 @@ impl Machine {
                 )));
             }
             self.push_until(end)?;
-            let outcome = self.go_straight(end, events)?;
+            let outcome = self.go_straight(end, effort, events)?;
             self.more.is_open = true;
             self.keep_contacts();
             if let Advance::Short { reason, .. } = outcome {
@@ -146,7 +154,12 @@ impl Machine {
     }
 
     /// Goes on under a drive and an external force that the engine has as they are.
-    fn go_straight(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>> {
+    fn go_straight(
+        &mut self,
+        until: f64,
+        effort: &mut Effort,
+        events: &mut Events,
+    ) -> Outcome<Advance<Self>> {
         let external = &self.more.external;
         let force = external.varies.then(|| {
             let simulation = self.simulation();
@@ -154,7 +167,8 @@ impl Machine {
         });
         let simulation = self.change();
         let before = (simulation.impact_count(), simulation.pierce_count());
-        let outcome = simulation.watch(until, &mut { EFFORT });
+        let backstop = || simulation.watch(until, effort);
+        let (outcome, _) = budget::within(BACKSTOP, backstop);
         let impacts = simulation.impact_count() - before.0;
         if let Some(last) = simulation.last_impact().filter(|_| impacts > 0) {
             let pierced = simulation.pierce_count() - before.1;
@@ -181,7 +195,8 @@ impl Machine {
             Err(
                 error @ (MotionError::Unbounded { .. }
                 | MotionError::Stalled { .. }
-                | MotionError::Endless { .. }),
+                | MotionError::Endless { .. }
+                | MotionError::OverBudget { .. }),
             ) => {
                 return Ok(Advance::Short {
                     reason: error.to_string(),

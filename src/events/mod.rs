@@ -16,6 +16,7 @@ pub(crate) use jets::is_clear_soon;
 
 use serde::{Deserialize, Serialize};
 
+use crate::budget;
 use crate::flow::{Course, Node, Window};
 use isolate::{Candidate, Point, Verdict, judge};
 use jets::{Ends, Jets};
@@ -56,8 +57,24 @@ const WINDOWS_PER_LOOK: u32 = 8;
 /// departure.
 ///
 /// The windows are laid from the departure, so the answer does not depend on how a search is
-/// divided into calls.
+/// divided into calls. Where a [`budget`] is spent on the way, it means nothing.
 pub fn first_crossing(course: &Course, guards: &[Guard], node: Node, until: f64) -> Outlook {
+    let begin = node.elapsed;
+    let outlook = search(course, guards, node, until);
+    let reached = match &outlook {
+        Outlook::Crossing(found) => found.elapsed,
+        Outlook::ClearUntil(node) | Outlook::Unbounded(node) => node.elapsed,
+        Outlook::Ends(_) | Outlook::Never => begin,
+    };
+    budget::charge(match course.segment() {
+        Some(_) => budget::TAYLOR_STEP,
+        None => 1 + ((reached - begin) / course.flow.window) as u64,
+    });
+    outlook
+}
+
+/// The same, without counting what it costs.
+fn search(course: &Course, guards: &[Guard], node: Node, until: f64) -> Outlook {
     if let Some(segment) = course.segment() {
         return step::first_crossing(segment, guards, node);
     }
@@ -94,6 +111,7 @@ pub fn first_crossing(course: &Course, guards: &[Guard], node: Node, until: f64)
                 }
             }
         }
+        budget::charge(budget::JETS);
         let left = Jets::new(course, node);
         let right = Jets::new(course, ahead.unwrap_or_else(|| course.next(&left.node)));
         if !(right.node.position.is_finite() && right.node.velocity.is_finite()) {
@@ -221,6 +239,9 @@ impl Scan<'_> {
         if !self.guards.iter().any(can_rise) {
             return None;
         }
+        if !budget::charge(budget::JETS) {
+            return None;
+        }
         let middle = Jets::new(self.course, self.course.node(half));
         let bounds = self.course.flow.modes.bounds(0.5 * span);
         self.search(left, &middle, bounds)
@@ -256,6 +277,7 @@ impl Scan<'_> {
 
     #[inline(never)]
     fn search_polynomial(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> Option<Found> {
+        budget::charge(budget::POLYNOMIAL);
         let span = right.node.elapsed - left.node.elapsed;
         let node = left.node;
         let taylor = self.course.expand(&node);

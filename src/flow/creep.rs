@@ -8,6 +8,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::budget;
+
 use super::hertz::Hertz;
 use super::modes::Modes;
 use super::series::{Series, convolve, derivative, power};
@@ -103,6 +105,7 @@ impl Equation<'_> {
         depth[0] = d;
         let mut last = f64::INFINITY;
         for _ in 0..NEWTON_STEPS {
+            budget::charge(budget::CREEP);
             let slopes = self.slopes(&depth);
             let matrix = jacobian(&slopes, span, forgets);
             let residual = self.residual(&depth, &slopes, span, forgets);

@@ -10,6 +10,7 @@ use super::landing::Landing;
 use super::motion::Motion;
 use super::observer::{Arc, Crossing, CrossingKind, Observer};
 use super::start::Start;
+use crate::budget;
 use crate::error::MotionError;
 use crate::events::{Found, Guard, Outlook, first_crossing};
 use crate::flow::{Drive, Finer, Node};
@@ -29,8 +30,8 @@ impl Motion {
     /// # Errors
     /// [`MotionError::TimeBackwards`] if `until` lies in the past, [`MotionError::Unbounded`] if the
     /// motion grows beyond all bounds, [`MotionError::Stalled`] if crossings pile up,
-    /// [`MotionError::Endless`] if a drive period takes too much work; the motion is then known no further than its
-    /// present time.
+    /// [`MotionError::Endless`] if a drive period takes too much work, [`MotionError::OverBudget`] if a budget set around
+    /// the call is spent; the motion is then known no further than its present time.
     pub fn advance(
         &mut self,
         until: Instant,
@@ -71,11 +72,12 @@ impl Motion {
             let windows = match self.outlook {
                 Outlook::Crossing(found) => {
                     self.cross(found, observer);
-                    effort::CROSSING
+                    budget::charge(budget::CROSSING);
+                    budget::CROSSING
                 }
                 Outlook::Ends(elapsed) => {
                     self.go_on(elapsed, observer);
-                    effort::TAYLOR_STEP
+                    budget::TAYLOR_STEP
                 }
                 Outlook::ClearUntil(node) => {
                     self.now = self.clock.after(self.start, node.elapsed);
@@ -147,6 +149,11 @@ impl Motion {
         MotionError::Stalled { time, position }
     }
 
+    fn over_budget(&self) -> MotionError {
+        let time = self.clock.time(self.now);
+        MotionError::OverBudget { time }
+    }
+
     fn endless(&self) -> MotionError {
         let (time, position) = (self.clock.time(self.now), self.course.departure.position);
         MotionError::Endless { time, position }
@@ -163,7 +170,10 @@ impl Motion {
             } else {
                 horizon
             };
-            self.outlook = self.search(node, until);
+            let is_open = !budget::is_spent();
+            let found = is_open.then(|| self.search(node, until));
+            let found = found.filter(|_| !budget::is_spent());
+            self.outlook = found.ok_or_else(|| self.over_budget())?;
         }
         if let Outlook::Unbounded(node) = &self.outlook
             && node.elapsed < horizon

@@ -10,14 +10,10 @@ pub struct Effort(u64);
 
 /// Windows that are scanned between two looks at the effort left.
 pub(super) const CHUNK: u32 = 1 << 20;
-/// What a crossing costs, in windows.
-pub(super) const CROSSING: u64 = 16;
-/// What a Taylor step costs, in windows.
-pub(super) const TAYLOR_STEP: u64 = 128;
 
 impl Effort {
     /// About as much as scanning this many windows of time costs. A window is the reciprocal of the
-    /// fastest of drive and free motion; a crossing costs as much as 16 of them, a Taylor step as
+    /// fastest of drive and free motion; a crossing costs as much as 64 of them, a Taylor step as
     /// much as 128.
     pub const fn windows(windows: u64) -> Self {
         Self(windows)

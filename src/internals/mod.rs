@@ -2,6 +2,7 @@
 
 pub mod samples;
 
+pub use crate::budget;
 pub use crate::error::{did_you_mean, plain};
 pub use crate::events::{Guard, Outlook, first_crossing};
 pub use crate::flow::{Course, Departure, Flow, Hertz, Modes, Polynomial};

@@ -3,6 +3,7 @@
 //! [`output`] that is there whole or not at all.
 
 pub mod arguments;
+pub mod budget;
 pub mod cell;
 pub mod column;
 pub mod export;

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use softstop::Start;
+use softstop::internals::budget;
 use softstop_lanes::{Job, Machine, Outcome, Watch};
 
 /// Follows all jobs on this thread; none if they were stopped on the way.
@@ -16,16 +17,25 @@ pub(crate) fn follow<W: Watch>(
         watch,
         ask,
         answer: ControlFlow::Continue(()),
+        left: budget::left(),
     };
     let outcomes = softstop_lanes::run(machines, jobs, &mut asking);
+    budget::charge(BATCH + outcomes.len() as u64);
     asking.answer.is_continue().then_some(outcomes)
 }
+
+/// What the lanes and the engine that takes over from them cost between two questions, in scan windows.
+const ASKED: u64 = 1 << 15;
+/// What a batch costs besides, that may end before the first.
+const BATCH: u64 = 1 << 10;
 
 /// A watch that asks whether to go on.
 struct Asking<'a, W, A> {
     watch: &'a mut W,
     ask: A,
     answer: ControlFlow<()>,
+    /// Windows that were left when it was asked last.
+    left: u64,
 }
 
 impl<W: Watch, A: FnMut() -> ControlFlow<()>> Watch for Asking<'_, W, A> {
@@ -41,7 +51,15 @@ impl<W: Watch, A: FnMut() -> ControlFlow<()>> Watch for Asking<'_, W, A> {
     }
 
     fn goes_on(&mut self) -> ControlFlow<()> {
-        self.answer = (self.ask)();
+        // The engine that motions are handed over to has charged its part.
+        let charged = self.left.saturating_sub(budget::left());
+        let is_left = budget::charge(ASKED.saturating_sub(charged));
+        self.left = budget::left();
+        self.answer = match is_left {
+            true => (self.ask)(),
+            // What the motions have come to is discarded with all the work.
+            false => ControlFlow::Break(()),
+        };
         self.answer
     }
 }

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use softstop::internals::budget;
 
 /// Told how much is done, and of how much at most; asked whether to go on.
 pub type Watcher<'a> = &'a (dyn Fn(u64, u64) -> ControlFlow<()> + Sync);
@@ -32,7 +33,8 @@ pub trait Memory: Sync {
 /// Where pieces are kept, if anywhere.
 pub type Kept<'a> = Option<&'a dyn Memory>;
 
-/// A piece of work: recalled if it is known, else done now and kept. It must follow from its key.
+/// A piece of work: recalled if it is known, else done now and kept, unless the [`budget`] is spent by then. It must
+/// follow from its key. What it costs is charged in both cases.
 ///
 /// # Errors
 /// Those of the work, which is not kept then.
@@ -45,11 +47,16 @@ pub fn piece<T: Serialize + DeserializeOwned, E>(
         return work();
     };
     let known = memory.recall(&key);
-    if let Some(known) = known.and_then(|bytes| rmp_serde::from_slice(&bytes).ok()) {
+    if let Some((cost, known)) = known.and_then(|bytes| rmp_serde::from_slice(&bytes).ok()) {
+        budget::charge(cost);
         return Ok(known);
     }
+    let before = budget::left();
     let done = work()?;
-    if let Ok(bytes) = rmp_serde::to_vec(&done) {
+    let left = budget::left();
+    if left > 0
+        && let Ok(bytes) = rmp_serde::to_vec(&(before - left, &done))
+    {
         memory.keep(&key, &bytes);
     }
     Ok(done)

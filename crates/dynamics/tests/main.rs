@@ -5,6 +5,7 @@ mod basin;
 mod branch_ends;
 mod continuation;
 mod corners;
+mod ends;
 mod examples;
 mod exponents;
 mod fidelity;

@@ -8,6 +8,7 @@ use softstop_dynamics::zone::find_watched;
 
 use softstop::{Machine, Parameter};
 use softstop_console::arguments::MachineArguments;
+use softstop_console::budget::BudgetArguments;
 use softstop_console::column::Units;
 use softstop_console::export::{self, Report};
 use softstop_console::failure::Failure;
@@ -48,20 +49,28 @@ pub struct OrbitArguments {
     /// The machine.
     #[command(flatten)]
     pub machine: MachineArguments,
+    /// What it may cost.
+    #[command(flatten)]
+    pub limit: BudgetArguments,
 }
 
 /// Finds the orbit and prints it.
 pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
     arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
-    let orbit = find_watched(&machine.scene, &interrupt::watch).map_err(|error| match error {
-        OrbitError::NotFound { clearance, .. } => anyhow!(
-            "no stable z = 1 motion found at {} = {}, clearance = {clearance}",
-            machine.name(Parameter::Frequency),
-            machine.value(Parameter::Frequency).unwrap_or(f64::NAN),
-        ),
-        other => other.into(),
-    })?;
+    let find = || Ok(find_watched(&machine.scene, &interrupt::watch));
+    let orbit = arguments
+        .limit
+        .budget
+        .limit(find)?
+        .map_err(|error| match error {
+            OrbitError::NotFound { clearance, .. } => anyhow!(
+                "no stable z = 1 motion found at {} = {}, clearance = {clearance}",
+                machine.name(Parameter::Frequency),
+                machine.value(Parameter::Frequency).unwrap_or(f64::NAN),
+            ),
+            other => other.into(),
+        })?;
     let report = OrbitReport {
         stability: if orbit.is_neutral() {
             "neutral"

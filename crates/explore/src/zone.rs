@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::continuation::met;
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::arguments::{MachineArguments, title};
+use softstop_console::budget::BudgetArguments;
 use softstop_console::column::{Column, Units};
 use softstop_console::columns;
 use softstop_console::export::{self, Report};
@@ -48,6 +49,9 @@ pub struct ZoneArguments {
     /// The machine.
     #[command(flatten)]
     pub machine: MachineArguments,
+    /// What it may cost.
+    #[command(flatten)]
+    pub limit: BudgetArguments,
 }
 
 /// Finds both ends of the zone and prints them.
@@ -58,10 +62,12 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
     arguments
         .machine
         .refuse(&machine, Parameter::Frequency, why)?;
-    let zone = hysteresis_watched(&machine.scene, &interrupt::watch)
-        .map_err(|error| error.stated(&machine));
-    let all =
-        stretches_watched(&machine.scene, &interrupt::watch).map_err(|error| anyhow!(error))?;
+    let (zone, all) = arguments.limit.budget.limit(|| {
+        let zone = hysteresis_watched(&machine.scene, &interrupt::watch);
+        let all = stretches_watched(&machine.scene, &interrupt::watch);
+        Ok((zone, all.map_err(|error| anyhow!(error))?))
+    })?;
+    let zone = zone.map_err(|error| error.stated(&machine));
     match zone {
         Err(error @ ZoneError::NoGrazing { .. }) if all.is_empty() => {
             Err(Failure::usage(error.to_string()))

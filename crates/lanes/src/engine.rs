@@ -261,7 +261,9 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     }
 
     fn resume(&mut self, lane: usize, job: usize, resumed: &Resumed) {
-        let left = self.task.jobs[job].periods - resumed.cycle;
+        let periods = self.task.jobs[job].periods;
+        self.state.periods.set(lane, periods as f64);
+        let left = periods - resumed.cycle;
         self.state.resume(lane, resumed.state, resumed.phase, left);
         self.begin_noting(lane);
     }

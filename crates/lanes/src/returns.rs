@@ -57,6 +57,8 @@ pub(super) struct Return {
     /// Seconds into the drive period; drive periods left, this one included.
     pub offset: f64,
     pub left: f64,
+    /// cos and sin of the drive angle then, if known.
+    pub angle: Option<(f64, f64)>,
     pub impacts: f64,
     pub crossings: f64,
     pub phase: f64,
@@ -251,6 +253,7 @@ impl Returns {
             velocity: point.x * self.velocity,
             offset: (periods - whole) / self.per_period,
             left: self.left - (number + times * self.every + whole),
+            angle: None,
             impacts: times.mul_add(self.each, after.impacts),
             crossings: times.mul_add(self.passages.len() as f64, after.crossings),
             ..*after

@@ -23,6 +23,8 @@ pub(super) struct State<S: Simd, const N: usize> {
     pub offset: Lanes<S, N>,
     /// Drive periods left, the present one included; none in a lane without a job.
     pub left: Lanes<S, N>,
+    /// Drive periods of the job.
+    pub periods: Lanes<S, N>,
     /// The phase each is in.
     pub phase: Lanes<S, N>,
     /// Impacts so far.
@@ -58,6 +60,7 @@ impl<S: Simd, const N: usize> State<S, N> {
             angle: (one, none),
             offset: none,
             left: none,
+            periods: none,
             phase: none,
             impacts: none,
             crossings: none,
@@ -123,6 +126,7 @@ impl<S: Simd, const N: usize> State<S, N> {
             position: self.x.get(lane),
             velocity: self.v.get(lane),
             offset: self.offset.get(lane),
+            angle: Some((self.angle.0.get(lane), self.angle.1.get(lane))),
             left: self.left.get(lane),
             impacts: self.impacts.get(lane),
             crossings: self.crossings.get(lane),
@@ -140,10 +144,13 @@ impl<S: Simd, const N: usize> State<S, N> {
         self.crossings.set(lane, to.crossings);
         self.phase.set(lane, to.phase);
         self.share.set(lane, 1.0);
-        let (s, c) = (self.drive.frequency.get(lane) * to.offset).sin_cos();
-        let (c0, s0) = (self.drive.begin.0.get(lane), self.drive.begin.1.get(lane));
-        self.angle.0.set(lane, c0 * c - s0 * s);
-        self.angle.1.set(lane, s0 * c + c0 * s);
+        let (cos, sin) = to.angle.unwrap_or_else(|| {
+            let (s, c) = (self.drive.frequency.get(lane) * to.offset).sin_cos();
+            let (c0, s0) = (self.drive.begin.0.get(lane), self.drive.begin.1.get(lane));
+            (c0 * c - s0 * s, s0 * c + c0 * s)
+        });
+        self.angle.0.set(lane, cos);
+        self.angle.1.set(lane, sin);
     }
 
     /// Adds the impacts and crossings that a lane has counted, once.
@@ -164,12 +171,19 @@ impl<S: Simd, const N: usize> State<S, N> {
         self.angle.1 = lanes.choose(s0 * c + c0 * s, self.angle.1);
     }
 
+    /// How often the drive angle was to be taken anew so far.
+    #[inline(always)]
+    fn renewals(&self) -> Lanes<S, N> {
+        let done = self.periods - self.left;
+        (done * done.like(1.0 / RENEWAL)).floor()
+    }
+
     /// Counts the ends of periods that have passed. Every few periods of its own, whatever the others do, a lane takes
     /// the drive angle anew.
     #[inline(always)]
     pub fn wrap(&mut self) {
         let one = self.left.like(1.0);
-        let before = (self.left * one.like(1.0 / RENEWAL)).floor();
+        let begun = self.renewals();
         loop {
             let wraps = self.drive.period.at_most(self.offset) & one.below(self.left);
             if !wraps.any() {
@@ -178,8 +192,7 @@ impl<S: Simd, const N: usize> State<S, N> {
             self.left = wraps.choose(self.left - one, self.left);
             self.offset = wraps.choose(self.offset - self.drive.period, self.offset);
         }
-        let after = (self.left * one.like(1.0 / RENEWAL)).floor();
-        let renewed = after.below(before);
+        let renewed = begun.below(self.renewals());
         if renewed.any() {
             self.set_angle(renewed);
         }

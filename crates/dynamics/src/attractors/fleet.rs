@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::SurveyError;
 use crate::batch::follow;
 use crate::watch::{Watcher, stop_if};
+use softstop::internals::budget::Fork;
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::{Job, Machine, Watch};
 
@@ -83,9 +84,12 @@ impl<'a> Fleet<'a> {
         periods: u64,
         logged: usize,
     ) -> Result<(), SurveyError> {
-        voyages
-            .par_chunks_mut(AT_ONCE)
-            .try_for_each(|chunk| self.sail_together(chunk, periods, logged))
+        let fork = Fork::default();
+        let chunks = voyages.par_chunks_mut(AT_ONCE);
+        let sailed =
+            chunks.try_for_each(|chunk| fork.part(|| self.sail_together(chunk, periods, logged)));
+        fork.join();
+        sailed
     }
 
     /// Carries motions on in stretches, so that the watcher is asked often.

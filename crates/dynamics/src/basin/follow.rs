@@ -10,6 +10,7 @@ use crate::attractors::SurveyError;
 use crate::batch;
 use crate::watch::{piece, stop_if};
 use softstop::Start;
+use softstop::internals::budget::Fork;
 use softstop_lanes::Job;
 
 /// As [`TILE`], where each motion goes alone, and takes long.
@@ -41,11 +42,11 @@ impl Survey<'_> {
         } else {
             SMALL_TILE
         };
-        let followed: Vec<Vec<Followed>> = afloat
-            .par_chunks(tile)
-            .map(|tile| self.follow(tile))
-            .collect::<Result<_, _>>()?;
-        for tile in followed {
+        let (fork, tiles) = (Fork::default(), afloat.par_chunks(tile));
+        let followed = tiles.map(|tile| fork.part(|| self.follow(tile)));
+        let followed: Result<Vec<Vec<Followed>>, _> = followed.collect();
+        fork.join();
+        for tile in followed? {
             let last = tile.last().map(|followed| followed.left.clone());
             for (cell, state) in last.into_iter().flatten() {
                 self.states[cell] = state;

@@ -14,6 +14,7 @@ use crate::strokes::Strokes;
 use crate::watch::Watcher;
 use crate::zone::free_amplitude;
 use nalgebra::{Complex, Vector2};
+use softstop::internals::budget::Fork;
 use softstop::{Excitation, MotionError, Scene, Start};
 use softstop_lanes::{Job, Machine, Watch};
 
@@ -118,12 +119,15 @@ impl Home {
             time: 0.0,
             strokes: Strokes::after(0.0),
         };
-        let chunks = starts.par_chunks(TOGETHER).map(|starts| {
+        let receive = |starts: &[Start]| {
             let guests: Vec<Guest> = starts.iter().map(guest).collect();
             self.receive::<false>(&self.machine, guests, watcher)
-        });
-        let chunks = chunks.collect::<Result<Vec<_>, SurveyError>>()?;
-        Ok(chunks.concat().iter().map(|coming| coming.comes).collect())
+        };
+        let (fork, chunks) = (Fork::default(), starts.par_chunks(TOGETHER));
+        let chunks = chunks.map(|starts| fork.part(|| receive(starts)));
+        let chunks = chunks.collect::<Result<Vec<_>, SurveyError>>();
+        fork.join();
+        Ok(chunks?.concat().iter().map(|coming| coming.comes).collect())
     }
 
     /// Follows guests until they have come or are given up. The machines differ from the orbit's in the drive angle

@@ -10,6 +10,7 @@ use crate::attractors::SurveyError;
 use crate::attractors::fleet::{Fleet, Voyage};
 use crate::attractors::known::{Book, Standing};
 use crate::watch::{Kept, Watcher, piece, stop_if};
+use softstop::internals::budget::Fork;
 use softstop::{MotionError, Scene, Start};
 
 /// Cells that go together: enough for all lanes to be busy. The tiles may not depend on how many threads
@@ -106,8 +107,10 @@ impl Survey<'_> {
         for from in (0..cells).step_by(BROUGHT) {
             self.fleet.note(0)?;
             let here = from..cells.min(from + BROUGHT);
-            let brought = here.clone().into_par_iter();
-            let brought: Vec<_> = brought.map(|cell| self.at_section(cell)).collect();
+            let (fork, brought) = (Fork::default(), here.clone().into_par_iter());
+            let brought = brought.map(|cell| fork.part(|| self.at_section(cell)));
+            let brought: Vec<_> = brought.collect();
+            fork.join();
             for (cell, result) in here.zip(brought) {
                 let (state, fate) = match result {
                     Ok(state) => (state, Fate::Afloat),
@@ -222,8 +225,11 @@ impl Survey<'_> {
             let of = ("cell", self.scene, self.grid, self.options, cell, periods);
             piece(self.kept, &of, || self.see_together(&[*cell], periods))
         };
-        let seen = cells.par_iter().map(one);
-        Ok(seen.collect::<Result<Vec<_>, SurveyError>>()?.concat())
+        let fork = Fork::default();
+        let seen = cells.par_iter().map(|cell| fork.part(|| one(cell)));
+        let seen = seen.collect::<Result<Vec<_>, SurveyError>>();
+        fork.join();
+        Ok(seen?.concat())
     }
 
     fn see_together(&self, cells: &[usize], periods: u64) -> Result<Vec<Seen>, SurveyError> {

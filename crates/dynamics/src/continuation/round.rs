@@ -105,7 +105,7 @@ pub(crate) fn before_wall(scene: &Scene, state: Vector2<f64>) -> Vector2<f64> {
 
 /// Work that an orbit may cost per drive period, in scan windows: 32,000 crossings. A mass that bounces more
 /// often is on its way to rest, and its motion is no orbit that could be followed.
-const MOST_WORK: u64 = 1 << 19;
+const MOST_WORK: u64 = 1 << 21;
 
 /// Carries a motion on by a drive period at most.
 pub(crate) fn carry_on(

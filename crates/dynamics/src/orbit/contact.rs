@@ -10,8 +10,9 @@ use softstop::{
     Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Start, Tangent,
 };
 
-/// Work that a contact may cost, in scan windows: a mass that bounces longer within it does not come back.
-const MOST_WORK: u64 = 1 << 16;
+/// Work that a contact may cost, in scan windows, 4096 crossings: a mass that bounces longer within it does not come
+/// back.
+const MOST_WORK: u64 = 1 << 18;
 
 /// The phases of a scene, as seen by a mass that comes to the clearance.
 #[derive(Debug, Clone)]

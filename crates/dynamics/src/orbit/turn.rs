@@ -1,6 +1,6 @@
 //! Where a course turns.
 
-use softstop::internals::{Course, Guard, Outlook, first_crossing};
+use softstop::internals::{Course, Guard, Outlook, budget, first_crossing};
 
 /// A turning point of a course.
 #[derive(Debug, Clone, Copy)]
@@ -19,7 +19,7 @@ pub fn turns(course: &Course, duration: f64, back: bool) -> impl Iterator<Item =
     let moves = !course.is_held() && !course.is_chattering();
     let (mut node, mut back) = (course.start(), back);
     std::iter::from_fn(move || {
-        if !moves {
+        if !moves || budget::is_spent() {
             return None;
         }
         let guard = if back {

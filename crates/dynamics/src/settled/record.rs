@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::batch::follow;
+use softstop::internals::budget;
 use softstop::{Instant, MotionError, Start};
 use softstop_lanes::{Job, Machine, Watch};
 
@@ -61,6 +62,9 @@ impl Record {
     }
 }
 
+/// What an impact that is kept costs, in scan windows.
+const KEPT: u64 = 16;
+
 /// Keeps records.
 struct Log {
     /// How long they are.
@@ -81,7 +85,10 @@ impl Watch for Log {
         if impacts.capacity() == 0 {
             impacts.reserve(self.periods);
         }
-        impacts.push((instant, velocity));
+        // What is kept costs, so that a budget is one of memory, too.
+        if budget::charge(KEPT) {
+            impacts.push((instant, velocity));
+        }
     }
 
     fn period(&mut self, job: usize, _: u64, state: Start) {

@@ -12,6 +12,7 @@ use super::settle::Step;
 use super::{Chain, Plan};
 use crate::settled::{Seen, watched};
 use crate::watch::{Kept, Watcher, piece};
+use softstop::internals::budget::{self, Fork};
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::Machine;
 
@@ -53,7 +54,8 @@ impl Plan {
         let stopped = AtomicBool::new(false);
         let done = chains.iter().map(|chain| chain.steps.len() as u64);
         let done = AtomicU64::new(done.sum());
-        chains.par_chunks_mut(size).for_each(|group| {
+        let fork = Fork::default();
+        let run = |group: &mut [Chain]| {
             while !stopped.load(Ordering::Relaxed) {
                 let ask = || watcher(done.load(Ordering::Relaxed), all);
                 let Some(steps) = self.step(group, &ask) else {
@@ -64,11 +66,14 @@ impl Plan {
                     break;
                 }
                 done.fetch_add(steps, Ordering::Relaxed);
-                if ask().is_break() || begin.elapsed() >= time {
+                if ask().is_break() || begin.elapsed() >= time || budget::is_spent() {
                     stopped.store(true, Ordering::Relaxed);
                 }
             }
-        });
+        };
+        let groups = chains.par_chunks_mut(size);
+        groups.for_each(|group| fork.part(|| run(group)));
+        fork.join();
         chains.iter().all(|chain| self.is_complete(chain))
     }
 
@@ -117,7 +122,7 @@ impl Plan {
                 return true;
             }
             let done = chains.iter().map(|chain| chain.steps.len() as u64);
-            if watcher(done.sum(), all).is_break() {
+            if watcher(done.sum(), all).is_break() || budget::is_spent() {
                 return false;
             }
         }

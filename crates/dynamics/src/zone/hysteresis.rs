@@ -7,6 +7,7 @@ use crate::continuation::{BranchPoint, Follower, Heading, Test};
 use crate::orbit::{Orbit, OrbitError, find_soon, find_watched};
 use crate::watch::{Watcher, stop_if, unwatched};
 use softstop::Scene;
+use softstop::internals::budget::Fork;
 
 /// The hysteresis zone of one machine, with its branch of z = 1 motions.
 #[derive(Debug, Clone)]
@@ -69,9 +70,12 @@ pub fn hysteresis_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Zone, Z
 /// # Errors
 /// Each as [`hysteresis_watched`].
 pub fn hysteresis_soon(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Zone, ZoneError>> {
+    let fork = Fork::default();
     let chunks = scenes.par_chunks(TOGETHER);
-    let zones = chunks.flat_map_iter(|scenes| together(scenes, watcher));
-    zones.collect()
+    let zones = chunks.flat_map_iter(|scenes| fork.part(|| together(scenes, watcher)));
+    let zones = zones.collect();
+    fork.join();
+    zones
 }
 
 /// Zones of a few machines.

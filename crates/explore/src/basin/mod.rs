@@ -20,6 +20,7 @@ use crate::basin::picture::BasinPicture;
 use plane::Plane;
 use report::{BasinReport, CertaintyReport};
 use softstop_console::arguments::{MachineArguments, title};
+use softstop_console::budget::BudgetArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
@@ -99,6 +100,9 @@ pub struct BasinArguments {
     /// The machine.
     #[command(flatten)]
     pub machine: MachineArguments,
+    /// What it may cost.
+    #[command(flatten)]
+    pub limit: BudgetArguments,
 }
 
 const PICTURE: [(&str, &str); 3] = [
@@ -151,13 +155,17 @@ fn picture(
     let scene = &machine.scene;
     plane::check(arguments)?;
     let export = Export::open(&arguments.output, &PICTURE)?;
-    let grid = plane::grid(arguments, scene, || starting_box(scene, &interrupt::watch))?;
+    let limit = arguments.limit.budget;
+    let region = || starting_box(scene, &interrupt::watch);
+    let grid = limit.limit(|| plane::grid(arguments, scene, region))?;
     let of = (scene, grid, options);
     let keep = Keep::open(&arguments.output, "basin", &of, arguments.keep)?;
     let progress = Progress::new(grid.cells() as u64, "cells");
     let kept: Kept<'_> = Some(&keep);
-    let basins = basins(scene, &grid, options, &progress.watcher(), kept);
-    let basins = basins.map_err(Error::from)?;
+    let basins = limit.limit_many(grid.cells(), || {
+        let basins = basins(scene, &grid, options, &progress.watcher(), kept);
+        Ok(basins.map_err(Error::from)?)
+    })?;
     drop(progress);
     let shown = format!("Basins: {}", title(machine));
     let png = BasinPicture::new(machine, &basins, &shown)
@@ -180,15 +188,18 @@ fn along(
 ) -> Result<(), Failure> {
     plane::check(arguments)?;
     let export = Export::open(&arguments.output, &ALONG)?;
-    let zone = zone::hysteresis_watched(&machine.scene, &interrupt::watch)
-        .with_context(|| format!("no hysteresis zone found of {}", title(machine)))?;
+    let limit = arguments.limit.budget;
+    let zone = limit.limit(|| {
+        let zone = zone::hysteresis_watched(&machine.scene, &interrupt::watch);
+        Ok(zone.with_context(|| format!("no hysteresis zone found of {}", title(machine)))?)
+    })?;
     let mut widened = false;
     let region = || {
         let (region, is_wider) = zone_box(&machine.scene, &zone, &interrupt::watch)?;
         widened = is_wider;
         Ok(region)
     };
-    let grid = plane::grid(arguments, &zone.scene, region)?;
+    let grid = limit.limit(|| plane::grid(arguments, &zone.scene, region))?;
     let shares: Vec<f64> = (0..places)
         .map(|k| k as f64 / (places - 1) as f64)
         .collect();
@@ -196,8 +207,10 @@ fn along(
     let keep = Keep::open(&arguments.output, "basin", &of, arguments.keep)?;
     let progress = Progress::new((grid.cells() * places) as u64, "cells");
     let kept: Kept<'_> = Some(&keep);
-    let found = establishing(&zone, &shares, &grid, options, &progress.watcher(), kept);
-    let found = found.map_err(Error::from)?;
+    let found = limit.limit_many(grid.cells() * places, || {
+        let found = establishing(&zone, &shares, &grid, options, &progress.watcher(), kept);
+        Ok(found.map_err(Error::from)?)
+    })?;
     drop(progress);
     let title = format!("Establishing certainty: {}", title(machine));
     let chart = certainty::chart(machine, &found, &title);

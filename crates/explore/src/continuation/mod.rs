@@ -17,6 +17,7 @@ use softstop_dynamics::{Along, Regime};
 use report::ContinuationReport;
 pub(crate) use report::met;
 use softstop_console::arguments::MachineArguments;
+use softstop_console::budget::BudgetArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
@@ -88,6 +89,9 @@ pub struct ContinueArguments {
     /// The machine.
     #[command(flatten)]
     pub machine: MachineArguments,
+    /// What it may cost.
+    #[command(flatten)]
+    pub limit: BudgetArguments,
 }
 
 const FILES: [(&str, &str); 4] = [
@@ -124,7 +128,8 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
     }
     let files = &FILES[..if second.is_some() { 4 } else { 2 }];
     let export = Export::open(&arguments.output, files)?;
-    let branches = branches::branches(arguments, &machine, &first)?;
+    let limit = arguments.limit.budget;
+    let branches = limit.limit(|| branches::branches(arguments, &machine, &first))?;
     let chart = chart::branches(&machine, first.parameter, &branches);
     let rows = tables::branch_rows(&branches);
     export.sheet(
@@ -136,7 +141,7 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
     let mut curves = None;
     if let Some(second) = &second {
         let both = [&first, second];
-        let found = curves::curves(&machine, arguments, both, &branches[0])?;
+        let found = limit.limit(|| curves::curves(&machine, arguments, both, &branches[0]))?;
         let chart = chart::curves(&machine, both.map(|one| one.parameter), &found);
         let rows = tables::curve_rows(&found);
         export.sheet(

@@ -18,6 +18,7 @@ use softstop_dynamics::models::{Likeness, Quantity};
 use options::Matched;
 use report::FidelityReport;
 use softstop_console::arguments::{MachineArguments, title};
+use softstop_console::budget::BudgetArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
@@ -91,6 +92,9 @@ pub struct FidelityArguments {
     /// The machine.
     #[command(flatten)]
     pub machine: MachineArguments,
+    /// What it may cost.
+    #[command(flatten)]
+    pub limit: BudgetArguments,
 }
 
 const FILES: [(&str, &str); 4] = [
@@ -124,8 +128,12 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
         periods: arguments.periods,
         repeats: arguments.repeats,
     };
-    let study = Study::new(&machine.scene, &task)?;
-    let structure = frequencies.map(|frequencies| Structure::new(&machine, &study, frequencies));
+    let limit = arguments.limit.budget;
+    let study = limit.limit(|| Ok(Study::new(&machine.scene, &task)?))?;
+    let structure = frequencies.map(|frequencies| {
+        let structure = || Structure::new(&machine, &study, frequencies);
+        limit.limit_many(arguments.points as usize, structure)
+    });
     let structure = structure.transpose()?;
     let chart = chart::svg(arguments, &machine, &study);
     let rows = answers::rows(&machine, &study);

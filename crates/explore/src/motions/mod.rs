@@ -11,6 +11,7 @@ use softstop_dynamics::attractors::{Options, attractors, starting_box};
 
 use report::MotionsReport;
 use softstop_console::arguments::MachineArguments;
+use softstop_console::budget::BudgetArguments;
 use softstop_console::export::{self, Export};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
@@ -76,6 +77,9 @@ pub struct MotionsArguments {
     /// The machine.
     #[command(flatten)]
     pub machine: MachineArguments,
+    /// What it may cost.
+    #[command(flatten)]
+    pub limit: BudgetArguments,
 }
 
 /// Finds the motions and prints them.
@@ -90,9 +94,11 @@ pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
         progress.at_of(done, planned);
         interrupt::go_on()
     };
-    options.region =
-        Some(starting_box(&machine.scene, &|_, _| interrupt::go_on()).map_err(Error::from)?);
-    let survey = attractors(&machine.scene, &options, &watcher).map_err(Error::from)?;
+    let survey = arguments.limit.budget.limit(|| {
+        let region = starting_box(&machine.scene, &|_, _| interrupt::go_on());
+        options.region = Some(region.map_err(Error::from)?);
+        Ok(attractors(&machine.scene, &options, &watcher).map_err(Error::from)?)
+    })?;
     drop(progress);
     let report = MotionsReport::new(&machine, &options, &survey);
     let Some(export) = export else {

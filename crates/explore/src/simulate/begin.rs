@@ -7,6 +7,7 @@ use softstop::internals::Motion;
 use softstop::{Allowed, Machine, Start};
 
 use softstop_console::arguments::MachineArguments;
+use softstop_console::budget::BudgetArguments;
 use softstop_console::failure::Failure;
 use softstop_console::range::require;
 
@@ -26,6 +27,9 @@ pub struct MotionArguments {
     /// The machine.
     #[command(flatten)]
     pub machine: MachineArguments,
+    /// What it may cost.
+    #[command(flatten)]
+    pub limit: BudgetArguments,
 }
 
 /// A machine at the beginning of a run.

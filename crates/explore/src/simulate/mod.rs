@@ -107,7 +107,8 @@ pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
         samples: arguments.samples_per_period,
         drawn: DRAWN,
     };
-    let outcome = plan.run(|row| samples.row(row), |row| crossings.row(row))?;
+    let run = || plan.run(|row| samples.row(row), |row| crossings.row(row));
+    let outcome = arguments.motion.limit.budget.limit(run)?;
     samples.close()?;
     crossings.close()?;
     let report = SimulateReport::new(&plan, &outcome);

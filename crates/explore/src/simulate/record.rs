@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use softstop::internals::{Motion, Phase, work};
+use softstop::internals::{Motion, Phase, budget, work};
 use softstop::{Arc, Clock, Crossing, CrossingKind, Drive, Observer, PhaseKind, Scene, Start};
 
 use super::name;
@@ -17,6 +17,9 @@ use softstop_console::interrupt;
 const FINENESS: f64 = 250.0;
 /// Steps that an arc is drawn with, at least.
 const FEWEST: f64 = 8.0;
+
+/// What it costs to write a crossing down, in scan windows.
+const WRITTEN: u64 = 64;
 
 /// A row of crossings.csv.
 pub(crate) struct Crossed {
@@ -143,6 +146,7 @@ impl<F: FnMut(&Crossed) -> Result<(), Failure>> Observer for Recorder<'_, F> {
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
+        budget::charge(WRITTEN);
         let time = self.clock.time(crossing.instant);
         self.tally.crossing(crossing, time, self.scene.mass);
         let taken = (self.crossed)(&Crossed {

@@ -8,7 +8,7 @@ use softstop_console::failure::Failure;
 
 use super::blocks::Blocks;
 use super::file::Study;
-use super::outputs::Output;
+use super::outputs::{Output, is_over_budget};
 
 /// A column.
 pub(super) enum Column {
@@ -24,12 +24,15 @@ pub(super) struct Words {
     pub all: Vec<String>,
     /// Of each row, by its place among them.
     pub places: Vec<Option<usize>>,
+    /// Rows without one since they are over the budget.
+    pub over_budget: u64,
     known: HashMap<[u64; 2], Option<usize>>,
 }
 
 impl Words {
     /// Adds the word of these numbers.
     fn push(&mut self, output: Output, numbers: [f64; 2]) {
+        self.over_budget += u64::from(is_over_budget(numbers[0]));
         let all = &mut self.all;
         let place = *self
             .known

@@ -3,6 +3,7 @@
 use std::cell::OnceCell;
 
 use rayon::prelude::*;
+use softstop::internals::budget;
 use softstop::{Machine, Scene};
 use softstop_console::column::Unit;
 use softstop_console::failure::Failure;
@@ -31,9 +32,7 @@ impl Study {
         let told = machines.par_chunks(TOGETHER).map(|machines| {
             let mut told = Vec::with_capacity(machines.len() * self.width());
             for look in self.look(machines)? {
-                for output in &self.outputs {
-                    told.extend(&look.value(*output)[..output.width()]);
-                }
+                told.extend(self.row(look.as_ref()));
             }
             Ok(told)
         });
@@ -51,8 +50,45 @@ impl Study {
         self.outputs.iter().map(|output| output.width()).sum()
     }
 
-    /// What all outputs of some points are told from.
-    fn look<'a>(&'a self, machines: &'a [Machine]) -> Result<Vec<Look<'a>>, Failure> {
+    /// The outputs of a point, none of which is there if they are over the budget.
+    fn row(&self, look: Option<&Look<'_>>) -> Vec<f64> {
+        let told = |value: &dyn Fn(Output) -> [f64; 2]| {
+            let mut row = Vec::with_capacity(self.width());
+            for output in &self.outputs {
+                row.extend(&value(*output)[..output.width()]);
+            }
+            row
+        };
+        let within = look.and_then(|look| {
+            let (row, spent) =
+                budget::within(self.budget.windows(), || told(&|output| look.value(output)));
+            (spent < self.budget.windows()).then_some(row)
+        });
+        within.unwrap_or_else(|| told(&|output| output.over_budget()))
+    }
+
+    /// What all outputs of some points are told from; nothing of those over the budget.
+    ///
+    /// Points that go together may cost what one of them may: then so may each of them alone. If they cost more, they
+    /// are halved, so a point's answer does not depend on the points beside it.
+    fn look<'a>(&'a self, machines: &'a [Machine]) -> Result<Vec<Option<Look<'a>>>, Failure> {
+        let (looks, spent) = budget::within(self.budget.windows(), || self.look_together(machines));
+        if interrupt::requested() {
+            return Err(Failure::Interrupted);
+        }
+        if spent < self.budget.windows() {
+            return Ok(looks?.into_iter().map(Some).collect());
+        }
+        let (first, rest) = machines.split_at(machines.len() / 2);
+        if first.is_empty() {
+            return Ok(rest.iter().map(|_| None).collect());
+        }
+        let mut looks = self.look(first)?;
+        looks.extend(self.look(rest)?);
+        Ok(looks)
+    }
+
+    fn look_together<'a>(&'a self, machines: &'a [Machine]) -> Result<Vec<Look<'a>>, Failure> {
         let wanted = |is: fn(Output) -> bool| self.outputs.iter().any(|output| is(*output));
         let motions: Vec<_> = machines.iter().map(|it| (&it.scene, it.start)).collect();
         let seen = match wanted(Output::is_of_motion) {
@@ -69,9 +105,6 @@ impl Study {
             }
             false => Vec::new(),
         };
-        if interrupt::requested() {
-            return Err(Failure::Interrupted);
-        }
         let mut seen = seen.into_iter().map(Result::ok);
         let mut zones = zones.into_iter().map(Result::ok);
         let looks = machines.iter().map(|machine| Look {

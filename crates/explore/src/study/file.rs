@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use softstop::Machine;
 use softstop_console::arguments::{Change, MachineArguments};
+use softstop_console::budget::Budget;
 use softstop_console::failure::Failure;
 use softstop_console::machine::Regime;
 use softstop_console::range::{require, within};
@@ -103,6 +104,8 @@ pub(super) struct Study {
     pub outputs: Vec<Output>,
     pub settling: Settling,
     pub certainty: Certainty,
+    /// What a point may cost.
+    pub budget: Budget,
     /// Points of the grid times samples.
     pub points: u64,
     /// What studies that come to the same have in common.
@@ -114,13 +117,13 @@ impl Study {
     ///
     /// # Errors
     /// [`Failure::Usage`] naming the file, the key, its value and what is allowed.
-    pub fn read(path: &Path) -> Result<Self, Failure> {
+    pub fn read(path: &Path, budget: Budget) -> Result<Self, Failure> {
         let file: File = scene_file::read_toml(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        Self::new(file, folder).map_err(|failure| failure.in_file(path))
+        Self::new(file, folder, budget).map_err(|failure| failure.in_file(path))
     }
 
-    fn new(file: File, folder: &Path) -> Result<Self, Failure> {
+    fn new(file: File, folder: &Path, budget: Budget) -> Result<Self, Failure> {
         let machine = machine(&file, folder)?;
         if file.axis.is_empty() || file.axis.len() > DIMENSIONS as usize {
             let many = file.axis.len();
@@ -172,6 +175,7 @@ impl Study {
         let mut study = Self {
             settling: settling(&file.motion)?,
             certainty: certainty(&file.certainty)?,
+            budget,
             samples: file.samples,
             seed: file.seed,
             wordless: Machine {
@@ -204,7 +208,7 @@ impl Study {
             .collect();
         let outputs: Vec<&str> = self.outputs.iter().map(|output| output.name()).collect();
         let drawn = (self.samples, self.seed);
-        let how = (self.settling, self.certainty);
+        let how = (self.settling, self.certainty, self.budget);
         (machine.scene.clone(), stated, axes, drawn, outputs, how)
     }
 }

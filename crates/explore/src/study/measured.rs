@@ -5,6 +5,7 @@ use std::path::Path;
 
 use anyhow::Context;
 use softstop::Machine;
+use softstop_console::budget::Budget;
 use softstop_console::failure::Failure;
 
 use super::blocks::Run;
@@ -22,7 +23,7 @@ impl Measured {
     /// # Errors
     /// [`Failure::Usage`] naming the file, the key, its value and what is allowed.
     pub fn read(path: &Path) -> Result<Self, Failure> {
-        Study::read(path).map(Self)
+        Study::read(path, Budget::POINT).map(Self)
     }
 
     /// How many points it has.

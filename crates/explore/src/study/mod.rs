@@ -23,6 +23,7 @@ use std::path::PathBuf;
 use anyhow::Context;
 use clap::{Args, Subcommand};
 use serde::Serialize;
+use softstop_console::budget::Budget;
 use softstop_console::export::{self, Export, Report};
 use softstop_console::failure::Failure;
 use softstop_console::keep::KeepArguments;
@@ -117,6 +118,10 @@ pub struct What {
     /// How to print the result
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
+    /// Work that each point may cost, in millions of scan windows; outputs of a point that would cost more are left
+    /// out, the same ones on every computer
+    #[arg(long, value_name = "MILLIONS", default_value_t = Budget::POINT)]
+    pub budget: Budget,
 }
 
 const FOLDER: &str = "softstop-study";
@@ -149,7 +154,7 @@ pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
 
 /// The whole study.
 fn whole(what: &What, keep: KeepArguments) -> Result<(), Failure> {
-    let study = Study::read(&what.study)?;
+    let study = Study::read(&what.study, what.budget)?;
     let export = export(what)?;
     let path = what.output.join("study.part");
     let run = Run::open(&study, Shard::WHOLE, path.clone(), keep.resume)?;
@@ -162,7 +167,7 @@ fn whole(what: &What, keep: KeepArguments) -> Result<(), Failure> {
 
 /// One shard.
 fn part(what: &What, shard: Shard, keep: KeepArguments) -> Result<(), Failure> {
-    let study = Study::read(&what.study)?;
+    let study = Study::read(&what.study, what.budget)?;
     let folder = &what.output;
     let cannot = || format!("output folder {}: cannot be written", folder.display());
     fs::create_dir_all(folder).with_context(cannot)?;
@@ -189,7 +194,7 @@ fn part(what: &What, shard: Shard, keep: KeepArguments) -> Result<(), Failure> {
 /// All shards.
 fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     let what = &arguments.what;
-    let study = Study::read(&what.study)?;
+    let study = Study::read(&what.study, what.budget)?;
     let own = [what.output.clone()];
     let places = match arguments.shards.as_slice() {
         [] => &own,

@@ -31,7 +31,7 @@ macro_rules! outputs {
 }
 
 outputs! {
-    Kind "kind" [None], "what the motion from the start settles on: periodic, chatter, chaos, unsettled, lost";
+    Kind "kind" [None], "what the motion from the start settles on: periodic, chatter, chaos, unsettled, lost, over budget";
     Z "z" [None], "regime z = p/n, if the motion repeats";
     Impacts "impacts_per_period" [None], "its impacts per drive period";
     Exponent "exponent" [None], "its larger Lyapunov exponent per drive period";
@@ -66,7 +66,24 @@ const FIGURES: [Figure; 18] = [
 ];
 
 /// Kinds of motions, by their numbers in files of blocks.
-const KINDS: [&str; 6] = ["periodic", "chatter", "rest", "chaos", "unsettled", "lost"];
+const KINDS: [&str; 7] = [
+    "periodic",
+    "chatter",
+    "rest",
+    "chaos",
+    "unsettled",
+    "lost",
+    OVER_BUDGET,
+];
+/// The word for a point over the budget, in the column of kinds.
+pub(super) const OVER_BUDGET: &str = "over budget";
+/// The same in files of blocks, in every other column: no number, and this one of all that are none.
+const OVER: f64 = f64::from_bits(0x7ff8_0000_0000_0b0d);
+
+/// True if an output is missing since its point is over the budget.
+pub(super) fn is_over_budget(number: f64) -> bool {
+    number.to_bits() == OVER.to_bits()
+}
 
 /// A column of a study's results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -142,6 +159,15 @@ impl Output {
         match self {
             Self::Own(own) => matches!(own, Own::Sn | Own::Pd | Own::AtSn),
             Self::Figure(figure) => matches!(figure, F::Share | F::FrequencySn | F::FrequencyPd),
+        }
+    }
+
+    /// Its numbers at a point over the budget.
+    pub fn over_budget(self) -> [f64; 2] {
+        let place = KINDS.iter().position(|kind| *kind == OVER_BUDGET);
+        match (self, place) {
+            (Self::Own(Own::Kind), Some(place)) => [place as f64, f64::NAN],
+            _ => [OVER; 2],
         }
     }
 

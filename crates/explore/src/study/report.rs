@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use softstop::Machine;
 use softstop_console::arguments::title;
+use softstop_console::budget::Budget;
 use softstop_console::column::{Unit, Units};
 use softstop_console::export::Report;
 use softstop_console::report::MachineReport;
@@ -13,6 +14,7 @@ use softstop_console::units;
 use softstop_dynamics::settled::Settling;
 
 use super::file::{Certainty, Study};
+use super::outputs::{OVER_BUDGET, is_over_budget};
 use super::values::Values;
 
 /// What a column of outputs holds.
@@ -25,14 +27,22 @@ pub(super) struct Summary {
     pub least: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub greatest: Option<f64>,
+    /// Points that lack it since they are over the budget.
+    #[serde(skip_serializing_if = "is_none", default)]
+    pub over_budget: u64,
     /// How often each word stands there.
     #[serde(skip_serializing_if = "BTreeMap::is_empty", default)]
     pub words: BTreeMap<String, u64>,
 }
 
+fn is_none(count: &u64) -> bool {
+    *count == 0
+}
+
 impl Summary {
     pub fn numbers(&mut self, numbers: &[f64]) {
         self.values += numbers.iter().filter(|it| !it.is_nan()).count() as u64;
+        self.over_budget += numbers.iter().filter(|it| is_over_budget(**it)).count() as u64;
         for &number in numbers.iter().filter(|it| it.is_finite()) {
             self.least = Some(self.least.map_or(number, |it| it.min(number)));
             self.greatest = Some(self.greatest.map_or(number, |it| it.max(number)));
@@ -40,6 +50,9 @@ impl Summary {
     }
 
     pub fn word(&mut self, word: &str, count: u64) {
+        if word == OVER_BUDGET {
+            self.over_budget += count;
+        }
         self.values += count;
         *self.words.entry(word.to_owned()).or_default() += count;
     }
@@ -83,6 +96,8 @@ pub(super) struct StudyReport {
     seed: u32,
     motion: Settling,
     certainty: Certainty,
+    /// Millions of scan windows that a point may cost.
+    budget: Budget,
     columns: Vec<ColumnReport>,
     #[serde(skip)]
     title: String,
@@ -127,6 +142,7 @@ impl StudyReport {
             seed: study.seed,
             motion: study.settling,
             certainty: study.certainty,
+            budget: study.budget,
             columns: columns.collect(),
             title: title(machine),
         }
@@ -157,6 +173,7 @@ impl Report for StudyReport {
                 least,
                 greatest,
                 words,
+                ..
             } = &column.summary;
             let number = |it: &Option<f64>| it.map_or("-".to_owned(), figure);
             let mut row = vec![
@@ -178,11 +195,17 @@ impl Report for StudyReport {
             }
             rows.push(row);
         }
+        let over = self.columns.iter().map(|column| column.summary.over_budget);
+        let over = over
+            .max()
+            .filter(|count| *count > 0)
+            .map(|count| format!("\n{count} points {}\n", self.budget.refusal()));
         format!(
-            "{}: {} points\n\n{}",
+            "{}: {} points\n\n{}{}",
             self.title,
             self.points,
-            aligned(&rows, |column| column == 0)
+            aligned(&rows, |column| column == 0),
+            over.unwrap_or_default()
         )
     }
 }

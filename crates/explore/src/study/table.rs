@@ -74,9 +74,12 @@ fn put(
     for (summary, column) in summaries.iter_mut().zip(outputs) {
         match column {
             Column::Numbers(numbers) => summary.numbers(numbers),
-            Column::Words(words) => words
-                .counts()
-                .for_each(|(word, count)| summary.word(word, count)),
+            Column::Words(words) => {
+                summary.over_budget += words.over_budget;
+                words
+                    .counts()
+                    .for_each(|(word, count)| summary.word(word, count));
+            }
         }
     }
     add(parquet, columns).context("study.parquet")?;

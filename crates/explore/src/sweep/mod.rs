@@ -13,6 +13,7 @@ use softstop_dynamics::{Chain, Direction, Plan};
 use crate::sweep::chart::SweepChart;
 use report::SweepReport;
 use softstop_console::arguments::MachineArguments;
+use softstop_console::budget::BudgetArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
@@ -121,6 +122,9 @@ pub struct SweepArguments {
     /// The machine.
     #[command(flatten)]
     pub machine: MachineArguments,
+    /// What it may cost.
+    #[command(flatten)]
+    pub limit: BudgetArguments,
 }
 
 const FILES: [(&str, &str); 3] = [
@@ -158,9 +162,12 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
         progress.at(done);
         interrupt::go_on()
     };
-    if !plan.run_kept(&mut chains, &watcher, Some(&keep)) {
-        return Err(Failure::Interrupted);
-    }
+    let steps = plan.steps * chains.len();
+    let run = || match plan.run_kept(&mut chains, &watcher, Some(&keep)) {
+        true => Ok(()),
+        false => Err(Failure::Interrupted),
+    };
+    arguments.limit.budget.limit_many(steps, run)?;
     drop(progress);
     let chart = SweepChart::new(&machine, &plan, &chains).svg();
     let rows = steps::rows(&plan, &chains);

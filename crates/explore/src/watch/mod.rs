@@ -14,7 +14,7 @@ use softstop_console::output::{Format, folder_and_file};
 use softstop_console::range::within;
 use strip::Strips;
 
-use crate::simulate::{MotionArguments, PERIODS, Plan, SimulateReport};
+use crate::simulate::{Crossed, MotionArguments, PERIODS, Plan, SimulateReport};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -72,14 +72,13 @@ pub fn run(arguments: &WatchArguments) -> Result<(), Failure> {
     let scene = &begun.machine.scene;
     let mut strips = scene.piercing.map(|_| Strips::new(scene.clearance));
     let (mut hits, from) = (Vec::new(), plan.drawn_from());
-    let outcome = plan.run(
-        |_| Ok(()),
-        |crossed| {
-            strips.iter_mut().for_each(|strips| strips.take(crossed));
-            hits.extend(Hit::of(crossed).filter(|hit| hit.time >= from));
-            Ok(())
-        },
-    )?;
+    let crossed = |crossed: &Crossed| {
+        strips.iter_mut().for_each(|strips| strips.take(crossed));
+        hits.extend(Hit::of(crossed).filter(|hit| hit.time >= from));
+        Ok(())
+    };
+    let run = || plan.run(|_| Ok(()), crossed);
+    let outcome = arguments.motion.limit.budget.limit(run)?;
     if outcome.drawing.is_full() {
         return Err(Failure::usage(format!(
             "last = {}: too many impacts for a page; must be fewer drive periods",

@@ -1,0 +1,134 @@
+//! A budget of work for everything that a thread computes meanwhile.
+//!
+//! Work is counted in scan windows (see [`Effort`](crate::Effort)), never in time: the same work costs the same
+//! on every machine. Once a budget is spent, every motion ends at once with
+//! [`MotionError::OverBudget`](crate::MotionError::OverBudget), so whoever set it must discard what came of the work.
+
+use std::cell::Cell;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// What a crossing costs, in windows: a window takes some 10 ns, a crossing with the arc after it half a
+/// microsecond to two.
+pub(crate) const CROSSING: u64 = 64;
+/// What the derivatives at a node of a scan cost, in windows, where a window is not passed at once.
+pub(crate) const JETS: u64 = 8;
+/// What a search of a window costs, in windows, on its Taylor polynomial.
+pub(crate) const POLYNOMIAL: u64 = 128;
+/// What a step of Newton's method for slow motion under heavy damping costs, in windows.
+pub(crate) const CREEP: u64 = 768;
+/// What a Taylor step costs, in windows, for a microsecond.
+pub(crate) const TAYLOR_STEP: u64 = 128;
+
+thread_local! {
+    /// Windows that are left on this thread.
+    static LEFT: Cell<u64> = const { Cell::new(u64::MAX) };
+}
+
+/// Sets the former budget again, also after a panic.
+struct Restore(u64);
+
+impl Drop for Restore {
+    fn drop(&mut self) {
+        LEFT.set(self.0);
+    }
+}
+
+/// Does work within a budget of its own, in windows; what came of it, and what it cost. Work that is over its budget
+/// costs all of it.
+pub fn within<T>(windows: u64, work: impl FnOnce() -> T) -> (T, u64) {
+    let restore = Restore(LEFT.replace(windows));
+    let done = work();
+    let spent = windows - LEFT.get();
+    drop(restore);
+    (done, spent)
+}
+
+/// Counts work, in windows; false if nothing is left.
+#[inline]
+pub fn charge(windows: u64) -> bool {
+    let left = LEFT.get().saturating_sub(windows);
+    LEFT.set(left);
+    left > 0
+}
+
+/// Windows that are left.
+pub fn left() -> u64 {
+    LEFT.get()
+}
+
+/// True if nothing is left.
+#[inline]
+pub fn is_spent() -> bool {
+    LEFT.get() == 0
+}
+
+/// Parts of one piece of work that go on several threads. Each may cost what was left before; all are charged together
+/// in the end. So whether the budget is spent depends on the work alone, not on the threads.
+#[derive(Debug)]
+pub struct Fork {
+    left: u64,
+    spent: AtomicU64,
+}
+
+impl Default for Fork {
+    fn default() -> Self {
+        Self {
+            left: LEFT.get(),
+            spent: AtomicU64::new(0),
+        }
+    }
+}
+
+impl Fork {
+    /// Does a part, on any thread. Where the others have spent all, it has nothing: it is discarded with them.
+    pub fn part<T>(&self, work: impl FnOnce() -> T) -> T {
+        let is_open = self.spent.load(Ordering::Relaxed) < self.left;
+        let (done, spent) = within(if is_open { self.left } else { 0 }, work);
+        let add = |sum: u64| Some(sum.saturating_add(spent));
+        let _ = self
+            .spent
+            .fetch_update(Ordering::Relaxed, Ordering::Relaxed, add);
+        done
+    }
+
+    /// Charges what all parts have cost, once they have ended.
+    pub fn join(self) {
+        charge(self.spent.into_inner());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Fork, charge, is_spent, within};
+
+    #[test]
+    fn work_is_charged_to_the_innermost_budget() {
+        let ((inner, spent), outer) = within(10, || {
+            assert!(charge(3));
+            within(4, || {
+                assert!(!charge(5));
+                is_spent()
+            })
+        });
+        assert!(inner && !is_spent());
+        assert_eq!((spent, outer), (4, 3));
+    }
+
+    #[test]
+    fn parts_are_charged_together_whatever_their_order() {
+        let cost = |parts: [u64; 3]| {
+            let all = || {
+                let fork = Fork::default();
+                let part = |cost| fork.part(|| charge(cost));
+                let ends = parts.map(part);
+                fork.join();
+                (ends, is_spent())
+            };
+            within(10, all).0
+        };
+        assert_eq!(cost([3, 3, 3]), ([true; 3], false));
+        assert!(cost([3, 3, 4]).1 && cost([4, 3, 3]).1);
+        assert_eq!(cost([11, 1, 1]), ([false; 3], true));
+        assert_eq!(cost([1, 1, 11]), ([true, true, false], true));
+    }
+}
