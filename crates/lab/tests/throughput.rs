@@ -1,7 +1,7 @@
 //! `softstop-lab throughput` as users and scripts meet it. Times are not looked at.
 
 use softstop::{Ratios, Scene, Start};
-use softstop_lab::throughput::check::{Plan, check, compare};
+use softstop_lab::throughput::check::{Plan, check};
 use softstop_lab::throughput::doubt::judge;
 use softstop_lab::throughput::fleet::{Machinery, Range};
 use softstop_lab::throughput::measure::narrower;
@@ -96,6 +96,26 @@ fn both_engines_count_the_same_impacts_on_random_machines() -> Outcome {
     Ok(())
 }
 
+/// Faces beside turning points of settled motions, frequencies beside changes: the million is in CONTRIBUTING.md.
+#[test]
+fn both_engines_end_in_the_same_states_where_machines_are_aimed_at_trouble() -> Outcome {
+    let plan = Plan {
+        trajectories: 512,
+        periods: 600,
+        seed: 37,
+        aimed: true,
+    };
+    let tally = check(plan).map_err(|failure| failure.to_string())?.tally;
+    assert_eq!(
+        (tally.trajectories, tally.different),
+        (512, 0),
+        "{:#?}",
+        tally.first
+    );
+    assert!(tally.leapt > 250, "{} leapt over", tally.leapt);
+    Ok(())
+}
+
 #[test]
 fn engines_agree_on_the_motions_that_are_timed() -> Outcome {
     let range = Range {
@@ -127,12 +147,9 @@ fn draws_repeat_themselves_and_are_of_all_kinds() -> Outcome {
         let drawn = one.machine()?;
         assert_eq!(drawn, same.machine()?);
         assert_ne!(drawn.1, other.machine()?.1);
-        kinds[match drawn.0 {
-            Kind::Unloaded => 0,
-            Kind::Loaded => 1,
-            Kind::Other => 2,
-            Kind::Power => 3,
-        }] += 1;
+        let all = [Kind::Unloaded, Kind::Loaded, Kind::Other, Kind::Power];
+        let kind = all.iter().position(|kind| *kind == drawn.0);
+        kinds[kind.ok_or("not aimed")?] += 1;
     }
     assert!(kinds.iter().all(|count| *count > 10), "{kinds:?}");
     Ok(())

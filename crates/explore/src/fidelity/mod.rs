@@ -129,7 +129,7 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
         repeats: arguments.repeats,
     };
     let limit = arguments.limit.budget;
-    let study = limit.limit(|| Ok(Study::new(&machine.scene, &task)?))?;
+    let study = limit.limit(|| Study::new(&machine.scene, &task))?;
     let structure = frequencies.map(|frequencies| {
         let structure = || Structure::new(&machine, &study, frequencies);
         limit.limit_many(arguments.points as usize, structure)

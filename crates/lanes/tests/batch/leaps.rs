@@ -136,3 +136,75 @@ fn settled_motions_cost_nothing_more() {
     assert!(long.leapt > 999_999_800 && distance(short.end, long.end) < 1e-12);
     assert_eq!(long.impacts - short.impacts, 1_000_000_000 - 1_000);
 }
+
+/// True if a motion comes back to its state after so many drive periods.
+fn comes_back(scene: &Scene, state: Start, periods: u64) -> bool {
+    distance(scalar_for(scene, state, periods).0, state) < 1e-3
+}
+
+/// Where motions end that meet a second face once in several periods: their returns look like those to a z = 1 motion
+/// that none of them reaches.
+fn ends(scene: &Scene, starts: &[Start], periods: u64) -> Vec<Start> {
+    let machines = [Machine::new(scene).expect("valid")];
+    let job = |start: &Start| Job {
+        machine: 0,
+        start: *start,
+        periods,
+    };
+    let jobs: Vec<Job> = starts.iter().map(job).collect();
+    let outcomes = run(&machines, &jobs, &mut ());
+    outcomes.iter().map(|outcome| outcome.end).collect()
+}
+
+/// A corner: 9/9 from nearly all starts, after long transients.
+#[test]
+fn a_corner_met_once_in_nine_periods_is_not_leapt_over() {
+    let slope = |from, stiffness| Slope { from, stiffness };
+    let stop = Stop::PiecewiseLinear {
+        loading: vec![
+            slope(0.0, 7.724967006421391),
+            slope(2.3699476894007003, 40439.83555026721),
+        ],
+        unloading: Vec::new(),
+    };
+    let mut scene = Scene {
+        damping: 0.0010035920352690947,
+        contact_damping: 0.055312340888448,
+        clearance: 0.43389208459215656,
+        ..Scene::of_stop(stop)
+    };
+    scene.excitation.frequency = 1.3867421587045143;
+    let start = |index: usize| {
+        let (x, v) = (spread(index, 2), spread(index, 3));
+        Start::new(-2.0 + 4.7 * x, -3.0 + 6.0 * v)
+    };
+    let starts: Vec<Start> = (0..64).map(start).collect();
+    for (start, end) in starts.iter().zip(ends(&scene, &starts, 3000)) {
+        assert!(!comes_back(&scene, end, 1), "{start:?}: {end:?}");
+    }
+}
+
+/// A wall behind the stop: 4/4.
+#[test]
+fn a_wall_met_once_in_four_periods_is_not_leapt_over() {
+    let mut scene = Scene {
+        damping: 0.04917039099942139,
+        contact_damping: 0.008831085181392005,
+        clearance: 1.4984661408273618,
+        rigid: Some(RigidStop {
+            travel: 0.21806296263168568,
+            restitution: 0.7616078054049735,
+        }),
+        ..Scene::of_stop(Stop::KelvinVoigt {
+            stiffness: 277.51353894263457,
+            release: Release::Clearance,
+        })
+    };
+    scene.excitation.frequency = 1.4024137084556623;
+    let start = |index| Start::new(1.25 + 0.0025 * f64::from(index), 3.6967804372227033);
+    let starts: Vec<Start> = (0..60).map(start).collect();
+    for (start, end) in starts.iter().zip(ends(&scene, &starts, 1000)) {
+        assert!(!comes_back(&scene, end, 1), "{start:?}: {end:?}");
+        assert!(comes_back(&scene, end, 4), "{start:?}: {end:?}");
+    }
+}
