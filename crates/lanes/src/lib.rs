@@ -10,10 +10,11 @@
 //! engine up to the end of the drive period. Machines with other power laws go there altogether.
 //!
 //! Motions that settle are leapt over, unless somebody watches them: those that meet nothing any more, and those
-//! whose returns to the same impact show where they are going. The latter rests on what was measured, not on a certificate.
+//! whose returns to the same impact provably lead to a limit past no other face.
 //!
 //! A lane turns cos and sin of the drive angle on with the motion, and takes them anew from the time since the
-//! beginning of its drive period every few rounds: the drive never drifts. Nothing in the loop calls the mathematical
+//! beginning of its drive period every few periods of its own: the drive never drifts, and a motion does not depend on
+//! its neighbours, nor on the width of the registers. Nothing in the loop calls the mathematical
 //! library, and no closure stands in it: one that is not inlined would lose the instruction set.
 
 mod certificate;
