@@ -22,6 +22,7 @@ mod steep;
 mod stop_invariants;
 mod stroke;
 mod sweep;
+mod transients;
 mod zone_denied;
 mod zone_found;
 mod zone_judge;

@@ -94,6 +94,7 @@ fn what_has_not_settled_is_no_chaos_in_any_units() {
     };
     let settling = Settling {
         periods: 80,
+        longest: 80,
         ..Settling::default()
     };
     for units in [units(1.0, 1.0), units(1e-6, 1e6)] {

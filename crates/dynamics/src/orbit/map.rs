@@ -11,6 +11,9 @@ use softstop::{
     Arc, Clock, Crossing, CrossingKind, Instant, MotionError, Observer, Scene, Start, Tangent,
 };
 
+/// Times what rounding leaves of a residual by which it may be off.
+const ROUNDINGS: f64 = 100.0;
+
 /// The map of one scene over a number of drive periods, from time 0.
 #[derive(Debug, Clone)]
 pub struct StroboscopicMap {
@@ -84,6 +87,14 @@ impl StroboscopicMap {
             instants: watch.instants,
             rests: watch.rests,
         })
+    }
+
+    /// How far a fixed point, as Newton's method finds it with this passage, may lie off by rounding, in the map's
+    /// scales.
+    pub(super) fn doubt(&self, state: Vector2<f64>, passage: &Passage) -> f64 {
+        let response = passage.monodromy.resolvent();
+        let response = response.map_or(f64::INFINITY, |it| self.scales.jacobian(&it).norm());
+        ROUNDINGS * self.scales.rounding(&state, &passage.monodromy) * response
     }
 
     /// The image of a state alone.

@@ -18,6 +18,7 @@ pub(crate) mod regime;
 mod returning;
 mod scan;
 mod search;
+mod smallest;
 pub(crate) mod turn;
 
 pub use exponents::Exponents;
@@ -31,6 +32,7 @@ pub use regime::Regime;
 pub(crate) use scan::{all_about, singles_near};
 pub(crate) use search::find_soon;
 pub use search::{find, find_watched};
+pub(crate) use smallest::smallest_period;
 
 use std::ops::ControlFlow;
 

@@ -12,6 +12,9 @@ use softstop::{Instant, MotionError, Scene, Touch};
 /// returned after a divisor of n. Newton's method leaves about 1e-13.
 pub(super) const SAME: f64 = 1e-9;
 
+/// The same from where Newton's method looks for an orbit of a part of the period.
+const NEAR: f64 = 1e-3;
+
 /// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -115,18 +118,25 @@ impl Orbit {
         !self.impacts.is_empty() && self.rests.is_empty() && steepness > STEEP
     }
 
-    /// The same by Newton's method on the map.
+    /// The same by Newton's method on the map. Of two orbits that rounding does not tell apart, the stable one: near a
+    /// flip the fixed point of twice the period is known far less well than that of the period.
     fn on_map(scene: &Scene, state: Vector2<f64>, periods: u64) -> Result<Self, OrbitError> {
         let map = StroboscopicMap::new(scene, periods)?;
         let (state, passage) = fixed_point(&map, state)?;
         for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
             let shorter = StroboscopicMap::new(scene, part)?;
             let size = |state: &Vector2<f64>| map.scales().state(state).norm();
-            if size(&(shorter.image(state)? - state)) > SAME * (1.0 + size(&state)) {
+            let unit = 1.0 + size(&state);
+            if size(&(shorter.image(state)? - state)) > NEAR * unit {
                 continue;
             }
-            if let Ok((state, passage)) = fixed_point(&shorter, state) {
-                return Self::on(scene, &shorter, state, &passage);
+            let Ok((own, once)) = fixed_point(&shorter, state) else {
+                continue;
+            };
+            let apart = size(&(own - state));
+            let stays = once.monodromy.is_stable() || !passage.monodromy.is_stable();
+            if apart <= SAME * unit || apart <= map.doubt(state, &passage) && stays {
+                return Self::on(scene, &shorter, own, &once);
             }
         }
         Self::on(scene, &map, state, &passage)

@@ -39,6 +39,8 @@ pub struct Settling {
     pub periods: u64,
     /// The last of them, in which they are looked at: a period of up to half as many is told.
     pub watched: u64,
+    /// Drive periods at most: what has not returned is followed on to twice as many, again and again, up to these.
+    pub longest: u64,
     /// Distance within which a state has returned, in units of the motion's size.
     pub tolerance: f64,
 }
@@ -48,6 +50,7 @@ impl Default for Settling {
         Self {
             periods: 500,
             watched: 64,
+            longest: 8000,
             tolerance: RETURN,
         }
     }
@@ -61,7 +64,7 @@ impl Settling {
         motions: &[(&Scene, Start)],
         watcher: Watcher<'_>,
     ) -> Option<Vec<Result<Seen, MotionError>>> {
-        let (mut machines, mut starts) = (Vec::new(), Vec::new());
+        let (mut machines, mut scenes, mut starts) = (Vec::new(), Vec::new(), Vec::new());
         let lowered: Vec<Result<(), MotionError>> = motions
             .iter()
             .map(|(scene, start)| {
@@ -69,22 +72,52 @@ impl Settling {
                 let machine = Machine::new(scene)?;
                 starts.push((machines.len(), *start));
                 machines.push(machine);
+                scenes.push(*scene);
                 Ok(())
             })
             .collect();
-        let settling = self.periods - self.watched;
-        let records = watched(&machines, &starts, settling, self.watched, || watcher(0, 0))?;
-        let mut records = records.into_iter();
-        let seen = lowered.into_iter().zip(motions);
-        let seen = seen.filter_map(|(lowered, (scene, _))| match lowered {
-            Ok(()) => {
-                let frequency = scene.excitation.frequency;
-                let of = |record| Seen::of(frequency, record, self.tolerance);
-                Some(records.next()?.map(of))
+        let mut seen = self
+            .seen((&machines, &scenes), starts, watcher)?
+            .into_iter();
+        let all = lowered.into_iter();
+        Some(
+            all.filter_map(|lowered| {
+                lowered.map_or_else(|error| Some(Err(error)), |()| seen.next())
+            })
+            .collect(),
+        )
+    }
+
+    /// What motions come to, each of the machine, and the scene, of this number from a state.
+    fn seen(
+        &self,
+        (machines, scenes): (&[Machine], &[&Scene]),
+        mut starts: Vec<(usize, Start)>,
+        watcher: Watcher<'_>,
+    ) -> Option<Vec<Result<Seen, MotionError>>> {
+        let mut all: Vec<Option<Result<Seen, MotionError>>> = vec![None; starts.len()];
+        let mut open: Vec<usize> = (0..starts.len()).collect();
+        let (mut followed, mut next) = (0, self.periods);
+        while !open.is_empty() && next >= self.watched {
+            let settling = next - self.watched;
+            let records = watched(machines, &starts, settling, self.watched, || watcher(0, 0))?;
+            followed += next;
+            let mut further = Vec::new();
+            for ((index, start), record) in open.iter().zip(&mut starts).zip(records) {
+                let scene = scenes[start.0];
+                let seen = record.map(|record| Seen::of(scene, record, self.tolerance, followed));
+                if let Ok(Seen {
+                    periods: None, end, ..
+                }) = seen
+                {
+                    further.push((*index, (start.0, end)));
+                }
+                all[*index] = Some(seen);
             }
-            Err(error) => Some(Err(error)),
-        });
-        Some(seen.collect())
+            (open, starts) = further.into_iter().unzip();
+            next = followed.min(self.longest.saturating_sub(followed));
+        }
+        all.into_iter().collect()
     }
 
     /// The share of so many starts, spread evenly over a region, that lead to z = 1; what cannot be computed does not.
@@ -101,12 +134,10 @@ impl Settling {
         let region = region.unwrap_or_else(|| Region::box_with(scene, []));
         let starts = region.starts(starts, 0).into_iter();
         let starts: Vec<(usize, Start)> = starts.map(|start| (0, start)).collect();
-        let settling = self.periods - self.watched;
-        let records = watched(&machine, &starts, settling, self.watched, || watcher(0, 0))?;
-        let frequency = scene.excitation.frequency;
-        let regime = |record| Seen::of(frequency, record, self.tolerance).regime();
-        let regimes = records.into_iter().flatten().map(regime);
+        let count = starts.len() as f64;
+        let seen = self.seen((&machine, &[scene]), starts, watcher)?;
+        let regimes = seen.iter().flatten().map(Seen::regime);
         let come = regimes.filter(|regime| *regime == Some(Regime::ONE));
-        Some(come.count() as f64 / starts.len() as f64)
+        Some(come.count() as f64 / count)
     }
 }

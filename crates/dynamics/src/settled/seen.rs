@@ -3,7 +3,7 @@
 use super::record::Record;
 use crate::motion::MotionKind;
 use crate::orbit::recurrence::settles_on;
-use crate::orbit::{ImpactPattern, Regime, StroboscopicMap};
+use crate::orbit::{ImpactPattern, Regime, StroboscopicMap, smallest_period};
 use softstop::{Instant, MotionError, Scene, Start};
 
 /// ln of a hundredfold growth.
@@ -26,13 +26,17 @@ pub struct Seen {
     instants: Vec<Instant>,
     /// Drive periods from there to the end.
     length: u64,
+    /// Drive periods that it was followed in all: what returns settled within them.
+    pub followed: u64,
 }
 
 impl Seen {
-    pub(crate) fn of(frequency: f64, record: Record, tolerance: f64) -> Self {
+    /// What the record of a motion shows that was followed for so many drive periods in all.
+    pub(crate) fn of(scene: &Scene, record: Record, tolerance: f64, followed: u64) -> Self {
         let Record { states, impacts } = record;
         let watched = states.len() - 1;
-        let found = settles_on(frequency, &states, tolerance);
+        let found = settles_on(scene.excitation.frequency, &states, tolerance)
+            .map(|periods| smallest_period(scene, &states, periods));
         let length = found.unwrap_or(watched);
         let first = (watched - length) as f64;
         // They are in order of time.
@@ -51,6 +55,7 @@ impl Seen {
             end: states[watched],
             instants: own.iter().map(since).collect(),
             length: length as u64,
+            followed,
         }
     }
 

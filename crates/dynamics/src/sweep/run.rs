@@ -193,8 +193,7 @@ impl Plan {
         let records = watched(machines, &starts, self.periods - looked, looked, ask)?;
         let results = legs.into_iter().zip(records).map(|(leg, record)| {
             let step = record.and_then(|record| {
-                let frequency = leg.scene.excitation.frequency;
-                let seen = Seen::of(frequency, record, self.tolerance);
+                let seen = Seen::of(&leg.scene, record, self.tolerance, self.periods);
                 Step::new(leg.value, &leg.scene, seen, self.heights)
             });
             (leg.chain, step)

@@ -163,6 +163,10 @@ impl Look<'_> {
         match own {
             Own::Kind => Some(kind(self.motion().map_or(&MotionKind::Lost, |it| &it.0))),
             Own::Z => None,
+            Own::SettledWithin => {
+                let seen = self.seen.as_ref()?;
+                seen.periods.map(|_| seen.followed as f64)
+            }
             Own::Impacts => Some(self.seen.as_ref()?.impacts_per_period()),
             Own::Exponent => match self.seen.as_ref()?.periods {
                 Some(_) => Some(Exponents::of(self.orbit()?).per_period[0]),

@@ -41,6 +41,7 @@ struct File {
 struct Motion {
     periods: u64,
     watched: u64,
+    longest: Option<u64>,
     tolerance: f64,
 }
 
@@ -53,10 +54,14 @@ impl Default for Motion {
             // Watching costs as much again: it is to be a small part.
             periods: 1000,
             watched,
+            longest: None,
             tolerance,
         }
     }
 }
+
+/// Times as many drive periods that a motion is followed if it has not returned, unless the study says how many.
+const PATIENCE: u64 = 16;
 
 /// The table `[certainty]`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -257,15 +262,19 @@ fn settling(motion: &Motion) -> Result<Settling, Failure> {
     let Motion {
         periods,
         watched,
+        longest,
         tolerance,
     } = *motion;
     within("motion.periods", periods, 16..=1_000_000)?;
     within("motion.watched", watched, 16..=periods.min(4096))?;
+    let longest = longest.unwrap_or(PATIENCE * periods);
+    within("motion.longest", longest, periods..=PATIENCE * 1_000_000)?;
     let fits = tolerance > 0.0 && tolerance < 1.0;
     require(fits, "motion.tolerance", tolerance, "> 0 and < 1")?;
     Ok(Settling {
         periods,
         watched,
+        longest,
         tolerance,
     })
 }

@@ -31,7 +31,8 @@ macro_rules! outputs {
 }
 
 outputs! {
-    Kind "kind" [None], "what the motion from the start settles on: periodic, chatter, chaos, unsettled, lost, over budget";
+    Kind "kind" [None], "what the motion from the start settles on: periodic or chatter; chaos if it has not within motion.longest drive periods and small differences grow, unsettled if they do not; lost; over budget";
+    SettledWithin "settled_within" [None], "drive periods within which it settles, seen after motion.periods and twice, four times ... as many; nothing if it does not";
     Z "z" [None], "regime z = p/n, if the motion repeats";
     Impacts "impacts_per_period" [None], "its impacts per drive period";
     Exponent "exponent" [None], "its larger Lyapunov exponent per drive period";
