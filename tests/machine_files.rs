@@ -5,12 +5,13 @@ use softstop::{Language, Machine, Parameter, Scene, Start, Units};
 use softstop_testing::machines::machines;
 use softstop_testing::random::cases;
 
-/// What a user may have said besides the scene.
+/// What a user may have said besides the scene: no control characters, but lines and tabs in a description.
 type Words = (Option<String>, Option<String>, [f64; 2]);
 
 fn words() -> impl Strategy<Value = Words> {
-    let word = || prop::option::of("(?s).{0,30}");
-    (word(), word(), [-20.0..20.0f64, -20.0..20.0f64])
+    let name = prop::option::of(r"[^\p{Cc}]{0,30}");
+    let description = prop::option::of(r"[\n\t[^\p{Cc}]]{0,30}");
+    (name, description, [-20.0..20.0f64, -20.0..20.0f64])
 }
 
 fn machine(scene: Scene, (name, description, start): Words) -> Machine {

@@ -138,3 +138,37 @@ fn changes_that_fit_no_machine_are_refused() -> Outcome {
     );
     Ok(())
 }
+
+/// The line of a key far down in a long file; other keys are as long as they like.
+#[test]
+fn the_line_of_an_unknown_key_is_told_in_a_long_file() {
+    let keys: String = (0..60_000).map(|key| format!("k{key} = 1\n")).collect();
+    let long = format!("{} = 1\n", "k".repeat(500_000));
+    for keys in [keys, long] {
+        let told = complaint(&format!("mass = 1\n[start]\n{keys}"));
+        assert!(told.starts_with("line 3: initial.k"), "{}", &told[..80]);
+        assert!(told.contains("unknown key; known are"));
+    }
+}
+
+#[test]
+fn names_have_no_control_characters() -> Outcome {
+    let good = "mass = 1\nstiffness = 1\ndamping = 0.04\nclearance = 10\ncontact.damping = 0.18\n\
+                excitation = { amplitude = 1, frequency = 1.15 }\nstop = { model = \"none\" }\n";
+    for text in ["\\u001b[31m", "\\u0000", "a\\nb", "\\u009b", "\\u007f"] {
+        let told = complaint(&format!("name = \"{text}\"\n{good}"));
+        assert!(
+            told.contains("name = ") && told.contains("control characters"),
+            "{text}: {told}"
+        );
+        assert!(!told.contains(char::is_control), "{text}: {told:?}");
+    }
+    assert_eq!(
+        complaint(&format!("description = \"a\\n\\tb\"\n{good}")),
+        ""
+    );
+    assert!(complaint(&format!("description = \"\\u001b\"\n{good}")).contains("description = "));
+    let mut machine = Machine::from_toml(good)?;
+    assert!(machine.apply([("name", "a\u{7}")]).is_err());
+    Ok(())
+}

@@ -1,5 +1,7 @@
 //! The program as users and scripts meet it: JSON keys, exit codes, messages, files.
 
+#[path = "command_line/names.rs"]
+mod names;
 #[path = "command_line/optimize.rs"]
 mod optimize;
 #[path = "command_line/refusals.rs"]

@@ -205,6 +205,12 @@ fn a_report_of_a_press_is_whole_and_stands_alone() -> Outcome {
         &page,
     )?;
     stands_alone(&page);
+    // The policy comes before what it allows: styles in the page, and nothing from elsewhere.
+    let policy = page.find("content=\"default-src 'none'; style-src 'unsafe-inline'");
+    assert!(
+        policy.is_some() && policy < page.find("<style>"),
+        "{policy:?}"
+    );
     assert_eq!(
         page.matches("class=\"requirement\"").count(),
         report.requirements.len()

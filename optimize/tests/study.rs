@@ -1,6 +1,9 @@
 //! `softstop study` as users and scripts meet it.
 #![cfg(unix)]
 
+#[path = "study/columns.rs"]
+mod columns;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

@@ -186,7 +186,7 @@ fn bad_input_is_refused_and_writes_nothing() -> Outcome {
         let line = words(line);
         SOFTSTOP.ends_with(&[&["watch"], &line[..], &output].concat(), code, told);
     }
-    SOFTSTOP.ends_with(&["watch", "--output", ".."], 1, &["no name of a file"]);
+    SOFTSTOP.ends_with(&["watch", "--output", ".."], 2, &["no name of a file"]);
     assert_eq!(fs::read_dir(folder.path())?.count(), 0);
     Ok(())
 }

@@ -5,6 +5,7 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer, Error, ValueDeserializer};
 
+use super::lines::Lines;
 use super::{Language, Machine, keys};
 use crate::error::{MachineError, SceneError};
 use crate::integrator::Start;
@@ -85,24 +86,6 @@ impl Scene {
     /// [`MachineError`] with the line, the key, its value and what is allowed.
     pub fn from_toml(text: &str) -> Result<Self, MachineError> {
         Machine::from_toml(text).map(|machine| machine.scene)
-    }
-}
-
-/// A text and where its lines end.
-struct Lines<'t> {
-    text: &'t str,
-    ends: Vec<usize>,
-}
-
-impl<'t> Lines<'t> {
-    fn new(text: &'t str) -> Self {
-        let ends = text.match_indices('\n').map(|(at, _)| at).collect();
-        Self { text, ends }
-    }
-
-    /// The number of the line of a place.
-    fn number(&self, at: usize) -> usize {
-        1 + self.ends.partition_point(|end| *end < at)
     }
 }
 

@@ -3,6 +3,7 @@
 mod change;
 mod file;
 mod keys;
+mod lines;
 mod write;
 
 pub use keys::nearest;

@@ -9,8 +9,6 @@ use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use serde_json::Value;
 
-use crate::signals::kill;
-
 /// The arguments of a line.
 pub fn words(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()
@@ -223,6 +221,13 @@ fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
         (path, lasting.collect::<Vec<_>>().concat())
     };
     files(folder).into_iter().map(content).collect()
+}
+
+/// Sends a process a signal.
+pub(crate) fn kill(signal: &str, process: u32) {
+    let arguments = [format!("-{signal}"), process.to_string()];
+    let status = Command::new("kill").args(arguments).status();
+    assert!(status.expect("kill starts").success(), "kill -{signal}");
 }
 
 /// All files in a folder and below.

@@ -5,7 +5,7 @@ use std::process::{Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use crate::program::{Program, files};
+use crate::program::{Program, files, kill};
 
 impl Program {
     /// Sends the program a signal (`INT`, say) in the middle of a long job that works in an empty folder: it
@@ -160,10 +160,4 @@ fn leaves_only(kept: &[&str], folder: &Path, arguments: &[&str]) {
         .iter()
         .filter(|file| !kept.iter().any(|name| file.ends_with(name)));
     assert_eq!(strange.next(), None, "{arguments:?}");
-}
-
-pub(crate) fn kill(signal: &str, process: u32) {
-    let arguments = [format!("-{signal}"), process.to_string()];
-    let status = Command::new("kill").args(arguments).status();
-    assert!(status.expect("kill starts").success(), "kill -{signal}");
 }

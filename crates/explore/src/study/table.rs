@@ -4,7 +4,7 @@ use std::fs::File;
 use std::sync::Arc;
 
 use anyhow::{Context, Error};
-use parquet::basic::{Compression, Encoding, GzipLevel, LogicalType, Repetition, Type as Physical};
+use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
@@ -132,7 +132,7 @@ fn properties(study: &Study) -> Result<WriterProperties, Error> {
         .set_key_value_metadata(Some(told(study)?))
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_offset_index_disabled(true)
-        .set_compression(Compression::GZIP(GzipLevel::try_new(1)?))
+        .set_compression(Compression::SNAPPY)
         .set_encoding(Encoding::BYTE_STREAM_SPLIT)
         .set_dictionary_enabled(false);
     let words = study.outputs.iter().filter(|output| output.is_word());
