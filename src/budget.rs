@@ -12,6 +12,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub(crate) const CROSSING: u64 = 64;
 /// What the derivatives at a node of a scan cost, in windows, where a window is not passed at once.
 pub(crate) const JETS: u64 = 8;
+/// What they cost at a node that is computed anew.
+pub(crate) const NODE: u64 = 32;
 /// What a search of a window costs, in windows, on its Taylor polynomial.
 pub(crate) const POLYNOMIAL: u64 = 128;
 /// What a step of Newton's method for slow motion under heavy damping costs, in windows.
