@@ -12,8 +12,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub(crate) const CROSSING: u64 = 64;
 /// What the derivatives at a node of a scan cost, in windows, where a window is not passed at once.
 pub(crate) const JETS: u64 = 8;
+/// What they cost at a node that is computed anew.
+pub(crate) const NODE: u64 = 96;
 /// What a search of a window costs, in windows, on its Taylor polynomial.
 pub(crate) const POLYNOMIAL: u64 = 128;
+/// What a Taylor step costs besides, in windows, that tells how small changes go on along it.
+pub(crate) const TANGENT: u64 = 256;
 /// What a step of Newton's method for slow motion under heavy damping costs, in windows.
 pub(crate) const CREEP: u64 = 768;
 /// What a Taylor step costs, in windows, for a microsecond.

@@ -239,7 +239,7 @@ impl Scan<'_> {
         if !self.guards.iter().any(can_rise) {
             return None;
         }
-        if !budget::charge(budget::JETS) {
+        if !budget::charge(budget::NODE) {
             return None;
         }
         let middle = Jets::new(self.course, self.course.node(half));

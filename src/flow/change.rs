@@ -2,6 +2,8 @@
 
 use nalgebra::{Matrix2, Vector2};
 
+use crate::budget;
+
 use super::course::{Course, Form};
 use super::response::Responses;
 use super::segment::Segment;
@@ -115,6 +117,7 @@ impl Segment {
     /// d(state)/d(state at the start) after `elapsed`, and the integral of damping over mass: the
     /// equation y'' + damping y' + stiffness y = 0 along the motion, in sigma.
     pub fn transition(&self, elapsed: f64) -> (Matrix2<f64>, f64) {
+        budget::charge(budget::TANGENT);
         let sigma = self.parameter_at(elapsed);
         let column = |position: f64, velocity: f64| {
             let by = Change {

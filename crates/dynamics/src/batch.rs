@@ -24,8 +24,10 @@ pub(crate) fn follow<W: Watch>(
     asking.answer.is_continue().then_some(outcomes)
 }
 
-/// What the lanes and the engine that takes over from them cost between two questions, in scan windows.
+/// Work of the lanes, and of the engine that takes over from them, between two questions.
 const ASKED: u64 = 1 << 15;
+/// What a unit of the lanes' own work costs, in scan windows.
+const ROUND: u64 = 2;
 /// What a batch costs besides, that may end before the first.
 const BATCH: u64 = 1 << 10;
 
@@ -53,7 +55,7 @@ impl<W: Watch, A: FnMut() -> ControlFlow<()>> Watch for Asking<'_, W, A> {
     fn goes_on(&mut self) -> ControlFlow<()> {
         // The engine that motions are handed over to has charged its part.
         let charged = self.left.saturating_sub(budget::left());
-        let is_left = budget::charge(ASKED.saturating_sub(charged));
+        let is_left = budget::charge(ROUND * ASKED.saturating_sub(charged));
         self.left = budget::left();
         self.answer = match is_left {
             true => (self.ask)(),

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::SurveyError;
 use crate::batch::follow;
 use crate::watch::{Watcher, stop_if};
-use softstop::internals::budget::Fork;
+use softstop::internals::budget::{self, Fork};
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::{Job, Machine, Watch};
 
@@ -68,12 +68,12 @@ impl<'a> Fleet<'a> {
         self.done.load(Ordering::Relaxed)
     }
 
-    /// Counts work; an error if the watcher wants to stop.
+    /// Counts work; an error if the watcher wants to stop, or the budget is spent.
     pub(crate) fn note(&self, periods: u64) -> Result<(), SurveyError> {
         let done = self.done.fetch_add(periods, Ordering::Relaxed) + periods;
         match (self.watcher)(done, self.planned.max(done)) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(SurveyError::Stopped),
+            ControlFlow::Continue(()) if !budget::is_spent() => Ok(()),
+            _ => Err(SurveyError::Stopped),
         }
     }
 

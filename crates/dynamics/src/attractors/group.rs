@@ -8,6 +8,7 @@
 
 use crate::extremes::extremes;
 use softstop::Start;
+use softstop::internals::budget;
 
 /// Share of the states of two logs whose nearest neighbours lie in the other log, from which on the logs belong
 /// to one motion. It is 0.5 on average for one motion; with logs of 129 states its standard deviation is 0.05,
@@ -18,6 +19,9 @@ const MIXED: f64 = 0.1;
 const CELLS: f64 = 100.0;
 /// Share of the larger set of cells that two logs of one motion have in common at least.
 const COMMON: f64 = 0.1;
+
+/// Pairs of states that are compared in the time of a scan window.
+const PAIRS: usize = 8;
 
 /// A state in units of the plane's size.
 type Place = [f64; 2];
@@ -44,6 +48,7 @@ pub(super) fn groups<E>(
             if group[index] == group[other] {
                 continue;
             }
+            budget::charge((logs[index].len() * logs[other].len() / PAIRS) as u64);
             let pair = [index, other].map(|at| (places[at].as_slice(), own[at].as_slice()));
             if share_cells(&cells[index], &cells[other]) || are_mixed(pair) {
                 let (kept, gone) = (group[other], group[index]);
