@@ -8,7 +8,8 @@
 
 use nalgebra::{Matrix2, Vector2, Vector4};
 
-use super::cycle::{Cycle, CycleArc, Derivatives};
+use super::cycle::{Cycle, CycleArc};
+use super::place::Derivatives;
 
 /// Rounding of a state, relative to the terms that it is the sum of.
 const ROUNDING: f64 = f64::EPSILON;

@@ -37,6 +37,7 @@ mod look;
 mod machine;
 mod outline;
 mod parts;
+mod place;
 mod power;
 mod reach;
 mod registers;

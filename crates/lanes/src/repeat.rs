@@ -3,9 +3,9 @@
 use nalgebra::Complex;
 use pulp::Simd;
 
-use super::cycle::{Drive, Passage};
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
+use super::place::{Drive, Passage};
 use super::returns::Turn;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {

@@ -10,8 +10,9 @@ use std::f64::consts::TAU;
 use nalgebra::{Matrix2, Vector2};
 
 use super::contraction::{ContractionNorm, spectral_radius};
-use super::cycle::{Cycle, Drive, Passage};
+use super::cycle::Cycle;
 use super::law::Constants;
+use super::place::{Drive, Passage};
 
 /// Returns that a first guess is made from.
 const GUESSED_FROM: usize = 4;
@@ -62,6 +63,20 @@ pub(super) struct Return {
     pub impacts: f64,
     pub crossings: f64,
     pub phase: f64,
+}
+
+impl Return {
+    /// The crossing that leads to it, seen from behind.
+    fn passage(&self) -> Passage {
+        Passage {
+            position: self.position,
+            velocity: self.velocity,
+            velocity_after: self.velocity,
+            phase: self.phase as usize,
+            left: self.left,
+            offset: self.offset,
+        }
+    }
 }
 
 /// The returns of one lane.
@@ -299,8 +314,9 @@ impl Returns {
         drive: &Drive,
     ) -> Option<Turn> {
         let velocity = self.velocity;
+        let begun = self.tried.passage();
         self.cycle
-            .linearise(laws, drive, (&self.tried, &self.passages), velocity)?;
+            .linearise(laws, drive, (begun, &self.passages), velocity)?;
         let map = self.cycle.map;
         let inverse = (Matrix2::identity() - map).try_inverse()?;
         let tried = self.point(&self.tried).1;

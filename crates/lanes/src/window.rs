@@ -2,8 +2,8 @@
 
 use nalgebra::Vector4;
 
-use super::cycle::{Derivatives, Face, Place};
 use super::law::{Constants, SPAN};
+use super::place::{Derivatives, Face, Place};
 
 /// Error of the first and second derivative of a cubic Hermite interpolant over a step h, in units of its own error
 /// M h^4 / 384: sqrt(3)/216 M h^3 and M h^2 / 12 (Birkhoff and Priver 1967).
