@@ -4,6 +4,9 @@
 
 #[path = "interrupts/dispositions.rs"]
 mod dispositions;
+#[cfg(target_os = "linux")]
+#[path = "interrupts/faults.rs"]
+mod faults;
 #[path = "interrupts/writers.rs"]
 mod writers;
 

@@ -90,7 +90,7 @@ fn run_task(task: &Task) -> Result<()> {
             let package = fmu::write_shipped()?;
             stage("Rust tests");
             run(cargo_command()
-                .args(["test", "--release", "--workspace"])
+                .args(["test", "--release", "--workspace", "--no-fail-fast"])
                 // Criterion asks for other features of shared crates: they would be built again.
                 .args(["--exclude", "softstop-benches"])
                 .env("SOFTSTOP_FMU", &package))?;

@@ -47,9 +47,9 @@ impl Pieces {
         let Some(Locked { file, .. }) = lock::open(path, true)? else {
             return Ok(None);
         };
-        file.set_len(0)?;
         let mut pieces = Self::of(path, file);
-        let begun = pieces.append(&[], of);
+        let empty = pieces.file.set_len(0);
+        let begun = empty.and_then(|()| pieces.append(&[], of));
         begun.inspect_err(|_| drop(fs::remove_file(path)))?;
         Ok(Some(pieces))
     }

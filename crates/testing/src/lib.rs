@@ -1,5 +1,7 @@
 //! What the tests of all rooms share: random machines, reference data, scenes, differences and programs.
 
+#[cfg(target_os = "linux")]
+mod faults;
 pub mod machines;
 pub mod meets;
 pub mod pages;

@@ -145,7 +145,6 @@ impl Program {
     /// If it does otherwise.
     #[track_caller]
     pub fn survives_kills(&self, arguments: &[&str], kills: u64, folder: &Path) {
-        let given = |name| std::env::var(name).ok()?.parse::<u64>().ok();
         let mut left = given("SOFTSTOP_KILLS").unwrap_or(kills);
         let mut chance = SplitMix64::seed_from_u64(given("SOFTSTOP_KILLS_SEED").unwrap_or(2003));
         let start = |more: &[&str]| {
@@ -195,11 +194,16 @@ impl Program {
                 taken_up += u64::from(keeps(&out));
             };
             assert!(status.success(), "{arguments:?}, job {jobs}: {status}");
-            assert_eq!(contents(&out), whole, "{arguments:?}, job {jobs}");
+            holds(&out, &whole, &format!("{arguments:?}, job {jobs}"));
             jobs += 1;
         }
         println!("{arguments:?}: {jobs} jobs, {taken_up} times something was kept");
     }
+}
+
+/// A number that a variable of the environment gives.
+pub(crate) fn given(name: &str) -> Option<u64> {
+    std::env::var(name).ok()?.parse().ok()
 }
 
 /// Ways to end a program; more than half of them leave it no time.
@@ -213,7 +217,7 @@ fn keeps(folder: &Path) -> bool {
 }
 
 /// The files in a folder and below by name; of texts the lines that state no time.
-fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+pub(crate) fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let content = |path: PathBuf| {
         let bytes = std::fs::read(&path).expect("a file");
         let lines = bytes.split(|byte| *byte == b'\n');
@@ -223,6 +227,20 @@ fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     files(folder).into_iter().map(content).collect()
 }
 
+/// Asserts that a folder has files of these [`contents`], and no others.
+#[track_caller]
+pub(crate) fn holds(folder: &Path, expected: &BTreeMap<PathBuf, Vec<u8>>, what: &str) {
+    let found = contents(folder);
+    for path in found.keys().chain(expected.keys()) {
+        // The bytes are too many to be shown.
+        assert!(
+            found.get(path) == expected.get(path),
+            "{what}: {} is another",
+            path.display()
+        );
+    }
+}
+
 /// Sends a process a signal.
 pub(crate) fn kill(signal: &str, process: u32) {
     let arguments = [format!("-{signal}"), process.to_string()];
@@ -230,9 +248,9 @@ pub(crate) fn kill(signal: &str, process: u32) {
     assert!(status.expect("kill starts").success(), "kill -{signal}");
 }
 
-/// All files in a folder and below.
+/// All files in a folder and below; none if it does not exist.
 pub(crate) fn files(folder: &Path) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(folder).expect("a folder");
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
     let paths = entries.map(|entry| entry.expect("an entry").path());
     paths
         .flat_map(|path| {

@@ -233,8 +233,8 @@ fn life() -> impl Strategy<Value = Call> {
 
 type Sequence = Vec<(usize, Call)>;
 
-/// Any calls on instances; the one numbered `UNITS` does not exist.
-fn anything(length: usize) -> impl Strategy<Value = Sequence> {
+/// Any call on an instance; the one numbered `UNITS` does not exist.
+pub fn any_call() -> impl Strategy<Value = (usize, Call)> {
     let call = prop_oneof![
         2 => birth(),
         6 => life(),
@@ -245,7 +245,7 @@ fn anything(length: usize) -> impl Strategy<Value = Sequence> {
         8 => step(),
     ];
     let unit = prop_oneof![8 => Just(0), 3 => Just(1), 1 => Just(2), 1 => Just(UNITS)];
-    vec((unit, call), 0..length)
+    (unit, call)
 }
 
 /// A life of the first instance, with mistakes on the way, and then anything.
@@ -257,7 +257,7 @@ fn lifelike() -> impl Strategy<Value = Sequence> {
         select(vec![0.0, 10.0, -5.0]),
         vec(values(), 0..8),
         vec(running(), 0..20),
-        anything(40),
+        vec(any_call(), 0..40),
     );
     parts.prop_map(|(before, start, within, running, rest)| {
         let setup = Call::SetupExperiment(None, start, None);
@@ -273,5 +273,5 @@ fn lifelike() -> impl Strategy<Value = Sequence> {
 
 /// A sequence of calls, each with the number of its instance.
 pub fn sequence() -> impl Strategy<Value = Sequence> {
-    prop_oneof![2 => lifelike(), 1 => anything(120)]
+    prop_oneof![2 => lifelike(), 1 => vec(any_call(), 0..120)]
 }

@@ -1,11 +1,11 @@
 //! Random sequences of all 34 calls, with the arguments that an importer may pass by mistake.
 //!
-//! A model in the test (`state_machine/model.rs`) says which calls are carried out. Each refused call must
+//! A model in the test (`model.rs`) says which calls are carried out. Each refused call must
 //! leave one line in the log that names it, and nothing else that could be read.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
 mod calls;
-mod draw;
+pub mod draw;
 mod model;
 mod perform;
 mod probe;
@@ -20,9 +20,7 @@ use crate::common::OK;
 use calls::{Call, UNITS};
 use perform::perform;
 use probe::{Probe, silent};
-use proptest::prelude::*;
 use softstop_fmu::ffi::*;
-use softstop_testing::cases;
 use world::World;
 
 /// Three steps from the beginning: all that can be read after each.
@@ -76,18 +74,27 @@ impl World {
     }
 }
 
-proptest! {
-    #![proptest_config(cases(2000))]
+/// Makes calls to several units.
+///
+/// # Panics
+/// If one does other than the model says.
+pub fn run(calls: &[(usize, Call)]) {
+    let mut world = World::new();
+    for index in 0..UNITS {
+        world.run(index, &Call::Instantiate(calls::Birth::Plain));
+    }
+    for (index, call) in calls {
+        world.run(*index, call);
+    }
+    world.end();
+}
+
+#[cfg(test)]
+proptest::proptest! {
+    #![proptest_config(softstop_testing::cases(2000))]
 
     #[test]
     fn all_calls_in_any_order(calls in draw::sequence()) {
-        let mut world = World::new();
-        for index in 0..UNITS {
-            world.run(index, &Call::Instantiate(calls::Birth::Plain));
-        }
-        for (index, call) in &calls {
-            world.run(*index, call);
-        }
-        world.end();
+        run(&calls);
     }
 }

@@ -1,0 +1,206 @@
+//! An importer in a few lines: it calls the C functions and keeps the log.
+#![allow(unsafe_code, reason = "calls the C functions as an importer does")]
+
+use std::ffi::{CStr, CString, c_char, c_int, c_void};
+use std::ptr;
+
+use softstop_fmu::ffi::*;
+use softstop_fmu::{library_guid, table};
+
+pub const OK: c_int = 0;
+pub const DISCARD: c_int = 2;
+pub const ERROR: c_int = 3;
+
+/// All real outputs.
+pub const OUTPUTS: [&str; 9] = [
+    "position",
+    "velocity",
+    "acceleration",
+    "contact.force",
+    "energy.mechanical",
+    "energy.supplied",
+    "energy.dissipated",
+    "impact.time",
+    "impact.velocity",
+];
+
+/// The log of one instance: its environment pointer leads here.
+#[derive(Default)]
+pub struct Log {
+    pub lines: Vec<String>,
+}
+
+// Takes one argument after the format where C takes any number; the library passes exactly one.
+unsafe extern "C" fn logger(
+    environment: *mut c_void,
+    _name: *const c_char,
+    status: c_int,
+    category: *const c_char,
+    format: *const c_char,
+    text: *const c_char,
+) {
+    unsafe {
+        assert_eq!(CStr::from_ptr(format), c"%s");
+        let category = CStr::from_ptr(category).to_string_lossy();
+        let text = CStr::from_ptr(text).to_string_lossy();
+        let log = &mut *environment.cast::<Log>();
+        log.lines.push(format!("{status} {category} {text}"));
+    }
+}
+
+/// Callbacks that keep the log there.
+pub fn callbacks(log: *mut Log) -> CallbackFunctions {
+    CallbackFunctions {
+        // On the platforms these tests run on, a variadic call with one pointer more looks
+        // like a call with that pointer as the last argument.
+        logger: Some(unsafe { std::mem::transmute::<*const (), Logger>(logger as *const ()) }),
+        allocate_memory: None,
+        free_memory: None,
+        step_finished: None,
+        environment: log.cast(),
+    }
+}
+
+/// An instance of the unit, made and freed through the C functions.
+pub struct Unit {
+    pub component: *mut c_void,
+    log: *mut Log,
+}
+
+impl Unit {
+    pub fn new() -> Self {
+        let guid = library_guid().expect("a GUID");
+        Self::with(Some("unit"), 1, Some(&guid)).expect("an instance")
+    }
+
+    /// The instance, or the log of its refusal.
+    pub fn with(name: Option<&str>, kind: c_int, guid: Option<&str>) -> Result<Self, Vec<String>> {
+        let log = Box::into_raw(Box::<Log>::default());
+        let strings = [name, guid].map(|text| text.map(|t| CString::new(t).expect("no NUL")));
+        let [name, guid] = strings
+            .each_ref()
+            .map(|s| s.as_ref().map_or(ptr::null(), |s| s.as_ptr()));
+        let functions = callbacks(log);
+        let component =
+            unsafe { fmi2Instantiate(name, kind, guid, ptr::null(), &raw const functions, 0, 0) };
+        let unit = Self { component, log };
+        if component.is_null() {
+            Err(unit.take_log())
+        } else {
+            Ok(unit)
+        }
+    }
+
+    /// The log since it was last taken.
+    pub fn take_log(&self) -> Vec<String> {
+        std::mem::take(unsafe { &mut (*self.log).lines })
+    }
+
+    /// Asserts that a call was refused with one line that has all these words.
+    pub fn refused(&self, status: c_int, words: &[&str]) {
+        let lines = self.take_log();
+        assert_eq!(status, ERROR, "{words:?}: {lines:?}");
+        assert_eq!(lines.len(), 1, "{words:?}: {lines:?}");
+        assert!(lines[0].starts_with("3 errors fmi2"), "{lines:?}");
+        for word in words {
+            assert!(lines[0].contains(word), "{lines:?} lacks {word:?}");
+        }
+    }
+
+    pub fn begin(&self) {
+        assert_eq!(self.try_to_begin(), OK);
+    }
+
+    /// Leads through initialisation; returns the status of its end.
+    pub fn try_to_begin(&self) -> c_int {
+        unsafe {
+            assert_eq!(fmi2SetupExperiment(self.component, 0, 0.0, 0.0, 0, 0.0), OK);
+            assert_eq!(fmi2EnterInitializationMode(self.component), OK);
+            fmi2ExitInitializationMode(self.component)
+        }
+    }
+
+    pub fn set(&self, name: &str, value: f64) -> c_int {
+        let reference = reference(name);
+        unsafe { fmi2SetReal(self.component, &raw const reference, 1, &raw const value) }
+    }
+
+    pub fn set_integer(&self, name: &str, value: c_int) -> c_int {
+        let reference = reference(name);
+        unsafe { fmi2SetInteger(self.component, &raw const reference, 1, &raw const value) }
+    }
+
+    pub fn set_boolean(&self, name: &str, value: c_int) -> c_int {
+        let reference = reference(name);
+        unsafe { fmi2SetBoolean(self.component, &raw const reference, 1, &raw const value) }
+    }
+
+    pub fn get(&self, name: &str) -> f64 {
+        let (reference, mut value) = (reference(name), f64::NAN);
+        let status =
+            unsafe { fmi2GetReal(self.component, &raw const reference, 1, &raw mut value) };
+        assert_eq!(status, OK, "{:?}", self.take_log());
+        value
+    }
+
+    pub fn get_integer(&self, name: &str) -> c_int {
+        let (reference, mut value) = (reference(name), -1);
+        let status =
+            unsafe { fmi2GetInteger(self.component, &raw const reference, 1, &raw mut value) };
+        assert_eq!(status, OK, "{:?}", self.take_log());
+        value
+    }
+
+    pub fn get_boolean(&self, name: &str) -> c_int {
+        let (reference, mut value) = (reference(name), -1);
+        let status =
+            unsafe { fmi2GetBoolean(self.component, &raw const reference, 1, &raw mut value) };
+        assert_eq!(status, OK, "{:?}", self.take_log());
+        value
+    }
+
+    /// The derivatives of real outputs along a direction.
+    pub fn derivatives(
+        &self,
+        unknowns: &[&str],
+        knowns: &[(&str, f64)],
+    ) -> Result<Vec<f64>, c_int> {
+        let of: Vec<_> = unknowns.iter().map(|name| reference(name)).collect();
+        let by: Vec<_> = knowns.iter().map(|(name, _)| reference(name)).collect();
+        let seed: Vec<_> = knowns.iter().map(|(_, seed)| *seed).collect();
+        let mut values = vec![f64::NAN; of.len()];
+        let status = unsafe {
+            fmi2GetDirectionalDerivative(
+                self.component,
+                of.as_ptr(),
+                of.len(),
+                by.as_ptr(),
+                by.len(),
+                seed.as_ptr(),
+                values.as_mut_ptr(),
+            )
+        };
+        if status == OK {
+            Ok(values)
+        } else {
+            Err(status)
+        }
+    }
+
+    pub fn step(&self, point: f64, step: f64) -> c_int {
+        unsafe { fmi2DoStep(self.component, point, step, 1) }
+    }
+}
+
+impl Drop for Unit {
+    fn drop(&mut self) {
+        unsafe {
+            fmi2FreeInstance(self.component);
+            drop(Box::from_raw(self.log));
+        }
+    }
+}
+
+pub fn reference(name: &str) -> u32 {
+    table().by_name(name).expect("a variable").reference
+}
