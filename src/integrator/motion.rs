@@ -92,6 +92,16 @@ impl Motion {
         Ok(motion)
     }
 
+    /// The motion in a phase that it came to by a crossing which rounding of its state may undo.
+    #[must_use]
+    pub fn in_phase(mut self, index: usize) -> Self {
+        let mode = Mode::Moving(self.phases.phases[index].id);
+        if self.mode != mode && matches!(self.mode, Mode::Moving(_)) {
+            self.depart(self.state(), self.clock.drive(self.now), mode);
+        }
+        self
+    }
+
     /// The present time.
     pub fn now(&self) -> Instant {
         self.now

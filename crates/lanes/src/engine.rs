@@ -212,6 +212,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
                 cycle: 0,
                 offset: 0.0,
                 state: start,
+                phase: None,
             };
             if self.task.jobs[job].periods == 0 {
                 continue;
@@ -300,6 +301,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             } else {
                 self.state.state(lane)
             },
+            phase: begun.then(|| self.state.phase.get(lane) as usize),
         };
         self.state.take_counts(lane, &mut self.outcomes[job]);
         match self.follow(place) {

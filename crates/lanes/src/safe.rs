@@ -16,6 +16,8 @@ pub(super) struct Place {
     pub cycle: u64,
     pub offset: f64,
     pub state: Start,
+    /// The phase it moves in; none where its state tells.
+    pub phase: Option<usize>,
 }
 
 /// A motion at the beginning of a drive period.
@@ -62,6 +64,9 @@ pub(super) fn follow(
         offset: place.offset,
     };
     let mut motion = Motion::new(machine.shared_phases(), machine.clock, at, place.state)?;
+    if let Some(phase) = place.phase {
+        motion = motion.in_phase(phase);
+    }
     let mut counter = Counter {
         job: place.job,
         watch,

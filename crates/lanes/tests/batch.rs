@@ -8,7 +8,7 @@ use approx::assert_abs_diff_eq;
 use softstop_testing::tolerance::{GROWN, SOLVED};
 use std::collections::HashMap;
 
-use softstop::{Clock, Ratios, Release, RigidStop, Scene, Slope, Start, Stop};
+use softstop::{Clock, Crossing, Observer, Ratios, Release, RigidStop, Scene, Slope, Start, Stop};
 use softstop_lanes::{Instructions, Job, Machine, Watch, run, run_with};
 use softstop_testing::Meets;
 

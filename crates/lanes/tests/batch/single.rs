@@ -160,3 +160,40 @@ fn a_leap_comes_to_where_the_periods_do() {
         }
     }
 }
+
+struct Crossings(u64);
+
+impl Observer for Crossings {
+    fn crossing(&mut self, _: &Crossing) {
+        self.0 += 1;
+    }
+}
+
+/// The stop lets go so gently that each period is handed over just after that: the state alone, rounded, would have it
+/// let go again.
+#[test]
+fn a_release_before_a_handing_over_is_counted_once() {
+    let mut scene = Ratios::unloaded().scene().expect("valid");
+    scene.excitation.frequency = 1.2163176370887587;
+    (scene.damping, scene.clearance) = (0.13521975858568694, 1.9729499601366405);
+    scene.contact_damping = 0.2930588834400743;
+    scene.stop = Stop::KelvinVoigt {
+        stiffness: 89.65661092882665,
+        release: Release::ZeroForce,
+    };
+    let (position, velocity) = (-1.8661909629556042, 0.7786930774679091);
+    let start = Start::new(position, velocity);
+    let mut crossings = Crossings(0);
+    let mut motion = scene.motion(start).expect("valid");
+    let end = Clock::at_cycle(600);
+    motion.advance(end, &mut crossings).expect("bounded");
+    let machines = [Machine::new(&scene).expect("valid")];
+    let job = Job {
+        machine: 0,
+        start,
+        periods: 600,
+    };
+    let outcome = run(&machines, &[job], &mut ()).remove(0);
+    assert_eq!(outcome.crossings, crossings.0);
+    assert!(outcome.handed_over > 0);
+}
