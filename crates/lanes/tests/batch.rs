@@ -9,7 +9,7 @@ use softstop_testing::tolerance::{GROWN, SOLVED};
 use std::collections::HashMap;
 
 use softstop::{Clock, Crossing, Observer, Ratios, Release, RigidStop, Scene, Slope, Start, Stop};
-use softstop_lanes::{Instructions, Job, Machine, Watch, run, run_with};
+use softstop_lanes::{Instructions, Job, Machine, Outcome, Watch, run, run_with};
 use softstop_testing::Meets;
 
 const PERIODS: u64 = 20;

@@ -208,3 +208,31 @@ fn a_wall_met_once_in_four_periods_is_not_leapt_over() {
         assert!(comes_back(&scene, end, 4), "{start:?}: {end:?}");
     }
 }
+
+/// Motions of 600 periods that lanes led elsewhere while they trusted measured returns: those of other machines among the
+/// 268 of 24,576 that `softstop-lab throughput --aimed` drew with seeds 37 and 38, but for the chaotic ones. All have a wall
+/// that is met once in many periods.
+#[test]
+fn motions_once_led_elsewhere_end_where_the_scalar_engine_ends() {
+    let text = include_str!("leapt_wrong.jsonl");
+    assert_eq!(text.lines().count(), 24);
+    for line in text.lines() {
+        let motion: serde_json::Value = serde_json::from_str(line).expect("JSON");
+        let scene: Scene = serde_json::from_value(motion["scene"].clone()).expect("a scene");
+        let (position, velocity) =
+            serde_json::from_value(motion["start"].clone()).expect("a start");
+        let start = Start::new(position, velocity);
+        let (end, impacts, crossings) = single::safely(&scene, start, 600);
+        let outcome = single::in_a_lane(&scene, start, 600, &mut ());
+        assert_eq!(
+            (outcome.impacts, outcome.crossings),
+            (impacts, crossings),
+            "{line}"
+        );
+        let (off, growth) = (distance(outcome.end, end), growth(&scene, start, end, 600));
+        assert!(
+            off < 1e-9 * growth.max(1.0),
+            "{line}: {off:e}, growth {growth:e}"
+        );
+    }
+}

@@ -32,21 +32,49 @@ fn what_lanes_cannot_follow_the_scalar_engine_does() {
     assert_eq!((outcomes[2].end, outcomes[2].impacts), (from, 0));
 }
 
+/// A motion alone in a lane.
+pub fn in_a_lane(scene: &Scene, start: Start, periods: u64, watch: &mut impl Watch) -> Outcome {
+    let machines = [Machine::new(scene).expect("valid")];
+    let job = Job {
+        machine: 0,
+        start,
+        periods,
+    };
+    let outcome = run(&machines, &[job], watch).remove(0);
+    assert_eq!(outcome.error, None);
+    outcome
+}
+
 pub fn one_by_one(
     scene: &Scene,
     start: Start,
     periods: u64,
     watch: &mut impl Watch,
 ) -> (Start, u64) {
-    let machines = [Machine::new(scene).expect("valid")];
-    let jobs = [Job {
-        machine: 0,
-        start,
-        periods,
-    }];
-    let outcome = run(&machines, &jobs, watch).remove(0);
-    assert_eq!(outcome.error, None);
+    let outcome = in_a_lane(scene, start, periods, watch);
     (outcome.end, outcome.impacts)
+}
+
+#[derive(Default)]
+struct Counts {
+    impacts: u64,
+    crossings: u64,
+}
+
+impl Observer for Counts {
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.crossings += 1;
+        self.impacts += u64::from(crossing.impact_velocity().is_some());
+    }
+}
+
+/// A motion by the safe engine: its end, impacts and crossings.
+pub fn safely(scene: &Scene, start: Start, periods: u64) -> (Start, u64, u64) {
+    let mut counts = Counts::default();
+    let mut motion = scene.motion(start).expect("valid");
+    let end = Clock::at_cycle(periods);
+    motion.advance(end, &mut counts).expect("bounded");
+    (motion.state(), counts.impacts, counts.crossings)
 }
 
 #[test]
@@ -161,14 +189,6 @@ fn a_leap_comes_to_where_the_periods_do() {
     }
 }
 
-struct Crossings(u64);
-
-impl Observer for Crossings {
-    fn crossing(&mut self, _: &Crossing) {
-        self.0 += 1;
-    }
-}
-
 /// The stop lets go so gently that each period is handed over just after that: the state alone, rounded, would have it
 /// let go again.
 #[test]
@@ -183,17 +203,7 @@ fn a_release_before_a_handing_over_is_counted_once() {
     };
     let (position, velocity) = (-1.8661909629556042, 0.7786930774679091);
     let start = Start::new(position, velocity);
-    let mut crossings = Crossings(0);
-    let mut motion = scene.motion(start).expect("valid");
-    let end = Clock::at_cycle(600);
-    motion.advance(end, &mut crossings).expect("bounded");
-    let machines = [Machine::new(&scene).expect("valid")];
-    let job = Job {
-        machine: 0,
-        start,
-        periods: 600,
-    };
-    let outcome = run(&machines, &[job], &mut ()).remove(0);
-    assert_eq!(outcome.crossings, crossings.0);
+    let outcome = in_a_lane(&scene, start, 600, &mut ());
+    assert_eq!(outcome.crossings, safely(&scene, start, 600).2);
     assert!(outcome.handed_over > 0);
 }
