@@ -40,58 +40,100 @@ struct Turned {
     rate: f64,
 }
 
+/// What becomes of the motions of a ball on an arc.
+struct Passed {
+    turned: Turned,
+    /// What first order leaves out of the steady motion.
+    curve: Vector2<f64>,
+    /// How late they may be at its end, and the derivatives of the cycle there, from the velocity to the fourth.
+    late: f64,
+    moved: Vector4<f64>,
+    /// What first order leaves out of the state at the end.
+    left_out: Vector2<f64>,
+}
+
 impl Cycle {
     /// Bounds for all motions whose return deviates from the cycle's by a vector of `ball`, the image of the unit disc under
-    /// that matrix; none if one of them may meet another face.
-    pub fn certify(&self, ball: &Matrix2<f64>) -> Option<Remainder> {
+    /// that matrix, if they are clear; none if first order says too little of them.
+    pub fn remainder(&self, ball: &Matrix2<f64>) -> Option<Remainder> {
         let mut rest = Rest::default();
         let mut remainder = Remainder::default();
         for arc in &self.arcs {
-            let left_out = self.pass(arc, ball, &rest)?;
-            rest = arc.cross(&rest, &left_out);
+            let passed = arc.pass(ball, &rest, self.frequency)?;
+            rest = arc.cross(&rest, &passed.left_out);
             let to_return = arc.to_return.abs();
-            remainder.curvature += to_return * left_out;
+            remainder.curvature += to_return * passed.left_out;
             remainder.rounding += to_return * arc.rounding();
         }
         Some(remainder)
     }
 
-    /// Proves that no motion of a ball meets another face on an arc; what first order leaves out of the states at its end.
-    fn pass(&self, arc: &CycleArc, ball: &Matrix2<f64>, rest: &Rest) -> Option<Vector2<f64>> {
-        let turned = arc.turned((arc.delay * ball).norm() + rest.delay, self.frequency);
-        let second =
-            arc.swing * self.frequency * self.frequency * 0.5 * turned.delay * turned.delay;
-        let curve = Vector2::new(second, second * self.frequency);
-        let deviation = |at: &Derivatives| {
-            let rest = at.transition.abs() * (rest.state + curve) + at.response.abs() * rest.delay;
-            rows(&(at.tangent * ball)) + rest + curve
-        };
-        let at_end = deviation(&arc.at_end);
-        let linear = arc.gradient.abs().dot(&at_end.transpose());
-        let late = (1.0 + MAX_CHANGE) * linear;
-        let moved = arc.moved(late, self.frequency)?;
-        let rates = arc.rates(&at_end, late, &turned)?;
-        let left_out = (Vector2::new(moved[1], moved[2]) * (0.5 * late) + rates) * late;
-        if arc.gradient.abs().dot(&left_out.transpose()) > MAX_CHANGE * linear {
-            return None;
-        }
-        let windows = &self.windows[arc.windows.clone()];
-        for (index, window) in windows.iter().enumerate() {
+    /// True if none of these motions meets another face than the cycle.
+    pub fn is_clear(&self, ball: &Matrix2<f64>) -> bool {
+        let mut rest = Rest::default();
+        self.arcs.iter().all(|arc| {
+            let passed = arc.pass(ball, &rest, self.frequency);
+            passed.is_some_and(|passed| {
+                let is_clear = self.is_clear_on(arc, ball, &rest, &passed);
+                rest = arc.cross(&rest, &passed.left_out);
+                is_clear
+            })
+        })
+    }
+
+    fn is_clear_on(
+        &self,
+        arc: &CycleArc,
+        ball: &Matrix2<f64>,
+        rest: &Rest,
+        passed: &Passed,
+    ) -> bool {
+        let windows = &self.windows.all[arc.windows.clone()];
+        windows.iter().enumerate().all(|(index, window)| {
             let is_last = index + 1 == windows.len();
-            let later = if is_last { late } else { 0.0 };
-            let deviation = deviation(&window.at_start);
-            let most = arc.most(&deviation, window.step + later, window.growth, &turned);
-            let most = if is_last { most + moved * late } else { most };
-            if !window.tolerates(&most) {
-                return None;
-            }
-        }
-        let own = arc.at_end.transition.abs() * curve + curve;
-        Some(left_out + own)
+            let late = if is_last { passed.late } else { 0.0 };
+            let deviation = passed.deviation(&window.at_start, ball, rest);
+            let time = window.step + late;
+            let most = arc.most(&deviation, time, window.growth, &passed.turned);
+            self.windows.is_clear(window, &(most + passed.moved * late))
+        })
+    }
+}
+
+impl Passed {
+    /// Bounds on the deviation at an instant of the arc.
+    fn deviation(&self, at: &Derivatives, ball: &Matrix2<f64>, rest: &Rest) -> Vector2<f64> {
+        let rest = at.transition.abs() * (rest.state + self.curve) + at.response.abs() * rest.delay;
+        rows(&(at.tangent * ball)) + rest + self.curve
     }
 }
 
 impl CycleArc {
+    /// What becomes of a ball that meets no other face on this arc; none if first order says too little.
+    fn pass(&self, ball: &Matrix2<f64>, rest: &Rest, frequency: f64) -> Option<Passed> {
+        let turned = self.turned((self.delay * ball).norm() + rest.delay, frequency);
+        let second = self.swing * frequency * frequency * 0.5 * turned.delay * turned.delay;
+        let mut passed = Passed {
+            turned,
+            curve: Vector2::new(second, second * frequency),
+            late: 0.0,
+            moved: Vector4::zeros(),
+            left_out: Vector2::zeros(),
+        };
+        let at_end = passed.deviation(&self.at_end, ball, rest);
+        let linear = self.gradient.abs().dot(&at_end.transpose());
+        let late = (1.0 + MAX_CHANGE) * linear;
+        let moved = self.moved(late, frequency)?;
+        let rates = self.rates(&at_end, late, &passed.turned)?;
+        let left_out = (Vector2::new(moved[1], moved[2]) * (0.5 * late) + rates) * late;
+        if self.gradient.abs().dot(&left_out.transpose()) > MAX_CHANGE * linear {
+            return None;
+        }
+        let own = self.at_end.transition.abs() * passed.curve + passed.curve;
+        (passed.late, passed.moved, passed.left_out) = (late, moved, left_out + own);
+        Some(passed)
+    }
+
     /// Bounds at the next crossing, from those at the last one and what is left out of the state at the end.
     fn cross(&self, before: &Rest, left_out: &Vector2<f64>) -> Rest {
         let Derivatives {

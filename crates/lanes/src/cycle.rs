@@ -5,15 +5,17 @@
 
 use std::ops::Range;
 
-use nalgebra::{Complex, Matrix2, RowVector2, Vector2, Vector4};
+use nalgebra::{Complex, Matrix2, RowVector2, Vector2};
 
 use super::law::Constants;
 use super::place::{Derivatives, Drive, Face, Jet, Passage, Place};
-use super::window::Window;
+use super::window::Windows;
 use softstop::internals::Modes;
 
-/// Most windows of a cycle, and the shortest, as a share of the usual ones.
+/// Most windows of a cycle.
 const MAX_WINDOWS: usize = 4096;
+/// The longest window under a force that draws back, in windows of the scan, and the shortest as a share of the longest.
+const LONGEST: f64 = 2.0;
 const SHORTEST: f64 = 1.0 / 256.0;
 /// Difference of the two ways to the end of an arc, relative to the size of the motion, from which it is not trusted.
 const AGREEMENT: f64 = 1e-9;
@@ -57,7 +59,7 @@ pub(super) struct CycleArc {
 #[derive(Debug, Default)]
 pub(super) struct Cycle {
     pub arcs: Vec<CycleArc>,
-    pub windows: Vec<Window>,
+    pub windows: Windows,
     /// Derivative of the next return.
     pub map: Matrix2<f64>,
     /// The drive's frequency.
@@ -161,9 +163,9 @@ impl Cycle {
     /// Divides the arcs into windows that show what the faces of their phases tolerate; none if that takes too many.
     pub fn divide(&mut self, laws: &[Constants], drive: &Drive) -> Option<()> {
         for arc in &mut self.arcs {
-            let first = self.windows.len();
+            let first = self.windows.all.len();
             arc.divide(&laws[arc.phase], drive, &mut self.windows)?;
-            arc.windows = first..self.windows.len();
+            arc.windows = first..self.windows.all.len();
         }
         Some(())
     }
@@ -181,8 +183,10 @@ impl CycleArc {
     }
 
     /// Adds the windows of the arc; those that show nothing are halved.
-    fn divide(&self, law: &Constants, drive: &Drive, windows: &mut Vec<Window>) -> Option<()> {
-        let whole = self.duration / (self.duration * law.per_window).ceil().max(1.0);
+    fn divide(&self, law: &Constants, drive: &Drive, windows: &mut Windows) -> Option<()> {
+        let longest = if law.stiffness < 0.0 { LONGEST } else { 1.0 };
+        let count = (self.duration * law.per_window / longest).ceil();
+        let whole = self.duration / count.max(1.0);
         let (mut here, mut transition) = (self.start, Matrix2::identity());
         let (mut angle, mut elapsed, mut step) = (self.angle, 0.0, whole);
         let mut over = self.over(drive, step);
@@ -193,8 +197,7 @@ impl CycleArc {
             let is_last = elapsed + 1.5 * step > self.duration;
             let at_start = self.derivatives(transition, &here);
             let ends = (elapsed == 0.0, is_last);
-            let window = Window::new(law, (&here, &there), step, ends, &self.exit, at_start);
-            if !window.tolerates(&Vector4::zeros()) {
+            if !windows.add(law, (&here, &there), step, ends, &self.exit, at_start) {
                 step *= 0.5;
                 if step < whole * SHORTEST {
                     return None;
@@ -202,10 +205,9 @@ impl CycleArc {
                 over = self.over(drive, step);
                 continue;
             }
-            if windows.len() == MAX_WINDOWS {
+            if windows.all.len() > MAX_WINDOWS {
                 return None;
             }
-            windows.push(window);
             (here, transition, angle) = (there, free * transition, turned);
             elapsed = if is_last {
                 self.duration

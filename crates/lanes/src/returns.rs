@@ -362,7 +362,8 @@ impl Returns {
         let rate = norm.rate.max(LEAST_RATE);
         let mut radius = most;
         for _ in 0..MAX_BALLS {
-            let Some(remainder) = self.cycle.certify(&(norm.from * radius)) else {
+            let ball = norm.from * radius;
+            let Some(remainder) = self.cycle.remainder(&ball) else {
                 radius *= SHRINK;
                 continue;
             };
@@ -371,10 +372,13 @@ impl Returns {
             }
             let curvature = norm.largest(&remainder.curvature) / (radius * radius);
             let drawn = 0.5 * rate * (1.0 - rate) / curvature;
-            if radius <= drawn {
+            if radius > drawn {
+                radius = 0.9 * drawn;
+            } else if self.cycle.is_clear(&ball) {
                 return Some((radius, curvature));
+            } else {
+                radius *= SHRINK;
             }
-            radius = 0.9 * drawn;
         }
         None
     }

@@ -1,5 +1,7 @@
 //! How far a motion may be from another one that provably meets no face in a window of time.
 
+use std::ops::Range;
+
 use nalgebra::Vector4;
 
 use super::law::{Constants, SPAN};
@@ -10,6 +12,14 @@ use super::place::{Derivatives, Face, Place};
 const FIRST: f64 = 384.0 * 0.008_018_753_738_744_818;
 const SECOND: f64 = 384.0 / 12.0;
 
+/// The windows of a cycle, one after another.
+#[derive(Debug, Default)]
+pub(super) struct Windows {
+    pub all: Vec<Window>,
+    /// What the faces of their phases tolerate, window by window.
+    margins: Vec<Margin>,
+}
+
 /// A window of an arc.
 #[derive(Debug)]
 pub(super) struct Window {
@@ -18,7 +28,7 @@ pub(super) struct Window {
     /// Its length in s, and the most that a free motion may grow in it.
     pub step: f64,
     pub growth: f64,
-    margins: [Margin; 3],
+    margins: Range<usize>,
 }
 
 /// What a face tolerates: deviations of its value, rate and second derivative with which it is provably not met, or at
@@ -36,23 +46,32 @@ struct Margin {
     convex: f64,
 }
 
-impl Window {
-    /// The window between two places of an arc that leaves through `exit`.
-    pub fn new(
+impl Windows {
+    pub fn clear(&mut self) {
+        self.all.clear();
+        self.margins.clear();
+    }
+
+    /// Adds the window between two places of an arc that leaves through `exit`; false if the cycle itself may meet another
+    /// face in it, as far as it shows.
+    pub fn add(
+        &mut self,
         law: &Constants,
         (from, to): (&Place, &Place),
         step: f64,
         (is_first, is_last): (bool, bool),
         exit: &Face,
         at_start: Derivatives,
-    ) -> Self {
+    ) -> bool {
         let share = step * law.per_window;
         let scale = (share * share) * (share * share);
+        // The bounds hold over a window of the scan; over a longer one, the motion that a velocity makes is larger.
+        let longer = share.max(1.0);
         let (y, u) = (from.free.x, from.free.y);
-        let fifth = (law.fifth_x * y + law.fifth_v * u).abs();
+        let fifth = (law.fifth_x * y + law.fifth_v * u).abs() * longer;
         let slack = scale * (law.steady + (law.fourth_x * y + law.fourth_v * u).abs() + fifth);
         let rate_fifth = (law.rate_fifth_x * y + law.rate_fifth_v * u).abs();
-        let rate_sixth = (law.rate_sixth_x * y + law.rate_sixth_v * u).abs();
+        let rate_sixth = (law.rate_sixth_x * y + law.rate_sixth_v * u).abs() * longer;
         let rate_slack = scale * (law.rate_steady + rate_fifth + rate_sixth);
         let margin = |face: Face| {
             let slack = face.position.abs() * slack + face.velocity.abs() * rate_slack;
@@ -63,17 +82,32 @@ impl Window {
             let is_exit = is_last && face.is(exit);
             Margin::new(&face, (from, to), step, (slack, grain), (is_first, is_exit))
         };
-        Self {
+        let faces = law.faces().into_iter();
+        let within_reach = faces.filter(|face| face.level < f64::INFINITY);
+        let first = self.margins.len();
+        self.margins.extend(within_reach.map(margin));
+        let margins = first..self.margins.len();
+        if !self.tolerate(&margins, &Vector4::zeros()) {
+            self.margins.truncate(first);
+            return false;
+        }
+        self.all.push(Window {
             at_start,
             step,
             growth: if law.stiffness < 0.0 { 1.0 } else { SPAN.exp() },
-            margins: law.faces().map(margin),
-        }
+            margins,
+        });
+        true
     }
 
-    /// True if no motion meets another face whose position and its derivatives deviate by no more than this.
-    pub fn tolerates(&self, most: &Vector4<f64>) -> bool {
-        self.margins.iter().all(|margin| margin.tolerates(most))
+    /// True if no motion meets another face in a window whose position and its derivatives deviate by no more than this.
+    pub fn is_clear(&self, window: &Window, most: &Vector4<f64>) -> bool {
+        self.tolerate(&window.margins, most)
+    }
+
+    fn tolerate(&self, margins: &Range<usize>, most: &Vector4<f64>) -> bool {
+        let mut margins = self.margins[margins.clone()].iter();
+        margins.all(|margin| margin.tolerates(most))
     }
 }
 
@@ -104,9 +138,6 @@ impl Margin {
             slope: f64::NEG_INFINITY,
             convex: f64::NEG_INFINITY,
         };
-        if level == f64::INFINITY {
-            return margin;
-        }
         let value = |[x, v, ..]: [f64; 4]| position * x + velocity * v - level;
         let rate = |[_, v, a, _]: [f64; 4]| position * v + velocity * a;
         let (g0, g1) = (value(from.jet), value(to.jet));
