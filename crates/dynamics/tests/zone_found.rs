@@ -9,7 +9,7 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use softstop::{Ratios, Scene};
 use softstop_dynamics::watch::unwatched;
-use softstop_dynamics::zone::{Stretch, find, find_among, stretches};
+use softstop_dynamics::zone::{Loss, Stretch, find, find_among, stretches};
 use softstop_testing::random;
 use softstop_testing::tolerance::GROWN;
 
@@ -64,6 +64,22 @@ fn wrong(scene: &Scene, all: &[Stretch], stretch: &Stretch) -> Option<String> {
     (!holds).then(|| format!("velocity {velocity} where {least} is, closes: {closes}"))
 }
 
+/// The stretches of a machine, and what is wrong within them.
+fn searched(scene: &mut Scene) -> (Vec<Stretch>, Vec<String>) {
+    let all = stretches(scene).expect("a machine");
+    let mut denied = Vec::new();
+    for stretch in &all {
+        let (low, high) = (stretch.low.frequency, stretch.high.frequency);
+        for part in 0..FREQUENCIES {
+            let share = (f64::from(part) + 0.5) / f64::from(FREQUENCIES);
+            scene.excitation.frequency = low + share * (high - low);
+            let told = wrong(scene, &all, stretch).map(|wrong| format!("{wrong}: {scene:?}"));
+            denied.extend(told.inspect(|told| eprintln!("{told}")));
+        }
+    }
+    (all, denied)
+}
+
 fn assert_found(machines_count: u32) {
     let config = random::cases(machines_count);
     let count = config.cases as usize;
@@ -74,25 +90,19 @@ fn assert_found(machines_count: u32) {
             .expect("a machine")
             .current()
     };
-    let (mut listed, mut narrow, mut tried, mut denied) = (0, 0, 0, Vec::new());
+    let (mut listed, mut narrow, mut denied) = (0, 0, Vec::new());
     for machine in 0..count {
-        let mut scene = draw();
-        let all = stretches(&scene).expect("a machine");
-        listed += all.len();
-        for stretch in &all {
+        let (all, wrong) = searched(&mut draw());
+        let is_narrow = |stretch: &&Stretch| {
             let (low, high) = (stretch.low.frequency, stretch.high.frequency);
-            narrow += usize::from(high - low < 1e-3 * high);
-            for part in 0..FREQUENCIES {
-                let share = (f64::from(part) + 0.5) / f64::from(FREQUENCIES);
-                scene.excitation.frequency = low + share * (high - low);
-                tried += 1;
-                let told = wrong(&scene, &all, stretch).map(|wrong| format!("{wrong}: {scene:?}"));
-                denied.extend(told.inspect(|told| eprintln!("{told}")));
-            }
-        }
+            high - low < 1e-3 * high
+        };
+        listed += all.len();
+        narrow += all.iter().filter(is_narrow).count();
+        denied.extend(wrong);
         if (machine + 1).is_multiple_of(REPORTED) || machine + 1 == count {
             eprintln!(
-                "{} of {count} machines, {listed} stretches, {narrow} narrow, {tried} frequencies, {} denied",
+                "{} of {count} machines, {listed} stretches, {narrow} narrow, {FREQUENCIES} frequencies each, {} denied",
                 machine + 1,
                 denied.len()
             );
@@ -138,4 +148,28 @@ fn a_motion_of_a_narrow_stretch() {
         "{orbit:?}"
     );
     assert!(orbit.is_stable() && orbit.impacts.len() == 1);
+}
+
+/// A multiplier goes beyond -1 and comes back within one step of the branch, from 0.37771 to 0.37933.
+#[test]
+fn two_flips_within_a_step_end_stretches() {
+    let ratios = Ratios {
+        clearance: 0.2832226066120024,
+        damping: 0.0012148818882863175,
+        contact_damping: 0.0001960139797589023,
+        stiffness: 3.9492412507357204,
+        preload: 0.21496140549193749,
+        ..Ratios::unloaded()
+    };
+    let (all, denied) = searched(&mut ratios.scene().expect("valid"));
+    assert!(denied.is_empty(), "{denied:#?}");
+    let inside =
+        |stretch: &&Stretch| stretch.low.frequency < 0.3785 && stretch.high.frequency > 0.3785;
+    assert_eq!(all.iter().find(inside).map(|it| it.low.frequency), None);
+    let flips = |stretch: &&Stretch| stretch.high.loss == Loss::Flip;
+    assert!(
+        all.iter()
+            .filter(flips)
+            .any(|it| (it.high.frequency - 0.377714).abs() < 1e-6)
+    );
 }

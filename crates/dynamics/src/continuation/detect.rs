@@ -25,6 +25,9 @@ const CLOSED: f64 = 0.05;
 const SAME: f64 = 1e-3;
 /// Share of a step to which the place is found where a multiplier is farthest beyond -1.
 const DIP: f64 = 1e-6;
+/// Share of a step over which a test is taken to be straight, and the value from which on no step leads to zero and back.
+const NEARBY: f64 = 0.02;
+const SHALLOW: f64 = 0.2;
 
 impl<F: Family> Follower<'_, F> {
     /// The end of the range beyond which a step leads, and whether the step begins there, or beyond it by rounding.
@@ -79,8 +82,9 @@ impl<F: Family> Follower<'_, F> {
         Ok(found.into_iter().map(|(_, special)| special).collect())
     }
 
-    /// The two flips of a step on which the multipliers meet on the negative real axis and part again, one of them beyond
-    /// -1 meanwhile: at little damping, in narrow windows of frequency. The sense in which they turn changes there.
+    /// The two flips of a step on which a multiplier goes beyond -1 and comes back: at little damping, in narrow windows of
+    /// frequency. Either the multipliers meet on the negative real axis and part in the other sense, or the test falls at
+    /// first and rises at last, so steeply that its tangents meet below zero.
     fn flips_there_and_back(
         &self,
         from: &Node<Round>,
@@ -88,11 +92,25 @@ impl<F: Family> Follower<'_, F> {
     ) -> Result<Vec<(f64, Special)>, OrbitError> {
         let value = |node: &Node<Round>| Test::Flip.value(&node.here.point.monodromy);
         let [a, b] = [from, to].map(|node| &node.here.point.monodromy);
-        let turns_over = a.m12 * b.m12 < 0.0 || a.m21 * b.m21 < 0.0;
-        if !turns_over || a.trace() > 0.0 || value(from).min(value(to)) <= 0.0 {
+        let (begins, ends) = (value(from), value(to));
+        if a.trace() > 0.0 || begins.min(ends) <= 0.0 {
             return Ok(Vec::new());
         }
         let at = |share| on_step(&self.shooting, (from, to), share);
+        let turns_over = a.m12 * b.m12 < 0.0 || a.m21 * b.m21 < 0.0;
+        let dips = || -> Result<bool, OrbitError> {
+            if begins.min(ends) > SHALLOW {
+                return Ok(false);
+            }
+            let falls = (begins - value(&at(NEARBY)?)) / NEARBY;
+            let rises = (ends - value(&at(1.0 - NEARBY)?)) / NEARBY;
+            // begins - falls s = ends - rises (1 - s)
+            let meet = (begins - ends + rises) / (falls + rises);
+            Ok(falls > 0.0 && rises > 0.0 && begins < falls * meet)
+        };
+        if !turns_over && !dips()? {
+            return Ok(Vec::new());
+        }
         let depth = |share| at(share).map_or(f64::NEG_INFINITY, |node| -value(&node));
         let (share, deepest) = highest(0.0, 1.0, DIP, depth);
         if deepest <= 0.0 {
