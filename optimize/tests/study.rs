@@ -170,6 +170,58 @@ fn shards_in_any_order_are_the_whole() -> Outcome {
     Ok(())
 }
 
+/// Of a machine with long transients, by two threads and by one, all together, shuffled, in blocks and alone.
+#[test]
+fn a_row_does_not_depend_on_the_others() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let machine = "damping = 0.0010035920352690947\nclearance = 0.43389208459215656\nmass = 1\nstiffness = 1\n\
+        excitation = { amplitude = 1, frequency = 1.3867421587045143 }\ncontact = { damping = 0.055312340888448 }\n\
+        stop = { model = \"piecewiseLinear\", loading = [{ from = 0, stiffness = 7.724967006421391 }, \
+        { from = 2.3699476894007003, stiffness = 40439.83555026721 }] }\n";
+    fs::write(folder.path().join("machine.toml"), machine)?;
+    let rows = |frequencies: &[f64], velocities: &[f64], threads: &str| {
+        let text = format!(
+            "machine = \"machine.toml\"\noutputs = [\"kind\", \"z\", \"velocity\", \"settled_within\", \"max_position\"]\n\
+             [[axis]]\nparameter = \"excitation.frequency\"\nvalues = {frequencies:?}\n\
+             [[axis]]\nparameter = \"initial.velocity\"\nvalues = {velocities:?}\n[motion]\nlongest = 2000\n"
+        );
+        let study = written(folder.path(), &text)?;
+        let out = folder.path().join("out");
+        let mut command = STUDY.command(&[&study, "--csv", "--output", &out.to_string_lossy()]);
+        let status = command.env("RAYON_NUM_THREADS", threads).output()?.status;
+        assert!(status.success());
+        let mut rows: Vec<_> = table(&out)?.1;
+        rows.sort();
+        Ok::<_, std::io::Error>(rows)
+    };
+    let mut chance = SplitMix64::seed_from_u64(37);
+    let mut between = |low: f64, high: f64| {
+        let share = (chance.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+        low + share * (high - low)
+    };
+    let mut frequencies: Vec<f64> = (0..30).map(|_| between(1.386, 1.388)).collect();
+    let mut velocities: Vec<f64> = (0..30).map(|_| between(-3.0, 3.0)).collect();
+    frequencies[7] = 1.3871499999999999;
+    let all = rows(&frequencies, &velocities, "2")?;
+    assert_eq!(all.len(), 900);
+    for kind in ["periodic", "chaos", "unsettled"] {
+        assert!(all.iter().any(|row| row[2] == kind), "{kind}");
+    }
+    frequencies.rotate_left(11);
+    velocities.reverse();
+    assert!(rows(&frequencies, &velocities, "1")? == all);
+    let mut parts = Vec::new();
+    for part in frequencies.chunks(7) {
+        parts.extend(rows(part, &velocities, "2")?);
+    }
+    parts.sort();
+    assert!(parts == all);
+    for (frequency, velocity) in frequencies.iter().zip(&velocities) {
+        assert!(all.contains(&rows(&[*frequency], &[*velocity], "1")?[0]));
+    }
+    Ok(())
+}
+
 #[test]
 fn what_cannot_be_is_named() -> Outcome {
     let folder = tempfile::tempdir()?;
