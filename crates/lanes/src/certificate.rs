@@ -11,8 +11,6 @@ use nalgebra::{Matrix2, Vector2, Vector4};
 use super::cycle::{Cycle, CycleArc};
 use super::place::Derivatives;
 
-/// Rounding of a state, relative to the terms that it is the sum of.
-const ROUNDING: f64 = f64::EPSILON;
 /// Most that damping and stiffness may change a derivative between two crossings of one face, as a share, and most that
 /// what is left out may change the time between them.
 const MAX_CHANGE: f64 = 0.25;
@@ -63,7 +61,7 @@ impl Cycle {
             rest = arc.cross(&rest, &passed.left_out);
             let to_return = arc.to_return.abs();
             remainder.curvature += to_return * passed.left_out;
-            remainder.rounding += to_return * arc.rounding();
+            remainder.rounding += to_return * arc.rounding;
         }
         Some(remainder)
     }
@@ -196,12 +194,6 @@ impl CycleArc {
         let acceleration = self.damping * velocity + self.stiffness * position + turned.force;
         let jerk = self.damping * acceleration + self.stiffness * velocity + turned.rate;
         [position, velocity, acceleration, jerk].into()
-    }
-
-    /// What rounding may change of the state at the end.
-    fn rounding(&self) -> Vector2<f64> {
-        let [x, v, a, _] = self.end.map(f64::abs);
-        Vector2::new(x + v * self.window, v + a * self.window) * ROUNDING
     }
 }
 

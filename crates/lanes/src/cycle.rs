@@ -32,18 +32,20 @@ pub(super) struct CycleArc {
     start: Place,
     angle: Complex<f64>,
     duration: f64,
+    entry: Face,
     exit: Face,
     modes: Modes,
     /// Its windows among those of the cycle.
     pub windows: Range<usize>,
-    /// 2 a, |b| and the window of its law, the amplitudes of the force per mass and of the steady motion.
+    /// 2 a and |b| of its law, the amplitudes of the force per mass and of the steady motion.
     pub damping: f64,
     pub stiffness: f64,
-    pub window: f64,
     pub force: f64,
     pub swing: f64,
     /// The cycle at its end, and the gradient of the exit over the rate at which the cycle passes it.
     pub end: Jet,
+    /// What the state at the end may be off by.
+    pub rounding: Vector2<f64>,
     pub gradient: RowVector2<f64>,
     /// Derivative of the state just after a motion's own crossing by that at the end.
     pub reset: Matrix2<f64>,
@@ -124,12 +126,12 @@ impl Cycle {
         let end = law.place(drive, (to.position, velocity), turned);
         let modes = Modes::new(-0.5 * law.damping, -law.stiffness);
         let transition = modes.at(duration);
-        let off = transition * start.free - end.free;
+        let off = (transition * start.free - end.free).abs();
         let size = law.swing + law.offset.abs() + to.position.abs();
         let [_, v, a, _] = end.jet;
         let exit = law.face_at(to);
         let rate = exit.position * v + exit.velocity * a;
-        if off.x.abs() + off.y.abs() * law.window > AGREEMENT * size || rate <= 0.0 {
+        if off.x + off.y * law.window > AGREEMENT * size || rate <= 0.0 {
             return None;
         }
         let gradient = RowVector2::new(exit.position, exit.velocity) / rate;
@@ -140,14 +142,15 @@ impl Cycle {
             angle,
             duration,
             modes,
+            entry: law.face_at(from),
             exit,
             windows: 0..0,
             damping: law.damping.abs(),
             stiffness: law.stiffness.abs(),
-            window: law.window,
             force: law.force(drive.frequency),
             swing: law.swing,
             end: end.jet,
+            rounding: off + rounding(law, &end, drive.period),
             gradient,
             reset: Matrix2::new(1.0, 0.0, 0.0, kept) * onto,
             at_end: Derivatives::default(),
@@ -169,6 +172,14 @@ impl Cycle {
         }
         Some(())
     }
+}
+
+/// What rounding may change of a state: one unit in the last place of each term that it is the sum of, and of the time.
+fn rounding(law: &Constants, place: &Place, period: f64) -> Vector2<f64> {
+    let [x, v, a, _] = place.jet.map(f64::abs);
+    let free = place.free.abs();
+    let steady = Vector2::new(law.swing + law.offset.abs(), place.steady_rate.x.abs());
+    (Vector2::new(x + v * period, v + a * period) + free + steady) * f64::EPSILON
 }
 
 impl CycleArc {
@@ -196,8 +207,9 @@ impl CycleArc {
             let there = law.place_of(drive, free * here.free, law.steady_at(turned));
             let is_last = elapsed + 1.5 * step > self.duration;
             let at_start = self.derivatives(transition, &here);
-            let ends = (elapsed == 0.0, is_last);
-            if !windows.add(law, (&here, &there), step, ends, &self.exit, at_start) {
+            let entry = (elapsed == 0.0).then_some(self.entry);
+            let ends = (entry, is_last.then_some(self.exit));
+            if !windows.add(law, (&here, &there), step, ends, at_start) {
                 step *= 0.5;
                 if step < whole * SHORTEST {
                     return None;

@@ -372,7 +372,7 @@ impl Returns {
             }
             let curvature = norm.largest(&remainder.curvature) / (radius * radius);
             let drawn = 0.5 * rate * (1.0 - rate) / curvature;
-            if radius > drawn {
+            if curvature.is_nan() || radius > drawn {
                 radius = 0.9 * drawn;
             } else if self.cycle.is_clear(&ball) {
                 return Some((radius, curvature));
@@ -420,10 +420,10 @@ impl Returns {
         let length = norm.length(&off) + aside;
         // |d_k| <= q rate^k |d_0| with 1/q = 1 - curvature |d_0| / (rate (1 - rate)); what is not linear adds up.
         let q = 1.0 / (1.0 - curvature * length / (rate * (1.0 - rate))).max(0.5);
-        let bent = curvature * length * (q * q * length / (1.0 - rate) + 2.0 * times * aside);
+        let bent = curvature * length * q * (q * length / (1.0 - rate) + 2.0 * times * aside);
         let error = bent * rate.powf(times - 1.0) * norm.spread();
-        let excess = (length / certificate.radius).max(error / MAX_SUM);
-        if excess > 1.0 {
+        let excess = ((length + aside) / certificate.radius).max(error / MAX_SUM);
+        if excess > 1.0 || excess.is_nan() {
             self.stage = Stage::Known(*certificate);
             let wait = (excess.ln() / -rate.ln()).ceil();
             return back(Turn::later(own.left - (wait * self.every - SLIP)));

@@ -52,15 +52,14 @@ impl Windows {
         self.margins.clear();
     }
 
-    /// Adds the window between two places of an arc that leaves through `exit`; false if the cycle itself may meet another
-    /// face in it, as far as it shows.
+    /// Adds the window between two places of an arc, with the faces by which the arc begins and ends in it; false if the
+    /// cycle itself may meet another face in it, as far as it shows.
     pub fn add(
         &mut self,
         law: &Constants,
         (from, to): (&Place, &Place),
         step: f64,
-        (is_first, is_last): (bool, bool),
-        exit: &Face,
+        (entry, exit): (Option<Face>, Option<Face>),
         at_start: Derivatives,
     ) -> bool {
         let share = step * law.per_window;
@@ -79,8 +78,8 @@ impl Windows {
                 0.0 => law.grain,
                 _ => law.grain * law.guard_scale,
             };
-            let is_exit = is_last && face.is(exit);
-            Margin::new(&face, (from, to), step, (slack, grain), (is_first, is_exit))
+            let [is_entry, is_exit] = [entry, exit].map(|it| it.is_some_and(|it| it.is(&face)));
+            Margin::new(&face, (from, to), step, (slack, grain), (is_entry, is_exit))
         };
         let faces = law.faces().into_iter();
         let within_reach = faces.filter(|face| face.level < f64::INFINITY);
@@ -123,7 +122,7 @@ impl Margin {
         (from, to): (&Place, &Place),
         step: f64,
         (slack, grain): (f64, f64),
-        (is_first, is_exit): (bool, bool),
+        (is_entry, is_exit): (bool, bool),
     ) -> Self {
         let Face {
             position,
@@ -142,7 +141,7 @@ impl Margin {
         let rate = |[_, v, a, _]: [f64; 4]| position * v + velocity * a;
         let (g0, g1) = (value(from.jet), value(to.jet));
         let (r0, r1) = (rate(from.jet), rate(to.jet));
-        let is_start = is_first && g0 >= -grain;
+        let is_start = is_entry && g0 >= -grain;
         let third = step / 3.0;
         let (b1, b2) = (g0 + third * r0, g1 - third * r1);
         margin.clear = -(g0.max(g1).max(b1.max(b2)) + slack) - grain;
