@@ -39,8 +39,11 @@ pub fn library() -> Result<Library> {
 /// # Errors
 /// If the FMU has no parameters for such a machine, or its name or description is too long.
 pub fn archive(library: &Library, machine: &Machine, start: Start) -> Result<Vec<u8>> {
-    package::archive(&imprint(machine, start)?, slice::from_ref(library))
-        .context("cannot make the FMU")
+    packed(library, &imprint(machine, start)?)
+}
+
+fn packed(library: &Library, imprint: &Imprint) -> Result<Vec<u8>> {
+    package::archive(imprint, slice::from_ref(library)).context("cannot make the FMU")
 }
 
 /// Its parameters as a parameter set of SSP 1.0 (SSV).
@@ -93,9 +96,11 @@ pub fn run(arguments: &FmuArguments) -> Result<(), Failure> {
         Some(place) => place.clone(),
         None => format!("{}.fmu", file_stem(name)).into(),
     };
+    let imprint = imprint(&machine, machine.start);
+    let imprint = imprint.map_err(|error| Failure::usage(format!("{error:#}")))?;
     let (folder, file) = output::folder_and_file(&place)?;
     let folder = Folder::of_file(folder, file)?;
-    folder.stage(file, &archive(&library()?, &machine, machine.start)?)?;
+    folder.stage(file, &packed(&library()?, &imprint)?)?;
     folder.commit(&[file])?;
     output::print(&format!("Written: {}\n", place.display()))
 }

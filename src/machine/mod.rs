@@ -168,8 +168,8 @@ impl Machine {
         self.scene.validate().map_err(|error| self.in_own(error))
     }
 
-    /// Checks its name and its description: a name has no control characters, a description none but line feeds and
-    /// tabs.
+    /// Checks its name and its description: a name has no control characters and none that XML refuses, a description
+    /// none but line feeds and tabs.
     ///
     /// # Errors
     /// [`MachineError::ControlCharacters`] with the text.
@@ -177,8 +177,9 @@ impl Machine {
         let texts = [("name", &self.name), ("description", &self.description)];
         for (key, text) in texts {
             let allowed = |c| key == "description" && matches!(c, '\n' | '\t');
+            let breaks = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
             match text {
-                Some(text) if text.contains(|c: char| c.is_control() && !allowed(c)) => {
+                Some(text) if text.contains(|c| breaks(c) && !allowed(c)) => {
                     let value = text.clone();
                     return Err(MachineError::ControlCharacters { key, value });
                 }

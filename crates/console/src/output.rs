@@ -109,7 +109,8 @@ impl Folder {
     /// A folder of which a part of this name is locked, the whole if it is empty.
     fn locked(path: &Path, part: &str, names: &[&str]) -> Result<Self, Failure> {
         let mut places = names.iter().map(|name| path.join(name));
-        if let Some(place) = places.find(|place| place.is_dir()) {
+        if let Some(place) = places.find(|place| fs::metadata(place).is_ok_and(|it| !it.is_file()))
+        {
             return Err(in_place(&place));
         }
         let hidden = format!(".softstop-{:08x}", crc32fast::hash(part.as_bytes()));
@@ -264,7 +265,7 @@ fn missing(path: &Path) -> Vec<PathBuf> {
 fn in_place(place: &Path) -> Failure {
     let place = place.display();
     Failure::Run(anyhow!(
-        "{place}: cannot be written, a folder is in its place"
+        "{place}: cannot be written, a folder or a device is in its place"
     ))
 }
 

@@ -1,11 +1,15 @@
 //! Start values and scenes: the one from the other, both ways.
 
-use softstop::{Parameter, Piercing, Release, RigidStop, Scene, SceneError, Slope, Start, Stop};
-use softstop_fmi::variable::Slot;
+use softstop::{
+    MotionError, Parameter, Piercing, Release, RigidStop, Scene, SceneError, Simulation, Slope,
+    Start, Stop,
+};
+use softstop_fmi::variable::{Access, Slot};
 use thiserror::Error;
 
 use super::StartValues;
 use super::slot::{self, SLOPES};
+use crate::table;
 use crate::units::number;
 
 /// Why a scene has no start values.
@@ -25,6 +29,19 @@ pub enum NotServed {
     /// A rigid stop that stands behind no stop.
     #[error("rigid.travel: there is no stop in front; the FMU has stop.model = rigid for this")]
     NothingInFront,
+    /// A value that the variable of the unit cannot have.
+    #[error("{name} = {value:?}: must be {range} in an FMU")]
+    OutOfRange {
+        /// The variable.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it can have, in words.
+        range: String,
+    },
+    /// A start from which the machine cannot move.
+    #[error(transparent)]
+    Start(#[from] MotionError),
 }
 
 /// Where the parameters of a scene are held.
@@ -103,7 +120,25 @@ impl StartValues {
         }
         values.set(slot::INITIAL_POSITION, start.position);
         values.set(slot::INITIAL_VELOCITY, start.velocity);
-        Ok(values)
+        Simulation::new(scene, start)?;
+        values.within_ranges()
+    }
+
+    /// The same, if each is a value that its parameter can have.
+    fn within_ranges(self) -> Result<Self, NotServed> {
+        for parameter in table().rows() {
+            if let Access::Parameter { slot, .. } = parameter.access
+                && let value = self.0[slot.0]
+                && !parameter.kind.contains(value)
+            {
+                return Err(NotServed::OutOfRange {
+                    name: parameter.name,
+                    value,
+                    range: parameter.kind.range(),
+                });
+            }
+        }
+        Ok(self)
     }
 
     /// Sets what of a stop is no parameter.

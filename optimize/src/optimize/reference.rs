@@ -5,7 +5,7 @@ use softstop::Machine;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::machine::Regime;
-use softstop_dynamics::{Orbit, zone};
+use softstop_dynamics::{Orbit, orbit, zone};
 
 /// A motion and its machine.
 #[derive(Debug, Clone)]
@@ -35,7 +35,7 @@ pub(super) fn references(machine: &Machine) -> Result<Vec<Reference>, Failure> {
             let point = || format!("the paper's point {}", regime.point());
             let machine = Machine::named(regime.name()).with_context(point)?;
             let orbit =
-                zone::find_watched(&machine.scene, &interrupt::watch).with_context(point)?;
+                orbit::find_watched(&machine.scene, &interrupt::watch).with_context(point)?;
             Ok(Reference {
                 name: regime.point(),
                 machine,

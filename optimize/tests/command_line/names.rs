@@ -75,10 +75,54 @@ fn designs_that_could_not_be_written_are_not_searched() -> Outcome {
         "--output",
         output,
     ];
-    SOFTSTOP.ends_with(&search, 1, &["erosion.csv", "a folder is in its place"]);
+    SOFTSTOP.ends_with(
+        &search,
+        1,
+        &["erosion.csv", "a folder or a device is in its place"],
+    );
     let name = format!("name={}", "n".repeat(60));
     let told = ["name = \"nnn", "64 bytes"];
     SOFTSTOP.ends_with(&[&search[..], &["--set", &name]].concat(), 2, &told);
+    Ok(())
+}
+
+/// Neither what cannot start nor what an importer refuses is packed.
+#[test]
+fn what_an_fmu_cannot_hold_is_named() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let place = folder.path().join("one.fmu");
+    let place = place.to_str().ok_or("path")?;
+    let file = |name: &str| softstop_testing::docs(&format!("scenes/{name}.toml"));
+    for (scene, set, told) in [
+        ("hertz", "clearance=1e13", "1000000000000.0 in an FMU"),
+        ("rigid", "initial.position=77", "77"),
+        ("hertz", "name=\u{ffff}", "control characters"),
+        ("hertz", "name=", "name"),
+    ] {
+        let scene = file(scene);
+        let scene = scene.to_str().ok_or("path")?;
+        SOFTSTOP.ends_with(&["fmu", scene, "--set", set, "--output", place], 2, &[told]);
+    }
+    assert_eq!(fs::read_dir(folder.path())?.count(), 0);
+    Ok(())
+}
+
+/// A device or a pipe is no file to be replaced.
+#[cfg(unix)]
+#[test]
+fn pipes_are_not_replaced() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let pipe = folder.path().join("pipe.fmu");
+    assert!(Command::new("mkfifo").arg(&pipe).status()?.success());
+    let path = pipe.to_str().ok_or("path")?;
+    for command in ["fmu", "watch"] {
+        SOFTSTOP.ends_with(
+            &[command, "--output", path],
+            1,
+            &["a device is in its place"],
+        );
+    }
+    assert!(!fs::metadata(&pipe)?.is_file());
     Ok(())
 }
 

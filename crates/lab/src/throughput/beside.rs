@@ -32,17 +32,16 @@ pub struct Beside {
 }
 
 impl Beside {
-    /// Measures a study so many rounds.
+    /// Measures the study of a file so many rounds.
     ///
     /// # Errors
-    /// [`Failure::Usage`] for a study that cannot be, [`Failure::Run`] if a motion cannot be computed, or a file not be
+    /// [`Failure::Run`] if a motion cannot be computed, or a file not be
     /// written; [`Failure::Interrupted`].
-    pub fn measure(path: &Path, repeats: usize) -> Result<Self, Failure> {
-        let study = Measured::read(path)?;
+    pub fn measure(path: &Path, study: &Measured, repeats: usize) -> Result<Self, Failure> {
         let progress = Progress::new(2 * repeats as u64, "runs of the study");
         let (mut alone, mut whole) = (Vec::new(), Vec::new());
         for _ in 0..repeats {
-            alone.push(lanes(&study).context("a motion of the study")?);
+            alone.push(lanes(study).context("a motion of the study")?);
             progress.step()?;
             let begin = Instant::now();
             study.compute()?;

@@ -27,6 +27,7 @@ use softstop_console::failure::Failure;
 use softstop_console::output::Format;
 use softstop_console::progress::Progress;
 use softstop_console::range::within;
+use softstop_explore::study::Measured;
 use zones::Grid;
 
 const EXAMPLES: &str = "\
@@ -97,6 +98,7 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     within("check-periods", arguments.check_periods, 1..=1_000_000)?;
     within("repeats", repeats, 1..=1000)?;
     within("zones", arguments.zones, 4..=1_000_000)?;
+    let study = arguments.study.as_deref().map(Measured::read).transpose()?;
     let range = Range {
         machine: arguments.machine,
         ..RANGE
@@ -109,8 +111,9 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     drop(progress);
     let report = ThroughputReport::new(range, repeats, (&timings, threads), &sets, zones);
     let mut report = report.context("a measurement is missing")?;
-    let beside = |study| Beside::measure(study, repeats);
-    report.study = arguments.study.as_deref().map(beside).transpose()?;
+    if let (Some(path), Some(study)) = (&arguments.study, &study) {
+        report.study = Some(Beside::measure(path, study, repeats)?);
+    }
     if check > 0 {
         report.check = Some(check::check(Plan {
             trajectories: check,
