@@ -51,7 +51,7 @@ fn simulate() {
 
 #[test]
 fn watch() {
-    ends("watch --periods 1000000", &[]);
+    ends("watch SCENES/hertz.toml --periods 1000000", &[]);
 }
 
 #[test]

@@ -92,14 +92,20 @@ impl Motion {
         Ok(motion)
     }
 
-    /// The motion in a phase that it came to by a crossing which rounding of its state may undo.
-    #[must_use]
-    pub fn in_phase(mut self, index: usize) -> Self {
-        let mode = Mode::Moving(self.phases.phases[index].id);
-        if self.mode != mode && matches!(self.mode, Mode::Moving(_)) {
-            self.depart(self.state(), self.clock.drive(self.now), mode);
+    /// Goes by the phase that it is known to move in where that is the one of a contact that has just been released, and
+    /// rounding of its state has put it back before the release.
+    pub fn go_by_phase(&mut self, index: usize) {
+        let known = self.phases.phases[index].id;
+        if let Mode::Moving(located) = self.mode
+            && let Some((released, _)) = self.phases[located].released
+            && released == known
+        {
+            self.depart(
+                self.state(),
+                self.clock.drive(self.now),
+                Mode::Moving(known),
+            );
         }
-        self
     }
 
     /// The present time.

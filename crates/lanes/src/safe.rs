@@ -65,7 +65,7 @@ pub(super) fn follow(
     };
     let mut motion = Motion::new(machine.shared_phases(), machine.clock, at, place.state)?;
     if let Some(phase) = place.phase {
-        motion = motion.in_phase(phase);
+        motion.go_by_phase(phase);
     }
     let mut counter = Counter {
         job: place.job,

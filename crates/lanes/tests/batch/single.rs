@@ -207,3 +207,21 @@ fn a_release_before_a_handing_over_is_counted_once() {
     assert_eq!(outcome.crossings, safely(&scene, start, 600).2);
     assert!(outcome.handed_over > 0);
 }
+
+/// Contact takes damping away: it would pull at first, and the mass moves on as if it were free until the stop presses.
+#[test]
+fn a_contact_that_would_pull_at_first_is_handed_over_as_released() {
+    let mut scene = Ratios::unloaded().scene().expect("valid");
+    scene.excitation.frequency = 0.921887305313236;
+    (scene.damping, scene.clearance) = (0.06302900706962594, 7.578978897315506);
+    scene.contact_damping = 0.000171133978576001;
+    scene.stop = Stop::KelvinVoigt {
+        stiffness: 865.8420934406535,
+        release: Release::ZeroForce,
+    };
+    let start = Start::new(-3.4008997014310474, -5.889542254762304);
+    let outcome = in_a_lane(&scene, start, 20, &mut ());
+    let (end, impacts, crossings) = safely(&scene, start, 20);
+    assert_eq!((outcome.impacts, outcome.crossings), (impacts, crossings));
+    assert!(distance(outcome.end, end) < 1e-11 && outcome.handed_over > 0);
+}
