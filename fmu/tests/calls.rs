@@ -15,7 +15,7 @@ fn a_life_without_faults() {
     assert!(unit.get("impact.velocity") > 8.0);
     unsafe {
         assert_eq!(fmi2Terminate(unit.component), OK);
-        assert_eq!(fmi2Reset(unit.component), OK);
+        assert_eq!(unit.reset(), OK);
     }
     assert!(unit.take_log().is_empty());
 }
@@ -157,7 +157,7 @@ fn snapshots_are_overwritten_in_place() {
         assert_eq!(fmi2GetFMUstate(unit.component, &raw mut state), OK);
         assert_eq!(state, first);
         let position = unit.get("position");
-        assert_eq!(fmi2Reset(unit.component), OK);
+        assert_eq!(unit.reset(), OK);
         assert_eq!(fmi2SetFMUstate(unit.component, state), OK);
         assert_eq!(unit.get("position"), position);
         assert_eq!(unit.step(3.0, 1.0), OK);

@@ -1,59 +1,11 @@
 //! States kept, written to bytes and taken up again, through the C functions.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
-use std::ffi::{c_char, c_int, c_void};
+use std::ffi::c_char;
 use std::ptr;
 
 use crate::common::{OK, OUTPUTS, Unit};
 use softstop_fmu::ffi::*;
-
-fn keep(unit: &Unit) -> *mut c_void {
-    let mut state = ptr::null_mut();
-    assert_eq!(
-        unsafe { fmi2GetFMUstate(unit.component, &raw mut state) },
-        OK
-    );
-    state
-}
-
-fn free(unit: &Unit, mut state: *mut c_void) {
-    assert_eq!(
-        unsafe { fmi2FreeFMUstate(unit.component, &raw mut state) },
-        OK
-    );
-}
-
-fn bytes_of(unit: &Unit) -> Vec<u8> {
-    let state = keep(unit);
-    let mut size = 0;
-    unsafe {
-        let status = fmi2SerializedFMUstateSize(unit.component, state, &raw mut size);
-        assert_eq!(status, OK);
-        let mut bytes = vec![0u8; size];
-        let place = bytes.as_mut_ptr().cast::<c_char>();
-        assert_eq!(
-            fmi2SerializeFMUstate(unit.component, state, place, size),
-            OK
-        );
-        free(unit, state);
-        bytes
-    }
-}
-
-fn take_up(unit: &Unit, bytes: &[u8]) -> c_int {
-    let mut state = ptr::null_mut();
-    let place = bytes.as_ptr().cast::<c_char>();
-    unsafe {
-        let status = fmi2DeSerializeFMUstate(unit.component, place, bytes.len(), &raw mut state);
-        if status == OK {
-            assert_eq!(fmi2SetFMUstate(unit.component, state), OK);
-            free(unit, state);
-        } else {
-            assert!(state.is_null());
-        }
-        status
-    }
-}
 
 fn outputs(unit: &Unit) -> [u64; 9] {
     OUTPUTS.map(|name| unit.get(name).to_bits())
@@ -98,9 +50,9 @@ fn bytes_lead_on_bit_for_bit_in_every_stop_model() {
         }
         assert_eq!(one.set("excitation.frequency", 1.1), OK);
         assert_eq!(one.set_boolean("material", 0), OK);
-        assert_eq!(take_up(&other, &bytes_of(&one)), OK);
+        assert_eq!(other.take_up(&one.serialized()), OK);
         assert_eq!(other.get("damping"), 0.03);
-        assert_eq!(bytes_of(&one), bytes_of(&other));
+        assert_eq!(one.serialized(), other.serialized());
         assert_same_future(&one, &other, time);
     }
 }
@@ -109,11 +61,11 @@ fn bytes_lead_on_bit_for_bit_in_every_stop_model() {
 fn bytes_keep_what_was_set_and_not_yet_used() {
     let (one, other) = (Unit::new(), Unit::new());
     assert_eq!(one.set("initial.velocity", 4.0), OK);
-    assert_eq!(take_up(&other, &bytes_of(&one)), OK);
+    assert_eq!(other.take_up(&one.serialized()), OK);
     one.begin();
     other.begin();
     assert_eq!(one.set("force", 0.25), OK);
-    assert_eq!(take_up(&other, &bytes_of(&one)), OK);
+    assert_eq!(other.take_up(&one.serialized()), OK);
     assert_eq!(other.get("force"), 0.25);
     assert_same_future(&one, &other, 0.0);
 }
@@ -124,23 +76,23 @@ fn damaged_bytes_are_refused() {
     let unit = Unit::new();
     unit.begin();
     assert_eq!(unit.step(0.0, 12.0), OK);
-    let bytes = bytes_of(&unit);
+    let bytes = unit.serialized();
     let before = outputs(&unit);
     for place in 0..bytes.len() {
         let mut altered = bytes.clone();
         altered[place] ^= 0x10;
         unit.refused(
-            take_up(&unit, &altered),
+            unit.take_up(&altered),
             &["fmi2DeSerializeFMUstate", "state"],
         );
-        unit.refused(take_up(&unit, &bytes[..place]), &["serialized FMU state"]);
+        unit.refused(unit.take_up(&bytes[..place]), &["serialized FMU state"]);
     }
     let mut longer = bytes.clone();
     longer.push(1);
-    unit.refused(take_up(&unit, &longer), &["goes on after its end"]);
+    unit.refused(unit.take_up(&longer), &["goes on after its end"]);
     longer[bytes.len()] = 0;
-    assert_eq!(take_up(&unit, &longer), OK);
-    unit.refused(take_up(&unit, &[b'x'; 4096]), &["not written by softstop"]);
+    assert_eq!(unit.take_up(&longer), OK);
+    unit.refused(unit.take_up(&[b'x'; 4096]), &["not written by softstop"]);
     assert_eq!(outputs(&unit), before);
     assert_eq!(unit.step(12.0, 1.0), OK);
 }
@@ -149,7 +101,7 @@ fn damaged_bytes_are_refused() {
 fn too_little_room_is_refused() {
     let unit = Unit::new();
     unit.begin();
-    let state = keep(&unit);
+    let state = unit.keep();
     let mut bytes = [0 as c_char; 100];
     let mut size = 0;
     let status = unsafe { fmi2SerializeFMUstate(unit.component, state, bytes.as_mut_ptr(), 100) };
@@ -165,5 +117,5 @@ fn too_little_room_is_refused() {
             &["size is NULL"],
         );
     }
-    free(&unit, state);
+    unit.free(state);
 }

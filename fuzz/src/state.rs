@@ -1,10 +1,5 @@
 //! Serialized states of the FMU.
-#![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
-use std::ffi::c_char;
-use std::ptr;
-
-use softstop_fmu::ffi::*;
 use softstop_fmu::library_guid;
 use uuid::Uuid;
 
@@ -21,20 +16,7 @@ pub fn serialized() -> Vec<u8> {
     let unit = Unit::new();
     unit.begin();
     assert_eq!(unit.step(0.0, 12.0), OK);
-    let (mut kept, mut size) = (ptr::null_mut(), 0);
-    // SAFETY: the instance is alive, the bytes are as long as said, and the state is freed once.
-    unsafe {
-        assert_eq!(fmi2GetFMUstate(unit.component, &raw mut kept), OK);
-        assert_eq!(
-            fmi2SerializedFMUstateSize(unit.component, kept, &raw mut size),
-            OK
-        );
-        let mut bytes = vec![0u8; size];
-        let place = bytes.as_mut_ptr().cast::<c_char>();
-        assert_eq!(fmi2SerializeFMUstate(unit.component, kept, place, size), OK);
-        assert_eq!(fmi2FreeFMUstate(unit.component, &raw mut kept), OK);
-        bytes
-    }
+    unit.serialized()
 }
 
 /// A serialized state, as it is and behind a header that fits: it is refused, or the unit goes on from it, and after a
@@ -60,22 +42,11 @@ pub fn state(data: &[u8]) {
 fn take_up(bytes: &[u8]) {
     let unit = Unit::new();
     unit.begin();
-    let mut kept = ptr::null_mut();
-    // SAFETY: the instance is alive, the bytes are as long as said, and the state is freed once.
-    unsafe {
-        let from = bytes.as_ptr().cast::<c_char>();
-        let status = fmi2DeSerializeFMUstate(unit.component, from, bytes.len(), &raw mut kept);
-        if status != OK {
-            assert_eq!(status, ERROR);
-            assert!(kept.is_null());
-        } else if fmi2SetFMUstate(unit.component, kept) == OK {
-            let _ = unit.step(12.0, 1.0);
-        }
-        if !kept.is_null() {
-            assert_eq!(fmi2FreeFMUstate(unit.component, &raw mut kept), OK);
-        }
-        assert_eq!(fmi2Reset(unit.component), OK);
+    match unit.take_up(bytes) {
+        OK => drop(unit.step(12.0, 1.0)),
+        status => assert_eq!(status, ERROR),
     }
+    assert_eq!(unit.reset(), OK);
     unit.begin();
     assert_eq!(unit.step(0.0, 1.0), OK);
 }

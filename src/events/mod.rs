@@ -73,7 +73,7 @@ pub fn first_crossing(course: &Course, guards: &[Guard], node: Node, until: f64)
     outlook
 }
 
-/// The same, without counting what it costs.
+/// Where a course first meets a guard, as far as it is looked at; what that costs is not counted.
 fn search(course: &Course, guards: &[Guard], node: Node, until: f64) -> Outlook {
     if let Some(segment) = course.segment() {
         return step::first_crossing(segment, guards, node);

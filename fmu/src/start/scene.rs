@@ -124,7 +124,7 @@ impl StartValues {
         values.within_ranges()
     }
 
-    /// The same, if each is a value that its parameter can have.
+    /// These values, if each is one that its parameter can have.
     fn within_ranges(self) -> Result<Self, NotServed> {
         for parameter in table().rows() {
             if let Access::Parameter { slot, .. } = parameter.access

@@ -190,6 +190,55 @@ impl Unit {
     pub fn step(&self, point: f64, step: f64) -> c_int {
         unsafe { fmi2DoStep(self.component, point, step, 1) }
     }
+
+    pub fn reset(&self) -> c_int {
+        unsafe { fmi2Reset(self.component) }
+    }
+
+    /// Its state, to be freed.
+    pub fn keep(&self) -> *mut c_void {
+        let mut state = ptr::null_mut();
+        let status = unsafe { fmi2GetFMUstate(self.component, &raw mut state) };
+        assert_eq!(status, OK);
+        state
+    }
+
+    pub fn free(&self, mut state: *mut c_void) {
+        let status = unsafe { fmi2FreeFMUstate(self.component, &raw mut state) };
+        assert_eq!(status, OK);
+    }
+
+    /// Its state as bytes.
+    pub fn serialized(&self) -> Vec<u8> {
+        let (state, mut size) = (self.keep(), 0);
+        unsafe {
+            let status = fmi2SerializedFMUstateSize(self.component, state, &raw mut size);
+            assert_eq!(status, OK);
+            let mut bytes = vec![0u8; size];
+            let place = bytes.as_mut_ptr().cast::<c_char>();
+            let status = fmi2SerializeFMUstate(self.component, state, place, size);
+            assert_eq!(status, OK);
+            self.free(state);
+            bytes
+        }
+    }
+
+    /// Goes on from a state that was written as bytes, if they are accepted.
+    pub fn take_up(&self, bytes: &[u8]) -> c_int {
+        let mut state = ptr::null_mut();
+        let place = bytes.as_ptr().cast::<c_char>();
+        unsafe {
+            let status =
+                fmi2DeSerializeFMUstate(self.component, place, bytes.len(), &raw mut state);
+            if status == OK {
+                assert_eq!(fmi2SetFMUstate(self.component, state), OK);
+                self.free(state);
+            } else {
+                assert!(state.is_null());
+            }
+            status
+        }
+    }
 }
 
 impl Drop for Unit {

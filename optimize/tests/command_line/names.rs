@@ -107,28 +107,9 @@ fn what_an_fmu_cannot_hold_is_named() -> Outcome {
     Ok(())
 }
 
-/// A device or a pipe is no file to be replaced.
 #[cfg(unix)]
 #[test]
-fn pipes_are_not_replaced() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let pipe = folder.path().join("pipe.fmu");
-    assert!(Command::new("mkfifo").arg(&pipe).status()?.success());
-    let path = pipe.to_str().ok_or("path")?;
-    for command in ["fmu", "watch"] {
-        SOFTSTOP.ends_with(
-            &[command, "--output", path],
-            1,
-            &["a device is in its place"],
-        );
-    }
-    assert!(!fs::metadata(&pipe)?.is_file());
-    Ok(())
-}
-
-#[cfg(unix)]
-#[test]
-fn a_named_pipe_is_no_file_to_wait_for() -> Outcome {
+fn a_named_pipe_is_no_file_to_wait_for_or_to_replace() -> Outcome {
     let folder = tempfile::tempdir()?;
     let pipe = folder.path().join("pipe.toml");
     assert!(Command::new("mkfifo").arg(&pipe).status()?.success());
@@ -141,6 +122,11 @@ fn a_named_pipe_is_no_file_to_wait_for() -> Outcome {
     ] {
         SOFTSTOP.ends_with(line, 2, &["pipe.toml", "named pipe"]);
     }
+    for command in ["fmu", "watch"] {
+        let told = ["a device is in its place"];
+        SOFTSTOP.ends_with(&[command, "--output", path], 1, &told);
+    }
+    assert!(!fs::metadata(&pipe)?.is_file());
     let scene = fs::File::open(softstop_testing::docs("scenes/hertz.toml"))?;
     let mut piped = Command::new("cat")
         .stdin(scene)

@@ -12,7 +12,7 @@ use softstop::{Instant, MotionError, Scene, Touch};
 /// returned after a divisor of n. Newton's method leaves about 1e-13.
 pub(super) const SAME: f64 = 1e-9;
 
-/// The same from where Newton's method looks for an orbit of a part of the period.
+/// Distance in units of 1 + |state| within which Newton's method looks for an orbit of a part of the period.
 const NEAR: f64 = 1e-3;
 
 /// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
@@ -118,7 +118,7 @@ impl Orbit {
         !self.impacts.is_empty() && self.rests.is_empty() && steepness > STEEP
     }
 
-    /// The same by Newton's method on the map. Of two orbits that rounding does not tell apart, the stable one: near a
+    /// The orbit that Newton's method on the map leads to. Of two orbits that rounding does not tell apart, the stable one: near a
     /// flip the fixed point of twice the period is known far less well than that of the period.
     fn on_map(scene: &Scene, state: Vector2<f64>, periods: u64) -> Result<Self, OrbitError> {
         let map = StroboscopicMap::new(scene, periods)?;

@@ -78,7 +78,7 @@ const KINDS: [&str; 7] = [
 ];
 /// The word for a point over the budget, in the column of kinds.
 pub(super) const OVER_BUDGET: &str = "over budget";
-/// The same in files of blocks, in every other column: no number, and this one of all that are none.
+/// What a point over the budget has in files of blocks in every other column: a NaN of its own.
 const OVER: f64 = f64::from_bits(0x7ff8_0000_0000_0b0d);
 
 /// True if an output is missing since its point is over the budget.
