@@ -27,9 +27,9 @@ pub struct Budget(u32);
 
 impl Budget {
     /// For one machine: some seconds of a core.
-    pub const MACHINE: Self = Self(800);
-    /// For a point of a study, of which there are many: hundreds of times as much as one usually costs.
-    pub const POINT: Self = Self(20);
+    pub const MACHINE: Self = Self(500);
+    /// For a point of a study, of which there are many: some fifty times as much as one usually costs.
+    pub const POINT: Self = Self(10);
 
     /// It in scan windows.
     pub fn windows(self) -> u64 {

@@ -173,3 +173,52 @@ fn two_flips_within_a_step_end_stretches() {
             .any(|it| (it.high.frequency - 0.377714).abs() < 1e-6)
     );
 }
+
+/// Damping and its ratio in contact, clearance, stiffness, preload; where the motion flips just before its impact dies, and
+/// where that would be. On the last step to the grazing, the stable motion becomes one with a multiplier that goes to -infinity.
+const FLIPS_BEFORE_GRAZING: [([f64; 5], [f64; 2]); 2] = [
+    (
+        [
+            0.0017391823259052705,
+            0.0043075509119084405,
+            9.303307171846928,
+            153.2197384783231,
+            0.23137923390610787,
+        ],
+        [0.944802560, 0.944754777],
+    ),
+    (
+        [
+            0.004086157986911333,
+            0.0002517934845052399,
+            5.499280966757399,
+            61.84584745466044,
+            0.1415598268639402,
+        ],
+        [0.904732081, 0.904603991],
+    ),
+];
+
+#[test]
+fn a_flip_right_before_a_grazing_ends_a_stretch() {
+    for ([damping, contact_damping, clearance, stiffness, preload], [flip, grazing]) in
+        FLIPS_BEFORE_GRAZING
+    {
+        let ratios = Ratios {
+            clearance,
+            damping,
+            contact_damping,
+            stiffness,
+            preload,
+            ..Ratios::unloaded()
+        };
+        let (all, denied) = searched(&mut ratios.scene().expect("valid"));
+        assert!(denied.is_empty(), "{denied:#?}");
+        let ends = |at: f64| {
+            all.iter()
+                .find(|it| (it.low.frequency - at).abs() < 1e-8)
+                .map(|it| &it.low.loss)
+        };
+        assert_eq!([ends(flip), ends(grazing)], [Some(&Loss::Flip), None]);
+    }
+}
