@@ -69,6 +69,19 @@ fn an_unbounded_motion_is_an_error() {
     assert!(matches!(error, MotionError::Unbounded { .. }), "{error}");
 }
 
+/// The law is of the eleventh power: the first step from so deep takes 1e-61 s, and time does not go on.
+#[test]
+fn a_contact_shorter_than_any_time_is_an_error() {
+    let scene = Scene::of_stop(Stop::Hertz {
+        stiffness: 150.0,
+        exponent: 11.0,
+        dissipation: 0.0,
+    });
+    let mut machine = Simulation::new(&scene, Start::new(1e10, -0.5)).expect("finite");
+    let error = machine.advance(1.0).expect_err("time stands still");
+    assert!(matches!(error, MotionError::Stalled { .. }), "{error}");
+}
+
 fn any_number() -> impl Strategy<Value = f64> {
     prop_oneof![
         Just(0.0),

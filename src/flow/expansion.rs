@@ -101,21 +101,35 @@ impl Segment {
     }
 }
 
+/// Halvings of a finite number after which nothing is left of it.
+const MOST_HALVINGS: i32 = 1074;
+
 /// Sigma within which the power law's part of the motion, at most kappa d^n (1 + lambda v) t^2 / 2,
-/// stays below rounding; `bounds` are those on depth, speed and time.
+/// stays below rounding: as often halved from `reach` as it takes. `bounds` are those on depth, speed and time, which
+/// grow with sigma.
 pub(super) fn shell(hertz: &Hertz, reach: f64, bounds: impl Fn(f64) -> (f64, f64, f64)) -> f64 {
-    let mut span = reach;
-    // Halving a finite number this often leaves nothing.
-    for _ in 0..2200 {
-        let (depth, speed, time) = bounds(span);
+    let span = |halvings: i32| reach * 0.5f64.powi(halvings);
+    let is_within = |halvings: i32| {
+        let (depth, speed, time) = bounds(span(halvings));
         let grip = 1.0 + hertz.dissipation * speed;
         let press = hertz.rate() * depth.powf(hertz.exponent - 1.0) * grip;
-        if press * time * time <= SMALLEST {
-            break;
-        }
-        span *= 0.5;
+        press * time * time <= SMALLEST
+    };
+    if is_within(0) {
+        return reach;
     }
-    span
+    let (mut too_few, mut enough) = (0, 1);
+    while enough < MOST_HALVINGS && !is_within(enough) {
+        (too_few, enough) = (enough, 2 * enough);
+    }
+    while enough - too_few > 1 {
+        let middle = too_few.midpoint(enough);
+        match is_within(middle) {
+            true => enough = middle,
+            false => too_few = middle,
+        }
+    }
+    span(enough)
 }
 
 /// True where a step in time is worth more than one from the root: where the power law takes a good part of the

@@ -5,6 +5,7 @@
 use nalgebra::Vector2;
 
 use super::modes::Modes;
+use crate::budget;
 
 /// Position and velocity at one time.
 type State = Vector2<f64>;
@@ -26,6 +27,7 @@ const REACH: f64 = 0.5;
 impl Responses {
     /// Responses of x'' + 2 a x' + b x after `t` seconds to forces with frequency `w`.
     pub fn at(modes: &Modes, w: f64, t: f64) -> Self {
+        budget::charge(budget::RESPONSES);
         let rate = modes.fastest_rate().max(w);
         let doublings = (rate * t / REACH).log2().ceil().clamp(0.0, 1000.0) as i32;
         let mut span = t * 0.5f64.powi(doublings);

@@ -16,9 +16,10 @@ use crate::events::{Found, Guard, Outlook, first_crossing};
 use crate::flow::{Drive, Finer, Node};
 use crate::phases::{Mode, Phase};
 
-/// Crossings and steps at one and the same instant that a motion may make: more than any row of bounces that
-/// is shorter than the resolution of time.
+/// Crossings at one and the same instant that a motion may make: more than any row of bounces that is shorter than the
+/// resolution of time. A Taylor step, of which a contact takes some tens, counts as many of them.
 const MOST_AT_ONCE: u32 = 1_000_000;
+const STEP_AT_ONCE: u32 = 100;
 /// Most windows of work in one drive period, which take some seconds: four times as many as scanning one takes at the
 /// fastest rate that a scene may have.
 const MOST_IN_A_PERIOD: u64 = 1 << 28;
@@ -58,16 +59,17 @@ impl Motion {
         let mut at_once = 0;
         let (mut cycle, mut work) = (self.now.cycles, 0);
         while !self.glide(until)? {
-            if let Outlook::Crossing(Found { elapsed, .. }) | Outlook::Ends(elapsed) = &self.outlook
-            {
-                at_once = if self.is_instant(*elapsed) {
-                    at_once + 1
-                } else {
-                    0
-                };
-                if at_once > MOST_AT_ONCE {
-                    return Err(self.stalled());
-                }
+            let (elapsed, counts) = match self.outlook {
+                Outlook::Crossing(Found { elapsed, .. }) => (elapsed, 1),
+                Outlook::Ends(elapsed) => (elapsed, STEP_AT_ONCE),
+                _ => (0.0, 0),
+            };
+            at_once = match self.is_instant(elapsed) {
+                true => at_once + counts,
+                false => 0,
+            };
+            if at_once > MOST_AT_ONCE {
+                return Err(self.stalled());
             }
             let windows = match self.outlook {
                 Outlook::Crossing(found) => {
