@@ -122,7 +122,7 @@ impl<F: Family> Follower<'_, F> {
         let is_stable = walker.node.here.point.monodromy.is_stable();
         let ends = |special: &Special| match special.kind {
             SpecialKind::Grazing(graze) => {
-                !approach.is_gentle(graze.face) && !(graze.dies && is_stable)
+                !(approach.is_gentle(graze.face) || graze.dies && is_stable)
             }
             SpecialKind::Critical(_) => false,
         };
