@@ -219,6 +219,32 @@ fn the_same_seed_gives_the_same_design() -> Outcome {
     Ok(())
 }
 
+/// Watches nothing, and lets all zones cost so many scan windows.
+struct Within(u64);
+
+impl Watch for Within {
+    fn evaluated(&self, _: Option<f64>) {}
+    fn stop(&self) -> bool {
+        false
+    }
+    fn budget(&self) -> u64 {
+        self.0
+    }
+}
+
+#[test]
+fn a_search_over_its_budget_has_no_design_whatever_it_met() {
+    let settings = Settings {
+        seed: 0,
+        evaluations: 100,
+    };
+    let found = |budget| search(&problem(0.3), settings, &Within(budget), None);
+    assert!(found(1 << 40).is_ok());
+    for budget in [1, 10_000, 1_000_000] {
+        assert!(matches!(found(budget), Err(SearchError::OverBudget)));
+    }
+}
+
 #[test]
 fn without_margin_the_fold_itself_is_allowed() -> Outcome {
     let problem = Problem {

@@ -8,6 +8,7 @@ use std::sync::{Mutex, PoisonError};
 
 use argmin::core::{CostFunction, Error};
 use rayon::prelude::*;
+use softstop::internals::budget;
 use softstop_dynamics::watch::{Kept, piece};
 
 use super::Problem;
@@ -20,6 +21,10 @@ pub trait Watch: Sync {
     fn evaluated(&self, value: Option<f64>);
     /// Whether to give up.
     fn stop(&self) -> bool;
+    /// Work that all zones of the search may cost, in scan windows.
+    fn budget(&self) -> u64 {
+        u64::MAX
+    }
 }
 
 /// Watches nothing.
@@ -48,6 +53,8 @@ pub(super) struct Cost<'search> {
     pub kept: Kept<'search>,
     /// Calls so far.
     calls: AtomicU64,
+    /// Scan windows of the budget that are left.
+    left: AtomicU64,
     best: Mutex<Option<Best>>,
 }
 
@@ -89,8 +96,28 @@ impl<'search> Cost<'search> {
             watch,
             kept,
             calls: AtomicU64::new(0),
+            left: AtomicU64::new(watch.budget()),
             best: Mutex::new(None),
         }
+    }
+
+    /// True if the budget is spent.
+    pub(super) fn is_over_budget(&self) -> bool {
+        self.left.load(Ordering::Relaxed) == 0
+    }
+
+    fn stops(&self) -> bool {
+        self.watch.stop() || self.is_over_budget()
+    }
+
+    /// Does work within the budget. Each part may cost what is left: whether the sum is over it does not depend on threads.
+    fn charged<T>(&self, work: impl FnOnce() -> T) -> T {
+        let (done, spent) = budget::within(self.left.load(Ordering::Relaxed), work);
+        let less = |left: u64| Some(left.saturating_sub(spent));
+        let _ = self
+            .left
+            .fetch_update(Ordering::Relaxed, Ordering::Relaxed, less);
+        done
     }
 
     /// The best design so far.
@@ -124,14 +151,16 @@ impl<'search> Cost<'search> {
 
     /// What points cost. Never is NaN (the swarm would panic, Nelder-Mead stall); once stopped, infinite.
     fn costs(&self, units: &[Vec<f64>]) -> Vec<f64> {
-        if self.watch.stop() {
+        if self.stops() {
             return vec![f64::INFINITY; units.len()];
         }
         let call = self.calls.fetch_add(1, Ordering::Relaxed);
         let pieces = units.par_chunks(PIECE).enumerate();
         let found = pieces.flat_map_iter(|(index, units)| {
-            let Ok(found) = piece(self.kept, &(call, index), || {
-                Ok::<_, Infallible>(self.found(units))
+            let Ok(found) = self.charged(|| {
+                piece(self.kept, &(call, index), || {
+                    Ok::<_, Infallible>(self.found(units))
+                })
             });
             for ((cost, value), unit) in found.iter().zip(units) {
                 self.watch.evaluated(*value);
@@ -187,7 +216,7 @@ impl CostFunction for Stoppable<'_> {
     fn bulk_cost<P: Borrow<Vec<f64>>>(&self, units: &[P]) -> Result<Vec<f64>, Error> {
         let mut costs = Vec::with_capacity(units.len());
         for block in units.chunks(BLOCK) {
-            if self.0.watch.stop() {
+            if self.0.stops() {
                 return Err(Error::msg("stopped"));
             }
             let block: Vec<_> = block.iter().map(|unit| unit.borrow().clone()).collect();

@@ -69,6 +69,9 @@ pub enum SearchError {
     /// The watcher said stop; the best design until then, if there was one that is as asked as far as was looked at.
     #[error("stopped")]
     Stopped(Option<Box<Found>>),
+    /// Its zones cost more than they may.
+    #[error("over its budget")]
+    OverBudget,
     /// The optimiser failed.
     #[error("the optimiser failed: {0}")]
     Optimizer(#[from] Error),
@@ -102,6 +105,9 @@ pub fn search(
     if watch.stop() {
         let best = cost.best().map(|it| Box::new(Found::new(problem, it, &[])));
         return Err(SearchError::Stopped(best));
+    }
+    if cost.is_over_budget() {
+        return Err(SearchError::OverBudget);
     }
     found
 }

@@ -22,6 +22,7 @@ use std::path::PathBuf;
 use clap::Args;
 use softstop::{Dimension, Machine, Parameter, Start};
 use softstop_console::arguments::MachineArguments;
+use softstop_console::budget::Budget;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
@@ -134,6 +135,10 @@ pub struct OptimizeArguments {
     /// Machines looked at within the tolerances
     #[arg(long, value_name = "N", default_value_t = 1 << 20)]
     pub samples: usize,
+    /// Work that each zone of the search may cost on the mean, in millions of scan windows; a search that would cost more
+    /// is refused, the same on every computer
+    #[arg(long, value_name = "MILLIONS", default_value_t = Budget::POINT)]
+    pub budget: Budget,
     /// Search alone: without report.html, the basin along the zone and the trade-offs
     #[arg(long)]
     pub no_report: bool,

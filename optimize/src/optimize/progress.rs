@@ -14,17 +14,19 @@ pub(super) struct Best {
     progress: Progress,
     best: Mutex<Option<f64>>,
     evaluations: AtomicU64,
+    budget: u64,
     objective: Objective,
     unit: &'static str,
 }
 
 impl Best {
-    pub(super) fn new(problem: &Problem, evaluations: u64) -> Self {
+    pub(super) fn new(problem: &Problem, evaluations: u64, budget: u64) -> Self {
         let objective = problem.objective;
         Self {
             progress: Progress::new(evaluations, "zones"),
             best: Mutex::new(None),
             evaluations: AtomicU64::new(0),
+            budget,
             objective,
             unit: problem.machine.unit(objective.figure.dimension()),
         }
@@ -55,5 +57,9 @@ impl Watch for Best {
 
     fn stop(&self) -> bool {
         interrupt::requested()
+    }
+
+    fn budget(&self) -> u64 {
+        self.budget
     }
 }

@@ -1,5 +1,6 @@
 //! From a task to what came of it.
 
+use anyhow::anyhow;
 use rayon::prelude::*;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
@@ -19,7 +20,11 @@ use crate::design::{Design, Problem};
 
 /// Searches, and looks at what was found; a search that is interrupted ends with its best design, if that is as asked.
 pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
-    let best = Best::new(&job.problem, job.settings.evaluations);
+    let budget = job
+        .budget
+        .windows()
+        .saturating_mul(job.settings.evaluations);
+    let best = Best::new(&job.problem, job.settings.evaluations, budget);
     let outcome = search::search(&job.problem, job.settings, &best, Some(keep));
     let evaluations = best.evaluations();
     drop(best);
@@ -32,6 +37,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
             *found
         }
         Err(SearchError::Stopped(None)) => return Err(Failure::Interrupted),
+        Err(SearchError::OverBudget) => return Err(anyhow!(job.budget.refusal()).into()),
         Err(error) => return Err(Failure::Run(error.into())),
     };
     let mut met = met(&job.problem, &found.design);

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use softstop::{Machine, Parameter};
+use softstop_console::budget::Budget;
 use softstop_console::failure::Failure;
 use softstop_console::machine::{Regime, SceneSettings};
 use softstop_console::output::Format;
@@ -33,6 +34,8 @@ pub(super) struct Job {
     pub settings: Settings,
     /// Machines looked at within the tolerances.
     pub samples: usize,
+    /// Work that each zone of the search may cost on the mean.
+    pub budget: Budget,
     /// Whether there is to be a report.
     pub report: bool,
     pub output: PathBuf,
@@ -117,6 +120,7 @@ impl Job {
                 evaluations,
             },
             samples: arguments.samples,
+            budget: arguments.budget,
             report: !arguments.no_report,
             output: arguments
                 .output
