@@ -17,7 +17,9 @@ pub(crate) const NODE: u64 = 96;
 /// What a search of a window costs, in windows, on its Taylor polynomial.
 pub(crate) const POLYNOMIAL: u64 = 128;
 /// What answers to forces cost, in windows, where there is no closed form.
-pub(crate) const RESPONSES: u64 = 48;
+pub(crate) const RESPONSES: u64 = 32;
+/// What they cost besides for each doubling of their time.
+pub(crate) const DOUBLING: u64 = 8;
 /// What a Taylor step costs besides, in windows, that tells how small changes go on along it.
 pub(crate) const TANGENT: u64 = 256;
 /// What a step of Newton's method for slow motion under heavy damping costs, in windows.

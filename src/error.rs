@@ -236,7 +236,7 @@ pub enum MotionError {
         /// Where the rigid stop stands, in m.
         wall: f64,
     },
-    /// Crossings pile up at one instant.
+    /// Crossings or steps pile up at one instant.
     #[error("the motion does not get on from t = {time} s, position {position} m")]
     Stalled {
         /// The time in s.

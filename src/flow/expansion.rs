@@ -102,20 +102,21 @@ impl Segment {
 }
 
 /// Halvings of a finite number after which nothing is left of it.
-const MOST_HALVINGS: i32 = 1074;
+const MOST_HALVINGS: i32 = 2200;
 
 /// Sigma within which the power law's part of the motion, at most kappa d^n (1 + lambda v) t^2 / 2,
 /// stays below rounding: as often halved from `reach` as it takes. `bounds` are those on depth, speed and time, which
 /// grow with sigma.
 pub(super) fn shell(hertz: &Hertz, reach: f64, bounds: impl Fn(f64) -> (f64, f64, f64)) -> f64 {
-    let span = |halvings: i32| reach * 0.5f64.powi(halvings);
+    let half = |halvings: i32| 0.5f64.powi(halvings);
+    let span = |halvings: i32| reach * half(halvings / 2) * half(halvings - halvings / 2);
     let is_within = |halvings: i32| {
         let (depth, speed, time) = bounds(span(halvings));
         let grip = 1.0 + hertz.dissipation * speed;
         let press = hertz.rate() * depth.powf(hertz.exponent - 1.0) * grip;
         press * time * time <= SMALLEST
     };
-    if is_within(0) {
+    if reach.is_infinite() || is_within(0) {
         return reach;
     }
     let (mut too_few, mut enough) = (0, 1);

@@ -27,9 +27,9 @@ const REACH: f64 = 0.5;
 impl Responses {
     /// Responses of x'' + 2 a x' + b x after `t` seconds to forces with frequency `w`.
     pub fn at(modes: &Modes, w: f64, t: f64) -> Self {
-        budget::charge(budget::RESPONSES);
         let rate = modes.fastest_rate().max(w);
         let doublings = (rate * t / REACH).log2().ceil().clamp(0.0, 1000.0) as i32;
+        budget::charge(budget::RESPONSES + budget::DOUBLING * doublings as u64);
         let mut span = t * 0.5f64.powi(doublings);
         let mut responses = Self::by_series(modes, w, span);
         for _ in 0..doublings {

@@ -17,8 +17,9 @@ use crate::flow::{Drive, Finer, Node};
 use crate::phases::{Mode, Phase};
 
 /// Crossings at one and the same instant that a motion may make: more than any row of bounces that is shorter than the
-/// resolution of time. A Taylor step, of which a contact takes some tens, counts as many of them.
+/// resolution of time.
 const MOST_AT_ONCE: u32 = 1_000_000;
+/// How many of them a Taylor step counts as, of which a contact takes some tens, or the end of a row of bounces.
 const STEP_AT_ONCE: u32 = 100;
 /// Most windows of work in one drive period, which take some seconds: four times as many as scanning one takes at the
 /// fastest rate that a scene may have.
@@ -30,7 +31,7 @@ impl Motion {
     ///
     /// # Errors
     /// [`MotionError::TimeBackwards`] if `until` lies in the past, [`MotionError::Unbounded`] if the
-    /// motion grows beyond all bounds, [`MotionError::Stalled`] if crossings pile up,
+    /// motion grows beyond all bounds, [`MotionError::Stalled`] if crossings or steps pile up,
     /// [`MotionError::Endless`] if a drive period takes too much work, [`MotionError::OverBudget`] if a budget set around
     /// the call is spent; the motion is then known no further than its present time.
     pub fn advance(

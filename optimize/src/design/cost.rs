@@ -21,7 +21,7 @@ pub trait Watch: Sync {
     fn evaluated(&self, value: Option<f64>);
     /// Whether to give up.
     fn stop(&self) -> bool;
-    /// Work that all zones of the search may cost, in scan windows.
+    /// Work that survey, swarm and polish may cost together, in scan windows.
     fn budget(&self) -> u64 {
         u64::MAX
     }
@@ -166,7 +166,7 @@ impl<'search> Cost<'search> {
                 self.watch.evaluated(*value);
                 // One that was recalled.
                 if value.is_some() && self.is_best(-cost) {
-                    self.found(from_ref(unit));
+                    budget::within(u64::MAX, || self.found(from_ref(unit)));
                 }
             }
             found.into_iter().map(|(cost, _)| cost)

@@ -39,6 +39,7 @@ use std::slice;
 use box_window::BoxWindow;
 use judge::Judged;
 use rayon::prelude::*;
+use softstop::internals::budget::Fork;
 use softstop::{Dimension, Machine, MotionError, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_dynamics::zone::ZoneError;
@@ -116,9 +117,12 @@ impl Problem {
         let scenes: Vec<Scene> = machines.iter().map(|of| of.scene.clone()).collect();
         let zones = zone::hysteresis_soon(&scenes, &interrupt::watch);
         let pairs: Vec<_> = machines.into_iter().zip(zones).collect();
+        let fork = Fork::default();
         let designs = pairs.into_par_iter();
-        let designs = designs.map(|(machine, zone)| self.best_of(machine, zone));
-        designs.collect()
+        let designs = designs.map(|(machine, zone)| fork.part(|| self.best_of(machine, zone)));
+        let designs = designs.collect();
+        fork.join();
+        designs
     }
 
     fn best_of(

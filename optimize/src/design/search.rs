@@ -69,7 +69,7 @@ pub enum SearchError {
     /// The watcher said stop; the best design until then, if there was one that is as asked as far as was looked at.
     #[error("stopped")]
     Stopped(Option<Box<Found>>),
-    /// Its zones cost more than they may.
+    /// Survey, swarm and polish cost more than they may.
     #[error("over its budget")]
     OverBudget,
     /// The optimiser failed.
@@ -101,13 +101,17 @@ pub fn search(
     kept: Kept<'_>,
 ) -> Result<Found, SearchError> {
     let cost = Cost::new(problem, watch, kept);
-    let found = outer(&cost, settings).and_then(|seen| finish(&cost, seen));
+    let found = outer(&cost, settings).and_then(|seen| match cost.is_over_budget() {
+        true => Err(SearchError::OverBudget),
+        false => finish(&cost, seen),
+    });
+    // What was cut short may be among the best.
+    if cost.is_over_budget() {
+        return Err(SearchError::OverBudget);
+    }
     if watch.stop() {
         let best = cost.best().map(|it| Box::new(Found::new(problem, it, &[])));
         return Err(SearchError::Stopped(best));
-    }
-    if cost.is_over_budget() {
-        return Err(SearchError::OverBudget);
     }
     found
 }

@@ -135,8 +135,8 @@ pub struct OptimizeArguments {
     /// Machines looked at within the tolerances
     #[arg(long, value_name = "N", default_value_t = 1 << 20)]
     pub samples: usize,
-    /// Work that each zone of the search may cost on the mean, in millions of scan windows; a search that would cost more
-    /// is refused, the same on every computer
+    /// Work that the survey, the swarm and the polish of the search may cost, in millions of scan windows for each of
+    /// --evaluations; a search that would cost more is refused, the same on every computer
     #[arg(long, value_name = "MILLIONS", default_value_t = Budget::POINT)]
     pub budget: Budget,
     /// Search alone: without report.html, the basin along the zone and the trade-offs

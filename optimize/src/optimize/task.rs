@@ -34,7 +34,7 @@ pub(super) struct Job {
     pub settings: Settings,
     /// Machines looked at within the tolerances.
     pub samples: usize,
-    /// Work that each zone of the search may cost on the mean.
+    /// Work that the search may cost for each evaluation.
     pub budget: Budget,
     /// Whether there is to be a report.
     pub report: bool,

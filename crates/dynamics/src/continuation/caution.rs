@@ -1,7 +1,7 @@
 //! What keeps a step along a branch from missing anything, and what ends a branch that no step can follow.
 
 use super::Family;
-use super::arclength::{DIFFERENCE, Equations};
+use super::arclength::{DIFFERENCE, Equations, Node, correct};
 use super::follower::{Follower, keeps_sense};
 use super::graze::Approach;
 use super::point::{Special, SpecialKind};
@@ -16,8 +16,10 @@ use crate::orbit::OrbitError;
 /// (scaled).
 const SHARE_LEFT: f64 = 0.3;
 const NEAR: f64 = 1e-4;
-/// Length of the steps up to which a grazing orbit is looked for ahead: nothing but a fold is on so short a way.
+/// Length of the steps up to which a grazing orbit is looked for ahead: nothing but a fold or a flip is on so short a way.
 const CLOSE: f64 = 1e-3;
+/// Shares of that way at which a fold is looked for behind.
+const RIGHT_BEFORE: [f64; 3] = [0.9, 0.99, 0.999];
 /// Scaled distance within which a branch that cannot be followed is taken to end in the grazing ahead: multipliers grow
 /// as the reciprocal of the distance, and no step is short enough for them.
 const AHEAD: f64 = 1e-2;
@@ -109,8 +111,8 @@ impl<F: Family> Follower<'_, F> {
             && ahead.leaves(now, SHARE_LEFT, NEAR)
     }
 
-    /// The grazing within the next step that leads no further, if there is one. Where an impact dies, a multiplier grows
-    /// without bounds: from a stable orbit on, the branch folds or flips before that, on shorter steps.
+    /// The grazing within the next step that leads no further, if there is one. Where an impact dies that no rest follows,
+    /// a multiplier grows without bounds: from a stable orbit on, the branch folds or flips before, on shorter steps.
     pub(super) fn graze_ahead(
         &self,
         walker: &Walker<'_, Shooting<'_, F, 1>>,
@@ -119,15 +121,36 @@ impl<F: Family> Follower<'_, F> {
         if walker.step > CLOSE {
             return None;
         }
-        let is_stable = walker.node.here.point.monodromy.is_stable();
+        let round = &walker.node.here.point;
+        let never_rests = round.sequence.rests == 0 && round.sequence.holds == 0;
+        let turns_unstable = never_rests && round.monodromy.is_stable();
         let ends = |special: &Special| match special.kind {
             SpecialKind::Grazing(graze) => {
-                !(approach.is_gentle(graze.face) || graze.dies && is_stable)
+                !approach.is_gentle(graze.face)
+                    && !(graze.dies && turns_unstable)
+                    && !self.folds_before(special, walker)
             }
             SpecialKind::Critical(_) => false,
         };
         self.graze_within(2.0 * walker.step, walker, approach)
             .filter(ends)
+    }
+
+    /// True if the branch turns back between a node and a grazing: right before it multipliers grow without bounds.
+    fn folds_before(&self, special: &Special, walker: &Walker<'_, Shooting<'_, F, 1>>) -> bool {
+        let Ok(at) = self.place(&special.point) else {
+            return false;
+        };
+        let (from, way) = (&walker.node.here.point, at - &walker.node.at);
+        let turns = |share: &f64| {
+            let guess = &walker.node.at + *share * &way;
+            let found = correct(&self.shooting, &guess, Some(&way.normalize()));
+            found.is_ok_and(|Node { here, .. }| {
+                from.sequence == here.point.sequence
+                    && Test::Fold.passes(&from.monodromy, &here.point.monodromy)
+            })
+        };
+        RIGHT_BEFORE.iter().any(turns)
     }
 
     /// The grazing ahead within a scaled distance, if there is one.
