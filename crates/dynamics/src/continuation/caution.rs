@@ -126,9 +126,10 @@ impl<F: Family> Follower<'_, F> {
         let turns_unstable = never_rests && round.monodromy.is_stable();
         let ends = |special: &Special| match special.kind {
             SpecialKind::Grazing(graze) => {
-                !approach.is_gentle(graze.face)
-                    && !(graze.dies && turns_unstable)
-                    && !self.folds_before(special, walker)
+                let goes_on = approach.is_gentle(graze.face)
+                    || graze.dies && turns_unstable
+                    || self.folds_before(special, walker);
+                !goes_on
             }
             SpecialKind::Critical(_) => false,
         };
