@@ -1,7 +1,7 @@
 //! What `zone` lists of lightly damped machines, `orbit` finds: at frequencies within each stretch of stable z = 1, however
 //! narrow.
 //!
-//! 2,000 machines, in some two hours of processor time:
+//! 2,000 machines, in some 40 minutes of processor time:
 //! `PROPTEST_CASES=2000 cargo test --release -p softstop-dynamics --test dynamics zone_found -- --ignored --nocapture`
 
 use proptest::prelude::*;
@@ -121,7 +121,7 @@ fn what_zone_lists_orbit_finds() {
 }
 
 #[test]
-#[ignore = "as many as PROPTEST_CASES says; two hours for 2,000"]
+#[ignore = "as many as PROPTEST_CASES says; 40 minutes for 2,000"]
 fn what_zone_lists_orbit_finds_of_many() {
     assert_found(MANY);
 }
@@ -174,8 +174,8 @@ fn two_flips_within_a_step_end_stretches() {
     );
 }
 
-/// Damping and its ratio in contact, clearance, stiffness, preload; where the motion flips just before its impact dies, and
-/// where that would be. On the last step to the grazing, the stable motion becomes one with a multiplier that goes to -infinity.
+/// Damping ratios in flight and in contact, clearance, stiffness and preload; the frequencies at which the motion flips and,
+/// just below, at which its impact dies. Between the two a multiplier goes from -1 to -infinity.
 const FLIPS_BEFORE_GRAZING: [([f64; 5], [f64; 2]); 2] = [
     (
         [
