@@ -16,6 +16,9 @@ pub(crate) const JETS: u64 = 8;
 pub(crate) const NODE: u64 = 96;
 /// What a search of a window costs, in windows, on its Taylor polynomial.
 pub(crate) const POLYNOMIAL: u64 = 128;
+/// What a halving costs, in windows: of a window whose polynomial leaves open what happens, or of a bracket in which
+/// Newton's method does not converge.
+pub(crate) const HALVING: u64 = 4;
 /// What answers to forces cost, in windows, where there is no closed form.
 pub(crate) const RESPONSES: u64 = 32;
 /// What they cost besides for each doubling of their time.

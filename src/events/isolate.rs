@@ -4,6 +4,7 @@
 //! or it is monotone, or its curvature has one sign (then at most one extremum, which is located
 //! and looked at: that is how a graze is told from a near miss). Otherwise it is halved.
 
+use crate::budget;
 use crate::flow::{DEGREE, evaluate};
 
 /// A polynomial on [0, span] with a bound on its fourth derivative.
@@ -56,7 +57,8 @@ impl Candidate<'_> {
             Verdict::RiseToTop => through_zero(left, self.extremum(left, right)),
             Verdict::Unknown => {
                 let middle = 0.5 * (left.at + right.at);
-                if depth == DEEPEST || middle <= left.at || middle >= right.at {
+                let is_smallest = middle <= left.at || middle >= right.at;
+                if depth == DEEPEST || is_smallest || !budget::charge(budget::HALVING) {
                     return through_zero(left, right);
                 }
                 let middle = self.point(middle);
@@ -256,7 +258,13 @@ fn bracketed_newton(
                 return next;
             }
         }
-        let target = if converges { next } else { 0.5 * (low + high) };
+        let target = if converges {
+            next
+        } else {
+            // A thousand in a row where the bounces are as small as the least numbers.
+            budget::charge(budget::HALVING);
+            0.5 * (low + high)
+        };
         if target <= low || target >= high {
             return target.clamp(low, high);
         }
