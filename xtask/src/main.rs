@@ -4,6 +4,7 @@ mod book;
 mod darwin;
 mod fmu;
 mod library;
+mod manual;
 mod notices;
 mod portable;
 mod python;
@@ -58,6 +59,8 @@ enum Task {
     Pages,
     /// Test the pages of the guide with all that they show, and build it as a book with mdBook
     Book,
+    /// Write the manual pages of softstop, and completions for shells, into the target folder
+    Manual,
     /// Run the benchmarks
     Bench,
 }
@@ -114,6 +117,10 @@ fn run_task(task: &Task) -> Result<()> {
         }
         Task::Book => {
             println!("written: {}", book::write()?.display());
+            Ok(())
+        }
+        Task::Manual => {
+            println!("written: {}", manual::write()?.display());
             Ok(())
         }
         Task::Bench => {
