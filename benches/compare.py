@@ -3,7 +3,7 @@
 
 Each round runs `softstop-lab throughput` of this checkout, then the prototype's `sweep`, then `throughput` of the
 older build, and `softstop optimize` of both for its processor time; figures are medians of all rounds. Nothing
-of softstop is built here: `cargo build --profile dist -p softstop-optimize -p softstop-lab` does that.
+of softstop is built here: `cargo build --profile dist -p softstop -p softstop-lab` does that.
 
 The prototype counts processor time, softstop time on the wall: ratios to the prototype hold on an idle machine alone.
 Both run the unloaded machine at 1,000 frequencies eta in 0.95..1.4, 200 periods each from (0, 14): the prototype, which

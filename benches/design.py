@@ -7,7 +7,7 @@ it is what was claimed: a stable z = 1 motion as fast as that (to 1e-4), with th
 (to 1e-6 of them). Seconds are processor time of the whole command, user and system, start of Python included. The
 optimiser uses all cores, the user's script one. Some two minutes of processor time.
 
-Nothing of softstop is built here: `cargo build --release -p softstop-optimize` does that. The Python that runs this needs
+Nothing of softstop is built here: `cargo build --release -p softstop` does that. The Python that runs this needs
 FMPy and scipy: `pip install -r tests/fmpy/requirements.txt`, or the environment of `cargo xtask test`, target/python."""
 
 import argparse

@@ -11,7 +11,7 @@ use std::{env, io};
 fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed=build.rs");
     let own = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
-    // Of target/<profile>/build/softstop-optimize-<hash>/out.
+    // Of target/<profile>/build/softstop-<hash>/out.
     let profile = own.ancestors().nth(3).unwrap_or(Path::new(""));
     let name = match env::var("CARGO_CFG_TARGET_OS").as_deref() {
         Ok("windows") => "softstop_fmu.dll",

@@ -17,39 +17,10 @@ const OUTSIDE: &str = "top";
 /// Tests the pages, with the commands and examples that they show, and builds the book.
 pub fn write() -> Result<PathBuf> {
     stage("pages, commands and examples");
-    cargo(&[
-        "test",
-        "--release",
-        "-p",
-        "softstop-testing",
-        "--test",
-        "pages",
-    ])?;
-    cargo(&[
-        "test",
-        "--release",
-        "-p",
-        "softstop-optimize",
-        "--test",
-        "guide",
-    ])?;
-    cargo(&[
-        "test",
-        "--release",
-        "-p",
-        "softstop-lab",
-        "--test",
-        "lab",
-        "guide",
-    ])?;
-    cargo(&[
-        "test",
-        "--release",
-        "-p",
-        "softstop-dynamics",
-        "--doc",
-        "guide",
-    ])?;
+    cargo("test --release -p softstop-testing --test pages")?;
+    cargo("test --release -p softstop --test guide")?;
+    cargo("test --release -p softstop-lab --test lab guide")?;
+    cargo("test --release -p softstop-dynamics --doc guide")?;
     stage("book");
     let folder = target().join("guide");
     if folder.exists() {

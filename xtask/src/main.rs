@@ -4,6 +4,7 @@ mod book;
 mod darwin;
 mod fmu;
 mod library;
+mod manual;
 mod notices;
 mod portable;
 mod python;
@@ -29,6 +30,8 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Task {
+    /// Before each commit: format, clippy and the tests that take seconds
+    Check,
     /// Write softstop.fmu, drive.fmu, feeder.fmu, the machine that they make (piercing-machine.ssp) and
     /// modelDescription.xml at the top level
     Fmu {
@@ -56,6 +59,8 @@ enum Task {
     Pages,
     /// Test the pages of the guide with all that they show, and build it as a book with mdBook
     Book,
+    /// Write the manual pages of softstop, and completions for shells, into the target folder
+    Manual,
     /// Run the benchmarks
     Bench,
 }
@@ -72,6 +77,7 @@ fn main() -> ExitCode {
 
 fn run_task(task: &Task) -> Result<()> {
     match task {
+        Task::Check => check(),
         Task::Fmu { dist, all_targets } => {
             fmu::write_description()?;
             if *all_targets {
@@ -106,19 +112,38 @@ fn run_task(task: &Task) -> Result<()> {
         Task::Importers => test_with_importers(&build()?),
         Task::Pages => {
             stage("program");
-            cargo(&["build", "--release", "--package", "softstop-optimize"])?;
+            cargo("build --release --package softstop")?;
             test_pages()
         }
         Task::Book => {
             println!("written: {}", book::write()?.display());
             Ok(())
         }
+        Task::Manual => {
+            println!("written: {}", manual::write()?.display());
+            Ok(())
+        }
         Task::Bench => {
-            let run = |arguments: &str| cargo(&arguments.split(' ').collect::<Vec<_>>());
-            run("bench --profile dist --package softstop-benches")?;
-            run("bench --profile dist --package softstop-fmu --bench c_speed")
+            cargo("bench --profile dist --package softstop-benches")?;
+            cargo("bench --profile dist --package softstop-fmu --bench c_speed")
         }
     }
+}
+
+/// What a contributor asks before each commit: rooms whose tests take seconds are tested whole, the others by the tests
+/// beside their code.
+fn check() -> Result<()> {
+    stage("format");
+    cargo("fmt --all --check")?;
+    stage("lints");
+    cargo("clippy --release --workspace --all-targets -- -D warnings")?;
+    stage("unit tests");
+    cargo("test --release --workspace --exclude softstop-benches --lib --quiet")?;
+    stage("quick rooms");
+    let quick = "lanes console fmi explore units testing".split(' ');
+    let packages: String = quick.map(|room| format!(" -p softstop-{room}")).collect();
+    cargo(&format!("test --release{packages} --tests --quiet"))?;
+    cargo("test --release -p softstop --test simulate --quiet")
 }
 
 fn build() -> Result<PathBuf> {

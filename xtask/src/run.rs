@@ -56,7 +56,7 @@ pub fn cargo_command() -> Command {
     command
 }
 
-/// Runs cargo.
-pub fn cargo(arguments: &[&str]) -> Result<()> {
-    run(cargo_command().args(arguments))
+/// Runs cargo with arguments that hold no space.
+pub fn cargo(arguments: &str) -> Result<()> {
+    run(cargo_command().args(arguments.split(' ')))
 }

@@ -4,20 +4,18 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 use pulp::Simd;
 
-/// Does something for each register of one or two. Not a loop: thousands of them, though unrolled, would take the
-/// compiler minutes.
-macro_rules! abreast {
-    ($register:ident => $work:expr) => {
+/// Applies an instruction to each register of one or two. Neither a loop (thousands of them, though unrolled, take the
+/// compiler minutes) nor a closure, which has no instruction set of its own and is slow wherever it is not inlined.
+macro_rules! each {
+    ($first:ident.$intrinsic:ident($($other:ident),*) => $result:ident) => {{
         const { assert!(N == 1 || N == 2) };
-        {
-            let $register = 0;
-            $work;
-        }
+        let simd = $first.simd;
+        let mut registers = [simd.$intrinsic($first.registers[0] $(, $other.registers[0])*); N];
         if N > 1 {
-            let $register = 1;
-            $work;
+            registers[N - 1] = simd.$intrinsic($first.registers[N - 1] $(, $other.registers[N - 1])*);
         }
-    };
+        $result { simd, registers }
+    }};
 }
 
 /// One number per lane, in N registers that go side by side, so that one waits less for the other.
@@ -56,30 +54,6 @@ impl<S: Simd, const N: usize> Lanes<S, N> {
         pulp::bytemuck::cast_slice_mut::<S::f64s, f64>(&mut self.registers)[lane] = value;
     }
 
-    #[inline(always)]
-    fn map(self, f: impl Fn(S, S::f64s) -> S::f64s) -> Self {
-        let mut registers = self.registers;
-        abreast!(i => registers[i] = f(self.simd, registers[i]));
-        Self { registers, ..self }
-    }
-
-    #[inline(always)]
-    fn zip(self, other: Self, f: impl Fn(S, S::f64s, S::f64s) -> S::f64s) -> Self {
-        let mut registers = self.registers;
-        abreast!(i => registers[i] = f(self.simd, registers[i], other.registers[i]));
-        Self { registers, ..self }
-    }
-
-    #[inline(always)]
-    fn compare(self, other: Self, f: impl Fn(S, S::f64s, S::f64s) -> S::m64s) -> Mask<S, N> {
-        let mut registers = [f(self.simd, self.registers[0], other.registers[0]); N];
-        abreast!(i => registers[i] = f(self.simd, self.registers[i], other.registers[i]));
-        Mask {
-            simd: self.simd,
-            registers,
-        }
-    }
-
     /// The same number in every lane.
     #[inline(always)]
     pub fn like(self, value: f64) -> Self {
@@ -89,57 +63,48 @@ impl<S: Simd, const N: usize> Lanes<S, N> {
     /// self * b + c, rounded once where the processor can.
     #[inline(always)]
     pub fn mul_add(self, b: Self, c: Self) -> Self {
-        let mut registers = self.registers;
-        abreast!(i => {
-            registers[i] = self.simd.mul_add_e_f64s(registers[i], b.registers[i], c.registers[i])
-        });
-        Self { registers, ..self }
+        each!(self.mul_add_e_f64s(b, c) => Self)
     }
 
     /// self - b * c, rounded once where the processor can.
     #[inline(always)]
     pub fn minus_product(self, b: Self, c: Self) -> Self {
-        let mut registers = self.registers;
-        abreast!(i => {
-            registers[i] =
-                self.simd.negate_mul_add_e_f64s(b.registers[i], c.registers[i], registers[i])
-        });
-        Self { registers, ..self }
+        each!(b.negate_mul_add_e_f64s(c, self) => Self)
     }
 
     #[inline(always)]
     pub fn abs(self) -> Self {
-        self.map(|simd, a| simd.abs_f64s(a))
+        each!(self.abs_f64s() => Self)
     }
 
     #[inline(always)]
     pub fn square_root(self) -> Self {
-        self.map(|simd, a| simd.sqrt_f64s(a))
+        each!(self.sqrt_f64s() => Self)
     }
 
     #[inline(always)]
     pub fn max(self, other: Self) -> Self {
-        self.zip(other, |simd, a, b| simd.max_f64s(a, b))
+        each!(self.max_f64s(other) => Self)
     }
 
     #[inline(always)]
     pub fn min(self, other: Self) -> Self {
-        self.zip(other, |simd, a, b| simd.min_f64s(a, b))
+        each!(self.min_f64s(other) => Self)
     }
 
     #[inline(always)]
     pub fn below(self, other: Self) -> Mask<S, N> {
-        self.compare(other, |simd, a, b| simd.less_than_f64s(a, b))
+        each!(self.less_than_f64s(other) => Mask)
     }
 
     #[inline(always)]
     pub fn at_most(self, other: Self) -> Mask<S, N> {
-        self.compare(other, |simd, a, b| simd.less_than_or_equal_f64s(a, b))
+        each!(self.less_than_or_equal_f64s(other) => Mask)
     }
 
     #[inline(always)]
     pub fn equals(self, other: Self) -> Mask<S, N> {
-        self.compare(other, |simd, a, b| simd.equal_f64s(a, b))
+        each!(self.equal_f64s(other) => Mask)
     }
 
     /// The largest whole number below, for numbers below 2^51.
@@ -155,11 +120,7 @@ impl<S: Simd, const N: usize> Mask<S, N> {
     /// `yes` where true, `no` elsewhere.
     #[inline(always)]
     pub fn choose(self, yes: Lanes<S, N>, no: Lanes<S, N>) -> Lanes<S, N> {
-        let mut registers = yes.registers;
-        abreast!(i => {
-            registers[i] = self.simd.select_f64s(self.registers[i], registers[i], no.registers[i])
-        });
-        Lanes { registers, ..yes }
+        each!(self.select_f64s(yes, no) => Lanes)
     }
 
     /// `yes` where true, `no` elsewhere.
@@ -176,15 +137,12 @@ impl<S: Simd, const N: usize> Mask<S, N> {
 
     #[inline(always)]
     pub fn not(self) -> Self {
-        let mut registers = self.registers;
-        abreast!(i => registers[i] = self.simd.not_m64s(registers[i]));
-        Self { registers, ..self }
+        each!(self.not_m64s() => Self)
     }
 
     #[inline(always)]
     pub fn any(self) -> bool {
-        let mut any = self.registers[0];
-        abreast!(i => any = self.simd.or_m64s(any, self.registers[i]));
+        let any = self.simd.or_m64s(self.registers[0], self.registers[N - 1]);
         self.simd.first_true_m64s(any) < S::F64_LANES
     }
 
@@ -215,7 +173,7 @@ macro_rules! operator {
 
             #[inline(always)]
             fn $name(self, other: Self) -> Self {
-                self.zip(other, |simd, a, b| simd.$intrinsic(a, b))
+                each!(self.$intrinsic(other) => Self)
             }
         }
     };
@@ -231,7 +189,7 @@ impl<S: Simd, const N: usize> Neg for Lanes<S, N> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        self.map(|simd, a| simd.neg_f64s(a))
+        each!(self.neg_f64s() => Self)
     }
 }
 
@@ -240,9 +198,7 @@ impl<S: Simd, const N: usize> BitAnd for Mask<S, N> {
 
     #[inline(always)]
     fn bitand(self, other: Self) -> Self {
-        let mut registers = self.registers;
-        abreast!(i => registers[i] = self.simd.and_m64s(registers[i], other.registers[i]));
-        Self { registers, ..self }
+        each!(self.and_m64s(other) => Self)
     }
 }
 
@@ -251,8 +207,6 @@ impl<S: Simd, const N: usize> BitOr for Mask<S, N> {
 
     #[inline(always)]
     fn bitor(self, other: Self) -> Self {
-        let mut registers = self.registers;
-        abreast!(i => registers[i] = self.simd.or_m64s(registers[i], other.registers[i]));
-        Self { registers, ..self }
+        each!(self.or_m64s(other) => Self)
     }
 }
