@@ -1,8 +1,6 @@
 //! What is between the axes of a panel, and the axes, on the page.
 
-use std::collections::BTreeMap;
-
-use crate::chart::{Corner, Legend};
+use crate::chart::{Axis, Corner, Legend};
 use crate::index::width;
 use crate::layer::{Shape, Text};
 use crate::layout::{BAR, GAP, LINE, Placed, TICK, Ticks, on, widest};
@@ -66,9 +64,11 @@ impl Placed<'_> {
         self.frame.place(self.on(point))
     }
 
-    /// Points as the frame takes them.
-    fn points(&self, points: &[Point]) -> Vec<Point> {
-        points.iter().map(|point| self.on(*point)).collect()
+    /// Runs of points without a gap, as the frame takes them.
+    fn runs(&self, points: &[Point]) -> Vec<Vec<Point>> {
+        let points: Vec<Point> = points.iter().map(|point| self.on(*point)).collect();
+        let runs = points.split(|it| !it.0.is_finite() || !it.1.is_finite());
+        runs.map(<[Point]>::to_vec).collect()
     }
 
     fn holds(&self, point: Point) -> bool {
@@ -76,16 +76,20 @@ impl Placed<'_> {
     }
 
     fn shape(&self, pen: &mut Pen, letters: u32, shape: &Shape, is_filled: bool) {
+        let is_there = |point: &Point| (self.on(*point).0 + self.on(*point).1).is_finite();
         let frame = &self.frame;
         let (x, y) = (frame.x, frame.y);
         match shape {
             Shape::Line(points, stroke) => {
-                let points = self.points(points);
-                for run in points.split(|it| !it.0.is_finite() || !it.1.is_finite()) {
-                    frame.curve(pen, run, *stroke);
+                for run in self.runs(points) {
+                    frame.curve(pen, &run, *stroke);
                 }
             }
-            Shape::Contour(points, dashes) => frame.rimmed(pen, &self.points(points), *dashes),
+            Shape::Contour(points, dashes) => {
+                for run in self.runs(points) {
+                    frame.rimmed(pen, &run, *dashes);
+                }
+            }
             Shape::Dots(points, radius, color) => {
                 let points = points.iter().map(|point| self.on(*point));
                 frame.dots(pen, points, *radius, color);
@@ -103,6 +107,7 @@ impl Placed<'_> {
                     let ends = ends.map(|end| on(&self.panel.y, end).clamp(y.0, y.1));
                     (on(&self.panel.x, *at).clamp(x.0, x.1), ends)
                 });
+                let places = places.filter(|it| (it.0 + it.1[0] + it.1[1]).is_finite());
                 let places: Vec<_> = places.collect();
                 if places.len() > 1 {
                     frame.band(pen, &places, color, *opacity);
@@ -118,39 +123,44 @@ impl Placed<'_> {
                 }
             }
             Shape::Cells(columns, colors) => {
-                let colors = colors.iter().map(|color| Some((*color).to_owned()));
-                cells(pen, frame, *columns, &colors.collect::<Vec<_>>());
+                frame.cells(pen, *columns, colors);
             }
             Shape::Shades(columns, values, _) => {
                 let range = self.panel.bar().map_or((0.0, 1.0), |it| it.0);
-                let colors = values.iter().map(|value| {
-                    let shade = value.is_finite().then(|| shade(*value, range));
-                    shade.map(color)
-                });
-                cells(pen, frame, *columns, &colors.collect::<Vec<_>>());
+                let shades: Vec<String> = (0..SHADES).map(color).collect();
+                let color = |value: &f64| match value.is_finite() {
+                    true => shades[shade(*value, range)].as_str(),
+                    false => "",
+                };
+                let colors: Vec<&str> = values.iter().map(color).collect();
+                frame.cells(pen, *columns, &colors);
             }
-            Shape::Ring(middle, half) => {
+            Shape::Ring(middle, half) if is_there(middle) => {
                 let (middle, end) = (*middle, (middle.0 + half.0, middle.1 + half.1));
                 let (centre, end) = (self.place(middle), self.place(end));
                 pen.ring(centre, (end.0 - centre.0, centre.1 - end.1));
             }
             Shape::Across(height, stroke, text) => {
                 let height = on(&self.panel.y, *height);
-                frame.curve(pen, &[(x.0, height), (x.1, height)], *stroke);
-                let place = (frame.right() - 6.0, frame.height(height) - 6.0);
-                pen.text(place, letters - 1, Align::Right, text);
+                if height.is_finite() {
+                    frame.curve(pen, &[(x.0, height), (x.1, height)], *stroke);
+                    let place = (frame.right() - 6.0, frame.height(height) - 6.0);
+                    pen.text(place, letters - 1, Align::Right, text);
+                }
             }
             Shape::Upwards(place, stroke, _) => {
                 let place = on(&self.panel.x, *place);
-                frame.curve(pen, &[(place, y.0), (place, y.1)], *stroke);
+                if place.is_finite() {
+                    frame.curve(pen, &[(place, y.0), (place, y.1)], *stroke);
+                }
             }
-            Shape::Arrow(from, to, stroke) => {
+            Shape::Arrow(from, to, stroke) if is_there(from) && is_there(to) => {
                 pen.arrow(self.place(*from), self.place(*to), *stroke);
             }
             Shape::Direction(points, share, stroke) => self.direction(pen, points, *share, *stroke),
-            Shape::Text(text) => self.text(pen, letters, text),
+            Shape::Text(text) if is_there(&text.at) => self.text(pen, letters, text),
             Shape::Message(words) => frame.message(pen, letters, words),
-            Shape::Label(..) | Shape::Key(_) => {}
+            _ => {}
         }
     }
 
@@ -163,7 +173,7 @@ impl Placed<'_> {
         });
         let [(left, top), (right, bottom)] = ends;
         let area = (left, top, (right - left).max(0.5), bottom - top);
-        (area.2.is_finite() && area.3 > 0.0).then_some(area)
+        ((right - left).is_finite() && area.3 > 0.0).then_some(area)
     }
 
     /// The head of an arrow on a curve.
@@ -208,7 +218,7 @@ impl Placed<'_> {
             .layers
             .iter()
             .filter_map(|layer| match &layer.shape {
-                Shape::Label(at, text) => Some((self.place(*at), text)),
+                Shape::Label(at, text) if self.holds(*at) => Some((self.place(*at), text)),
                 _ => None,
             });
         let mut labels: Vec<(Point, &String)> = labels.collect();
@@ -265,7 +275,11 @@ impl Placed<'_> {
         }
         let (ticks, name) = (&self.ticks[1], &self.panel.y.name);
         upwards(pen, &frame, letters, (ticks, name, self.shows[1]));
-        pen.frame(frame.area);
+        let is_bare = |ticks: &Ticks, axis: &Axis| ticks.is_empty() && axis.name.is_empty();
+        let (x, y) = (&self.panel.x, &self.panel.y);
+        if !(is_bare(&self.ticks[0], x) && is_bare(ticks, y)) {
+            pen.frame(frame.area);
+        }
     }
 
     /// The bar of shades.
@@ -335,32 +349,5 @@ fn upwards(pen: &mut Pen, frame: &Frame, letters: u32, (ticks, name, shows): (&T
     if shows && !name.is_empty() {
         let x = left - TICK - 6.0 - widest(ticks, letters) - 0.4 * size;
         pen.text((x, top + 0.5 * high), letters + 1, Align::Upwards, name);
-    }
-}
-
-/// Rows of cells that fill a frame, the lowest row first; runs of one colour are one rectangle, their edges on half units.
-fn cells(pen: &mut Pen, frame: &Frame, columns: usize, colors: &[Option<String>]) {
-    let (left, _, width, height) = frame.area;
-    let rows = colors.len() / columns;
-    let (wide, high) = (width / columns as f64, height / rows as f64);
-    let edge = |place: f64| (2.0 * place).round() / 2.0;
-    let mut areas: BTreeMap<&String, Vec<Area>> = BTreeMap::new();
-    for (row, colors) in colors.chunks(columns).enumerate() {
-        let (top, bottom) = (
-            edge(frame.bottom() - high * (row + 1) as f64),
-            edge(frame.bottom() - high * row as f64),
-        );
-        let mut from = 0;
-        for run in colors.chunk_by(|a, b| a == b) {
-            let ends = [from, from + run.len()].map(|column| edge(left + wide * column as f64));
-            from += run.len();
-            if let Some(color) = &run[0] {
-                let area = (ends[0], top, ends[1] - ends[0], bottom - top);
-                areas.entry(color).or_default().push(area);
-            }
-        }
-    }
-    for (color, areas) in areas {
-        pen.fill(&areas, color);
     }
 }

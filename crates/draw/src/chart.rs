@@ -153,7 +153,7 @@ impl Axis {
         }
     }
 
-    /// An axis of which nothing is written.
+    /// An axis of which nothing is written; a panel of two such axes has no frame.
     pub fn bare() -> Self {
         Self::new("").ticks([])
     }

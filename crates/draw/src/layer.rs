@@ -214,9 +214,13 @@ impl Layer {
         matches!(self.shape, Shape::Cells(..) | Shape::Shades(..))
     }
 
-    /// Whether it lies behind the lines at round values.
-    pub(crate) const fn is_behind(&self) -> bool {
-        matches!(self.shape, Shape::Boxes(..) | Shape::Key(_))
+    /// Whether it lies behind the lines at round values, as stripes do.
+    pub(crate) fn is_behind(&self) -> bool {
+        let is_stripe = |[x, y]: &[(f64, f64); 2]| x.0.is_infinite() || y.0.is_infinite();
+        match &self.shape {
+            Shape::Boxes(boxes, ..) => boxes.iter().all(is_stripe),
+            shape => matches!(shape, Shape::Key(_)),
+        }
     }
 
     /// What stands for it in the legend.

@@ -70,11 +70,15 @@ impl Axis {
     /// Its range; of a logarithmic axis as powers of ten.
     fn range_of(&self, values: impl Iterator<Item = f64>) -> (f64, f64) {
         let (low, high) = around(values.map(|value| on(self, value)), 0.0);
-        let [from, to] = self.ends.map(|end| end.map(|value| on(self, value)));
+        let end = |end: Option<f64>| end.map(|it| on(self, it)).filter(|it| it.is_finite());
+        let [from, to] = self.ends.map(end);
         let (low, high) = (from.unwrap_or(low), to.unwrap_or(high));
         let high = if high > low { high } else { low + 1.0 };
         let room = ROOM * (high - low);
-        (from.unwrap_or(low - room), to.unwrap_or(high + room))
+        (
+            low - if from.is_some() { 0.0 } else { room },
+            high + if to.is_some() { 0.0 } else { room },
+        )
     }
 
     fn ticks_of(&self, range: (f64, f64), count: usize) -> Ticks {
@@ -343,5 +347,75 @@ impl Panel {
         };
         let (wide, high) = self.size;
         cells.map_or(self.size, |it| (side(wide, it.0), side(high, it.1)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::place;
+    use crate::{Axis, Chart, Layer, Panel, Stroke};
+
+    fn line(points: [(f64, f64); 2]) -> Panel {
+        Panel {
+            x: Axis::new("across"),
+            y: Axis::new("upwards"),
+            layers: vec![Layer::line(points, Stroke::solid("#000000", 1.0))],
+            ..Panel::default()
+        }
+    }
+
+    #[test]
+    fn panels_of_a_column_share_their_axis_across() {
+        let panels = [
+            line([(0.0, 0.0), (1.0, 5.0)]),
+            line([(0.5, -1e4), (2.0, 1e4)]),
+        ];
+        let chart = Chart {
+            shares_across: true,
+            ..Chart::new("", panels).in_columns(1)
+        };
+        let (placed, _) = place(&chart, None);
+        assert_eq!(placed[0].frame.x, placed[1].frame.x);
+        assert_eq!(placed[0].frame.area.0, placed[1].frame.area.0);
+        assert_ne!(placed[0].frame.y, placed[1].frame.y);
+        assert_eq!(placed[0].shows, [false, true]);
+        assert_eq!(placed[1].shows, [true, true]);
+    }
+
+    #[test]
+    fn panels_fill_the_page_beside_their_texts() {
+        let panels = [
+            line([(0.0, 0.0), (1.0, 5e7)]),
+            line([(0.0, 0.0), (1.0, 1.0)]),
+        ];
+        let chart = Chart::new("", panels).in_columns(2);
+        let (placed, end) = place(&chart, Some((900.0, 400.0)));
+        assert!((end.0 - 900.0).abs() < 1e-9 && (end.1 - 400.0).abs() < 1e-9);
+        let [first, second] = [0, 1].map(|index: usize| placed[index].frame.area.2);
+        assert!((first - second).abs() < 1e-9);
+        assert!(placed[0].margins[0] > placed[1].margins[0]);
+    }
+
+    #[test]
+    fn names_stand_so_high_that_none_is_crossed() {
+        let stroke = Stroke::solid("#000000", 1.0);
+        let names = [(0.4, "first"), (0.42, "second"), (0.9, "third")];
+        let mut panel = line([(0.0, 0.0), (1.0, 1.0)]);
+        panel
+            .layers
+            .extend(names.map(|(at, name)| Layer::upwards(at, stroke, name)));
+        let chart = Chart::new("", [panel]);
+        let (placed, _) = place(&chart, None);
+        let lines = |name: &str| {
+            placed[0]
+                .names
+                .iter()
+                .find(|it| it.text == name)
+                .map(|it| it.line)
+        };
+        assert_eq!(
+            [lines("first"), lines("second"), lines("third")],
+            [Some(1), Some(0), Some(0)]
+        );
     }
 }

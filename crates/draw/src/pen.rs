@@ -117,17 +117,12 @@ impl Pen {
         let corners = areas
             .iter()
             .map(|(x, y, width, height)| format!("M{x} {y}h{width}v{height}h-{width}z"));
-        self.crisp(|pen| pen.outline(corners.collect(), color, None));
-    }
-
-    /// What has its edges on whole pixels.
-    fn crisp(&mut self, draw: impl FnOnce(&mut Self)) {
         self.scene.add(Primitive::GroupStart {
             transform: None,
             title: None,
             extra_attrs: Some("shape-rendering=\"crispEdges\"".to_owned()),
         });
-        draw(self);
+        self.outline(corners.collect(), color, None);
         self.scene.add(Primitive::GroupEnd);
     }
 
@@ -219,25 +214,6 @@ impl Pen {
             self.tint(ground, "#ffffff", 0.82);
         }
         self.write((x, y), size, align, (false, color), text);
-    }
-
-    /// Rectangles of many colours that leave no seams between them: their edges lie on half units, which are whole pixels
-    /// of a PNG of twice the size.
-    pub fn mosaic(&mut self, tiles: &[(Area, &str)]) {
-        let edge = |place: f64| (2.0 * place).round() / 2.0;
-        let side = |pick: fn(&Area) -> f64| tiles.iter().map(move |(area, _)| edge(pick(area)));
-        let long = |begin: fn(&Area) -> f64, end: fn(&Area) -> f64| {
-            let sides = side(begin).zip(side(end));
-            sides.map(|(begin, end)| end - begin).collect()
-        };
-        let batch = Primitive::RectBatch {
-            x: side(|area| area.0).collect(),
-            y: side(|area| area.1).collect(),
-            w: long(|area| area.0, |area| area.0 + area.2),
-            h: long(|area| area.1, |area| area.1 + area.3),
-            fills: tiles.iter().map(|(_, color)| (*color).into()).collect(),
-        };
-        self.crisp(|pen| pen.scene.add(batch));
     }
 
     /// A white spot with a dark rim, seen on any ground.

@@ -31,6 +31,8 @@ impl Chart {
     /// those who cannot see it. Its texts are written anew.
     pub fn inline(&self, anew: impl Fn(&str) -> String) -> String {
         let pen = self.drawn(false);
+        let title = anew(&self.title).replace('&', "&amp;").replace('<', "&lt;");
+        let title = title.replace('"', "&quot;");
         let document = pen.svg_with(anew);
         // What stands before is the ground of the document.
         let (_, body) = document.split_once("fill=\"white\" />").unwrap_or_default();
@@ -38,8 +40,6 @@ impl Chart {
         let body: String = body.lines().map(str::trim).collect();
         let body = style::themed(&body);
         let (width, height) = pen.size();
-        let title = self.title.replace('&', "&amp;").replace('<', "&lt;");
-        let title = title.replace('"', "&quot;");
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\">{body}</svg>"
         )
@@ -162,4 +162,52 @@ fn lines(paragraphs: &[String], letters: u32, wide: f64) -> Vec<Line> {
         }
     }
     lines
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Align, Chart, Layer, Mark, Panel, Stroke, style};
+
+    #[test]
+    fn what_is_no_number_is_not_drawn() {
+        let (nan, stroke) = (f64::NAN, Stroke::solid(style::DESIGN, 1.0));
+        let layers = [nan, 0.5].map(|x| {
+            vec![
+                Layer::line([(0.0, 0.0), (x, 0.5), (1.0, 1.0)], stroke).named("line"),
+                Layer::contour([(0.0, x), (1.0, 1.0)], None),
+                Layer::dots([(x, 1.0)], 1.0, style::INK),
+                Layer::marks([(x, 1.0)], Mark::Triangle, style::INK),
+                Layer::band([(0.0, [x, 1.0]), (1.0, [0.0, 1.0])], style::INK, 0.5),
+                Layer::boxes([[(x, 1.0), (0.0, f64::INFINITY)]], style::INK, 0.5),
+                Layer::shades(2, [x, 1.0], "shade"),
+                Layer::ring((x, 0.5), (0.1, 0.1)),
+                Layer::across(x, stroke, "across"),
+                Layer::upwards(x, stroke, "upwards"),
+                Layer::arrow((x, 0.0), (1.0, 1.0), stroke),
+                Layer::direction([(x, 0.0), (1.0, 1.0)], 0.5, stroke),
+                Layer::text((0.5, x), Align::Left, "text"),
+                Layer::label((x, 0.5), "label"),
+            ]
+        });
+        for layers in layers {
+            let panel = Panel {
+                layers,
+                ..Panel::default()
+            };
+            let svg = Chart::new("Chart", [panel]).svg();
+            assert!(svg.contains("line") && !svg.contains("NaN") && !svg.contains("inf"));
+        }
+    }
+
+    #[test]
+    fn a_page_has_its_own_colours_in_place_of_ours() {
+        let line = Layer::line([(0.0, 0.0), (1.0, 1.0)], Stroke::solid(style::DESIGN, 1.0));
+        let panel = Panel {
+            layers: vec![line.named("s_SN")],
+            ..Panel::default()
+        };
+        let page = Chart::new("a < b", [panel]).inline(str::to_owned);
+        assert!(page.contains("aria-label=\"a &lt; b\"") && page.contains("var(--design)"));
+        assert!(!page.contains('#') && !page.contains("a < b"), "{page}");
+    }
 }

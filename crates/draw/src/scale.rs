@@ -30,7 +30,7 @@ pub(crate) fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)>
     let power = 10f64.powf(rough.log10().floor());
     let factor = [1.0, 2.0, 5.0, 10.0]
         .into_iter()
-        .find(|factor| factor * power >= 0.999 * rough);
+        .find(|factor| factor * power >= 0.8 * rough);
     let step = factor.unwrap_or(10.0) * power;
     let (first, last) = (
         (low / step - 1e-6).ceil() as i64,
@@ -115,7 +115,7 @@ pub fn power_of_ten(exponent: i32) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{around, power_of_ten, ticks};
+    use super::{around, log_ticks, power_of_ten, ticks};
 
     #[test]
     fn exponents_are_raised() {
@@ -136,6 +136,18 @@ mod tests {
         assert_eq!(names((0.0, 25.0), 5), ["0", "5", "10", "15", "20", "25"]);
         assert_eq!(names((0.0, 8e7), 2), ["0", "50×10⁶"]);
         assert_eq!(names((-2e-4, 2e-4), 2), ["−200×10⁻⁶", "0", "200×10⁻⁶"]);
+    }
+
+    #[test]
+    fn logarithmic_ticks_are_powers_of_ten_where_there_are_many() {
+        let names = |range, count| -> Vec<String> {
+            let ticks = log_ticks(range, count).into_iter();
+            ticks.map(|tick| tick.1).collect()
+        };
+        assert_eq!(names((-6.2, 1.0), 4), ["10⁻⁶", "10⁻⁴", "10⁻²", "10⁰"]);
+        assert_eq!(names((0.0, 1.0), 5), ["1", "2", "5", "10"]);
+        assert_eq!(names((-2.1, -1.0), 5), ["0.01", "0.02", "0.05", "0.1"]);
+        assert_eq!(names((0.1, 0.2), 4), ["1.3", "1.4", "1.5"]);
     }
 
     #[test]

@@ -1,8 +1,5 @@
 //! Colours and letters of the charts.
 
-use kuva::render::layout::Layout;
-use kuva::render::theme::Theme;
-
 // The colours are Okabe and Ito's, told apart by colour-blind readers too
 // (https://jfly.uni-koeln.de/color/).
 /// Blue.
@@ -51,19 +48,3 @@ pub const FONTS: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";
 
 /// Colours and letters of pages, light and dark, as CSS.
 pub const PAGE: &str = include_str!("../assets/page.css");
-
-/// Axes of these ranges in the style of all charts.
-pub fn plain(x: (f64, f64), y: (f64, f64)) -> Layout {
-    Layout::new(x, y)
-        .with_theme(Theme {
-            grid_color: "#e6e6e6".into(),
-            legend_border: "#bbbbbb".into(),
-            ..Theme::light()
-        })
-        .with_font_family(FONTS)
-        .with_x_axis_min(x.0)
-        .with_x_axis_max(x.1)
-        .with_y_axis_min(y.0)
-        .with_y_axis_max(y.1)
-        .with_ticks(8)
-}
