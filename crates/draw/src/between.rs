@@ -8,6 +8,7 @@ use crate::legend::{column, draw_column, draw_lines};
 use crate::panel::Panel as Frame;
 use crate::pen::{Align, Area, Pen};
 use crate::shade::{SHADES, color, shade};
+use crate::shapes::Mark;
 use crate::stroke::{Point, Stroke};
 
 /// Lines behind what is drawn.
@@ -23,10 +24,14 @@ impl Placed<'_> {
         let layers = &self.panel.layers;
         let is_filled = layers.iter().any(|it| it.fills());
         let behind = layers.iter().take_while(|it| it.is_behind()).count();
-        for (index, layer) in layers.iter().enumerate() {
-            if index == behind && !is_filled {
-                self.ground(pen);
-            }
+        let (behind, front) = layers.split_at(behind);
+        for layer in behind {
+            self.shape(pen, letters, &layer.shape, is_filled);
+        }
+        if !is_filled {
+            self.ground(pen);
+        }
+        for layer in front {
             self.shape(pen, letters, &layer.shape, is_filled);
         }
         self.labels(pen, letters);
@@ -96,7 +101,7 @@ impl Placed<'_> {
             }
             Shape::Marks(points, mark, half, color) => {
                 for point in points.iter().filter(|point| self.holds(**point)) {
-                    if is_filled {
+                    if is_filled && *mark != Mark::Hollow {
                         pen.mark(self.place(*point), *mark, half + 2.0, "#ffffff");
                     }
                     pen.mark(self.place(*point), *mark, *half, color);
@@ -122,9 +127,7 @@ impl Placed<'_> {
                     false => pen.fill(&areas, color),
                 }
             }
-            Shape::Cells(columns, colors) => {
-                frame.cells(pen, *columns, colors);
-            }
+            Shape::Cells(columns, colors) => frame.cells(pen, *columns, colors),
             Shape::Shades(columns, values, _) => {
                 let range = self.panel.bar().map_or((0.0, 1.0), |it| it.0);
                 let shades: Vec<String> = (0..SHADES).map(color).collect();

@@ -87,6 +87,9 @@ impl Pen {
         (bold, color): (bool, &str),
         text: &str,
     ) {
+        if text.is_empty() {
+            return;
+        }
         let (anchor, rotate) = align.anchor();
         self.scene.add(Primitive::Text {
             x,
