@@ -1,6 +1,6 @@
 //! A panel of a drawing: two axes, and what is drawn between them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 pub use crate::axes::Axes;
 use crate::pen::{self, Align, Area, Pen, Stroke};
@@ -119,22 +119,35 @@ impl Panel {
         }
     }
 
-    /// Rows of coloured cells that fill it, the lowest row first; runs of one colour are one rectangle.
+    /// Rows of cells that fill it, the lowest row first, in few rectangles: runs of one colour, joined with the same runs of
+    /// the row below; edges lie on half units. What has no colour stays as it is.
     pub fn cells(&self, pen: &mut Pen, columns: usize, colors: &[&str]) {
         let (left, _, width, height) = self.area;
         let rows = colors.len() / columns;
-        let (wide, high) = (width / columns as f64, height / rows as f64);
-        let mut tiles = Vec::new();
-        for (row, colors) in colors.chunks(columns).enumerate() {
-            let above = self.bottom() - high * (row + 1) as f64;
+        let edge = |place: f64| (2.0 * place).round() / 2.0;
+        let across = |column: usize| edge(left + width * column as f64 / columns as f64);
+        let up = |row: usize| edge(self.bottom() - height * row as f64 / rows as f64);
+        let mut areas: BTreeMap<&str, Vec<Area>> = BTreeMap::new();
+        // The first row of each run of the row before.
+        let mut open: BTreeMap<(usize, usize, &str), usize> = BTreeMap::new();
+        for row in 0..=rows {
+            let mut runs = BTreeMap::new();
             let mut from = 0;
-            for run in colors.chunk_by(|a, b| a == b) {
-                let start = left + wide * from as f64;
-                tiles.push(((start, above, wide * run.len() as f64, high), run[0]));
+            let cells = colors.get(row * columns..(row + 1) * columns);
+            for run in cells.unwrap_or_default().chunk_by(|a, b| a == b) {
+                let key = (from, from + run.len(), run[0]);
+                runs.insert(key, open.remove(&key).unwrap_or(row));
                 from += run.len();
             }
+            for ((from, to, color), first) in std::mem::replace(&mut open, runs) {
+                let (left, top) = (across(from), up(row));
+                let area = (left, top, across(to) - left, up(first) - top);
+                areas.entry(color).or_default().push(area);
+            }
         }
-        pen.mosaic(&tiles);
+        for (color, areas) in areas.iter().filter(|it| !it.0.is_empty()) {
+            pen.fill(areas, color);
+        }
     }
 
     /// As much of a curve as lies inside.

@@ -64,6 +64,11 @@ impl Pen {
         pen
     }
 
+    /// Width and height of the page.
+    pub(crate) const fn size(&self) -> (f64, f64) {
+        (self.scene.width, self.scene.height)
+    }
+
     /// Letters of this size.
     pub fn text(&mut self, place: Point, size: u32, align: Align, text: &str) {
         self.write(place, size, align, (false, style::INK), text);
@@ -82,6 +87,9 @@ impl Pen {
         (bold, color): (bool, &str),
         text: &str,
     ) {
+        if text.is_empty() {
+            return;
+        }
         let (anchor, rotate) = align.anchor();
         self.scene.add(Primitive::Text {
             x,
@@ -112,17 +120,12 @@ impl Pen {
         let corners = areas
             .iter()
             .map(|(x, y, width, height)| format!("M{x} {y}h{width}v{height}h-{width}z"));
-        self.crisp(|pen| pen.outline(corners.collect(), color, None));
-    }
-
-    /// What has its edges on whole pixels.
-    fn crisp(&mut self, draw: impl FnOnce(&mut Self)) {
         self.scene.add(Primitive::GroupStart {
             transform: None,
             title: None,
             extra_attrs: Some("shape-rendering=\"crispEdges\"".to_owned()),
         });
-        draw(self);
+        self.outline(corners.collect(), color, None);
         self.scene.add(Primitive::GroupEnd);
     }
 
@@ -216,34 +219,20 @@ impl Pen {
         self.write((x, y), size, align, (false, color), text);
     }
 
-    /// Rectangles of many colours that leave no seams between them: their edges lie on half units, which are whole pixels
-    /// of a PNG of twice the size.
-    pub fn mosaic(&mut self, tiles: &[(Area, &str)]) {
-        let edge = |place: f64| (2.0 * place).round() / 2.0;
-        let side = |pick: fn(&Area) -> f64| tiles.iter().map(move |(area, _)| edge(pick(area)));
-        let long = |begin: fn(&Area) -> f64, end: fn(&Area) -> f64| {
-            let sides = side(begin).zip(side(end));
-            sides.map(|(begin, end)| end - begin).collect()
-        };
-        let batch = Primitive::RectBatch {
-            x: side(|area| area.0).collect(),
-            y: side(|area| area.1).collect(),
-            w: long(|area| area.0, |area| area.0 + area.2),
-            h: long(|area| area.1, |area| area.1 + area.3),
-            fills: tiles.iter().map(|(_, color)| (*color).into()).collect(),
-        };
-        self.crisp(|pen| pen.scene.add(batch));
+    /// A white spot with a dark rim, seen on any ground.
+    pub fn spot(&mut self, place: Point, radius: f64) {
+        self.hollow(place, radius, style::INK);
     }
 
-    /// A white spot with a dark rim, seen on any ground.
-    pub fn spot(&mut self, (cx, cy): Point, radius: f64) {
+    /// A white spot with a rim of this colour.
+    pub(crate) fn hollow(&mut self, (cx, cy): Point, radius: f64, color: &str) {
         self.scene.add(Primitive::Circle {
             cx,
             cy,
             r: radius,
             fill: "#ffffff".into(),
             fill_opacity: None,
-            stroke: Some(style::INK.into()),
+            stroke: Some(color.into()),
             stroke_width: Some(1.6),
         });
     }

@@ -30,7 +30,7 @@ pub(crate) fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)>
     let power = 10f64.powf(rough.log10().floor());
     let factor = [1.0, 2.0, 5.0, 10.0]
         .into_iter()
-        .find(|factor| factor * power >= 0.999 * rough);
+        .find(|factor| factor * power >= 0.8 * rough);
     let step = factor.unwrap_or(10.0) * power;
     let (first, last) = (
         (low / step - 1e-6).ceil() as i64,
@@ -49,6 +49,44 @@ pub(crate) fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)>
         (value, name)
     };
     (first..=last).map(written).collect()
+}
+
+/// Values at a logarithmic axis over a range of powers of ten, about so many: powers of ten, and twice and five times these
+/// where there are few.
+pub(crate) fn log_ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
+    let inside = |power: f64| low - 1e-9 <= power && power <= high + 1e-9;
+    let (first, last) = (low.floor() as i32, high.ceil() as i32);
+    let powers = (first..=last).filter(|power| inside(f64::from(*power)));
+    let powers: Vec<i32> = powers.collect();
+    if powers.len() > 2 {
+        let step = powers.len().div_ceil(count.max(1)) as i32;
+        let shown = powers.into_iter().filter(|power| power % step == 0);
+        return shown
+            .map(|power| (f64::from(power), power_of_ten(power)))
+            .collect();
+    }
+    let factors = (first..=last).flat_map(|power| [1.0f64, 2.0, 5.0].map(|factor| (factor, power)));
+    let values = factors.map(|(factor, power)| (factor.log10() + f64::from(power), factor, power));
+    let inside: Vec<_> = values.filter(|it| inside(it.0)).collect();
+    if inside.len() < 2 {
+        let ticks = ticks((10f64.powf(low), 10f64.powf(high)), count);
+        return ticks
+            .into_iter()
+            .map(|(value, text)| (value.log10(), text))
+            .collect();
+    }
+    let written = |factor: f64, power: i32| match (-3..5).contains(&power) {
+        true => format!(
+            "{:.*}",
+            (-power).max(0) as usize,
+            factor * 10f64.powi(power)
+        ),
+        false => format!("{factor}×{}", power_of_ten(power)),
+    };
+    let ticks = inside.into_iter();
+    ticks
+        .map(|(at, factor, power)| (at, written(factor, power)))
+        .collect()
 }
 
 /// Numbers from here to there are written without a power of ten.
@@ -77,7 +115,7 @@ pub fn power_of_ten(exponent: i32) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{around, power_of_ten, ticks};
+    use super::{around, log_ticks, power_of_ten, ticks};
 
     #[test]
     fn exponents_are_raised() {
@@ -98,6 +136,18 @@ mod tests {
         assert_eq!(names((0.0, 25.0), 5), ["0", "5", "10", "15", "20", "25"]);
         assert_eq!(names((0.0, 8e7), 2), ["0", "50×10⁶"]);
         assert_eq!(names((-2e-4, 2e-4), 2), ["−200×10⁻⁶", "0", "200×10⁻⁶"]);
+    }
+
+    #[test]
+    fn logarithmic_ticks_are_powers_of_ten_where_there_are_many() {
+        let names = |range, count| -> Vec<String> {
+            let ticks = log_ticks(range, count).into_iter();
+            ticks.map(|tick| tick.1).collect()
+        };
+        assert_eq!(names((-6.2, 1.0), 4), ["10⁻⁶", "10⁻⁴", "10⁻²", "10⁰"]);
+        assert_eq!(names((0.0, 1.0), 5), ["1", "2", "5", "10"]);
+        assert_eq!(names((-2.1, -1.0), 5), ["0.01", "0.02", "0.05", "0.1"]);
+        assert_eq!(names((0.1, 0.2), 4), ["1.3", "1.4", "1.5"]);
     }
 
     #[test]

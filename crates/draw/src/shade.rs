@@ -1,8 +1,5 @@
 //! Shades for numbers: viridis (van der Walt and Smith 2015), told apart by colour-blind readers and in grey.
 
-use crate::panel::{Axes, Panel};
-use crate::pen::{Area, Pen};
-
 /// Colours of viridis, evenly spaced.
 const VIRIDIS: [[f64; 3]; 9] = [
     [68.0, 1.0, 84.0],
@@ -28,16 +25,16 @@ pub fn ordered(index: usize, count: usize) -> &'static str {
 }
 
 /// How many shades there are.
-pub const SHADES: usize = 48;
+pub(crate) const SHADES: usize = 48;
 
 /// The shade of a value in a range.
-pub fn shade(value: f64, (low, high): (f64, f64)) -> usize {
+pub(crate) fn shade(value: f64, (low, high): (f64, f64)) -> usize {
     let shade = ((value - low) / (high - low) * SHADES as f64) as usize;
     shade.min(SHADES - 1)
 }
 
 /// The colour of a shade.
-pub fn color(shade: usize) -> String {
+pub(crate) fn color(shade: usize) -> String {
     let at = shade as f64 / (SHADES - 1) as f64 * (VIRIDIS.len() - 1) as f64;
     let from = (at as usize).min(VIRIDIS.len() - 2);
     let share = at - from as f64;
@@ -46,15 +43,4 @@ pub fn color(shade: usize) -> String {
         (low + share * (high - low)).round() as u8
     };
     format!("#{:02x}{:02x}{:02x}", part(0), part(1), part(2))
-}
-
-/// A bar of all shades with the range that they stand for, and its name.
-pub fn bar(pen: &mut Pen, area: Area, range: (f64, f64), letters: u32, name: &str) {
-    let bar = Panel::new(area, (0.0, 1.0), range);
-    for shade in 0..SHADES {
-        let high = area.3 / SHADES as f64;
-        let top = bar.bottom() - high * (shade + 1) as f64;
-        pen.fill(&[(area.0, top, area.2, high + 0.5)], &color(shade));
-    }
-    bar.axes(pen, &Axes::new(letters, None, name, (0, 5)));
 }

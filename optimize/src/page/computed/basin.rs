@@ -41,7 +41,7 @@ pub fn basin(design: &Design) -> Result<Basin, SurveyError> {
         .position(|class| is_own(class.orbit.as_deref(), &design.orbit));
     let mut motions: Vec<BasinMotion> = Vec::new();
     for (index, class) in found.classes.iter().enumerate() {
-        let is_free = |color: &&str| motions.iter().all(|other| other.color != **color);
+        let is_free = |color: &&str| motions.iter().all(|other| other.color != *color);
         let color = [color(class.motion.class())]
             .into_iter()
             .chain(OTHERS)
@@ -53,7 +53,7 @@ pub fn basin(design: &Design) -> Result<Basin, SurveyError> {
         };
         motions.push(BasinMotion {
             name: format!("{}{whose}", class.motion),
-            color: color.unwrap_or(OTHERS[0]).to_owned(),
+            color: color.unwrap_or(OTHERS[0]),
             share: class.share,
             interval: class.interval,
         });

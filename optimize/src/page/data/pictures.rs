@@ -122,7 +122,7 @@ pub struct BasinMotion {
     /// Its name.
     pub name: String,
     /// Its colour, as in SVG.
-    pub color: String,
+    pub color: &'static str,
     /// Share of the cells.
     pub share: f64,
     /// Its 95 % interval.

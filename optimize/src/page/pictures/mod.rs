@@ -9,10 +9,10 @@ pub(super) mod map;
 pub(super) mod portrait;
 pub(super) mod response;
 
-use softstop_draw::pen::Stroke;
-use softstop_draw::style;
+use softstop_draw::{Axis, Layer, Stroke, style};
 
-use super::data::Role;
+use super::data::{Curve, Label, Role};
+use super::figure::points;
 
 /// How a line is drawn, by what it is.
 const fn stroke(role: Role) -> Stroke {
@@ -24,4 +24,14 @@ const fn stroke(role: Role) -> Stroke {
         Role::Fold => Stroke::dashed(style::INK, 1.6, (9.0, 4.0)),
         Role::Flip => Stroke::dashed(style::INK, 1.6, (2.0, 3.0)),
     }
+}
+
+/// A curve as what it is.
+fn line(curve: &Curve) -> Layer {
+    Layer::line(points(&curve.points), stroke(curve.role)).named(&curve.name)
+}
+
+/// An axis of this name.
+fn axis(label: &Label) -> Axis {
+    Axis::new(label.line())
 }
