@@ -102,11 +102,13 @@ fn run_task(task: &Task) -> Result<()> {
             stage("all passed");
             Ok(())
         }
-        Task::Fmpy => test_with_fmpy(&build()?),
+        Task::Fmpy => {
+            build_program()?;
+            test_with_fmpy(&build()?)
+        }
         Task::Importers => test_with_importers(&build()?),
         Task::Pages => {
-            stage("program");
-            cargo(&["build", "--release", "--package", "softstop-optimize"])?;
+            build_program()?;
             test_pages()
         }
         Task::Book => {
@@ -124,6 +126,11 @@ fn run_task(task: &Task) -> Result<()> {
 fn build() -> Result<PathBuf> {
     stage("FMU");
     fmu::write_package()
+}
+
+fn build_program() -> Result<()> {
+    stage("program");
+    cargo(&["build", "--release", "--package", "softstop-optimize"])
 }
 
 fn test_with_fmpy(package: &Path) -> Result<()> {

@@ -14,5 +14,4 @@ mod paper_motions;
 mod precision;
 mod reference;
 mod solvers;
-mod system;
 mod throughput;
