@@ -64,6 +64,11 @@ impl Pen {
         pen
     }
 
+    /// Width and height of the page.
+    pub(crate) const fn size(&self) -> (f64, f64) {
+        (self.scene.width, self.scene.height)
+    }
+
     /// Letters of this size.
     pub fn text(&mut self, place: Point, size: u32, align: Align, text: &str) {
         self.write(place, size, align, (false, style::INK), text);
@@ -236,14 +241,19 @@ impl Pen {
     }
 
     /// A white spot with a dark rim, seen on any ground.
-    pub fn spot(&mut self, (cx, cy): Point, radius: f64) {
+    pub fn spot(&mut self, place: Point, radius: f64) {
+        self.hollow(place, radius, style::INK);
+    }
+
+    /// A white spot with a rim of this colour.
+    pub(crate) fn hollow(&mut self, (cx, cy): Point, radius: f64, color: &str) {
         self.scene.add(Primitive::Circle {
             cx,
             cy,
             r: radius,
             fill: "#ffffff".into(),
             fill_opacity: None,
-            stroke: Some(style::INK.into()),
+            stroke: Some(color.into()),
             stroke_width: Some(1.6),
         });
     }

@@ -51,6 +51,44 @@ pub(crate) fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)>
     (first..=last).map(written).collect()
 }
 
+/// Values at a logarithmic axis over a range of powers of ten, about so many: powers of ten, and twice and five times these
+/// where there are few.
+pub(crate) fn log_ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
+    let inside = |power: f64| low - 1e-9 <= power && power <= high + 1e-9;
+    let (first, last) = (low.floor() as i32, high.ceil() as i32);
+    let powers = (first..=last).filter(|power| inside(f64::from(*power)));
+    let powers: Vec<i32> = powers.collect();
+    if powers.len() > 2 {
+        let step = powers.len().div_ceil(count.max(1)) as i32;
+        let shown = powers.into_iter().filter(|power| power % step == 0);
+        return shown
+            .map(|power| (f64::from(power), power_of_ten(power)))
+            .collect();
+    }
+    let factors = (first..=last).flat_map(|power| [1.0f64, 2.0, 5.0].map(|factor| (factor, power)));
+    let values = factors.map(|(factor, power)| (factor.log10() + f64::from(power), factor, power));
+    let inside: Vec<_> = values.filter(|it| inside(it.0)).collect();
+    if inside.len() < 2 {
+        let ticks = ticks((10f64.powf(low), 10f64.powf(high)), count);
+        return ticks
+            .into_iter()
+            .map(|(value, text)| (value.log10(), text))
+            .collect();
+    }
+    let written = |factor: f64, power: i32| match (-3..5).contains(&power) {
+        true => format!(
+            "{:.*}",
+            (-power).max(0) as usize,
+            factor * 10f64.powi(power)
+        ),
+        false => format!("{factor}×{}", power_of_ten(power)),
+    };
+    let ticks = inside.into_iter();
+    ticks
+        .map(|(at, factor, power)| (at, written(factor, power)))
+        .collect()
+}
+
 /// Numbers from here to there are written without a power of ten.
 const PLAIN: (f64, f64) = (1e-3, 1e5);
 

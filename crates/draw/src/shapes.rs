@@ -24,6 +24,8 @@ pub enum Mark {
     Triangle,
     /// On a corner.
     Diamond,
+    /// White with a rim of its colour.
+    Hollow,
 }
 
 /// What an entry of a legend explains.
@@ -37,6 +39,8 @@ pub enum Sign {
     Line(Stroke),
     /// A mark and its colour.
     Mark(Mark, &'static str),
+    /// A ring.
+    Ring,
 }
 
 impl Pen {
@@ -92,6 +96,7 @@ impl Pen {
     pub fn mark(&mut self, (x, y): Point, mark: Mark, half: f64, color: &str) {
         let (sides, turn) = match mark {
             Mark::Circle => return self.dots(&[(x, y)], half, color),
+            Mark::Hollow => return self.hollow((x, y), half, color),
             Mark::Square => (4, 0.125),
             Mark::Triangle => (3, 0.25),
             Mark::Diamond => (4, 0.0),
@@ -109,20 +114,32 @@ impl Pen {
         let letters = f64::from(size);
         for (row, (sign, text)) in entries.iter().enumerate() {
             let line = top + 1.6 * letters * row as f64;
-            let middle = line - 0.36 * letters;
-            let (side, wide) = (0.9 * letters, 1.4 * letters);
-            let patch = (left, middle - 0.5 * side, wide, side);
-            match *sign {
-                Sign::Patch(color) => self.fill(&[patch], color),
-                Sign::Band(color, opacity) => self.tint(patch, color, opacity),
-                Sign::Line(stroke) => {
-                    self.line(&[(left, middle), (left + 2.2 * letters, middle)], stroke);
-                }
-                Sign::Mark(mark, color) => {
-                    self.mark((left + 1.1 * letters, middle), mark, 0.45 * letters, color);
-                }
-            }
+            self.sign((left, line), size, *sign);
             self.text((left + 2.8 * letters, line), size, Align::Left, text);
+        }
+    }
+
+    /// What stands before the words of a legend on a line.
+    pub(crate) fn sign(&mut self, (left, line): Point, size: u32, sign: Sign) {
+        let letters = f64::from(size);
+        let (long, middle) = (2.2 * letters, line - 0.36 * letters);
+        let centre = (left + 0.5 * long, middle);
+        let side = 0.9 * letters;
+        let patch = (
+            centre.0 - 0.7 * letters,
+            middle - 0.5 * side,
+            1.4 * letters,
+            side,
+        );
+        match sign {
+            Sign::Patch(color) => {
+                self.fill(&[patch], color);
+                self.frame(patch);
+            }
+            Sign::Band(color, opacity) => self.tint(patch, color, opacity),
+            Sign::Line(stroke) => self.line(&[(left, middle), (left + long, middle)], stroke),
+            Sign::Mark(mark, color) => self.mark(centre, mark, 0.45 * letters, color),
+            Sign::Ring => self.ring(centre, (0.55 * letters, 0.55 * letters)),
         }
     }
 

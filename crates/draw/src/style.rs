@@ -18,8 +18,33 @@ pub const ALLOWED: &str = "#56B4E9";
 /// Grey, of what stands beside the matter.
 pub const ASIDE: &str = "#777777";
 
+/// Of curves or motions in a row.
+pub const SERIES: [&str; 4] = [DESIGN, REFERENCE, "#009E73", "#882255"];
+
 /// Almost black, of lines and letters of drawings.
 pub const INK: &str = "#222222";
+
+/// What stands for a colour in a page, light or dark.
+const THEME: [(&str, &str); 9] = [
+    (INK, "var(--ink)"),
+    (POINT, "var(--ink)"),
+    ("#ffffff", "var(--card)"),
+    ("#e9e9e9", "var(--grid)"),
+    (ASIDE, "var(--aside)"),
+    (DESIGN, "var(--design)"),
+    (OPTIMUM, "var(--mark)"),
+    (REFERENCE, "var(--reference)"),
+    (ALLOWED, "var(--allowed)"),
+];
+
+/// Elements of SVG with variables of the page in place of colours.
+pub(crate) fn themed(elements: &str) -> String {
+    THEME
+        .iter()
+        .fold(elements.to_owned(), |elements, (color, variable)| {
+            elements.replace(&color.to_lowercase(), variable)
+        })
+}
 
 /// The letters.
 pub const FONTS: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";

@@ -1,11 +1,7 @@
 //! Branches of periodic motions and curves of their bifurcations.
 
 use softstop::{Dimension, Machine, Parameter};
-use softstop_draw::panel::{Axes, Panel, heading};
-use softstop_draw::pen::{Pen, Stroke};
-use softstop_draw::scale::around;
-use softstop_draw::shapes::{Mark, Sign};
-use softstop_draw::style;
+use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Stroke, style};
 use softstop_dynamics::continuation::{Curve, SpecialKind, Test};
 use softstop_dynamics::{Branch, BranchPoint};
 
@@ -31,133 +27,66 @@ fn sign(kind: &SpecialKind) -> (&'static str, Mark, Stroke) {
     }
 }
 
-/// Room around what is drawn, as a share of it.
-const ROOM: f64 = 0.06;
-/// Colours of branches by the number of doublings.
-const COLOURS: [&str; 4] = [style::DESIGN, style::REFERENCE, "#009E73", "#882255"];
-/// The page, and the panel on it.
-const PAGE: (f64, f64) = (1040.0, 620.0);
-const AREA: (f64, f64, f64, f64) = (92.0, 84.0, 720.0, 460.0);
-/// Letters.
-const LETTERS: u32 = 14;
-/// Half the size of marks.
-const MARK: f64 = 6.0;
-
 /// The before-impact velocities of branches over the parameter, as an SVG document.
 pub fn branches(machine: &Machine, parameter: Parameter, branches: &[Branch]) -> String {
-    let points = || {
-        let points = branches.iter().flat_map(|branch| &branch.points);
-        points.map(|point| (point.parameter, point.before_impact_velocity()))
+    let lines = branches.iter().flat_map(|branch| {
+        let order = (branch.periods / branches[0].periods).ilog2() as usize;
+        lines(branch, style::SERIES[order % style::SERIES.len()])
+    });
+    let specials = branches.iter().flat_map(|branch| &branch.specials);
+    let specials = specials.map(|special| {
+        let (name, mark, line) = sign(&special.kind);
+        let point = &special.point;
+        let place = (point.parameter, point.before_impact_velocity());
+        Layer::marks([place], mark, line.color).named(name)
+    });
+    let points = branches.iter().flat_map(|branch| &branch.points);
+    let highest = points.map(BranchPoint::before_impact_velocity);
+    let highest = highest.filter(|it| it.is_finite()).fold(0.0, f64::max);
+    let velocity = machine.label("before-impact velocity", "X′₋", Dimension::Velocity);
+    let panel = Panel {
+        x: Axis::new(machine.label_of(parameter)),
+        y: Axis::new(velocity).from(-0.03 * highest),
+        layers: lines.chain(specials).collect(),
+        ..Panel::default()
     };
-    let (_, top) = around(points().map(|point| point.1), ROOM);
-    let top = if top > 0.0 { top } else { 1.0 };
-    let page = Page {
-        title: "Periodic motions: stable solid, unstable dashed",
-        x: around(points().map(|point| point.0), ROOM),
-        y: (-0.03 * top, top),
-        across: machine.label_of(parameter),
-        upwards: machine.label("before-impact velocity", "X′₋", Dimension::Velocity),
-    };
-    page.svg(|pen, panel| {
-        let mut entries = Vec::new();
-        for branch in branches {
-            let order = (branch.periods / branches[0].periods).ilog2() as usize;
-            lines(
-                pen,
-                panel,
-                (branch, COLOURS[order % COLOURS.len()]),
-                &mut entries,
-            );
-        }
-        for special in branches.iter().flat_map(|branch| &branch.specials) {
-            let (name, mark, line) = sign(&special.kind);
-            let point = &special.point;
-            let place = panel.place((point.parameter, point.before_impact_velocity()));
-            pen.mark(place, mark, MARK, line.color);
-            enter(&mut entries, Sign::Mark(mark, line.color), name);
-        }
-        entries
-    })
+    Chart::new("Periodic motions: stable solid, unstable dashed", [panel]).svg()
 }
 
 /// Curves of special points in the plane of two parameters, as an SVG document.
 pub fn curves(machine: &Machine, parameters: [Parameter; 2], curves: &[Curve]) -> String {
-    let values = |index: usize| {
-        let points = curves.iter().flat_map(|curve| &curve.points);
-        around(points.map(|point| point.parameters[index]), ROOM)
+    let lines = curves.iter().map(|curve| {
+        let (name, _, line) = sign(&curve.kind);
+        let points = curve.points.iter().map(|point| point.parameters.into());
+        Layer::line(points, line).named(name)
+    });
+    let [across, upwards] = parameters.map(|it| Axis::new(machine.label_of(it)));
+    let panel = Panel {
+        x: across,
+        y: upwards,
+        layers: lines.collect(),
+        ..Panel::default()
     };
-    let page = Page {
-        title: "Bifurcations of periodic motions",
-        x: values(0),
-        y: values(1),
-        across: machine.label_of(parameters[0]),
-        upwards: machine.label_of(parameters[1]),
-    };
-    page.svg(|pen, panel| {
-        let mut entries = Vec::new();
-        for curve in curves {
-            let (name, _, line) = sign(&curve.kind);
-            let points = curve.points.iter().map(|point| point.parameters.into());
-            panel.curve(pen, &points.collect::<Vec<_>>(), line);
-            enter(&mut entries, Sign::Line(line), name);
-        }
-        entries
-    })
-}
-
-/// One panel under a title, with a legend at its right.
-struct Page {
-    title: &'static str,
-    x: (f64, f64),
-    y: (f64, f64),
-    across: String,
-    upwards: String,
-}
-
-impl Page {
-    /// The page with what is drawn on its panel, which gives the legend.
-    fn svg(&self, draw: impl FnOnce(&mut Pen, &Panel) -> Vec<(Sign, String)>) -> String {
-        let mut pen = Pen::page(PAGE.0, PAGE.1);
-        heading(&mut pen, (AREA.0, 42.0), self.title, "");
-        let panel = Panel::new(AREA, self.x, self.y);
-        let axes = Axes::new(LETTERS, Some(&self.across), &self.upwards, (7, 7));
-        panel.ground(&mut pen, &axes);
-        let entries = draw(&mut pen, &panel);
-        panel.axes(&mut pen, &axes);
-        pen.legend((panel.right() + 18.0, AREA.1 + 14.0), LETTERS, &entries);
-        pen.svg()
-    }
-}
-
-/// Enters a sign into a legend, unless its name is there.
-fn enter(entries: &mut Vec<(Sign, String)>, sign: Sign, name: &str) {
-    if entries.iter().all(|(_, known)| known != name) {
-        entries.push((sign, name.to_owned()));
-    }
+    Chart::new("Bifurcations of periodic motions", [panel]).svg()
 }
 
 /// Pieces of one stability and one number of impacts, a line for each impact, the hardest first.
-fn lines(
-    pen: &mut Pen,
-    panel: &Panel,
-    (branch, colour): (&Branch, &'static str),
-    entries: &mut Vec<(Sign, String)>,
-) {
+fn lines(branch: &Branch, color: &'static str) -> Vec<Layer> {
+    let mut lines = Vec::new();
     for piece in pieces(branch) {
-        let (stroke, word) = if is_stable(&piece) {
-            (Stroke::solid(colour, 2.4), "stable")
-        } else {
-            (Stroke::dashed(colour, 1.4, (6.0, 4.0)), "unstable")
+        let (stroke, word) = match is_stable(&piece) {
+            true => (Stroke::solid(color, 2.4), "stable"),
+            false => (Stroke::dashed(color, 1.4, (6.0, 4.0)), "unstable"),
         };
         let ranks = piece.iter().map(|point| point.impacts.len()).max();
         for rank in 0..ranks.unwrap_or(0).max(1) {
             let points = piece.iter();
             let points = points.map(|point| (point.parameter, ranked(point, rank)));
-            panel.curve(pen, &points.collect::<Vec<_>>(), stroke);
+            let name = format!("period {}, {word}", branch.periods);
+            lines.push(Layer::line(points, stroke).named(name));
         }
-        let name = format!("period {}, {word}", branch.periods);
-        enter(entries, Sign::Line(stroke), &name);
     }
+    lines
 }
 
 /// The velocity of an orbit's impact of this rank; 0 where it has none.

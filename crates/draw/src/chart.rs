@@ -1,0 +1,178 @@
+//! A chart as data: panels in a grid, and the axes of each.
+
+use crate::layer::Layer;
+
+/// A picture of one or more panels. Margins follow from the texts at the axes; sizes are pixels.
+#[derive(Debug, Clone)]
+pub struct Chart {
+    /// Above the panels, in large letters.
+    pub title: String,
+    /// Below the title, in grey.
+    pub subtitle: String,
+    /// What is drawn.
+    pub panels: Vec<Panel>,
+    /// Where named layers are explained, unless their panel has a place of its own for that.
+    pub legend: Legend,
+    /// Paragraphs below the panels.
+    pub notes: Vec<String>,
+    /// Size of the letters at the axes; titles are larger.
+    pub letters: u32,
+    /// Width and height of the whole picture; if there is none, each panel has its own size.
+    pub page: Option<(f64, f64)>,
+    /// Panels of a column share the range across, and only the lowest one has its numbers.
+    pub shares_across: bool,
+    /// Panels of a row share the range upwards, and only the first one has its numbers.
+    pub shares_upwards: bool,
+}
+
+/// Where a legend stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Legend {
+    /// Right of all panels, an entry in each line.
+    #[default]
+    Right,
+    /// Between title and panels, in lines.
+    Above,
+    /// Below all panels, in lines.
+    Below,
+    /// Inside the panel, in a corner.
+    Inside(Corner),
+}
+
+/// A corner of a panel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Corner {
+    /// Upper left.
+    TopLeft,
+    /// Upper right.
+    TopRight,
+    /// Lower left.
+    BottomLeft,
+    /// Lower right.
+    BottomRight,
+}
+
+/// Two axes, and the layers between them, the first one at the back.
+#[derive(Debug, Clone)]
+pub struct Panel {
+    /// Above the panel.
+    pub title: String,
+    /// Column and row of the grid, counted from the upper left.
+    pub at: (usize, usize),
+    /// Columns and rows that it takes.
+    pub span: (usize, usize),
+    /// Width and height between the axes; if the page has a fixed size, weights.
+    pub size: (f64, f64),
+    /// The axis across.
+    pub x: Axis,
+    /// The axis upwards.
+    pub y: Axis,
+    /// What is drawn between the axes.
+    pub layers: Vec<Layer>,
+    /// Corner in which its own layers are explained.
+    pub legend: Option<Corner>,
+}
+
+/// An axis.
+#[derive(Debug, Clone, Default)]
+pub struct Axis {
+    /// Name, symbol and unit.
+    pub name: String,
+    /// Least and greatest value; what is not given follows from the layers.
+    pub ends: [Option<f64>; 2],
+    /// Whether it is logarithmic.
+    pub is_log: bool,
+    /// Values and what is written there; round values, if not given.
+    pub ticks: Option<Vec<(f64, String)>>,
+}
+
+impl Default for Chart {
+    fn default() -> Self {
+        Self {
+            title: String::new(),
+            subtitle: String::new(),
+            panels: Vec::new(),
+            legend: Legend::default(),
+            notes: Vec::new(),
+            letters: 14,
+            page: None,
+            shares_across: false,
+            shares_upwards: false,
+        }
+    }
+}
+
+impl Chart {
+    /// A chart of these panels.
+    pub fn new(title: impl Into<String>, panels: impl IntoIterator<Item = Panel>) -> Self {
+        Self {
+            title: title.into(),
+            panels: panels.into_iter().collect(),
+            ..Self::default()
+        }
+    }
+
+    /// The panels row by row, so many in each.
+    pub fn in_columns(mut self, columns: usize) -> Self {
+        for (index, panel) in self.panels.iter_mut().enumerate() {
+            panel.at = (index % columns, index / columns);
+        }
+        self
+    }
+}
+
+impl Default for Panel {
+    fn default() -> Self {
+        Self {
+            title: String::new(),
+            at: (0, 0),
+            span: (1, 1),
+            size: (720.0, 460.0),
+            x: Axis::default(),
+            y: Axis::default(),
+            layers: Vec::new(),
+            legend: None,
+        }
+    }
+}
+
+impl Axis {
+    /// An axis of this name.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            ..Self::default()
+        }
+    }
+
+    /// An axis of which nothing is written.
+    pub fn bare() -> Self {
+        Self::new("").ticks([])
+    }
+
+    /// From here to there.
+    pub fn range(self, (low, high): (f64, f64)) -> Self {
+        let ends = [Some(low), Some(high)];
+        Self { ends, ..self }
+    }
+
+    /// From here to a value that follows from the layers.
+    pub fn from(self, low: f64) -> Self {
+        let ends = [Some(low), self.ends[1]];
+        Self { ends, ..self }
+    }
+
+    /// Logarithmic.
+    pub fn log(self) -> Self {
+        Self {
+            is_log: true,
+            ..self
+        }
+    }
+
+    /// With these values and what is written there.
+    pub fn ticks(self, ticks: impl IntoIterator<Item = (f64, String)>) -> Self {
+        let ticks = Some(ticks.into_iter().collect());
+        Self { ticks, ..self }
+    }
+}

@@ -1,0 +1,276 @@
+//! What is drawn between the axes of a panel.
+
+use crate::chart::Panel;
+use crate::pen::Align;
+use crate::shapes::{Mark, Sign};
+use crate::stroke::{Point, Stroke};
+use crate::style;
+
+/// Half the size of a mark.
+const MARK: f64 = 6.0;
+
+/// Something drawn between the axes of a panel; a name explains it in the legend.
+#[derive(Debug, Clone)]
+pub struct Layer {
+    pub(crate) shape: Shape,
+    pub(crate) name: String,
+}
+
+/// What a layer is made of; places are values of the axes.
+#[derive(Debug, Clone)]
+pub(crate) enum Shape {
+    Line(Vec<Point>, Stroke),
+    Contour(Vec<Point>, Option<(f64, f64)>),
+    Dots(Vec<Point>, f64, &'static str),
+    Marks(Vec<Point>, Mark, f64, &'static str),
+    Band(Vec<(f64, [f64; 2])>, &'static str, f64),
+    Boxes(Vec<[(f64, f64); 2]>, &'static str, f64),
+    Cells(usize, Vec<&'static str>),
+    Shades(usize, Vec<f64>, String),
+    Ring(Point, (f64, f64)),
+    Across(f64, Stroke, String),
+    Upwards(f64, Stroke, String),
+    Arrow(Point, Point, Stroke),
+    Direction(Vec<Point>, f64, Stroke),
+    Text(Text),
+    Label(Point, String),
+    Message(String),
+    Key(Sign),
+}
+
+/// A text at a place.
+#[derive(Debug, Clone)]
+pub(crate) struct Text {
+    pub(crate) at: Point,
+    pub(crate) offset: (f64, f64),
+    pub(crate) align: Align,
+    pub(crate) text: String,
+    pub(crate) color: &'static str,
+    pub(crate) is_plated: bool,
+}
+
+impl Layer {
+    const fn new(shape: Shape) -> Self {
+        let name = String::new();
+        Self { shape, name }
+    }
+
+    /// With a name in the legend; layers of one name have one entry.
+    pub fn named(self, name: impl Into<String>) -> Self {
+        let name = name.into();
+        Self { name, ..self }
+    }
+
+    /// A line through points, cut at the frame; it has gaps where a value is not finite.
+    pub fn line(points: impl IntoIterator<Item = Point>, stroke: Stroke) -> Self {
+        Self::new(Shape::Line(points.into_iter().collect(), stroke))
+    }
+
+    /// A line that is seen on any ground; with lengths of dashes and gaps it is dashed.
+    pub fn contour(points: impl IntoIterator<Item = Point>, dashes: Option<(f64, f64)>) -> Self {
+        Self::new(Shape::Contour(points.into_iter().collect(), dashes))
+    }
+
+    /// Dots of this radius in pixels, any number: those that would hide each other are one.
+    pub fn dots(points: impl IntoIterator<Item = Point>, radius: f64, color: &'static str) -> Self {
+        Self::new(Shape::Dots(points.into_iter().collect(), radius, color))
+    }
+
+    /// A mark at each point.
+    pub fn marks(points: impl IntoIterator<Item = Point>, mark: Mark, color: &'static str) -> Self {
+        Self::new(Shape::Marks(
+            points.into_iter().collect(),
+            mark,
+            MARK,
+            color,
+        ))
+    }
+
+    /// With marks of this half size in pixels.
+    pub fn sized(mut self, size: f64) -> Self {
+        if let Shape::Marks(_, _, half, _) = &mut self.shape {
+            *half = size;
+        }
+        self
+    }
+
+    /// The ground between two curves: places across, lower and upper values.
+    pub fn band(
+        places: impl IntoIterator<Item = (f64, [f64; 2])>,
+        color: &'static str,
+        opacity: f64,
+    ) -> Self {
+        Self::new(Shape::Band(places.into_iter().collect(), color, opacity))
+    }
+
+    /// Filled boxes: ranges across and upwards, cut at the frame, so that infinite ones reach to it.
+    pub fn boxes(
+        boxes: impl IntoIterator<Item = [(f64, f64); 2]>,
+        color: &'static str,
+        opacity: f64,
+    ) -> Self {
+        Self::new(Shape::Boxes(boxes.into_iter().collect(), color, opacity))
+    }
+
+    /// Rows of coloured cells that fill the panel, the lowest row first.
+    pub fn cells(columns: usize, colors: impl IntoIterator<Item = &'static str>) -> Self {
+        Self::new(Shape::Cells(columns, colors.into_iter().collect()))
+    }
+
+    /// Rows of cells whose colours stand for values, the lowest row first, beside a bar of this name; a value that is
+    /// not finite has no colour.
+    pub fn shades(
+        columns: usize,
+        values: impl IntoIterator<Item = f64>,
+        name: impl Into<String>,
+    ) -> Self {
+        Self::new(Shape::Shades(
+            columns,
+            values.into_iter().collect(),
+            name.into(),
+        ))
+    }
+
+    /// An ellipse that is seen on any ground: its middle and its half-axes.
+    pub fn ring(middle: Point, half_axes: (f64, f64)) -> Self {
+        Self::new(Shape::Ring(middle, half_axes))
+    }
+
+    /// A line across the whole panel at this height, its name above its right end.
+    pub fn across(height: f64, stroke: Stroke, name: impl Into<String>) -> Self {
+        Self::new(Shape::Across(height, stroke, name.into()))
+    }
+
+    /// A line up through the whole panel at this place, its name above the panel.
+    pub fn upwards(place: f64, stroke: Stroke, name: impl Into<String>) -> Self {
+        Self::new(Shape::Upwards(place, stroke, name.into()))
+    }
+
+    /// A line with a head at its end.
+    pub fn arrow(from: Point, to: Point, stroke: Stroke) -> Self {
+        Self::new(Shape::Arrow(from, to, stroke))
+    }
+
+    /// An arrow that shows which way a curve goes, at this share of its length; none on a curve that is too short.
+    pub fn direction(points: impl IntoIterator<Item = Point>, share: f64, stroke: Stroke) -> Self {
+        Self::new(Shape::Direction(
+            points.into_iter().collect(),
+            share,
+            stroke,
+        ))
+    }
+
+    /// A text at a place.
+    pub fn text(at: Point, align: Align, text: impl Into<String>) -> Self {
+        Self::new(Shape::Text(Text {
+            at,
+            offset: (0.0, 0.0),
+            align,
+            text: text.into(),
+            color: style::INK,
+            is_plated: false,
+        }))
+    }
+
+    fn with_text(mut self, change: impl FnOnce(&mut Text)) -> Self {
+        if let Shape::Text(text) = &mut self.shape {
+            change(text);
+        }
+        self
+    }
+
+    /// With a text so many pixels to the right and below its place.
+    pub fn moved(self, right: f64, down: f64) -> Self {
+        self.with_text(|text| text.offset = (right, down))
+    }
+
+    /// With a text of this colour.
+    pub fn colored(self, color: &'static str) -> Self {
+        self.with_text(|text| text.color = color)
+    }
+
+    /// With a text on a light plate, to be read among points.
+    pub fn plated(self) -> Self {
+        self.with_text(|text| text.is_plated = true)
+    }
+
+    /// The name of a point, beside it where there is room and no other name.
+    pub fn label(at: Point, text: impl Into<String>) -> Self {
+        Self::new(Shape::Label(at, text.into()))
+    }
+
+    /// Words in the middle of a panel that has nothing else to show.
+    pub fn message(words: impl Into<String>) -> Self {
+        Self::new(Shape::Message(words.into()))
+    }
+
+    /// An entry of the legend alone.
+    pub fn key(sign: Sign, name: impl Into<String>) -> Self {
+        Self::new(Shape::Key(sign)).named(name)
+    }
+
+    /// Whether it fills its panel with colour.
+    pub(crate) const fn fills(&self) -> bool {
+        matches!(self.shape, Shape::Cells(..) | Shape::Shades(..))
+    }
+
+    /// What stands for it in the legend.
+    pub(crate) fn sign(&self) -> Option<Sign> {
+        match &self.shape {
+            Shape::Line(_, stroke)
+            | Shape::Across(_, stroke, _)
+            | Shape::Upwards(_, stroke, _)
+            | Shape::Arrow(_, _, stroke) => Some(Sign::Line(*stroke)),
+            Shape::Contour(_, dashes) => Some(Sign::Line(Stroke {
+                dashes: *dashes,
+                ..Stroke::solid(style::INK, 1.6)
+            })),
+            Shape::Dots(_, _, color) => Some(Sign::Patch(color)),
+            Shape::Marks(_, mark, _, color) => Some(Sign::Mark(*mark, color)),
+            Shape::Band(_, color, opacity) | Shape::Boxes(_, color, opacity) => {
+                Some(Sign::Band(color, *opacity))
+            }
+            Shape::Ring(..) => Some(Sign::Ring),
+            Shape::Key(sign) => Some(*sign),
+            _ => None,
+        }
+    }
+
+    /// The points by which it widens the ranges of axes that are not given.
+    pub(crate) fn extent(&self) -> Vec<Point> {
+        match &self.shape {
+            Shape::Line(points, _)
+            | Shape::Contour(points, _)
+            | Shape::Dots(points, ..)
+            | Shape::Marks(points, ..)
+            | Shape::Direction(points, ..) => points.clone(),
+            Shape::Band(places, ..) => {
+                let ends = places.iter();
+                let ends = ends.flat_map(|(x, ends)| ends.map(|y| (*x, y)));
+                ends.collect()
+            }
+            Shape::Boxes(boxes, ..) => {
+                let corners = boxes.iter().map(|[x, y]| [(x.0, y.0), (x.1, y.1)]);
+                corners.flatten().collect()
+            }
+            Shape::Arrow(from, to, _) => vec![*from, *to],
+            Shape::Label(at, _) => vec![*at],
+            Shape::Across(height, ..) => vec![(f64::NAN, *height)],
+            Shape::Upwards(place, ..) => vec![(*place, f64::NAN)],
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl Panel {
+    /// The bar of shades that stands beside it, if there is one: its range and its name.
+    pub(crate) fn bar(&self) -> Option<((f64, f64), &str)> {
+        self.layers.iter().find_map(|layer| match &layer.shape {
+            Shape::Shades(_, values, name) => {
+                let range = crate::scale::around(values.iter().copied(), 0.0);
+                Some((range, name.as_str()))
+            }
+            _ => None,
+        })
+    }
+}
