@@ -1,5 +1,5 @@
-//! The program `softstop-lab`: the exact method beside others ([`methods`], foreign [`solvers`], a
-//! [`mod@reference`] of many digits), what accuracy costs ([`precision`]), where fixed steps fail ([`failures`]),
+//! The program `softstop-lab`: the exact method beside others ([`methods`], foreign [`solvers`], stored
+//! [`mod@reference`] motions), what accuracy costs ([`precision`]), where fixed steps fail ([`failures`]),
 //! how fast the engines are ([`throughput`]), and the paper, drawn anew (`softstop-paper`).
 #![forbid(unsafe_code)]
 
@@ -16,7 +16,6 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use softstop_console::failure::Failure;
-use softstop_console::interrupt;
 use softstop_paper::table1;
 
 /// The laboratory of softstop: methods measured against the exact one, and the paper drawn anew.
