@@ -16,7 +16,7 @@ from machine import TOP  # noqa: E402
 
 sys.path.insert(0, str(TOP / "examples"))
 
-from piercing_machine import System  # noqa: E402
+from piercing_machine import PLAIN, ROLL_BACK, Package, System  # noqa: E402
 
 STEP, STEPS = 0.02, 3000
 MACHINES = ["B", "A", "design"]
@@ -35,28 +35,25 @@ class Hand(System):
 
     def __init__(self, system, folder, machine=None, connected_initially=True):
         self.unconnected = not connected_initially
-        super().__init__(system, folder, machine)
+        super().__init__(Package(system, folder), machine)
 
     def outputs(self):
         return [0.0] * len(self.wires) if self.unconnected else super().outputs()
 
     def run(self, steps):
         for _ in range(steps):
-            self.step(STEP, repeats=0)
+            self.step(STEP, PLAIN)
             self.unconnected = False
-        ends = [self.get(*name.split(".", 1)) for name in WATCHED]
-        for unit in self.units.values():
-            unit.terminate()
-            unit.freeInstance()
-        return ends
+        with self:
+            return [self.get(*name.split(".", 1)) for name in WATCHED]
 
 
 def test_no_parameter_is_wired(system, tmp_path):
     hand = Hand(system, tmp_path)
-    for begin, output, end, name in hand.wires:
-        assert hand.variables[begin][output].causality == "output"
-        assert hand.variables[end][name].causality == "input"
-        assert hand.variables[begin][output].unit == hand.variables[end][name].unit
+    for wire in hand.wires:
+        output, name = wire.source.variables[wire.output], wire.target.variables[wire.input]
+        assert (output.causality, name.causality) == ("output", "input")
+        assert output.unit == name.unit
     hand.run(1)
 
 
@@ -99,18 +96,14 @@ def test_libcosim(system, tmp_path):
     np.testing.assert_allclose(ends, Hand(system, tmp_path, "B").run(STEPS), atol=1e-8)
 
 
-@pytest.mark.parametrize(("repeats", "order"), [(0, 1), (20, 2)])
-def test_order_of_the_coupling(system, repeats, order, tmp_path):
+@pytest.mark.parametrize(("coupling", "order"), [(PLAIN, 1), (ROLL_BACK, 2)])
+def test_order_of_the_coupling(system, coupling, order, tmp_path):
     """Speed and impact time at three steps: what is left falls by 2^order."""
-    ends = []
+    package, ends = Package(system, tmp_path), []
     for size in (0.05, 0.025, 0.0125):
-        machine = System(system, tmp_path / str(size), "B")
-        for _ in range(round(12 / size)):
-            machine.step(size, repeats)
-        ends.append([machine.get("drive", "speed"), machine.get("press", "impact.time")])
-        for unit in machine.units.values():
-            unit.terminate()
-            unit.freeInstance()
+        with System(package, "B") as machine:
+            machine.go_to(12, size, coupling)
+            ends.append([machine.get("drive", "speed"), machine.get("press", "impact.time")])
     coarse, middle, fine = np.array(ends)
     observed = np.log2(abs((coarse - middle) / (middle - fine)))
     np.testing.assert_allclose(observed, order, atol=0.1)

@@ -108,11 +108,13 @@ fn run_task(task: &Task) -> Result<()> {
             stage("all passed");
             Ok(())
         }
-        Task::Fmpy => test_with_fmpy(&build()?),
+        Task::Fmpy => {
+            build_program()?;
+            test_with_fmpy(&build()?)
+        }
         Task::Importers => test_with_importers(&build()?),
         Task::Pages => {
-            stage("program");
-            cargo("build --release --package softstop")?;
+            build_program()?;
             test_pages()
         }
         Task::Book => {
@@ -149,6 +151,11 @@ fn check() -> Result<()> {
 fn build() -> Result<PathBuf> {
     stage("FMU");
     fmu::write_package()
+}
+
+fn build_program() -> Result<()> {
+    stage("program");
+    cargo("build --release --package softstop")
 }
 
 fn test_with_fmpy(package: &Path) -> Result<()> {

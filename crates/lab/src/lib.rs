@@ -1,6 +1,6 @@
-//! The program `softstop-lab`: the exact method beside others ([`methods`], foreign [`solvers`], a
-//! [`mod@reference`] of many digits), what accuracy costs ([`precision`]), where fixed steps fail ([`failures`]),
-//! how fast the engines are ([`throughput`]), the whole machine in co-simulation ([`system`]), and the paper, drawn anew (`softstop-paper`).
+//! The program `softstop-lab`: the exact method beside others ([`methods`], foreign [`solvers`], stored
+//! [`mod@reference`] motions), what accuracy costs ([`precision`]), where fixed steps fail ([`failures`]),
+//! how fast the engines are ([`throughput`]), and the paper, drawn anew (`softstop-paper`).
 #![forbid(unsafe_code)]
 
 pub mod failures;
@@ -10,14 +10,12 @@ pub mod precision;
 pub mod reference;
 pub mod scenes;
 pub mod solvers;
-pub mod system;
 pub mod throughput;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use softstop_console::failure::Failure;
-use softstop_console::interrupt;
 use softstop_paper::table1;
 
 /// The laboratory of softstop: methods measured against the exact one, and the paper drawn anew.
@@ -52,8 +50,6 @@ pub enum Command {
     Chart(Chart),
     /// How fast the engines are, and whether the fast one counts the same impacts
     Throughput(throughput::ThroughputArguments),
-    /// Drive, press and feeder in co-simulation: strips that fail, running up, the order of the coupling
-    System(system::SystemArguments),
 }
 
 /// The charts to be had.
@@ -81,6 +77,5 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Chart(Chart::Precision(arguments)) => precision::run(&arguments),
         Command::Chart(Chart::Failures(arguments)) => failures::run(&arguments),
         Command::Throughput(arguments) => throughput::run(&arguments),
-        Command::System(arguments) => system::run(&arguments),
     }
 }

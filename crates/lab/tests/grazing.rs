@@ -1,12 +1,12 @@
 //! The Jacobian of a motion that all but grazes its stop against differences of motions in 67 digits.
 
+use crate::many_digits::solve;
 use approx::assert_abs_diff_eq;
 use nalgebra::{Matrix2, Vector2};
 use softstop::{Ratios, Scene};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::zone::grazing_frequencies;
 use softstop_lab::methods::Task;
-use softstop_lab::reference::solve;
 use softstop_testing::tolerance::DIFFERENCED;
 
 /// Distance of the states that are compared: 1.5e-4 of that at which the motion grazes no more. Their images

@@ -20,7 +20,6 @@ fn long_commands_end_on_a_signal() {
         "chart precision all",
         "chart failures",
         "throughput --check 100000000",
-        "system strips",
     ] {
         for signal in ["INT", "TERM", "HUP", "QUIT", "USR1"] {
             let folder = tempfile::tempdir().expect("a folder");
@@ -32,7 +31,7 @@ fn long_commands_end_on_a_signal() {
 }
 
 /// Commands that do not take long, and whether they write files.
-const BRIEF: [(&str, bool); 6] = [
+const BRIEF: [(&str, bool); 5] = [
     ("paper 7a --draft", true),
     ("table1 --motions 2 --lifetime 100", true),
     ("chart precision periodic --method exact --quick", true),
@@ -40,7 +39,6 @@ const BRIEF: [(&str, bool); 6] = [
         "chart failures --points 2 --method newmark --scene bounce",
         true,
     ),
-    ("system order --draft", true),
     ("throughput --repeats 1 --zones 4 --check 100", false),
 ];
 

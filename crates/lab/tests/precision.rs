@@ -17,6 +17,8 @@ use softstop_lab::precision::measure::{Bench, Effort, Row};
 use softstop_lab::precision::truth::Truth;
 use softstop_testing::{Program, docs};
 
+use crate::many_digits;
+
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// A scene of `docs/scenes` for some periods.
@@ -39,7 +41,9 @@ const ONCE: Effort = Effort {
 fn rows(task: &Task, family: &Family) -> Result<Vec<Row>, Box<dyn std::error::Error>> {
     let told = |failure: softstop_console::failure::Failure| failure.to_string();
     let scale = Scale::of(task)?;
-    let truth = Truth::of(task, &scale, &|_| {}).map_err(told)?;
+    let digits = many_digits::solve(task, &|_| true).ok();
+    let truth =
+        Truth::of(task, &scale, digits.map(many_digits::Reference::rounded)).map_err(told)?;
     let bench = Bench {
         task,
         truth: &truth,
@@ -206,7 +210,7 @@ fn failures_are_told_and_finer_settings_still_run() -> Outcome {
 fn a_power_law_is_measured_against_methods_that_agree() -> Outcome {
     let task = task("hertz.toml", 2.0)?;
     let scale = Scale::of(&task)?;
-    let truth = Truth::of(&task, &scale, &|_| {}).map_err(|failure| failure.to_string())?;
+    let truth = Truth::of(&task, &scale, None).map_err(|failure| failure.to_string())?;
     let doubt = truth.doubt.worst();
     assert!(doubt > 0.0 && doubt < 1e-10, "{doubt}");
     let exact = softstop_lab::methods::Exact.integrate(&task)?;

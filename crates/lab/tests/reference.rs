@@ -5,14 +5,14 @@ use approx::abs_diff_eq;
 use std::cell::RefCell;
 use std::str::FromStr;
 
+use crate::many_digits::number::{Digits, Real, float, size};
+use crate::many_digits::walk::Walk;
+use crate::many_digits::{ReferenceError, solve};
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use serde_json::Value;
 use softstop::{Excitation, Impact, Scene, Start, Stop};
 use softstop_lab::methods::{Exact, Integrator, Task};
-use softstop_lab::reference::number::{Digits, Real, float, size};
-use softstop_lab::reference::walk::Walk;
-use softstop_lab::reference::{ReferenceError, solve};
 use softstop_lab::throughput::random_machines::{Draw, Kind};
 use softstop_testing::reference::{STOPS, list, number};
 use softstop_testing::unloaded;

@@ -1,23 +1,19 @@
 //! `softstop fidelity`: how simple a model of a scene may be.
 
-mod answers;
 mod chart;
-mod cost;
-mod options;
-mod regimes;
 mod report;
 mod structure;
 mod study;
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::builder::{StringValueParser, TypedValueParser};
+use clap::{Args, ValueEnum};
 use softstop::Allowed;
 use softstop_dynamics::models::{Likeness, Quantity};
 
-use options::Matched;
 use report::FidelityReport;
-use softstop_console::arguments::{MachineArguments, title};
+use softstop_console::arguments::MachineArguments;
 use softstop_console::budget::BudgetArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
@@ -25,7 +21,7 @@ use softstop_console::failure::Failure;
 use softstop_console::output::Format;
 use softstop_console::range::{self, within};
 use structure::Structure;
-use study::{Study, Task};
+use study::Study;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -56,7 +52,7 @@ with --structure, structure.csv and structure.svg.";
 #[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct FidelityArguments {
     /// What the model is wanted for
-    #[arg(long, value_name = "QUANTITY", value_parser = options::quantity(),
+    #[arg(long, value_name = "QUANTITY", value_parser = quantity(),
           default_value = Quantity::BeforeImpactVelocity.name())]
     pub quantity: Quantity,
     /// Largest error of the quantity, relative to the scene's own, >= 0
@@ -97,6 +93,39 @@ pub struct FidelityArguments {
     pub limit: BudgetArguments,
 }
 
+/// What soft models have in common with the contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Matched {
+    /// The largest penetration: the energy stored there
+    Penetration,
+    /// The duration of the contact
+    Duration,
+    /// Two models, one of each
+    #[default]
+    Both,
+}
+
+impl Matched {
+    const fn likenesses(self) -> &'static [Likeness] {
+        match self {
+            Self::Penetration => &[Likeness::Penetration],
+            Self::Duration => &[Likeness::Duration],
+            Self::Both => &[Likeness::Penetration, Likeness::Duration],
+        }
+    }
+}
+
+/// Reads a quantity by its name; hyphens stand for underscores.
+fn quantity() -> impl TypedValueParser<Value = Quantity> {
+    let names = Quantity::ALL.map(Quantity::name);
+    StringValueParser::new().try_map(move |given| {
+        let name = given.replace('-', "_");
+        let mut all = Quantity::ALL.into_iter();
+        let found = all.find(|quantity| quantity.name() == name);
+        found.ok_or_else(|| format!("must be one of {}", names.join(", ")))
+    })
+}
+
 const FILES: [(&str, &str); 4] = [
     ("fidelity_csv", "fidelity.csv"),
     ("fidelity_svg", "fidelity.svg"),
@@ -106,44 +135,33 @@ const FILES: [(&str, &str); 4] = [
 
 fn help() -> String {
     let structure = column::help("structure.csv", &structure::columns());
-    EXAMPLES.to_owned() + &column::help("fidelity.csv", &answers::columns()) + &structure
+    EXAMPLES.to_owned() + &column::help("fidelity.csv", &report::columns()) + &structure
 }
 
 /// Compares the models, writes the files and prints the result.
 pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     check(arguments)?;
     let machine = arguments.machine.machine()?;
-    let files = &FILES[..if arguments.structure { 4 } else { 2 }];
-    let frequencies = arguments
-        .structure
-        .then(|| structure::frequencies(&machine, arguments));
+    let frequencies = arguments.structure;
+    let frequencies = frequencies.then(|| structure::frequencies(&machine, arguments));
     let frequencies = frequencies.transpose()?;
+    let files = &FILES[..if arguments.structure { 4 } else { 2 }];
     let export = Export::open(&arguments.output, files)?;
-    let task = Task {
-        start: machine.start,
-        quantity: arguments.quantity,
-        likenesses: arguments.matched.likenesses(),
-        predictive: arguments.predictive,
-        bounded: arguments.structure || arguments.quantity.is_bound(),
-        periods: arguments.periods,
-        repeats: arguments.repeats,
-    };
     let limit = arguments.limit.budget;
-    let study = limit.limit(|| Study::new(&machine.scene, &task))?;
+    let study = limit.limit(|| Study::new(&machine, arguments))?;
     let structure = frequencies.map(|frequencies| {
         let structure = || Structure::new(&machine, &study, frequencies);
         limit.limit_many(arguments.points as usize, structure)
     });
     let structure = structure.transpose()?;
-    let chart = chart::svg(arguments, &machine, &study);
-    let rows = answers::rows(&machine, &study);
+    let chart = chart::models(arguments, &machine, &study);
+    let rows = report::rows(&machine, &study);
     let kinds = ["fidelity_csv", "fidelity_svg"];
-    export.sheet(kinds, &answers::columns(), rows, &chart)?;
+    export.sheet(kinds, &report::columns(), rows, &chart)?;
     if let Some(structure) = &structure {
-        let title = format!("Regimes of the models of {}", title(&machine));
-        let chart = regimes::svg(&title, &machine, structure);
         let kinds = ["structure_csv", "structure_svg"];
-        export.sheet(kinds, &structure::columns(), structure.table(), &chart)?;
+        let chart = chart::regimes(&machine, structure);
+        export.sheet(kinds, &structure::columns(), structure.rows(), &chart)?;
     }
     let report = FidelityReport::new(arguments, &machine, &study, structure.as_ref());
     export.finish(&report, arguments.format)
@@ -154,12 +172,4 @@ fn check(arguments: &FidelityArguments) -> Result<(), Failure> {
     within("points", arguments.points, 2..=10_000)?;
     within("periods", arguments.periods, 1..=1_000_000)?;
     within("repeats", arguments.repeats, 1..=1000)
-}
-
-/// What a model has in common with the contact, in a word.
-const fn word(likeness: Likeness) -> &'static str {
-    match likeness {
-        Likeness::Penetration => "penetration",
-        Likeness::Duration => "duration",
-    }
 }

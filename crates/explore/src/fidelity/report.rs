@@ -5,94 +5,66 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use serde_json::json;
 use softstop::{Dimension, Machine, Start};
-use softstop_dynamics::models::{Likeness, Quantity, Rung};
+use softstop_dynamics::models::Quantity;
 use softstop_dynamics::zone::Bounds;
 
-use super::answers::{ANSWER, Row, columns, own, unit};
-use super::structure::{Origin, Structure, Track};
-use super::study::{Entry, Study, name};
-use super::{FidelityArguments, word};
+use super::FidelityArguments;
+use super::structure::{Structure, Track, kind};
+use super::study::{Entry, Name, Study, Unmatched};
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Told, Unit, Units};
-use softstop_console::columns;
 use softstop_console::export::Report;
 use softstop_console::record::{Record, below};
 use softstop_console::report::{MachineReport, MotionName};
 use softstop_console::table::heading;
+use softstop_console::{columns, units};
 
-/// A model by its name.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-struct Named {
-    rung: Rung,
-    /// What it has in common with the contact.
-    matched: Option<&'static str>,
+/// A row of `fidelity.csv`: a quantity of a model.
+#[derive(Clone, Copy)]
+pub(super) struct Row<'a> {
+    machine: &'a Machine,
+    study: &'a Study,
+    model: &'a Entry,
+    quantity: Quantity,
 }
 
-impl Named {
-    fn of(rung: Rung, likeness: Option<Likeness>) -> Self {
-        Self {
-            rung,
-            matched: likeness.map(word),
-        }
+/// The columns of `fidelity.csv`; from the fourth to the sixth they are what an answer is in JSON.
+pub(super) fn columns<'a>() -> [Column<Row<'a>>; 8] {
+    columns! { Row<'a>, it;
+        "rung" [None], "the model's law" => it.model.name.rung.name();
+        "matched" [None], "what it shares with the contact, if anything" => it.model.name.word();
+        "quantity" [None], "what is compared" => it.quantity.name();
+        "unit" [None], "of its value" => unit(it.machine, it.quantity);
+        "value" [Of("unit")], "of the model" => own(it.machine, it.quantity, it.quantity.value(&it.model.answers));
+        "error" [None], "relative to the machine's own value" => it.quantity.error(&it.study.truth, &it.model.answers);
+        "evaluations_per_period" [None], "of the law of force" => it.model.cost.evaluations_per_period;
+        "microseconds_per_period" [Of("us")], "median" => it.model.cost.microseconds_per_period;
     }
 }
 
-/// A model.
-#[derive(Debug, Serialize)]
-struct ModelReport {
-    #[serde(flatten)]
-    named: Named,
-    is_scene: bool,
-    /// The machine with this stop.
-    machine: MachineReport,
-    /// What it settles on.
-    #[serde(flatten)]
-    motion: MotionName,
-    /// Of the quantity that was asked for.
-    #[serde(flatten)]
-    figures: Record,
-    /// All quantities.
-    answers: BTreeMap<&'static str, Record>,
+/// The rows of `fidelity.csv`: all quantities of all models.
+pub(super) fn rows<'a>(machine: &'a Machine, study: &'a Study) -> impl Iterator<Item = Row<'a>> {
+    study.entries.iter().flat_map(move |model| {
+        Quantity::ALL.into_iter().map(move |quantity| Row {
+            machine,
+            study,
+            model,
+            quantity,
+        })
+    })
 }
 
-/// A rung without a model.
-#[derive(Debug, Serialize)]
-struct UnmatchedReport {
-    #[serde(flatten)]
-    named: Named,
-    reason: String,
+/// The unit of a quantity as the machine has it.
+fn unit(machine: &Machine, quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Regime => "impacts per period",
+        _ => units::name(machine, quantity.dimension()),
+    }
 }
 
-/// The regimes of a model over the sweep.
-#[derive(Debug, Serialize)]
-struct TrackReport {
-    #[serde(flatten)]
-    named: Named,
-    #[serde(flatten)]
-    figures: Record,
-}
-
-/// The whole result.
-#[derive(Debug, Serialize)]
-pub(super) struct FidelityReport {
-    machine: MachineReport,
-    /// Where its motion starts.
-    start: Start,
-    quantity: Quantity,
-    unit: &'static str,
-    tolerance: f64,
-    /// The scene's own value.
-    value: Option<f64>,
-    /// Before-impact velocity of the machine's motion.
-    operating_velocity: Option<f64>,
-    predictive: bool,
-    cheapest: Option<Named>,
-    cheapest_is_scene: bool,
-    models: Vec<ModelReport>,
-    unmatched: Vec<UnmatchedReport>,
-    structure: Option<Vec<TrackReport>>,
-    #[serde(skip)]
-    text: String,
+/// A value of a quantity in the machine's own units.
+fn own(machine: &Machine, quantity: Quantity, value: Option<f64>) -> Option<f64> {
+    value.map(|value| machine.to_own(quantity.dimension(), value))
 }
 
 /// What is told of a model.
@@ -119,15 +91,16 @@ fn error(error: Option<f64>) -> Told {
 
 type Tracked<'a> = (&'a Machine, &'a Structure<'a>, &'a Track<'a>);
 
+/// What is told of the regimes of a model.
 fn tracks<'a>() -> [Column<Tracked<'a>>; 7] {
     columns! { Tracked<'a>, it;
-        "same_regime" [None] Percent(1), "share" => it.1.agreement(it.2).map(|it| it.same_regime);
-        "same_kind" [None] Percent(1), "share" => it.1.agreement(it.2).map(|it| it.same_kind);
+        "same_regime" [None] Percent(1), "share" => it.1.agreement(it.2, |regime| regime);
+        "same_kind" [None] Percent(1), "share" => it.1.agreement(it.2, kind);
         "grazing_frequency" [Frequency] Fixed(6), "g0" => bound(it, |it| it.grazing);
         "flip_frequency" [Frequency] Fixed(6), "s_PD" => bound(it, |it| it.flip);
         "fold_frequency" [Frequency] Fixed(6), "s_SN" => bound(it, |it| it.fold);
-        "sequence_from_rest" [None], "regimes in order of frequency" => sequence(it.2, Origin::Rest);
-        "sequence_flung" [None], "the same, flung" => sequence(it.2, Origin::Flung);
+        "sequence_from_rest" [None], "regimes in order of frequency" => sequence(it.2, 0);
+        "sequence_flung" [None], "the same, flung" => sequence(it.2, 1);
     }
 }
 
@@ -136,29 +109,80 @@ fn bound((machine, _, track): &Tracked, one: fn(&Bounds) -> Option<f64>) -> Opti
     own(machine, Quantity::FoldFrequency, bound)
 }
 
-fn sequence(track: &Track, origin: Origin) -> Told {
+fn sequence(track: &Track, start: usize) -> Told {
     Told {
-        value: track.sequence(origin).into(),
+        value: track.sequence(start).into(),
         words: String::new(),
     }
 }
 
-fn model(row: Row) -> ModelReport {
-    let entry = row.model;
-    let answer = |quantity: Quantity| Record::of(&columns()[ANSWER], &Row { quantity, ..row });
-    let answers = Quantity::ALL.map(|quantity| (quantity.name(), answer(quantity)));
-    ModelReport {
-        named: Named::of(entry.rung, entry.likeness),
-        is_scene: entry.is_truth,
-        machine: MachineReport::of(&Machine {
-            scene: entry.scene.clone(),
-            preload_deflection: None,
-            ..row.machine.clone()
-        }),
-        motion: MotionName::of_regime(entry.answers.observed.regime),
-        figures: Record::of(&figures(), &row),
-        answers: answers.into(),
+/// A model.
+#[derive(Debug, Serialize)]
+struct ModelReport {
+    #[serde(flatten)]
+    name: Name,
+    is_scene: bool,
+    /// The machine with this stop.
+    machine: MachineReport,
+    /// What it settles on.
+    #[serde(flatten)]
+    motion: MotionName,
+    /// Of the quantity that was asked for.
+    #[serde(flatten)]
+    figures: Record,
+    /// All quantities.
+    answers: BTreeMap<&'static str, Record>,
+}
+
+impl ModelReport {
+    fn new(row: Row) -> Self {
+        let entry = row.model;
+        let answer = |quantity: Quantity| Record::of(&columns()[3..6], &Row { quantity, ..row });
+        Self {
+            name: entry.name,
+            is_scene: entry.is_truth,
+            machine: MachineReport::of(&Machine {
+                scene: entry.scene.clone(),
+                preload_deflection: None,
+                ..row.machine.clone()
+            }),
+            motion: MotionName::of_regime(entry.answers.observed.regime),
+            figures: Record::of(&figures(), &row),
+            answers: Quantity::ALL.map(|it| (it.name(), answer(it))).into(),
+        }
     }
+}
+
+/// The regimes of a model over the sweep.
+#[derive(Debug, Serialize)]
+struct TrackReport {
+    #[serde(flatten)]
+    name: Name,
+    #[serde(flatten)]
+    figures: Record,
+}
+
+/// The whole result.
+#[derive(Debug, Serialize)]
+pub(super) struct FidelityReport {
+    machine: MachineReport,
+    /// Where its motion starts.
+    start: Start,
+    quantity: Quantity,
+    unit: &'static str,
+    tolerance: f64,
+    /// The scene's own value.
+    value: Option<f64>,
+    /// Before-impact velocity of the machine's motion.
+    operating_velocity: Option<f64>,
+    predictive: bool,
+    cheapest: Option<Name>,
+    cheapest_is_scene: bool,
+    models: Vec<ModelReport>,
+    unmatched: Vec<Unmatched>,
+    structure: Option<Vec<TrackReport>>,
+    #[serde(skip)]
+    text: String,
 }
 
 impl FidelityReport {
@@ -170,25 +194,12 @@ impl FidelityReport {
     ) -> Self {
         let quantity = arguments.quantity;
         let cheapest = study.cheapest(arguments.tolerance);
-        let models = study.entries.iter().map(|entry| {
-            model(Row {
-                machine,
-                study,
-                model: entry,
-                quantity,
-            })
-        });
-        let unmatched = study.missing.iter().map(|it| UnmatchedReport {
-            named: Named::of(it.rung, it.likeness),
-            reason: it.reason.clone(),
-        });
-        let structure = structure.map(|structure| {
-            let tracks_found = structure.tracks.iter().map(|track| TrackReport {
-                named: Named::of(track.entry.rung, track.entry.likeness),
-                figures: Record::of(&tracks(), &(machine, structure, track)),
-            });
-            tracks_found.collect::<Vec<_>>()
-        });
+        let models = rows(machine, study).filter(|row| row.quantity == quantity);
+        let track = |structure, track: &Track| TrackReport {
+            name: track.entry.name,
+            figures: Record::of(&tracks(), &(machine, structure, track)),
+        };
+        let regimes = structure.map(|it| it.tracks.iter().map(|own| track(it, own)).collect());
         let mut report = Self {
             machine: MachineReport::of(machine),
             start: machine.start,
@@ -198,11 +209,11 @@ impl FidelityReport {
             value: own(machine, quantity, quantity.value(&study.truth)),
             operating_velocity: study.velocity,
             predictive: arguments.predictive,
-            cheapest: cheapest.map(|entry| Named::of(entry.rung, entry.likeness)),
+            cheapest: cheapest.map(|entry| entry.name),
             cheapest_is_scene: cheapest.is_some_and(|entry| entry.is_truth),
-            models: models.collect(),
-            unmatched: unmatched.collect(),
-            structure,
+            models: models.map(ModelReport::new).collect(),
+            unmatched: study.unmatched.clone(),
+            structure: regimes,
             text: String::new(),
         };
         report.text = report.write(machine, study);
@@ -212,26 +223,24 @@ impl FidelityReport {
     /// For people.
     fn write(&self, machine: &Machine, study: &Study) -> String {
         let units = Units::of(machine);
-        let named = |figures: &Record, entry: &Entry| {
-            let named = Record::default().with("model", "", entry.full_name());
-            named.and(figures.clone())
+        let table = |figures: Vec<&Record>| {
+            let named = figures.into_iter().zip(&study.entries).map(|(it, entry)| {
+                let name = Record::default().with("model", "", entry.full_name());
+                name.and(it.clone())
+            });
+            below(&named.collect::<Vec<_>>(), &units)
         };
-        let models = self.models.iter().zip(&study.entries);
-        let models = models.map(|(it, entry)| named(&it.figures, entry));
-        let models: Vec<Record> = models.collect();
+        let models = table(self.models.iter().map(|it| &it.figures).collect());
         let value = units.label(self.quantity.name(), Unit::Of(self.unit));
         let mut text = heading(&format!("Models of {} for its {value}", title(machine)));
-        text += &format!("{}\n{}", below(&models, &units), self.advice(&units, study));
-        for missing in &study.missing {
-            let name = name(missing.rung, missing.likeness);
-            text += &format!("Without a model: {name}: {}\n", missing.reason);
+        text += &format!("{models}\n{}", self.advice(&units, study));
+        for Unmatched { name, reason } in &self.unmatched {
+            text += &format!("Without a model: {name}: {reason}\n");
         }
         if let Some(tracks) = &self.structure {
-            let tracks = tracks.iter().zip(&study.entries);
-            let tracks = tracks.map(|(it, entry)| named(&it.figures, entry));
-            let tracks: Vec<Record> = tracks.collect();
             let title = heading("Regimes over the sweep, from rest and from a flung start");
-            text += &format!("\n{title}{}", below(&tracks, &units));
+            let tracks = table(tracks.iter().map(|it| &it.figures).collect());
+            text += &format!("\n{title}{tracks}");
         }
         text
     }
@@ -252,11 +261,16 @@ impl FidelityReport {
         let tolerance = self.tolerance;
         let found = match study.cheapest(tolerance) {
             None => format!("No model is within {tolerance}."),
-            Some(entry) if entry.is_truth => format!(
-                "Within {tolerance} nothing costs less than the scene itself ({}): take it as it is.",
-                entry.name()
+            Some(Entry {
+                name,
+                is_truth: true,
+                ..
+            }) => format!(
+                "Within {tolerance} nothing costs less than the scene itself ({name}): take it as it is."
             ),
-            Some(entry) => format!("The cheapest model within {tolerance}: {}.", entry.name()),
+            Some(Entry { name, .. }) => {
+                format!("The cheapest model within {tolerance}: {name}.")
+            }
         };
         format!("{matched} Costs are per drive period.\n{found}\n")
     }

@@ -4,8 +4,8 @@ use anyhow::Context;
 use softstop::{Dimension, Machine, Scene, Start};
 use softstop_dynamics::Regime;
 
+use super::FidelityArguments;
 use super::study::{Entry, Study};
-use super::{FidelityArguments, word};
 use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::failure::Failure;
@@ -14,29 +14,11 @@ use softstop_console::report::MotionName;
 
 /// Drive periods after which a motion counts as settled.
 const TRANSIENT: u64 = 200;
-/// Velocity of the second start, from position 0, in units of the clearance times sqrt(k1/m): the paper's
-/// (0, 14) at rho = 10.
-const FLUNG: f64 = 1.4;
-
-/// Where a motion of the sweep starts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Origin {
-    /// At rest.
-    Rest,
-    /// Towards the stop.
-    Flung,
-}
-
-impl Origin {
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Rest => "rest",
-            Self::Flung => "flung",
-        }
-    }
-}
-
-const ORIGINS: [Origin; 2] = [Origin::Rest, Origin::Flung];
+/// Names of the two starts, and velocities from position 0 in units of the clearance times sqrt(k1/m): at rest, and towards
+/// the stop as the paper's (0, 14) at rho = 10.
+const STARTS: [(&str, f64); 2] = [("rest", 0.0), ("flung", 1.4)];
+/// Ends of the sweep unless they are given, in units of sqrt(k1/m).
+const SWEEP: [f64; 2] = [0.95, 1.4];
 
 /// The regimes of one model from both starts, at every frequency; none where nothing repeats.
 #[derive(Debug)]
@@ -53,15 +35,6 @@ pub(super) struct Structure<'a> {
     pub(super) tracks: Vec<Track<'a>>,
 }
 
-/// How much of a model's regimes are those of the scene.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Agreement {
-    /// Share of frequencies and starts with the same z = p/n, or without one in both.
-    pub(super) same_regime: f64,
-    /// Share with the same kind: no impacts, z = 1, another period, none.
-    pub(super) same_kind: f64,
-}
-
 impl<'a> Structure<'a> {
     /// Runs all models of a study from both starts at these frequencies.
     pub(super) fn new(
@@ -69,12 +42,12 @@ impl<'a> Structure<'a> {
         study: &'a Study,
         frequencies: Vec<f64>,
     ) -> Result<Self, Failure> {
-        let count = ORIGINS.len() * frequencies.len() * study.entries.len();
+        let count = STARTS.len() * frequencies.len() * study.entries.len();
         let progress = Progress::new(count as u64, "motions");
-        let regimes = |entry: &Entry, origin| {
+        let regimes = |entry: &Entry, (_, flung)| {
             let each = frequencies.iter().map(|frequency| {
                 let frequency = machine.to_si(Dimension::Frequency, *frequency);
-                let regime = regime(&entry.scene, frequency, origin)?;
+                let regime = regime(&entry.scene, frequency, flung)?;
                 progress.step()?;
                 Ok(regime)
             });
@@ -83,53 +56,55 @@ impl<'a> Structure<'a> {
         let track = |entry: &'a Entry| {
             Ok(Track {
                 entry,
-                regimes: [regimes(entry, ORIGINS[0])?, regimes(entry, ORIGINS[1])?],
+                regimes: [regimes(entry, STARTS[0])?, regimes(entry, STARTS[1])?],
             })
         };
         let tracks = study.entries.iter().map(track);
-        let tracks = tracks.collect::<Result<_, Failure>>()?;
         Ok(Self {
+            tracks: tracks.collect::<Result<_, Failure>>()?,
             frequencies,
-            tracks,
         })
     }
 
-    /// How far a model agrees with the scene itself.
-    pub(super) fn agreement(&self, model: &Track) -> Option<Agreement> {
+    /// The share of frequencies and starts at which something of a model's regime is that of the scene itself.
+    pub(super) fn agreement<T: PartialEq>(
+        &self,
+        model: &Track,
+        of: fn(Option<Regime>) -> T,
+    ) -> Option<f64> {
         let truth = self.tracks.iter().find(|track| track.entry.is_truth)?;
-        let pairs = || {
-            let all = |track: &Track| track.regimes.concat();
-            all(truth).into_iter().zip(all(model))
-        };
-        let share = |same: fn(&(Option<Regime>, Option<Regime>)) -> bool| {
-            pairs().filter(same).count() as f64 / pairs().count() as f64
-        };
-        Some(Agreement {
-            same_regime: share(|(a, b)| a == b),
-            same_kind: share(|(a, b)| kind(*a) == kind(*b)),
-        })
+        let pairs = truth
+            .regimes
+            .iter()
+            .flatten()
+            .zip(model.regimes.iter().flatten());
+        let same = pairs.clone().filter(|(a, b)| of(**a) == of(**b));
+        Some(same.count() as f64 / pairs.count() as f64)
     }
 
     /// The rows of `structure.csv`: all motions.
-    pub(super) fn table(&self) -> impl Iterator<Item = Row<'_>> {
+    pub(super) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
         self.tracks.iter().flat_map(move |track| {
-            ORIGINS.into_iter().flat_map(move |start| {
-                let regimes = self.frequencies.iter().zip(&track.regimes[start as usize]);
-                regimes.map(move |(frequency, regime)| Row {
-                    track,
-                    start,
-                    frequency: *frequency,
-                    motion: MotionName::of_regime(*regime),
+            STARTS
+                .iter()
+                .zip(&track.regimes)
+                .flat_map(move |((start, _), regimes)| {
+                    let regimes = self.frequencies.iter().zip(regimes);
+                    regimes.map(move |(frequency, regime)| Row {
+                        track,
+                        start,
+                        frequency: *frequency,
+                        motion: MotionName::of_regime(*regime),
+                    })
                 })
-            })
         })
     }
 }
 
 impl Track<'_> {
-    /// z or kind of its motions in order of frequency, each once where it is the same at neighbours.
-    pub(super) fn sequence(&self, origin: Origin) -> Vec<String> {
-        let regimes = self.regimes[origin as usize].iter();
+    /// z or kind of its motions from a start in order of frequency, each once where it is the same at neighbours.
+    pub(super) fn sequence(&self, start: usize) -> Vec<String> {
+        let regimes = self.regimes[start].iter();
         let names = regimes.map(|regime| MotionName::of_regime(*regime).word().to_owned());
         let mut names: Vec<String> = names.collect();
         names.dedup();
@@ -140,7 +115,7 @@ impl Track<'_> {
 /// A row of `structure.csv`.
 pub(super) struct Row<'a> {
     track: &'a Track<'a>,
-    start: Origin,
+    start: &'static str,
     frequency: f64,
     motion: MotionName,
 }
@@ -148,17 +123,14 @@ pub(super) struct Row<'a> {
 /// The columns of `structure.csv`.
 pub(super) fn columns<'a>() -> [Column<Row<'a>>; 6] {
     columns! { Row<'a>, row;
-        "rung" [None], "the model's law" => row.track.entry.rung.name();
-        "matched" [None], "what it shares with the contact, if anything" => row.track.entry.likeness.map(word);
-        "start" [None], "rest, or flung towards the stop" => row.start.name();
+        "rung" [None], "the model's law" => row.track.entry.name.rung.name();
+        "matched" [None], "what it shares with the contact, if anything" => row.track.entry.name.word();
+        "start" [None], "rest, or flung towards the stop" => row.start;
         "frequency" [Frequency], "of the drive" => row.frequency;
         "kind" [None], "of the motion: periodic or unsettled" => row.motion.kind;
         "z" [None], "regime z = p/n, if the motion repeats" => row.motion.z.as_deref();
     }
 }
-
-/// Ends of the sweep unless they are given, in units of sqrt(k1/m).
-const SWEEP: [f64; 2] = [0.95, 1.4];
 
 /// The frequencies in the machine's own units, both ends included.
 pub(super) fn frequencies(
@@ -180,27 +152,20 @@ pub(super) fn frequencies(
     Ok(points.map(|point| low + point as f64 * step).collect())
 }
 
-fn regime(scene: &Scene, frequency: f64, origin: Origin) -> Result<Option<Regime>, Failure> {
+fn regime(scene: &Scene, frequency: f64, flung: f64) -> Result<Option<Regime>, Failure> {
     let scene = scene.at_frequency(frequency);
     let unit = (scene.stiffness / scene.mass).sqrt();
-    let length = scene
-        .clearance
-        .abs()
-        .max(scene.excitation.amplitude / scene.stiffness);
-    let velocity = match origin {
-        Origin::Rest => 0.0,
-        Origin::Flung => FLUNG * length * unit,
-    };
+    let static_deflection = scene.excitation.amplitude / scene.stiffness;
+    let length = scene.clearance.abs().max(static_deflection);
     // With interference the mass would stand beyond a rigid stop.
-    let position = scene.clearance.min(0.0);
-    let start = Start::new(position, velocity);
+    let start = Start::new(scene.clearance.min(0.0), flung * length * unit);
     let (regime, _) = Regime::after(&scene, start, TRANSIENT)
         .with_context(|| format!("cannot run the sweep at {frequency} rad/s"))?;
     Ok(regime)
 }
 
 /// What a regime is, coarsely: no impacts, z = 1, another period, none.
-fn kind(regime: Option<Regime>) -> u8 {
+pub(super) fn kind(regime: Option<Regime>) -> u8 {
     match regime.map(|regime| (regime.impacts, regime.periods)) {
         None => 0,
         Some((0, _)) => 1,

@@ -1,37 +1,52 @@
 //! The models of a scene with their errors and costs.
 
-use anyhow::anyhow;
-use softstop::{Scene, Start};
+use std::fmt;
+use std::time::Instant;
+
+use anyhow::{Context, anyhow};
+use serde::Serialize;
+use softstop::internals::Evaluations;
+use softstop::{Clock, Machine, MotionError, Scene, Start};
 use softstop_dynamics::models::{
     Answers, FidelityError, Ladder, Likeness, Model, Observation, Quantity, Rung, cheapest,
     from_model, from_truth,
 };
 
-use super::cost::{Cost, costs};
-use super::word;
+use super::FidelityArguments;
 use softstop_console::failure::Failure;
+use softstop_console::median::median;
 use softstop_console::progress::Progress;
 
-/// What is to be compared.
-#[derive(Debug, Clone)]
-pub(super) struct Task {
-    /// Where motions start that are not z = 1.
-    pub(super) start: Start,
-    pub(super) quantity: Quantity,
-    pub(super) likenesses: Vec<Likeness>,
-    pub(super) predictive: bool,
-    /// Whether bounds of z = 1 are wanted.
-    pub(super) bounded: bool,
-    pub(super) periods: u64,
-    pub(super) repeats: u64,
+/// A model by its law and by what it has in common with the contact, nothing where that makes no difference.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub(super) struct Name {
+    pub(super) rung: Rung,
+    pub(super) matched: Option<Likeness>,
+}
+
+impl Name {
+    /// What it has in common with the contact, in a word.
+    pub(super) fn word(self) -> Option<&'static str> {
+        self.matched.map(|likeness| match likeness {
+            Likeness::Penetration => "penetration",
+            Likeness::Duration => "duration",
+        })
+    }
+}
+
+impl fmt::Display for Name {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.word() {
+            Some(word) => write!(formatter, "{} ({word})", self.rung),
+            None => self.rung.fmt(formatter),
+        }
+    }
 }
 
 /// A model with what it gives.
 #[derive(Debug, Clone)]
 pub(super) struct Entry {
-    pub(super) rung: Rung,
-    /// What it has in common with the contact; none where that makes no difference.
-    pub(super) likeness: Option<Likeness>,
+    pub(super) name: Name,
     pub(super) scene: Scene,
     pub(super) answers: Answers,
     /// Error of the quantity that is asked for.
@@ -41,11 +56,20 @@ pub(super) struct Entry {
     pub(super) is_truth: bool,
 }
 
+/// What a drive period of a model's settled motion takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Cost {
+    /// Evaluations of the law of force: the same on every machine.
+    pub(super) evaluations_per_period: f64,
+    /// Median time.
+    pub(super) microseconds_per_period: f64,
+}
+
 /// A rung without a model.
-#[derive(Debug, Clone)]
-pub(super) struct Missing {
-    pub(super) rung: Rung,
-    pub(super) likeness: Option<Likeness>,
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Unmatched {
+    #[serde(flatten)]
+    pub(super) name: Name,
     pub(super) reason: String,
 }
 
@@ -56,58 +80,64 @@ pub(super) struct Study {
     pub(super) velocity: Option<f64>,
     pub(super) truth: Answers,
     pub(super) entries: Vec<Entry>,
-    pub(super) missing: Vec<Missing>,
+    pub(super) unmatched: Vec<Unmatched>,
 }
 
 impl Study {
     /// Matches, runs and measures all models.
-    pub(super) fn new(truth: &Scene, task: &Task) -> Result<Self, Failure> {
-        let observed = Observation::settled(truth, None, task.start).map_err(run)?;
-        let answers = Answers::of(truth, observed, task.bounded).map_err(run)?;
-        if task.quantity.value(&answers).is_none() {
-            return Err(absent(task.quantity));
+    pub(super) fn new(machine: &Machine, arguments: &FidelityArguments) -> Result<Self, Failure> {
+        let (truth, quantity) = (&machine.scene, arguments.quantity);
+        let is_bounded = arguments.structure || quantity.is_bound();
+        let answers_of = |scene: &Scene, seen| Answers::of(scene, seen, is_bounded).map_err(run);
+        let observed = Observation::settled(truth, None, machine.start).map_err(run)?;
+        let answers = answers_of(truth, observed)?;
+        if quantity.value(&answers).is_none() {
+            return Err(absent(quantity));
         }
-        let velocity = from_truth(&observed).ok();
-        let plan = plan(truth, &task.likenesses);
+        let plan = plan(truth, arguments.matched.likenesses());
         let progress = Progress::new(plan.len() as u64, "models");
-        let (mut found, mut missing) = (Vec::new(), Vec::new());
-        for (rung, likeness) in plan {
+        let (mut found, mut unmatched) = (Vec::new(), Vec::new());
+        for name in plan {
             let ladder = Ladder {
                 truth: truth.clone(),
-                likeness: likeness.unwrap_or_default(),
+                likeness: name.matched.unwrap_or_default(),
             };
-            match model(&ladder, rung, &observed, task) {
+            match model(
+                &ladder,
+                name.rung,
+                &observed,
+                machine.start,
+                arguments.predictive,
+            ) {
                 Ok((model, seen)) => {
-                    let answers = Answers::of(&model.scene, seen, task.bounded).map_err(run)?;
-                    found.push((rung, likeness, model, answers));
+                    let answers = answers_of(&model.scene, seen)?;
+                    found.push((name, model.scene, answers));
                 }
-                Err(error) => missing.push(Missing {
-                    rung,
-                    likeness,
+                Err(error) => unmatched.push(Unmatched {
+                    name,
                     reason: error.to_string(),
                 }),
             }
             progress.step()?;
         }
         drop(progress);
-        let motions = found.iter();
-        let motions = motions.map(|(_, _, it, seen)| (it.scene.clone(), seen.observed.start));
-        let motions: Vec<(Scene, Start)> = motions.collect();
-        let costs = costs(&motions, task.periods, task.repeats)?;
-        let entry = |((rung, likeness, model, seen), cost): ((Rung, _, Model, _), Cost)| Entry {
-            rung,
-            likeness,
-            is_truth: rung == Rung::of(truth),
-            scene: model.scene,
+        let motions = found
+            .iter()
+            .map(|(_, scene, seen)| (scene, seen.observed.start));
+        let costs = costs(&motions.collect::<Vec<_>>(), arguments)?;
+        let entry = |((name, scene, seen), cost): ((Name, Scene, Answers), Cost)| Entry {
+            name,
+            is_truth: name.rung == Rung::of(truth),
+            scene,
+            error: quantity.error(&answers, &seen),
             answers: seen,
-            error: task.quantity.error(&answers, &seen),
             cost,
         };
         Ok(Self {
-            velocity,
+            velocity: from_truth(&observed).ok(),
             truth: answers,
             entries: found.into_iter().zip(costs).map(entry).collect(),
-            missing,
+            unmatched,
         })
     }
 
@@ -120,28 +150,15 @@ impl Study {
 }
 
 impl Entry {
-    /// Its rung and what it has in common with the contact.
-    pub(super) fn name(&self) -> String {
-        name(self.rung, self.likeness)
-    }
-
-    /// The same, and whether it is the scene itself.
+    /// Its name, and whether it is the scene itself.
     pub(super) fn full_name(&self) -> String {
         let scene = if self.is_truth { " = the scene" } else { "" };
-        self.name() + scene
-    }
-}
-
-/// A model's name in tables and charts.
-pub(super) fn name(rung: Rung, likeness: Option<Likeness>) -> String {
-    match likeness {
-        Some(likeness) => format!("{rung} ({})", word(likeness)),
-        None => rung.to_string(),
+        format!("{}{scene}", self.name)
     }
 }
 
 /// The rungs to be tried, soft ones once for each likeness.
-fn plan(truth: &Scene, likenesses: &[Likeness]) -> Vec<(Rung, Option<Likeness>)> {
+fn plan(truth: &Scene, likenesses: &[Likeness]) -> Vec<Name> {
     let ladder = Ladder {
         truth: truth.clone(),
         likeness: Likeness::default(),
@@ -149,11 +166,13 @@ fn plan(truth: &Scene, likenesses: &[Likeness]) -> Vec<(Rung, Option<Likeness>)>
     let own = Rung::of(truth);
     let variants = |rung: Rung| {
         let soft = matches!(rung, Rung::KelvinVoigt | Rung::Preloaded | Rung::Hertz);
-        if soft && rung != own {
-            likenesses.iter().map(|one| (rung, Some(*one))).collect()
-        } else {
-            vec![(rung, None)]
-        }
+        let matched: Vec<Option<Likeness>> = match soft && rung != own {
+            true => likenesses.iter().copied().map(Some).collect(),
+            false => vec![None],
+        };
+        matched
+            .into_iter()
+            .map(move |matched| Name { rung, matched })
     };
     ladder.rungs().into_iter().flat_map(variants).collect()
 }
@@ -162,20 +181,21 @@ fn model(
     ladder: &Ladder,
     rung: Rung,
     observed: &Observation,
-    task: &Task,
+    start: Start,
+    is_predictive: bool,
 ) -> Result<(Model, Observation), FidelityError> {
     if rung == Rung::of(&ladder.truth) {
         return Ok((ladder.model(rung, f64::NAN)?, *observed));
     }
-    if task.predictive {
-        return from_model(ladder, rung, task.start);
+    if is_predictive {
+        return from_model(ladder, rung, start);
     }
     let velocity = match rung {
         Rung::Linear => f64::NAN,
         _ => from_truth(observed)?,
     };
     let model = ladder.model(rung, velocity)?;
-    let seen = Observation::settled(&model.scene, Some(observed.start), task.start)?;
+    let seen = Observation::settled(&model.scene, Some(observed.start), start)?;
     Ok((model, seen))
 }
 
@@ -188,4 +208,36 @@ fn absent(quantity: Quantity) -> Failure {
     Failure::Run(anyhow!(
         "quantity = {name}: the scene itself has none, so no model can be measured by it"
     ))
+}
+
+/// The costs of motions, timed turn and turn about, so that what else the machine does meanwhile falls on
+/// all of them.
+fn costs(motions: &[(&Scene, Start)], arguments: &FidelityArguments) -> Result<Vec<Cost>, Failure> {
+    let (periods, repeats) = (arguments.periods, arguments.repeats);
+    let progress = Progress::new(motions.len() as u64 * repeats, "runs");
+    let mut times = vec![Vec::new(); motions.len()];
+    let mut evaluations = vec![0; motions.len()];
+    for _ in 0..repeats {
+        for (index, (scene, start)) in motions.iter().enumerate() {
+            let begin = Instant::now();
+            let taken = evaluated(scene, *start, periods).context("cannot time a motion")?;
+            times[index].push(begin.elapsed().as_secs_f64());
+            evaluations[index] = taken.evaluations;
+            progress.step()?;
+        }
+    }
+    let per_period = |total: f64| total / periods as f64;
+    let cost = |(times, evaluations): (Vec<f64>, u64)| Cost {
+        evaluations_per_period: per_period(evaluations as f64),
+        microseconds_per_period: 1e6 * per_period(median(times)),
+    };
+    Ok(times.into_iter().zip(evaluations).map(cost).collect())
+}
+
+fn evaluated(scene: &Scene, start: Start, periods: u64) -> Result<Evaluations, MotionError> {
+    let mut motion = scene.motion(start)?;
+    let mut taken = Evaluations::default();
+    motion.advance(Clock::at_cycle(periods), &mut taken)?;
+    motion.tell_arc(&mut taken);
+    Ok(taken)
 }

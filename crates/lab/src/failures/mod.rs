@@ -1,9 +1,8 @@
 //! `softstop-lab chart failures`: where methods with a fixed step fail, and how.
 
 mod atlas;
+mod chart;
 mod family;
-mod heat;
-mod page;
 mod report;
 mod view;
 
@@ -93,7 +92,7 @@ pub fn run(arguments: &FailuresArguments) -> Result<(), Failure> {
     for (view, (page, _)) in views.into_iter().zip(&pages) {
         let axes = axes.clone();
         let atlas = Atlas::new(view, axes, &families, arguments.tolerance, &progress)?;
-        export.file(page, page::page(&atlas).as_bytes())?;
+        export.file(page, chart::svg(&atlas).as_bytes())?;
         atlases.push(atlas);
     }
     drop(progress);

@@ -65,7 +65,7 @@ struct SceneReport<'a> {
     true_impacts: Vec<usize>,
     /// For each stiffness, in drive periods.
     shortest_contact: Vec<Option<f64>>,
-    /// For each stiffness a letter; `-` where the true motion is the exact method's own.
+    /// For each stiffness a letter; `-` where nothing else tells the motion.
     exact: String,
     exact_largest_error: f64,
     maps: Vec<MapReport<'a>>,
@@ -146,7 +146,7 @@ impl<'a> SceneReport<'a> {
         let (right, untold) = (count('C'), count('-'));
         let untold = match untold {
             0 => String::new(),
-            _ => format!("; {untold} not compared with 67 digits"),
+            _ => format!("; {untold} not compared with another method"),
         };
         format!(
             "{} ({}): % of all runs\n{}exact: {right} of {} converged, largest error {:.1e}{untold}\n\n",

@@ -1,6 +1,7 @@
 //! The machines of the atlas, whose stop's stiffness is swept.
 
 use crate::methods::Task;
+use crate::reference::{self, Reference};
 use crate::scenes::{self, BuiltIn, built_in};
 use softstop::{Machine, MotionError, PhaseKind, Scene, Slope, Start, Stop};
 
@@ -19,6 +20,8 @@ pub struct View {
     pub settling: bool,
     /// Drive periods to run.
     pub periods: f64,
+    /// Whether it comes with the program.
+    pub is_built_in: bool,
 }
 
 const BUILT_IN: [BuiltIn; 5] = built_in! {
@@ -69,8 +72,16 @@ impl View {
             name,
             machine,
             settling: place == PRESSED,
+            is_built_in: known.is_some(),
             periods: known.map_or(PERIODS, |known| known.periods),
         })
+    }
+
+    /// The motion with a stop of this stiffness in N/m in many digits, if it is stored.
+    pub fn stored(&self, stiffness: f64) -> Option<Reference> {
+        let name = format!("failures/{}", self.name);
+        let stored = || reference::stored(&name, self.periods, Some(stiffness));
+        self.is_built_in.then(stored)?
     }
 
     /// The task with a stop of this stiffness in N/m.

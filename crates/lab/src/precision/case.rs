@@ -4,6 +4,7 @@ use softstop::Machine;
 use softstop_console::failure::Failure;
 
 use crate::methods::Task;
+use crate::reference::{self, Reference};
 use crate::scenes::{self, BuiltIn, built_in};
 
 /// A motion to be computed.
@@ -15,6 +16,17 @@ pub struct Case {
     pub title: String,
     /// Machine, start and duration.
     pub task: Task,
+    /// Whether it is built in.
+    pub is_built_in: bool,
+}
+
+impl Case {
+    /// Its motion in many digits, if it is stored.
+    pub fn stored(&self) -> Option<Reference> {
+        let stored =
+            || reference::stored(&format!("precision/{}", self.name), self.task.periods, None);
+        self.is_built_in.then(stored)?
+    }
 }
 
 /// Drive periods of a scene file.
@@ -51,6 +63,7 @@ pub fn cases(scene: &str, periods: Option<f64>) -> Result<Vec<Case>, Failure> {
             periods.unwrap_or(length),
             u64::MAX,
         ),
+        is_built_in: !found.is_empty(),
     };
     if found.is_empty() {
         let (name, machine) = scenes::read(scene, &BUILT_IN)?;
@@ -60,5 +73,5 @@ pub fn cases(scene: &str, periods: Option<f64>) -> Result<Vec<Case>, Failure> {
         let machine = it.machine()?;
         Ok(case(it.name, it.title, machine, it.periods))
     };
-    found.into_iter().map(built_in).collect()
+    found.iter().copied().map(built_in).collect()
 }

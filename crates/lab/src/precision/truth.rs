@@ -4,18 +4,21 @@ use crate::methods::{Exact, Integrator, Solution, Task, Work};
 use anyhow::{Context, anyhow};
 
 use super::errors::{Errors, Scale};
-use crate::reference::{self, Reference, ReferenceError};
+use crate::reference::Reference;
 use crate::solvers::{Adaptive, AdaptiveScheme};
 use softstop_console::failure::Failure;
-use softstop_console::interrupt;
 
-/// How piecewise linear motions are found.
+/// How stored motions were found.
 const DIGITS: &str = "Taylor series in 67 decimal digits, checked in 48";
-/// How motions with a power law are found.
+/// How all others are found.
 const AGREED: &str = "the exact method, borne out by Dormand and Prince's 8(5,3) at a tolerance of 1e-13; errors \
     below their difference cannot be told";
-/// That tolerance.
-const FINEST: f64 = 1e-13;
+/// The method that bears the exact one out.
+pub(crate) const OTHER: Adaptive = Adaptive {
+    scheme: AdaptiveScheme::Dop853,
+    relative: 1e-13,
+    absolute: 1e-13,
+};
 /// Least error of doubles: half a unit in the last place, relative.
 const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
@@ -31,21 +34,16 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// The true motion of a task of this size; `progress` hears which share of the work is done.
+    /// The true motion of a task of this size, as it is stored or as two methods agree on it.
     ///
     /// # Errors
-    /// [`Failure::Run`] if it cannot be found, [`Failure::Interrupted`] after Ctrl-C.
-    pub fn of(task: &Task, scale: &Scale, progress: &dyn Fn(f64)) -> Result<Self, Failure> {
-        let go_on = |share| {
-            progress(share);
-            !interrupt::requested()
-        };
-        match reference::solve(task, &go_on) {
-            Ok(reference) => Ok(Self::rounded(reference, scale)),
-            Err(ReferenceError::PowerLaw { .. }) => Self::agreed(task, scale),
-            Err(ReferenceError::Task(error)) => Err(error.into()),
-            Err(error) => Err(anyhow!(error).into()),
-        }
+    /// [`Failure::Run`] if it is not stored and the methods do not agree.
+    pub fn of(task: &Task, scale: &Scale, stored: Option<Reference>) -> Result<Self, Failure> {
+        task.scene.motion(task.start)?;
+        stored.map_or_else(
+            || Self::agreed(task, scale),
+            |reference| Ok(Self::rounded(reference, scale)),
+        )
     }
 
     fn rounded(reference: Reference, scale: &Scale) -> Self {
@@ -68,13 +66,8 @@ impl Truth {
 
     /// The exact method's answer, if a method that shares no code with it agrees.
     fn agreed(task: &Task, scale: &Scale) -> Result<Self, Failure> {
-        let other = Adaptive {
-            scheme: AdaptiveScheme::Dop853,
-            relative: FINEST,
-            absolute: FINEST,
-        };
         let solution = Exact.integrate(task).context("no reference")?;
-        let other = other.integrate(task).context("no reference")?;
+        let other = OTHER.integrate(task).context("no reference")?;
         let doubt = Errors::between(&other, &solution, scale);
         if doubt.impact_difference != 0 {
             let apart = doubt.impact_difference.abs();

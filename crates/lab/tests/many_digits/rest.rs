@@ -4,7 +4,7 @@ use super::number::{Real, is_negative, size};
 use super::walk::Walk;
 
 /// What a mass without velocity does.
-pub(super) enum Rest {
+pub enum Rest {
     /// It only turns.
     Free,
     /// It leaves at once, onwards or back, into a layer.
@@ -18,7 +18,7 @@ type Side = (usize, Real);
 
 impl Walk {
     /// What the mass does from its place without velocity.
-    pub(super) fn rest(&self) -> Rest {
+    pub fn rest(&self) -> Rest {
         let (ahead, (below, least), smooth) = self.sides();
         if smooth {
             return Rest::Free;
@@ -82,7 +82,7 @@ impl Walk {
     }
 
     /// The least acceleration with which both sides press the mass onto its place; none if one does not.
-    pub(super) fn pressed(&self) -> Option<Real> {
+    pub fn pressed(&self) -> Option<Real> {
         let (ahead, behind, _) = self.sides();
         let push = self.machine.drive.at(&self.state.time);
         let back = &push - behind.1;
@@ -92,7 +92,7 @@ impl Walk {
     }
 
     /// A bounce shorter than twice this time, in s, is none: 2^-64 of a drive period.
-    pub(super) fn briefest(&self) -> Real {
+    pub fn briefest(&self) -> Real {
         (self.digits.turn() / &self.machine.drive.frequency) >> 64isize
     }
 }

@@ -1,6 +1,6 @@
 //! From event to event through the layers of a machine.
 
-use crate::methods::Task;
+use softstop_lab::methods::Task;
 
 use super::ReferenceError;
 use super::arc::Arc;

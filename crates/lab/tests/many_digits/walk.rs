@@ -1,6 +1,6 @@
 //! A motion on its way: the layer, the state in it, and the arc from there with what ends it.
 
-use crate::methods::Task;
+use softstop_lab::methods::Task;
 
 use super::ReferenceError;
 use super::arc::{Arc, State, linear};
@@ -9,7 +9,7 @@ use super::number::{Digits, Real, float, is_negative, is_zero};
 
 /// What ends an arc.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Event {
+pub enum Event {
     /// The lower end of the layer.
     Low,
     /// Its upper end.
@@ -22,29 +22,29 @@ pub(super) enum Event {
 
 /// A motion on its way.
 pub struct Walk {
-    pub(super) machine: Machine,
-    pub(super) digits: Digits,
+    pub machine: Machine,
+    pub digits: Digits,
     /// The present state.
     pub state: State,
     /// The present layer.
-    pub(super) layer: usize,
+    pub layer: usize,
     /// Which of its laws holds.
-    pub(super) forward: bool,
+    pub forward: bool,
     /// The stop presses.
-    pub(super) presses: bool,
+    pub presses: bool,
     /// The event at the start of the arc.
-    pub(super) last: Option<Event>,
+    pub last: Option<Event>,
     /// Time in s at which the motion ends.
-    pub(super) end: Real,
+    pub end: Real,
     /// Times in s and before-impact velocities in m/s.
     pub impacts: Vec<(Real, Real)>,
     /// Crossings of all kinds.
-    pub(super) crossings: u64,
+    pub crossings: u64,
 }
 
 impl Walk {
     /// Where a task starts.
-    pub(super) fn at(task: &Task, digits: Digits) -> Result<Self, ReferenceError> {
+    pub fn at(task: &Task, digits: Digits) -> Result<Self, ReferenceError> {
         let machine = Machine::new(&task.scene, digits)?;
         let position = digits.real(task.start.position);
         let below = |layer: &Layer| layer.from.as_ref().is_none_or(|from| *from <= position);
@@ -67,27 +67,27 @@ impl Walk {
     }
 
     /// True of a start on the upper end of a layer, upwards.
-    pub(super) fn begins_above(&self) -> bool {
+    pub fn begins_above(&self) -> bool {
         let (end, state) = (&self.machine.layers[self.layer].to, &self.state);
         let at_end = end.as_ref().is_some_and(|end| state.position >= *end);
         at_end && state.velocity > Real::ZERO
     }
 
     /// Into the layer that any other start belongs to.
-    pub(super) fn settle(&mut self) {
+    pub fn settle(&mut self) {
         let from = self.machine.layers[self.layer].from.as_ref();
         let below = from == Some(&self.state.position) && is_negative(&self.state.velocity);
         self.enter(self.layer - usize::from(below));
     }
 
     /// Goes on from rest.
-    pub(super) fn leave(&mut self, forward: bool, layer: usize) {
+    pub fn leave(&mut self, forward: bool, layer: usize) {
         self.last = None;
         self.forward = forward;
         self.enter(layer);
     }
 
-    pub(super) fn undecided(&self) -> ReferenceError {
+    pub fn undecided(&self) -> ReferenceError {
         ReferenceError::Undecided {
             time: float(&self.state.time),
             digits: self.digits.0,
@@ -103,14 +103,14 @@ impl Walk {
     }
 
     /// The arc from here; `balanced` if a mass at rest is let go.
-    pub(super) fn arc(&self, balanced: bool) -> Arc {
+    pub fn arc(&self, balanced: bool) -> Arc {
         let above = self.machine.layers[self.layer].to.as_ref();
         let laws = (self.law(), &self.machine.drive);
         linear(laws, &self.state, balanced, above, self.digits)
     }
 
     /// The polynomials whose fall below zero ends an arc.
-    pub(super) fn guards(&self, arc: &Arc) -> Vec<(Event, Vec<Real>)> {
+    pub fn guards(&self, arc: &Arc) -> Vec<(Event, Vec<Real>)> {
         let layer = &self.machine.layers[self.layer];
         let mut guards = Vec::with_capacity(4);
         if let Some(from) = &layer.from {
@@ -157,7 +157,7 @@ impl Walk {
     }
 
     /// Into a layer with the present state.
-    pub(super) fn enter(&mut self, layer: usize) {
+    pub fn enter(&mut self, layer: usize) {
         self.layer = layer;
         let grip = self.machine.layers[layer].grip.as_ref();
         self.presses = grip.is_none_or(|grip| {

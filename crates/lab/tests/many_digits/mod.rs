@@ -15,8 +15,9 @@ mod rest;
 mod root;
 pub mod walk;
 
-use crate::methods::Task;
 use softstop::{Impact, MotionError};
+use softstop_lab::methods::Task;
+use softstop_lab::reference::Doubt;
 use thiserror::Error;
 
 use number::{Digits, Real, float, size};
@@ -25,7 +26,7 @@ use walk::Walk;
 /// Binary digits of the two runs: 48 and 67 decimal ones.
 const RUNS: [Digits; 2] = [Digits(160), Digits(224)];
 
-/// A motion, rounded from many digits.
+/// A motion, rounded from many digits, and its crossings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
     /// Position in m and velocity in m/s at the end.
@@ -39,15 +40,15 @@ pub struct Reference {
     pub doubt: Doubt,
 }
 
-/// Largest differences between the run in 48 digits and that in 67, which is the answer. It is far better than this.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Doubt {
-    /// Of the position in m and of the velocity in m/s at the end.
-    pub end: f64,
-    /// Of the times of impacts, in s.
-    pub time: f64,
-    /// Of the before-impact velocities, in m/s.
-    pub velocity: f64,
+impl Reference {
+    /// What is stored of it.
+    pub fn rounded(self) -> softstop_lab::reference::Reference {
+        softstop_lab::reference::Reference {
+            end: self.end,
+            impacts: self.impacts,
+            doubt: self.doubt,
+        }
+    }
 }
 
 /// Why there is no reference.

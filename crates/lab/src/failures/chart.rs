@@ -1,0 +1,131 @@
+//! A page of the atlas: a map of verdicts for each method with the limits that theory sets, and the strip of the exact one.
+
+use softstop_draw::scale::power_of_ten;
+use softstop_draw::{Axis, Chart, Layer, Legend, Panel, Sign};
+
+use super::{Atlas, Map};
+use crate::methods::Verdict;
+
+/// Width of a map in pixels, about, and height of the strip of the exact method.
+const MAP: f64 = 168.0;
+const STRIP: f64 = 18.0;
+/// Dashes of the line where a contact is as short as a step.
+const DASHES: Option<(f64, f64)> = Some((2.0, 3.0));
+
+/// The page as an SVG document.
+pub(super) fn svg(atlas: &Atlas) -> String {
+    let (view, percent) = (&atlas.view, 100.0 * atlas.tolerance);
+    let periods = view.periods;
+    let plural = if periods == 1.0 { "" } else { "s" };
+    let rows = atlas.maps.chunk_by(|a, b| a.family.row() == b.family.row());
+    let maps = rows.clone().enumerate().flat_map(|(row, maps)| {
+        let column = move |(column, own)| Panel {
+            at: (column, row),
+            ..map(atlas, own)
+        };
+        maps.iter().enumerate().map(column)
+    });
+    let exact = Panel {
+        at: (0, rows.clone().count()),
+        ..exact(atlas)
+    };
+    let chart = Chart {
+        subtitle: format!(
+            "Each cell is one run: step h as a share of the drive period T, over the stop's stiffness k, for {periods} \
+             drive period{plural}. Errors up to {percent} % of the motion pass."
+        ),
+        legend: Legend::Below,
+        letters: 12,
+        shares_upwards: true,
+        ..Chart::new(&view.title, maps.chain([exact]))
+    };
+    chart.svg()
+}
+
+fn map(atlas: &Atlas, map: &Map) -> Panel {
+    let (stiffness, step) = (&atlas.axes.stiffness, &atlas.axes.step);
+    let size = |cells: usize| (MAP / stiffness.len() as f64).round().max(1.0) * cells as f64;
+    let row = |row: usize| {
+        map.columns
+            .iter()
+            .map(move |cells| color(cells[row].verdict))
+    };
+    let line = |steps: Vec<Option<f64>>, dashes| {
+        let points = stiffness.iter().zip(steps);
+        Layer::contour(
+            points.map(|(k, step)| (*k, step.unwrap_or(f64::NAN))),
+            dashes,
+        )
+    };
+    let contacts = atlas.columns.iter().map(|column| column.contact).collect();
+    let cells = Layer::cells(stiffness.len(), (0..step.len()).flat_map(row));
+    let lines = [
+        line(map.limit.clone(), None).named("longest stable step in contact, theory"),
+        line(contacts, DASHES).named("step as long as the shortest contact"),
+    ];
+    Panel {
+        title: map.family.title().to_owned(),
+        size: (size(stiffness.len()), size(step.len())),
+        x: axis("", stiffness, 2),
+        y: axis(&format!("{}: step h/T", map.family.row()), step, 1),
+        layers: [cells]
+            .into_iter()
+            .chain(keys(atlas))
+            .chain(lines)
+            .collect(),
+        ..Panel::default()
+    }
+}
+
+/// The strip of the exact method, alike for all steps; blank where nothing else knows the true motion.
+fn exact(atlas: &Atlas) -> Panel {
+    let stiffness = &atlas.axes.stiffness;
+    let cells = atlas.columns.iter().map(|column| column.exact);
+    let colors = cells.map(|cell| cell.map_or("#ffffff", |cell| color(cell.verdict)));
+    Panel {
+        title: "exact: no step".to_owned(),
+        size: (MAP, STRIP),
+        x: axis("stiffness k (N/m)", stiffness, 2),
+        y: Axis::bare().range((0.0, 1.0)),
+        layers: vec![Layer::cells(stiffness.len(), colors)],
+        ..Panel::default()
+    }
+}
+
+/// The logarithmic axis of cells around these values; every so many powers of ten have their number.
+fn axis(name: &str, values: &[f64], each: i32) -> Axis {
+    let (first, last) = (values[0], values[values.len() - 1]);
+    let half = (last / first).powf(0.5 / (values.len() - 1) as f64);
+    let (low, high) = (first / half, last * half);
+    let powers = low.log10().ceil() as i32..=high.log10().floor() as i32;
+    let text = |power: i32| match power % each {
+        0 => power_of_ten(power),
+        _ => String::new(),
+    };
+    let ticks = powers.map(|power| (10_f64.powi(power), text(power)));
+    Axis::new(name).log().range((low, high)).ticks(ticks)
+}
+
+/// What the colours mean; a method that is unsuited is explained where there is one.
+fn keys(atlas: &Atlas) -> impl Iterator<Item = Layer> {
+    let mut cells = atlas.maps.iter().flat_map(|map| &map.columns).flatten();
+    let unsuited = cells.any(|cell| cell.verdict == Verdict::Unsuited);
+    let shown = Verdict::ALL.into_iter();
+    let shown = shown.filter(move |verdict| unsuited || *verdict != Verdict::Unsuited);
+    shown.map(|verdict| Layer::key(Sign::Patch(color(verdict)), verdict.name()))
+}
+
+/// The colour of a class of outcomes: blues where the motion is right at least in kind, all others apart from
+/// them and from each other in lightness too, so that readers who see no green and red tell them apart.
+const fn color(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Converged => "#0072B2",
+        Verdict::Inaccurate => "#9CCDEC",
+        Verdict::WrongCount => "#F0E442",
+        Verdict::MissedContact => "#009E73",
+        Verdict::EnergyGain => "#CC6D00",
+        Verdict::BlownUp => "#3A3A3A",
+        Verdict::Stuck => "#7F3B08",
+        Verdict::Unsuited => "#EEEEEE",
+    }
+}
