@@ -2,7 +2,6 @@
 
 mod atlas;
 mod family;
-mod heat;
 mod page;
 mod report;
 mod view;
