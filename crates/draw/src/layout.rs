@@ -101,7 +101,8 @@ impl Axis {
         let mut count = counts((wide, 0.0)).0;
         loop {
             let ticks = self.ticks_of(range, count);
-            let room = 1.2 * (widest(&ticks, letters) + 4.0) * ticks.len() as f64;
+            let named = ticks.iter().filter(|(_, text)| !text.is_empty()).count();
+            let room = 1.2 * (widest(&ticks, letters) + 4.0) * named as f64;
             if room <= wide || count <= 2 || self.ticks.is_some() {
                 return ticks;
             }

@@ -51,18 +51,22 @@ pub(crate) fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)>
     (first..=last).map(written).collect()
 }
 
-/// Values at a logarithmic axis over a range of powers of ten, about so many: powers of ten, and twice and five times these
-/// where there are few.
+/// Values at a logarithmic axis over a range of powers of ten: these powers, about so many of them named, or, where they are
+/// few, once, twice and five times them.
 pub(crate) fn log_ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
     let inside = |power: f64| low - 1e-9 <= power && power <= high + 1e-9;
     let (first, last) = (low.floor() as i32, high.ceil() as i32);
     let powers = (first..=last).filter(|power| inside(f64::from(*power)));
     let powers: Vec<i32> = powers.collect();
     if powers.len() > 2 {
-        let step = powers.len().div_ceil(count.max(1)) as i32;
-        let shown = powers.into_iter().filter(|power| power % step == 0);
-        return shown
-            .map(|power| (f64::from(power), power_of_ten(power)))
+        let step = powers.len().div_ceil(count + count / 2) as i32;
+        let written = |power: i32| match power % step {
+            0 => power_of_ten(power),
+            _ => String::new(),
+        };
+        let powers = powers.into_iter();
+        return powers
+            .map(|power| (f64::from(power), written(power)))
             .collect();
     }
     let factors = (first..=last).flat_map(|power| [1.0f64, 2.0, 5.0].map(|factor| (factor, power)));
@@ -144,7 +148,10 @@ mod tests {
             let ticks = log_ticks(range, count).into_iter();
             ticks.map(|tick| tick.1).collect()
         };
-        assert_eq!(names((-6.2, 1.0), 4), ["10⁻⁶", "10⁻⁴", "10⁻²", "10⁰"]);
+        assert_eq!(
+            names((-6.2, 1.0), 4),
+            ["10⁻⁶", "", "10⁻⁴", "", "10⁻²", "", "10⁰", ""]
+        );
         assert_eq!(names((0.0, 1.0), 5), ["1", "2", "5", "10"]);
         assert_eq!(names((-2.1, -1.0), 5), ["0.01", "0.02", "0.05", "0.1"]);
         assert_eq!(names((0.1, 0.2), 4), ["1.3", "1.4", "1.5"]);
