@@ -3,18 +3,21 @@
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 use pulp::Simd;
+use pulp::bytemuck::Zeroable;
 
-/// Applies an instruction to each register of one or two. Neither a loop (thousands of them, though unrolled, take the
-/// compiler minutes) nor a closure, which has no instruction set of its own and is slow wherever it is not inlined.
+/// Applies an instruction to each register of one or two and puts the results in the place of a value's registers. Neither
+/// a loop (thousands of them, though unrolled, take the compiler minutes) nor a closure, which has no instruction set of its
+/// own and is slow wherever it is not inlined.
 macro_rules! each {
-    ($first:ident.$intrinsic:ident($($other:ident),*) => $result:ident) => {{
+    ($value:expr => $first:ident.$intrinsic:ident($($other:ident),*)) => {{
         const { assert!(N == 1 || N == 2) };
-        let simd = $first.simd;
-        let mut registers = [simd.$intrinsic($first.registers[0] $(, $other.registers[0])*); N];
+        let mut result = $value;
+        result.registers[0] = $first.simd.$intrinsic($first.registers[0] $(, $other.registers[0])*);
         if N > 1 {
-            registers[N - 1] = simd.$intrinsic($first.registers[N - 1] $(, $other.registers[N - 1])*);
+            result.registers[N - 1] =
+                $first.simd.$intrinsic($first.registers[N - 1] $(, $other.registers[N - 1])*);
         }
-        $result { simd, registers }
+        result
     }};
 }
 
@@ -63,48 +66,48 @@ impl<S: Simd, const N: usize> Lanes<S, N> {
     /// self * b + c, rounded once where the processor can.
     #[inline(always)]
     pub fn mul_add(self, b: Self, c: Self) -> Self {
-        each!(self.mul_add_e_f64s(b, c) => Self)
+        each!(self => self.mul_add_e_f64s(b, c))
     }
 
     /// self - b * c, rounded once where the processor can.
     #[inline(always)]
     pub fn minus_product(self, b: Self, c: Self) -> Self {
-        each!(b.negate_mul_add_e_f64s(c, self) => Self)
+        each!(self => b.negate_mul_add_e_f64s(c, self))
     }
 
     #[inline(always)]
     pub fn abs(self) -> Self {
-        each!(self.abs_f64s() => Self)
+        each!(self => self.abs_f64s())
     }
 
     #[inline(always)]
     pub fn square_root(self) -> Self {
-        each!(self.sqrt_f64s() => Self)
+        each!(self => self.sqrt_f64s())
     }
 
     #[inline(always)]
     pub fn max(self, other: Self) -> Self {
-        each!(self.max_f64s(other) => Self)
+        each!(self => self.max_f64s(other))
     }
 
     #[inline(always)]
     pub fn min(self, other: Self) -> Self {
-        each!(self.min_f64s(other) => Self)
+        each!(self => self.min_f64s(other))
     }
 
     #[inline(always)]
     pub fn below(self, other: Self) -> Mask<S, N> {
-        each!(self.less_than_f64s(other) => Mask)
+        each!(Mask::none(self.simd) => self.less_than_f64s(other))
     }
 
     #[inline(always)]
     pub fn at_most(self, other: Self) -> Mask<S, N> {
-        each!(self.less_than_or_equal_f64s(other) => Mask)
+        each!(Mask::none(self.simd) => self.less_than_or_equal_f64s(other))
     }
 
     #[inline(always)]
     pub fn equals(self, other: Self) -> Mask<S, N> {
-        each!(self.equal_f64s(other) => Mask)
+        each!(Mask::none(self.simd) => self.equal_f64s(other))
     }
 
     /// The largest whole number below, for numbers below 2^51.
@@ -117,10 +120,16 @@ impl<S: Simd, const N: usize> Lanes<S, N> {
 }
 
 impl<S: Simd, const N: usize> Mask<S, N> {
+    #[inline(always)]
+    fn none(simd: S) -> Self {
+        let registers = [S::m64s::zeroed(); N];
+        Self { simd, registers }
+    }
+
     /// `yes` where true, `no` elsewhere.
     #[inline(always)]
     pub fn choose(self, yes: Lanes<S, N>, no: Lanes<S, N>) -> Lanes<S, N> {
-        each!(self.select_f64s(yes, no) => Lanes)
+        each!(yes => self.select_f64s(yes, no))
     }
 
     /// `yes` where true, `no` elsewhere.
@@ -137,7 +146,7 @@ impl<S: Simd, const N: usize> Mask<S, N> {
 
     #[inline(always)]
     pub fn not(self) -> Self {
-        each!(self.not_m64s() => Self)
+        each!(self => self.not_m64s())
     }
 
     #[inline(always)]
@@ -173,7 +182,7 @@ macro_rules! operator {
 
             #[inline(always)]
             fn $name(self, other: Self) -> Self {
-                each!(self.$intrinsic(other) => Self)
+                each!(self => self.$intrinsic(other))
             }
         }
     };
@@ -189,7 +198,7 @@ impl<S: Simd, const N: usize> Neg for Lanes<S, N> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        each!(self.neg_f64s() => Self)
+        each!(self => self.neg_f64s())
     }
 }
 
@@ -198,7 +207,7 @@ impl<S: Simd, const N: usize> BitAnd for Mask<S, N> {
 
     #[inline(always)]
     fn bitand(self, other: Self) -> Self {
-        each!(self.and_m64s(other) => Self)
+        each!(self => self.and_m64s(other))
     }
 }
 
@@ -207,6 +216,6 @@ impl<S: Simd, const N: usize> BitOr for Mask<S, N> {
 
     #[inline(always)]
     fn bitor(self, other: Self) -> Self {
-        each!(self.or_m64s(other) => Self)
+        each!(self => self.or_m64s(other))
     }
 }
