@@ -1,7 +1,7 @@
 //! What a figure is, and what figures share.
 
-use std::cell::OnceCell;
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use anyhow::Result;
 use rayon::prelude::*;
@@ -49,7 +49,7 @@ pub(crate) struct Studio<'a> {
     /// Where finished work is kept.
     pub(crate) kept: Kept<'a>,
     /// All transitions along rho = 10, once they are asked for.
-    transitions: OnceCell<Vec<Transition>>,
+    transitions: OnceLock<Vec<Transition>>,
 }
 
 /// How fine figures are.
@@ -66,7 +66,7 @@ impl<'a> Studio<'a> {
         Self {
             detail,
             kept,
-            transitions: OnceCell::new(),
+            transitions: OnceLock::new(),
         }
     }
 

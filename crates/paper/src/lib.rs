@@ -3,8 +3,8 @@
 //! To add a figure, write a module with a `pub(crate) const FIGURE: Figure`, and name it in `FIGURES`.
 
 mod basins;
+mod boundaries;
 mod certainty;
-mod curves;
 mod diagram;
 mod exponents;
 mod figure;
@@ -14,6 +14,7 @@ mod figure8;
 mod figure9;
 mod hardening;
 mod laminar;
+mod path;
 mod regimes;
 mod report;
 mod supply;

@@ -110,9 +110,9 @@ fn draw(studio: &Studio) -> Result<Drawn> {
         "Left {left}, right {right}. Periodic motion: λ = ln|μ|/(nT); else the mean over {} drive periods",
         32 * batch
     );
-    let png = chart::png(&parts, &branch, &marks, &explanation);
+    let chart = chart::chart(&parts, &branch, &marks, explanation);
     Ok(Drawn {
-        files: vec![png.map_err(Error::msg)?, table(&parts)?],
+        files: vec![chart.png().map_err(Error::msg)?, table(&parts)?],
         findings,
     })
 }

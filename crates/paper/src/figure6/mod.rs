@@ -5,13 +5,13 @@ mod chart;
 
 use anyhow::{Error, Result};
 use softstop::{Parameter, Ratios};
+use softstop_dynamics::zone::free_amplitude;
 use softstop_dynamics::{Chain, Plan, Step, orbit};
 
 use crate::diagram;
 use crate::figure::{self, Drawn, Figure, Findings, Studio};
 use boundaries::Ends;
-use chart::Chart;
-use softstop_console::progress::Progress;
+use chart::Picture;
 
 /// Fig. 6(a).
 pub(super) const UNLOADED: Figure = Figure {
@@ -32,8 +32,7 @@ const CLEARANCES: [f64; 6] = [2.0, 6.0, 10.0, 14.0, 18.0, 22.0];
 const RANGE: (f64, f64) = (0.8, 1.8);
 
 fn draw(studio: &Studio, machine: Ratios, name: &'static str) -> Result<Drawn> {
-    let detail = studio.detail;
-    let (steps, periods) = detail.pick((1000, 200), (120, 100));
+    let (steps, periods) = studio.detail.pick((1000, 200), (120, 100));
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods)?;
     let mut chains = Vec::new();
     for clearance in CLEARANCES {
@@ -41,44 +40,46 @@ fn draw(studio: &Studio, machine: Ratios, name: &'static str) -> Result<Drawn> {
         chains.extend(diagram::ways(&scene));
     }
     let chains = diagram::sweep(vec![(plan, chains)], "steps of the sweeps", studio.kept)?;
-    let progress = Progress::new(3 * CLEARANCES.len() as u64, "boundaries");
-    let ends = boundaries::ends(&machine, &CLEARANCES, &progress)?;
-    let across = boundaries::across(&machine, &ends, detail.pick(0.02, 0.05), &progress)?;
+    let ends = boundaries::ends(&machine, &CLEARANCES)?;
+    let across = boundaries::across(&machine)?;
     let optimum = boundaries::optimum(&machine, &ends);
-    let point = orbit::find(&machine.scene()?)?;
-    let is_loaded = machine.piercing.is_some();
-    let chart = Chart {
+    let scene = machine.scene()?;
+    let etas = (0..=2400).map(|k| RANGE.0 + (RANGE.1 - RANGE.0) * f64::from(k) / 2400.0);
+    let picture = Picture {
         chains: &chains,
+        response: etas.map(|eta| (eta, free_amplitude(&scene, eta))).collect(),
         boundaries: &across,
-        point: (name, boundaries::figures(&point)),
-        is_loaded,
-        explanation: format!(
-            "Peterka 2003, Fig. 6({}). Sweeps up and down, {periods} drive periods at each of {steps} frequencies; \
-             grey arrows: jumps between z = 0 and z = 1",
-            if is_loaded { 'b' } else { 'a' }
-        ),
+        point: (name, boundaries::figures(&orbit::find(&scene)?)),
     };
+    let (letter, title) = match name {
+        "A" => ('a', "Impact motion without piercing (unloaded machine)"),
+        _ => ('b', "Impact motion with piercing (loaded machine)"),
+    };
+    let explanation = format!(
+        "Peterka 2003, Fig. 6({letter}). Sweeps up and down, {periods} drive periods at each of {steps} frequencies; \
+         grey arrows: jumps between z = 0 and z = 1"
+    );
+    let chart = picture.chart(&format!("{title}, ρ = 2, 6, …, 22"), explanation);
+    let sweeps = chains.iter();
+    let sweeps = sweeps.map(|it| {
+        (
+            it.machine.scene.clearance.to_string(),
+            it.direction.name(),
+            &it.steps[..],
+        )
+    });
+    let points = across
+        .iter()
+        .flat_map(|(name, curve)| curve.iter().map(move |at| (name, *at)));
+    let columns = "boundary,eta,max_position,before_impact_velocity";
     Ok(Drawn {
         files: vec![
             chart.png().map_err(Error::msg)?,
-            table(&chains)?,
-            boundaries::table(&across)?,
+            diagram::table("rho", sweeps)?,
+            figure::table(columns, points)?,
         ],
         findings: findings(&ends, &chains, optimum),
     })
-}
-
-fn table(chains: &[Chain]) -> Result<Vec<u8>> {
-    let columns = format!("rho,direction,eta,{}", diagram::FIELDS);
-    let steps = chains
-        .iter()
-        .flat_map(|chain| chain.steps.iter().map(move |step| (chain, step)));
-    let rows = steps.map(|(chain, step)| {
-        let (rho, way) = (chain.machine.scene.clearance, chain.direction.name());
-        let eta = format!("{:.9}", step.value);
-        (rho, way, eta, diagram::fields(step))
-    });
-    figure::table(&columns, rows)
 }
 
 fn findings(ends: &[Ends], chains: &[Chain], optimum: Option<(f64, f64)>) -> Findings {
@@ -88,10 +89,10 @@ fn findings(ends: &[Ends], chains: &[Chain], optimum: Option<(f64, f64)>) -> Fin
         let mut add = |name: &str, value: Option<f64>| {
             findings.add(format!("{name} at rho = {rho}"), value);
         };
-        let fold = end.fold.as_ref().map(|it| it.1);
+        let fold = end.fold;
         add("eta_g0", Some(end.grazing[0]));
         add("eta_SN", fold.map(|it| it[0]));
-        add("eta_PD", end.flip.as_ref().map(|it| it.1[0]));
+        add("eta_PD", end.flip.map(|it| it[0]));
         add("X_m at the fold", fold.map(|it| it[1]));
         add("velocity at the fold", fold.map(|it| it[2]));
         let ones = diagram::steps(ways).filter(|step| diagram::is_one(step));

@@ -1,9 +1,7 @@
 //! Figure 8: the diagram of rho = 10, its zooms, and the bifurcations of Table 1.
 
-mod band;
 mod chart;
 mod isolated;
-mod names;
 
 use anyhow::{Error, Result};
 use softstop::{Parameter, Ratios};
@@ -13,7 +11,6 @@ use crate::diagram::{self, Job};
 use crate::figure::{self, Detail, Drawn, Figure, Findings, Studio};
 use crate::table1::matching::{self, Match};
 use crate::table1::{self, paper};
-use band::Bifurcation;
 
 /// Fig. 8.
 pub(crate) const FIGURE: Figure = Figure {
@@ -66,19 +63,19 @@ struct Diagram {
     ways: Vec<Chain>,
     /// Faster sweeps down that show chaos which does not last.
     fleeting: Vec<Chain>,
-    /// What motions are called: eta, X'- and the name.
-    names: Vec<(f64, f64, String)>,
 }
 
-impl Diagram {
-    fn new(part: &'static Part, ways: Vec<Chain>) -> Self {
-        Self {
-            part,
-            ways,
-            fleeting: Vec::new(),
-            names: Vec::new(),
-        }
-    }
+/// A numbered bifurcation.
+struct Bifurcation {
+    number: usize,
+    /// Where it was found.
+    eta: f64,
+    /// By the paper's symbols.
+    symbols: String,
+    /// True if it cannot be reversed.
+    hysteresis: bool,
+    /// The direction of eta in which it is met.
+    direction: &'static str,
 }
 
 fn draw(studio: &Studio) -> Result<Drawn> {
@@ -86,18 +83,19 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     let ways = diagram::ways(&Ratios::unloaded().scene()?).to_vec();
     let jobs = vec![(WHOLE.plan(detail)?, ways)];
     let whole = diagram::sweep(jobs, "steps of the sweeps", studio.kept)?;
-    let mut diagrams = vec![Diagram::new(&WHOLE, whole)];
+    let mut diagrams = vec![Diagram {
+        part: &WHOLE,
+        ways: whole,
+        fleeting: Vec::new(),
+    }];
     zooms(&mut diagrams, studio)?;
     let isolated = isolated::find(&diagrams, studio)?;
-    for diagram in &mut diagrams {
-        diagram.names = names::of(diagram, &isolated);
-    }
     let transitions = studio.transitions()?;
     let rows = paper::ROWS.iter();
     let matches = rows.filter_map(|row| Some((row.number, matching::find(row, transitions)?)));
     let bifurcations = matches.map(|(number, found)| numbered(number, &found));
     let bifurcations: Vec<Bifurcation> = bifurcations.collect();
-    let png = chart::png(&diagrams, &isolated, &bifurcations, &explanation(detail));
+    let chart = chart::chart(&diagrams, &isolated, &bifurcations, explanation(detail));
     let mut findings = Findings::default();
     findings.add("bifurcations found", bifurcations.len() as f64);
     for it in &bifurcations {
@@ -105,7 +103,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     }
     Ok(Drawn {
         files: vec![
-            png.map_err(Error::msg)?,
+            chart.png().map_err(Error::msg)?,
             table(&diagrams, &isolated)?,
             rows_table(&bifurcations)?,
         ],
@@ -126,7 +124,11 @@ fn zooms(diagrams: &mut Vec<Diagram>, studio: &Studio) -> Result<()> {
     jobs.push(fleeting(detail)?);
     let mut chains = diagram::sweep(jobs, "steps of the zooms", studio.kept)?.into_iter();
     for zoom in &ZOOMS {
-        diagrams.push(Diagram::new(zoom, chains.by_ref().take(2).collect()));
+        diagrams.push(Diagram {
+            part: zoom,
+            ways: chains.by_ref().take(2).collect(),
+            fleeting: Vec::new(),
+        });
     }
     diagrams[1].fleeting = chains.collect();
     Ok(())
@@ -145,12 +147,17 @@ fn fleeting(detail: Detail) -> Result<Job> {
 
 fn numbered(number: usize, found: &Match<'_>) -> Bifurcation {
     let transition = found.transition;
+    let is_rising = transition.rising != found.is_reversed;
     Bifurcation {
         number,
         eta: found.eta,
         symbols: transition.symbols(),
         hysteresis: transition.hysteresis,
-        rising: transition.rising != found.is_reversed,
+        direction: match (transition.hysteresis, is_rising) {
+            (false, _) => "both",
+            (true, true) => "up",
+            (true, false) => "down",
+        },
     }
 }
 
@@ -169,42 +176,27 @@ fn explanation(detail: Detail) -> String {
 }
 
 fn table(diagrams: &[Diagram], isolated: &[Step]) -> Result<Vec<u8>> {
-    let columns = format!("part,direction,eta,{}", diagram::FIELDS);
-    let mut rows = Vec::new();
-    let mut add = |part: &'static str, way: &'static str, steps: &[Step]| {
-        let row = |step: &Step| {
-            (
-                part,
-                way,
-                format!("{:.12}", step.value),
-                diagram::fields(step),
-            )
-        };
-        rows.extend(steps.iter().map(row));
-    };
+    let mut sweeps = Vec::new();
     for diagram in diagrams {
-        let name = diagram.part.name;
-        let part = if name.is_empty() { "overview" } else { name };
-        for chain in &diagram.ways {
-            add(part, chain.direction.name(), &chain.steps);
-        }
-        for chain in &diagram.fleeting {
-            add(part, "down fast", &chain.steps);
-        }
+        let name = match diagram.part.name {
+            "" => "overview",
+            name => name,
+        };
+        let ways = diagram.ways.iter().map(|it| (it.direction.name(), it));
+        let fast = diagram.fleeting.iter().map(|it| ("down fast", it));
+        sweeps.extend(
+            ways.chain(fast)
+                .map(|(way, it)| (name.to_owned(), way, &it.steps[..])),
+        );
     }
-    add("isolated", "either", isolated);
-    figure::table(&columns, rows)
+    sweeps.push(("isolated".to_owned(), "either", isolated));
+    diagram::table("part", sweeps)
 }
 
 fn rows_table(bifurcations: &[Bifurcation]) -> Result<Vec<u8>> {
     let rows = bifurcations.iter().map(|it| {
-        let direction = match (it.hysteresis, it.rising) {
-            (false, _) => "both",
-            (true, true) => "up",
-            (true, false) => "down",
-        };
         let eta = format!("{:.10}", it.eta);
-        (it.number, eta, &it.symbols, it.hysteresis, direction)
+        (it.number, eta, &it.symbols, it.hysteresis, it.direction)
     });
     figure::table("number,eta,type,hysteresis,direction", rows)
 }

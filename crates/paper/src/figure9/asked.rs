@@ -1,5 +1,7 @@
 //! The list of the motions (A) to (L): frequency, and which of the motions there.
 
+use softstop::{Ratios, Scene, SceneError};
+
 /// A motion that the figure shows.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Asked {
@@ -12,6 +14,12 @@ pub(super) struct Asked {
     pub(super) impacts: Option<&'static str>,
     /// What else there is to say.
     pub(super) remark: &'static str,
+}
+
+impl Asked {
+    pub(super) fn scene(&self) -> Result<Scene, SceneError> {
+        Ratios::unloaded().at_frequency(self.frequency).scene()
+    }
 }
 
 macro_rules! motions {

@@ -2,18 +2,19 @@
 
 use anyhow::Result;
 use serde::Serialize;
-use softstop::Ratios;
+use softstop::{Scene, SceneError};
 use softstop_dynamics::attractors::Attractor;
 use softstop_dynamics::{Orbit, StroboscopicMap, Survey};
 
 use super::asked::Asked;
-use super::path::{Path, Section};
+use super::section::Section;
 use crate::figure::Findings;
+use crate::path::{Path, Point};
 
 /// Drive periods of the phase trajectory of what does not repeat.
 const WANDERING: u64 = 60;
 /// Drive periods over which its energy is taken, and points in each.
-const ENERGY: (u64, u32) = (2000, 400);
+const ENERGY: (u64, (u32, u32)) = (2000, (400, 8));
 
 /// A motion and what was asked for.
 pub struct Found {
@@ -39,8 +40,7 @@ impl Found {
         let Some(attractor) = survey.attractors.iter().find(fits).cloned() else {
             return Ok(None);
         };
-        let scene = Ratios::unloaded().at_frequency(asked.frequency).scene()?;
-        let map = StroboscopicMap::new(&scene, 1)?;
+        let map = StroboscopicMap::new(&asked.scene()?, 1)?;
         let section = match attractor.motion.periods() {
             Some(periods) => Section::of(&map, attractor.state, periods, usize::MAX)?,
             None => Section::lasting(&map, attractor.state, most)?,
@@ -69,11 +69,19 @@ impl Found {
         self.orbit().map(|orbit| orbit.periods)
     }
 
-    /// The motion over drive periods, with so many points in each; unless said otherwise until it repeats.
-    pub fn path(&self, periods: Option<u64>, fineness: u32) -> Result<Path> {
-        let scene = Ratios::unloaded().at_frequency(self.asked.frequency);
+    pub fn scene(&self) -> Result<Scene, SceneError> {
+        self.asked.scene()
+    }
+
+    /// The motion over drive periods, as [`Path::new`] has it; unless said otherwise until it repeats.
+    pub fn path(&self, periods: Option<u64>, fineness: (u32, u32)) -> Result<Path> {
         let periods = periods.or(self.period()).unwrap_or(WANDERING);
-        Path::of(&scene.scene()?, self.section.start, periods, fineness)
+        Ok(Path::new(
+            &self.scene()?,
+            self.section.start,
+            periods,
+            fineness,
+        )?)
     }
 
     fn exponent(&self) -> f64 {
@@ -141,11 +149,14 @@ impl Found {
     /// The kinetic energy in units of F0^2/k1: its mean over time, and the largest.
     fn kinetic(&self) -> Result<[f64; 2]> {
         let path = self.path(Some(self.period().unwrap_or(ENERGY.0)), ENERGY.1)?;
-        let energy = |at: &[f64; 3]| 0.5 * at[2] * at[2];
+        let period = self.scene()?.period();
+        let energy = |at: &Point| 0.5 * at.velocity * at.velocity;
+        let time = |at: &Point| at.time / period;
         let pieces = path.points.windows(2);
-        let pieces = pieces
-            .map(|two| f64::midpoint(energy(&two[0]), energy(&two[1])) * (two[1][0] - two[0][0]));
-        let time = path.points.last().map_or(1.0, |at| at[0]);
+        let pieces = pieces.map(|two| {
+            f64::midpoint(energy(&two[0]), energy(&two[1])) * (time(&two[1]) - time(&two[0]))
+        });
+        let time = path.points.last().map_or(1.0, time);
         let largest = path.points.iter().map(energy).fold(0.0, f64::max);
         Ok([pieces.sum::<f64>() / time, largest])
     }

@@ -3,7 +3,7 @@
 mod asked;
 mod chart;
 mod found;
-mod path;
+mod section;
 
 use anyhow::{Result, anyhow};
 use softstop::Ratios;
@@ -13,7 +13,6 @@ use softstop_dynamics::attractors::{Options, attractors};
 use crate::figure::{self, Detail, Drawn, Figure, Findings, Studio};
 use asked::MOTIONS;
 pub(super) use asked::letters;
-use chart::Row;
 use found::Found;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
@@ -33,6 +32,8 @@ pub(crate) const FIGURE: Figure = Figure {
 
 /// The clearance ρ.
 const CLEARANCE: f64 = Ratios::unloaded().clearance;
+/// Least depth beyond the stop that is shown, in units of the clearance.
+const SHALLOW: f64 = 0.002;
 /// Drive periods of the time series, on the first page and on the second.
 const SHOWN: [u64; 2] = [24, 12];
 /// Motions on a page.
@@ -40,28 +41,27 @@ const ON_A_PAGE: usize = 6;
 
 fn draw(studio: &Studio) -> Result<Drawn> {
     let found = found(studio.detail)?;
-    let mut files = Vec::new();
-    let (mut series, mut sections) = (Vec::new(), Vec::new());
-    for (motions, shown) in found.chunks(ON_A_PAGE).zip(SHOWN) {
-        let rows = motions.iter().map(|motion| Row::new(motion, &found, shown));
-        let rows: Vec<Row<'_>> = rows.collect::<Result<_, _>>()?;
-        for row in &rows {
-            let letter = row.motion.asked.letter;
-            series.extend(row.path.points.iter().map(|point| (letter, *point)));
-            let states = row.motion.section.states.iter();
-            sections.extend(states.map(|state| (letter, *state)));
-        }
-        files.push(chart::svg(&rows).into_bytes());
-    }
-    let lines = found.iter().map(Found::line);
-    files.push(figure::table(found::COLUMNS, lines)?);
-    let columns = "motion,drive_periods,position,velocity";
-    files.push(figure::table(columns, series)?);
-    files.push(figure::table("motion,position,velocity", sections)?);
+    let (mut files, mut series, mut sections) = (Vec::new(), Vec::new(), Vec::new());
     let mut findings = Findings::default();
+    for (motions, shown) in found.chunks(ON_A_PAGE).zip(SHOWN) {
+        let (chart, points) = chart::page(motions, &found, shown)?;
+        files.push(chart.svg().into_bytes());
+        series.extend(points);
+    }
     for motion in &found {
         motion.tell(&mut findings)?;
+        let states = motion.section.states.iter();
+        sections.extend(states.map(|state| (motion.asked.letter, *state)));
     }
+    files.push(figure::table(
+        found::COLUMNS,
+        found.iter().map(Found::line),
+    )?);
+    files.push(figure::table(
+        "motion,drive_periods,position,velocity",
+        series,
+    )?);
+    files.push(figure::table("motion,position,velocity", sections)?);
     Ok(Drawn { files, findings })
 }
 

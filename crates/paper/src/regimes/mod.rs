@@ -1,23 +1,19 @@
 //! The map of the regimes z = p/n over drive frequency and clearance, with its boundaries g0, s_PD and s_SN.
 //! The paper speaks of it at the beginning of its section 3.
 
-mod boundaries;
 mod chart;
 mod report;
 mod starts;
 mod swept;
 
 use anyhow::{Error, Result};
-use serde::Serialize;
-use softstop::Ratios;
+use softstop::{Ratios, Scene, SceneError};
 use softstop_dynamics::Direction;
-use softstop_dynamics::watch::Kept;
 
-use crate::figure::{Detail, Drawn, Figure, Studio};
-use boundaries::Boundaries;
+use crate::boundaries::Boundaries;
+use crate::figure::{Drawn, Figure, Studio};
 use softstop_console::progress::Progress;
 use softstop_explore::basin::cells::RegimeMap;
-use swept::Sweep;
 
 /// Regimes over eta and rho.
 pub(crate) const FIGURE: Figure = Figure {
@@ -26,73 +22,97 @@ pub(crate) const FIGURE: Figure = Figure {
     draw,
 };
 
+/// Ranges of eta and rho.
+type Window = [(f64, f64); 2];
+
 /// The paper's range of frequencies, and clearances up to the resonance peak of the free motion, 25.005.
-const ALL: Window = Window {
-    eta: (0.8, 1.8),
-    rho: (0.0, 24.0),
-};
+const ALL: Window = [(0.8, 1.8), (0.0, 24.0)];
 /// Where subharmonic and chaotic motions are.
-const ZOOM: Window = Window {
-    eta: (0.9, 1.02),
-    rho: (4.0, 24.0),
-};
-/// Cells across and up, for print and for a first look: whole pixels each. The loaded machine costs more.
-const FREE: [(usize, usize); 2] = [(400, 400), (100, 80)];
-const NEAR: [(usize, usize); 2] = [(600, 400), (120, 80)];
-const LOADED: [(usize, usize); 2] = [(300, 200), (60, 40)];
-/// Those of the map of hardest motions.
-const MANY: [(usize, usize); 2] = [(240, 160), (60, 40)];
-/// Drive periods at each frequency.
+const ZOOM: Window = [(0.9, 1.02), (4.0, 24.0)];
+/// Least clearance of the boundaries: at 0 the scale of the motion changes.
+const LEAST: f64 = 0.1;
+/// Drive periods at each frequency of a sweep.
 const PERIODS: u64 = 120;
 /// Starts at each cell of the map of hardest motions.
 const STARTS: usize = 12;
 
-/// What a map is called in tables, among the findings and on the page.
-struct Named {
-    machine: &'static str,
-    way: &'static str,
-    finding: &'static str,
-    page: &'static str,
+/// How the motion in a cell is found.
+#[derive(Debug, Clone, Copy)]
+enum Way {
+    /// By a sweep along the frequency.
+    Swept(Direction),
+    /// It is the hardest one of several starts.
+    Hardest,
 }
 
-macro_rules! named {
-    ($($machine:literal $way:literal, $finding:literal, $page:literal;)*) => {
-        [$(Named {
-            machine: $machine,
-            way: $way,
-            finding: $finding,
-            page: concat!($machine, $page),
-        }),*]
-    };
+/// A map: what it is called in tables, among the findings and on the page, and what it shows.
+struct Map {
+    is_loaded: bool,
+    way: Way,
+    names: [&'static str; 3],
+    window: Window,
+    /// Cells across and up, for print and for a first look: whole pixels each. The loaded machine costs more.
+    sizes: [(usize, usize); 2],
 }
 
-const MAPS: [Named; 6] = named! {
-    "unloaded" "up", "rising", ", rising frequency";
-    "unloaded" "down", "falling", ", falling frequency";
-    "unloaded" "up, zoom", "zoom, rising", ", rising frequency: the subharmonic region";
-    "unloaded" "hardest of several starts", "zoom, hardest of several starts",
-        ": the hardest motion of 12 starts";
-    "loaded" "up", "rising", ", rising frequency";
-    "loaded" "down", "falling", ", falling frequency";
-};
-
-/// Whether a map is of the loaded machine.
-fn is_loaded(map: usize) -> bool {
-    map >= 4
+const fn map(
+    is_loaded: bool,
+    way: Way,
+    names: [&'static str; 3],
+    window: Window,
+    sizes: [(usize, usize); 2],
+) -> Map {
+    Map {
+        is_loaded,
+        way,
+        names,
+        window,
+        sizes,
+    }
 }
 
-/// A part of the plane of eta and rho.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-struct Window {
-    eta: (f64, f64),
-    rho: (f64, f64),
-}
+const FREE: [(usize, usize); 2] = [(400, 400), (100, 80)];
+const NEAR: [(usize, usize); 2] = [(600, 400), (120, 80)];
+const MANY: [(usize, usize); 2] = [(240, 160), (60, 40)];
+const LOADED: [(usize, usize); 2] = [(300, 200), (60, 40)];
+const UP: Way = Way::Swept(Direction::Up);
+const DOWN: Way = Way::Swept(Direction::Down);
+const RISING: [&str; 3] = ["up", "rising", ", rising frequency"];
+const FALLING: [&str; 3] = ["down", "falling", ", falling frequency"];
+const CLOSER: [&str; 3] = [
+    "up, zoom",
+    "zoom, rising",
+    ", rising frequency: the subharmonic region",
+];
+const HARDEST: [&str; 3] = [
+    "hardest of several starts",
+    "zoom, hardest of several starts",
+    ": the hardest motion of 12 starts",
+];
 
-impl Window {
+static MAPS: [Map; 6] = [
+    map(false, UP, RISING, ALL, FREE),
+    map(false, DOWN, FALLING, ALL, FREE),
+    map(false, UP, CLOSER, ZOOM, NEAR),
+    map(false, Way::Hardest, HARDEST, ZOOM, MANY),
+    map(true, UP, RISING, ALL, LOADED),
+    map(true, DOWN, FALLING, ALL, LOADED),
+];
+
+impl Map {
+    fn machine(&self) -> &'static str {
+        if self.is_loaded { "loaded" } else { "unloaded" }
+    }
+
     /// The machine in the middle of a cell.
-    fn machine(&self, machine: &Ratios, cell: (usize, usize), cells: (usize, usize)) -> Ratios {
-        let machine = machine.at_frequency(middle(self.eta, cell.0, cells.0));
-        machine.at_clearance(middle(self.rho, cell.1, cells.1))
+    fn scene(&self, cell: (usize, usize), size: (usize, usize)) -> Result<Scene, SceneError> {
+        let machine = match self.is_loaded {
+            false => Ratios::unloaded(),
+            true => Ratios::loaded(),
+        };
+        let machine = machine.at_frequency(middle(self.window[0], cell.0, size.0));
+        let machine = machine.at_clearance(middle(self.window[1], cell.1, size.1));
+        machine.scene()
     }
 }
 
@@ -101,45 +121,43 @@ fn middle((from, to): (f64, f64), cell: usize, cells: usize) -> f64 {
 }
 
 fn draw(studio: &Studio) -> Result<Drawn> {
-    let (detail, kept) = (studio.detail, studio.kept);
-    let (maps, boundaries) = rayon::join(|| maps(detail, kept), boundaries);
-    let (maps, boundaries) = (maps?, boundaries?);
-    let png = chart::png(&maps, &boundaries).map_err(Error::msg)?;
+    let maps = maps(studio)?;
+    let boundaries = |machine| Boundaries::of(&machine, ALL[0], (LEAST, ALL[1].1));
+    let boundaries = [
+        boundaries(Ratios::unloaded())?,
+        boundaries(Ratios::loaded())?,
+    ];
+    let chart = chart::chart(&maps, &boundaries);
     Ok(Drawn {
-        files: vec![png, report::runs(&maps)?, report::boundaries(&boundaries)?],
+        files: vec![
+            chart.png().map_err(Error::msg)?,
+            report::runs(&maps)?,
+            report::boundaries(&boundaries)?,
+        ],
         findings: report::findings(&maps, &boundaries),
     })
 }
 
 /// The maps.
-fn maps(detail: Detail, kept: Kept<'_>) -> Result<[RegimeMap; 6]> {
-    let [all, near, many, less] =
-        [FREE, NEAR, MANY, LOADED].map(|[full, draft]| detail.pick(full, draft));
-    let cells = |size: (usize, usize)| size.0 * size.1;
-    let work = 2 * cells(all) + cells(near) + STARTS * cells(many) + 2 * cells(less);
-    let progress = Progress::new(work as u64, "motions");
-    let swept = |machine, window, way, size| {
-        let sweep = Sweep {
-            machine,
-            window,
-            way,
-            size,
+fn maps(studio: &Studio) -> Result<Vec<RegimeMap>> {
+    let size = |map: &Map| studio.detail.pick(map.sizes[0], map.sizes[1]);
+    let work = MAPS.iter().map(|map| match (map.way, size(map)) {
+        (Way::Swept(_), (columns, rows)) => columns * rows,
+        (Way::Hardest, (columns, rows)) => STARTS * columns * rows,
+    });
+    let progress = Progress::new(work.sum::<usize>() as u64, "motions");
+    let found = MAPS.iter().map(|map| {
+        let size = size(map);
+        let cells = match map.way {
+            Way::Swept(way) => swept::cells(map, way, size, &progress, studio.kept)?,
+            Way::Hardest => starts::cells(map, size, &progress, studio.kept)?,
         };
-        sweep.map(&progress, kept)
-    };
-    let (free, loaded) = (Ratios::unloaded(), Ratios::loaded());
-    Ok([
-        swept(free, ALL, Direction::Up, all)?,
-        swept(free, ALL, Direction::Down, all)?,
-        swept(free, ZOOM, Direction::Up, near)?,
-        starts::hardest(&free, ZOOM, many, &progress, kept)?,
-        swept(loaded, ALL, Direction::Up, less)?,
-        swept(loaded, ALL, Direction::Down, less)?,
-    ])
-}
-
-/// The boundaries of both machines.
-fn boundaries() -> Result<[Boundaries; 2]> {
-    let [free, loaded] = [Ratios::unloaded(), Ratios::loaded()];
-    Ok([Boundaries::of(&free, &ALL)?, Boundaries::of(&loaded, &ALL)?])
+        Ok(RegimeMap {
+            eta: map.window[0],
+            rho: map.window[1],
+            columns: size.0,
+            cells,
+        })
+    });
+    found.collect()
 }

@@ -103,9 +103,9 @@ fn draw(studio: &Studio) -> Result<Drawn> {
         }
         outcomes.extend(found);
     }
-    let svg = chart::svg(&outcomes, grazing, loaded, machine.clearance);
+    let chart = chart::chart(&outcomes, grazing, loaded, machine.clearance);
     Ok(Drawn {
-        files: vec![svg.into_bytes(), output::csv(&outcomes)?],
+        files: vec![chart.svg().into_bytes(), output::csv(&outcomes)?],
         findings,
     })
 }
