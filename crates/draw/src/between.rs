@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::chart::{Chart, Corner, Legend, Panel};
+use crate::chart::{Corner, Legend};
 use crate::index::width;
 use crate::layer::{Shape, Text};
 use crate::layout::{BAR, GAP, LINE, Placed, TICK, Ticks, on, widest};
-use crate::legend::{column, draw_column, entries};
+use crate::legend::{column, draw_column, draw_lines};
 use crate::panel::Panel as Frame;
 use crate::pen::{Align, Area, Pen};
 use crate::shade::{SHADES, color, shade};
@@ -18,32 +18,17 @@ const GRID: Stroke = Stroke::solid("#e9e9e9", 1.0);
 const HEAD: (f64, f64) = (6.5, 2.2);
 const SHORTEST: f64 = 15.0;
 
-impl Chart {
-    /// The corner in which the layers of a panel are explained.
-    pub(crate) fn corner(&self, panel: &Panel) -> Option<Corner> {
-        match self.legend {
-            Legend::Inside(corner) => panel.legend.or(Some(corner)),
-            _ => panel.legend,
-        }
-    }
-}
-
 impl Placed<'_> {
     /// Everything of the panel.
-    pub(crate) fn draw(&self, pen: &mut Pen, letters: u32, corner: Option<Corner>) {
+    pub(crate) fn draw(&self, pen: &mut Pen, letters: u32) {
         let (frame, size) = (self.frame, f64::from(letters));
-        let is_filled = self.panel.layers.iter().any(|it| it.fills());
-        if !is_filled {
-            for (value, _) in &self.ticks[0] {
-                let x = frame.across(*value);
-                pen.line(&[(x, frame.area.1), (x, frame.bottom())], GRID);
+        let layers = &self.panel.layers;
+        let is_filled = layers.iter().any(|it| it.fills());
+        let behind = layers.iter().take_while(|it| it.is_behind()).count();
+        for (index, layer) in layers.iter().enumerate() {
+            if index == behind && !is_filled {
+                self.ground(pen);
             }
-            for (value, _) in &self.ticks[1] {
-                let y = frame.height(*value);
-                pen.line(&[(frame.area.0, y), (frame.right(), y)], GRID);
-            }
-        }
-        for layer in &self.panel.layers {
             self.shape(pen, letters, &layer.shape, is_filled);
         }
         self.labels(pen, letters);
@@ -61,8 +46,19 @@ impl Placed<'_> {
             Align::Left,
             &self.panel.title,
         );
-        if let Some(corner) = corner {
-            self.legend(pen, letters, corner);
+        self.legend(pen, letters);
+    }
+
+    /// Lines at the round values.
+    fn ground(&self, pen: &mut Pen) {
+        let frame = self.frame;
+        for (value, _) in &self.ticks[0] {
+            let x = frame.across(*value);
+            pen.line(&[(x, frame.area.1), (x, frame.bottom())], GRID);
+        }
+        for (value, _) in &self.ticks[1] {
+            let y = frame.height(*value);
+            pen.line(&[(frame.area.0, y), (frame.right(), y)], GRID);
         }
     }
 
@@ -175,19 +171,18 @@ impl Placed<'_> {
         let places: Vec<Point> = points.iter().map(|point| self.place(*point)).collect();
         let length = |pair: &[Point]| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
         let whole: f64 = places.windows(2).map(length).sum();
-        let mut passed = 0.0;
+        let mut left = share * whole;
         let reached = places.windows(2).find(|pair| {
-            passed += length(pair);
-            passed >= share * whole
+            left -= length(pair);
+            left <= 0.0
         });
         let Some(pair) = reached.filter(|_| whole >= SHORTEST) else {
             return;
         };
         let (from, to, long) = (pair[0], pair[1], length(pair));
-        let half = (
-            HEAD.0 * (to.0 - from.0) / long,
-            HEAD.0 * (to.1 - from.1) / long,
-        );
+        let way = ((to.0 - from.0) / long, (to.1 - from.1) / long);
+        let half = (HEAD.0 * way.0, HEAD.0 * way.1);
+        let from = (to.0 + left * way.0, to.1 + left * way.1);
         let tail = (from.0 - half.0, from.1 - half.1);
         let tip = (from.0 + half.0, from.1 + half.1);
         let width = HEAD.1;
@@ -288,23 +283,40 @@ impl Placed<'_> {
         pen.frame(bar.area);
     }
 
-    /// The legend in a corner, on a light plate.
-    fn legend(&self, pen: &mut Pen, letters: u32, corner: Corner) {
-        let entries = entries(std::iter::once(self.panel));
-        if entries.is_empty() {
+    /// The legend of the panel, in a corner on a light plate.
+    fn legend(&self, pen: &mut Pen, letters: u32) {
+        let Some(legend) = self.legend.filter(|_| !self.key.is_empty()) else {
             return;
-        }
-        let (wide, high) = column(&entries, letters);
+        };
+        let (wide, high) = column(&self.key, letters);
+        let [_, beside, above, below] = self.margins;
         let (left, top, width, height) = self.frame.area;
-        let (right, bottom) = (left + width - wide - GAP, top + height - high - GAP);
+        let (right, bottom) = (left + width, top + height);
+        let (inner, lower) = (right - wide - GAP, bottom - high - GAP);
+        let corner = match legend {
+            Legend::Right => {
+                let place = (right + beside - wide, top);
+                return draw_column(pen, place, letters, &self.key);
+            }
+            Legend::Above => {
+                let place = (left, top - above);
+                return draw_lines(pen, place, letters, width, &self.key);
+            }
+            Legend::Below => {
+                let high = self.key_height(letters);
+                let place = (left, bottom + below - high);
+                return draw_lines(pen, place, letters, width, &self.key);
+            }
+            Legend::Inside(corner) => corner,
+        };
         let (left, top) = match corner {
             Corner::TopLeft => (left + GAP, top + 6.0),
-            Corner::TopRight => (right, top + 6.0),
-            Corner::BottomLeft => (left + GAP, bottom),
-            Corner::BottomRight => (right, bottom),
+            Corner::TopRight => (inner, top + 6.0),
+            Corner::BottomLeft => (left + GAP, lower),
+            Corner::BottomRight => (inner, lower),
         };
         pen.tint((left - 4.0, top, wide + 8.0, high + 6.0), "#ffffff", 0.82);
-        draw_column(pen, (left, top), letters, &entries);
+        draw_column(pen, (left, top), letters, &self.key);
     }
 }
 

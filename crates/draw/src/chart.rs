@@ -25,17 +25,17 @@ pub struct Chart {
     pub shares_upwards: bool,
 }
 
-/// Where a legend stands.
+/// Where a legend stands: that of a chart about all panels, that of a panel about it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Legend {
-    /// Right of all panels, an entry in each line.
+    /// At the right, an entry in each line.
     #[default]
     Right,
-    /// Between title and panels, in lines.
+    /// Above, in lines.
     Above,
-    /// Below all panels, in lines.
+    /// Below, in lines.
     Below,
-    /// Inside the panel, in a corner.
+    /// Inside each panel, in a corner.
     Inside(Corner),
 }
 
@@ -69,8 +69,8 @@ pub struct Panel {
     pub y: Axis,
     /// What is drawn between the axes.
     pub layers: Vec<Layer>,
-    /// Corner in which its own layers are explained.
-    pub legend: Option<Corner>,
+    /// Where its own layers are explained, if not with those of the other panels.
+    pub legend: Option<Legend>,
 }
 
 /// An axis.
@@ -109,6 +109,14 @@ impl Chart {
             title: title.into(),
             panels: panels.into_iter().collect(),
             ..Self::default()
+        }
+    }
+
+    /// The place where a panel explains its own layers.
+    pub(crate) fn legend_of(&self, panel: &Panel) -> Option<Legend> {
+        match self.legend {
+            Legend::Inside(_) => panel.legend.or(Some(self.legend)),
+            _ => panel.legend,
         }
     }
 

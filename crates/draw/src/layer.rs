@@ -214,6 +214,11 @@ impl Layer {
         matches!(self.shape, Shape::Cells(..) | Shape::Shades(..))
     }
 
+    /// Whether it lies behind the lines at round values.
+    pub(crate) const fn is_behind(&self) -> bool {
+        matches!(self.shape, Shape::Boxes(..) | Shape::Key(_))
+    }
+
     /// What stands for it in the legend.
     pub(crate) fn sign(&self) -> Option<Sign> {
         match &self.shape {

@@ -1,8 +1,9 @@
 //! Where the parts of a chart are on the page: margins follow from the texts at the axes.
 
-use crate::chart::{Axis, Chart, Panel};
+use crate::chart::{Axis, Chart, Legend, Panel};
 use crate::index::width;
 use crate::layer::Shape;
+use crate::legend::{Entry, column, entries, height};
 use crate::panel::Panel as Frame;
 use crate::scale::{around, log_ticks, ticks};
 use crate::stroke::{Point, Stroke};
@@ -30,6 +31,11 @@ pub(crate) struct Placed<'a> {
     /// Whether numbers and names of both axes are written.
     pub(crate) shows: [bool; 2],
     pub(crate) names: Vec<Name>,
+    /// Where its own layers are explained, and how.
+    pub(crate) legend: Option<Legend>,
+    pub(crate) key: Vec<Entry>,
+    /// Room left, right, above and below.
+    pub(crate) margins: [f64; 4],
 }
 
 /// The name of a place across, above the panel: in a line so high that no other one's way down crosses it.
@@ -102,17 +108,13 @@ impl Axis {
 
 impl<'a> Placed<'a> {
     /// A panel of this size, its corner at the origin.
-    fn new(
-        panel: &'a Panel,
-        size: (f64, f64),
-        [x, y]: Ranges,
-        shows: [bool; 2],
-        letters: u32,
-    ) -> Self {
+    fn new(chart: &Chart, panel: &'a Panel, size: (f64, f64), (ranges, shows): Shown) -> Self {
+        let ([x, y], letters) = (ranges, chart.letters);
         let frame = Frame::new((0.0, 0.0, size.0, size.1), x, y);
         let upwards = counts(size).1;
         let bar = panel.bar().map(|(range, _)| ticks(range, upwards));
-        Self {
+        let legend = chart.legend_of(panel);
+        let mut placed = Self {
             panel,
             frame,
             ticks: [
@@ -122,7 +124,12 @@ impl<'a> Placed<'a> {
             ],
             shows,
             names: names(panel, &frame, letters),
-        }
+            legend,
+            key: legend.map_or_else(Vec::new, |_| entries([panel].into_iter())),
+            margins: [0.0; 4],
+        };
+        placed.margins = placed.margins(letters);
+        placed
     }
 
     /// Room that is needed left, right, above and below.
@@ -141,6 +148,13 @@ impl<'a> Placed<'a> {
             .bar()
             .map_or(0.0, |(_, name)| GAP + room(&self.ticks[2], name) + BAR);
         let above = line(&self.panel.title) + LINE * size * self.lines() as f64;
+        let key = self.key_height(letters);
+        let (beside, over, under) = match self.legend.filter(|_| !self.key.is_empty()) {
+            Some(Legend::Right) => (GAP + column(&self.key, letters).0, 0.0, 0.0),
+            Some(Legend::Above) => (0.0, key, 0.0),
+            Some(Legend::Below) => (0.0, 0.0, key),
+            _ => (0.0, 0.0, 0.0),
+        };
         let below = match (self.ticks[0].is_empty(), self.panel.x.name.is_empty()) {
             (true, true) => 0.0,
             _ => TICK + LINE * size + 1.1 * line(&self.panel.x.name),
@@ -151,10 +165,15 @@ impl<'a> Placed<'a> {
             } else {
                 TICK
             },
-            bar.max(overhang.max(4.0)),
-            above + if above > 0.0 { 6.0 } else { 0.0 },
-            if shows[0] { below } else { TICK },
+            bar.max(overhang.max(4.0)) + beside,
+            above + over + if above > 0.0 { 6.0 } else { 0.0 },
+            under + if shows[0] { below } else { TICK },
         ]
+    }
+
+    /// Height of its own legend in lines.
+    pub(crate) fn key_height(&self, letters: u32) -> f64 {
+        height(&self.key, letters, self.frame.area.2)
     }
 
     /// Lines of names above the panel.
@@ -203,27 +222,21 @@ pub(crate) fn place(chart: &Chart, room: Option<(f64, f64)>) -> (Vec<Placed<'_>>
     // Texts follow from sizes, and sizes from texts.
     for _ in 0..3 {
         let panels = chart.panels.iter().zip(&sizes).zip(&ranges);
-        let panels = panels.map(|((panel, size), (ranges, shows))| {
-            Placed::new(panel, *size, *ranges, *shows, chart.letters)
-        });
+        let panels = panels.map(|((panel, size), shown)| Placed::new(chart, panel, *size, *shown));
         placed = panels.collect();
-        let margins: Vec<[f64; 4]> = placed.iter().map(|it| it.margins(chart.letters)).collect();
         let items = |side: usize| {
-            let panels = chart.panels.iter().zip(&margins);
-            let items = panels.map(|(panel, margins)| match side {
-                0 => (
-                    panel.at.0,
-                    panel.span.0,
-                    panel.snapped().0,
-                    [margins[0], margins[1]],
-                ),
-                _ => (
-                    panel.at.1,
-                    panel.span.1,
-                    panel.snapped().1,
-                    [margins[2], margins[3]],
-                ),
-            });
+            let items = placed
+                .iter()
+                .map(|Placed { panel, margins, .. }| match side {
+                    0 => {
+                        let room = [margins[0], margins[1]];
+                        (panel.at.0, panel.span.0, panel.snapped().0, room)
+                    }
+                    _ => {
+                        let room = [margins[2], margins[3]];
+                        (panel.at.1, panel.span.1, panel.snapped().1, room)
+                    }
+                });
             items.collect::<Vec<Item>>()
         };
         let (across, width) = tracks(&items(0), room.map(|it| it.0));
@@ -281,9 +294,11 @@ fn tracks(items: &[Item], room: Option<f64>) -> (Vec<(f64, f64)>, f64) {
 
 /// The ranges of both axes.
 type Ranges = [(f64, f64); 2];
+/// These, and which of both axes have numbers.
+type Shown = (Ranges, [bool; 2]);
 
 /// The ranges of all panels, and which of their axes have numbers.
-fn ranges(chart: &Chart) -> Vec<(Ranges, [bool; 2])> {
+fn ranges(chart: &Chart) -> Vec<Shown> {
     let own = |panel: &Panel| {
         let points: Vec<Point> = panel.layers.iter().flat_map(|it| it.extent()).collect();
         [
@@ -324,7 +339,7 @@ impl Panel {
         });
         let side = |length: f64, cells: usize| {
             let cells = cells.max(1) as f64;
-            0.5 * (2.0 * length / cells).floor().max(1.0) * cells
+            0.5 * (2.0 * length / cells).round().max(1.0) * cells
         };
         let (wide, high) = self.size;
         cells.map_or(self.size, |it| (side(wide, it.0), side(high, it.1)))

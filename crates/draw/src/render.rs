@@ -48,7 +48,7 @@ impl Chart {
     /// With headings on white, or without on the ground of another page.
     fn drawn(&self, is_page: bool) -> Pen {
         let letters = self.letters;
-        let key = entries(self.panels.iter().filter(|it| self.corner(it).is_none()));
+        let key = entries(self.panels.iter().filter(|it| self.legend_of(it).is_none()));
         let (beside, least) = match self.legend {
             Legend::Right if !key.is_empty() => {
                 let (wide, high) = column(&key, letters);
@@ -102,7 +102,7 @@ impl Chart {
         for panel in &mut placed {
             panel.frame.area.0 += EDGE;
             panel.frame.area.1 += above;
-            panel.draw(&mut pen, letters, self.corner(panel.panel));
+            panel.draw(&mut pen, letters);
         }
         write(&mut pen, (EDGE, bottom + below), &notes);
         pen

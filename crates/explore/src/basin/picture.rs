@@ -1,13 +1,12 @@
 //! Pictures of basins: cells of colour, the motions' own points, the largest ball inside a basin.
 
 use softstop::{Dimension, Machine};
-use softstop_dynamics::basin::{Class, Clearing, Quantity};
+use softstop_dynamics::basin::{Class, Quantity};
 use softstop_dynamics::motion::MotionClass;
-use softstop_dynamics::{Axis, Basins, Orbit, Regime};
+use softstop_dynamics::{Axis as BasinAxis, Basins, Regime};
 
 use super::cells::color;
-use softstop_draw::panel::{Axes, Panel};
-use softstop_draw::pen::{Align, Area, Pen};
+use softstop_draw::{Axis, Chart, Layer, Legend, Mark, Panel, Sign, style};
 
 /// Basins as cells of colour.
 #[derive(Debug, Clone, Copy)]
@@ -24,15 +23,7 @@ const OTHERS: [&str; 6] = [
     "#AA4499", "#F0E442", "#0072B2", "#009E73", "#E69F00", "#D55E00",
 ];
 /// Length that the longer side of the grid has about; finer grids are longer.
-const SIDE: usize = 720;
-/// Pixels for each unit of length: the least side of a cell is half a unit.
-const SCALE: f32 = 2.0;
-/// Margins around the grid: left, top, right, bottom.
-const MARGINS: (f64, f64, f64, f64) = (86.0, 56.0, 340.0, 66.0);
-/// Size of letters.
-const LETTERS: u32 = 15;
-/// Numbers along each axis.
-const TICKS: (usize, usize) = (6, 6);
+const SIDE: f64 = 720.0;
 /// Radius of the spots of periodic motions, and of the dots of chaos.
 const SPOT: f64 = 5.0;
 const DOT: f64 = 0.8;
@@ -58,68 +49,72 @@ impl<'a> BasinPicture<'a> {
     /// # Errors
     /// Why it cannot be made.
     pub fn png(&self) -> Result<Vec<u8>, String> {
-        let (width, height) = self.size();
-        let page = (
-            width + MARGINS.0 + MARGINS.2,
-            height.max(200.0) + MARGINS.1 + MARGINS.3,
-        );
-        let mut pen = Pen::page(page.0, page.1);
-        pen.heading((MARGINS.0, 34.0), 19, Align::Left, self.title);
-        self.draw(&mut pen, (MARGINS.0, MARGINS.1, width, height), LETTERS);
-        let place = (MARGINS.0 + width + 24.0, MARGINS.1 + 12.0);
-        self.legend(&mut pen, place, LETTERS);
-        pen.png_at(SCALE)
-    }
-
-    pub(super) fn title(&self) -> &str {
-        self.title
-    }
-
-    /// Width and height: whole pixels for each cell.
-    fn size(&self) -> (f64, f64) {
         let grid = &self.basins.grid;
-        let cells = grid.across.cells.max(grid.up.cells);
-        let cell = 0.5 * (2 * SIDE / cells).max(1) as f64;
-        (cell * grid.across.cells as f64, cell * grid.up.cells as f64)
+        let longest = grid.across.cells.max(grid.up.cells) as f64;
+        let side = |cells: usize| SIDE * cells as f64 / longest;
+        let panel = Panel {
+            title: String::new(),
+            size: (side(grid.across.cells), side(grid.up.cells)),
+            ..self.panel()
+        };
+        let chart = Chart {
+            letters: 15,
+            ..Chart::new(self.title, [panel])
+        };
+        chart.png()
     }
 
-    /// Cells, axes, motions and the largest ball inside the basin of z = 1.
-    pub(super) fn draw(&self, pen: &mut Pen, area: Area, letters: u32) {
+    /// Cells, the largest ball inside the basin of z = 1, motions, and what the colours mean.
+    fn panel(&self) -> Panel {
         let grid = &self.basins.grid;
-        let panel = Panel::new(area, grid.across.range.into(), grid.up.range.into());
         let palette = self.colors();
         let cells = self.basins.cells.iter();
-        let colors: Vec<&str> = cells.map(|class| palette[usize::from(*class)]).collect();
-        panel.cells(pen, grid.across.cells, &colors);
-        if let Some(ball) = self.ball() {
-            let center = panel.place((ball.centre[0], ball.centre[1]));
-            let radius = (0.5 * ball.radius * area.2, 0.5 * ball.radius * area.3);
-            pen.ring(center, radius);
+        let colors = cells.map(|class| palette[usize::from(*class)]);
+        let mut layers = vec![Layer::cells(grid.across.cells, colors)];
+        let classes = self.basins.classes.iter().zip(&palette);
+        layers.extend(classes.map(|(class, color)| {
+            let [low, high] = class.interval.map(|share| 100.0 * share);
+            let share = format!("{:.2} % ({low:.2} to {high:.2})", 100.0 * class.share);
+            Layer::key(Sign::Patch(color), format!("{}\n{share}", label(class)))
+        }));
+        let half = |axis: &BasinAxis| 0.5 * (axis.range[1] - axis.range[0]);
+        layers.extend(self.basins.largest_ball_of(Regime::ONE).map(|ball| {
+            let half = (
+                ball.radius * half(&grid.across),
+                ball.radius * half(&grid.up),
+            );
+            let name = format!("largest ball in z = 1: {:.3}", ball.radius);
+            Layer::ring((ball.centre[0], ball.centre[1]), half).named(name)
+        }));
+        layers.extend(self.motions());
+        let axis = |axis: &BasinAxis| Axis::new(self.name(axis)).range(axis.range.into());
+        Panel {
+            title: self.title.to_owned(),
+            size: (600.0, 600.0),
+            x: axis(&grid.across),
+            y: axis(&grid.up),
+            layers,
+            ..Panel::default()
         }
-        let (across, up) = (self.name(&grid.across), self.name(&grid.up));
-        panel.axes(pen, &Axes::new(letters, Some(&across), &up, TICKS));
-        self.motions(pen, &panel);
     }
 
     /// The points of the motions, where the plane shows them.
-    fn motions(&self, pen: &mut Pen, panel: &Panel) {
+    fn motions(&self) -> Vec<Layer> {
         let grid = &self.basins.grid;
         let shown = (grid.across.quantity, grid.up.quantity);
         if shown != (Quantity::Position, Quantity::Velocity)
             || grid.angle != self.machine.scene.excitation.phase
         {
-            return;
+            return Vec::new();
         }
-        let inside = |point: &(f64, f64)| panel.holds(*point);
-        let wandering = self.wandering.iter().copied().filter(inside);
-        let dots: Vec<(f64, f64)> = wandering.map(|point| panel.place(point)).collect();
-        pen.dots(&dots, DOT, "#ffffff");
-        for orbit in self.orbits() {
-            let states = orbit.states().unwrap_or_default().into_iter();
-            for point in states.map(|state| (state.x, state.y)).filter(inside) {
-                pen.spot(panel.place(point), SPOT);
-            }
-        }
+        let classes = self.basins.classes.iter();
+        let orbits = classes.filter_map(|class| class.orbit.as_deref());
+        let states = orbits.flat_map(|orbit| orbit.states().unwrap_or_default());
+        let points = states.map(|state| (state.x, state.y));
+        vec![
+            Layer::dots(self.wandering.iter().copied(), DOT, "#ffffff"),
+            Layer::marks(points, Mark::Hollow, style::INK).sized(SPOT),
+        ]
     }
 
     /// The colour of each basin: that of its regime; if it is taken, another one.
@@ -138,48 +133,12 @@ impl<'a> BasinPicture<'a> {
         taken
     }
 
-    fn name(&self, axis: &Axis) -> String {
+    fn name(&self, axis: &BasinAxis) -> String {
         let label = |what, symbol, dimension| self.machine.label(what, symbol, dimension);
         match axis.quantity {
             Quantity::Position => label("initial position", "X", Dimension::Length),
             Quantity::Velocity => label("initial velocity", "X′", Dimension::Velocity),
             Quantity::Angle => "initial drive angle φ in rad".to_owned(),
-        }
-    }
-
-    fn orbits(&self) -> impl Iterator<Item = &Orbit> {
-        let classes = self.basins.classes.iter();
-        classes.filter_map(|class| class.orbit.as_deref())
-    }
-
-    /// The largest ball inside the basin of z = 1.
-    fn ball(&self) -> Option<Clearing> {
-        self.basins.largest_ball_of(Regime::ONE)
-    }
-
-    /// Colours, names and shares, downwards from a place.
-    pub(super) fn legend(&self, pen: &mut Pen, (left, top): (f64, f64), letters: u32) {
-        let size = f64::from(letters);
-        let lines = self.basins.classes.iter().zip(self.colors());
-        for (index, (class, color)) in lines.enumerate() {
-            let line = top + 3.4 * size * index as f64;
-            let square = (left, line - size, 1.5 * size, 1.5 * size);
-            pen.fill(&[square], color);
-            pen.frame(square);
-            let place = (left + 2.2 * size, line);
-            pen.heading(place, letters, Align::Left, &label(class));
-            let [low, high] = class.interval.map(|share| 100.0 * share);
-            let share = format!("{:.2} % ({low:.2} to {high:.2})", 100.0 * class.share);
-            let place = (left + 2.2 * size, line + 1.3 * size);
-            pen.text(place, letters, Align::Left, &share);
-        }
-        if let Some(ball) = self.ball() {
-            let line = top + 3.4 * size * self.basins.classes.len() as f64;
-            let radius = (0.6 * size, 0.6 * size);
-            pen.ring((left + 0.75 * size, line - 0.35 * size), radius);
-            let place = (left + 2.2 * size, line);
-            let text = format!("largest ball in z = 1: {:.3}", ball.radius);
-            pen.text(place, letters, Align::Left, &text);
         }
     }
 }
@@ -203,34 +162,21 @@ pub struct BasinPage<'a> {
     pub pictures: Vec<BasinPicture<'a>>,
 }
 
-/// Sizes on the page: a grid, what is left of it and right, above it and below.
-const GRID: f64 = 600.0;
-const COLUMN: f64 = GRID + 96.0 + 290.0;
-const ROW: f64 = GRID + 60.0 + 78.0;
-const HEAD: f64 = 66.0;
-/// Letters.
-const PAGE_LETTERS: u32 = 17;
-
 impl BasinPage<'_> {
     /// As PNG.
     ///
     /// # Errors
     /// Why it cannot be made.
     pub fn png(&self) -> Result<Vec<u8>, String> {
-        let rows = self.pictures.len().div_ceil(2) as f64;
-        let (width, height) = (2.0 * COLUMN, HEAD + rows * ROW);
-        let mut pen = Pen::page(width, height);
+        let panels = self.pictures.iter().map(|picture| Panel {
+            legend: Some(Legend::Right),
+            ..picture.panel()
+        });
         let title = "Basins of attraction: which start leads to which motion";
-        pen.heading((92.0, 42.0), 24, Align::Left, title);
-        for (index, picture) in self.pictures.iter().enumerate() {
-            let left = 92.0 + COLUMN * (index % 2) as f64;
-            let top = HEAD + 46.0 + ROW * (index / 2) as f64;
-            let place = (left, top - 14.0);
-            pen.heading(place, PAGE_LETTERS + 2, Align::Left, picture.title());
-            picture.draw(&mut pen, (left, top, GRID, GRID), PAGE_LETTERS);
-            let place = (left + GRID + 22.0, top + 16.0);
-            picture.legend(&mut pen, place, PAGE_LETTERS);
-        }
-        pen.png_at(SCALE)
+        let chart = Chart {
+            letters: 17,
+            ..Chart::new(title, panels)
+        };
+        chart.in_columns(2).png()
     }
 }

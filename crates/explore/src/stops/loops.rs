@@ -2,10 +2,7 @@
 //! paper's figure 2.
 
 use softstop::PhaseKind;
-use softstop_draw::panel::{Axes, Panel, heading};
-use softstop_draw::pen::{Align, Area, Pen, Stroke as Line};
-use softstop_draw::shapes::Sign;
-use softstop_draw::style;
+use softstop_draw::{Align, Axis, Chart, Corner, Layer, Legend, Panel, Stroke as Line, style};
 
 use crate::stops::stroke::{Piece, Rebound, Stroke};
 
@@ -16,131 +13,88 @@ const LINES: [Line; 2] = [
 ];
 /// Zero of force and of deflection.
 const ZERO: Line = Line::solid(style::ASIDE, 1.0);
-/// The page, and the panel on it.
-const PAGE: (f64, f64) = (660.0, 480.0);
-const AREA: Area = (78.0, 76.0, 556.0, 336.0);
-/// Letters.
-const LETTERS: u32 = 13;
 /// Where on a piece its arrow stands, so that those of two ways on one curve stand apart.
 const ARROW_AT: f64 = 0.42;
-/// Shortest piece, in pixels, that gets an arrow.
-const SHORTEST: f64 = 15.0;
-/// Half the range of deflections around a stop that does not yield.
-const ASIDE: f64 = 1.0;
 
 /// The picture of strokes, each with the name of its law, as an SVG document.
 pub fn svg(title: &str, subtitle: &str, strokes: &[(&str, Stroke)]) -> String {
     let points = || strokes.iter().flat_map(|(_, stroke)| stroke.points());
     // A blow has no scale of force: nothing but its zero is marked.
     let yields = points().any(|(_, force)| force != 0.0);
-    let (x, y, ticks) = if yields {
-        let x = range(points().map(|point| point.0), 0.02, 0.08);
-        (x, range(points().map(|point| point.1), 0.12, 0.24), 6)
+    let force = Axis::new("contact force F (N)");
+    let (x, force) = if yields {
+        let y = range(points().map(|point| point.1), 0.12, 0.24);
+        (
+            range(points().map(|point| point.0), 0.02, 0.08),
+            force.range(y),
+        )
     } else {
-        ((-ASIDE, ASIDE), (-0.15, 1.0), 0)
+        let zero = (0.0, "0".to_owned());
+        ((-1.0, 1.0), force.range((-0.15, 1.0)).ticks([zero]))
     };
-    let panel = Panel::new(AREA, x, y);
-    let mut pen = Pen::page(PAGE.0, PAGE.1);
-    heading(&mut pen, (AREA.0, 32.0), title, subtitle);
-    let (across, upwards) = ("deflection x − r (m)", "contact force F (N)");
-    let axes = Axes::new(LETTERS, Some(across), upwards, (6, ticks));
-    panel.ground(&mut pen, &axes);
-    panel.curve(&mut pen, &[(x.0, 0.0), (x.1, 0.0)], ZERO);
-    panel.curve(&mut pen, &[(0.0, y.0), (0.0, y.1)], ZERO);
-    for ((_, stroke), line) in strokes.iter().zip(LINES) {
-        draw(&mut pen, &panel, stroke, line);
+    let top = force.ends[1].unwrap_or(1.0);
+    let mut layers = vec![Layer::across(0.0, ZERO, ""), Layer::upwards(0.0, ZERO, "")];
+    for ((name, stroke), line) in strokes.iter().zip(LINES) {
+        let name = if strokes.len() > 1 { *name } else { "" };
+        draw(&mut layers, stroke, line, name, top);
     }
-    panel.axes(&mut pen, &axes);
-    if !yields {
-        let place = (AREA.0 - 9.0, panel.height(0.0) + 5.0);
-        pen.text(place, LETTERS, Align::Right, "0");
-    }
-    if strokes.len() > 1 {
-        let named = strokes.iter().zip(LINES);
-        let named = named.map(|((name, _), line)| (Sign::Line(line), (*name).to_owned()));
-        let place = (AREA.0 + 14.0, AREA.1 + 22.0);
-        pen.legend(place, LETTERS, &named.collect::<Vec<_>>());
-    }
-    pen.svg()
+    let panel = Panel {
+        size: (556.0, 336.0),
+        x: Axis::new("deflection x − r (m)").range(x),
+        y: force,
+        layers,
+        ..Panel::default()
+    };
+    let chart = Chart {
+        subtitle: subtitle.to_owned(),
+        legend: Legend::Inside(Corner::TopLeft),
+        letters: 13,
+        ..Chart::new(title, [panel])
+    };
+    chart.svg()
 }
 
-/// The curve of a stroke with its arrows and names.
-fn draw(pen: &mut Pen, panel: &Panel, stroke: &Stroke, line: Line) {
+/// The curve of a stroke with its arrows and names, up to the top of the panel where a stop does not yield.
+fn draw(layers: &mut Vec<Layer>, stroke: &Stroke, line: Line, name: &str, top: f64) {
     let mut points = Vec::new();
     for (index, piece) in stroke.pieces.iter().enumerate() {
         let wall = stroke.rebound.filter(|wall| wall.pieces_before == index);
-        points.extend(wall.map(|wall| (wall.deflection, panel.y.1)));
+        points.extend(wall.map(|wall| (wall.deflection, top)));
         points.extend(&piece.points);
     }
-    panel.curve(pen, &points, line);
-    for piece in &stroke.pieces {
-        arrow(pen, panel, piece, line);
-    }
+    layers.push(Layer::line(points, line).named(name));
+    let forced = stroke.pieces.iter().filter(|it| it.kind != PhaseKind::Free);
+    layers.extend(forced.map(|it| Layer::direction(it.points.iter().copied(), ARROW_AT, line)));
     let is_numbered = stroke.pieces.iter().any(|it| it.kind == PhaseKind::Pierce);
-    for piece in stroke.pieces.iter().filter(|_| is_numbered) {
-        numeral(pen, panel, piece);
-    }
+    let numbered = stroke.pieces.iter().filter(|_| is_numbered);
+    layers.extend(numbered.filter_map(numeral));
     if let Some(wall) = &stroke.rebound {
         let before = stroke.pieces[..wall.pieces_before].last();
         let foot = before.and_then(|piece| piece.points.last());
-        let foot = foot.map_or(0.0, |point| point.1);
-        let at = |share: f64| panel.place((wall.deflection, foot + share * (panel.y.1 - foot)));
-        let (low, high) = (at(0.35), at(0.7));
-        head(pen, low, high, line);
-        head(pen, high, low, line);
-        newton(pen, panel, wall, is_numbered);
+        let foot = (wall.deflection, foot.map_or(0.0, |point| point.1));
+        let way = [foot, (wall.deflection, top)];
+        layers.push(Layer::direction(way, 0.35, line));
+        layers.push(Layer::direction([way[1], way[0]], 0.3, line));
+        layers.push(newton(wall, is_numbered, top));
     }
-}
-
-/// The arrow of a piece.
-fn arrow(pen: &mut Pen, panel: &Panel, piece: &Piece, line: Line) {
-    let places = piece.points.iter().map(|point| panel.place(*point));
-    let places: Vec<(f64, f64)> = places.collect();
-    let length = |pair: &[(f64, f64)]| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
-    let whole: f64 = places.windows(2).map(length).sum();
-    if whole < SHORTEST || piece.kind == PhaseKind::Free {
-        return;
-    }
-    let mut passed = 0.0;
-    let reached = places.windows(2).find(|pair| {
-        passed += length(pair);
-        passed >= ARROW_AT * whole
-    });
-    if let Some(pair) = reached {
-        head(pen, pair[0], pair[1], line);
-    }
-}
-
-/// The head of an arrow, its middle at `from`, pointing to `to`.
-fn head(pen: &mut Pen, from: (f64, f64), to: (f64, f64), line: Line) {
-    const HALF: f64 = 6.5;
-    let length = (to.0 - from.0).hypot(to.1 - from.1);
-    let (x, y) = (
-        HALF * (to.0 - from.0) / length,
-        HALF * (to.1 - from.1) / length,
-    );
-    let (tail, tip) = ((from.0 - x, from.1 - y), (from.0 + x, from.1 + y));
-    pen.arrow(tail, tip, Line { width: 2.2, ..line });
 }
 
 /// The paper's numeral of a piece: above it on the way in, below it on the way out, once where both
 /// ways are one.
-fn numeral(pen: &mut Pen, panel: &Panel, piece: &Piece) {
+fn numeral(piece: &Piece) -> Option<Layer> {
     let numeral = match piece.kind {
         PhaseKind::Pierce => "I",
         PhaseKind::Cut => "II",
         PhaseKind::Stop if piece.inward => "III",
-        _ => return,
+        _ => return None,
     };
-    if let Some(point) = piece.points.get(piece.points.len() / 2) {
-        let (x, y) = panel.place(*point);
-        let side = if piece.inward { -8.0 } else { 20.0 };
-        pen.text((x, y + side), LETTERS + 1, Align::Middle, numeral);
-    }
+    let middle = *piece.points.get(piece.points.len() / 2)?;
+    let side = if piece.inward { -8.0 } else { 20.0 };
+    Some(Layer::text(middle, Align::Middle, numeral).moved(0.0, side))
 }
 
 /// The velocities before and after a rigid stop.
-fn newton(pen: &mut Pen, panel: &Panel, wall: &Rebound, is_numbered: bool) {
+fn newton(wall: &Rebound, is_numbered: bool, top: f64) -> Layer {
     let (name, aside, align) = match is_numbered {
         true => ("IV: ", -12.0, Align::Right),
         false => ("", 12.0, Align::Left),
@@ -149,8 +103,8 @@ fn newton(pen: &mut Pen, panel: &Panel, wall: &Rebound, is_numbered: bool) {
         "{name}F → ∞, v₋ = {:.2} m/s, v₊ = {:.2} m/s",
         wall.before, wall.after
     );
-    let place = (panel.across(wall.deflection) + aside, AREA.1 + 24.0);
-    pen.text(place, LETTERS, align, &text.replace('-', "−"));
+    let text = text.replace('-', "−");
+    Layer::text((wall.deflection, top), align, text).moved(aside, 24.0)
 }
 
 /// The range of values with room on both sides, as shares of it.

@@ -2,11 +2,7 @@
 
 use anyhow::anyhow;
 use softstop_console::failure::Failure;
-use softstop_draw::panel::{Axes, Panel};
-use softstop_draw::pen::{Align, Pen};
-use softstop_draw::scale::around;
-use softstop_draw::shade;
-use softstop_draw::style;
+use softstop_draw::{Axis, Chart, Layer, Panel, Sign, style};
 use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::orbit::ImpactPattern;
 use softstop_dynamics::{MotionKind, Regime};
@@ -16,14 +12,6 @@ use super::report::AxisReport;
 use super::values::Scale;
 use crate::basin::cells::color;
 
-/// Letters.
-const LETTERS: u32 = 15;
-/// The panel on its page, and the room at its right.
-const AREA: (f64, f64, f64, f64) = (96.0, 64.0, 760.0, 560.0);
-const RIGHT: f64 = 230.0;
-const BELOW: f64 = 74.0;
-/// Pixels for each unit of length.
-const SCALE: f32 = 2.0;
 /// Radius of a dot.
 const DOT: f64 = 1.4;
 /// Words of a colour that the legend tells at most.
@@ -53,10 +41,18 @@ impl View<'_> {
         }
     }
 
-    fn page(&self) -> Pen {
-        let mut pen = Pen::page(AREA.0 + AREA.2 + RIGHT, AREA.1 + AREA.3 + BELOW);
-        pen.heading((AREA.0, 38.0), 18, Align::Left, &self.title());
-        pen
+    fn chart(&self, x: Axis, y: Axis, layers: Vec<Layer>) -> Chart {
+        let panel = Panel {
+            size: (760.0, 560.0),
+            x,
+            y,
+            layers,
+            ..Panel::default()
+        };
+        Chart {
+            letters: 15,
+            ..Chart::new(self.title(), [panel])
+        }
     }
 
     /// A map, as PNG.
@@ -70,42 +66,30 @@ impl View<'_> {
             let [x, y] = [(&across, 0), (&up, 1)].map(|(side, place)| side.cell(point.at[place]));
             cells[y * across.count + x] = Some(point);
         }
-        let panel = Panel::new(AREA, across.range, up.range);
-        let mut pen = self.page();
-        let right = AREA.0 + AREA.2;
-        let words = !self.column.summary.words.is_empty();
-        if words {
-            let colors = cells
-                .iter()
-                .map(|cell| color(class(cell.and_then(|it| it.word.as_deref()))));
-            panel.cells(&mut pen, across.count, &colors.collect::<Vec<_>>());
-            self.legend(&mut pen, (right + 24.0, AREA.1 + 12.0));
-        } else {
-            let number = |cell: &Option<&Point>| cell.map_or(f64::NAN, |it| it.number);
-            let range = around(cells.iter().map(number), 0.0);
-            let shades: Vec<String> = (0..shade::SHADES).map(shade::color).collect();
-            let colors = cells
-                .iter()
-                .map(number)
-                .map(|value| match value.is_finite() {
-                    true => shades[shade::shade(value, range)].as_str(),
-                    false => color(MotionClass::Lost),
-                });
-            panel.cells(&mut pen, across.count, &colors.collect::<Vec<_>>());
-            let bar = (right + 110.0, AREA.1, 18.0, AREA.3);
-            shade::bar(&mut pen, bar, range, LETTERS, &self.name());
-        }
-        let axes = Axes::new(LETTERS, Some(&across.label), &up.label, (6, 6));
-        panel.axes(&mut pen, &axes);
-        let png = pen.png_at(SCALE);
+        let layers = match self.column.summary.words.is_empty() {
+            true => {
+                let numbers = cells.iter().map(|it| it.map_or(f64::NAN, |it| it.number));
+                vec![Layer::shades(across.count, numbers, self.name())]
+            }
+            false => {
+                let word = |cell: Option<&Point>| cell.and_then(|it| it.word.clone());
+                let colors = cells
+                    .iter()
+                    .map(|cell| color(class(word(*cell).as_deref())));
+                let mut layers = vec![Layer::cells(across.count, colors)];
+                layers.extend(self.legend());
+                layers
+            }
+        };
+        let png = self.chart(across.axis(), up.axis(), layers).png();
         Ok(png.map_err(|error| anyhow!("cannot draw the map: {error}"))?)
     }
 
     /// The words of the whole study, those of a colour in one line, the most frequent first.
-    fn legend(&self, pen: &mut Pen, (left, top): (f64, f64)) {
+    fn legend(&self) -> impl Iterator<Item = Layer> {
         let mut words: Vec<_> = self.column.summary.words.iter().collect();
         words.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
-        let mut lines: Vec<(&str, Vec<&str>)> = Vec::new();
+        let mut lines: Vec<(&'static str, Vec<&str>)> = Vec::new();
         for (word, _) in words {
             let color = color(class(Some(word)));
             match lines.iter_mut().find(|line| line.0 == color) {
@@ -116,51 +100,27 @@ impl View<'_> {
         if self.column.summary.values < self.manifest.points {
             lines.push((color(class(None)), vec!["does not repeat"]));
         }
-        let size = f64::from(LETTERS);
-        for (row, (color, words)) in lines.iter().enumerate() {
-            let line = top + 1.7 * size * row as f64;
-            let square = (left, line - size, 1.2 * size, 1.2 * size);
-            pen.fill(&[square], color);
-            pen.frame(square);
+        lines.into_iter().map(|(color, words)| {
             let is_z = words[0].starts_with(|it: char| it.is_ascii_digit() || it == '∞');
             let z = if is_z { "z = " } else { "" };
             let more = if words.len() > TOLD { ", …" } else { "" };
             let told = words[..words.len().min(TOLD)].join(", ");
-            let text = format!("{z}{told}{more}");
-            pen.text((left + 1.8 * size, line), LETTERS, Align::Left, &text);
-        }
+            Layer::key(Sign::Patch(color), format!("{z}{told}{more}"))
+        })
     }
 
     /// A slice, as SVG.
     pub fn slice(&self, points: &[Point]) -> Vec<u8> {
         let axis = self.axis(0);
-        let is_log = axis.values.scale() == Scale::Log;
-        let x = |point: &Point| {
-            if is_log {
-                point.at[0].log10()
-            } else {
-                point.at[0]
-            }
+        let x = Axis {
+            is_log: axis.values.scale() == Scale::Log,
+            ..Axis::new(&axis.label)
         };
-        let across = around(points.iter().map(x), 0.02);
-        let up = around(points.iter().map(|point| point.number), 0.04);
-        let panel = Panel::new(AREA, across, up);
-        let (label, name) = (label(axis), self.name());
-        let axes = Axes::new(LETTERS, Some(&label), &name, (6, 6));
-        let mut pen = self.page();
-        panel.ground(&mut pen, &axes);
-        let places = points.iter().map(|point| (x(point), point.number));
+        let places = points.iter().map(|point| (point.at[0], point.number));
         let there = places.filter(|place| place.1.is_finite());
-        panel.dots(&mut pen, there, DOT, style::DESIGN);
-        panel.axes(&mut pen, &axes);
-        pen.svg().into_bytes()
-    }
-}
-
-fn label(axis: &AxisReport) -> String {
-    match axis.values.scale() {
-        Scale::Linear => axis.label.clone(),
-        Scale::Log => format!("log₁₀ of {}", axis.label),
+        let dots = Layer::dots(there, DOT, style::DESIGN);
+        let chart = self.chart(x, Axis::new(self.name()), vec![dots]);
+        chart.svg().into_bytes()
     }
 }
 
@@ -191,7 +151,20 @@ impl Side {
             count: count as usize,
             range: (low - half, high + half),
             is_log,
-            label: label(axis),
+            label: axis.label.clone(),
+        }
+    }
+
+    fn axis(&self) -> Axis {
+        let value = |place: f64| match self.is_log {
+            true => 10f64.powf(place),
+            false => place,
+        };
+        let is_log = self.is_log;
+        let range = (value(self.range.0), value(self.range.1));
+        Axis {
+            is_log,
+            ..Axis::new(&self.label).range(range)
         }
     }
 
