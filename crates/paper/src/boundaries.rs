@@ -11,6 +11,9 @@ use softstop_dynamics::{Along, Follower, Limits};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 
+/// The paper's range of eta, and clearances up to the resonance peak of the free motion, 25.005; at 0 the scale of the
+/// motion changes.
+const RANGES: [(f64, f64); 2] = [(0.8, 1.8), (0.1, 24.0)];
 /// Points of g0.
 const POINTS: usize = 400;
 /// Most points of a branch or curve in each direction.
@@ -29,8 +32,9 @@ pub(super) struct Boundaries {
 }
 
 impl Boundaries {
-    /// Those in ranges of eta and rho: g0 in closed form, the others by continuation, located to 1e-10.
-    pub(super) fn of(machine: &Ratios, eta: (f64, f64), rho: (f64, f64)) -> Result<Self> {
+    /// Those of a machine: g0 in closed form, the others by continuation, located to 1e-10.
+    pub(super) fn of(machine: &Ratios) -> Result<Self> {
+        let [eta, _] = RANGES;
         let scene = machine.scene()?;
         let orbit = find(&scene).context("no z = 1 motion to start from")?;
         let family = Along::new(scene.clone(), [Parameter::Frequency])?;
@@ -45,7 +49,7 @@ impl Boundaries {
         let plane = [Parameter::Frequency, Parameter::Clearance];
         let plane = Along::new(scene.clone(), plane)?;
         let region = Region {
-            ranges: [eta, rho],
+            ranges: RANGES,
             points: MOST,
             step: STEP,
         };

@@ -12,14 +12,8 @@ use crate::figure::{self, Drawn, Figure, Studio};
 use curve::{Curve, Starts, integrity, motions};
 use softstop_console::progress::Progress;
 use softstop_draw::shade::ordered;
-use softstop_draw::{Axis, Chart, Corner, Layer, Mark, Panel, Stroke, style};
-
-/// Establishing certainty along the hysteresis zone.
-pub(crate) const FIGURE: Figure = Figure {
-    title: "Establishing certainty of z = 1 from g0 to s_SN, and its integrity",
-    files: &["certainty.svg", "certainty.csv"],
-    draw,
-};
+use softstop_draw::{Axis, Chart, Corner, Layer, Legend, Mark, Panel, Stroke, style};
+use softstop_explore::basin::certainty::{SHARES, layers};
 
 /// Clearances.
 const CLEARANCES: [f64; 5] = [2.0, 6.0, 10.0, 14.0, 18.0];
@@ -46,7 +40,7 @@ fn places(steps: usize) -> Vec<f64> {
     near.chain(inner).chain(far).collect()
 }
 
-fn draw(studio: &Studio) -> Result<Drawn> {
+pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let places = places(studio.detail.pick(STEPS[0], STEPS[1]));
     let cells = studio.detail.pick(CELLS[0], CELLS[1]);
     let usual = [Ratios::unloaded(), Ratios::loaded()];
@@ -129,8 +123,10 @@ fn chart(curves: &[Curve]) -> Chart {
             title: title.to_owned(),
             size: (540.0, 350.0),
             x: Axis::new("place in the hysteresis zone: 0 at g₀, 1 at s_SN").range((-0.02, 1.02)),
-            y: Axis::new(name).range((0.0, 1.02)),
-            legend: title.starts_with("(c)").then_some(Corner::TopRight),
+            y: Axis::new(name).range(SHARES),
+            legend: title
+                .starts_with("(c)")
+                .then_some(Legend::Inside(Corner::TopRight)),
             layers,
             ..Panel::default()
         }
@@ -142,14 +138,8 @@ fn chart(curves: &[Curve]) -> Chart {
     }
 }
 
-/// The certainty with its intervals.
 fn certainty(curve: &Curve, stroke: Stroke) -> Vec<Layer> {
-    let sure = curve.places.iter().map(|at| (at.place, at.interval));
-    let line = curve.places.iter().map(|at| (at.place, at.certainty));
-    vec![
-        Layer::band(sure, stroke.color, 0.25),
-        Layer::line(line, stroke),
-    ]
+    layers(&curve.places, |at| at.place, stroke).into()
 }
 
 fn largest_ball(curve: &Curve, stroke: Stroke) -> Vec<Layer> {

@@ -14,9 +14,8 @@ use crate::boundaries::Boundaries;
 
 /// The frequency above which z = 1 is followed to its flip.
 const LEAST: f64 = 0.7;
-/// Clearances of the curves.
+/// Clearances of g0, and from one of its points to the next.
 const CLEARANCES: (f64, f64) = (1.0, 24.5);
-/// Clearances from one point of g0 to the next.
 const SPACING: f64 = 0.5;
 /// Width to which the best clearance is found.
 const WIDTH: f64 = 1e-3;
@@ -98,7 +97,7 @@ pub(super) fn across(machine: &Ratios) -> Result<Vec<(&'static str, Vec<Figures>
         let ([eta, clearance], state) = (at.parameters, Vector2::new(at.position, at.velocity));
         describe(&machine.at_clearance(clearance), eta, state, &at.impacts).ok()
     };
-    let boundaries = Boundaries::of(machine, super::RANGE, CLEARANCES)?;
+    let boundaries = Boundaries::of(machine)?;
     for (name, _, points) in boundaries.curves() {
         let points = points.par_iter().filter_map(described);
         curves.push((name, points.collect()));

@@ -5,7 +5,7 @@ use super::RANGE;
 use super::boundaries::Figures;
 use crate::diagram::{is_one, steps};
 use softstop_draw::shade::ordered;
-use softstop_draw::{Align, Axis, Chart, Corner, Layer, Mark, Panel, Sign, Stroke, style};
+use softstop_draw::{Align, Axis, Chart, Corner, Layer, Legend, Mark, Panel, Sign, Stroke, style};
 use softstop_dynamics::sweep::Jump;
 use softstop_dynamics::{Chain, MotionKind, Step};
 
@@ -46,7 +46,7 @@ impl Picture<'_> {
     pub(super) fn chart(&self, title: &str, explanation: String) -> Chart {
         let mut upper = self.panel(1);
         upper.layers.extend(legend());
-        upper.legend = Some(Corner::TopRight);
+        upper.legend = Some(Legend::Inside(Corner::TopRight));
         let pierced = self.point.0 == "B";
         let pierced = pierced.then(|| pierced_ranges(self.chains));
         let panels = [upper].into_iter().chain(pierced).chain([self.panel(2)]);

@@ -4,7 +4,9 @@ mod boundaries;
 mod chart;
 
 use anyhow::{Error, Result};
-use softstop::{Parameter, Ratios};
+use serde::Deserialize;
+use softstop::Parameter;
+use softstop_console::machine::Regime;
 use softstop_dynamics::zone::free_amplitude;
 use softstop_dynamics::{Chain, Plan, Step, orbit};
 
@@ -13,25 +15,23 @@ use crate::figure::{self, Drawn, Figure, Findings, Studio};
 use boundaries::Ends;
 use chart::Picture;
 
-/// Fig. 6(a).
-pub(super) const UNLOADED: Figure = Figure {
-    title: "Bifurcation diagrams of the unloaded machine over six clearances",
-    files: &["figure-6a.png", "figure-6a.csv", "figure-6a-boundaries.csv"],
-    draw: |studio| draw(studio, Ratios::unloaded(), "A"),
-};
-
-/// Fig. 6(b).
-pub(super) const LOADED: Figure = Figure {
-    title: "Bifurcation diagrams of the loaded machine over six clearances",
-    files: &["figure-6b.png", "figure-6b.csv", "figure-6b-boundaries.csv"],
-    draw: |studio| draw(studio, Ratios::loaded(), "B"),
-};
-
 /// The paper's clearances and frequencies.
 const CLEARANCES: [f64; 6] = [2.0, 6.0, 10.0, 14.0, 18.0, 22.0];
 const RANGE: (f64, f64) = (0.8, 1.8);
 
-fn draw(studio: &Studio, machine: Ratios, name: &'static str) -> Result<Drawn> {
+/// Which machine, and what stands above the picture.
+#[derive(Deserialize)]
+struct What {
+    machine: Regime,
+    heading: String,
+}
+
+pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
+    let What {
+        machine: regime,
+        heading,
+    } = figure.what()?;
+    let machine = figure::machine(regime);
     let (steps, periods) = studio.detail.pick((1000, 200), (120, 100));
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods)?;
     let mut chains = Vec::new();
@@ -49,17 +49,14 @@ fn draw(studio: &Studio, machine: Ratios, name: &'static str) -> Result<Drawn> {
         chains: &chains,
         response: etas.map(|eta| (eta, free_amplitude(&scene, eta))).collect(),
         boundaries: &across,
-        point: (name, boundaries::figures(&orbit::find(&scene)?)),
-    };
-    let (letter, title) = match name {
-        "A" => ('a', "Impact motion without piercing (unloaded machine)"),
-        _ => ('b', "Impact motion with piercing (loaded machine)"),
+        point: (regime.point(), boundaries::figures(&orbit::find(&scene)?)),
     };
     let explanation = format!(
-        "Peterka 2003, Fig. 6({letter}). Sweeps up and down, {periods} drive periods at each of {steps} frequencies; \
-         grey arrows: jumps between z = 0 and z = 1"
+        "Peterka 2003, Fig. {}. Sweeps up and down, {periods} drive periods at each of {steps} frequencies; \
+         grey arrows: jumps between z = 0 and z = 1",
+        figure.name
     );
-    let chart = picture.chart(&format!("{title}, ρ = 2, 6, …, 22"), explanation);
+    let chart = picture.chart(&heading, explanation);
     let sweeps = chains.iter();
     let sweeps = sweeps.map(|it| {
         (

@@ -34,7 +34,7 @@ const STATE: Show = |point| (point.position, point.velocity);
 const FORCE: Show = |point| (point.position, point.force);
 
 impl Cycle {
-    pub(super) fn chart(&self, name: &str) -> Chart {
+    pub(super) fn chart(&self, heading: &str) -> Chart {
         let orbit = &self.orbit;
         let (eta, rho) = (orbit.scene.excitation.frequency, orbit.scene.clearance);
         let occurs = PHASES
@@ -44,13 +44,25 @@ impl Cycle {
             .map(|(kind, name)| Layer::key(Sign::Patch(color(kind).unwrap_or("#ffffff")), name));
         let mut series = self.series();
         series.layers.extend(keys);
-        let panels = [
-            series,
-            self.impact(),
-            self.trajectory(),
-            self.contact(),
-            self.force(),
+        let (slow, fast) = self.range(STATE);
+        let x = (1.12 * self.range(SERIES).0, 1.3 * orbit.max_position);
+        let contact = self.range(|point| match point.phase {
+            PhaseKind::Free => (point.position, 0.0),
+            _ => STATE(point),
+        });
+        let close = [self.positions(0.6, 0.25), around(contact, 0.22)];
+        let force = [self.positions(0.3, 0.2), around(self.range(FORCE), 0.12)];
+        let planes = [
+            (
+                ["position X", "velocity X′"],
+                [x, (1.18 * slow, 1.18 * fast)],
+            ),
+            (["position X beyond the clearance", "velocity X′"], close),
+            (["position X", "contact force F/F₀"], force),
         ];
+        let planes = planes.into_iter().enumerate();
+        let planes = planes.map(|(column, (names, ranges))| self.plane(column, names, ranges));
+        let panels = [series, self.impact()].into_iter().chain(planes);
         Chart {
             subtitle: format!(
                 "X_m = {:.5},  X′₋ = {:.6},  Floquet multipliers of modulus {:.4}",
@@ -59,7 +71,7 @@ impl Cycle {
                 orbit.multipliers()[0].norm(),
             ),
             legend: Legend::Above,
-            ..Chart::new(format!("Fig. 7{name}, η = {eta}, ρ = {rho}, z = 1"), panels)
+            ..Chart::new(format!("{heading}, η = {eta}, ρ = {rho}, z = 1"), panels)
         }
     }
 
@@ -125,68 +137,34 @@ impl Cycle {
         }
     }
 
-    /// The phase plane.
-    fn trajectory(&self) -> Panel {
-        let (slow, fast) = self.range(STATE);
-        let x = (1.12 * self.range(SERIES).0, 1.3 * self.orbit.max_position);
-        let names = ["position X", "velocity X′"];
-        let mut panel = self.plane(0, names, STATE, x, (1.18 * slow, 1.18 * fast));
-        panel.layers.extend(self.strike(x.0));
-        panel
-    }
-
-    /// The part of it beyond the clearance.
-    fn contact(&self) -> Panel {
-        let (low, high) = self.range(|point| match point.phase {
-            PhaseKind::Free => (point.position, 0.0),
-            _ => STATE(point),
-        });
-        let room = 0.22 * (high - low);
-        let (x, y) = (self.positions(0.6, 0.25), (low - room, high + room));
-        let names = ["position X beyond the clearance", "velocity X′"];
-        let mut panel = self.plane(1, names, STATE, x, y);
-        panel.layers.splice(0..0, self.tints());
-        panel.layers.extend(self.strike(x.0));
-        panel
-            .layers
-            .extend(self.letters(STATE, [(11.0, -9.0), (12.0, -7.0), (12.0, 18.0)]));
-        panel.layers.extend(
-            faces(&self.orbit.scene)
-                .into_iter()
-                .map(|(face, name)| Layer::text((face, y.0), Align::Left, name).moved(4.0, -8.0)),
-        );
-        panel
-    }
-
-    /// The force of contact.
-    fn force(&self) -> Panel {
-        let (low, high) = self.range(FORCE);
-        let room = 0.12 * (high - low);
-        let (x, y) = (self.positions(0.3, 0.2), (low - room, high + room));
-        let mut panel = self.plane(2, ["position X", "contact force F/F₀"], FORCE, x, y);
-        panel.layers.splice(0..0, self.tints());
-        panel
-    }
-
-    /// A panel over position in the second row, with the faces and the axis.
-    fn plane(
-        &self,
-        column: usize,
-        [across, up]: [&str; 2],
-        show: Show,
-        x: (f64, f64),
-        y: (f64, f64),
-    ) -> Panel {
-        let faces = faces(&self.orbit.scene).into_iter();
-        let faces = faces.map(|(face, _)| Layer::upwards(face, FACE, ""));
+    /// A panel over position: the phase plane, the part of it beyond the clearance, or the force of contact.
+    fn plane(&self, column: usize, [across, up]: [&str; 2], [x, y]: [(f64, f64); 2]) -> Panel {
+        let faces = faces(&self.orbit.scene);
+        let mut layers = if column > 0 { self.tints() } else { Vec::new() };
+        let lines = faces
+            .iter()
+            .map(|(face, _)| Layer::upwards(*face, FACE, ""));
+        layers.extend(lines);
         let zero = Layer::across(0.0, Stroke::solid("#cccccc", 1.0), "");
-        let curve = Layer::line(self.curve(show), CURVE);
+        let show = if column == 2 { FORCE } else { STATE };
+        layers.extend([zero, Layer::line(self.curve(show), CURVE)]);
+        if column < 2 {
+            layers.extend(self.strike(x.0));
+        }
+        if column == 1 {
+            layers.extend(self.letters(STATE, [(11.0, -9.0), (12.0, -7.0), (12.0, 18.0)]));
+            layers.extend(
+                faces.into_iter().map(|(face, name)| {
+                    Layer::text((face, y.0), Align::Left, name).moved(4.0, -8.0)
+                }),
+            );
+        }
         Panel {
             at: (column, 1),
             size: (330.0, HEIGHT),
             x: Axis::new(across).range(x),
             y: Axis::new(up).range(y),
-            layers: faces.chain([zero, curve]).collect(),
+            layers,
             ..Panel::default()
         }
     }
@@ -273,6 +251,12 @@ impl Cycle {
         });
         marks.flatten().collect()
     }
+}
+
+/// A range with this share of it as room on both sides.
+fn around((low, high): (f64, f64), room: f64) -> (f64, f64) {
+    let room = room * (high - low);
+    (low - room, high + room)
 }
 
 /// Shades a range of the axis across in the colour of a phase, if it has one.

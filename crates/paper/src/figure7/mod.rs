@@ -4,45 +4,21 @@ mod both;
 mod chart;
 
 use anyhow::Result;
-use softstop::{PhaseKind, Ratios, Scene};
+use serde::Deserialize;
+use softstop::{PhaseKind, Scene};
+use softstop_console::machine::Regime;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::{Exponents, Orbit};
 
 use crate::figure::{self, Drawn, Figure, Findings, Studio};
 use crate::path::{Path, Point};
 
-/// Point A: the unloaded machine.
-pub(super) const POINT_A: Figure = Figure {
-    title: "Point A: the z = 1 motion of the unloaded machine",
-    files: &["figure-7a.svg", "figure-7a.csv"],
-    draw: |studio| draw(studio, &Ratios::unloaded(), "(a), point A: unloaded"),
-};
-
-/// Point B: the loaded machine.
-pub(super) const POINT_B: Figure = Figure {
-    title: "Point B: the z = 1 motion of the loaded machine",
-    files: &["figure-7b.svg", "figure-7b.csv"],
-    draw: |studio| draw(studio, &Ratios::loaded(), "(b), point B: loaded"),
-};
-
-/// Both.
-pub(super) const BOTH: Figure = Figure {
-    title: "Point A over point B",
-    files: &["figure-7.svg"],
-    draw: |studio| {
-        let a = Cycle::of(studio, &Ratios::unloaded())?;
-        let b = Cycle::of(studio, &Ratios::loaded())?;
-        let mut findings = Findings::default();
-        let positions = [&a, &b].map(|cycle| cycle.orbit.max_position);
-        findings.add("X_m of B less that of A", positions[1] - positions[0]);
-        let velocity = b.orbit.before_impact_velocity() / a.orbit.before_impact_velocity();
-        findings.add("X'_- of B over that of A", velocity);
-        Ok(Drawn {
-            files: vec![both::chart(&[a, b]).svg().into_bytes()],
-            findings,
-        })
-    },
-};
+/// Which machine, and what stands above the picture.
+#[derive(Deserialize)]
+struct What {
+    machine: Regime,
+    heading: String,
+}
 
 /// One period of a z = 1 motion.
 struct Cycle {
@@ -51,8 +27,8 @@ struct Cycle {
 }
 
 impl Cycle {
-    fn of(studio: &Studio, machine: &Ratios) -> Result<Self> {
-        let orbit = find(&machine.scene()?)?;
+    fn of(studio: &Studio, machine: Regime) -> Result<Self> {
+        let orbit = find(&figure::machine(machine).scene()?)?;
         let fineness = (studio.detail.pick(2000, 400), 24);
         let path = Path::new(&orbit.scene, orbit.state().into(), orbit.periods, fineness)?;
         Ok(Self { orbit, path })
@@ -69,7 +45,8 @@ fn faces(scene: &Scene) -> Vec<(f64, &'static str)> {
     vec![(face, "ρ"), (cut, "ρ + σ"), (cut + strip.travel, "X_III")]
 }
 
-fn draw(studio: &Studio, machine: &Ratios, name: &str) -> Result<Drawn> {
+pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
+    let What { machine, heading } = figure.what()?;
     let cycle = Cycle::of(studio, machine)?;
     let rows = cycle.path.points.iter().map(|at| {
         let phase = softstop_explore::simulate::name(at.phase);
@@ -77,8 +54,23 @@ fn draw(studio: &Studio, machine: &Ratios, name: &str) -> Result<Drawn> {
     });
     let table = figure::table("tau,position,velocity,contact_force,phase", rows)?;
     Ok(Drawn {
-        files: vec![cycle.chart(name).svg().into_bytes(), table],
+        files: vec![cycle.chart(&heading).svg().into_bytes(), table],
         findings: findings(&cycle),
+    })
+}
+
+/// Point A over point B.
+pub(super) fn both(studio: &Studio, _: &Figure) -> Result<Drawn> {
+    let a = Cycle::of(studio, Regime::Unloaded)?;
+    let b = Cycle::of(studio, Regime::Loaded)?;
+    let mut findings = Findings::default();
+    let farther = b.orbit.max_position - a.orbit.max_position;
+    findings.add("X_m of B less that of A", farther);
+    let faster = b.orbit.before_impact_velocity() / a.orbit.before_impact_velocity();
+    findings.add("X'_- of B over that of A", faster);
+    Ok(Drawn {
+        files: vec![both::chart(&[a, b]).svg().into_bytes()],
+        findings,
     })
 }
 

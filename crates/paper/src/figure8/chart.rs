@@ -1,9 +1,10 @@
 //! The picture of figure 8: one diagram with its zooms and numbered bifurcations (Peterka 2003).
 
+use anyhow::Result;
 use softstop::Ratios;
 use softstop_dynamics::{Chain, Orbit, Step};
 
-use super::{Bifurcation, Diagram, ZOOMS};
+use super::{Bifurcation, Diagram};
 use crate::diagram::{WAYS, by_way, dots, steps};
 use crate::figure9;
 use softstop_draw::{Align, Axis, Chart, Layer, Legend, Panel, Stroke, style};
@@ -26,7 +27,8 @@ pub(super) fn chart(
     isolated: &[Step],
     bifurcations: &[Bifurcation],
     explanation: String,
-) -> Chart {
+) -> Result<Chart> {
+    let letters = figure9::letters()?;
     let panels = diagrams.iter().enumerate().map(|(index, diagram)| {
         let (low, high) = diagram.part.range;
         let is_own = |eta: f64| low <= eta && eta <= high;
@@ -39,26 +41,26 @@ pub(super) fn chart(
             .extend(numbered.map(|it| Layer::upwards(it.eta, MARK, it.words())));
         if index == 0 {
             (panel.span, panel.size) = ((2, 1), SIZES[0]);
-            for zoom in &ZOOMS {
+            for Diagram { part: zoom, .. } in &diagrams[1..] {
                 let stripe = [zoom.range, (f64::NEG_INFINITY, f64::INFINITY)];
                 panel
                     .layers
                     .insert(0, Layer::boxes([stripe], style::ALLOWED, 0.22));
                 let line = Stroke::solid(style::ALLOWED, 0.5);
                 let middle = f64::midpoint(zoom.range.0, zoom.range.1);
-                panel.layers.push(Layer::upwards(middle, line, zoom.name));
+                panel.layers.push(Layer::upwards(middle, line, &*zoom.name));
             }
         } else {
             panel.at = ((index - 1) % 2, 1 + (index - 1) / 2);
-            let letters = figure9::letters().into_iter().filter(|it| is_own(it.1));
+            let letters = letters.iter().filter(|it| is_own(it.1));
             let [low, high] = panel.y.ends.map(|end| end.unwrap_or(0.0));
             let arrow = |eta| {
                 let tail = low + 0.05 * (high - low);
                 Layer::arrow((eta, tail), (eta, low), Stroke::solid(style::INK, 1.0))
             };
             panel.layers.extend(letters.flat_map(|(letters, eta)| {
-                let text = Layer::text((eta, low), Align::Middle, letters);
-                [arrow(eta), text.moved(0.0, -18.0).plated()]
+                let text = Layer::text((*eta, low), Align::Middle, letters);
+                [arrow(*eta), text.moved(0.0, -18.0).plated()]
             }));
         }
         panel
@@ -67,12 +69,12 @@ pub(super) fn chart(
     let notes = "At the bifurcations of Table 1: → on rising η, ← on falling η, both with hysteresis; ↔ reversible; \
                  G grazing, SN fold, PD period doubling, ISN and IPD fold or doublings interrupted by chaos, \
                  OCH out of chaos. A, B, …: motions of Fig. 9.";
-    Chart {
+    Ok(Chart {
         subtitle: explanation,
         legend: Legend::Above,
         notes: vec![notes.to_owned()],
         ..Chart::new(title, panels)
-    }
+    })
 }
 
 impl Bifurcation {
@@ -88,7 +90,7 @@ impl Bifurcation {
     }
 }
 
-impl Diagram {
+impl Diagram<'_> {
     /// A panel as high as the velocities, with the names of motions beside them.
     fn panel(&self, isolated: &[&Step]) -> Panel {
         let all = steps(&self.ways).chain(isolated.iter().copied());
@@ -121,7 +123,7 @@ impl Diagram {
         });
         let layers = [fleeting].into_iter().chain(ways);
         Panel {
-            title: self.part.name.to_owned(),
+            title: self.part.name.clone(),
             size: SIZES[1],
             x: Axis::new("drive frequency η").range(self.part.range),
             y: Axis::new("X′₋").range((-0.16 * top, 1.12 * top)),

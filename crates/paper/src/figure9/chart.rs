@@ -150,11 +150,10 @@ fn near_stop(motion: &Found, points: Vec<(f64, f64)>) -> Panel {
 
 /// The states at drive angle 0, behind them those of the other motions of the same machine.
 fn section(motion: &Found, all: &[Found]) -> Panel {
-    let asked = motion.asked;
+    let asked = &motion.asked;
     let others = all.iter().map(|other| (other, OTHERS));
-    let others = others.filter(|(other, _)| {
-        other.asked.letter != asked.letter && other.asked.frequency == asked.frequency
-    });
+    let others = others
+        .filter(|(other, _)| other.asked.letter != asked.letter && other.asked.eta == asked.eta);
     let layers = others
         .chain([(motion, color(motion))])
         .map(|(motion, color)| {

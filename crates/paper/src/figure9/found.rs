@@ -2,11 +2,11 @@
 
 use anyhow::Result;
 use serde::Serialize;
-use softstop::{Scene, SceneError};
+use softstop::{Ratios, Scene, SceneError};
 use softstop_dynamics::attractors::Attractor;
 use softstop_dynamics::{Orbit, StroboscopicMap, Survey};
 
-use super::asked::Asked;
+use super::Asked;
 use super::section::Section;
 use crate::figure::Findings;
 use crate::path::{Path, Point};
@@ -29,24 +29,28 @@ pub const COLUMNS: &str = "motion,eta,eta_is_the_papers,impacts,periods,impacts_
     order_of_impacts,largest_multiplier_modulus,lyapunov_exponent_per_period,max_position,\
     before_impact_velocity,mean_life_periods,share_of_starts";
 
+fn scene(asked: &Asked) -> Result<Scene, SceneError> {
+    Ratios::unloaded().at_frequency(asked.eta).scene()
+}
+
 impl Found {
     /// The motion that is asked for, if it is among those found, with so many states of what does not repeat.
-    pub fn among(asked: Asked, survey: &Survey, most: u64) -> Result<Option<Self>> {
-        let fits = |attractor: &&Attractor| match (asked.impacts, attractor.motion.order()) {
-            (Some(wanted), Some(order)) => order.to_string() == wanted,
+    pub fn among(asked: &Asked, survey: &Survey, most: u64) -> Result<Option<Self>> {
+        let fits = |attractor: &&Attractor| match (&asked.impacts, attractor.motion.order()) {
+            (Some(wanted), Some(order)) => order.to_string() == *wanted,
             (None, None) => attractor.motion.is_chaotic(),
             _ => false,
         };
         let Some(attractor) = survey.attractors.iter().find(fits).cloned() else {
             return Ok(None);
         };
-        let map = StroboscopicMap::new(&asked.scene()?, 1)?;
+        let map = StroboscopicMap::new(&scene(asked)?, 1)?;
         let section = match attractor.motion.periods() {
             Some(periods) => Section::of(&map, attractor.state, periods, usize::MAX)?,
             None => Section::lasting(&map, attractor.state, most)?,
         };
         Ok(Some(Self {
-            asked,
+            asked: asked.clone(),
             attractor,
             section,
         }))
@@ -70,7 +74,7 @@ impl Found {
     }
 
     pub fn scene(&self) -> Result<Scene, SceneError> {
-        self.asked.scene()
+        scene(&self.asked)
     }
 
     /// The motion over drive periods, as [`Path::new`] has it; unless said otherwise until it repeats.
@@ -95,7 +99,7 @@ impl Found {
 
     /// Frequency, regime and how stable it is.
     pub fn title(&self) -> String {
-        let (eta, motion) = (self.asked.frequency, &self.attractor.motion);
+        let (eta, motion) = (self.asked.eta, &self.attractor.motion);
         let Some(orbit) = self.orbit() else {
             let (z, exponent) = (self.section.impacts_per_period(), self.exponent());
             return format!("η = {eta} · {motion}, z = {z:.3}, λ = {exponent:+.3}/T");
@@ -119,7 +123,7 @@ impl Found {
             let hundreds = 100.0 * (periods / 100.0).round();
             format!("mean life {hundreds} T")
         });
-        let parts = [ours, Some(self.asked.remark.to_owned()), life];
+        let parts = [ours, Some(self.asked.remark.clone()), life];
         let mut said: Vec<String> = parts.into_iter().flatten().collect();
         said.retain(|part| !part.is_empty());
         said.join("; ")
@@ -127,12 +131,12 @@ impl Found {
 
     /// A row of the table.
     pub fn line(&self) -> impl Serialize {
-        let (asked, orbit) = (self.asked, self.orbit());
+        let (asked, orbit) = (&self.asked, self.orbit());
         let velocities = self.attractor.chaos.as_ref().and_then(|it| it.velocities);
         let order = orbit.map_or_else(String::new, |orbit| orbit.pattern().to_string());
         let velocity = orbit.map(Orbit::before_impact_velocity);
         (
-            (asked.letter, asked.frequency, asked.is_given),
+            (asked.letter, asked.eta, asked.is_given),
             orbit.map(|orbit| orbit.impacts.len()),
             self.period(),
             self.section.impacts_per_period(),
@@ -168,7 +172,7 @@ impl Found {
             findings.add(format!("({}) {what}", self.asked.letter), value);
         };
         let orbit = self.orbit();
-        add("eta", Some(self.asked.frequency));
+        add("eta", Some(self.asked.eta));
         add("Lyapunov exponent per period", Some(self.exponent()));
         add("share of starts", Some(self.attractor.share));
         add("impacts p", orbit.map(|it| it.impacts.len() as f64));

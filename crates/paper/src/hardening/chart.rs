@@ -3,10 +3,12 @@
 use super::folds::Folds;
 use super::stops::{CLEARANCE, RESTITUTION, grazing};
 use super::subharmonics::{self, NARROW, Subharmonic};
-use super::swept::{KINDS, RANGE, Swept, kind};
+use super::swept::{RANGE, Swept, kind};
 use super::{DECADES, SUBHARMONIC};
 use softstop_draw::shade::ordered;
 use softstop_draw::{Align, Axis, Chart, Corner, Layer, Legend, Panel, Sign, Stroke, style};
+use softstop_dynamics::motion::MotionClass;
+use softstop_explore::basin::cells::color;
 
 /// What is drawn.
 pub(super) struct Picture<'a> {
@@ -56,7 +58,7 @@ impl Picture<'_> {
     fn map(&self) -> Panel {
         let (columns, rows) = (self.map[0].up.len(), self.map.len());
         let cells = self.map.iter().flat_map(|swept| &swept.up);
-        let colors = cells.map(|step| KINDS[kind(step) as usize].2);
+        let colors = cells.map(|step| color(kind(step)));
         let place = |(low, high): (f64, f64), index: usize, count: usize| {
             low + (high - low) * (index as f64 + 0.5) / count as f64
         };
@@ -67,7 +69,7 @@ impl Picture<'_> {
             let stiffness = 10f64.powf(place(DECADES, row, rows));
             differs.extend(others.map(|(column, _)| (place(RANGE, column, columns), stiffness)));
         }
-        let differs = Layer::dots(differs, 0.9, style::INK).named("falling η differs");
+        let differs = Layer::dots(differs, 0.9, style::OPTIMUM).named("falling η differs");
         let mut layers = vec![Layer::cells(columns, colors), differs];
         layers.extend(grazes());
         let upper = Layer::text((grazing(CLEARANCE).1, 0.1), Align::Left, "g₀");
@@ -86,11 +88,17 @@ impl Picture<'_> {
                 layers.push(text.moved(8.0, 24.0).plated());
             }
         }
-        let there = KINDS.into_iter().filter(|(own, ..)| {
+        let there = MotionClass::ALL.iter().filter(|class| {
             let mut steps = self.map.iter().flat_map(|swept| &swept.up);
-            steps.any(|step| kind(step) == *own)
+            steps.any(|step| kind(step) == **class)
         });
-        layers.extend(there.map(|(_, name, color)| Layer::key(Sign::Patch(color), name)));
+        layers.extend(there.map(|class| {
+            let name = match class {
+                MotionClass::Few => "other z = p/n",
+                class => class.name(),
+            };
+            Layer::key(Sign::Patch(color(*class)), name)
+        }));
         let decades = (10f64.powf(DECADES.0), 10f64.powf(DECADES.1));
         Panel {
             title: "Motions on rising η".to_owned(),
@@ -168,7 +176,7 @@ impl Picture<'_> {
                 .range((1.4, highest as f64 + 0.6))
                 .ticks(orders),
             layers: stops.chain([Layer::upwards(eta, GRAZING, name)]).collect(),
-            legend: Some(Corner::BottomRight),
+            legend: Some(Legend::Inside(Corner::BottomRight)),
             ..Panel::default()
         }
     }

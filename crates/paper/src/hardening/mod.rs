@@ -20,19 +20,6 @@ use softstop_console::output;
 use stops::{CLEARANCE, Law, grazing};
 use swept::{Swept, sweep};
 
-/// From a soft to a rigid stop.
-pub(crate) const FIGURE: Figure = Figure {
-    title: "From a soft to a rigid stop",
-    files: &[
-        "hardening.svg",
-        "hardening.csv",
-        "hardening-map.csv",
-        "hardening-folds.csv",
-        "hardening-subharmonics.csv",
-    ],
-    draw,
-};
-
 /// The stops whose diagrams are drawn.
 const DRAWN: [Law; 8] = [
     Law::KelvinVoigt(0.0),
@@ -49,7 +36,7 @@ const DECADES: (f64, f64) = (-1.0, 4.0);
 /// Stiffnesses k2/k1 whose subharmonic motions are looked for.
 const SUBHARMONIC: [f64; 3] = [1.0, 10.0, 100.0];
 
-fn draw(studio: &Studio) -> Result<Drawn> {
+pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let detail = studio.detail;
     let drawn = sweep(&DRAWN, detail.pick((420, 200), (120, 80)), studio.kept)?;
     let rows = stiffnesses(detail.pick(51, 11));

@@ -2,8 +2,9 @@
 
 use softstop_dynamics::motion::MotionClass;
 
-use super::MAPS;
+use super::Map;
 use crate::boundaries::Boundaries;
+use softstop_console::machine::Regime;
 use softstop_draw::{Align, Axis, Chart, Layer, Legend, Mark, Panel, Sign, style};
 use softstop_explore::basin::cells::{RegimeMap, color};
 
@@ -17,16 +18,16 @@ const POINT: (f64, f64) = (1.15, 10.0);
 const NAMED: [MotionClass; 3] = [MotionClass::Zero, MotionClass::One, MotionClass::TwoThirds];
 
 /// The maps with their boundaries.
-pub(super) fn chart(maps: &[RegimeMap], boundaries: &[Boundaries; 2]) -> Chart {
+pub(super) fn chart(maps: &[(&Map, RegimeMap)], boundaries: &[Boundaries; 2]) -> Chart {
     let panels = maps.iter().enumerate();
-    let panels = panels.map(|(index, map)| {
-        let is_loaded = usize::from(MAPS[index].is_loaded);
-        panel(index, map, &boundaries[is_loaded])
+    let panels = panels.map(|(index, (spec, map))| {
+        let own = &boundaries[usize::from(spec.machine == Regime::Loaded)];
+        panel(index, spec, map, own)
     });
     let title = "Regimes z = p/n: p impacts in n drive periods";
     let mut chart = Chart::new(title, panels).in_columns(2);
     let classes = MotionClass::ALL.iter().copied();
-    let there = classes.filter(|class| maps.iter().any(|map| map.share(*class) > 0.0));
+    let there = classes.filter(|class| maps.iter().any(|(_, map)| map.share(*class) > 0.0));
     let keys = there.map(|class| Layer::key(Sign::Patch(color(class)), class.name()));
     chart.panels[0].layers.extend(keys);
     (chart.legend, chart.letters) = (Legend::Below, 18);
@@ -34,7 +35,7 @@ pub(super) fn chart(maps: &[RegimeMap], boundaries: &[Boundaries; 2]) -> Chart {
 }
 
 /// A map with its boundaries, the point A or B, and names of wide regimes and of boundaries.
-fn panel(index: usize, map: &RegimeMap, boundaries: &Boundaries) -> Panel {
+fn panel(index: usize, spec: &Map, map: &RegimeMap, boundaries: &Boundaries) -> Panel {
     let colors = map.cells.iter().map(|cell| color(cell.class()));
     let mut layers = vec![Layer::cells(map.columns, colors)];
     let mut lines = vec![("g₀", boundaries.grazing.clone())];
@@ -64,17 +65,12 @@ fn panel(index: usize, map: &RegimeMap, boundaries: &Boundaries) -> Panel {
         layers.extend(inside.map(|eta| name((eta, rho), boundary)));
     }
     if (map.eta.0..=map.eta.1).contains(&POINT.0) {
-        let letter = if MAPS[index].is_loaded { "B" } else { "A" };
         let spot = Layer::marks([POINT], Mark::Hollow, style::INK);
-        layers.extend([spot, name(POINT, letter).moved(18.0, -4.0)]);
+        layers.extend([spot, name(POINT, spec.machine.point()).moved(18.0, -4.0)]);
     }
     let letter = char::from(b'a' + index as u8);
     Panel {
-        title: format!(
-            "({letter}) {}{}",
-            MAPS[index].machine(),
-            MAPS[index].names[2]
-        ),
+        title: format!("({letter}) {}{}", spec.machine.name(), spec.names[2]),
         size: SIZE,
         x: Axis::new("frequency η").range(map.eta),
         y: Axis::new("clearance ρ").range(map.rho),

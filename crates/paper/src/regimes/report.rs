@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 
-use super::{MAPS, middle};
+use super::{Map, middle};
 use crate::boundaries::Boundaries;
 use crate::figure::{self, Findings};
 use softstop_dynamics::continuation::CurvePoint;
@@ -11,10 +11,10 @@ use softstop_dynamics::{MotionKind, Regime};
 use softstop_explore::basin::cells::RegimeMap;
 
 /// A row for each run of cells of the same motion: from the middle of the first cell to that of the last.
-pub(super) fn runs(maps: &[RegimeMap]) -> Result<Vec<u8>> {
+pub(super) fn runs(maps: &[(&Map, RegimeMap)]) -> Result<Vec<u8>> {
     let columns = "machine,way,rho,eta_from,eta_to,motion";
     let mut lines = Vec::new();
-    for (map, spec) in maps.iter().zip(&MAPS) {
+    for (spec, map) in maps {
         let rows = map.cells.len() / map.columns;
         for (row, cells) in map.cells.chunks(map.columns).enumerate() {
             let rho = middle(map.rho, row, rows);
@@ -23,7 +23,7 @@ pub(super) fn runs(maps: &[RegimeMap]) -> Result<Vec<u8>> {
                 let to = from + run.len() - 1;
                 let ends = [from, to].map(|column| middle(map.eta, column, map.columns));
                 from = to + 1;
-                let names = (spec.machine(), spec.names[0]);
+                let names = (spec.machine.name(), &spec.names[0]);
                 lines.push((names, rho, ends, run[0].to_string()));
             }
         }
@@ -49,10 +49,10 @@ pub(super) fn boundaries(boundaries: &[Boundaries; 2]) -> Result<Vec<u8>> {
 }
 
 /// Shares of the maps, and what the boundaries say.
-pub(super) fn findings(maps: &[RegimeMap], boundaries: &[Boundaries; 2]) -> Findings {
+pub(super) fn findings(maps: &[(&Map, RegimeMap)], boundaries: &[Boundaries; 2]) -> Findings {
     let mut findings = Findings::default();
-    for (map, spec) in maps.iter().zip(&MAPS) {
-        let name = format!("{}, {}", spec.machine(), spec.names[1]);
+    for (spec, map) in maps {
+        let name = format!("{}, {}", spec.machine.name(), spec.names[1]);
         for &class in MotionClass::ALL {
             let share = Some(map.share(class)).filter(|share| *share > 0.0);
             findings.add(format!("{name}: share of {}", class.name()), share);
@@ -68,7 +68,7 @@ pub(super) fn findings(maps: &[RegimeMap], boundaries: &[Boundaries; 2]) -> Find
     }
     let ways = [("unloaded", &maps[..2]), ("loaded", &maps[4..])];
     for ((name, ways), own) in ways.into_iter().zip(boundaries) {
-        let share = hysteresis(&ways[0], &ways[1]);
+        let share = hysteresis(&ways[0].1, &ways[1].1);
         findings.add(format!("{name}: share of z = 1 or z = 0 by the way"), share);
         let point = own.hardest();
         let velocity = point.map(CurvePoint::before_impact_velocity);

@@ -32,7 +32,7 @@ pub(super) fn cells(
         heights: false,
         ..Plan::new(Parameter::Frequency, range, columns + AHEAD, PERIODS)?
     };
-    let of = (map.is_loaded, map.window, way.name(), size);
+    let of = (map.machine, map.window, way.name(), size);
     // Chains that go together are forgotten together but for their regimes.
     let found = blocks(0..rows as u64, Plan::TOGETHER as u64).map(|rows| {
         piece(kept, &("regimes", of, rows.start), || {
