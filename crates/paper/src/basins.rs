@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 
 use anyhow::{Error, Result};
 use serde::Deserialize;
-use softstop::{Machine, Ratios, Scene, Start};
+use softstop::{Machine, Ratios, Scene};
 use softstop_dynamics::basin::{Options, basins};
-use softstop_dynamics::{Axis, Basins, Grid, MotionKind};
-use softstop_lanes::{Job, Watch};
+use softstop_dynamics::{Axis, Basins, Grid, MotionKind, StroboscopicMap};
 
 use crate::figure::{self, Drawn, Figure, Findings, Studio};
+use crate::figure9::section::Section;
 use softstop_console::progress::Progress;
 use softstop_explore::basin::picture::{BasinPage, BasinPicture};
 
@@ -80,39 +80,19 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
 /// One of the basins of a plane, by its number.
 type Basin<'a> = (&'a Plane, &'a Basins, usize);
 
-/// The states of one motion, period by period.
-struct Log(Vec<(f64, f64)>);
-
-impl Watch for Log {
-    const PERIODS: bool = true;
-
-    fn period(&mut self, _: usize, cycle: u64, state: Start) {
-        if cycle >= STATES.1 {
-            self.0.push((state.position, state.velocity));
-        }
-    }
-}
-
 /// States of chaos at drive angle 0, if a basin is its.
 fn wandering(scene: &Scene, basins: &Basins) -> Result<Vec<(f64, f64)>> {
     let mut classes = basins.classes.iter();
     let chaos = classes.position(|class| class.motion == MotionKind::Chaos);
-    let cell = chaos.and_then(|chaos| {
-        let mut cells = basins.cells.iter();
-        cells.position(|class| usize::from(*class) == chaos)
-    });
+    let mut cells = basins.cells.iter();
+    let cell = cells.position(|class| Some(usize::from(*class)) == chaos);
     let Some(cell) = cell else {
         return Ok(Vec::new());
     };
-    let machine = softstop_lanes::Machine::new(scene)?;
-    let job = Job {
-        machine: 0,
-        start: basins.grid.start(cell).0,
-        periods: STATES.0 + STATES.1,
-    };
-    let mut log = Log(Vec::new());
-    softstop_lanes::run(&[machine], &[job], &mut log);
-    Ok(log.0)
+    let (start, _) = basins.grid.start(cell);
+    let map = StroboscopicMap::new(scene, 1)?;
+    let mut states = Section::of(&map, start, STATES.0 + STATES.1, usize::MAX)?.states;
+    Ok(states.split_off(STATES.1 as usize))
 }
 
 /// A row for each basin of each plane.
@@ -142,16 +122,16 @@ fn findings(all: &[Basin<'_>]) -> Findings {
         let (class, ball) = (&basins.classes[*index], basins.largest_ball(*index));
         let order = class.motion.told_order();
         let order = order.map_or_else(String::new, |order| format!(" ({order})"));
-        let mut add = |what: &str, value: Option<f64>| {
-            findings.add(
-                format!("{}, {}{order}: {what}", plane.name, class.motion),
-                value,
-            );
-        };
-        add("share", Some(class.share));
-        add("share at least", Some(class.interval[0]));
-        add("share at most", Some(class.interval[1]));
-        add("largest ball", ball.map(|ball| ball.radius));
+        let name = format!("{}, {}{order}: ", plane.name, class.motion);
+        findings.group(
+            &name,
+            [
+                ("share", Some(class.share)),
+                ("share at least", Some(class.interval[0])),
+                ("share at most", Some(class.interval[1])),
+                ("largest ball", ball.map(|ball| ball.radius)),
+            ],
+        );
     }
     findings
 }

@@ -77,6 +77,17 @@ pub(crate) struct Drawn {
 pub(crate) struct Findings(pub(crate) BTreeMap<String, f64>);
 
 impl Findings {
+    /// Adds the values that there are of a group, whose names begin alike.
+    pub(crate) fn group<'a>(
+        &mut self,
+        name: &str,
+        values: impl IntoIterator<Item = (&'a str, Option<f64>)>,
+    ) {
+        for (what, value) in values {
+            self.add(format!("{name}{what}"), value);
+        }
+    }
+
     /// Adds a value, if there is one.
     pub(crate) fn add(&mut self, name: impl Into<String>, value: impl Into<Option<f64>>) {
         self.0

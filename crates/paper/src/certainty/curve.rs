@@ -111,21 +111,23 @@ pub fn findings(curves: &[Curve]) -> Findings {
     let mut findings = Findings::default();
     for curve in curves {
         let name = curve.name();
-        let mut tell = |what: &str, value: Option<f64>| {
-            findings.add(format!("{name}: {what}"), value);
-        };
         let (first, last) = (curve.places.first(), curve.places.last());
         let certainty = |at: &Establishing| at.certainty;
-        tell("certainty near g0", first.map(certainty));
-        tell("certainty near s_SN", last.map(certainty));
+        let values = [
+            ("certainty near g0", first.map(certainty)),
+            ("certainty near s_SN", last.map(certainty)),
+            (
+                "largest rise of the certainty away from g0",
+                Some(rise(&curve.places)),
+            ),
+            ("integrity near g0", first.map(integrity)),
+            ("integrity near s_SN", last.map(integrity)),
+        ];
+        findings.group(&format!("{name}: "), values);
         for place in TOLD {
             let found = nearest(&curve.places, place).map(certainty);
-            tell(&format!("certainty at s = {place}"), found);
+            findings.add(format!("{name}: certainty at s = {place}"), found);
         }
-        let rise = rise(&curve.places);
-        tell("largest rise of the certainty away from g0", Some(rise));
-        tell("integrity near g0", first.map(integrity));
-        tell("integrity near s_SN", last.map(integrity));
     }
     findings
 }

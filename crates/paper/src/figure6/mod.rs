@@ -52,9 +52,9 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         point: (regime.point(), boundaries::figures(&orbit::find(&scene)?)),
     };
     let explanation = format!(
-        "Peterka 2003, Fig. {}. Sweeps up and down, {periods} drive periods at each of {steps} frequencies; \
+        "Peterka 2003, Fig. 6({}). Sweeps up and down, {periods} drive periods at each of {steps} frequencies; \
          grey arrows: jumps between z = 0 and z = 1",
-        figure.name
+        &figure.name[1..]
     );
     let chart = picture.chart(&heading, explanation);
     let sweeps = chains.iter();
@@ -83,36 +83,42 @@ fn findings(ends: &[Ends], chains: &[Chain], optimum: Option<(f64, f64)>) -> Fin
     let mut findings = Findings::default();
     for (end, ways) in ends.iter().zip(chains.chunks_exact(2)) {
         let rho = end.clearance;
-        let mut add = |name: &str, value: Option<f64>| {
+        let ones = || diagram::steps(ways).filter(|step| diagram::is_one(step));
+        let hardest = ones().max_by(|a, b| a.hardest().total_cmp(&b.hardest()));
+        let highest = ones().max_by(|a, b| a.max_position.total_cmp(&b.max_position));
+        let farthest = diagram::steps(ways).map(|step| step.max_position);
+        let values = [
+            ("eta_g0", Some(end.grazing[0])),
+            ("eta_SN", end.fold.map(|it| it[0])),
+            ("eta_PD", end.flip.map(|it| it[0])),
+            ("X_m at the fold", end.fold.map(|it| it[1])),
+            ("velocity at the fold", end.fold.map(|it| it[2])),
+            ("hardest impact of z = 1", hardest.map(Step::hardest)),
+            ("eta of the hardest impact", hardest.map(|it| it.value)),
+            ("largest X_m of any motion", farthest.max_by(f64::total_cmp)),
+            ("largest X_m of z = 1", highest.map(|it| it.max_position)),
+            (
+                "eta of the largest X_m of z = 1",
+                highest.map(|it| it.value),
+            ),
+            (
+                "hysteresis width",
+                end.fold.map(|it| it[0] - end.grazing[0]),
+            ),
+        ];
+        for (name, value) in values {
             findings.add(format!("{name} at rho = {rho}"), value);
-        };
-        let fold = end.fold;
-        add("eta_g0", Some(end.grazing[0]));
-        add("eta_SN", fold.map(|it| it[0]));
-        add("eta_PD", end.flip.map(|it| it[0]));
-        add("X_m at the fold", fold.map(|it| it[1]));
-        add("velocity at the fold", fold.map(|it| it[2]));
-        let ones = diagram::steps(ways).filter(|step| diagram::is_one(step));
-        let hardest = ones.max_by(|a, b| a.hardest().total_cmp(&b.hardest()));
-        add("hardest impact of z = 1", hardest.map(Step::hardest));
-        add("eta of the hardest impact", hardest.map(|it| it.value));
-        let highest = diagram::steps(ways).map(|step| step.max_position);
-        add("largest X_m of any motion", highest.max_by(f64::total_cmp));
-        let ones = diagram::steps(ways).filter(|step| diagram::is_one(step));
-        let highest = ones.max_by(|a, b| a.max_position.total_cmp(&b.max_position));
-        add("largest X_m of z = 1", highest.map(|it| it.max_position));
-        add(
-            "eta of the largest X_m of z = 1",
-            highest.map(|it| it.value),
-        );
-        add("hysteresis width", fold.map(|it| it[0] - end.grazing[0]));
+        }
         for chain in ways {
-            let ranges = chart::ranges(chain);
-            let way = chain.direction.name();
-            let begins = format!("eta where piercing begins on the way {way}");
-            add(&begins, ranges.first().map(|range| range.0));
-            let ends = format!("eta where piercing ends on the way {way}");
-            add(&ends, ranges.last().map(|range| range.1));
+            let (ranges, way) = (chart::ranges(chain), chain.direction.name());
+            let ends = [
+                ("begins", ranges.first().map(|range| range.0)),
+                ("ends", ranges.last().map(|range| range.1)),
+            ];
+            for (what, eta) in ends {
+                let name = format!("eta where piercing {what} on the way {way} at rho = {rho}");
+                findings.add(name, eta);
+            }
         }
     }
     let (clearance, velocity) = optimum.unzip();

@@ -78,7 +78,7 @@ fn findings(Cycle { orbit, path }: &Cycle) -> Findings {
     let period = orbit.scene.period();
     let velocity = |point: Option<&Point>| point.map(|point| point.velocity);
     let mut findings = Findings::default();
-    for (name, value) in [
+    let values = [
         ("X_m", Some(orbit.max_position)),
         ("X'_-", Some(orbit.before_impact_velocity())),
         ("period T", Some(period)),
@@ -99,8 +99,7 @@ fn findings(Cycle { orbit, path }: &Cycle) -> Findings {
         ("X'_C", velocity(path.first(PhaseKind::Cut))),
         ("X'_D", velocity(path.first(PhaseKind::Stop))),
         ("X'_E", velocity(path.last(PhaseKind::Stop))),
-    ] {
-        findings.add(name, value);
-    }
+    ];
+    findings.group("", values);
     findings
 }

@@ -168,21 +168,21 @@ impl Found {
     /// What is told of it.
     pub fn tell(&self, findings: &mut Findings) -> Result<()> {
         let [energy, largest] = self.kinetic()?;
-        let mut add = |what: &str, value: Option<f64>| {
-            findings.add(format!("({}) {what}", self.asked.letter), value);
-        };
         let orbit = self.orbit();
-        add("eta", Some(self.asked.eta));
-        add("Lyapunov exponent per period", Some(self.exponent()));
-        add("share of starts", Some(self.attractor.share));
-        add("impacts p", orbit.map(|it| it.impacts.len() as f64));
-        add("periods n", orbit.map(|it| it.periods as f64));
         let mean = self.section.impacts_per_period();
-        add("impacts per period", self.is_chaotic().then_some(mean));
-        add("largest multiplier, modulus", self.modulus());
-        add("mean life, periods", self.lifetime());
-        add("mean kinetic energy", Some(energy));
-        add("largest kinetic energy", Some(largest));
+        let values = [
+            ("eta", Some(self.asked.eta)),
+            ("Lyapunov exponent per period", Some(self.exponent())),
+            ("share of starts", Some(self.attractor.share)),
+            ("impacts p", orbit.map(|it| it.impacts.len() as f64)),
+            ("periods n", orbit.map(|it| it.periods as f64)),
+            ("impacts per period", self.is_chaotic().then_some(mean)),
+            ("largest multiplier, modulus", self.modulus()),
+            ("mean life, periods", self.lifetime()),
+            ("mean kinetic energy", Some(energy)),
+            ("largest kinetic energy", Some(largest)),
+        ];
+        findings.group(&format!("({}) ", self.asked.letter), values);
         Ok(())
     }
 }

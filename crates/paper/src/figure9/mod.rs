@@ -2,7 +2,7 @@
 
 mod chart;
 mod found;
-mod section;
+pub(crate) mod section;
 
 use anyhow::{Result, anyhow};
 use serde::Deserialize;
