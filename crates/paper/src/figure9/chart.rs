@@ -24,12 +24,11 @@ const NEAR: f64 = 5.0;
 const MANY: usize = 64;
 const DOTS: (f64, f64) = (4.2, 1.0);
 
+/// The letter of a motion, time in drive periods, position and velocity.
+type Sample = (char, [f64; 3]);
+
 /// A page of motions, their time series over so many drive periods; and the points of these.
-pub(super) fn page(
-    motions: &[Found],
-    all: &[Found],
-    shown: u64,
-) -> Result<(Chart, Vec<(char, [f64; 3])>)> {
+pub(super) fn page(motions: &[Found], all: &[Found], shown: u64) -> Result<(Chart, Vec<Sample>)> {
     let (mut panels, mut points) = (Vec::new(), Vec::new());
     for (row, motion) in motions.iter().enumerate() {
         let path = motion.path(Some(shown), FINENESS[0])?;

@@ -28,6 +28,9 @@ const FOLD: Stroke = Stroke::solid(style::INK, 2.0);
 /// Radius of a dot of the diagrams.
 const DOT: f64 = 1.0;
 
+/// The frequency of a bend of a branch.
+type Bend = fn(&Folds) -> Option<f64>;
+
 impl Picture<'_> {
     pub(super) fn chart(&self) -> Chart {
         let rows = self.drawn.chunks(ACROSS).enumerate();
@@ -74,10 +77,8 @@ impl Picture<'_> {
         layers.extend(grazes());
         let upper = Layer::text((grazing(CLEARANCE).1, 0.1), Align::Left, "g₀");
         layers.push(upper.moved(6.0, -6.0).plated());
-        let ends: [(&str, fn(&Folds) -> Option<f64>); 2] = [
-            ("s_SN", |fold| Some(fold.strong?.0)),
-            ("s_PD", |fold| fold.flip),
-        ];
+        let strong: Bend = |fold| Some(fold.strong?.0);
+        let ends: [(&str, Bend); 2] = [("s_SN", strong), ("s_PD", |fold| fold.flip)];
         for (name, eta) in ends {
             let points = self.folds.iter();
             let points = points.filter_map(|fold| Some((eta(fold)?, fold.stiffness)));
@@ -177,7 +178,6 @@ impl Picture<'_> {
                 .ticks(orders),
             layers: stops.chain([Layer::upwards(eta, GRAZING, name)]).collect(),
             legend: Some(Legend::Inside(Corner::BottomRight)),
-            ..Panel::default()
         }
     }
 }
