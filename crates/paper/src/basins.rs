@@ -3,151 +3,107 @@
 use std::f64::consts::TAU;
 
 use anyhow::{Error, Result};
-use softstop::{Ratios, Scene, Start};
+use serde::Deserialize;
+use softstop::{Machine, Ratios, Scene};
 use softstop_dynamics::basin::{Options, basins};
-use softstop_dynamics::{Axis, Basins, Grid, MotionKind};
-use softstop_lanes::{Job, Machine, Watch};
+use softstop_dynamics::{Axis, Basins, Grid, MotionKind, StroboscopicMap};
 
 use crate::figure::{self, Drawn, Figure, Findings, Studio};
-use softstop_console::interrupt;
+use crate::figure9::section::Section;
 use softstop_console::progress::Progress;
 use softstop_explore::basin::picture::{BasinPage, BasinPicture};
-
-/// Basins of attraction.
-pub(crate) const FIGURE: Figure = Figure {
-    title: "Basins of attraction",
-    files: &["basins.png", "basins.csv"],
-    draw,
-};
 
 /// Cells on each side.
 const CELLS: [usize; 2] = [600, 100];
 /// States of chaos that are drawn, after so many drive periods.
 const STATES: (u64, u64) = (6000, 500);
 
-/// One of the planes: name, title, frequency eta, and the axes across and up, whose cells are not yet known.
-type Plane = (&'static str, &'static str, f64, [Axis; 2]);
-
-const fn position(from: f64, to: f64) -> Axis {
-    Axis::position(from, to, 0)
+#[derive(Deserialize)]
+struct What {
+    planes: Vec<Plane>,
 }
 
-const fn velocity(from: f64, to: f64) -> Axis {
-    Axis::velocity(from, to, 0)
+/// A plane of starts.
+#[derive(Deserialize)]
+struct Plane {
+    name: String,
+    title: String,
+    eta: f64,
+    /// Range of positions.
+    x: [f64; 2],
+    /// Range of velocities at drive angle 0; if there is none, starts are at rest at any drive angle.
+    v: Option<[f64; 2]>,
 }
 
-const PLANES: [Plane; 4] = [
-    (
-        "A",
-        "(a) Point A: η = 1.15, ρ = 10, at drive angle 0",
-        1.15,
-        [position(-20.0, 20.0), velocity(-20.0, 20.0)],
-    ),
-    (
-        "A, started at rest",
-        "(b) Point A, started at rest at X, at any drive angle",
-        1.15,
-        [Axis::angle(0.0, TAU, 0), position(-20.0, 20.0)],
-    ),
-    (
-        "near the fold",
-        "(c) Near the fold: η = 1.3, ρ = 10, at drive angle 0",
-        1.3,
-        [position(-20.0, 20.0), velocity(-20.0, 20.0)],
-    ),
-    (
-        "coexistence",
-        "(d) Three at once: η = 0.9875, ρ = 10, at drive angle 0",
-        0.9875,
-        [position(5.0, 11.0), velocity(-2.0, 10.0)],
-    ),
-];
-
-fn draw(studio: &Studio) -> Result<Drawn> {
-    let cells = studio.detail.pick(CELLS[0], CELLS[1]);
-    let each = (cells * cells) as u64;
-    let progress = Progress::new(each * PLANES.len() as u64, "cells");
-    let mut found = Vec::new();
-    for (index, (_, title, frequency, axes)) in PLANES.into_iter().enumerate() {
-        let watcher = |done, _| {
-            progress.at(each * index as u64 + done);
-            interrupt::go_on()
+impl Plane {
+    fn grid(&self, cells: usize) -> Grid {
+        let position = Axis::position(self.x[0], self.x[1], cells);
+        let (across, up) = match self.v {
+            Some([low, high]) => (position, Axis::velocity(low, high, cells)),
+            None => (Axis::angle(0.0, TAU, cells), position),
         };
-        let ratios = Ratios::unloaded().at_frequency(frequency);
-        let machine = softstop::Machine::of_ratios(&ratios)?;
-        let [across, up] = axes.map(|axis| Axis { cells, ..axis });
-        let (scene, grid) = (&machine.scene, Grid::states(across, up, 0.0));
+        Grid::states(across, up, 0.0)
+    }
+}
+
+pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
+    let planes = figure.what::<What>()?.planes;
+    let cells = studio.detail.pick(CELLS[0], CELLS[1]);
+    let progress = Progress::new((cells * cells * planes.len()) as u64, "cells");
+    let found = planes.iter().map(|plane| {
+        let machine = Machine::of_ratios(&Ratios::unloaded().at_frequency(plane.eta))?;
+        let (scene, watcher) = (&machine.scene, progress.watcher());
+        let grid = plane.grid(cells);
         let basins = basins(scene, &grid, &Options::default(), &watcher, studio.kept)?;
         let wandering = wandering(scene, &basins)?;
-        found.push((machine, basins, wandering, title));
-    }
+        Ok((plane, machine, basins, wandering))
+    });
+    let found = found.collect::<Result<Vec<_>>>()?;
     drop(progress);
-    let pictures = found.iter().map(|(machine, basins, wandering, title)| {
-        BasinPicture::new(machine, basins, title).with_wandering(wandering)
+    let pictures = found.iter().map(|(plane, machine, basins, wandering)| {
+        BasinPicture::new(machine, basins, &plane.title).with_wandering(wandering)
     });
     let page = BasinPage {
         pictures: pictures.collect(),
     };
     let png = page.png().map_err(Error::msg)?;
-    let basins: Vec<&Basins> = found.iter().map(|found| &found.1).collect();
+    let basins = found.iter().flat_map(|(plane, _, basins, _)| {
+        (0..basins.classes.len()).map(move |index| (*plane, basins, index))
+    });
+    let basins: Vec<Basin<'_>> = basins.collect();
     Ok(Drawn {
         files: vec![png, table(&basins)?],
         findings: findings(&basins),
     })
 }
 
-/// The states of one motion, period by period.
-struct Log(Vec<(f64, f64)>);
-
-impl Watch for Log {
-    const PERIODS: bool = true;
-
-    fn period(&mut self, _: usize, cycle: u64, state: Start) {
-        if cycle >= STATES.1 {
-            self.0.push((state.position, state.velocity));
-        }
-    }
-}
+/// One of the basins of a plane, by its number.
+type Basin<'a> = (&'a Plane, &'a Basins, usize);
 
 /// States of chaos at drive angle 0, if a basin is its.
 fn wandering(scene: &Scene, basins: &Basins) -> Result<Vec<(f64, f64)>> {
     let mut classes = basins.classes.iter();
     let chaos = classes.position(|class| class.motion == MotionKind::Chaos);
-    let cell = chaos.and_then(|chaos| {
-        let mut cells = basins.cells.iter();
-        cells.position(|class| usize::from(*class) == chaos)
-    });
+    let mut cells = basins.cells.iter();
+    let cell = cells.position(|class| Some(usize::from(*class)) == chaos);
     let Some(cell) = cell else {
         return Ok(Vec::new());
     };
-    let machine = Machine::new(scene)?;
-    let job = Job {
-        machine: 0,
-        start: basins.grid.start(cell).0,
-        periods: STATES.0 + STATES.1,
-    };
-    let mut log = Log(Vec::new());
-    softstop_lanes::run(&[machine], &[job], &mut log);
-    Ok(log.0)
-}
-
-/// The basins of all planes with their numbers, and name and frequency of the plane.
-fn classes<'a>(all: &'a [&Basins]) -> impl Iterator<Item = (&'static str, f64, &'a Basins, usize)> {
-    let planes = PLANES.iter().zip(all);
-    planes.flat_map(|((name, _, frequency, _), basins)| {
-        (0..basins.classes.len()).map(|index| (*name, *frequency, *basins, index))
-    })
+    let (start, _) = basins.grid.start(cell);
+    let map = StroboscopicMap::new(scene, 1)?;
+    let mut states = Section::of(&map, start, STATES.0 + STATES.1, usize::MAX)?.states;
+    Ok(states.split_off(STATES.1 as usize))
 }
 
 /// A row for each basin of each plane.
-fn table(all: &[&Basins]) -> Result<Vec<u8>> {
+fn table(all: &[Basin<'_>]) -> Result<Vec<u8>> {
     let columns = "plane,eta,motion,impact_pattern,before_impact_velocity,cells,share,share_low,share_high,\
         largest_ball,ball_across,ball_up";
-    let rows = classes(all).map(|(plane, frequency, basins, index)| {
-        let (class, ball) = (&basins.classes[index], basins.largest_ball(index));
+    let rows = all.iter().map(|(plane, basins, index)| {
+        let (class, ball) = (&basins.classes[*index], basins.largest_ball(*index));
         let orbit = class.orbit.as_ref();
         (
-            (plane, frequency, class.motion.to_string()),
+            (&plane.name, plane.eta, class.motion.to_string()),
             orbit.map(|orbit| orbit.pattern().to_string()),
             orbit.map(|orbit| orbit.before_impact_velocity()),
             (class.cells, class.share, class.interval),
@@ -160,19 +116,22 @@ fn table(all: &[&Basins]) -> Result<Vec<u8>> {
 }
 
 /// Shares with their intervals, and the largest balls.
-fn findings(all: &[&Basins]) -> Findings {
+fn findings(all: &[Basin<'_>]) -> Findings {
     let mut findings = Findings::default();
-    for (plane, _, basins, index) in classes(all) {
-        let (class, ball) = (&basins.classes[index], basins.largest_ball(index));
+    for (plane, basins, index) in all {
+        let (class, ball) = (&basins.classes[*index], basins.largest_ball(*index));
         let order = class.motion.told_order();
         let order = order.map_or_else(String::new, |order| format!(" ({order})"));
-        let mut add = |what: &str, value: Option<f64>| {
-            findings.add(format!("{plane}, {}{order}: {what}", class.motion), value);
-        };
-        add("share", Some(class.share));
-        add("share at least", Some(class.interval[0]));
-        add("share at most", Some(class.interval[1]));
-        add("largest ball", ball.map(|ball| ball.radius));
+        let name = format!("{}, {}{order}: ", plane.name, class.motion);
+        findings.group(
+            &name,
+            [
+                ("share", Some(class.share)),
+                ("share at least", Some(class.interval[0])),
+                ("share at most", Some(class.interval[1])),
+                ("largest ball", ball.map(|ball| ball.radius)),
+            ],
+        );
     }
     findings
 }

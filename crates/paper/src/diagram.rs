@@ -6,8 +6,10 @@ use softstop::Scene;
 use softstop_dynamics::watch::Kept;
 use softstop_dynamics::{Chain, Direction, Plan, Regime, Step};
 
+use crate::figure;
 use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
+use softstop_draw::style;
 
 /// Sweeps that go together: a plan and its chains.
 pub(super) type Job = (Plan, Vec<Chain>);
@@ -71,16 +73,50 @@ pub(super) fn is_one(step: &Step) -> bool {
     step.motion.regime() == Some(Regime::ONE)
 }
 
-/// The columns of [`fields`].
-pub(super) const FIELDS: &str = "z,max_position,before_impact_velocities";
+/// A row for each step of some sweeps: the name of a sweep, its direction, what a step shows and how it was met.
+pub(super) fn table<'a>(
+    name: &str,
+    sweeps: impl IntoIterator<Item = (String, &'a str, &'a [Step])>,
+) -> Result<Vec<u8>> {
+    let columns =
+        format!("{name},direction,eta,z,impacts_per_period,max_position,before_impact_velocities");
+    let rows = sweeps.into_iter().flat_map(|(sweep, direction, steps)| {
+        steps.iter().map(move |step| {
+            let motion = step.motion.to_string();
+            let motion = motion.trim_start_matches("z = ").to_owned();
+            let velocities = step.velocities.iter().map(|it| format!("{it:.6}"));
+            let velocities = velocities.collect::<Vec<String>>().join(" ");
+            let position = format!("{:.6}", step.max_position);
+            let eta = format!("{:.12}", step.value);
+            let how = (step.impacts_per_period, position, velocities);
+            (sweep.clone(), direction, eta, motion, how)
+        })
+    });
+    figure::table(&columns, rows)
+}
 
-/// The motion, p/n or in a word, its largest position and its before-impact velocities.
-pub(super) fn fields(step: &Step) -> [String; 3] {
-    let motion = step.motion.to_string();
-    let velocities = step.velocities.iter().map(|it| format!("{it:.6}"));
-    [
-        motion.trim_start_matches("z = ").to_owned(),
-        format!("{:.6}", step.max_position),
-        velocities.collect::<Vec<String>>().join(" "),
-    ]
+/// The way on which a motion is seen, and its colour.
+pub(super) const WAYS: [(&str, &str); 3] = [
+    ("up and down", "#444444"),
+    ("up only", style::DESIGN),
+    ("down only", style::OPTIMUM),
+];
+
+/// Steps up and down at the same values by the way on which their motions are seen.
+pub(super) fn by_way<'a, T>(
+    up: &'a [T],
+    down: &'a [T],
+    step: impl Fn(&T) -> &Step,
+) -> [Vec<&'a T>; 3] {
+    let mut ways = [const { Vec::new() }; 3];
+    for pair in up.iter().zip(down) {
+        match same(step(pair.0), step(pair.1)) {
+            true => ways[0].extend([pair.0, pair.1]),
+            false => {
+                ways[1].push(pair.0);
+                ways[2].push(pair.1);
+            }
+        }
+    }
+    ways
 }

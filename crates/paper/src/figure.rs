@@ -1,26 +1,67 @@
 //! What a figure is, and what figures share.
 
-use std::cell::OnceCell;
 use std::collections::BTreeMap;
+use std::sync::{LazyLock, OnceLock};
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use rayon::prelude::*;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use softstop::Ratios;
+use softstop_console::machine::Regime;
 use softstop_dynamics::attractors::Options;
 use softstop_dynamics::transitions::{Rules, Transition};
 use softstop_dynamics::watch::{Kept, piece};
 
 use crate::table1::{self, paper};
 
-/// A figure: what its files are called, and how they are made.
+/// A figure as `docs/paper/figures.toml` states it.
+#[derive(Debug, Deserialize)]
 pub(crate) struct Figure {
+    /// What it is called on the command line.
+    pub(crate) name: String,
     /// What it shows, in one line.
-    pub(crate) title: &'static str,
+    pub(crate) title: String,
     /// Names of its files: pictures and tables.
-    pub(crate) files: &'static [&'static str],
-    /// Makes them.
-    pub(crate) draw: fn(&Studio<'_>) -> Result<Drawn>,
+    pub(crate) files: Vec<String>,
+    /// What is computed, by keys of its own.
+    #[serde(flatten)]
+    what: toml::Table,
+}
+
+static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
+    #[derive(Deserialize)]
+    struct File {
+        figure: Vec<Figure>,
+    }
+    let file: File = toml::from_str(include_str!("../../../docs/paper/figures.toml"))
+        .expect("the file that is built in holds figures");
+    file.figure
+});
+
+impl Figure {
+    /// The one of a name.
+    pub(crate) fn called(name: &str) -> Result<&'static Self> {
+        let figure = FIGURES.iter().find(|it| it.name == name);
+        figure.with_context(|| format!("no figure {name} in docs/paper/figures.toml"))
+    }
+
+    /// What is computed.
+    pub(crate) fn what<T: DeserializeOwned>(&self) -> Result<T> {
+        let what = T::deserialize(self.what.clone());
+        what.with_context(|| format!("figure {} in docs/paper/figures.toml", self.name))
+    }
+}
+
+/// Makes the files of a figure.
+pub(crate) type Draw = fn(&Studio<'_>, &Figure) -> Result<Drawn>;
+
+/// One of the paper's machines.
+pub(crate) fn machine(regime: Regime) -> Ratios {
+    match regime {
+        Regime::Unloaded => Ratios::unloaded(),
+        Regime::Loaded => Ratios::loaded(),
+    }
 }
 
 /// What came out of a figure.
@@ -36,6 +77,17 @@ pub(crate) struct Drawn {
 pub(crate) struct Findings(pub(crate) BTreeMap<String, f64>);
 
 impl Findings {
+    /// Adds the values that there are of a group, whose names begin alike.
+    pub(crate) fn group<'a>(
+        &mut self,
+        name: &str,
+        values: impl IntoIterator<Item = (&'a str, Option<f64>)>,
+    ) {
+        for (what, value) in values {
+            self.add(format!("{name}{what}"), value);
+        }
+    }
+
     /// Adds a value, if there is one.
     pub(crate) fn add(&mut self, name: impl Into<String>, value: impl Into<Option<f64>>) {
         self.0
@@ -49,7 +101,7 @@ pub(crate) struct Studio<'a> {
     /// Where finished work is kept.
     pub(crate) kept: Kept<'a>,
     /// All transitions along rho = 10, once they are asked for.
-    transitions: OnceCell<Vec<Transition>>,
+    transitions: OnceLock<Vec<Transition>>,
 }
 
 /// How fine figures are.
@@ -66,7 +118,7 @@ impl<'a> Studio<'a> {
         Self {
             detail,
             kept,
-            transitions: OnceCell::new(),
+            transitions: OnceLock::new(),
         }
     }
 

@@ -15,13 +15,6 @@ use crate::figure::{self, Drawn, Figure, Findings, Studio};
 use crate::table1::{matching, paper};
 use softstop_console::progress::Progress;
 
-/// Laminar lengths.
-pub(crate) const FIGURE: Figure = Figure {
-    title: "Laminar lengths beside the ISN of Table 1",
-    files: &["laminar.csv"],
-    draw,
-};
-
 /// Rows with an ISN.
 const ROWS: [usize; 3] = [3, 16, 17];
 /// log10 of the least and the largest distance in eta, and distances in a decade.
@@ -48,7 +41,7 @@ struct Beside {
     longest_drive_periods: u64,
 }
 
-fn draw(studio: &Studio) -> Result<Drawn> {
+pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let transitions = studio.transitions()?;
     let rows = paper::ROWS.iter().filter(|row| ROWS.contains(&row.number));
     let found = rows.filter_map(|row| {

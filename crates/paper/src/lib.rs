@@ -1,10 +1,11 @@
 //! `softstop-lab paper`: the figures of the paper, and of what it only describes.
 //!
-//! To add a figure, write a module with a `pub(crate) const FIGURE: Figure`, and name it in `FIGURES`.
+//! `docs/paper/figures.toml` states title, files and what is computed of each figure. To add one, write its table there, and a
+//! function `draw` that makes its files, named in `FIGURES`.
 
 mod basins;
+mod boundaries;
 mod certainty;
-mod curves;
 mod diagram;
 mod exponents;
 mod figure;
@@ -14,6 +15,7 @@ mod figure8;
 mod figure9;
 mod hardening;
 mod laminar;
+mod path;
 mod regimes;
 mod report;
 mod supply;
@@ -26,7 +28,7 @@ use std::time::Instant;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use figure::{Detail, Drawn, Figure, Studio};
+use figure::{Detail, Draw, Drawn, Figure, Studio};
 use report::{FigureReport, PaperReport};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
@@ -84,24 +86,24 @@ pub struct PaperArguments {
     pub format: Format,
 }
 
-/// The figures by their names on the command line.
-static FIGURES: [(&str, &Figure); 16] = [
-    ("6a", &figure6::UNLOADED),
-    ("6b", &figure6::LOADED),
-    ("7a", &figure7::POINT_A),
-    ("7b", &figure7::POINT_B),
-    ("7", &figure7::BOTH),
-    ("8", &figure8::FIGURE),
-    ("9", &figure9::FIGURE),
-    ("table1", &table1::figure::FIGURE),
-    ("regimes", &regimes::FIGURE),
-    ("exponents", &exponents::FIGURE),
-    ("basins", &basins::FIGURE),
-    ("certainty", &certainty::FIGURE),
-    ("supply", &supply::FIGURE),
-    ("hardening", &hardening::FIGURE),
-    ("ways", &ways::FIGURE),
-    ("laminar", &laminar::FIGURE),
+/// The figures by their names on the command line, each with its code.
+static FIGURES: [(&str, Draw); 16] = [
+    ("6a", figure6::draw),
+    ("6b", figure6::draw),
+    ("7a", figure7::draw),
+    ("7b", figure7::draw),
+    ("7", figure7::both),
+    ("8", figure8::draw),
+    ("9", figure9::draw),
+    ("table1", table1::figure),
+    ("regimes", regimes::draw),
+    ("exponents", exponents::draw),
+    ("basins", basins::draw),
+    ("certainty", certainty::draw),
+    ("supply", supply::draw),
+    ("hardening", hardening::draw),
+    ("ways", ways::draw),
+    ("laminar", laminar::draw),
 ];
 
 const REPORT: &str = "paper.json";
@@ -114,9 +116,11 @@ const REPORT: &str = "paper.json";
 pub fn run(arguments: &PaperArguments) -> Result<(), Failure> {
     let asked = &arguments.figures;
     let is_wanted = |name: &str| asked.is_empty() || asked.iter().any(|it| it == name);
-    let wanted = || FIGURES.iter().filter(|(name, _)| is_wanted(name));
-    let files = wanted().flat_map(|(_, figure)| figure.files);
-    let mut names: Vec<&str> = files.copied().collect();
+    let wanted = FIGURES.iter().filter(|(name, _)| is_wanted(name));
+    let wanted = wanted.map(|(name, draw)| Ok((Figure::called(name)?, *draw)));
+    let wanted = wanted.collect::<anyhow::Result<Vec<(&Figure, Draw)>>>()?;
+    let files = wanted.iter().flat_map(|(figure, _)| &figure.files);
+    let mut names: Vec<&str> = files.map(String::as_str).collect();
     names.push(REPORT);
     let folder = Folder::open(&arguments.output, &names)?;
     let detail = match arguments.draft {
@@ -128,8 +132,8 @@ pub fn run(arguments: &PaperArguments) -> Result<(), Failure> {
     let studio = Studio::new(detail, Some(&keep));
     let begin = Instant::now();
     let mut figures = Vec::new();
-    for (name, figure) in wanted() {
-        figures.push(draw(name, figure, &studio, &folder)?);
+    for (figure, draw) in wanted {
+        figures.push(make(figure, draw, &studio, &folder)?);
     }
     let report = PaperReport {
         figures,
@@ -145,9 +149,9 @@ pub fn run(arguments: &PaperArguments) -> Result<(), Failure> {
     })
 }
 
-fn draw(
-    name: &'static str,
-    figure: &Figure,
+fn make(
+    figure: &'static Figure,
+    draw: Draw,
     studio: &Studio,
     folder: &Folder,
 ) -> Result<FigureReport, Failure> {
@@ -155,16 +159,16 @@ fn draw(
         return Err(Failure::Interrupted);
     }
     let begin = Instant::now();
-    let (drawn, seconds): (Drawn, f64) = piece(studio.kept, &name, || {
-        let drawn = (figure.draw)(studio)?;
+    let (drawn, seconds): (Drawn, f64) = piece(studio.kept, &figure.name, || {
+        let drawn = draw(studio, figure)?;
         Ok::<_, anyhow::Error>((drawn, begin.elapsed().as_secs_f64()))
     })?;
     for (name, content) in figure.files.iter().zip(&drawn.files) {
         folder.stage(name, content)?;
     }
     Ok(FigureReport {
-        figure: name,
-        title: figure.title,
+        figure: &figure.name,
+        title: &figure.title,
         files: figure.files.iter().map(|name| folder.place(name)).collect(),
         findings: drawn.findings,
         seconds,

@@ -9,13 +9,6 @@ use softstop_dynamics::{Chain, Direction, Plan, Step};
 use crate::diagram;
 use crate::figure::{self, Drawn, Figure, Findings, Studio};
 
-/// Slow changes of the clearance from z = 0.
-pub(crate) const FIGURE: Figure = Figure {
-    title: "From z = 0 by slow changes of the clearance",
-    files: &["ways.csv"],
-    draw,
-};
-
 /// Frequencies: both motions are stable on parts of this range at rho = 10.
 const ETAS: (f64, f64, usize) = (0.984, 1.004, 11);
 /// From beyond the highest resonance, where z = 0 is all there is, down to the paper's clearance.
@@ -33,7 +26,7 @@ const LASTING: usize = 3;
 const SOUGHT: [(&str, u64, u64, &str); 2] =
     [("z = 2/3", 2, 3, "1-1-0"), ("z = (2/4)B", 2, 4, "1-1-0-0")];
 
-fn draw(studio: &Studio) -> Result<Drawn> {
+pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let etas = etas();
     let mut rows = Vec::new();
     let mut findings = Findings::default();

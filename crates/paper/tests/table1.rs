@@ -80,7 +80,7 @@ fn rest_ends_by_grazing_and_impacts_by_a_fold_beyond_it() -> Outcome {
 fn values_lie_inside_the_intervals() {
     let values = values(&INTERVALS);
     assert_eq!(values.len(), 18);
-    for row in &ROWS {
+    for row in ROWS.iter() {
         // No row's figure is given away to the search.
         assert!(values.iter().all(|value| *value != row.eta));
     }

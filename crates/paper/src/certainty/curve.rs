@@ -2,9 +2,7 @@
 
 use crate::figure::Findings;
 use anyhow::{Context, Result};
-use rayon::prelude::*;
 use softstop::Ratios;
-use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 use softstop_dynamics::basin::{Establishing, Options, establishing};
 use softstop_dynamics::watch::Kept;
@@ -65,13 +63,24 @@ pub fn motions(at: &Establishing) -> String {
 }
 
 impl Curve {
-    pub fn new(machine: Ratios, clearance: f64, starts: Starts) -> Result<Self> {
-        let machine = machine.at_clearance(clearance);
+    /// The certainty at places of the zone, each with so many cells on a side.
+    pub fn new(
+        machine: &Ratios,
+        starts: Starts,
+        (places, cells): (&[f64], usize),
+        progress: &Progress,
+        kept: Kept<'_>,
+    ) -> Result<Self> {
+        let rho = machine.clearance;
         let zone = zone::hysteresis(&machine.scene()?);
+        let zone = zone.with_context(|| format!("no hysteresis zone at rho = {rho}"))?;
+        let grid = starts.grid(rho, cells);
+        let watcher = progress.watcher();
+        let places = establishing(&zone, places, &grid, &Options::default(), &watcher, kept)?;
         Ok(Self {
-            zone: zone.with_context(|| format!("no hysteresis zone at rho = {clearance}"))?,
+            zone,
             starts,
-            places: Vec::new(),
+            places,
         })
     }
 
@@ -92,42 +101,6 @@ impl Curve {
         let (machine, rho) = (self.machine(), self.clearance());
         format!("{machine}, rho = {rho}, starts {}", self.starts.label())
     }
-
-    fn at(
-        &self,
-        (place, cells): (f64, usize),
-        progress: &Progress,
-        kept: Kept<'_>,
-    ) -> Result<Establishing> {
-        let grid = self.starts.grid(self.clearance(), cells);
-        let watcher = |_, _| {
-            progress.beat();
-            interrupt::go_on()
-        };
-        let options = Options::default();
-        let found = establishing(&self.zone, &[place], &grid, &options, &watcher, kept)?;
-        progress.steps((cells * cells) as u64)?;
-        found.into_iter().next().context("no place")
-    }
-}
-
-/// Fills all curves, places side by side, each with so many cells.
-pub fn fill(
-    curves: &mut [Curve],
-    (places, cells): (&[f64], usize),
-    progress: &Progress,
-    kept: Kept<'_>,
-) -> Result<()> {
-    let tasks = (0..curves.len()).flat_map(|curve| places.iter().map(move |place| (curve, *place)));
-    let tasks: Vec<(usize, f64)> = tasks.collect();
-    let found = tasks
-        .par_iter()
-        .map(|(curve, place)| curves[*curve].at((*place, cells), progress, kept));
-    let found: Vec<Establishing> = found.collect::<Result<_>>()?;
-    for ((curve, _), place) in tasks.into_iter().zip(found) {
-        curves[curve].places.push(place);
-    }
-    Ok(())
 }
 
 /// Places of which the certainty is told.
@@ -138,21 +111,23 @@ pub fn findings(curves: &[Curve]) -> Findings {
     let mut findings = Findings::default();
     for curve in curves {
         let name = curve.name();
-        let mut tell = |what: &str, value: Option<f64>| {
-            findings.add(format!("{name}: {what}"), value);
-        };
         let (first, last) = (curve.places.first(), curve.places.last());
         let certainty = |at: &Establishing| at.certainty;
-        tell("certainty near g0", first.map(certainty));
-        tell("certainty near s_SN", last.map(certainty));
+        let values = [
+            ("certainty near g0", first.map(certainty)),
+            ("certainty near s_SN", last.map(certainty)),
+            (
+                "largest rise of the certainty away from g0",
+                Some(rise(&curve.places)),
+            ),
+            ("integrity near g0", first.map(integrity)),
+            ("integrity near s_SN", last.map(integrity)),
+        ];
+        findings.group(&format!("{name}: "), values);
         for place in TOLD {
             let found = nearest(&curve.places, place).map(certainty);
-            tell(&format!("certainty at s = {place}"), found);
+            findings.add(format!("{name}: certainty at s = {place}"), found);
         }
-        let rise = rise(&curve.places);
-        tell("largest rise of the certainty away from g0", Some(rise));
-        tell("integrity near g0", first.map(integrity));
-        tell("integrity near s_SN", last.map(integrity));
     }
     findings
 }

@@ -5,43 +5,30 @@
 mod curve;
 
 use anyhow::Result;
+use rayon::prelude::*;
 use softstop::Ratios;
-use softstop_dynamics::basin::Establishing;
 
 use crate::figure::{self, Drawn, Figure, Studio};
 use curve::{Curve, Starts, integrity, motions};
 use softstop_console::progress::Progress;
 use softstop_draw::shade::ordered;
-use softstop_draw::style;
-use softstop_explore::basin::certainty::{
-    CertaintyCurve, CertaintyPage, CertaintyPanel, CertaintyPoint,
-};
-
-/// Establishing certainty along the hysteresis zone.
-pub(crate) const FIGURE: Figure = Figure {
-    title: "Establishing certainty of z = 1 from g0 to s_SN, and its integrity",
-    files: &["certainty.svg", "certainty.csv"],
-    draw,
-};
+use softstop_draw::{Axis, Chart, Corner, Layer, Legend, Mark, Panel, Stroke, style};
+use softstop_explore::basin::certainty::{SHARES, layers};
 
 /// Clearances.
 const CLEARANCES: [f64; 5] = [2.0, 6.0, 10.0, 14.0, 18.0];
 /// The clearance of points A and B among them.
 const MIDDLE: usize = 2;
-/// Half of the region of starts, in units of the clearance, where nothing else is said.
-const REGION: f64 = 2.0;
-/// Smaller and larger regions.
-const REGIONS: [Starts; 4] = [
-    Starts::AtRest,
-    Starts::Square(1.0),
-    Starts::Square(REGION),
-    Starts::Square(4.0),
+/// The usual region of starts, and others with their colours.
+const REGION: Starts = Starts::Square(2.0);
+const OTHERS: [(Starts, &str); 3] = [
+    (Starts::AtRest, style::REFERENCE),
+    (Starts::Square(1.0), "#8C8C8C"),
+    (Starts::Square(4.0), style::POINT),
 ];
-/// Their colours but that of the usual one, which is that of its clearance.
-const REGION_COLORS: [&str; 3] = [style::REFERENCE, "#8C8C8C", style::POINT];
-/// Cells on each side of the region.
+/// Cells on each side of the region, and places of the zone between its ends; at the ends themselves one of the motions
+/// is not stable.
 const CELLS: [usize; 2] = [52, 24];
-/// Places of the zone between its ends; at the ends themselves one of the motions is not stable.
 const STEPS: [usize; 2] = [20, 8];
 const ENDS: [f64; 3] = [0.001, 0.01, 0.025];
 
@@ -53,109 +40,112 @@ fn places(steps: usize) -> Vec<f64> {
     near.chain(inner).chain(far).collect()
 }
 
-fn draw(studio: &Studio) -> Result<Drawn> {
-    let detail = studio.detail;
-    let places = places(detail.pick(STEPS[0], STEPS[1]));
-    let cells = detail.pick(CELLS[0], CELLS[1]);
-    let square = Starts::Square(REGION);
-    let mut curves: Vec<Curve> = Vec::new();
-    for machine in [Ratios::unloaded(), Ratios::loaded()] {
-        for clearance in CLEARANCES {
-            curves.push(Curve::new(machine, clearance, square)?);
-        }
-    }
-    for starts in REGIONS.into_iter().filter(|starts| *starts != square) {
-        curves.push(Curve::new(Ratios::unloaded(), CLEARANCES[MIDDLE], starts)?);
-    }
-    let work = curves.len() * places.len() * cells * cells;
+pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
+    let places = places(studio.detail.pick(STEPS[0], STEPS[1]));
+    let cells = studio.detail.pick(CELLS[0], CELLS[1]);
+    let usual = [Ratios::unloaded(), Ratios::loaded()];
+    let usual = usual.into_iter().flat_map(|machine| {
+        let curves = CLEARANCES.into_iter();
+        curves.map(move |clearance| (machine.at_clearance(clearance), REGION))
+    });
+    let others = OTHERS.map(|(starts, _)| (Ratios::unloaded(), starts));
+    let of = usual.chain(others);
+    let of: Vec<(Ratios, Starts)> = of.collect();
+    let work = of.len() * places.len() * cells * cells;
     let progress = Progress::new(work as u64, "cells");
-    curve::fill(&mut curves, (&places, cells), &progress, studio.kept)?;
+    let curves = of.par_iter().map(|(machine, starts)| {
+        Curve::new(machine, *starts, (&places, cells), &progress, studio.kept)
+    });
+    let curves = curves.collect::<Result<Vec<Curve>>>()?;
     drop(progress);
-    let svg = CertaintyPage {
-        panels: panels(&curves),
-    }
-    .svg();
     Ok(Drawn {
-        files: vec![svg.into_bytes(), table(&curves)?],
+        files: vec![chart(&curves).svg().into_bytes(), table(&curves)?],
         findings: curve::findings(&curves),
     })
 }
 
-/// What is shown of a place, and what that is called.
-type Show = (fn(&Establishing) -> (f64, Option<[f64; 2]>), &'static str);
-const CERTAINTY: Show = (
-    |place| (place.certainty, Some(place.interval)),
-    "certainty of z = 1",
-);
-const INTEGRITY: Show = (
-    |place| (integrity(place), None),
-    "radius of the largest ball in z = 1",
-);
-
-fn line(curve: &Curve, label: String, color: &'static str, (show, _): Show) -> CertaintyCurve {
-    let point = |at: &Establishing| {
-        let (value, interval) = show(at);
-        CertaintyPoint {
-            place: at.place,
-            value,
-            interval,
-        }
-    };
-    CertaintyCurve {
-        label,
-        color,
-        is_dashed: false,
-        points: curve.places.iter().map(point).collect(),
-    }
-}
-
-/// The colour of a clearance.
-fn color_of(index: usize) -> &'static str {
-    ordered(index, CLEARANCES.len())
-}
-
-fn panels(curves: &[Curve]) -> Vec<CertaintyPanel> {
+fn chart(curves: &[Curve]) -> Chart {
     let (unloaded, rest) = curves.split_at(CLEARANCES.len());
     let (loaded, others) = rest.split_at(CLEARANCES.len());
-    let clearances = |curves: &[Curve], show: Show| -> Vec<CertaintyCurve> {
+    let color = |index| ordered(index, CLEARANCES.len());
+    let by_clearance = |curves: &[Curve], show: fn(&Curve, Stroke) -> Vec<Layer>| -> Vec<Layer> {
         let lines = curves.iter().enumerate();
-        let lines = lines.map(|(index, curve)| {
+        let lines = lines.flat_map(|(index, curve)| {
+            let mut layers = show(curve, Stroke::solid(color(index), 2.2));
+            let line = layers.pop();
             let name = format!("ρ = {}", curve.clearance());
-            line(curve, name, color_of(index), show)
+            layers.into_iter().chain(line.map(|line| line.named(name)))
         });
         lines.collect()
     };
-    let mut regions: Vec<&Curve> = others.iter().collect();
-    let mut colors = REGION_COLORS.to_vec();
-    regions.insert(2, &unloaded[MIDDLE]);
-    colors.insert(2, color_of(MIDDLE));
-    let regions = regions.into_iter().zip(colors);
-    let regions = regions.map(|(curve, color)| line(curve, curve.starts.label(), color, CERTAINTY));
-    let regions: Vec<CertaintyCurve> = regions.collect();
-    let mut integrities = clearances(unloaded, INTEGRITY);
-    let extra = line(&loaded[MIDDLE], String::new(), color_of(MIDDLE), INTEGRITY);
-    integrities.push(CertaintyCurve {
-        is_dashed: true,
-        ..extra
+    let mut regions: Vec<(&Curve, &str)> = others.iter().zip(OTHERS.map(|it| it.1)).collect();
+    regions.insert(2, (&unloaded[MIDDLE], color(MIDDLE)));
+    let regions = regions.into_iter().flat_map(|(curve, color)| {
+        let mut layers = certainty(curve, Stroke::solid(color, 2.2));
+        let line = layers.pop();
+        layers
+            .into_iter()
+            .chain(line.map(|line| line.named(curve.starts.label())))
     });
-    let [free, pierced] = [unloaded, loaded].map(|curves| clearances(curves, CERTAINTY));
-    let dashed = "(d) largest ball in the basins of (a); dashed: ρ = 10 of (b)";
+    let dashed = Stroke::dashed(color(MIDDLE), 2.2, (8.0, 5.0));
+    let mut integrities = by_clearance(unloaded, largest_ball);
+    integrities.extend(largest_ball(&loaded[MIDDLE], dashed));
+    let of_one = "certainty of z = 1";
     let panels = [
-        ("(a) unloaded, starts |X|, |X′| < 2ρ", free, CERTAINTY),
-        ("(b) loaded, starts |X|, |X′| < 2ρ", pierced, CERTAINTY),
-        ("(c) unloaded, ρ = 10, other starts", regions, CERTAINTY),
-        (dashed, integrities, INTEGRITY),
+        (
+            "(a) unloaded, starts |X|, |X′| < 2ρ",
+            of_one,
+            by_clearance(unloaded, certainty),
+        ),
+        (
+            "(b) loaded, starts |X|, |X′| < 2ρ",
+            of_one,
+            by_clearance(loaded, certainty),
+        ),
+        (
+            "(c) unloaded, ρ = 10, other starts",
+            of_one,
+            regions.collect(),
+        ),
+        (
+            "(d) largest ball in the basins of (a); dashed: ρ = 10 of (b)",
+            "radius of the largest ball in z = 1",
+            integrities,
+        ),
     ];
-    let panel = |(index, (title, curves, (_, up))): (usize, (&str, _, Show))| CertaintyPanel {
-        title: title.to_owned(),
-        up,
-        curves,
-        has_claim: index < 3,
-        has_legend: index == 2,
-    };
-    panels.into_iter().enumerate().map(panel).collect()
+    let claim = "the paper: one at g₀, zero at s_SN";
+    let panels = panels.into_iter().map(|(title, name, mut layers)| {
+        if name == of_one {
+            let ends = [(0.0, 1.0), (1.0, 0.0)];
+            layers.push(Layer::marks(ends, Mark::Circle, style::ASIDE).named(claim));
+        }
+        Panel {
+            title: title.to_owned(),
+            size: (540.0, 350.0),
+            x: Axis::new("place in the hysteresis zone: 0 at g₀, 1 at s_SN").range((-0.02, 1.02)),
+            y: Axis::new(name).range(SHARES),
+            legend: title
+                .starts_with("(c)")
+                .then_some(Legend::Inside(Corner::TopRight)),
+            layers,
+            ..Panel::default()
+        }
+    });
+    let title = "How certainly z = 1 establishes itself in its hysteresis zone";
+    Chart {
+        subtitle: "bands: 95 % intervals".to_owned(),
+        ..Chart::new(title, panels).in_columns(2)
+    }
 }
 
+fn certainty(curve: &Curve, stroke: Stroke) -> Vec<Layer> {
+    layers(&curve.places, |at| at.place, stroke).into()
+}
+
+fn largest_ball(curve: &Curve, stroke: Stroke) -> Vec<Layer> {
+    let line = curve.places.iter().map(|at| (at.place, integrity(at)));
+    vec![Layer::line(line, stroke)]
+}
 /// A row for each place of each curve.
 fn table(curves: &[Curve]) -> Result<Vec<u8>> {
     let places = curves

@@ -13,13 +13,6 @@ use crate::diagram;
 use crate::figure::{self, Drawn, Figure, Findings, Studio};
 use softstop_console::progress::Progress;
 
-/// Lyapunov exponent under the diagram.
-pub(crate) const FIGURE: Figure = Figure {
-    title: "Lyapunov exponent under the diagram",
-    files: &["exponents.png", "exponents.csv"],
-    draw,
-};
-
 /// Both ranges of eta, and the exponents that their panels show.
 const PARTS: [((f64, f64), (f64, f64)); 2] =
     [((0.8, 1.8), (-0.03, 0.008)), ((0.95, 1.0), (-0.03, 0.09))];
@@ -42,7 +35,7 @@ struct Part {
 /// eta, X'- and the exponent.
 type Place = [f64; 3];
 
-fn draw(studio: &Studio) -> Result<Drawn> {
+pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let detail = studio.detail;
     let sizes = detail.pick([(1401, 200), (900, 200)], [(101, 100), (41, 100)]);
     let plan = |part: usize| {
@@ -110,9 +103,9 @@ fn draw(studio: &Studio) -> Result<Drawn> {
         "Left {left}, right {right}. Periodic motion: λ = ln|μ|/(nT); else the mean over {} drive periods",
         32 * batch
     );
-    let png = chart::png(&parts, &branch, &marks, &explanation);
+    let chart = chart::chart(&parts, &branch, &marks, explanation);
     Ok(Drawn {
-        files: vec![png.map_err(Error::msg)?, table(&parts)?],
+        files: vec![chart.png().map_err(Error::msg)?, table(&parts)?],
         findings,
     })
 }

@@ -2,90 +2,104 @@
 
 mod both;
 mod chart;
-mod cycle;
 
 use anyhow::Result;
-use softstop::{PhaseKind, Ratios};
-use softstop_dynamics::Exponents;
+use serde::Deserialize;
+use softstop::{PhaseKind, Scene};
+use softstop_console::machine::Regime;
 use softstop_dynamics::orbit::find;
+use softstop_dynamics::{Exponents, Orbit};
 
 use crate::figure::{self, Drawn, Figure, Findings, Studio};
-use cycle::{Cycle, Point};
+use crate::path::{Path, Point};
 
-/// Point A: the unloaded machine.
-pub(super) const POINT_A: Figure = Figure {
-    title: "Point A: the z = 1 motion of the unloaded machine",
-    files: &["figure-7a.svg", "figure-7a.csv"],
-    draw: |studio| draw(studio, &Ratios::unloaded(), "(a), point A: unloaded"),
-};
-
-/// Point B: the loaded machine.
-pub(super) const POINT_B: Figure = Figure {
-    title: "Point B: the z = 1 motion of the loaded machine",
-    files: &["figure-7b.svg", "figure-7b.csv"],
-    draw: |studio| draw(studio, &Ratios::loaded(), "(b), point B: loaded"),
-};
-
-/// Both.
-pub(super) const BOTH: Figure = Figure {
-    title: "Point A over point B",
-    files: &["figure-7.svg"],
-    draw: |studio| {
-        let cycles = [
-            cycle(studio, &Ratios::unloaded())?,
-            cycle(studio, &Ratios::loaded())?,
-        ];
-        let [a, b] = cycles.each_ref().map(|cycle| &cycle.orbit);
-        let mut findings = Findings::default();
-        findings.add("X_m of B less that of A", b.max_position - a.max_position);
-        let velocity = b.before_impact_velocity() / a.before_impact_velocity();
-        findings.add("X'_- of B over that of A", velocity);
-        Ok(Drawn {
-            files: vec![both::svg(&cycles).into_bytes()],
-            findings,
-        })
-    },
-};
-
-fn cycle(studio: &Studio, machine: &Ratios) -> Result<Cycle> {
-    let orbit = find(&machine.scene()?)?;
-    Ok(Cycle::of(orbit, studio.detail.pick(2000, 400))?)
+/// Which machine, and what stands above the picture.
+#[derive(Deserialize)]
+struct What {
+    machine: Regime,
+    heading: String,
 }
 
-fn draw(studio: &Studio, machine: &Ratios, name: &str) -> Result<Drawn> {
-    let cycle = cycle(studio, machine)?;
+/// One period of a z = 1 motion.
+struct Cycle {
+    orbit: Orbit,
+    path: Path,
+}
+
+impl Cycle {
+    fn of(studio: &Studio, machine: Regime) -> Result<Self> {
+        let orbit = find(&figure::machine(machine).scene()?)?;
+        let fineness = (studio.detail.pick(2000, 400), 24);
+        let path = Path::new(&orbit.scene, orbit.state().into(), orbit.periods, fineness)?;
+        Ok(Self { orbit, path })
+    }
+}
+
+/// The positions at which laws change and their names.
+fn faces(scene: &Scene) -> Vec<(f64, &'static str)> {
+    let face = scene.clearance;
+    let Some(strip) = scene.piercing else {
+        return vec![(face, "ρ = X_III")];
+    };
+    let cut = face + strip.thickness;
+    vec![(face, "ρ"), (cut, "ρ + σ"), (cut + strip.travel, "X_III")]
+}
+
+pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
+    let What { machine, heading } = figure.what()?;
+    let cycle = Cycle::of(studio, machine)?;
+    let rows = cycle.path.points.iter().map(|at| {
+        let phase = softstop_explore::simulate::name(at.phase);
+        (at.time, at.position, at.velocity, at.force, phase)
+    });
+    let table = figure::table("tau,position,velocity,contact_force,phase", rows)?;
     Ok(Drawn {
-        files: vec![cycle.svg(name).into_bytes(), table(&cycle.points)?],
+        files: vec![cycle.chart(&heading).svg().into_bytes(), table],
         findings: findings(&cycle),
     })
 }
 
-fn findings(cycle: &Cycle) -> Findings {
-    let orbit = &cycle.orbit;
-    let period = orbit.scene.period();
+/// Point A over point B.
+pub(super) fn both(studio: &Studio, _: &Figure) -> Result<Drawn> {
+    let a = Cycle::of(studio, Regime::Unloaded)?;
+    let b = Cycle::of(studio, Regime::Loaded)?;
     let mut findings = Findings::default();
-    findings.add("X_m", orbit.max_position);
-    findings.add("X'_-", orbit.before_impact_velocity());
-    findings.add("period T", period);
-    findings.add("contact, share of T", cycle.contact_time() / period);
-    let modulus = orbit.multipliers()[0].norm();
-    findings.add("largest multiplier, modulus", modulus);
-    let exponent = Exponents::of(orbit).per_period[0];
-    findings.add("Lyapunov exponent per period", exponent);
-    findings.add("energy dissipated per period", cycle.dissipated);
-    let share = cycle.dissipated_in_contact / cycle.dissipated;
-    findings.add("of it in contact, share", share);
-    let velocity = |point: Option<&Point>| point.map(|point| point.velocity);
-    findings.add("X'_C", velocity(cycle.first(PhaseKind::Cut)));
-    findings.add("X'_D", velocity(cycle.first(PhaseKind::Stop)));
-    findings.add("X'_E", velocity(cycle.last(PhaseKind::Stop)));
-    findings
+    let farther = b.orbit.max_position - a.orbit.max_position;
+    findings.add("X_m of B less that of A", farther);
+    let faster = b.orbit.before_impact_velocity() / a.orbit.before_impact_velocity();
+    findings.add("X'_- of B over that of A", faster);
+    Ok(Drawn {
+        files: vec![both::chart(&[a, b]).svg().into_bytes()],
+        findings,
+    })
 }
 
-fn table(points: &[Point]) -> Result<Vec<u8>> {
-    let rows = points.iter().map(|at| {
-        let phase = softstop_explore::simulate::name(at.phase);
-        (at.time, at.position, at.velocity, at.force, phase)
-    });
-    figure::table("tau,position,velocity,contact_force,phase", rows)
+fn findings(Cycle { orbit, path }: &Cycle) -> Findings {
+    let period = orbit.scene.period();
+    let velocity = |point: Option<&Point>| point.map(|point| point.velocity);
+    let mut findings = Findings::default();
+    let values = [
+        ("X_m", Some(orbit.max_position)),
+        ("X'_-", Some(orbit.before_impact_velocity())),
+        ("period T", Some(period)),
+        ("contact, share of T", Some(path.contact_time() / period)),
+        (
+            "largest multiplier, modulus",
+            Some(orbit.multipliers()[0].norm()),
+        ),
+        (
+            "Lyapunov exponent per period",
+            Some(Exponents::of(orbit).per_period[0]),
+        ),
+        ("energy dissipated per period", Some(path.dissipated)),
+        (
+            "of it in contact, share",
+            Some(path.dissipated_in_contact / path.dissipated),
+        ),
+        ("X'_C", velocity(path.first(PhaseKind::Cut))),
+        ("X'_D", velocity(path.first(PhaseKind::Stop))),
+        ("X'_E", velocity(path.last(PhaseKind::Stop))),
+    ];
+    findings.group("", values);
+    findings
 }

@@ -1,186 +1,178 @@
 //! The picture of figure 8: one diagram with its zooms and numbered bifurcations (Peterka 2003).
 
-use softstop_dynamics::Step;
+use anyhow::Result;
+use softstop::Ratios;
+use softstop_dynamics::{Chain, Orbit, Step};
 
-use super::Diagram;
-use super::band::{Bifurcation, LINE, SMALL, band, both_ways, spread};
-use crate::diagram::{dots, same, steps};
+use super::{Bifurcation, Diagram};
+use crate::diagram::{WAYS, by_way, dots, steps};
 use crate::figure9;
-use softstop_draw::panel::{Axes, Panel, heading};
-use softstop_draw::pen::{Align, Area, Pen, Stroke, width};
-use softstop_draw::style;
+use softstop_draw::{Align, Axis, Chart, Layer, Legend, Panel, Stroke, style};
 
-/// Pixels for each unit of length.
-const SCALE: f32 = 2.0;
-const WIDTH: f64 = 1240.0;
-/// Size of letters, and of a dot.
-const LETTERS: u32 = 14;
+/// Sizes of the overview and of a zoom, and radius of a dot.
+const SIZES: [(f64, f64); 2] = [(1136.0, 300.0), (536.0, 330.0)];
 const DOT: f64 = 0.65;
-/// Top of the overview, and height of the band of numbers above a panel.
-const TOP: f64 = 122.0 + BAND;
-const BAND: f64 = 86.0;
-/// Left and right ends of the columns of zooms, and the height of the panels.
-const COLUMNS: [(f64, f64); 2] = [(76.0, 612.0), (676.0, 1212.0)];
-const HEIGHTS: (f64, f64) = (300.0, 330.0);
-/// Room below a panel.
-const BELOW: f64 = 62.0;
 /// Above this frequency bifurcations are numbered in the overview.
 const BEYOND: f64 = 1.03;
-/// Colours of motions met both ways, up only, down only, and on no sweep from rest.
-const BOTH: &str = "#444444";
-const UP: &str = style::DESIGN;
-const DOWN: &str = style::OPTIMUM;
-const ISOLATED: &str = "#009E73";
+/// Motions that are met on no sweep from rest.
+const ISOLATED: (&str, &str) = ("on none of these sweeps", "#009E73");
+/// The line at a bifurcation.
+const MARK: Stroke = Stroke::dashed("#9a9a9a", 0.9, (3.0, 3.0));
+/// Share of the range that a motion has to fill to be named.
+const LEAST: f64 = 0.02;
 
-/// The picture as PNG: the overview first, then the zooms, with steps of motions that no sweep from rest reaches.
-pub(super) fn png(
+/// The overview first, then the zooms, with steps of motions that no sweep from rest reaches.
+pub(super) fn chart(
     diagrams: &[Diagram],
     isolated: &[Step],
     bifurcations: &[Bifurcation],
-    explanation: &str,
-) -> Result<Vec<u8>, String> {
-    let [overview, zooms @ ..] = diagrams else {
-        return Err("nothing was swept".to_owned());
-    };
-    let first = TOP + HEIGHTS.0 + BELOW;
-    let row = BAND + HEIGHTS.1 + BELOW;
-    let rows = zooms.len().div_ceil(2) as f64;
-    let mut pen = Pen::new(WIDTH, first + row * rows + 4.0);
+    explanation: String,
+) -> Result<Chart> {
+    let letters = figure9::letters()?;
+    let panels = diagrams.iter().enumerate().map(|(index, diagram)| {
+        let (low, high) = diagram.part.range;
+        let is_own = |eta: f64| low <= eta && eta <= high;
+        let is_numbered = |eta: f64| is_own(eta) && (index > 0 || eta > BEYOND);
+        let inside = isolated.iter().filter(|step| is_own(step.value));
+        let mut panel = diagram.panel(&inside.collect::<Vec<_>>());
+        let numbered = bifurcations.iter().filter(|it| is_numbered(it.eta));
+        panel
+            .layers
+            .extend(numbered.map(|it| Layer::upwards(it.eta, MARK, it.words())));
+        if index == 0 {
+            (panel.span, panel.size) = ((2, 1), SIZES[0]);
+            for Diagram { part: zoom, .. } in &diagrams[1..] {
+                let stripe = [zoom.range, (f64::NEG_INFINITY, f64::INFINITY)];
+                panel
+                    .layers
+                    .insert(0, Layer::boxes([stripe], style::ALLOWED, 0.22));
+                let line = Stroke::solid(style::ALLOWED, 0.5);
+                let middle = f64::midpoint(zoom.range.0, zoom.range.1);
+                panel.layers.push(Layer::upwards(middle, line, &*zoom.name));
+            }
+        } else {
+            panel.at = ((index - 1) % 2, 1 + (index - 1) / 2);
+            let letters = letters.iter().filter(|it| is_own(it.1));
+            let [low, high] = panel.y.ends.map(|end| end.unwrap_or(0.0));
+            let arrow = |eta| {
+                let tail = low + 0.05 * (high - low);
+                Layer::arrow((eta, tail), (eta, low), Stroke::solid(style::INK, 1.0))
+            };
+            panel.layers.extend(letters.flat_map(|(letters, eta)| {
+                let text = Layer::text((*eta, low), Align::Middle, letters);
+                [arrow(*eta), text.moved(0.0, -18.0).plated()]
+            }));
+        }
+        panel
+    });
     let title = "Bifurcation diagram for ρ = 10 (unloaded machine) and its zooms (a) to (d)";
-    heading(&mut pen, (COLUMNS[0].0, 30.0), title, explanation);
-    legend(&mut pen, 76.0);
-    let area = (COLUMNS[0].0, TOP, COLUMNS[1].1 - COLUMNS[0].0, HEIGHTS.0);
-    let beyond: Vec<_> = bifurcations.iter().filter(|it| it.eta > BEYOND).collect();
-    let panel = overview.panel(area, isolated);
-    let axes = Axes::new(LETTERS, Some("drive frequency η"), "X′₋", (10, 5));
-    panel.ground(&mut pen, &axes);
-    overview.content(&mut pen, &panel, isolated);
-    parts(&mut pen, &panel, zooms);
-    band(&mut pen, &panel, &beyond);
-    panel.axes(&mut pen, &axes);
-    overview.names(&mut pen, &panel);
-    for (index, zoom) in zooms.iter().enumerate() {
-        let (left, right) = COLUMNS[index % 2];
-        let top = first + BAND + row * (index / 2) as f64;
-        let panel = zoom.panel((left, top, right - left, HEIGHTS.1), isolated);
-        let axes = Axes::new(LETTERS, Some("η"), "X′₋", (5, 5));
-        panel.ground(&mut pen, &axes);
-        zoom.content(&mut pen, &panel, isolated);
-        let own = bifurcations.iter().filter(|it| zoom.shows(it.eta));
-        band(&mut pen, &panel, &own.collect::<Vec<_>>());
-        panel.axes(&mut pen, &axes);
-        zoom.names(&mut pen, &panel);
-        zoom.letters(&mut pen, &panel);
-        let place = (left, top - BAND + 12.0);
-        pen.heading(place, LETTERS + 1, Align::Left, zoom.part.name);
-    }
-    pen.png_at(SCALE)
+    let notes = "At the bifurcations of Table 1: → on rising η, ← on falling η, both with hysteresis; ↔ reversible; \
+                 G grazing, SN fold, PD period doubling, ISN and IPD fold or doublings interrupted by chaos, \
+                 OCH out of chaos. A, B, …: motions of Fig. 9.";
+    Ok(Chart {
+        subtitle: explanation,
+        legend: Legend::Above,
+        notes: vec![notes.to_owned()],
+        ..Chart::new(title, panels)
+    })
 }
 
-/// Where the zooms are in the overview.
-fn parts(pen: &mut Pen, panel: &Panel, zooms: &[Diagram]) {
-    let (top, bottom) = (panel.area.1, panel.bottom());
-    let mut wanted = Vec::new();
-    for zoom in zooms {
-        let (low, high) = zoom.part.range;
-        let (from, to) = (panel.across(low), panel.across(high));
-        let area = (from, top, (to - from).max(1.0), bottom - top);
-        pen.tint(area, style::ALLOWED, 0.22);
-        wanted.push((panel.across(f64::midpoint(low, high)), 30.0));
-    }
-    let places = spread(&wanted, (panel.area.0, panel.right()));
-    for ((zoom, (x, _)), place) in zooms.iter().zip(wanted).zip(places) {
-        let line = Stroke::solid(style::ALLOWED, 1.0);
-        pen.line(&[(place, top - 16.0), (x, top)], line);
-        let at = (place, top - 20.0);
-        pen.text(at, LETTERS, Align::Middle, zoom.part.name);
-    }
-}
-
-impl Diagram {
-    fn shows(&self, eta: f64) -> bool {
-        (self.part.range.0..=self.part.range.1).contains(&eta)
-    }
-
-    /// A panel as high as the velocities.
-    fn panel(&self, area: Area, isolated: &[Step]) -> Panel {
-        let isolated = isolated.iter().filter(|step| self.shows(step.value));
-        let all = steps(&self.ways).chain(isolated).map(Step::hardest);
-        let top = all.fold(0.0, f64::max);
-        let top = if top > 0.0 { top } else { 1.0 };
-        Panel::new(area, self.part.range, (-0.16 * top, 1.12 * top))
-    }
-
-    /// The dots.
-    fn content(&self, pen: &mut Pen, panel: &Panel, isolated: &[Step]) {
-        let fleeting = steps(&self.fleeting).filter(|step| step.hardest() > 0.0);
-        panel.dots(pen, fleeting.flat_map(dots), 0.8 * DOT, DOWN);
-        let [up, down] = [0, 1].map(|way: usize| self.ways[way].rising());
-        let alike: Vec<bool> = up.iter().zip(&down).map(|(a, b)| same(a, b)).collect();
-        let of = |steps: &[&Step], wanted: bool| -> Vec<(f64, f64)> {
-            let own = (0..alike.len()).filter(|index| alike[*index] == wanted);
-            let stays = own.filter(|index| !is_passing(steps, *index));
-            stays.flat_map(|index| dots(steps[index])).collect()
+impl Bifurcation {
+    /// Number, direction and symbols.
+    fn words(&self) -> String {
+        let arrow = match self.direction {
+            "both" => '↔',
+            "up" => '→',
+            _ => '←',
         };
-        let both = [of(&up, true), of(&down, true)].concat();
-        let isolated = isolated.iter().filter(|step| step.is_settled());
-        for (points, color) in [
-            (both, BOTH),
-            (of(&up, false), UP),
-            (of(&down, false), DOWN),
-            (isolated.flat_map(dots).collect(), ISOLATED),
-        ] {
-            panel.dots(pen, points.into_iter(), DOT, color);
+        let symbols = self.symbols.replace(" -> ", ", ");
+        format!("{} {arrow} {symbols}", self.number)
+    }
+}
+
+impl Diagram<'_> {
+    /// A panel as high as the velocities, with the names of motions beside them.
+    fn panel(&self, isolated: &[&Step]) -> Panel {
+        let all = steps(&self.ways).chain(isolated.iter().copied());
+        let top = all.map(Step::hardest).fold(0.0, f64::max);
+        let top = if top > 0.0 { top } else { 1.0 };
+        let fleeting = steps(&self.fleeting).filter(|step| step.hardest() > 0.0);
+        let fleeting = Layer::dots(fleeting.flat_map(dots), 0.8 * DOT, style::OPTIMUM);
+        let [up, down] = [0, 1].map(|way: usize| {
+            let steps = self.ways[way].rising();
+            let passing = (0..steps.len()).map(|index| is_passing(&steps, index));
+            let passing: Vec<bool> = passing.collect();
+            steps.into_iter().zip(passing).collect::<Vec<_>>()
+        });
+        let ways = by_way(&up, &down, |it| it.0).into_iter().zip(WAYS);
+        let ways = ways.map(|(steps, (name, color))| {
+            let stays = steps.into_iter().filter(|it| !it.1);
+            Layer::dots(stays.flat_map(|it| dots(it.0)), DOT, color).named(name)
+        });
+        let settled = isolated.iter().filter(|step| step.is_settled());
+        let settled = Layer::dots(settled.flat_map(|step| dots(step)), DOT, ISOLATED.1);
+        let (low, high) = self.part.range;
+        let names = self.names(isolated).into_iter().map(|(at, name)| {
+            // Beside the frame there is no room for one half of a name.
+            let align = match (at.0 - low) / (high - low) {
+                ..0.06 => Align::Left,
+                0.94.. => Align::Right,
+                _ => Align::Middle,
+            };
+            Layer::text(at, align, name).moved(0.0, -7.0).plated()
+        });
+        let layers = [fleeting].into_iter().chain(ways);
+        Panel {
+            title: self.part.name.clone(),
+            size: SIZES[1],
+            x: Axis::new("drive frequency η").range(self.part.range),
+            y: Axis::new("X′₋").range((-0.16 * top, 1.12 * top)),
+            layers: layers
+                .chain([settled.named(ISOLATED.0)])
+                .chain(names)
+                .collect(),
+            ..Panel::default()
         }
     }
 
-    /// The names of motions beside them.
-    fn names(&self, pen: &mut Pen, panel: &Panel) {
-        for (eta, velocity, name) in &self.names {
-            let (x, y) = panel.place((*eta, *velocity));
-            let half = 0.5 * width(LETTERS - 1, name);
-            let x = x.clamp(panel.area.0 + half + 4.0, panel.right() - half - 4.0);
-            let (place, ink) = ((x, y - 7.0), (style::INK, true));
-            pen.words(place, LETTERS - 1, Align::Middle, ink, name);
-        }
-    }
-
-    /// The letters of Fig. 9 at their frequencies.
-    fn letters(&self, pen: &mut Pen, panel: &Panel) {
-        for (letters, eta) in figure9::letters() {
-            if self.shows(eta) {
-                let (x, y) = (panel.across(eta), panel.bottom());
-                let line = Stroke::solid(style::INK, 1.0);
-                pen.arrow((x, y - 13.0), (x, y - 1.0), line);
-                let (place, ink) = ((x, y - 16.0), (style::INK, true));
-                pen.words(place, SMALL + 1, Align::Middle, ink, &letters);
+    /// Each motion once: eta, X'- and its name, in the middle of its longest stretch.
+    fn names(&self, isolated: &[&Step]) -> Vec<((f64, f64), String)> {
+        let (low, high) = self.part.range;
+        let mut names: Vec<(f64, (f64, f64), String)> = Vec::new();
+        let ways = self.ways.iter().map(Chain::rising);
+        for steps in ways.chain([isolated.to_vec()]) {
+            // Neighbouring steps of one regime.
+            for run in steps.chunk_by(|a, b| a.motion.regime() == b.motion.regime()) {
+                let span = run[run.len() - 1].value - run[0].value;
+                let step = run[run.len() / 2];
+                let Some(name) = name(step).filter(|_| span >= LEAST * (high - low)) else {
+                    continue;
+                };
+                let entry = (span, (step.value, step.hardest()), name);
+                match names.iter_mut().find(|known| known.2 == entry.2) {
+                    Some(known) if known.0 < span => *known = entry,
+                    Some(_) => {}
+                    None => names.push(entry),
+                }
             }
         }
+        names.into_iter().map(|entry| (entry.1, entry.2)).collect()
     }
 }
 
-fn legend(pen: &mut Pen, y: f64) {
-    let entries = [
-        (BOTH, "up and down"),
-        (UP, "up only"),
-        (DOWN, "down only"),
-        (ISOLATED, "on none of these sweeps"),
-    ];
-    let mut x = COLUMNS[0].0;
-    for (color, text) in entries {
-        pen.tint((x, y - 11.0, 12.0, 12.0), color, 1.0);
-        pen.text((x + 18.0, y), LETTERS, Align::Left, text);
-        x += 18.0 + 0.92 * width(LETTERS, text) + 26.0;
+/// A periodic motion's name; the two of z = 2/4 differ by the order of their impacts.
+fn name(step: &Step) -> Option<String> {
+    let regime = step.motion.regime()?;
+    if (regime.impacts, regime.periods) != (2, 4) {
+        return Some(format!("z = {regime}"));
     }
-    pen.arrow((x, y - 5.0), (x + 30.0, y - 5.0), LINE);
-    pen.text((x + 38.0, y), LETTERS, Align::Left, "with hysteresis");
-    x += 38.0 + 0.92 * width(LETTERS, "with hysteresis") + 20.0;
-    both_ways(pen, (x + 15.0, y - 5.0));
-    pen.text((x + 38.0, y), LETTERS, Align::Left, "reversible");
-    let text = "G grazing   SN fold   PD period doubling   ISN, IPD fold or doublings interrupted by chaos   \
-                OCH out of chaos   A, B, …: motions of Fig. 9";
-    let (place, ink) = ((COLUMNS[0].0, y + 24.0), (style::INK, false));
-    pen.words(place, LETTERS - 1, Align::Left, ink, text);
+    let machine = Ratios::unloaded().at_frequency(step.value);
+    let orbit = Orbit::periodic(&machine.scene().ok()?, step.end.into(), 4).ok()?;
+    let letter = match orbit.pattern().to_string().as_str() {
+        "1-1-0-0" => 'B',
+        _ => 'A',
+    };
+    Some(format!("z = (2/4){letter}"))
 }
 
 /// True if a step shows a motion on its way from one periodic motion to another.

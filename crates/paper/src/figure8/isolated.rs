@@ -97,7 +97,7 @@ fn shows(step: &Step, orbit: &Orbit) -> bool {
 }
 
 /// The steps of both sweeps nearest to a frequency, if the diagram shows it.
-fn at(diagram: &Diagram, eta: f64) -> impl Iterator<Item = &Step> {
+fn at<'a>(diagram: &'a Diagram<'_>, eta: f64) -> impl Iterator<Item = &'a Step> + use<'a> {
     let (low, high) = diagram.part.range;
     let ways = diagram.ways.iter();
     let ways = ways.filter(move |_| (low..=high).contains(&eta));

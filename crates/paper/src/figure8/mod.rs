@@ -1,56 +1,41 @@
 //! Figure 8: the diagram of rho = 10, its zooms, and the bifurcations of Table 1.
 
-mod band;
 mod chart;
 mod isolated;
-mod names;
 
 use anyhow::{Error, Result};
+use serde::Deserialize;
 use softstop::{Parameter, Ratios};
 use softstop_dynamics::{Chain, Direction, Plan, Step};
 
 use crate::diagram::{self, Job};
 use crate::figure::{self, Detail, Drawn, Figure, Findings, Studio};
 use crate::table1::matching::{self, Match};
-use crate::table1::{self, paper};
-use band::Bifurcation;
+use crate::table1::paper;
 
-/// Fig. 8.
-pub(crate) const FIGURE: Figure = Figure {
-    title: "Bifurcation diagram of rho = 10 with zooms",
-    files: &["figure-8.png", "figure-8.csv", "figure-8-bifurcations.csv"],
-    draw,
-};
+/// The whole diagram, its zooms, and sweeps side by side that show chaos while it lasts.
+#[derive(Deserialize)]
+struct What {
+    whole: Part,
+    zooms: Vec<Part>,
+    fleeting: Part,
+    side_by_side: usize,
+}
 
 /// A part of the diagram.
+#[derive(Deserialize)]
 struct Part {
     /// Its letter, if it has one.
-    name: &'static str,
+    name: String,
     /// Range of eta.
     range: (f64, f64),
     /// Number of frequencies, and drive periods at each, for print and for a first look.
-    size: [(usize, u64); 2],
+    sizes: [(usize, u64); 2],
 }
-
-const fn part(name: &'static str, range: (f64, f64), size: [(usize, u64); 2]) -> Part {
-    Part { name, range, size }
-}
-
-static WHOLE: Part = part("", table1::RANGE, [(2200, 200), (200, 100)]);
-/// The paper's sub-intervals; (d) without the stretch in which nothing happens.
-static ZOOMS: [Part; 4] = [
-    part("(a)", (0.952_624, 0.952_67), [(700, 800), (40, 200)]),
-    part("(b)", (0.9533, 0.9563), [(800, 500), (60, 150)]),
-    part("(c)", (0.9825, 0.9935), [(900, 300), (60, 150)]),
-    part("(d)", (1.0, 1.05), [(500, 150), (60, 100)]),
-];
-/// Chaos below g0 lasts some thousand drive periods: faster sweeps down, side by side, show it while it lasts.
-static FLEETING: Part = part("", (0.952_624, 0.952_656), [(600, 40), (30, 40)]);
-const SIDE_BY_SIDE: usize = 8;
 
 impl Part {
     fn size(&self, detail: Detail) -> (usize, u64) {
-        detail.pick(self.size[0], self.size[1])
+        detail.pick(self.sizes[0], self.sizes[1])
     }
 
     fn plan(&self, detail: Detail) -> Result<Plan> {
@@ -60,44 +45,50 @@ impl Part {
 }
 
 /// A part as it was swept.
-struct Diagram {
-    part: &'static Part,
+struct Diagram<'a> {
+    part: &'a Part,
     /// The sweep up and the sweep down, over the same values.
     ways: Vec<Chain>,
     /// Faster sweeps down that show chaos which does not last.
     fleeting: Vec<Chain>,
-    /// What motions are called: eta, X'- and the name.
-    names: Vec<(f64, f64, String)>,
 }
 
-impl Diagram {
-    fn new(part: &'static Part, ways: Vec<Chain>) -> Self {
-        Self {
-            part,
-            ways,
-            fleeting: Vec::new(),
-            names: Vec::new(),
-        }
-    }
+/// A numbered bifurcation.
+struct Bifurcation {
+    number: usize,
+    /// Where it was found.
+    eta: f64,
+    /// By the paper's symbols.
+    symbols: String,
+    /// True if it cannot be reversed.
+    hysteresis: bool,
+    /// The direction of eta in which it is met.
+    direction: &'static str,
 }
 
-fn draw(studio: &Studio) -> Result<Drawn> {
-    let detail = studio.detail;
+pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
+    let (detail, what) = (studio.detail, figure.what::<What>()?);
     let ways = diagram::ways(&Ratios::unloaded().scene()?).to_vec();
-    let jobs = vec![(WHOLE.plan(detail)?, ways)];
+    let jobs = vec![(what.whole.plan(detail)?, ways)];
     let whole = diagram::sweep(jobs, "steps of the sweeps", studio.kept)?;
-    let mut diagrams = vec![Diagram::new(&WHOLE, whole)];
-    zooms(&mut diagrams, studio)?;
+    let mut diagrams = vec![Diagram {
+        part: &what.whole,
+        ways: whole,
+        fleeting: Vec::new(),
+    }];
+    zooms(&mut diagrams, &what, studio)?;
     let isolated = isolated::find(&diagrams, studio)?;
-    for diagram in &mut diagrams {
-        diagram.names = names::of(diagram, &isolated);
-    }
     let transitions = studio.transitions()?;
     let rows = paper::ROWS.iter();
     let matches = rows.filter_map(|row| Some((row.number, matching::find(row, transitions)?)));
     let bifurcations = matches.map(|(number, found)| numbered(number, &found));
     let bifurcations: Vec<Bifurcation> = bifurcations.collect();
-    let png = chart::png(&diagrams, &isolated, &bifurcations, &explanation(detail));
+    let chart = chart::chart(
+        &diagrams,
+        &isolated,
+        &bifurcations,
+        explanation(&what, detail),
+    )?;
     let mut findings = Findings::default();
     findings.add("bifurcations found", bifurcations.len() as f64);
     for it in &bifurcations {
@@ -105,7 +96,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     }
     Ok(Drawn {
         files: vec![
-            png.map_err(Error::msg)?,
+            chart.png().map_err(Error::msg)?,
             table(&diagrams, &isolated)?,
             rows_table(&bifurcations)?,
         ],
@@ -115,96 +106,91 @@ fn draw(studio: &Studio) -> Result<Drawn> {
 
 /// Adds the zooms, each way going on from where the sweep over all frequencies is at their ends, and to the first the
 /// chaos that does not last.
-fn zooms(diagrams: &mut Vec<Diagram>, studio: &Studio) -> Result<()> {
+fn zooms<'a>(diagrams: &mut Vec<Diagram<'a>>, what: &'a What, studio: &Studio) -> Result<()> {
     let detail = studio.detail;
     let mut jobs = Vec::new();
-    for zoom in &ZOOMS {
+    for zoom in &what.zooms {
         let plan = zoom.plan(detail)?;
         let ways = diagrams[0].ways.iter();
         jobs.extend(ways.map(|sweep| diagram::part_of(sweep, &plan)));
     }
-    jobs.push(fleeting(detail)?);
+    jobs.push(fleeting(what, detail)?);
     let mut chains = diagram::sweep(jobs, "steps of the zooms", studio.kept)?.into_iter();
-    for zoom in &ZOOMS {
-        diagrams.push(Diagram::new(zoom, chains.by_ref().take(2).collect()));
+    for zoom in &what.zooms {
+        diagrams.push(Diagram {
+            part: zoom,
+            ways: chains.by_ref().take(2).collect(),
+            fleeting: Vec::new(),
+        });
     }
     diagrams[1].fleeting = chains.collect();
     Ok(())
 }
 
 /// Sweeps down from chaos. Their machines differ by rounding only, so that the motions part.
-fn fleeting(detail: Detail) -> Result<Job> {
+fn fleeting(what: &What, detail: Detail) -> Result<Job> {
     let chain = |index: usize| -> Result<Chain> {
         let mut machine = Ratios::unloaded();
         machine.clearance *= 1.0 + 1e-14 * index as f64;
         Ok(Chain::new(machine.scene()?, Direction::Down))
     };
-    let chains = (0..SIDE_BY_SIDE).map(chain).collect::<Result<_>>()?;
-    Ok((FLEETING.plan(detail)?, chains))
+    let chains = (0..what.side_by_side).map(chain).collect::<Result<_>>()?;
+    Ok((what.fleeting.plan(detail)?, chains))
 }
 
 fn numbered(number: usize, found: &Match<'_>) -> Bifurcation {
     let transition = found.transition;
+    let is_rising = transition.rising != found.is_reversed;
     Bifurcation {
         number,
         eta: found.eta,
         symbols: transition.symbols(),
         hysteresis: transition.hysteresis,
-        rising: transition.rising != found.is_reversed,
+        direction: match (transition.hysteresis, is_rising) {
+            (false, _) => "both",
+            (true, true) => "up",
+            (true, false) => "down",
+        },
     }
 }
 
-fn explanation(detail: Detail) -> String {
-    let (steps, periods) = WHOLE.size(detail);
-    let zooms = ZOOMS.iter().map(|zoom| {
+fn explanation(what: &What, detail: Detail) -> String {
+    let (steps, periods) = what.whole.size(detail);
+    let zooms = what.zooms.iter().map(|zoom| {
         let (steps, periods) = zoom.size(detail);
         format!("{} {steps} × {periods}", zoom.name)
     });
-    let (fast, short) = FLEETING.size(detail);
+    let (fast, short) = what.fleeting.size(detail);
     format!(
         "Peterka 2003, Fig. 8. Frequencies × drive periods, up and down: {steps} × {periods}; {}; \
-         in (a) also {SIDE_BY_SIDE} fast ways down {fast} × {short}",
-        zooms.collect::<Vec<String>>().join(", ")
+         in (a) also {} fast ways down {fast} × {short}",
+        zooms.collect::<Vec<String>>().join(", "),
+        what.side_by_side
     )
 }
 
 fn table(diagrams: &[Diagram], isolated: &[Step]) -> Result<Vec<u8>> {
-    let columns = format!("part,direction,eta,{}", diagram::FIELDS);
-    let mut rows = Vec::new();
-    let mut add = |part: &'static str, way: &'static str, steps: &[Step]| {
-        let row = |step: &Step| {
-            (
-                part,
-                way,
-                format!("{:.12}", step.value),
-                diagram::fields(step),
-            )
-        };
-        rows.extend(steps.iter().map(row));
-    };
+    let mut sweeps = Vec::new();
     for diagram in diagrams {
-        let name = diagram.part.name;
-        let part = if name.is_empty() { "overview" } else { name };
-        for chain in &diagram.ways {
-            add(part, chain.direction.name(), &chain.steps);
-        }
-        for chain in &diagram.fleeting {
-            add(part, "down fast", &chain.steps);
-        }
+        let name = match &*diagram.part.name {
+            "" => "overview",
+            name => name,
+        };
+        let ways = diagram.ways.iter().map(|it| (it.direction.name(), it));
+        let fast = diagram.fleeting.iter().map(|it| ("down fast", it));
+        sweeps.extend(
+            ways.chain(fast)
+                .map(|(way, it)| (name.to_owned(), way, &it.steps[..])),
+        );
     }
-    add("isolated", "either", isolated);
-    figure::table(&columns, rows)
+    sweeps.push(("isolated".to_owned(), "either", isolated));
+    diagram::table("part", sweeps)
 }
 
 fn rows_table(bifurcations: &[Bifurcation]) -> Result<Vec<u8>> {
     let rows = bifurcations.iter().map(|it| {
-        let direction = match (it.hysteresis, it.rising) {
-            (false, _) => "both",
-            (true, true) => "up",
-            (true, false) => "down",
-        };
         let eta = format!("{:.10}", it.eta);
-        (it.number, eta, &it.symbols, it.hysteresis, direction)
+        (it.number, eta, &it.symbols, it.hysteresis, it.direction)
     });
     figure::table("number,eta,type,hysteresis,direction", rows)
 }

@@ -1,189 +1,168 @@
-//! The pictures of figure 9: for each motion its time series, phase trajectory and section (Peterka 2003).
+//! The pictures of figure 9: for each motion its time series, phase plane and section (Peterka 2003).
 
 use anyhow::Result;
 
-use super::CLEARANCE;
 use super::found::Found;
-use super::path::{Path, SHALLOW};
+use super::{CLEARANCE, SHALLOW};
 use crate::figure::ends;
-use softstop_draw::panel::{Axes, Panel, heading};
-use softstop_draw::pen::{Align, Pen, Stroke};
-use softstop_draw::style;
+use crate::path::Path;
+use softstop_draw::scale::around;
+use softstop_draw::{Align, Axis, Chart, Layer, Panel, Stroke, style};
 
-const WIDTH: f64 = 1520.0;
-/// Room above the first row, of a row, and below the last.
-const HEIGHTS: (f64, f64, f64) = (84.0, 236.0, 52.0);
-/// Room of a row above its panels, and height of these.
-const PANEL: (f64, f64) = (34.0, 166.0);
-/// Left end and width of the panels.
-const PLACES: [(f64, f64); 4] = [
-    (82.0, 560.0),
-    (720.0, 200.0),
-    (1002.0, 200.0),
-    (1292.0, 200.0),
-];
-const LETTERS: u32 = 14;
-/// Colours of motions that repeat, of those that do not, and of others.
-const COLORS: (&str, &str, &str) = (style::DESIGN, style::OPTIMUM, "#b4b4b4");
+/// Widths of the panels, and their height.
+const WIDTHS: [f64; 4] = [560.0, 200.0, 200.0, 200.0];
+const HEIGHT: f64 = 166.0;
 const FACE: Stroke = Stroke::dashed(style::ASIDE, 1.1, (6.0, 4.0));
-/// Every other drive period.
+/// Every other drive period, and the states of other motions.
 const BAND: &str = "#f3f3f3";
-/// Points for each drive period, of all of a motion and of what is near the stop.
-const FINENESS: (u32, u32) = (72, 1440);
+const OTHERS: &str = "#b4b4b4";
+/// Points for each drive period, of all of a motion and of what is near the stop; and fewest of an arc.
+const FINENESS: [(u32, u32); 2] = [(72, 8), (1440, 8)];
 /// Room before the stop near it, in units of the depth beyond it.
 const NEAR: f64 = 5.0;
 /// More dots than this are many; size of a dot of few, and of many.
 const MANY: usize = 64;
 const DOTS: (f64, f64) = (4.2, 1.0);
 
-/// A motion as it is drawn.
-pub struct Row<'a> {
-    pub motion: &'a Found,
-    /// Drive periods of the time series.
-    shown: u64,
-    pub path: Path,
-    /// Its phase trajectory, and the part of it near the stop, more finely.
-    plane: Vec<(f64, f64)>,
-    near: Vec<(f64, f64)>,
-    /// States of the other motions of the same machine.
-    others: Vec<&'a [(f64, f64)]>,
-}
+/// The letter of a motion, time in drive periods, position and velocity.
+type Sample = (char, [f64; 3]);
 
-/// A page of motions as an SVG document.
-pub fn svg(rows: &[Row<'_>]) -> String {
-    let (top, height, foot) = HEIGHTS;
-    let mut pen = Pen::new(WIDTH, top + height * rows.len() as f64 + foot);
-    let letter = |row: Option<&Row<'_>>| row.map_or(' ', |row| row.motion.asked.letter);
-    let (first, last) = (letter(rows.first()), letter(rows.last()));
-    let title = format!("Fig. 9({first})–({last}): motions of the unloaded machine, ρ = 10");
+/// A page of motions, their time series over so many drive periods; and the points of these.
+pub(super) fn page(motions: &[Found], all: &[Found], shown: u64) -> Result<(Chart, Vec<Sample>)> {
+    let (mut panels, mut points) = (Vec::new(), Vec::new());
+    for (row, motion) in motions.iter().enumerate() {
+        let path = motion.path(Some(shown), FINENESS[0])?;
+        let plane = motion.path(None, FINENESS[0])?.states();
+        let near = motion.path(None, FINENESS[1])?.states();
+        let period = motion.scene()?.period();
+        let own = [
+            series(motion, &path, shown, period),
+            phase_plane(motion, plane),
+            near_stop(motion, near),
+            section(motion, all),
+        ];
+        // The names of axes across stand in the last row only.
+        let names = ["time τ/T", "X", "X near the stop", "X at drive angle 0"];
+        panels.extend(
+            own.into_iter()
+                .zip(names)
+                .enumerate()
+                .map(|(column, (mut panel, name))| {
+                    (panel.at, panel.size) = ((column, row), (WIDTHS[column], HEIGHT));
+                    panel.x.name = if row + 1 == motions.len() { name } else { "" }.to_owned();
+                    panel
+                }),
+        );
+        let letter = motion.asked.letter;
+        let path = path.points.iter();
+        points.extend(path.map(|at| (letter, [at.time / period, at.position, at.velocity])));
+    }
+    let letter = |motion: Option<&Found>| motion.map_or(' ', |it| it.asked.letter);
+    let (first, last) = (letter(motions.first()), letter(motions.last()));
     let explanation = "▼ impacts · right: states at drive angle 0, in grey those of the motions above or below \
                        that coexist at the same η";
-    heading(&mut pen, (28.0, 38.0), &title, explanation);
-    for (index, row) in rows.iter().enumerate() {
-        let is_last = index + 1 == rows.len();
-        row.draw(&mut pen, top + height * index as f64, is_last);
-    }
-    pen.svg()
+    let title = format!("Fig. 9({first})–({last}): motions of the unloaded machine, ρ = 10");
+    let chart = Chart {
+        subtitle: explanation.to_owned(),
+        ..Chart::new(title, panels)
+    };
+    Ok((chart, points))
 }
 
-impl<'a> Row<'a> {
-    /// A motion among all, its time series over so many drive periods.
-    pub fn new(motion: &'a Found, all: &'a [Found], shown: u64) -> Result<Self> {
-        let asked = motion.asked;
-        let others = all.iter().filter(|other| {
-            other.asked.letter != asked.letter && other.asked.frequency == asked.frequency
-        });
-        Ok(Self {
-            motion,
-            shown,
-            path: motion.path(Some(shown), FINENESS.0)?,
-            plane: motion.path(None, FINENESS.0)?.states(),
-            near: motion.path(None, FINENESS.1)?.near(),
-            others: others.map(|other| &other.section.states[..]).collect(),
-        })
-    }
-
-    fn draw(&self, pen: &mut Pen, top: f64, is_last: bool) {
-        let (motion, line) = (self.motion, top + PANEL.0 - 10.0);
-        let letter = format!("({})", motion.asked.letter);
-        pen.heading((PLACES[0].0, line), 16, Align::Left, &letter);
-        pen.text((PLACES[0].0 + 38.0, line), 15, Align::Left, &motion.title());
-        let place = (PLACES[3].0 + PLACES[3].1, line);
-        let grey = (style::ASIDE, false);
-        pen.words(place, 13, Align::Right, grey, &motion.remark());
-        let panel = |index: usize, x: (f64, f64), y: (f64, f64)| {
-            let (left, width) = PLACES[index];
-            Panel::new((left, top + PANEL.0, width, PANEL.1), x, y)
-        };
-        // The name of an axis across stands in the last row only.
-        let across = |name| Some(if is_last { name } else { "" });
-        let axes = |name, up, ticks| Axes::new(LETTERS, across(name), up, ticks);
-
-        let (low, high) = ends(self.path.points.iter().map(|at| at[1]));
-        let y = (1.1 * low, 1.42 * high.max(CLEARANCE));
-        let time = panel(0, (0.0, self.shown as f64), y);
-        self.time(pen, &time);
-        time.axes(pen, &axes("time τ/T", "X", (12, 4)));
-
-        let [x, y] = around(self.plane.iter(), 0.1);
-        let plane = panel(1, x, y);
-        self.trajectory(pen, &plane, &self.plane, 1.3);
-        plane.axes(pen, &axes("X", "X′", (4, 4)));
-
-        let (_, high) = ends(self.near.iter().map(|point| point.0));
-        let depth = (high - CLEARANCE).max(SHALLOW * CLEARANCE);
-        let x = (CLEARANCE - NEAR * depth, CLEARANCE + 1.6 * depth);
-        let [_, y] = around(self.near.iter().filter(|point| point.0 > x.0), 0.1);
-        let zoom = panel(2, x, y);
-        self.trajectory(pen, &zoom, &self.near, 1.1);
-        zoom.axes(pen, &axes("X near the stop", "X′", (3, 5)));
-
-        let own = &motion.section.states;
-        let others = self.others.iter().copied().flatten();
-        let [x, y] = around(own.iter().chain(others), 0.08);
-        let section = panel(3, x, y);
-        let others = self.others.iter().map(|other| (*other, COLORS.2));
-        for (states, color) in others.chain([(&own[..], self.color())]) {
-            let radius = if states.len() > MANY { DOTS.1 } else { DOTS.0 };
-            section.dots(pen, states.iter().copied(), radius, color);
-        }
-        section.axes(pen, &axes("X at drive angle 0", "X′", (5, 4)));
-    }
-
-    fn color(&self) -> &'static str {
-        match self.motion.is_chaotic() {
-            true => COLORS.1,
-            false => COLORS.0,
-        }
-    }
-
-    /// The time series, its impacts, and how long it takes to repeat.
-    fn time(&self, pen: &mut Pen, panel: &Panel) {
-        for period in (0..self.shown as u32).step_by(2) {
-            let left = panel.across(f64::from(period));
-            let width = panel.across(f64::from(period) + 1.0) - left;
-            pen.tint((left, panel.area.1, width, panel.area.3), BAND, 1.0);
-        }
-        panel.curve(pen, &[(0.0, CLEARANCE), (panel.x.1, CLEARANCE)], FACE);
-        let line = Stroke::solid(self.color(), 1.3);
-        panel.curve(pen, &self.path.positions(), line);
-        for &time in &self.path.impacts {
-            let (x, tip) = (panel.across(time), panel.height(CLEARANCE) - 4.0);
-            pen.arrow((x, tip - 13.0), (x, tip), Stroke::solid(style::INK, 1.2));
-        }
-        let Some(periods) = self.motion.period().filter(|periods| *periods > 1) else {
-            return;
-        };
-        let y = panel.bottom() - 9.0;
-        let (left, right) = (panel.across(0.0), panel.across(periods as f64));
-        let middle = 0.5 * (left + right);
-        let line = Stroke::solid(style::INK, 1.1);
-        pen.arrow((middle, y), (left, y), line);
-        pen.arrow((middle, y), (right, y), line);
-        let (name, ink) = (format!("{periods} T"), (style::INK, true));
-        pen.words((middle, y + 5.0), LETTERS, Align::Middle, ink, &name);
-    }
-
-    fn trajectory(&self, pen: &mut Pen, panel: &Panel, points: &[(f64, f64)], width: f64) {
-        let face = [(CLEARANCE, panel.y.0), (CLEARANCE, panel.y.1)];
-        panel.curve(pen, &face, FACE);
-        let width = if self.motion.is_chaotic() {
-            0.45
-        } else {
-            width
-        };
-        panel.curve(pen, points, Stroke::solid(self.color(), width));
+fn color(motion: &Found) -> &'static str {
+    if motion.is_chaotic() {
+        style::OPTIMUM
+    } else {
+        style::DESIGN
     }
 }
 
-/// The ranges of points with some room on all sides; about a single value too.
-fn around<'a>(points: impl Iterator<Item = &'a (f64, f64)> + Clone, room: f64) -> [(f64, f64); 2] {
-    let ranges = [
-        ends(points.clone().map(|it| it.0)),
-        ends(points.map(|it| it.1)),
+/// The time series, its impacts, and how long it takes to repeat.
+fn series(motion: &Found, path: &Path, shown: u64, period: f64) -> Panel {
+    let (low, high) = ends(path.points.iter().map(|at| at.position));
+    let y = (1.1 * low, 1.42 * high.max(CLEARANCE));
+    let unit = y.1 - y.0;
+    let bands = (0..shown)
+        .step_by(2)
+        .map(|it| [(it as f64, it as f64 + 1.0), y]);
+    let points = path.points.iter().map(|at| (at.time / period, at.position));
+    let mut layers = vec![
+        Layer::boxes(bands, BAND, 1.0),
+        Layer::across(CLEARANCE, FACE, ""),
+        Layer::line(points, Stroke::solid(color(motion), 1.3)),
     ];
-    ranges.map(|(low, high)| {
-        let room = if high > low { room * (high - low) } else { 0.5 };
-        (low - room, high + room)
-    })
+    let [tip, tail] = [0.024, 0.1].map(|share| CLEARANCE + share * unit);
+    layers.extend(path.impacts.iter().map(|time| {
+        let x = time / period;
+        Layer::arrow((x, tail), (x, tip), Stroke::solid(style::INK, 1.2))
+    }));
+    if let Some(periods) = motion.period().filter(|periods| *periods > 1) {
+        let (middle, low) = (0.5 * periods as f64, y.0 + 0.054 * unit);
+        let line = Stroke::solid(style::INK, 1.1);
+        let name = Layer::text((middle, low), Align::Middle, format!("{periods} T"));
+        layers.extend([
+            Layer::arrow((middle, low), (0.0, low), line),
+            Layer::arrow((middle, low), (periods as f64, low), line),
+            name.moved(0.0, 5.0).plated(),
+        ]);
+    }
+    let remark = motion.remark();
+    let dash = if remark.is_empty() { "" } else { " — " };
+    let (letter, title) = (motion.asked.letter, motion.title());
+    Panel {
+        title: format!("({letter})  {title}{dash}{remark}"),
+        x: Axis::default().range((0.0, shown as f64)),
+        y: Axis::new("X").range(y),
+        layers,
+        ..Panel::default()
+    }
+}
+
+fn trajectory(motion: &Found, points: Vec<(f64, f64)>, width: f64) -> Vec<Layer> {
+    let width = if motion.is_chaotic() { 0.45 } else { width };
+    let line = Layer::line(points, Stroke::solid(color(motion), width));
+    vec![Layer::upwards(CLEARANCE, FACE, ""), line]
+}
+
+fn phase_plane(motion: &Found, points: Vec<(f64, f64)>) -> Panel {
+    Panel {
+        x: Axis::default().range(around(points.iter().map(|at| at.0), 0.1)),
+        y: Axis::new("X′").range(around(points.iter().map(|at| at.1), 0.1)),
+        layers: trajectory(motion, points, 1.3),
+        ..Panel::default()
+    }
+}
+
+/// The part of it near the stop.
+fn near_stop(motion: &Found, points: Vec<(f64, f64)>) -> Panel {
+    let (_, high) = ends(points.iter().map(|point| point.0));
+    let depth = (high - CLEARANCE).max(SHALLOW * CLEARANCE);
+    let x = (CLEARANCE - NEAR * depth, CLEARANCE + 1.6 * depth);
+    let near = points.iter().filter(|point| point.0 > x.0);
+    Panel {
+        x: Axis::default().range(x),
+        y: Axis::new("X′").range(around(near.map(|at| at.1), 0.1)),
+        layers: trajectory(motion, points, 1.1),
+        ..Panel::default()
+    }
+}
+
+/// The states at drive angle 0, behind them those of the other motions of the same machine.
+fn section(motion: &Found, all: &[Found]) -> Panel {
+    let asked = &motion.asked;
+    let others = all.iter().map(|other| (other, OTHERS));
+    let others = others
+        .filter(|(other, _)| other.asked.letter != asked.letter && other.asked.eta == asked.eta);
+    let layers = others
+        .chain([(motion, color(motion))])
+        .map(|(motion, color)| {
+            let states = &motion.section.states;
+            let radius = if states.len() > MANY { DOTS.1 } else { DOTS.0 };
+            Layer::dots(states.iter().copied(), radius, color)
+        });
+    Panel {
+        y: Axis::new("X′"),
+        layers: layers.collect(),
+        ..Panel::default()
+    }
 }

@@ -2,18 +2,19 @@
 
 use anyhow::Result;
 use serde::Serialize;
-use softstop::Ratios;
+use softstop::{Ratios, Scene, SceneError};
 use softstop_dynamics::attractors::Attractor;
 use softstop_dynamics::{Orbit, StroboscopicMap, Survey};
 
-use super::asked::Asked;
-use super::path::{Path, Section};
+use super::Asked;
+use super::section::Section;
 use crate::figure::Findings;
+use crate::path::{Path, Point};
 
 /// Drive periods of the phase trajectory of what does not repeat.
 const WANDERING: u64 = 60;
 /// Drive periods over which its energy is taken, and points in each.
-const ENERGY: (u64, u32) = (2000, 400);
+const ENERGY: (u64, (u32, u32)) = (2000, (400, 8));
 
 /// A motion and what was asked for.
 pub struct Found {
@@ -28,25 +29,28 @@ pub const COLUMNS: &str = "motion,eta,eta_is_the_papers,impacts,periods,impacts_
     order_of_impacts,largest_multiplier_modulus,lyapunov_exponent_per_period,max_position,\
     before_impact_velocity,mean_life_periods,share_of_starts";
 
+fn scene(asked: &Asked) -> Result<Scene, SceneError> {
+    Ratios::unloaded().at_frequency(asked.eta).scene()
+}
+
 impl Found {
     /// The motion that is asked for, if it is among those found, with so many states of what does not repeat.
-    pub fn among(asked: Asked, survey: &Survey, most: u64) -> Result<Option<Self>> {
-        let fits = |attractor: &&Attractor| match (asked.impacts, attractor.motion.order()) {
-            (Some(wanted), Some(order)) => order.to_string() == wanted,
+    pub fn among(asked: &Asked, survey: &Survey, most: u64) -> Result<Option<Self>> {
+        let fits = |attractor: &&Attractor| match (&asked.impacts, attractor.motion.order()) {
+            (Some(wanted), Some(order)) => order.to_string() == *wanted,
             (None, None) => attractor.motion.is_chaotic(),
             _ => false,
         };
         let Some(attractor) = survey.attractors.iter().find(fits).cloned() else {
             return Ok(None);
         };
-        let scene = Ratios::unloaded().at_frequency(asked.frequency).scene()?;
-        let map = StroboscopicMap::new(&scene, 1)?;
+        let map = StroboscopicMap::new(&scene(asked)?, 1)?;
         let section = match attractor.motion.periods() {
             Some(periods) => Section::of(&map, attractor.state, periods, usize::MAX)?,
             None => Section::lasting(&map, attractor.state, most)?,
         };
         Ok(Some(Self {
-            asked,
+            asked: asked.clone(),
             attractor,
             section,
         }))
@@ -69,11 +73,19 @@ impl Found {
         self.orbit().map(|orbit| orbit.periods)
     }
 
-    /// The motion over drive periods, with so many points in each; unless said otherwise until it repeats.
-    pub fn path(&self, periods: Option<u64>, fineness: u32) -> Result<Path> {
-        let scene = Ratios::unloaded().at_frequency(self.asked.frequency);
+    pub fn scene(&self) -> Result<Scene, SceneError> {
+        scene(&self.asked)
+    }
+
+    /// The motion over drive periods, as [`Path::new`] has it; unless said otherwise until it repeats.
+    pub fn path(&self, periods: Option<u64>, fineness: (u32, u32)) -> Result<Path> {
         let periods = periods.or(self.period()).unwrap_or(WANDERING);
-        Path::of(&scene.scene()?, self.section.start, periods, fineness)
+        Ok(Path::new(
+            &self.scene()?,
+            self.section.start,
+            periods,
+            fineness,
+        )?)
     }
 
     fn exponent(&self) -> f64 {
@@ -87,7 +99,7 @@ impl Found {
 
     /// Frequency, regime and how stable it is.
     pub fn title(&self) -> String {
-        let (eta, motion) = (self.asked.frequency, &self.attractor.motion);
+        let (eta, motion) = (self.asked.eta, &self.attractor.motion);
         let Some(orbit) = self.orbit() else {
             let (z, exponent) = (self.section.impacts_per_period(), self.exponent());
             return format!("η = {eta} · {motion}, z = {z:.3}, λ = {exponent:+.3}/T");
@@ -111,7 +123,7 @@ impl Found {
             let hundreds = 100.0 * (periods / 100.0).round();
             format!("mean life {hundreds} T")
         });
-        let parts = [ours, Some(self.asked.remark.to_owned()), life];
+        let parts = [ours, Some(self.asked.remark.clone()), life];
         let mut said: Vec<String> = parts.into_iter().flatten().collect();
         said.retain(|part| !part.is_empty());
         said.join("; ")
@@ -119,12 +131,12 @@ impl Found {
 
     /// A row of the table.
     pub fn line(&self) -> impl Serialize {
-        let (asked, orbit) = (self.asked, self.orbit());
+        let (asked, orbit) = (&self.asked, self.orbit());
         let velocities = self.attractor.chaos.as_ref().and_then(|it| it.velocities);
         let order = orbit.map_or_else(String::new, |orbit| orbit.pattern().to_string());
         let velocity = orbit.map(Orbit::before_impact_velocity);
         (
-            (asked.letter, asked.frequency, asked.is_given),
+            (asked.letter, asked.eta, asked.is_given),
             orbit.map(|orbit| orbit.impacts.len()),
             self.period(),
             self.section.impacts_per_period(),
@@ -141,11 +153,14 @@ impl Found {
     /// The kinetic energy in units of F0^2/k1: its mean over time, and the largest.
     fn kinetic(&self) -> Result<[f64; 2]> {
         let path = self.path(Some(self.period().unwrap_or(ENERGY.0)), ENERGY.1)?;
-        let energy = |at: &[f64; 3]| 0.5 * at[2] * at[2];
+        let period = self.scene()?.period();
+        let energy = |at: &Point| 0.5 * at.velocity * at.velocity;
+        let time = |at: &Point| at.time / period;
         let pieces = path.points.windows(2);
-        let pieces = pieces
-            .map(|two| f64::midpoint(energy(&two[0]), energy(&two[1])) * (two[1][0] - two[0][0]));
-        let time = path.points.last().map_or(1.0, |at| at[0]);
+        let pieces = pieces.map(|two| {
+            f64::midpoint(energy(&two[0]), energy(&two[1])) * (time(&two[1]) - time(&two[0]))
+        });
+        let time = path.points.last().map_or(1.0, time);
         let largest = path.points.iter().map(energy).fold(0.0, f64::max);
         Ok([pieces.sum::<f64>() / time, largest])
     }
@@ -153,21 +168,21 @@ impl Found {
     /// What is told of it.
     pub fn tell(&self, findings: &mut Findings) -> Result<()> {
         let [energy, largest] = self.kinetic()?;
-        let mut add = |what: &str, value: Option<f64>| {
-            findings.add(format!("({}) {what}", self.asked.letter), value);
-        };
         let orbit = self.orbit();
-        add("eta", Some(self.asked.frequency));
-        add("Lyapunov exponent per period", Some(self.exponent()));
-        add("share of starts", Some(self.attractor.share));
-        add("impacts p", orbit.map(|it| it.impacts.len() as f64));
-        add("periods n", orbit.map(|it| it.periods as f64));
         let mean = self.section.impacts_per_period();
-        add("impacts per period", self.is_chaotic().then_some(mean));
-        add("largest multiplier, modulus", self.modulus());
-        add("mean life, periods", self.lifetime());
-        add("mean kinetic energy", Some(energy));
-        add("largest kinetic energy", Some(largest));
+        let values = [
+            ("eta", Some(self.asked.eta)),
+            ("Lyapunov exponent per period", Some(self.exponent())),
+            ("share of starts", Some(self.attractor.share)),
+            ("impacts p", orbit.map(|it| it.impacts.len() as f64)),
+            ("periods n", orbit.map(|it| it.periods as f64)),
+            ("impacts per period", self.is_chaotic().then_some(mean)),
+            ("largest multiplier, modulus", self.modulus()),
+            ("mean life, periods", self.lifetime()),
+            ("mean kinetic energy", Some(energy)),
+            ("largest kinetic energy", Some(largest)),
+        ];
+        findings.group(&format!("({}) ", self.asked.letter), values);
         Ok(())
     }
 }

@@ -1,78 +1,97 @@
 //! Figure 9: the motions (A) to (L), each found from scratch among all on which the machine settles.
 
-mod asked;
 mod chart;
 mod found;
-mod path;
+pub(crate) mod section;
 
 use anyhow::{Result, anyhow};
+use serde::Deserialize;
 use softstop::Ratios;
 use softstop_dynamics::Survey;
 use softstop_dynamics::attractors::{Options, attractors};
 
 use crate::figure::{self, Detail, Drawn, Figure, Findings, Studio};
-use asked::MOTIONS;
-pub(super) use asked::letters;
-use chart::Row;
 use found::Found;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
-/// Motions (A) to (L).
-pub(crate) const FIGURE: Figure = Figure {
-    title: "Motions (A) to (L)",
-    files: &[
-        "figure-9-a-f.svg",
-        "figure-9-g-l.svg",
-        "figure-9.csv",
-        "figure-9-series.csv",
-        "figure-9-section.csv",
-    ],
-    draw,
-};
-
 /// The clearance ρ.
 const CLEARANCE: f64 = Ratios::unloaded().clearance;
+/// Least depth beyond the stop that is shown, in units of the clearance.
+const SHALLOW: f64 = 0.002;
 /// Drive periods of the time series, on the first page and on the second.
 const SHOWN: [u64; 2] = [24, 12];
 /// Motions on a page.
 const ON_A_PAGE: usize = 6;
 
-fn draw(studio: &Studio) -> Result<Drawn> {
-    let found = found(studio.detail)?;
-    let mut files = Vec::new();
-    let (mut series, mut sections) = (Vec::new(), Vec::new());
-    for (motions, shown) in found.chunks(ON_A_PAGE).zip(SHOWN) {
-        let rows = motions.iter().map(|motion| Row::new(motion, &found, shown));
-        let rows: Vec<Row<'_>> = rows.collect::<Result<_, _>>()?;
-        for row in &rows {
-            let letter = row.motion.asked.letter;
-            series.extend(row.path.points.iter().map(|point| (letter, *point)));
-            let states = row.motion.section.states.iter();
-            sections.extend(states.map(|state| (letter, *state)));
-        }
-        files.push(chart::svg(&rows).into_bytes());
+/// A motion that the figure shows.
+#[derive(Debug, Clone, Deserialize)]
+struct Asked {
+    letter: char,
+    /// Its frequency.
+    eta: f64,
+    /// Whether the paper's text gives that frequency.
+    is_given: bool,
+    /// The order of its impacts; none of what does not repeat.
+    impacts: Option<String>,
+    /// What else there is to say.
+    remark: String,
+}
+
+/// The motions that are asked for.
+fn motions(figure: &Figure) -> Result<Vec<Asked>> {
+    #[derive(Deserialize)]
+    struct What {
+        motions: Vec<Asked>,
     }
-    let lines = found.iter().map(Found::line);
-    files.push(figure::table(found::COLUMNS, lines)?);
-    let columns = "motion,drive_periods,position,velocity";
-    files.push(figure::table(columns, series)?);
-    files.push(figure::table("motion,position,velocity", sections)?);
+    Ok(figure.what::<What>()?.motions)
+}
+
+/// The letters at each frequency, as "A, B".
+pub(crate) fn letters() -> Result<Vec<(String, f64)>> {
+    let names = |group: &[Asked]| {
+        let letters: Vec<String> = group.iter().map(|it| it.letter.to_string()).collect();
+        (letters.join(", "), group[0].eta)
+    };
+    let motions = motions(Figure::called("9")?)?;
+    let groups = motions.chunk_by(|a, b| a.eta == b.eta);
+    Ok(groups.map(names).collect())
+}
+
+pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
+    let found = found(&motions(figure)?, studio.detail)?;
+    let (mut files, mut series, mut sections) = (Vec::new(), Vec::new(), Vec::new());
     let mut findings = Findings::default();
+    for (motions, shown) in found.chunks(ON_A_PAGE).zip(SHOWN) {
+        let (chart, points) = chart::page(motions, &found, shown)?;
+        files.push(chart.svg().into_bytes());
+        series.extend(points);
+    }
     for motion in &found {
         motion.tell(&mut findings)?;
+        let states = motion.section.states.iter();
+        sections.extend(states.map(|state| (motion.asked.letter, *state)));
     }
+    files.push(figure::table(
+        found::COLUMNS,
+        found.iter().map(Found::line),
+    )?);
+    files.push(figure::table(
+        "motion,drive_periods,position,velocity",
+        series,
+    )?);
+    files.push(figure::table("motion,position,velocity", sections)?);
     Ok(Drawn { files, findings })
 }
 
 /// All motions that are asked for.
-fn found(detail: Detail) -> Result<Vec<Found>> {
-    let progress = Progress::new(MOTIONS.len() as u64, "motions");
+fn found(asked: &[Asked], detail: Detail) -> Result<Vec<Found>> {
+    let progress = Progress::new(asked.len() as u64, "motions");
     let mut found = Vec::new();
-    for group in MOTIONS.chunk_by(|a, b| a.frequency == b.frequency) {
-        let survey = survey(group[0].frequency, detail, &progress)?;
+    for group in asked.chunk_by(|a, b| a.eta == b.eta) {
+        let survey = survey(group[0].eta, detail, &progress)?;
         for asked in group {
-            let motion = Found::among(*asked, &survey, detail.pick(4000, 600))?;
+            let motion = Found::among(asked, &survey, detail.pick(4000, 600))?;
             found.push(motion.ok_or_else(|| anyhow!("motion ({}) not found", asked.letter))?);
             progress.step()?;
         }

@@ -10,27 +10,15 @@ mod swept;
 
 use anyhow::Result;
 
+use crate::diagram;
 use crate::figure::{self, Drawn, Figure, Findings, Studio};
-use chart::Chart;
+use chart::Picture;
 use folds::Folds;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::output;
 use stops::{CLEARANCE, Law, grazing};
-use swept::{KINDS, Swept, kind, sweep};
-
-/// From a soft to a rigid stop.
-pub(crate) const FIGURE: Figure = Figure {
-    title: "From a soft to a rigid stop",
-    files: &[
-        "hardening.svg",
-        "hardening.csv",
-        "hardening-map.csv",
-        "hardening-folds.csv",
-        "hardening-subharmonics.csv",
-    ],
-    draw,
-};
+use swept::{Swept, sweep};
 
 /// The stops whose diagrams are drawn.
 const DRAWN: [Law; 8] = [
@@ -48,7 +36,7 @@ const DECADES: (f64, f64) = (-1.0, 4.0);
 /// Stiffnesses k2/k1 whose subharmonic motions are looked for.
 const SUBHARMONIC: [f64; 3] = [1.0, 10.0, 100.0];
 
-fn draw(studio: &Studio) -> Result<Drawn> {
+pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let detail = studio.detail;
     let drawn = sweep(&DRAWN, detail.pick((420, 200), (120, 80)), studio.kept)?;
     let rows = stiffnesses(detail.pick(51, 11));
@@ -64,7 +52,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     }
     claims::of_stops(&mut findings, &drawn, &folds);
     claims::of_orders(&mut findings, &subharmonics);
-    let chart = Chart {
+    let picture = Picture {
         drawn: &drawn,
         map: &map,
         folds: &folds,
@@ -72,7 +60,7 @@ fn draw(studio: &Studio) -> Result<Drawn> {
     };
     Ok(Drawn {
         files: vec![
-            chart.svg().into_bytes(),
+            picture.chart().svg().into_bytes(),
             steps(&drawn)?,
             steps(&map)?,
             branches(&folds)?,
@@ -91,28 +79,15 @@ fn stiffnesses(count: usize) -> Vec<f64> {
 
 /// A row for each step of each way.
 fn steps(swept: &[Swept]) -> Result<Vec<u8>> {
-    let columns = "stop,direction,eta,motion,impacts_per_period,max_position,\
-                   largest_before_impact_velocity";
-    let mut rows = Vec::new();
-    for swept in swept {
+    let sweeps = swept.iter().flat_map(|swept| {
         let stop = match swept.law {
             Law::KelvinVoigt(stiffness) => stiffness.to_string(),
             law => law.name(),
         };
-        for (steps, way) in [(&swept.up, "up"), (&swept.down, "down")] {
-            rows.extend(steps.iter().map(|step| {
-                let figures = [step.impacts_per_period, step.max_position, step.hardest()];
-                (
-                    stop.clone(),
-                    way,
-                    step.value,
-                    KINDS[kind(step) as usize].1,
-                    figures,
-                )
-            }));
-        }
-    }
-    figure::table(columns, rows)
+        let ways = [("up", &swept.up), ("down", &swept.down)];
+        ways.map(|(way, steps)| (stop.clone(), way, &steps[..]))
+    });
+    diagram::table("stop", sweeps)
 }
 
 /// A row for each branch of z = 1.

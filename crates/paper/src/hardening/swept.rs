@@ -2,12 +2,12 @@
 
 use anyhow::Result;
 use softstop::Parameter;
+use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::watch::Kept;
 use softstop_dynamics::{Chain, MotionKind, Plan, Step};
 
 use super::stops::{CLEARANCE, Law};
 use crate::diagram::{self, dots};
-use softstop_draw::style;
 
 /// The frequencies eta.
 pub(super) const RANGE: (f64, f64) = (0.6, 1.6);
@@ -39,45 +39,17 @@ pub(super) fn sweep(
     Ok(swept.collect())
 }
 
-/// A kind of motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// Without impacts.
-    None,
-    /// z = 1.
-    One,
-    /// z = n/n with n > 1: as many impacts as drive periods.
-    Split,
-    /// z = 1/2.
-    Half,
-    /// Another z = p/n.
-    Other,
-    Chaos,
-    Unsettled,
-}
-
-/// All kinds, their names and colours.
-pub(super) const KINDS: [(Kind, &str, &str); 7] = [
-    (Kind::None, "z = 0", "#ededed"),
-    (Kind::One, "z = 1", "#9CCDEC"),
-    (Kind::Split, "z = n/n, n > 1", style::DESIGN),
-    (Kind::Half, "z = 1/2", "#009E73"),
-    (Kind::Other, "other z = p/n", "#F0E442"),
-    (Kind::Chaos, "chaos", style::OPTIMUM),
-    (Kind::Unsettled, "not settled", "#a8a8a8"),
-];
-
-/// The kind of motion of a step.
-pub(super) fn kind(step: &Step) -> Kind {
+/// The kind of motion of a step; subharmonic ones but z = 1/2 are one kind.
+pub(super) fn kind(step: &Step) -> MotionClass {
     let regime = step.motion.regime().map(|it| (it.impacts, it.periods));
     match (regime, &step.motion) {
-        _ if step.velocities.is_empty() => Kind::None,
-        (Some((1, 1)), _) => Kind::One,
-        (Some((1, 2)), _) => Kind::Half,
-        (Some((impacts, periods)), _) if impacts == periods => Kind::Split,
-        (None, MotionKind::Chaos) => Kind::Chaos,
-        (None, MotionKind::Unsettled) => Kind::Unsettled,
-        _ => Kind::Other,
+        _ if step.velocities.is_empty() => MotionClass::Zero,
+        (Some((1, 1)), _) => MotionClass::One,
+        (Some((1, 2)), _) => MotionClass::Half,
+        (Some((impacts, periods)), _) if impacts == periods => MotionClass::Doubled,
+        (None, MotionKind::Chaos) => MotionClass::Chaos,
+        (None, MotionKind::Unsettled) => MotionClass::Unsettled,
+        _ => MotionClass::Few,
     }
 }
 
@@ -101,8 +73,8 @@ impl Swept {
 
     /// Share of the frequencies at which the way up ends in a subharmonic motion or chaos.
     pub(super) fn complex(&self) -> f64 {
-        use Kind::{Chaos, Half, Other, Split};
-        let complex = |step: &&Step| matches!(kind(step), Split | Half | Other | Chaos);
+        use MotionClass::{Chaos, Doubled, Few, Half};
+        let complex = |step: &&Step| matches!(kind(step), Doubled | Half | Few | Chaos);
         self.up.iter().filter(complex).count() as f64 / self.up.len().max(1) as f64
     }
 
@@ -111,7 +83,7 @@ impl Swept {
     pub(super) fn likeness(&self, other: &Self) -> [f64; 2] {
         let ours = self.up.iter().chain(&self.down);
         let pairs = ours.zip(other.up.iter().chain(&other.down));
-        let is_other = |step: &Step| !matches!(kind(step), Kind::None | Kind::One);
+        let is_other = |step: &Step| !matches!(kind(step), MotionClass::Zero | MotionClass::One);
         let others = pairs.clone().filter(|(a, b)| is_other(a) || is_other(b));
         [agreement(pairs), agreement(others)]
     }
@@ -120,7 +92,8 @@ impl Swept {
 /// Share of the pairs that are of the same kind, among those in which both have settled.
 fn agreement<'a>(pairs: impl Iterator<Item = (&'a Step, &'a Step)>) -> f64 {
     let kinds = pairs.map(|(a, b)| (kind(a), kind(b)));
-    let settled = kinds.filter(|(a, b)| *a != Kind::Unsettled && *b != Kind::Unsettled);
+    let settled =
+        kinds.filter(|(a, b)| *a != MotionClass::Unsettled && *b != MotionClass::Unsettled);
     let (same, all) = settled.fold((0u32, 0u32), |(same, all), (a, b)| {
         (same + u32::from(a == b), all + 1)
     });

@@ -2,128 +2,88 @@
 
 use softstop_dynamics::motion::MotionClass;
 
-use super::boundaries::Boundaries;
-use super::{MAPS, is_loaded};
-use softstop_draw::panel::{Axes, Panel};
-use softstop_draw::pen::{Align, Pen};
+use super::Map;
+use crate::boundaries::Boundaries;
+use softstop_console::machine::Regime;
+use softstop_draw::{Align, Axis, Chart, Layer, Legend, Mark, Panel, Sign, style};
 use softstop_explore::basin::cells::{RegimeMap, color};
 
-/// Size of a map; room around: left, above the first row, between columns, right, between rows.
-const MAP: (f64, f64) = (600.0, 400.0);
-const LEFT: f64 = 78.0;
-const TOP: f64 = 96.0;
-const BETWEEN: f64 = 86.0;
-const RIGHT: f64 = 26.0;
-const ROW: f64 = 502.0;
-/// Height of a row of the legend, how many columns it has, and how wide each is.
-const LINE: f64 = 30.0;
-const COLUMNS: usize = 4;
-const COLUMN: f64 = 330.0;
-/// Letters: title, headings, text.
-const LETTERS: (u32, u32, u32) = (24, 19, 18);
-/// The axes of all maps.
-const AXES: Axes<'static> = Axes::new(LETTERS.2, Some("frequency η"), "clearance ρ", (6, 6));
-/// Pixels for each unit of length.
-const SCALE: f32 = 2.0;
+/// Size of a map.
+const SIZE: (f64, f64) = (600.0, 400.0);
 /// Where on a map's height the names of curves stand, as a share of it.
 const NAMES_AT: f64 = 0.2;
 /// eta and rho of the points A and B.
 const POINT: (f64, f64) = (1.15, 10.0);
+/// Motions whose widest places are named.
+const NAMED: [MotionClass; 3] = [MotionClass::Zero, MotionClass::One, MotionClass::TwoThirds];
 
-/// The maps with their boundaries as PNG.
-pub(super) fn png(maps: &[RegimeMap], boundaries: &[Boundaries; 2]) -> Result<Vec<u8>, String> {
-    let classes = MotionClass::ALL.iter().copied();
-    let is_there = |class: &MotionClass| maps.iter().any(|map| map.share(*class) > 0.0);
-    let classes: Vec<MotionClass> = classes.filter(is_there).collect();
-    let bottom = TOP + ROW * maps.len().div_ceil(2) as f64;
-    let width = LEFT + 2.0 * MAP.0 + BETWEEN + RIGHT;
-    let height = bottom + LINE * (classes.len().div_ceil(COLUMNS) as f64 + 0.2);
-    let mut pen = Pen::new(width, height);
-    pen.fill(&[(0.0, 0.0, width, height)], "#ffffff");
+/// The maps with their boundaries.
+pub(super) fn chart(maps: &[(&Map, RegimeMap)], boundaries: &[Boundaries; 2]) -> Chart {
+    let panels = maps.iter().enumerate();
+    let panels = panels.map(|(index, (spec, map))| {
+        let own = &boundaries[usize::from(spec.machine == Regime::Loaded)];
+        panel(index, spec, map, own)
+    });
     let title = "Regimes z = p/n: p impacts in n drive periods";
-    pen.heading((LEFT, 42.0), LETTERS.0, Align::Left, title);
-    for (index, map) in maps.iter().enumerate() {
-        let left = LEFT + (MAP.0 + BETWEEN) * (index % 2) as f64;
-        let top = TOP + ROW * (index / 2) as f64;
-        let lines = boundaries[usize::from(is_loaded(index))].lines();
-        let panel = Panel::new((left, top, MAP.0, MAP.1), map.eta, map.rho);
-        draw(&mut pen, &panel, index, map, &lines);
-    }
-    legend(&mut pen, bottom, &classes);
-    pen.png_at(SCALE)
+    let mut chart = Chart::new(title, panels).in_columns(2);
+    let classes = MotionClass::ALL.iter().copied();
+    let there = classes.filter(|class| maps.iter().any(|(_, map)| map.share(*class) > 0.0));
+    let keys = there.map(|class| Layer::key(Sign::Patch(color(class)), class.name()));
+    chart.panels[0].layers.extend(keys);
+    (chart.legend, chart.letters) = (Legend::Below, 18);
+    chart
 }
 
-/// What the colours mean.
-fn legend(pen: &mut Pen, top: f64, classes: &[MotionClass]) {
-    for (index, class) in classes.iter().enumerate() {
-        let left = LEFT + COLUMN * (index % COLUMNS) as f64;
-        let line = top + LINE * (index / COLUMNS) as f64;
-        let square = (left, line - 15.0, 30.0, 18.0);
-        pen.fill(&[square], color(*class));
-        pen.frame(square);
-        pen.text((left + 42.0, line), LETTERS.2, Align::Left, class.name());
-    }
-}
-
-/// A map with lines, a point, and names of wide regimes and of lines.
-fn draw(
-    pen: &mut Pen,
-    panel: &Panel,
-    index: usize,
-    map: &RegimeMap,
-    lines: &[(&str, Vec<(f64, f64)>)],
-) {
-    let (left, top, ..) = panel.area;
-    let heading = format!("{} {}", letter(index), MAPS[index].page);
-    pen.heading((left, top - 12.0), LETTERS.1, Align::Left, &heading);
+/// A map with its boundaries, the point A or B, and names of wide regimes and of boundaries.
+fn panel(index: usize, spec: &Map, map: &RegimeMap, boundaries: &Boundaries) -> Panel {
     let colors = map.cells.iter().map(|cell| color(cell.class()));
-    panel.cells(pen, map.columns, &colors.collect::<Vec<_>>());
-    for (name, points) in lines {
-        panel.rimmed(pen, points, dashes(name));
+    let mut layers = vec![Layer::cells(map.columns, colors)];
+    let mut lines = vec![("g₀", boundaries.grazing.clone())];
+    lines.extend(boundaries.curves().map(|(name, _, points)| {
+        let points = points.iter().map(|at| at.parameters.into());
+        (name, points.collect())
+    }));
+    for (name, points) in &lines {
+        let dashes = match *name {
+            "g₀" => Some((3.0, 4.0)),
+            "s_PD" => Some((9.0, 5.0)),
+            _ => None,
+        };
+        layers.push(Layer::contour(points.iter().copied(), dashes));
     }
-    panel.axes(pen, &AXES);
-    for class in [MotionClass::Zero, MotionClass::One, MotionClass::TwoThirds] {
-        if let Some(place) = map.widest(class) {
-            pen.label(panel.place(place), LETTERS.2, class.name());
-        }
+    let name = |at, name: &str| {
+        Layer::text(at, Align::Middle, name)
+            .moved(0.0, 6.0)
+            .plated()
+    };
+    let wide = NAMED.into_iter();
+    layers.extend(wide.filter_map(|class| Some(name(map.widest(class)?, class.name()))));
+    let rho = map.rho.0 + NAMES_AT * (map.rho.1 - map.rho.0);
+    for (boundary, points) in &lines {
+        let etas = crossings(points, rho);
+        let inside = etas.filter(|eta| (map.eta.0..=map.eta.1).contains(eta));
+        layers.extend(inside.map(|eta| name((eta, rho), boundary)));
     }
-    let rho = panel.y.0 + NAMES_AT * (panel.y.1 - panel.y.0);
-    for (name, points) in lines {
-        for eta in crossings(points, rho) {
-            if panel.holds((eta, rho)) {
-                pen.label(panel.place((eta, rho)), LETTERS.2, name);
-            }
-        }
+    if (map.eta.0..=map.eta.1).contains(&POINT.0) {
+        let spot = Layer::marks([POINT], Mark::Hollow, style::INK);
+        layers.extend([spot, name(POINT, spec.machine.point()).moved(18.0, -4.0)]);
     }
-    if panel.holds(POINT) {
-        let (x, y) = panel.place(POINT);
-        pen.spot((x, y), 6.0);
-        let name = if is_loaded(index) { "B" } else { "A" };
-        pen.label((x + 18.0, y - 10.0), LETTERS.2, name);
-    }
-}
-
-/// Dashes of a boundary and the gaps between them.
-fn dashes(name: &str) -> Option<(f64, f64)> {
-    match name {
-        "g₀" => Some((3.0, 4.0)),
-        "s_PD" => Some((9.0, 5.0)),
-        _ => None,
+    let letter = char::from(b'a' + index as u8);
+    Panel {
+        title: format!("({letter}) {}{}", spec.machine.name(), spec.names[2]),
+        size: SIZE,
+        x: Axis::new("frequency η").range(map.eta),
+        y: Axis::new("clearance ρ").range(map.rho),
+        layers,
+        ..Panel::default()
     }
 }
 
 /// Where a curve is at this height.
-fn crossings(points: &[(f64, f64)], height: f64) -> Vec<f64> {
-    let pairs = points.windows(2);
-    let crossing = |pair: &[(f64, f64)]| {
+fn crossings(points: &[(f64, f64)], height: f64) -> impl Iterator<Item = f64> {
+    points.windows(2).filter_map(move |pair| {
         let (from, to) = (pair[0], pair[1]);
         let crosses = (from.1 < height) != (to.1 < height);
         crosses.then(|| from.0 + (to.0 - from.0) * (height - from.1) / (to.1 - from.1))
-    };
-    pairs.filter_map(crossing).collect()
-}
-
-/// (a), (b), ...
-fn letter(index: usize) -> String {
-    format!("({})", char::from(b'a' + index as u8))
+    })
 }

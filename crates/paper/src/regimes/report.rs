@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 
-use super::boundaries::Boundaries;
-use super::{MAPS, Named, middle};
+use super::{Map, middle};
+use crate::boundaries::Boundaries;
 use crate::figure::{self, Findings};
 use softstop_dynamics::continuation::CurvePoint;
 use softstop_dynamics::motion::MotionClass;
@@ -11,10 +11,10 @@ use softstop_dynamics::{MotionKind, Regime};
 use softstop_explore::basin::cells::RegimeMap;
 
 /// A row for each run of cells of the same motion: from the middle of the first cell to that of the last.
-pub(super) fn runs(maps: &[RegimeMap]) -> Result<Vec<u8>> {
+pub(super) fn runs(maps: &[(&Map, RegimeMap)]) -> Result<Vec<u8>> {
     let columns = "machine,way,rho,eta_from,eta_to,motion";
     let mut lines = Vec::new();
-    for (map, Named { machine, way, .. }) in maps.iter().zip(&MAPS) {
+    for (spec, map) in maps {
         let rows = map.cells.len() / map.columns;
         for (row, cells) in map.cells.chunks(map.columns).enumerate() {
             let rho = middle(map.rho, row, rows);
@@ -23,7 +23,8 @@ pub(super) fn runs(maps: &[RegimeMap]) -> Result<Vec<u8>> {
                 let to = from + run.len() - 1;
                 let ends = [from, to].map(|column| middle(map.eta, column, map.columns));
                 from = to + 1;
-                lines.push((machine, way, rho, ends, run[0].to_string()));
+                let names = (spec.machine.name(), &spec.names[0]);
+                lines.push((names, rho, ends, run[0].to_string()));
             }
         }
     }
@@ -37,33 +38,24 @@ pub(super) fn boundaries(boundaries: &[Boundaries; 2]) -> Result<Vec<u8>> {
     for (machine, own) in ["unloaded", "loaded"].into_iter().zip(boundaries) {
         let grazing = own.grazing.iter();
         lines.extend(grazing.map(|&(eta, rho)| (machine, "g0", 0, [eta, rho], None)));
-        for (name, curves) in [("s_PD", &own.flips), ("s_SN", &own.folds)] {
-            for (number, curve) in curves.iter().enumerate() {
-                lines.extend(curve.points.iter().map(|point| {
-                    let velocity = Some(point.before_impact_velocity());
-                    (machine, name, number, point.parameters, velocity)
-                }));
-            }
+        for (name, number, points) in own.curves() {
+            lines.extend(points.iter().map(|point| {
+                let velocity = Some(point.before_impact_velocity());
+                (machine, name, number, point.parameters, velocity)
+            }));
         }
     }
     figure::table(columns, lines)
 }
 
 /// Shares of the maps, and what the boundaries say.
-pub(super) fn findings(maps: &[RegimeMap; 6], boundaries: &[Boundaries; 2]) -> Findings {
-    let [up, down, _, _, loaded_up, loaded_down] = maps;
+pub(super) fn findings(maps: &[(&Map, RegimeMap)], boundaries: &[Boundaries; 2]) -> Findings {
     let mut findings = Findings::default();
-    for (
-        Named {
-            machine, finding, ..
-        },
-        map,
-    ) in MAPS.iter().zip(maps)
-    {
+    for (spec, map) in maps {
+        let name = format!("{}, {}", spec.machine.name(), spec.names[1]);
         for &class in MotionClass::ALL {
-            let (name, share) = (class.name(), map.share(class));
-            let name = format!("{machine}, {finding}: share of {name}");
-            findings.add(name, (share > 0.0).then_some(share));
+            let share = Some(map.share(class)).filter(|share| *share > 0.0);
+            findings.add(format!("{name}: share of {}", class.name()), share);
         }
         let two_thirds = Regime {
             impacts: 2,
@@ -72,11 +64,11 @@ pub(super) fn findings(maps: &[RegimeMap; 6], boundaries: &[Boundaries; 2]) -> F
         let is = |cell: &MotionKind| cell.regime() == Some(two_thirds);
         let rows = map.cells.chunks(map.columns);
         let rows = rows.filter(|row| row.iter().any(is)).count() as f64;
-        findings.add(format!("{machine}, {finding}: rows with z = 2/3"), rows);
+        findings.add(format!("{name}: rows with z = 2/3"), rows);
     }
-    let ways = [("unloaded", up, down), ("loaded", loaded_up, loaded_down)];
-    for ((name, up, down), own) in ways.into_iter().zip(boundaries) {
-        let share = hysteresis(up, down);
+    let ways = [("unloaded", &maps[..2]), ("loaded", &maps[4..])];
+    for ((name, ways), own) in ways.into_iter().zip(boundaries) {
+        let share = hysteresis(&ways[0].1, &ways[1].1);
         findings.add(format!("{name}: share of z = 1 or z = 0 by the way"), share);
         let point = own.hardest();
         let velocity = point.map(CurvePoint::before_impact_velocity);

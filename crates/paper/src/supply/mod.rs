@@ -23,13 +23,6 @@ use crate::figure::{Drawn, Figure, Findings, Studio};
 use softstop_console::output;
 use softstop_console::progress::Progress;
 
-/// The figure.
-pub(crate) const FIGURE: Figure = Figure {
-    title: "z = 1 under an interrupted supply of strips",
-    files: &["supply.svg", "supply.csv"],
-    draw,
-};
-
 /// Mean lengths of runs with and without strips, in drive periods.
 const RUNS: [f64; 3] = [2.0, 5.0, 25.0];
 /// Drive periods for which a motion settles in the end, and in which its impacts are counted then.
@@ -69,7 +62,7 @@ struct Press {
     is_supplied: bool,
 }
 
-fn draw(studio: &Studio) -> Result<Drawn> {
+pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let detail = studio.detail;
     let machine = Ratios::loaded();
     let zones = zones(machine.clearance)?;
@@ -103,9 +96,9 @@ fn draw(studio: &Studio) -> Result<Drawn> {
         }
         outcomes.extend(found);
     }
-    let svg = chart::svg(&outcomes, grazing, loaded, machine.clearance);
+    let chart = chart::chart(&outcomes, grazing, loaded, machine.clearance);
     Ok(Drawn {
-        files: vec![svg.into_bytes(), output::csv(&outcomes)?],
+        files: vec![chart.svg().into_bytes(), output::csv(&outcomes)?],
         findings,
     })
 }

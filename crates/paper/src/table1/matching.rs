@@ -3,7 +3,7 @@
 use softstop_dynamics::MotionKind;
 use softstop_dynamics::transitions::Transition;
 
-use super::paper::{Name, PaperRow};
+use super::paper::PaperRow;
 
 /// A transition as a row: where it is nearest to what the paper prints.
 #[derive(Debug)]
@@ -23,8 +23,8 @@ const NEAR: f64 = 2e-3;
 pub fn find<'a>(row: &PaperRow, transitions: &'a [Transition]) -> Option<Match<'a>> {
     let matches = transitions.iter().filter_map(|transition| {
         let (from, to) = (&transition.from, transition.to());
-        let forward = is(row.from, from) && is(row.to, to);
-        let reverse = !transition.hysteresis && is(row.from, to) && is(row.to, from);
+        let forward = is(&row.from, from) && is(&row.to, to);
+        let reverse = !transition.hysteresis && is(&row.from, to) && is(&row.to, from);
         (forward || reverse).then(|| Match {
             transition,
             eta: transition.lost_at(),
@@ -40,12 +40,12 @@ pub fn find<'a>(row: &PaperRow, transitions: &'a [Transition]) -> Option<Match<'
 }
 
 /// True if a motion is what the paper names so.
-fn is(name: Name, motion: &MotionKind) -> bool {
-    match (name, motion) {
-        (Name::Chaos, MotionKind::Chaos) => true,
-        (Name::Periodic(p, n, letter), MotionKind::Periodic { regime, order }) => {
-            (p, n) == (regime.impacts, regime.periods)
-                && letter.is_none_or(|letter| letter == order.to_string())
+fn is(name: &str, motion: &MotionKind) -> bool {
+    match motion {
+        MotionKind::Chaos => name == "chaos",
+        MotionKind::Periodic { regime, order } => {
+            let regime = regime.to_string();
+            name == regime || name == format!("{regime} {order}")
         }
         _ => false,
     }

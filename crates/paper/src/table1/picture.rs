@@ -15,7 +15,7 @@ const NOTES: [&str; 5] = [
 
 /// The rows with the paper's beside ours.
 pub fn picture(report: &TableReport) -> TablePicture {
-    let lines = report.rows.iter().zip(&ROWS);
+    let lines = report.rows.iter().zip(ROWS.iter());
     TablePicture {
         title: "Table 1 of Peterka 2003, found anew (unloaded, ρ = 10)".to_owned(),
         columns: vec![
@@ -38,7 +38,7 @@ pub fn picture(report: &TableReport) -> TablePicture {
 fn line(row: &RowReport, paper: &PaperRow) -> (Vec<String>, bool) {
     let interval = INTERVALS.iter().position(|it| it.0 == paper.eta);
     let letter = interval.map(|index| ["(a)", "(b)", "(c)", "(d)"][index]);
-    let same = (Some(paper.kind), Some(paper.hysteresis));
+    let same = (Some(&*paper.kind), Some(paper.hysteresis));
     let is_same = (row.kind.as_deref(), row.hysteresis) == same;
     let cells = vec![
         letter.unwrap_or_default().to_owned(),

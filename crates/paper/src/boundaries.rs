@@ -1,0 +1,94 @@
+//! The boundaries of the z = 1 motion over frequency and clearance: where it grazes first, doubles its period, and turns
+//! back.
+
+use anyhow::{Context, Result};
+use softstop::{Parameter, Ratios};
+use softstop_dynamics::continuation::{Curve, CurvePoint, Region, SpecialKind, Test, curve};
+use softstop_dynamics::orbit::find;
+use softstop_dynamics::zone::free_amplitude;
+use softstop_dynamics::{Along, Follower, Limits};
+
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+
+/// The paper's range of eta, and clearances up to the resonance peak of the free motion, 25.005; at 0 the scale of the
+/// motion changes.
+const RANGES: [(f64, f64); 2] = [(0.8, 1.8), (0.1, 24.0)];
+/// Points of g0.
+const POINTS: usize = 400;
+/// Most points of a branch or curve in each direction.
+const MOST: usize = 400;
+/// Steps along curves, in units of the parameters' scales, a fifth of their values.
+const STEP: f64 = 0.08;
+
+/// The boundaries of one machine.
+pub(super) struct Boundaries {
+    /// eta and rho of the grazing of the motion without impacts.
+    pub(super) grazing: Vec<(f64, f64)>,
+    /// Period doubling of z = 1.
+    pub(super) flips: Vec<Curve>,
+    /// Folds of z = 1.
+    pub(super) folds: Vec<Curve>,
+}
+
+impl Boundaries {
+    /// Those of a machine: g0 in closed form, the others by continuation, located to 1e-10.
+    pub(super) fn of(machine: &Ratios) -> Result<Self> {
+        let [eta, _] = RANGES;
+        let scene = machine.scene()?;
+        let orbit = find(&scene).context("no z = 1 motion to start from")?;
+        let family = Along::new(scene.clone(), [Parameter::Frequency])?;
+        let limits = Limits {
+            range: eta,
+            points: MOST,
+        };
+        let follower = Follower::new(&family, 1).with_steps(STEP);
+        let at = (machine.frequency, orbit.state());
+        let branch = follower.branch(at.0, at.1, &limits, |_| interrupt::go_on());
+        let branch = branch.context("the z = 1 motion cannot be followed")?;
+        let plane = [Parameter::Frequency, Parameter::Clearance];
+        let plane = Along::new(scene.clone(), plane)?;
+        let region = Region {
+            ranges: RANGES,
+            points: MOST,
+            step: STEP,
+        };
+        let of = |test| {
+            let special = SpecialKind::Critical(test);
+            let found = branch.critical(test).map(|point| {
+                let at = [point.parameter, machine.clearance];
+                let found = curve(&plane, 1, (special, point), at, &region, |_| {
+                    interrupt::go_on()
+                });
+                found.with_context(|| format!("no curve of the {}", special.name()))
+            });
+            found.collect::<Result<Vec<Curve>>>()
+        };
+        let etas = (0..=POINTS).map(|k| eta.0 + k as f64 / POINTS as f64 * (eta.1 - eta.0));
+        let boundaries = Self {
+            grazing: etas.map(|eta| (eta, free_amplitude(&scene, eta))).collect(),
+            flips: of(Test::Flip)?,
+            folds: of(Test::Fold)?,
+        };
+        if interrupt::requested() {
+            return Err(Failure::Interrupted.into());
+        }
+        Ok(boundaries)
+    }
+
+    /// The curves of flips and folds with the paper's names.
+    pub(super) fn curves(&self) -> impl Iterator<Item = (&'static str, usize, &[CurvePoint])> {
+        let named = [("s_PD", &self.flips), ("s_SN", &self.folds)];
+        named.into_iter().flat_map(|(name, curves)| {
+            let curves = curves.iter().enumerate();
+            curves.map(move |(number, curve)| (name, number, &curve.points[..]))
+        })
+    }
+
+    /// The point of s_SN with the hardest impact: the optimum clearance of the paper's section 3.
+    pub(super) fn hardest(&self) -> Option<&CurvePoint> {
+        let all = self.folds.iter().flat_map(|curve| &curve.points);
+        let velocity = CurvePoint::before_impact_velocity;
+        all.max_by(|a, b| velocity(a).total_cmp(&velocity(b)))
+    }
+}

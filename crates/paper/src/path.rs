@@ -1,0 +1,113 @@
+//! A motion arc by arc as points to draw, with the force of contact, its impacts and what it dissipates.
+
+use softstop::internals::{Phase, work};
+use softstop::{Arc, Clock, Crossing, MotionError, Observer, PhaseKind, Scene, Start};
+
+/// A point of a motion, in the paper's ratios.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Point {
+    pub(super) time: f64,
+    pub(super) position: f64,
+    pub(super) velocity: f64,
+    /// That of contact.
+    pub(super) force: f64,
+    pub(super) phase: PhaseKind,
+}
+
+/// A motion from drive angle phi on.
+#[derive(Debug, Default)]
+pub(super) struct Path {
+    /// In order of time; those at which the phase changes stand twice.
+    pub(super) points: Vec<Point>,
+    /// When it hits.
+    pub(super) impacts: Vec<f64>,
+    /// Energy lost.
+    pub(super) dissipated: f64,
+    /// The part of it lost while bodies touch.
+    pub(super) dissipated_in_contact: f64,
+}
+
+impl Path {
+    /// The motion over drive periods, with so many points in each, and so many in an arc at least.
+    pub(super) fn new(
+        scene: &Scene,
+        start: Start,
+        periods: u64,
+        (fineness, fewest): (u32, u32),
+    ) -> Result<Self, MotionError> {
+        let mut motion = scene.motion(start)?;
+        let mut recorder = Recorder {
+            clock: *motion.clock(),
+            mass: scene.mass,
+            fineness: f64::from(fineness),
+            fewest: f64::from(fewest),
+            path: Self::default(),
+        };
+        motion.advance(Clock::at_cycle(periods), &mut recorder)?;
+        motion.tell_arc(&mut recorder);
+        Ok(recorder.path)
+    }
+
+    /// Velocities over positions.
+    pub(super) fn states(&self) -> Vec<(f64, f64)> {
+        let points = self.points.iter();
+        points.map(|at| (at.position, at.velocity)).collect()
+    }
+
+    /// Time for which bodies touch.
+    pub(super) fn contact_time(&self) -> f64 {
+        let same = self.points.chunk_by(|a, b| a.phase == b.phase);
+        let touching = same.filter(|arc| arc[0].phase != PhaseKind::Free);
+        let times = touching.map(|arc| arc[arc.len() - 1].time - arc[0].time);
+        times.sum()
+    }
+
+    /// Where a phase is first entered.
+    pub(super) fn first(&self, phase: PhaseKind) -> Option<&Point> {
+        self.points.iter().find(|point| point.phase == phase)
+    }
+
+    /// Where it is last left.
+    pub(super) fn last(&self, phase: PhaseKind) -> Option<&Point> {
+        self.points.iter().rfind(|point| point.phase == phase)
+    }
+}
+
+struct Recorder {
+    clock: Clock,
+    mass: f64,
+    fineness: f64,
+    fewest: f64,
+    path: Path,
+}
+
+impl Observer for Recorder {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        let path = &mut self.path;
+        let lost = work(arc, self.mass, elapsed).dissipated;
+        path.dissipated += lost;
+        if arc.kind != PhaseKind::Free {
+            path.dissipated_in_contact += lost;
+        }
+        let steps = self.fineness * elapsed / self.clock.period();
+        let steps = steps.ceil().max(self.fewest) as u32;
+        path.points.extend((0..=steps).map(|step| {
+            let after = elapsed * f64::from(step) / f64::from(steps);
+            let Start { position, velocity } = arc.at(after);
+            let force = |phase: &Phase| phase.contact_force(position, velocity);
+            Point {
+                time: self.clock.time(self.clock.after(arc.start, after)),
+                position,
+                velocity,
+                force: arc.phase.map_or(0.0, force),
+                phase: arc.kind,
+            }
+        }));
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        let is_impact = crossing.impact_velocity().is_some();
+        let time = is_impact.then(|| self.clock.time(crossing.instant));
+        self.path.impacts.extend(time);
+    }
+}
