@@ -1,6 +1,6 @@
 //! The frequencies at which a whole box of tolerances stays inside the zone: each end of the zone is taken at the corner of
 //! the box that brings it nearest, which the signs of its normal name (Moennigmann and Marquardt 2002). What else is lost
-//! within the box, [`hold`](super::hold) looks for.
+//! within the box, [`robustify`](super::robustify) looks for.
 
 use softstop::{Dimension, Machine, Parameter};
 use softstop_dynamics::continuation::Test;

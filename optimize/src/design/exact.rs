@@ -7,8 +7,8 @@ use softstop_dynamics::slopes::{self, Border, Slopes};
 use softstop_dynamics::zone::loss_of_stability;
 
 use super::figure::Figure;
-use super::here::{At, Here};
 use super::judge::Judged;
+use super::operating_point::{At, OperatingPoint};
 use super::problem::Problem;
 use super::rates::rates;
 use super::space::Space;
@@ -32,7 +32,7 @@ const CHANGE: f64 = 1e-2;
 
 impl Exact {
     /// None where the motion has no derivatives.
-    pub(super) fn of(problem: &Problem, at: &At<'_>, here: &Here) -> Option<Self> {
+    pub(super) fn of(problem: &Problem, at: &At<'_>, here: &OperatingPoint) -> Option<Self> {
         let scene = &here.orbit.scene;
         let mut parameters: Vec<Parameter> = Parameter::ALL.to_vec();
         let all = directions(problem, at);

@@ -6,8 +6,8 @@ use super::Design;
 use super::differences::differences;
 use super::exact::Exact;
 use super::figure::Figure;
-use super::here::{At, Here};
 use super::judge::{Judged, Met};
+use super::operating_point::{At, OperatingPoint};
 use super::problem::Problem;
 use super::reach::{Known, inside};
 use super::requirement::Requirement;
@@ -26,7 +26,7 @@ pub struct Local {
 
 /// What is known at a point, with what is known of the machines within the tolerances; none if there is no stable motion.
 pub fn local(problem: &Problem, at: &At<'_>, known: &Known) -> Option<Local> {
-    let here = Here::find(problem, at)?;
+    let here = OperatingPoint::find(problem, at)?;
     let motion = here.judged()?;
     let exact = Exact::of(problem, at, &here);
     let slopes = slopes(problem, at, exact.as_ref(), (&here, &motion))?;
@@ -106,13 +106,13 @@ fn slopes(
     problem: &Problem,
     at: &At<'_>,
     exact: Option<&Exact>,
-    (here, motion): (&Here, &Judged<'_>),
+    (here, motion): (&OperatingPoint, &Judged<'_>),
 ) -> Option<Vec<Slope>> {
     let figures = figures(problem);
     let derivative = |figure: &Figure| exact.and_then(|it| it.by(*figure, motion));
     let mut all: Vec<Option<Vec<f64>>> = figures.iter().map(derivative).collect();
     all.push(exact.map(|it| it.frequency.clone()));
-    let value = |here: &Here| {
+    let value = |here: &OperatingPoint| {
         let motion = &here.judged()?;
         let sought = problem.sought(motion)?;
         let rest = figures[1..].iter().map(|figure| motion.value(*figure));

@@ -10,8 +10,8 @@ use softstop_dynamics::zone::Loss;
 use super::box_window::Edge;
 use super::differences::differences;
 use super::exact::Exact;
-use super::here::{At, Here};
 use super::judge::Met;
+use super::operating_point::{At, OperatingPoint};
 use super::problem::Problem;
 use super::slope::Slope;
 use super::within::Rows;
@@ -29,7 +29,7 @@ pub struct Known {
 
 impl Known {
     /// The value of a motion that meets its requirements; none if one of the ways is lost.
-    pub(super) fn value(&self, problem: &Problem, here: &Here) -> Option<f64> {
+    pub(super) fn value(&self, problem: &Problem, here: &OperatingPoint) -> Option<f64> {
         let motion = here.judged()?;
         let is_met = problem.met(&motion).iter().all(Met::is_met);
         let value = problem.sought(&motion).filter(|_| is_met)?;
@@ -46,7 +46,7 @@ impl Known {
     pub(super) fn kept(
         &self,
         problem: &Problem,
-        (at, here): (&At<'_>, &Here),
+        (at, here): (&At<'_>, &OperatingPoint),
         exact: Option<&Exact>,
     ) -> Option<Vec<Slope>> {
         if self.ways.is_empty() {
@@ -66,7 +66,7 @@ impl Known {
 /// How far inside an end of the zone the machine at its corner of the box is, as a share of the frequency.
 pub(super) fn inside(
     problem: &Problem,
-    (at, here): (&At<'_>, &Here),
+    (at, here): (&At<'_>, &OperatingPoint),
     exact: &Exact,
     edge: &Edge,
 ) -> Option<Slope> {
@@ -91,7 +91,7 @@ pub(super) fn inside(
 /// Where a way out ends: its share, and what ends it there.
 fn end(
     spread: &Tolerances,
-    here: &Here,
+    here: &OperatingPoint,
     way: &[f64],
 ) -> Option<(f64, Option<(Loss, BranchPoint)>)> {
     let reached = along(spread, &here.orbit, way, FARTHEST).ok()?;
@@ -107,7 +107,7 @@ fn end(
 struct About<'a> {
     problem: &'a Problem,
     at: &'a At<'a>,
-    here: &'a Here,
+    here: &'a OperatingPoint,
     exact: &'a Exact,
     spread: Tolerances,
 }
@@ -127,7 +127,7 @@ impl About<'_> {
             _ => None,
         };
         let by = test.and_then(|test| self.by_normal(way, share, (test, &point)));
-        let share = |here: &Here| {
+        let share = |here: &OperatingPoint| {
             let spread = self.problem.spread(here.machine())?;
             Some(vec![end(&spread, here, way)?.0])
         };
@@ -154,7 +154,10 @@ impl About<'_> {
         Some(by.iter().map(|by| -share * by / outwards).collect())
     }
 
-    fn differenced(&self, value: &impl Fn(&Here) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
+    fn differenced(
+        &self,
+        value: &impl Fn(&OperatingPoint) -> Option<Vec<f64>>,
+    ) -> Option<Vec<f64>> {
         let rows = differences(self.problem, self.at, value)?;
         Some(rows.concat())
     }

@@ -5,7 +5,7 @@ use softstop_dynamics::slopes::Border;
 use softstop_dynamics::spread::Spread;
 
 use super::exact::Exact;
-use super::here::{At, Here};
+use super::operating_point::{At, OperatingPoint};
 use super::problem::Problem;
 use super::space::Space;
 
@@ -30,7 +30,7 @@ impl Rows {
     /// At some coordinates of the box of tolerances.
     pub(super) fn at(
         problem: &Problem,
-        (at, here): (&At<'_>, &Here),
+        (at, here): (&At<'_>, &OperatingPoint),
         exact: &Exact,
         coordinates: &[f64],
     ) -> Option<Self> {

@@ -6,15 +6,15 @@ use rayon::prelude::*;
 use serde::Serialize;
 use softstop_console::interrupt;
 
+use super::ascent::ascend_from;
 use super::certain::certain;
 use super::conflict::conflict;
-use super::coordinates::{Coordinates, Summit};
-use super::gradient::ascend_from;
-use super::here::Here;
-use super::hold::{Held, look};
+use super::coordinates::{Candidate, Coordinates};
 use super::judge::{Met, violation};
+use super::operating_point::OperatingPoint;
 use super::problem::Problem;
 use super::reach::Known;
+use super::robustify::{Robust, look};
 use super::space::Space;
 use super::trial::FULL;
 use super::{Design, Infeasible};
@@ -56,24 +56,24 @@ const RESOLUTION: Resolution = Resolution {
 ///
 /// # Errors
 /// [`Infeasible`] if none was met: what this design fails.
-pub(super) fn pass(
+pub(super) fn check_trials(
     problem: &Problem,
-    mut held: Held,
-) -> Result<(Summit, Option<Resolution>), Infeasible> {
-    let tried = problem.tried(&held.summit.design.orbit);
+    mut held: Robust,
+) -> Result<(Candidate, Option<Resolution>), Infeasible> {
+    let tried = problem.tried(&held.candidate.design.orbit);
     let tried = tried.map_err(|error| Infeasible {
         gap: super::DISTANT,
         reason: error.to_string(),
     })?;
     if tried.iter().all(Met::is_met) {
-        return Ok((held.summit, None));
+        return Ok((held.candidate, None));
     }
     for _ in 0..ROUNDS {
         let trials = Trials {
             problem,
             known: &held.known,
         };
-        let Some(found) = trials.best(&held.summit) else {
+        let Some(found) = trials.best(&held.candidate) else {
             break;
         };
         if look(problem, &found.design, &mut held.known).is_ok() {
@@ -82,13 +82,13 @@ pub(super) fn pass(
     }
     Err(Infeasible {
         gap: violation(&tried),
-        reason: conflict(&held.summit.design.machine, &tried),
+        reason: conflict(&held.candidate.design.machine, &tried),
     })
 }
 
 /// A design near one that does not pass its trials and passes them: without the search that [`pass`] takes, and good to a
 /// per cent or so.
-pub(super) fn nearby(problem: &Problem, from: &Summit) -> Option<Summit> {
+pub(super) fn nearby(problem: &Problem, from: &Candidate) -> Option<Candidate> {
     let known = &Known::default();
     Trials { problem, known }.first(from)
 }
@@ -104,7 +104,7 @@ impl Trials<'_> {
     }
 
     /// The best design that passes, sought from one that does not.
-    fn best(&self, from: &Summit) -> Option<Summit> {
+    fn best(&self, from: &Candidate) -> Option<Candidate> {
         let coordinates = Coordinates::new(self.problem, &from.unit);
         let mut best = self.first(from);
         let lattice = lattice(coordinates.axes().len());
@@ -124,21 +124,21 @@ impl Trials<'_> {
 
     /// The best of the zone of a design, of those with wider margins, and of what linear models of the share of starts lead
     /// to, if that is required.
-    fn first(&self, from: &Summit) -> Option<Summit> {
+    fn first(&self, from: &Candidate) -> Option<Candidate> {
         let wider = |margin: &f64| {
             let wider = Problem {
                 margin: margin.max(self.problem.margin),
                 ..self.problem.clone()
             };
-            ascend_from(&wider, &from.unit, from.design.place)
+            ascend_from(&wider, &Known::default(), (&from.unit, from.design.place))
         };
         let wider = MARGINS.par_iter().filter_map(wider);
-        let starts: Vec<Summit> = [from.clone()]
+        let starts: Vec<Candidate> = [from.clone()]
             .into_iter()
             .chain(wider.collect::<Vec<_>>())
             .collect();
         let share = self.problem.least_share();
-        let led = |start: &Summit| certain(self.problem, start, share?);
+        let led = |start: &Candidate| certain(self.problem, start, share?);
         let led = starts
             .par_iter()
             .filter_map(led)
@@ -149,18 +149,18 @@ impl Trials<'_> {
     }
 
     /// Whether a design keeps what is known of its box, and passes.
-    fn passes(&self, it: &Summit) -> bool {
+    fn passes(&self, it: &Candidate) -> bool {
         let design = &it.design;
-        let here = Here::on(design.machine.clone(), &design.zone, design.place);
+        let here = OperatingPoint::on(design.machine.clone(), &design.zone, design.place);
         here.is_some_and(|here| self.known.value(self.problem, &here).is_some())
             && self.problem.passes(&design.orbit, FULL)
     }
 
     /// The best of some zones that is better than one that is known.
-    fn best_of(&self, units: &[Vec<f64>], known: Option<&Summit>) -> Option<Summit> {
+    fn best_of(&self, units: &[Vec<f64>], known: Option<&Candidate>) -> Option<Candidate> {
         let least = known.map_or(0.0, |it| (1.0 + GAIN) * self.score(&it.design));
         let found = units.par_iter().filter_map(|unit| {
-            Some(Summit {
+            Some(Candidate {
                 unit: unit.clone(),
                 design: self.along(unit, least)?,
             })
@@ -169,8 +169,8 @@ impl Trials<'_> {
     }
 
     /// The best of some designs.
-    fn better_of(&self, found: Vec<Summit>) -> Option<Summit> {
-        let score = |it: &Summit| self.score(&it.design);
+    fn better_of(&self, found: Vec<Candidate>) -> Option<Candidate> {
+        let score = |it: &Candidate| self.score(&it.design);
         found.into_iter().reduce(|one, other| {
             if score(&other) > score(&one) {
                 other
@@ -188,7 +188,7 @@ impl Trials<'_> {
         let zone = problem.zone(&machine).ok()?;
         let window = problem.window(&machine, &zone).ok()?;
         let design = |place: f64| {
-            let here = Here::on(machine.clone(), &zone, place)?;
+            let here = OperatingPoint::on(machine.clone(), &zone, place)?;
             let value = self.known.value(problem, &here)?;
             Some(here.design(value)).filter(|it| self.score(it) > least)
         };

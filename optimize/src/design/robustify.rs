@@ -6,8 +6,8 @@ use softstop_console::interrupt;
 use softstop_dynamics::zone::Loss;
 use softstop_explore::zone::lost_by;
 
-use super::coordinates::Summit;
-use super::gradient::ascend_known;
+use super::ascent::ascend_from;
+use super::coordinates::Candidate;
 use super::problem::Problem;
 use super::reach::Known;
 use super::{Design, Infeasible};
@@ -35,8 +35,8 @@ struct Lost {
 
 /// A design with its whole box.
 #[derive(Debug, Clone)]
-pub(super) struct Held {
-    pub summit: Summit,
+pub(super) struct Robust {
+    pub candidate: Candidate,
     /// What had to be known for that.
     pub known: Known,
 }
@@ -45,14 +45,17 @@ pub(super) struct Held {
 ///
 /// # Errors
 /// [`Infeasible`] with how much is lacking if there is none.
-pub(super) fn hold(problem: &Problem, start: &Summit) -> Result<Held, Infeasible> {
+pub(super) fn enforce_tolerance_box(
+    problem: &Problem,
+    start: &Candidate,
+) -> Result<Robust, Infeasible> {
     let mut known = Known::default();
-    let mut summit = start.clone();
+    let mut candidate = start.clone();
     let mut lack: Option<Infeasible> = None;
     for _ in 0..ROUNDS {
         let before = known.ways.len();
-        let Err(lost) = look(problem, &summit.design, &mut known) else {
-            return Ok(Held { summit, known });
+        let Err(lost) = look(problem, &candidate.design, &mut known) else {
+            return Ok(Robust { candidate, known });
         };
         if known.ways.len() == before {
             return Err(lost);
@@ -60,8 +63,8 @@ pub(super) fn hold(problem: &Problem, start: &Summit) -> Result<Held, Infeasible
         if lack.as_ref().is_none_or(|it| lost.gap < it.gap) {
             lack = Some(lost);
         }
-        let next = again(problem, &known, &summit).next();
-        summit = next.ok_or_else(|| lack.clone().unwrap_or_else(untold))?;
+        let next = again(problem, &known, &candidate).next();
+        candidate = next.ok_or_else(|| lack.clone().unwrap_or_else(untold))?;
     }
     Err(lack.unwrap_or_else(untold))
 }
@@ -115,10 +118,10 @@ fn lacking(lost: &Lost) -> Infeasible {
 fn again<'a>(
     problem: &'a Problem,
     known: &'a Known,
-    from: &'a Summit,
-) -> impl Iterator<Item = Summit> + 'a {
+    from: &'a Candidate,
+) -> impl Iterator<Item = Candidate> + 'a {
     let places = [from.design.place].into_iter().chain(PLACES);
-    places.filter_map(|place| ascend_known(problem, known, &from.unit, place))
+    places.filter_map(|place| ascend_from(problem, known, (&from.unit, place)))
 }
 
 /// The directions of the box in which the motion is lost within it.
