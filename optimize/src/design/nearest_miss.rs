@@ -21,6 +21,9 @@ const TOLERANCE: f64 = 1e-13;
 /// The best point that is met from a point of the survey, within what that has left of its budget.
 pub(super) fn nearest_miss(survey: &Survey<'_>, start: Point) -> Point {
     let mut best = start;
+    if best.unit.is_empty() {
+        return best;
+    }
     for edge in (0..RESTARTS).map(|restart| FIRST_EDGE * NARROWING.powi(restart)) {
         let found = survey.charged(|| minimize(survey.problem, &best, edge));
         let Ok(found) = found else { break };
