@@ -19,7 +19,7 @@ const MAX_EVALUATIONS: usize = 60;
 const COST_TOLERANCE: f64 = 1e-12;
 const STEP_TOLERANCE: f64 = 1e-11;
 /// Iterations at most, and the relative gain of one that is too small for another.
-const MAX_ITERATIONS: u64 = 1;
+const MAX_ITERATIONS: u64 = 5;
 const LEAST_GAIN: f64 = 1e-10;
 /// By how much each constraint is to be met, in its own unit: more than the solver leaves open.
 const SLACK: f64 = 1e-10;

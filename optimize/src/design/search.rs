@@ -36,7 +36,7 @@ const LARGEST_SURVEY: u64 = 3;
 /// Points from which ascents start. Of many axes, those that the survey leaves of the evaluations, so many for each.
 const STARTS: usize = 4;
 const MANY_AXES: usize = 6;
-const EVALUATIONS_PER_START: u64 = 60;
+const EVALUATIONS_PER_START: u64 = 100;
 /// Points of the survey from which ascents start where the best designs had to give way, at most.
 const SPARE: usize = 4;
 /// How far apart along an axis they are at least, and the cost of a point that has no motion to begin with.

@@ -6,14 +6,14 @@ use argmin::core::{
     CostFunction, Error, Gradient, IterState, Jacobian, KV, Operator, Problem, Solver, State,
     TerminationReason, TerminationStatus,
 };
-use slsqp::{Func, StopTols, minimize};
+use slsqp::{Func, StopTols, SuccessStatus, minimize};
 
 type Point = Vec<f64>;
 type SqpState = IterState<Point, Point, (), (), (), f64>;
 
 /// Minimises a [`CostFunction`] with its [`Gradient`] within bounds, where all values of an [`Operator`] with its
-/// [`Jacobian`] are at most 0. An iteration is a whole run of quadratic programs from the best point so far, with no memory
-/// of curvature from the run before.
+/// [`Jacobian`] are at most 0. An iteration is a run of quadratic programs from the point of the one before, without its
+/// memory of curvature; the first run that converges is the last.
 #[derive(Debug, Clone)]
 pub struct Slsqp {
     /// Least and largest value of each coordinate.
@@ -94,14 +94,22 @@ where
             self.max_evaluations,
             Some(tolerances),
         );
+        let is_cut_short = matches!(found, Ok((SuccessStatus::MaxEvalReached, ..)));
         // A run that fails, by rounding mostly, has its best point too.
         let (at, cost) = match found {
             Ok((_, at, cost)) | Err((_, at, cost)) => (at, cost),
         };
-        match failure.into_inner() {
-            Some(error) => Err(error),
-            None => Ok((state.param(at).cost(cost), None)),
+        if let Some(error) = failure.into_inner() {
+            return Err(error);
         }
+        let state = state.param(at).cost(cost);
+        Ok(match is_cut_short {
+            true => (state, None),
+            false => (
+                state.terminate_with(TerminationReason::SolverConverged),
+                None,
+            ),
+        })
     }
 
     fn terminate(&mut self, state: &SqpState) -> TerminationStatus {
