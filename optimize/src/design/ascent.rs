@@ -8,7 +8,7 @@ use argmin::core::{CostFunction, Error, Executor, Gradient, Jacobian, Operator};
 use super::coordinates::{Candidate, Coordinates};
 use super::local::{Local, local};
 use super::problem::Problem;
-use super::reach::Known;
+use super::reach::LossDirections;
 use super::slope::Slope;
 use super::slsqp::Slsqp;
 use super::space::Space;
@@ -31,14 +31,14 @@ pub(super) fn ascend(problem: &Problem, unit: &[f64]) -> Option<Candidate> {
     let values = Space(&problem.axes).values(unit);
     let start = problem.at_batch(&[values]).remove(0);
     let place = start.map_or(0.5, |design| design.place);
-    ascend_from(problem, &Known::default(), (unit, place))
+    ascend_from(problem, &LossDirections::default(), (unit, place))
 }
 
 /// The best design that is met on the way from a point of the unit cube and a place of its zone, with what is known of the
 /// machines within the tolerances.
 pub(super) fn ascend_from(
     problem: &Problem,
-    known: &Known,
+    known: &LossDirections,
     (unit, place): (&[f64], f64),
 ) -> Option<Candidate> {
     let (program, start) = Program::new(problem, known, unit, place)?;
@@ -63,7 +63,7 @@ pub(super) fn ascend_from(
 /// start, and constraints that hold where they are not positive.
 struct Program<'a> {
     problem: &'a Problem,
-    known: &'a Known,
+    known: &'a LossDirections,
     coordinates: Coordinates,
     score: f64,
     constraints: usize,
@@ -76,7 +76,7 @@ impl<'a> Program<'a> {
     /// The program about a point of the unit cube and its start; none if there is no motion.
     fn new(
         problem: &'a Problem,
-        known: &'a Known,
+        known: &'a LossDirections,
         unit: &[f64],
         place: f64,
     ) -> Option<(Self, Vec<f64>)> {
@@ -106,11 +106,10 @@ impl<'a> Program<'a> {
         let unit = self.coordinates.unit(at);
         let mut found = local(self.problem, &self.coordinates.at(&unit, at), self.known)?;
         if let Some(design) = found.design.take() {
-            let score = |value| self.problem.objective.score(value);
             let mut best = self.best.borrow_mut();
             if best
                 .as_ref()
-                .is_none_or(|best| score(design.value) > score(best.design.value))
+                .is_none_or(|best| self.problem.score(&design) > self.problem.score(&best.design))
             {
                 *best = Some(Candidate { unit, design });
             }

@@ -21,7 +21,7 @@ const NOWHERE: f64 = 10.0;
 /// What is known of a point: the score, in units of that at the start, the share of starts beyond what is asked for, and
 /// how far it is within all else, which is negative beyond that.
 #[derive(Debug, Clone, Copy)]
-struct Known {
+struct Sample {
     score: f64,
     share: f64,
     within: f64,
@@ -32,14 +32,14 @@ pub(super) fn certain(problem: &Problem, from: &Candidate, share: f64) -> Option
     let coordinates = Coordinates::new(problem, &from.unit);
     let unit = problem.objective.score(from.design.value);
     let best: RefCell<Option<Candidate>> = RefCell::default();
-    let last: RefCell<Option<(Vec<f64>, Known)>> = RefCell::default();
-    let look = |at: &[f64]| -> Option<Known> {
+    let last: RefCell<Option<(Vec<f64>, Sample)>> = RefCell::default();
+    let look = |at: &[f64]| -> Option<Sample> {
         let unit_cube = coordinates.unit(at);
         let here = OperatingPoint::find(problem, &coordinates.at(&unit_cube, at))?;
         let motion = here.judged()?;
         let value = problem.sought(&motion)?;
         let outside = here.outside(problem)? + violation(&problem.met(&motion));
-        let known = Known {
+        let known = Sample {
             score: problem.objective.score(value) / unit,
             share: certainty(&here.orbit).ok()? - share,
             within: -outside,
@@ -60,7 +60,7 @@ pub(super) fn certain(problem: &Problem, from: &Candidate, share: f64) -> Option
     let known = |at: &[f64]| {
         let is_last = matches!(&*last.borrow(), Some((other, _)) if other == at);
         if !is_last {
-            let found = look(at).unwrap_or(Known {
+            let found = look(at).unwrap_or(Sample {
                 score: 0.0,
                 share: -NOWHERE,
                 within: -NOWHERE,

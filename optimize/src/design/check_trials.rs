@@ -13,7 +13,7 @@ use super::coordinates::{Candidate, Coordinates};
 use super::judge::{Met, violation};
 use super::operating_point::OperatingPoint;
 use super::problem::Problem;
-use super::reach::Known;
+use super::reach::LossDirections;
 use super::robustify::{Robust, look};
 use super::space::Space;
 use super::trial::FULL;
@@ -65,10 +65,7 @@ pub(super) fn check_trials(
     mut held: Robust,
 ) -> Result<(Candidate, Option<Resolution>), Infeasible> {
     let tried = problem.tried(&held.candidate.design.orbit);
-    let tried = tried.map_err(|error| Infeasible {
-        gap: super::DISTANT,
-        reason: error.to_string(),
-    })?;
+    let tried = tried.map_err(Infeasible::unknown)?;
     if tried.iter().all(Met::is_met) {
         return Ok((held.candidate, None));
     }
@@ -93,18 +90,18 @@ pub(super) fn check_trials(
 /// A design near one that does not pass its trials and passes them: without the search that [`pass`] takes, and good to a
 /// per cent or so.
 pub(super) fn nearby(problem: &Problem, from: &Candidate) -> Option<Candidate> {
-    let known = &Known::default();
+    let known = &LossDirections::default();
     Trials { problem, known }.first(from)
 }
 
 struct Trials<'a> {
     problem: &'a Problem,
-    known: &'a Known,
+    known: &'a LossDirections,
 }
 
 impl Trials<'_> {
     fn score(&self, design: &Design) -> f64 {
-        self.problem.objective.score(design.value)
+        self.problem.score(design)
     }
 
     /// The best design that passes, sought from one that does not: from the first ones on among the zones of a lattice, then by
@@ -137,7 +134,7 @@ impl Trials<'_> {
                 ..self.problem.clone()
             };
             let place = (&from.unit[..], from.design.place);
-            if let Some(wider) = ascend_from(&wider, &Known::default(), place) {
+            if let Some(wider) = ascend_from(&wider, &LossDirections::default(), place) {
                 best = self.best_of(&[wider.unit.clone()], best.as_ref()).or(best);
                 start = wider;
             }

@@ -11,7 +11,7 @@ use super::check_trials::nearby;
 use super::coordinates::Candidate;
 use super::figure::{Figure, Sense};
 use super::problem::Problem;
-use super::reach::Known;
+use super::reach::LossDirections;
 use super::requirement::Requirement;
 use super::robustify::is_at_edge;
 use super::trial::{ROUGH, certainty};
@@ -219,9 +219,11 @@ fn both_ways(start: &Candidate, own: f64, with_bound: impl Fn(f64) -> Problem) -
         for _ in 0..STEPS {
             bound *= 1.0 + change;
             let problem = with_bound(bound);
-            let Some(candidate) =
-                ascend_from(&problem, &Known::default(), (&from.unit, from.design.place))
-            else {
+            let Some(candidate) = ascend_from(
+                &problem,
+                &LossDirections::default(),
+                (&from.unit, from.design.place),
+            ) else {
                 break;
             };
             let gain = (candidate.design.value - from.design.value).abs();

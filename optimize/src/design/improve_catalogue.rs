@@ -19,7 +19,7 @@ const GAIN: f64 = 1e-12;
 /// The best design by exchange of values of catalogues.
 pub(super) fn improve_catalogue(problem: &Problem, from: &Robust) -> Robust {
     let catalogues = Catalogues::of(problem);
-    let score = |it: &Robust| problem.objective.score(it.candidate.design.value);
+    let score = |it: &Robust| problem.score(&it.candidate.design);
     let mut best = from.clone();
     let mut tried = HashSet::from([catalogues.places(&best.candidate.unit)]);
     loop {

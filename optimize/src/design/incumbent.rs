@@ -45,7 +45,7 @@ impl<'a> Incumbent<'a> {
 
     /// Replaces the best design by a better one, or by one of a higher rank.
     pub(super) fn update(&self, candidate: &Candidate, rank: Rank) {
-        let score = self.problem.objective.score(candidate.design.value);
+        let score = self.problem.score(&candidate.design);
         let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
         if best
             .as_ref()

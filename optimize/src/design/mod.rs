@@ -94,7 +94,22 @@ pub struct Infeasible {
     pub reason: String,
 }
 
+impl Infeasible {
+    /// A point of which no more is known than that it cannot be computed.
+    fn unknown(error: impl ToString) -> Self {
+        Self {
+            gap: DISTANT,
+            reason: error.to_string(),
+        }
+    }
+}
+
 impl Problem {
+    /// The score of a design: the higher the better.
+    fn score(&self, design: &Design) -> f64 {
+        self.objective.score(design.value)
+    }
+
     /// The best frequency at these values of the axes.
     ///
     /// # Errors

@@ -9,7 +9,7 @@ use softstop_explore::zone::lost_by;
 use super::ascent::ascend_from;
 use super::coordinates::Candidate;
 use super::problem::Problem;
-use super::reach::Known;
+use super::reach::LossDirections;
 use super::{Design, Infeasible};
 use crate::robust::{Manifold, Norm, Tolerances, first_losses, nearest};
 
@@ -26,7 +26,7 @@ const PLACES: [f64; 5] = [0.5, 0.3, 0.7, 0.1, 0.9];
 #[derive(Debug, Clone)]
 struct Lost {
     /// In this direction of the box.
-    way: Vec<f64>,
+    direction: Vec<f64>,
     /// At this share of the way.
     share: f64,
     /// By this, in words.
@@ -38,7 +38,7 @@ struct Lost {
 pub(super) struct Robust {
     pub candidate: Candidate,
     /// What had to be known for that.
-    pub known: Known,
+    pub known: LossDirections,
 }
 
 /// The best design about this one of which no machine within the tolerances loses the motion.
@@ -49,15 +49,15 @@ pub(super) fn enforce_tolerance_box(
     problem: &Problem,
     start: &Candidate,
 ) -> Result<Robust, Infeasible> {
-    let mut known = Known::default();
+    let mut known = LossDirections::default();
     let mut candidate = start.clone();
     let mut lack: Option<Infeasible> = None;
     for _ in 0..ROUNDS {
-        let before = known.ways.len();
+        let before = known.directions.len();
         let Err(lost) = look(problem, &candidate.design, &mut known) else {
             return Ok(Robust { candidate, known });
         };
-        if known.ways.len() == before {
+        if known.directions.len() == before {
             return Err(lost);
         }
         if lack.as_ref().is_none_or(|it| lost.gap < it.gap) {
@@ -76,14 +76,16 @@ pub(super) fn enforce_tolerance_box(
 pub(super) fn look(
     problem: &Problem,
     design: &Design,
-    known: &mut Known,
+    known: &mut LossDirections,
 ) -> Result<(), Infeasible> {
     let Some(spread) = problem.spread(&design.machine) else {
         return Ok(());
     };
     let lost = lost(&spread, design)?;
     let lacking = lost.first().map(lacking);
-    known.ways.extend(lost.into_iter().map(|it| it.way));
+    known
+        .directions
+        .extend(lost.into_iter().map(|it| it.direction));
     lacking.map_or(Ok(()), Err)
 }
 
@@ -93,15 +95,12 @@ impl Problem {
     /// # Errors
     /// [`Infeasible`] with how much is lacking.
     pub fn has_box(&self, design: &Design) -> Result<(), Infeasible> {
-        look(self, design, &mut Known::default())
+        look(self, design, &mut LossDirections::default())
     }
 }
 
 fn untold() -> Infeasible {
-    Infeasible {
-        gap: super::DISTANT,
-        reason: "the machines within the tolerances could not be computed".to_owned(),
-    }
+    Infeasible::unknown("the machines within the tolerances could not be computed")
 }
 
 fn lacking(lost: &Lost) -> Infeasible {
@@ -117,7 +116,7 @@ fn lacking(lost: &Lost) -> Infeasible {
 /// The best designs with what is known of the box, from one, and from other places of its zone.
 fn again<'a>(
     problem: &'a Problem,
-    known: &'a Known,
+    known: &'a LossDirections,
     from: &'a Candidate,
 ) -> impl Iterator<Item = Candidate> + 'a {
     let places = [from.design.place].into_iter().chain(PLACES);
@@ -127,10 +126,7 @@ fn again<'a>(
 /// The directions of the box in which the motion is lost within it.
 fn lost(spread: &Tolerances, design: &Design) -> Result<Vec<Lost>, Infeasible> {
     let found = nearest(spread, &design.orbit, Norm::Box, 1.0, &interrupt::watch);
-    let found = found.map_err(|error| Infeasible {
-        gap: super::DISTANT,
-        reason: error.to_string(),
-    })?;
+    let found = found.map_err(Infeasible::unknown)?;
     let nearest = found.into_iter().filter_map(|it| match it.manifold {
         Manifold::Motion(loss) => Some((it.at, loss)),
         Manifold::Hysteresis => None,
@@ -169,7 +165,7 @@ fn told(all: impl IntoIterator<Item = (Vec<f64>, Loss)>) -> Vec<Lost> {
             .iter()
             .fold(f64::MIN_POSITIVE, |most, part| most.max(part.abs()));
         Lost {
-            way: at.iter().map(|part| part / share).collect(),
+            direction: at.iter().map(|part| part / share).collect(),
             share,
             by: lost_by(&loss),
         }

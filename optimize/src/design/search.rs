@@ -116,7 +116,7 @@ pub fn search(
 impl Found {
     /// The best of some designs, and those that are its rivals.
     fn new(problem: &Problem, best: Candidate, others: &[Candidate]) -> Self {
-        let score = |it: &Design| problem.objective.score(it.value);
+        let score = |it: &Design| problem.score(it);
         let mut all = vec![best.design];
         for other in others {
             let is_new = all
@@ -188,22 +188,15 @@ impl<'a> Search<'a> {
     }
 
     fn score(&self, it: &Candidate) -> f64 {
-        self.survey.problem.objective.score(it.design.value)
+        self.survey.problem.score(&it.design)
     }
 
     /// Puts the best tops first, each but once.
     fn sort(&mut self) {
-        let objective = self.survey.problem.objective;
-        let score = |it: &Candidate| objective.score(it.design.value);
+        let problem = self.survey.problem;
+        let score = |it: &Candidate| problem.score(&it.design);
         self.tops.sort_by(|a, b| score(b).total_cmp(&score(a)));
-        let mut index = 1;
-        while index < self.tops.len() {
-            let (known, it) = (&self.tops[..index], &self.tops[index]);
-            match known.iter().any(|other| is_same(other, it)) {
-                true => drop(self.tops.remove(index)),
-                false => index += 1,
-            }
-        }
+        self.tops.dedup_by(|it, known| is_same(it, known));
     }
 
     /// The best design with the whole box of tolerances, the neighbours of catalogues and all trials.
@@ -277,8 +270,8 @@ impl<'a> Search<'a> {
                 self.tops.push(top);
             }
         }
-        let objective = self.survey.problem.objective;
-        let score = |it: &Robust| objective.score(it.candidate.design.value);
+        let problem = self.survey.problem;
+        let score = |it: &Robust| problem.score(&it.candidate.design);
         self.robust.sort_by(|a, b| score(b).total_cmp(&score(a)));
     }
 

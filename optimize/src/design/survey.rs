@@ -49,15 +49,13 @@ pub(super) struct Point {
 /// Longest edge of the lattice, in points, and the shortest: below that it has nothing but corners.
 const LONGEST_EDGE: usize = 64;
 const SHORTEST_EDGE: usize = 3;
-/// Points between two looks at whether to stop.
-const BLOCK: usize = 512;
 /// Points that are computed and kept together.
 const PIECE: usize = 16;
 
 /// Cost of an infeasible point: above that of every feasible one.
 fn cost(problem: &Problem, outcome: &Result<Design, Infeasible>) -> f64 {
     match outcome {
-        Ok(design) => -problem.objective.score(design.value),
+        Ok(design) => -problem.score(design),
         Err(infeasible) => 1.0 + infeasible.gap,
     }
 }
@@ -118,23 +116,23 @@ impl<'a> Survey<'a> {
     /// At most so many points of the unit cube, the best ones first; none if the survey is stopped.
     pub(super) fn points(&self, evaluations: usize) -> Option<Vec<Point>> {
         let units = units(Space(&self.problem.axes).dimension(), evaluations);
-        let mut points = Vec::with_capacity(units.len());
-        for (number, block) in units.chunks(BLOCK).enumerate() {
-            if self.watch.stop() || self.is_over_budget() {
-                return None;
-            }
-            let pieces = block.par_chunks(PIECE).enumerate();
-            let found = pieces.flat_map_iter(|(index, units)| self.piece((number, index), units));
-            points.par_extend(found);
-        }
+        let pieces = units.par_chunks(PIECE).enumerate();
+        let pieces = pieces.map(|(index, units)| self.piece(index, units));
+        let mut points = pieces.collect::<Option<Vec<_>>>()?.concat();
         points.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         Some(points)
     }
 
-    /// Points that are recalled, or computed and kept.
-    fn piece(&self, key: (usize, usize), units: &[Vec<f64>]) -> Vec<Point> {
-        let Ok(found) =
-            self.charged(|| piece(self.kept, &key, || Ok::<_, Infallible>(self.compute(units))));
+    /// Points that are recalled, or computed and kept; none if the survey is stopped.
+    fn piece(&self, index: usize, units: &[Vec<f64>]) -> Option<Vec<Point>> {
+        if self.watch.stop() || self.is_over_budget() {
+            return None;
+        }
+        let Ok(found) = self.charged(|| {
+            piece(self.kept, &index, || {
+                Ok::<_, Infallible>(self.compute(units))
+            })
+        });
         let pairs = units.iter().zip(found);
         let point = |(unit, (cost, value)): (&Vec<f64>, (f64, Option<f64>))| {
             self.watch.evaluated(value);
@@ -145,7 +143,7 @@ impl<'a> Survey<'a> {
             let unit = unit.clone();
             Point { unit, cost }
         };
-        pairs.map(point).collect()
+        Some(pairs.map(point).collect())
     }
 
     /// The cost of each point, and what its best motion has of what is sought.
