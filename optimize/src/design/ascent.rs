@@ -18,8 +18,8 @@ const MAX_EVALUATIONS: usize = 60;
 /// Changes of cost and coordinates, relative and in edges of the cube, that are too small to go on.
 const COST_TOLERANCE: f64 = 1e-12;
 const STEP_TOLERANCE: f64 = 1e-11;
-/// Iterations at most, and the relative gain of one that is too small for another.
-const MAX_ITERATIONS: u64 = 5;
+/// Coordinates for each of which there may be one more iteration, and the relative gain of one that is too small for another.
+const COORDINATES_PER_ITERATION: usize = 3;
 const LEAST_GAIN: f64 = 1e-10;
 /// By how much each constraint is to be met, in its own unit: more than the solver leaves open.
 const SLACK: f64 = 1e-10;
@@ -53,8 +53,9 @@ pub(super) fn ascend_from(
         step_tolerance: STEP_TOLERANCE,
         least_gain: LEAST_GAIN,
     };
+    let iterations = (start.len() / COORDINATES_PER_ITERATION).max(1) as u64;
     let executor = Executor::new(program, solver);
-    let executor = executor.configure(|state| state.param(start).max_iters(MAX_ITERATIONS));
+    let executor = executor.configure(|state| state.param(start).max_iters(iterations));
     let found = executor.timer(false).run().ok()?;
     found.problem.get_problem()?.best.into_inner()
 }
