@@ -2,6 +2,8 @@
 //! search among zones: a lattice of them, then those around the best (a compass search, Kolda, Lewis and Torczon 2003),
 //! closer and closer. Of each zone only places that are better than the best so far are tried.
 
+use std::slice::from_ref;
+
 use rayon::prelude::*;
 use serde::Serialize;
 use softstop_console::interrupt;
@@ -127,7 +129,7 @@ impl Trials<'_> {
     /// from there, if that is required.
     fn first(&self, from: &Candidate) -> Option<Candidate> {
         let mut start = from.clone();
-        let mut best = self.best_of(&[from.unit.clone()], None);
+        let mut best = self.best_of(from_ref(&from.unit), None);
         for margin in MARGINS {
             let wider = Problem {
                 margin: margin.max(self.problem.margin),
@@ -135,7 +137,7 @@ impl Trials<'_> {
             };
             let place = (&from.unit[..], from.design.place);
             if let Some(wider) = ascend_from(&wider, &LossDirections::default(), place) {
-                best = self.best_of(&[wider.unit.clone()], best.as_ref()).or(best);
+                best = self.best_of(from_ref(&wider.unit), best.as_ref()).or(best);
                 start = wider;
             }
         }
