@@ -13,8 +13,6 @@ use crate::optimize::outcome::Interrupted;
 pub struct SearchReport {
     /// Values held and ranges searched, in words.
     pub bounds: BTreeMap<String, String>,
-    /// Seed.
-    pub seed: u64,
     /// Zones computed at most.
     pub evaluations: u64,
     /// Zones that were computed.

@@ -4,10 +4,10 @@ use proptest::prelude::*;
 use softstop::{Machine, Parameter};
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::figure::Figure;
-use softstop_optimize::design::here::At;
 use softstop_optimize::design::local::{Local, local};
+use softstop_optimize::design::operating_point::At;
 use softstop_optimize::design::problem::{Tolerance, Width};
-use softstop_optimize::design::reach::Known;
+use softstop_optimize::design::reach::LossDirections;
 use softstop_optimize::design::requirement::Requirement;
 use softstop_optimize::design::slope::Slope;
 use softstop_optimize::design::space::{Axis, Interval};
@@ -102,14 +102,14 @@ fn tolerances() -> Vec<Tolerance> {
     .to_vec()
 }
 
-/// A way to the fold.
-fn known() -> Known {
-    Known {
-        ways: vec![vec![0.6, -0.3, 0.2, 1.0]],
+/// A direction to the fold.
+fn known() -> LossDirections {
+    LossDirections {
+        directions: vec![vec![0.6, -0.3, 0.2, 1.0]],
     }
 }
 
-fn at(problem: &Problem, known: &Known, coordinates: &[f64]) -> Option<Local> {
+fn at(problem: &Problem, known: &LossDirections, coordinates: &[f64]) -> Option<Local> {
     let (place, unit) = coordinates.split_last()?;
     let moved: Vec<usize> = (0..unit.len()).collect();
     let at = At {
@@ -124,7 +124,7 @@ fn at(problem: &Problem, known: &Known, coordinates: &[f64]) -> Option<Local> {
 const STEPS: [f64; 2] = [2e-4, 1e-4];
 
 /// Values in a row, the score first.
-fn values(problem: &Problem, known: &Known, coordinates: &[f64]) -> Option<Vec<f64>> {
+fn values(problem: &Problem, known: &LossDirections, coordinates: &[f64]) -> Option<Vec<f64>> {
     let found = at(problem, known, coordinates)?;
     Some(all(&found).map(|it| it.value).collect())
 }
@@ -137,7 +137,7 @@ fn all(found: &Local) -> impl Iterator<Item = &Slope> {
 /// Central differences of the fourth order by one coordinate, and how far those of the second order are from them.
 fn differences(
     problem: &Problem,
-    known: &Known,
+    known: &LossDirections,
     coordinates: &[f64],
     index: usize,
 ) -> Option<Vec<(f64, f64)>> {
@@ -176,7 +176,7 @@ proptest! {
         coordinates.push(place);
         let index = axis % coordinates.len();
         let tolerated = Problem { tolerances: tolerances(), ..exact.clone() };
-        for (problem, known) in [(exact, Known::default()), (tolerated, known())] {
+        for (problem, known) in [(exact, LossDirections::default()), (tolerated, known())] {
             let found = at(&problem, &known, &coordinates);
             let expected = differences(&problem, &known, &coordinates, index);
             let Some((found, expected)) = found.zip(expected) else {

@@ -79,10 +79,7 @@ impl Held {
     /// No point of a grid is better than the optimum, and the best of them comes near.
     #[track_caller]
     fn holds(&self, size: Size) -> Outcome {
-        let settings = Settings {
-            seed: 0,
-            evaluations: 300,
-        };
+        let settings = Settings { evaluations: 300 };
         let found = search(&self.problem, settings, &Unwatched, None)?;
         let (name, value, grid) = (self.name, found.design.value, self.on_grid(size));
         println!(

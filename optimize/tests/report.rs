@@ -45,10 +45,7 @@ fn design() -> Outcome<Design> {
         },
         ..Problem::of(Machine::from_toml(PRESS)?, axes)
     };
-    let settings = Settings {
-        seed: 0,
-        evaluations: 300,
-    };
+    let settings = Settings { evaluations: 300 };
     Ok(search(&problem, settings, &Unwatched, None)?.design)
 }
 

@@ -15,10 +15,7 @@ use softstop_optimize::robust::{self, Norm, nearest, verify};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const SETTINGS: Settings = Settings {
-    seed: 0,
-    evaluations: 300,
-};
+const SETTINGS: Settings = Settings { evaluations: 300 };
 
 /// A machine whose hysteresis zone has a second pair of folds: above 1.364 a motion of more than twice the velocity.
 fn two_folds() -> Result<Machine, Box<dyn std::error::Error>> {

@@ -1,6 +1,6 @@
 //! The frequencies at which a whole box of tolerances stays inside the zone: each end of the zone is taken at the corner of
 //! the box that brings it nearest, which the signs of its normal name (Moennigmann and Marquardt 2002). What else is lost
-//! within the box, [`hold`](super::hold) looks for.
+//! within the box, [`robustify`](super::robustify) looks for.
 
 use softstop::{Dimension, Machine, Parameter};
 use softstop_dynamics::continuation::Test;
@@ -80,9 +80,10 @@ struct Corners<'a> {
 impl Corners<'_> {
     fn low(&self) -> Result<Edge, Infeasible> {
         let centre = vec![0.0; self.spread.dimensions()];
-        let normal = free_normal(&self.spread, &centre).map_err(lost)?;
+        let normal = free_normal(&self.spread, &centre).map_err(Infeasible::unknown)?;
         let corner: Vec<f64> = normal.iter().map(|part| -part.signum()).collect();
-        let (_, above) = grazing_frequencies(&self.spread.scene(&corner)).map_err(lost)?;
+        let (_, above) =
+            grazing_frequencies(&self.spread.scene(&corner)).map_err(Infeasible::unknown)?;
         Ok(Edge {
             corner,
             fold: None,
@@ -94,7 +95,7 @@ impl Corners<'_> {
         let mut corner = vec![0.0; self.spread.dimensions()];
         let mut fold = zone.fold.clone();
         let normal = |corner: &[f64], fold: &BranchPoint| {
-            critical_normal(&self.spread, corner, (Test::Fold, fold)).map_err(lost)
+            critical_normal(&self.spread, corner, (Test::Fold, fold)).map_err(Infeasible::unknown)
         };
         let mut outwards = normal(&corner, &fold)?;
         for _ in 0..CORNERS {
@@ -105,9 +106,10 @@ impl Corners<'_> {
             corner = towards;
             let zone = self.problem.zone(&self.spread.machine(&corner));
             fold = zone
-                .map_err(|error| Infeasible {
-                    gap: super::DISTANT,
-                    reason: format!("a machine within the tolerances has no zone: {error}"),
+                .map_err(|error| {
+                    Infeasible::unknown(format!(
+                        "a machine within the tolerances has no zone: {error}"
+                    ))
                 })?
                 .fold;
             outwards = normal(&corner, &fold)?;
@@ -163,12 +165,5 @@ impl Corners<'_> {
             Some(Width::Share(share)) => frequency / (1.0 + sign * share),
             None => frequency,
         }
-    }
-}
-
-fn lost(error: impl ToString) -> Infeasible {
-    Infeasible {
-        gap: super::DISTANT,
-        reason: error.to_string(),
     }
 }

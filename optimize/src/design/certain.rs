@@ -5,9 +5,9 @@ use std::cell::RefCell;
 
 use cobyla::{Func, RhoBeg, StopTols, minimize};
 
-use super::coordinates::{Coordinates, Summit};
-use super::here::Here;
+use super::coordinates::{Candidate, Coordinates};
 use super::judge::violation;
+use super::operating_point::OperatingPoint;
 use super::problem::Problem;
 use super::trial::certainty;
 
@@ -21,36 +21,36 @@ const NOWHERE: f64 = 10.0;
 /// What is known of a point: the score, in units of that at the start, the share of starts beyond what is asked for, and
 /// how far it is within all else, which is negative beyond that.
 #[derive(Debug, Clone, Copy)]
-struct Known {
+struct Sample {
     score: f64,
     share: f64,
     within: f64,
 }
 
 /// From a design on, by its own score; none if no design has so large a share.
-pub(super) fn certain(problem: &Problem, from: &Summit, share: f64) -> Option<Summit> {
+pub(super) fn certain(problem: &Problem, from: &Candidate, share: f64) -> Option<Candidate> {
     let coordinates = Coordinates::new(problem, &from.unit);
     let unit = problem.objective.score(from.design.value);
-    let best: RefCell<Option<Summit>> = RefCell::default();
-    let last: RefCell<Option<(Vec<f64>, Known)>> = RefCell::default();
-    let look = |at: &[f64]| -> Option<Known> {
+    let best: RefCell<Option<Candidate>> = RefCell::default();
+    let last: RefCell<Option<(Vec<f64>, Sample)>> = RefCell::default();
+    let look = |at: &[f64]| -> Option<Sample> {
         let unit_cube = coordinates.unit(at);
-        let here = Here::find(problem, &coordinates.at(&unit_cube, at))?;
+        let here = OperatingPoint::find(problem, &coordinates.at(&unit_cube, at))?;
         let motion = here.judged()?;
         let value = problem.sought(&motion)?;
         let outside = here.outside(problem)? + violation(&problem.met(&motion));
-        let known = Known {
+        let known = Sample {
             score: problem.objective.score(value) / unit,
             share: certainty(&here.orbit).ok()? - share,
             within: -outside,
         };
         let mut best = best.borrow_mut();
-        let score = |it: &Summit| problem.objective.score(it.design.value);
+        let score = |it: &Candidate| problem.objective.score(it.design.value);
         let is_better = best
             .as_ref()
             .is_none_or(|best| score(best) < problem.objective.score(value));
         if known.share >= 0.0 && outside == 0.0 && is_better {
-            *best = Some(Summit {
+            *best = Some(Candidate {
                 unit: unit_cube.clone(),
                 design: here.design(value),
             });
@@ -60,7 +60,7 @@ pub(super) fn certain(problem: &Problem, from: &Summit, share: f64) -> Option<Su
     let known = |at: &[f64]| {
         let is_last = matches!(&*last.borrow(), Some((other, _)) if other == at);
         if !is_last {
-            let found = look(at).unwrap_or(Known {
+            let found = look(at).unwrap_or(Sample {
                 score: 0.0,
                 share: -NOWHERE,
                 within: -NOWHERE,

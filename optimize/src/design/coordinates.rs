@@ -1,12 +1,12 @@
 //! What the last stages of a search move: the axes that are no catalogues, and the place in the zone.
 
 use super::Design;
-use super::here::At;
+use super::operating_point::At;
 use super::problem::Problem;
 
 /// A design and its point of the unit cube.
 #[derive(Debug, Clone)]
-pub(super) struct Summit {
+pub(super) struct Candidate {
     pub unit: Vec<f64>,
     pub design: Design,
 }

@@ -1,6 +1,6 @@
 //! Differences, for what has no exact derivatives.
 
-use super::here::{At, Here};
+use super::operating_point::{At, OperatingPoint};
 use super::problem::Problem;
 
 /// Half of a difference's width, in edges of the cube.
@@ -10,7 +10,7 @@ const WIDTH: f64 = 1e-5;
 pub(super) fn differences(
     problem: &Problem,
     at: &At<'_>,
-    values: &impl Fn(&Here) -> Option<Vec<f64>>,
+    values: &impl Fn(&OperatingPoint) -> Option<Vec<f64>>,
 ) -> Option<Vec<Vec<f64>>> {
     let count = at.moved.len() + usize::from(at.place.is_some());
     let row = |index: usize| {
@@ -25,7 +25,7 @@ pub(super) fn differences(
                 moved: at.moved,
                 place,
             };
-            let here = Here::find(problem, &aside)?;
+            let here = OperatingPoint::find(problem, &aside)?;
             Some((coordinate, values(&here)?))
         };
         let ((low, before), (high, after)) = (aside(-WIDTH)?, aside(WIDTH)?);

@@ -7,14 +7,17 @@ use softstop_dynamics::slopes::{self, Border, Slopes};
 use softstop_dynamics::zone::loss_of_stability;
 
 use super::figure::Figure;
-use super::here::{At, Here};
 use super::judge::Judged;
+use super::operating_point::{At, OperatingPoint};
 use super::problem::Problem;
 use super::rates::rates;
 use super::space::Space;
 
-/// Derivatives at a point.
-pub(super) struct Exact {
+/// A motion of the search with its derivatives by the coordinates.
+pub(super) struct Linearization<'a> {
+    pub(super) problem: &'a Problem,
+    pub(super) at: &'a At<'a>,
+    pub(super) point: &'a OperatingPoint,
     slopes: Slopes,
     /// By each coordinate, what changes of the parameters of `slopes`, in SI units.
     directions: Vec<Vec<f64>>,
@@ -22,7 +25,7 @@ pub(super) struct Exact {
     pub(super) frequency: Vec<f64>,
     g0: Vec<f64>,
     sn: Vec<f64>,
-    /// The same of the place in the zone.
+    /// Derivatives of the place in the zone.
     place: Vec<f64>,
 }
 
@@ -30,10 +33,14 @@ pub(super) struct Exact {
 /// follow, or its product with one more parameter.
 const CHANGE: f64 = 1e-2;
 
-impl Exact {
+impl<'a> Linearization<'a> {
     /// None where the motion has no derivatives.
-    pub(super) fn of(problem: &Problem, at: &At<'_>, here: &Here) -> Option<Self> {
-        let scene = &here.orbit.scene;
+    pub(super) fn of(
+        problem: &'a Problem,
+        at: &'a At<'a>,
+        point: &'a OperatingPoint,
+    ) -> Option<Self> {
+        let scene = &point.orbit.scene;
         let mut parameters: Vec<Parameter> = Parameter::ALL.to_vec();
         let all = directions(problem, at);
         parameters.retain(|it| *it != Parameter::Frequency);
@@ -49,9 +56,9 @@ impl Exact {
         let mut directions: Vec<Vec<f64>> = all.iter().map(part).collect();
         let g0 = Border::free(scene, true, &parameters).ok()?;
         let sn = Border::critical(
-            &here.zone.scene,
+            &point.zone.scene,
             1,
-            (Test::Fold, &here.zone.fold),
+            (Test::Fold, &point.zone.fold),
             &parameters,
         )
         .ok()?;
@@ -60,8 +67,8 @@ impl Exact {
             .iter()
             .map(|row| [along(&g0, row), along(&sn, row)])
             .collect();
-        let width = here.zone.frequency_sn - here.zone.frequency_g0;
-        let share = here.place;
+        let width = point.zone.frequency_sn - point.zone.frequency_g0;
+        let share = point.place;
         let mut place: Vec<f64> = Vec::new();
         let mut frequency: Vec<f64> = Vec::new();
         for [g0, sn] in &ends {
@@ -81,7 +88,10 @@ impl Exact {
         }
         parameters.push(Parameter::Frequency);
         Some(Self {
-            slopes: slopes::of(&here.orbit, &parameters).ok()?,
+            problem,
+            at,
+            point,
+            slopes: slopes::of(&point.orbit, &parameters).ok()?,
             directions,
             frequency,
             g0: ends.iter().map(|ends| ends[0]).collect(),

@@ -5,14 +5,15 @@ use rayon::prelude::*;
 use softstop::Parameter;
 
 use super::Design;
+use super::ascent::{ascend, ascend_from};
 use super::certain::certain;
-use super::coordinates::Summit;
+use super::check_trials::nearby;
+use super::coordinates::Candidate;
 use super::figure::{Figure, Sense};
-use super::gradient::{ascend, ascend_from};
-use super::hold::is_at_edge;
-use super::pass::nearby;
 use super::problem::Problem;
+use super::reach::LossDirections;
 use super::requirement::Requirement;
+use super::robustify::is_at_edge;
 use super::trial::{ROUGH, certainty};
 use crate::robust::first_losses;
 
@@ -79,7 +80,7 @@ pub fn front(
     (unit, design): (&[f64], &Design),
     figure: Figure,
 ) -> Option<Front> {
-    let start = Summit {
+    let start = Candidate {
         unit: unit.to_vec(),
         design: design.clone(),
     };
@@ -125,7 +126,7 @@ fn undominated<'a>(problem: &Problem, figure: Figure, tried: &'a [Tried]) -> Vec
 }
 
 /// A design on the way, and the task that it solves.
-type Bounded = (Problem, Summit);
+type Bounded = (Problem, Candidate);
 
 /// A design that passes its trials and keeps its box.
 struct Tried {
@@ -136,16 +137,16 @@ struct Tried {
 }
 
 /// A design on the way, or one near it that passes; none if there is none.
-fn tried(figure: Figure, (problem, summit): &Bounded) -> Option<Tried> {
-    let is_moved = !problem.passes(&summit.design.orbit, ROUGH);
-    let summit = match is_moved {
-        true => nearby(problem, summit)?,
-        false => summit.clone(),
+fn tried(figure: Figure, (problem, candidate): &Bounded) -> Option<Tried> {
+    let is_moved = !problem.passes(&candidate.design.orbit, ROUGH);
+    let candidate = match is_moved {
+        true => nearby(problem, candidate)?,
+        false => candidate.clone(),
     };
-    if !keeps_box(problem, &summit.design) {
+    if !keeps_box(problem, &candidate.design) {
         return None;
     }
-    let place = place(figure, &summit)?;
+    let place = place(figure, &candidate)?;
     Some(Tried { place, is_moved })
 }
 
@@ -159,7 +160,7 @@ fn keeps_box(problem: &Problem, design: &Design) -> bool {
 }
 
 /// Value of a figure, and of what is sought.
-fn place(figure: Figure, at: &Summit) -> Option<(f64, f64)> {
+fn place(figure: Figure, at: &Candidate) -> Option<(f64, f64)> {
     let value = match figure {
         Figure::Certainty => certainty(&at.design.orbit).ok()?,
         _ => at.design.judged().ok()?.value(figure),
@@ -168,7 +169,7 @@ fn place(figure: Figure, at: &Summit) -> Option<(f64, f64)> {
 }
 
 /// Over the margin M from both ends of the zone.
-fn margins(problem: &Problem, mut from: Summit) -> Vec<Bounded> {
+fn margins(problem: &Problem, mut from: Candidate) -> Vec<Bounded> {
     let steps = 0..=(WIDEST / WIDENING) as usize;
     let steps = steps.filter_map(|step| {
         let wider = Problem {
@@ -182,7 +183,7 @@ fn margins(problem: &Problem, mut from: Summit) -> Vec<Bounded> {
 }
 
 /// Over the share of starts that lead to the motion, from that of the design towards all of them.
-fn shares(problem: &Problem, start: &Summit, own: f64) -> Vec<Bounded> {
+fn shares(problem: &Problem, start: &Candidate, own: f64) -> Vec<Bounded> {
     let mut from = start.clone();
     let shares = (1..=SHARES).map(|step| own + (1.0 - own) * step as f64 / (SHARES + 1) as f64);
     let all = shares.map_while(|share| {
@@ -193,7 +194,7 @@ fn shares(problem: &Problem, start: &Summit, own: f64) -> Vec<Bounded> {
 }
 
 /// Over the drive's amplitude that the task holds.
-fn forces(problem: &Problem, start: &Summit) -> Vec<Bounded> {
+fn forces(problem: &Problem, start: &Candidate) -> Vec<Bounded> {
     let Some(held) = problem.machine.value(Parameter::Amplitude) else {
         return Vec::new();
     };
@@ -206,26 +207,30 @@ fn forces(problem: &Problem, start: &Summit) -> Vec<Bounded> {
 }
 
 /// Over a bound of a figure, tighter and looser.
-fn bounds(problem: &Problem, start: &Summit, figure: Figure, own: f64) -> Vec<Bounded> {
+fn bounds(problem: &Problem, start: &Candidate, figure: Figure, own: f64) -> Vec<Bounded> {
     both_ways(start, own, |bound| bounded(problem, figure, bound))
 }
 
 /// Step by step from the design on, down and up, until there is no design or its bound no longer holds it.
-fn both_ways(start: &Summit, own: f64, with_bound: impl Fn(f64) -> Problem) -> Vec<Bounded> {
+fn both_ways(start: &Candidate, own: f64, with_bound: impl Fn(f64) -> Problem) -> Vec<Bounded> {
     let mut all = Vec::new();
     for change in [-STEP, STEP] {
         let (mut from, mut bound) = (start.clone(), own);
         for _ in 0..STEPS {
             bound *= 1.0 + change;
             let problem = with_bound(bound);
-            let Some(summit) = ascend_from(&problem, &from.unit, from.design.place) else {
+            let Some(candidate) = ascend_from(
+                &problem,
+                &LossDirections::default(),
+                (&from.unit, from.design.place),
+            ) else {
                 break;
             };
-            let gain = (summit.design.value - from.design.value).abs();
+            let gain = (candidate.design.value - from.design.value).abs();
             if gain <= FREE * from.design.value.abs() {
                 break;
             }
-            from = summit;
+            from = candidate;
             all.push((problem, from.clone()));
         }
     }

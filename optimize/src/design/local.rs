@@ -4,12 +4,12 @@ use softstop::Dimension;
 
 use super::Design;
 use super::differences::differences;
-use super::exact::Exact;
+use super::exact::Linearization;
 use super::figure::Figure;
-use super::here::{At, Here};
 use super::judge::{Judged, Met};
+use super::operating_point::{At, OperatingPoint};
 use super::problem::Problem;
-use super::reach::{Known, inside};
+use super::reach::{LossDirections, inside};
 use super::requirement::Requirement;
 use super::slope::Slope;
 
@@ -25,10 +25,10 @@ pub struct Local {
 }
 
 /// What is known at a point, with what is known of the machines within the tolerances; none if there is no stable motion.
-pub fn local(problem: &Problem, at: &At<'_>, known: &Known) -> Option<Local> {
-    let here = Here::find(problem, at)?;
+pub fn local(problem: &Problem, at: &At<'_>, known: &LossDirections) -> Option<Local> {
+    let here = OperatingPoint::find(problem, at)?;
     let motion = here.judged()?;
-    let exact = Exact::of(problem, at, &here);
+    let exact = Linearization::of(problem, at, &here);
     let slopes = slopes(problem, at, exact.as_ref(), (&here, &motion))?;
     let (frequency, figures) = slopes.split_last()?;
     let (sought, required) = figures.split_first()?;
@@ -55,13 +55,13 @@ pub fn local(problem: &Problem, at: &At<'_>, known: &Known) -> Option<Local> {
     if let Some(edges) = &edges {
         let exact = exact.as_ref()?;
         let none = || Slope::free(exact.frequency.len());
-        let inside = |edge| inside(problem, (at, &here), exact, edge);
+        let inside = |edge| inside(exact, edge);
         constraints.push(inside(&edges.low)?);
         for edge in &edges.high {
             constraints.push(edge.as_ref().map_or_else(|| Some(none()), inside)?);
         }
     }
-    let kept = known.kept(problem, (at, &here), exact.as_ref())?;
+    let kept = known.reserves(exact.as_ref())?;
     let is_kept = kept.iter().all(|it| it.value >= -ROUNDING);
     constraints.extend(kept);
     let is_met = problem.met(&motion).iter().all(Met::is_met);
@@ -105,14 +105,14 @@ fn figures(problem: &Problem) -> Vec<Figure> {
 fn slopes(
     problem: &Problem,
     at: &At<'_>,
-    exact: Option<&Exact>,
-    (here, motion): (&Here, &Judged<'_>),
+    exact: Option<&Linearization<'_>>,
+    (here, motion): (&OperatingPoint, &Judged<'_>),
 ) -> Option<Vec<Slope>> {
     let figures = figures(problem);
     let derivative = |figure: &Figure| exact.and_then(|it| it.by(*figure, motion));
     let mut all: Vec<Option<Vec<f64>>> = figures.iter().map(derivative).collect();
     all.push(exact.map(|it| it.frequency.clone()));
-    let value = |here: &Here| {
+    let value = |here: &OperatingPoint| {
         let motion = &here.judged()?;
         let sought = problem.sought(motion)?;
         let rest = figures[1..].iter().map(|figure| motion.value(*figure));

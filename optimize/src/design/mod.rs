@@ -3,34 +3,34 @@
 //! Parameters of the machine (its stop's stiffness and clearance, if nothing else is said) are searched in
 //! a box; the frequency is written as g0 + s (w_SN - g0) with s in [M, 1 - M], so that every point that has
 //! a zone is feasible. The zone does not depend on s: at each point it is computed once and the best s is
-//! then found along it ([`along`]). [`search`] drives the outer search.
+//! then found along it ([`line_search`]). [`search`] drives the outer search.
 
-pub mod along;
+mod ascent;
 mod box_window;
 mod certain;
+mod check_trials;
 pub mod conflict;
 mod coordinates;
-mod cost;
 mod differences;
 mod exact;
-mod exchange;
 pub mod front;
-mod gradient;
-pub mod here;
-mod hold;
+mod improve_catalogue;
+mod incumbent;
 pub mod judge;
+mod line_search;
 pub mod local;
-mod pass;
-mod polish;
+mod nearest_miss;
+pub mod operating_point;
 pub mod problem;
 mod rates;
 pub mod reach;
 pub mod requirement;
+mod robustify;
 pub mod search;
 pub mod slope;
+pub mod slsqp;
 pub mod space;
 mod survey;
-mod swarm;
 pub mod trial;
 mod within;
 
@@ -94,7 +94,22 @@ pub struct Infeasible {
     pub reason: String,
 }
 
+impl Infeasible {
+    /// A point of which no more is known than that it cannot be computed.
+    fn unknown(error: impl ToString) -> Self {
+        Self {
+            gap: DISTANT,
+            reason: error.to_string(),
+        }
+    }
+}
+
 impl Problem {
+    /// The score of a design: the higher the better.
+    fn score(&self, design: &Design) -> f64 {
+        self.objective.score(design.value)
+    }
+
     /// The best frequency at these values of the axes.
     ///
     /// # Errors
@@ -111,8 +126,8 @@ impl Problem {
         zone::hysteresis_soon(scenes, &interrupt::watch).remove(0)
     }
 
-    /// The same at many points on the way of a search.
-    fn soon(&self, points: &[Vec<f64>]) -> Vec<Result<Design, Infeasible>> {
+    /// The best frequencies at many points, with zones of less accuracy: on the way of a search.
+    fn at_batch(&self, points: &[Vec<f64>]) -> Vec<Result<Design, Infeasible>> {
         let machines: Vec<Machine> = points.iter().map(|at| self.machine_at(at)).collect();
         let scenes: Vec<Scene> = machines.iter().map(|of| of.scene.clone()).collect();
         let zones = zone::hysteresis_soon(&scenes, &interrupt::watch);
@@ -135,11 +150,11 @@ impl Problem {
             reason: error.to_string(),
         })?;
         let window = self.window(&machine, &zone)?;
-        let along::Best {
+        let line_search::Best {
             place,
             orbit,
             value,
-        } = along::best(self, &machine, &zone, window)?;
+        } = line_search::best(self, &machine, &zone, window)?;
         Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(place));
         Ok(Design {
             machine,
@@ -158,7 +173,7 @@ impl Problem {
         match (is_at(edges.low.frequency), is_at(edges.highest())) {
             (true, _) => Some("tolerances: they reach g0".to_owned()),
             (_, true) => Some("tolerances: they reach s_SN".to_owned()),
-            _ => hold::touched(self, design)
+            _ => robustify::touched(self, design)
                 .map(|by| format!("tolerances: they reach a border inside the zone ({by})")),
         }
     }

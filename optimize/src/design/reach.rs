@@ -1,6 +1,7 @@
-//! Places within the tolerances that a search has come to know: ways out on which the motion would be lost, with
-//! derivatives.
+//! Directions within the tolerances in which a search has met a loss of the motion, and how far the motion goes on in each,
+//! with derivatives.
 
+use softstop::Scene;
 use softstop_dynamics::BranchPoint;
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::slopes::Border;
@@ -9,69 +10,59 @@ use softstop_dynamics::zone::Loss;
 
 use super::box_window::Edge;
 use super::differences::differences;
-use super::exact::Exact;
-use super::here::{At, Here};
+use super::exact::Linearization;
 use super::judge::Met;
+use super::operating_point::OperatingPoint;
 use super::problem::Problem;
 use super::slope::Slope;
 use super::within::Rows;
 use crate::robust::{Tolerances, is_loss};
 
-/// Share of the box up to which a way is followed.
+/// Share of the box up to which a direction is followed.
 const FARTHEST: f64 = 1.25;
 
-/// Places of the box of tolerances, in its coordinates.
+/// Directions of the box of tolerances, to whose ends the motion has to go on, in coordinates of the box.
 #[derive(Debug, Clone, Default)]
-pub struct Known {
-    /// To their ends the motion has to go on.
-    pub ways: Vec<Vec<f64>>,
+pub struct LossDirections {
+    /// Each of them.
+    pub directions: Vec<Vec<f64>>,
 }
 
-impl Known {
-    /// The value of a motion that meets its requirements; none if one of the ways is lost.
-    pub(super) fn value(&self, problem: &Problem, here: &Here) -> Option<f64> {
+impl LossDirections {
+    /// The value of a motion that meets its requirements; none if it is lost in one of the directions.
+    pub(super) fn value(&self, problem: &Problem, here: &OperatingPoint) -> Option<f64> {
         let motion = here.judged()?;
         let is_met = problem.met(&motion).iter().all(Met::is_met);
         let value = problem.sought(&motion).filter(|_| is_met)?;
         let Some(spread) = problem.spread(here.machine()) else {
             return Some(value);
         };
-        for way in &self.ways {
-            end(&spread, here, way).filter(|(share, _)| *share >= 1.0)?;
+        for direction in &self.directions {
+            end(&spread, here, direction).filter(|(share, _)| *share >= 1.0)?;
         }
         Some(value)
     }
 
-    /// How much of the tolerances more than all of them each way takes until the motion is lost; none if one cannot be told.
-    pub(super) fn kept(
-        &self,
-        problem: &Problem,
-        (at, here): (&At<'_>, &Here),
-        exact: Option<&Exact>,
-    ) -> Option<Vec<Slope>> {
-        if self.ways.is_empty() {
+    /// How much of the tolerances more than all of them each direction takes until the motion is lost; none if one cannot be
+    /// computed.
+    pub(super) fn reserves(&self, about: Option<&Linearization<'_>>) -> Option<Vec<Slope>> {
+        let mut directions = self.directions.iter().peekable();
+        if directions.peek().is_none() {
             return Some(Vec::new());
         }
-        let about = About {
-            problem,
-            at,
-            here,
-            exact: exact?,
-            spread: problem.spread(here.machine())?,
-        };
-        self.ways.iter().map(|way| about.kept(way)).collect()
+        let about = about?;
+        let spread = about.problem.spread(about.point.machine())?;
+        directions.map(|it| reserve(about, &spread, it)).collect()
     }
 }
 
 /// How far inside an end of the zone the machine at its corner of the box is, as a share of the frequency.
-pub(super) fn inside(
-    problem: &Problem,
-    (at, here): (&At<'_>, &Here),
-    exact: &Exact,
-    edge: &Edge,
-) -> Option<Slope> {
-    let rows = Rows::at(problem, (at, here), exact, &edge.corner)?;
-    let scene = problem.spread(here.machine())?.scene(&edge.corner);
+pub(super) fn inside(about: &Linearization<'_>, edge: &Edge) -> Option<Slope> {
+    let rows = Rows::at(about, &edge.corner)?;
+    let scene = about
+        .problem
+        .spread(about.point.machine())?
+        .scene(&edge.corner);
     let (border, sign) = match &edge.fold {
         None => (Border::free(&scene, true, rows.parameters()).ok()?, 1.0),
         Some(fold) => {
@@ -80,7 +71,7 @@ pub(super) fn inside(
             (border, -1.0)
         }
     };
-    let unit = sign / problem.machine.scene.excitation.frequency;
+    let unit = sign / about.problem.machine.scene.excitation.frequency;
     let (by, _) = rows.across(&border);
     Some(Slope {
         value: unit * (scene.excitation.frequency - border.frequency()),
@@ -88,13 +79,13 @@ pub(super) fn inside(
     })
 }
 
-/// Where a way out ends: its share, and what ends it there.
+/// Where the motion ends in a direction: at this share of it, by this.
 fn end(
     spread: &Tolerances,
-    here: &Here,
-    way: &[f64],
+    here: &OperatingPoint,
+    direction: &[f64],
 ) -> Option<(f64, Option<(Loss, BranchPoint)>)> {
-    let reached = along(spread, &here.orbit, way, FARTHEST).ok()?;
+    let reached = along(spread, &here.orbit, direction, FARTHEST).ok()?;
     let Reached {
         share, loss, point, ..
     } = reached;
@@ -104,58 +95,42 @@ fn end(
     }
 }
 
-struct About<'a> {
-    problem: &'a Problem,
-    at: &'a At<'a>,
-    here: &'a Here,
-    exact: &'a Exact,
-    spread: Tolerances,
+/// By how much of the tolerances the motion goes on beyond them in a direction.
+fn reserve(about: &Linearization<'_>, spread: &Tolerances, direction: &[f64]) -> Option<Slope> {
+    let (share, lost) = end(spread, about.point, direction)?;
+    let value = share - 1.0;
+    let Some((loss, point)) = lost else {
+        let by = vec![0.0; about.frequency.len()];
+        return Some(Slope { value, by });
+    };
+    let test = match loss {
+        Loss::Fold => Some(Test::Fold),
+        Loss::Flip => Some(Test::Flip),
+        _ => None,
+    };
+    let by = test.and_then(|test| {
+        let end: Vec<f64> = direction.iter().map(|part| share * part).collect();
+        by_normal(about, &spread.scene(&end), (&end, share), (test, point))
+    });
+    let share = |point: &OperatingPoint| {
+        let spread = about.problem.spread(point.machine())?;
+        Some(vec![end(&spread, point, direction)?.0])
+    };
+    let differenced = || Some(differences(about.problem, about.at, &share)?.concat());
+    let by = by.or_else(differenced)?;
+    Some(Slope { value, by })
 }
 
-impl About<'_> {
-    /// By how much of the tolerances the motion goes on beyond them on a way.
-    fn kept(&self, way: &[f64]) -> Option<Slope> {
-        let (share, lost) = end(&self.spread, self.here, way)?;
-        let value = share - 1.0;
-        let Some((loss, point)) = lost else {
-            let by = vec![0.0; self.exact.frequency.len()];
-            return Some(Slope { value, by });
-        };
-        let test = match loss {
-            Loss::Fold => Some(Test::Fold),
-            Loss::Flip => Some(Test::Flip),
-            _ => None,
-        };
-        let by = test.and_then(|test| self.by_normal(way, share, (test, &point)));
-        let share = |here: &Here| {
-            let spread = self.problem.spread(here.machine())?;
-            Some(vec![end(&spread, here, way)?.0])
-        };
-        let by = by.or_else(|| self.differenced(&share))?;
-        Some(Slope { value, by })
-    }
-
-    /// How the share changes at which a way meets a border.
-    fn by_normal(
-        &self,
-        way: &[f64],
-        share: f64,
-        (test, point): (Test, &BranchPoint),
-    ) -> Option<Vec<f64>> {
-        let end: Vec<f64> = way.iter().map(|part| share * part).collect();
-        let rows = Rows::at(self.problem, (self.at, self.here), self.exact, &end)?;
-        let scene = self.spread.scene(&end);
-        let point = BranchPoint {
-            parameter: scene.excitation.frequency,
-            ..point.clone()
-        };
-        let border = Border::critical(&scene, 1, (test, &point), rows.parameters()).ok()?;
-        let (by, outwards) = rows.across(&border);
-        Some(by.iter().map(|by| -share * by / outwards).collect())
-    }
-
-    fn differenced(&self, value: &impl Fn(&Here) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
-        let rows = differences(self.problem, self.at, value)?;
-        Some(rows.concat())
-    }
+/// How the share of a direction changes at which it meets a border.
+fn by_normal(
+    about: &Linearization<'_>,
+    scene: &Scene,
+    (end, share): (&[f64], f64),
+    (test, mut point): (Test, BranchPoint),
+) -> Option<Vec<f64>> {
+    let rows = Rows::at(about, end)?;
+    point.parameter = scene.excitation.frequency;
+    let border = Border::critical(scene, 1, (test, &point), rows.parameters()).ok()?;
+    let (by, outwards) = rows.across(&border);
+    Some(by.iter().map(|by| -share * by / outwards).collect())
 }

@@ -1,54 +1,55 @@
-//! The outer search over the axes: a survey on a lattice, a particle swarm that starts from it until it gains little,
-//! gradients from the best particle and from the best points far from it, then
-//! Nelder-Mead from the best of them, restarted with a fresh, smaller simplex until nothing is gained. The survey is
-//! there because the best design can stand on a narrow ridge that a random swarm misses; Nelder-Mead is, because it can
-//! stand where gradients end: where a zone gains a second fold inside it, the velocity jumps. What was found has to keep
-//! its whole box of tolerances (`hold`), is compared with what else catalogues hold (`exchange`), and has to pass its
-//! trials (`pass`).
+//! The search for the best design: a survey of zones all over the box, ascents with exact derivatives from its best distant
+//! points, the box of tolerances, the values beside those of catalogues, and the trials.
 //!
-//! All see the unit cube. The swarm keeps to it by itself; Nelder-Mead does not, so points
-//! outside are pulled in, and an optimum on the boundary (common here) is met exactly.
+//! The survey finds hills: the best design can stand on a narrow ridge. Each ascent ([`ascend`]) leads to the top of one. The
+//! best of these give way until they keep the motion within the whole box of tolerances ([`enforce_tolerance_box`]); the best
+//! of those is compared with what else catalogues hold ([`improve_catalogue`]) and passes its trials ([`check_trials`]).
+//!
+//! The survey sees the unit cube, whose boundary is part of its lattice: many optima stand there. `&Problem` is the cost
+//! function of every solver of `argmin` that needs no derivatives.
 
 use std::mem::swap;
-use std::slice;
 
-use argmin::core::Error;
 use rayon::prelude::*;
 use softstop_dynamics::watch::Kept;
 
+use super::ascent::ascend;
+pub use super::check_trials::Resolution;
+use super::check_trials::check_trials;
 use super::conflict::stated;
-use super::coordinates::Summit;
-use super::cost::{Cost, Point, Rank};
-pub use super::cost::{Unwatched, Watch};
-use super::exchange::exchange;
-use super::gradient::ascend;
-use super::hold::{Held, hold};
-pub use super::pass::Resolution;
-use super::pass::pass;
-use super::polish::polish;
+use super::coordinates::Candidate;
+use super::improve_catalogue::improve_catalogue;
+use super::incumbent::{Incumbent, Rank};
+use super::nearest_miss::nearest_miss;
+use super::robustify::{Robust, enforce_tolerance_box};
 use super::space::Space;
-use super::survey::survey;
-use super::swarm::swarm_best;
+use super::survey::{Point, Survey};
+pub use super::survey::{Unwatched, Watch};
 use super::trial::FULL;
 use super::{Design, Infeasible, Problem};
 
 /// Fewest zones a search makes sense with.
 pub const LEAST_EVALUATIONS: u64 = 100;
-/// Share of the evaluations that the survey takes for each coordinate, as 1 / share.
+/// Share of the evaluations that the survey takes for each coordinate, as 1 / share, and of all coordinates at most.
 const SURVEY: u64 = 15;
-/// Points from which gradients are followed, how far apart along an axis they are at least, and the gap of a point that
-/// has no motion to begin with.
+const LARGEST_SURVEY: u64 = 3;
+/// Points from which ascents start. Of many axes, those that the survey leaves of the evaluations, so many for each.
 const STARTS: usize = 4;
+const MANY_AXES: usize = 6;
+const EVALUATIONS_PER_START: u64 = 100;
+/// Points of the survey from which ascents start where the best designs had to give way, at most.
+const SPARE: usize = 4;
+/// How far apart along an axis they are at least, and the cost of a point that has no motion to begin with.
 const APART: f64 = 0.12;
 const DISTANT: f64 = 10.0;
 /// Share of the best score from which another design is a rival.
 const RIVAL: f64 = 0.97;
+/// Distance along a coordinate that is none.
+const SAME: f64 = 1e-5;
 
 /// How to search.
 #[derive(Debug, Clone, Copy)]
 pub struct Settings {
-    /// The same seed gives the same result, on any number of cores.
-    pub seed: u64,
     /// Zones to compute at most, at least [`LEAST_EVALUATIONS`].
     pub evaluations: u64,
 }
@@ -69,12 +70,9 @@ pub enum SearchError {
     /// The watcher said stop; the best design until then, if there was one that is as asked as far as was looked at.
     #[error("stopped")]
     Stopped(Option<Box<Found>>),
-    /// Survey, swarm and polish cost more than they may.
+    /// The survey and the ascents from it cost more than they may.
     #[error("over its budget")]
     OverBudget,
-    /// The optimiser failed.
-    #[error("the optimiser failed: {0}")]
-    Optimizer(#[from] Error),
 }
 
 /// What a search has found.
@@ -100,26 +98,25 @@ pub fn search(
     watch: &dyn Watch,
     kept: Kept<'_>,
 ) -> Result<Found, SearchError> {
-    let cost = Cost::new(problem, watch, kept);
-    let found = outer(&cost, settings).and_then(|seen| match cost.is_over_budget() {
-        true => Err(SearchError::OverBudget),
-        false => finish(&cost, seen),
-    });
+    let incumbent = Incumbent::new(problem);
+    let survey = Survey::new(problem, watch, &incumbent, kept);
+    let found = Search::new(&survey, settings).map(|search| search.best());
     // What was cut short may be among the best.
-    if cost.is_over_budget() {
+    if survey.is_over_budget() {
         return Err(SearchError::OverBudget);
     }
     if watch.stop() {
-        let best = cost.best().map(|it| Box::new(Found::new(problem, it, &[])));
+        let best = incumbent.take();
+        let best = best.map(|it| Box::new(Found::new(problem, it, &[])));
         return Err(SearchError::Stopped(best));
     }
-    found
+    found.unwrap_or(Err(SearchError::Stopped(None)))
 }
 
 impl Found {
     /// The best of some designs, and those that are its rivals.
-    fn new(problem: &Problem, best: Summit, others: &[Summit]) -> Self {
-        let score = |it: &Design| problem.objective.score(it.value);
+    fn new(problem: &Problem, best: Candidate, others: &[Candidate]) -> Self {
+        let score = |it: &Design| problem.score(it);
         let mut all = vec![best.design];
         for other in others {
             let is_new = all
@@ -139,100 +136,189 @@ impl Found {
     }
 }
 
-/// What the outer search has seen.
-struct Seen {
-    /// Its best point.
-    best: Vec<f64>,
-    /// What gradients have found, the best first.
-    summits: Vec<Summit>,
-    /// Points of the survey that are apart from those from which gradients were followed, the best first.
+/// A search after its survey and its ascents.
+struct Search<'a> {
+    survey: &'a Survey<'a>,
+    /// The best point of the survey.
+    nearest: Point,
+    /// The tops of hills, the best first.
+    tops: Vec<Candidate>,
+    /// Points of the survey that are apart from those of the ascents, the best first.
     spare: Vec<Point>,
+    /// Designs that keep their whole box of tolerances.
+    robust: Vec<Robust>,
+    /// What the best of the others lacks.
+    lack: Option<Infeasible>,
 }
 
-/// The best design of what was seen, with the whole box of tolerances, the neighbours of catalogues and all trials.
-fn finish(cost: &Cost<'_>, seen: Seen) -> Result<Found, SearchError> {
-    let problem = cost.problem;
-    let values = Space(&problem.axes).values(&seen.best);
-    let none = |infeasible: Infeasible| SearchError::NoDesign {
-        place: place(problem, &values),
-        reason: infeasible.reason,
-    };
-    let polished = problem
-        .at(&values)
-        .or_else(|_| problem.soon(slice::from_ref(&values)).remove(0));
-    let polished = polished.map(|design| Summit {
-        unit: seen.best,
-        design,
-    });
-    if let (Err(infeasible), true) = (&polished, seen.summits.is_empty()) {
-        return Err(none(infeasible.clone()));
-    }
-    let score = |it: &Summit| problem.objective.score(it.design.value);
-    let mut starts: Vec<Summit> = polished.into_iter().chain(seen.summits).collect();
-    starts.sort_by(|a, b| score(b).total_cmp(&score(a)));
-    let mut held: Vec<Held> = Vec::new();
-    let mut lack: Option<Infeasible> = None;
-    let mut take = |start: &Summit, held: &mut Vec<Held>| match hold(problem, start) {
-        Ok(it) => {
-            cost.note(&it.summit, Rank::Held);
-            held.push(it);
-        }
-        Err(error) if lack.as_ref().is_none_or(|known| error.gap < known.gap) => lack = Some(error),
-        Err(_) => {}
-    };
-    let best = |held: &[Held]| held.iter().map(|it| score(&it.summit)).fold(0.0, f64::max);
-    for (index, start) in starts.iter().enumerate() {
-        let is_known = starts[..index].iter().any(|other| is_same(other, start));
-        if !is_known && score(start) > RIVAL * best(&held) {
-            take(start, &mut held);
-        }
-    }
-    for point in &seen.spare {
-        if -point.cost > best(&held) {
-            let start = ascend(problem, &point.unit);
-            let start = start.filter(|start| !starts.iter().any(|other| is_same(other, start)));
-            if let Some(start) = start {
-                take(&start, &mut held);
-                starts.push(start);
+impl<'a> Search<'a> {
+    /// None if the survey was stopped.
+    fn new(survey: &'a Survey<'a>, settings: Settings) -> Option<Self> {
+        let problem = survey.problem;
+        let dimension = Space(&problem.axes).dimension();
+        let share = dimension as u64 * settings.evaluations / SURVEY;
+        let share = share.min(settings.evaluations / LARGEST_SURVEY);
+        let points = survey.points(share as usize)?;
+        let left = (settings.evaluations - share) / EVALUATIONS_PER_START;
+        let starts = match dimension < MANY_AXES {
+            true => STARTS,
+            false => STARTS.max(left as usize),
+        };
+        let mut apart: Vec<Point> = Vec::new();
+        for point in &points {
+            let is_new = apart.iter().all(|other| is_apart(&other.unit, &point.unit));
+            if apart.len() < starts + SPARE && is_new && point.cost < DISTANT {
+                apart.push(point.clone());
             }
         }
+        let spare = apart.split_off(starts.min(apart.len()));
+        let ascents = apart
+            .par_iter()
+            .filter_map(|start| survey.charged(|| ascend(problem, &start.unit)));
+        let mut search = Self {
+            survey,
+            nearest: points.into_iter().next()?,
+            tops: ascents.collect(),
+            spare,
+            robust: Vec::new(),
+            lack: None,
+        };
+        search.sort();
+        Some(search)
     }
-    held.sort_by(|a, b| score(&b.summit).total_cmp(&score(&a.summit)));
-    let Some(first) = held.first() else {
-        let reason = || "the search has met nothing".to_owned();
-        return Err(none(lack.unwrap_or_else(|| Infeasible {
-            gap: 0.0,
-            reason: reason(),
-        })));
-    };
-    let exchanged = exchange(problem, first);
-    let (mut best, resolution) = pass(problem, exchanged).map_err(none)?;
-    let others = held.into_iter().map(|it| it.summit);
-    let mut others: Vec<Summit> = others
-        .filter(|it| score(it) > RIVAL * score(&best) && problem.passes(&it.design.orbit, FULL))
-        .collect();
-    if let Some(better) = others.first_mut().filter(|it| score(it) > score(&best)) {
-        swap(better, &mut best);
+
+    fn score(&self, it: &Candidate) -> f64 {
+        self.survey.problem.score(&it.design)
     }
-    cost.note(&best, Rank::Passed);
-    Ok(Found {
-        resolution,
-        ..Found::new(problem, best, &others)
-    })
+
+    /// Puts the best tops first, each but once.
+    fn sort(&mut self) {
+        let problem = self.survey.problem;
+        let score = |it: &Candidate| problem.score(&it.design);
+        self.tops.sort_by(|a, b| score(b).total_cmp(&score(a)));
+        self.tops.dedup_by(|it, known| is_same(it, known));
+    }
+
+    /// The best design with the whole box of tolerances, the neighbours of catalogues and all trials.
+    fn best(mut self) -> Result<Found, SearchError> {
+        let problem = self.survey.problem;
+        if self.tops.is_empty() {
+            self.climb_from_nearest()?;
+        }
+        self.survey.incumbent.update(&self.tops[0], Rank::Motion);
+        self.make_robust();
+        let Some(first) = self.robust.first() else {
+            let unknown = Infeasible {
+                gap: 0.0,
+                reason: "the search has met nothing".to_owned(),
+            };
+            return Err(self.no_design(self.lack.clone().unwrap_or(unknown)));
+        };
+        let improved = improve_catalogue(problem, first);
+        let (mut best, resolution) =
+            check_trials(problem, improved).map_err(|it| self.no_design(it))?;
+        let others = self.robust.iter().map(|it| &it.candidate);
+        let others = others.filter(|it| {
+            self.score(it) > RIVAL * self.score(&best) && problem.passes(&it.design.orbit, FULL)
+        });
+        let mut others: Vec<Candidate> = others.cloned().collect();
+        let better = others.first_mut();
+        if let Some(better) = better.filter(|it| self.score(it) > self.score(&best)) {
+            swap(better, &mut best);
+        }
+        self.survey.incumbent.update(&best, Rank::Trials);
+        Ok(Found {
+            resolution,
+            ..Found::new(problem, best, &others)
+        })
+    }
+
+    /// Where no ascent met a design: seeks a point that has one without derivatives.
+    ///
+    /// # Errors
+    /// [`SearchError::NoDesign`] if there is none: what the nearest point lacks.
+    fn climb_from_nearest(&mut self) -> Result<(), SearchError> {
+        let problem = self.survey.problem;
+        self.nearest = nearest_miss(self.survey, self.nearest.clone());
+        let values = Space(&problem.axes).values(&self.nearest.unit);
+        let design = problem.at(&values);
+        let design = design.or_else(|_| problem.at_batch(&[values]).remove(0));
+        let design = design.map_err(|it| self.no_design(it))?;
+        let unit = self.nearest.unit.clone();
+        self.tops.extend(ascend(problem, &unit));
+        self.tops.push(Candidate { unit, design });
+        self.sort();
+        Ok(())
+    }
+
+    /// Makes tops keep their box of tolerances, as long as they may be rivals of the best, then those of spare points that may
+    /// be better.
+    fn make_robust(&mut self) {
+        for top in self.tops.clone() {
+            if self.score(&top) > RIVAL * self.best_robust() {
+                self.add_robust(&top);
+            }
+        }
+        for point in std::mem::take(&mut self.spare) {
+            if -point.cost <= self.best_robust() {
+                continue;
+            }
+            let top = ascend(self.survey.problem, &point.unit);
+            let top = top.filter(|top| !self.tops.iter().any(|other| is_same(other, top)));
+            if let Some(top) = top {
+                self.add_robust(&top);
+                self.tops.push(top);
+            }
+        }
+        let problem = self.survey.problem;
+        let score = |it: &Robust| problem.score(&it.candidate.design);
+        self.robust.sort_by(|a, b| score(b).total_cmp(&score(a)));
+    }
+
+    fn best_robust(&self) -> f64 {
+        let scores = self.robust.iter().map(|it| self.score(&it.candidate));
+        scores.fold(0.0, f64::max)
+    }
+
+    fn add_robust(&mut self, top: &Candidate) {
+        match enforce_tolerance_box(self.survey.problem, top) {
+            Ok(it) => {
+                self.survey
+                    .incumbent
+                    .update(&it.candidate, Rank::Tolerances);
+                self.robust.push(it);
+            }
+            Err(error) if self.lack.as_ref().is_none_or(|it| error.gap < it.gap) => {
+                self.lack = Some(error);
+            }
+            Err(_) => {}
+        }
+    }
+
+    /// What the nearest point lacks.
+    fn no_design(&self, infeasible: Infeasible) -> SearchError {
+        let problem = self.survey.problem;
+        let unit = self.tops.first().map_or(&self.nearest.unit, |it| &it.unit);
+        let values = Space(&problem.axes).values(unit);
+        let values = problem.axes.iter().zip(values);
+        let all = values.map(|(axis, value)| stated(&problem.machine, axis.parameter, value));
+        let all = all.collect::<Vec<_>>().join(", ");
+        SearchError::NoDesign {
+            place: match problem.axes.is_empty() {
+                true => String::new(),
+                false => format!(", at {all}"),
+            },
+            reason: infeasible.reason,
+        }
+    }
 }
 
-/// Points of the survey from which a search goes on where the best designs had to give way, at most.
-const SPARE: usize = 4;
-
-/// True if two designs are one.
-fn is_same(one: &Summit, other: &Summit) -> bool {
+/// True if two candidates are one.
+fn is_same(one: &Candidate, other: &Candidate) -> bool {
     let near = |(a, b): (&f64, &f64)| (a - b).abs() < SAME;
     let [a, b] = [one, other].map(|it| it.design.place);
     one.unit.iter().zip(&other.unit).all(near) && near((&a, &b))
 }
-
-/// Distance along a coordinate that is none.
-const SAME: f64 = 1e-5;
 
 /// True if two designs differ by more than a small part of the range of some axis.
 fn is_another(problem: &Problem, one: &Design, other: &Design) -> bool {
@@ -246,63 +332,4 @@ fn is_another(problem: &Problem, one: &Design, other: &Design) -> bool {
 fn is_apart(one: &[f64], other: &[f64]) -> bool {
     let far = |(a, b): (&f64, &f64)| (a - b).abs() > APART;
     one.iter().zip(other).any(far)
-}
-
-/// Values in words, after "nearest try".
-fn place(problem: &Problem, values: &[f64]) -> String {
-    if values.is_empty() {
-        return String::new();
-    }
-    let said = problem.axes.iter().zip(values);
-    let said = said.map(|(axis, value)| stated(&problem.machine, axis.parameter, *value));
-    format!(", at {}", said.collect::<Vec<_>>().join(", "))
-}
-
-/// Survey, swarm, gradients and polish.
-fn outer(cost: &Cost<'_>, settings: Settings) -> Result<Seen, SearchError> {
-    let dimension = cost.space.dimension();
-    if dimension == 0 {
-        cost.watch.evaluated(None);
-        return Ok(Seen {
-            best: Vec::new(),
-            summits: Vec::from_iter(ascend(cost.problem, &[])),
-            spare: Vec::new(),
-        });
-    }
-    let share = (dimension as u64 * settings.evaluations) / SURVEY;
-    let survey = survey(cost, share.min(settings.evaluations / 3))?;
-    let left = settings.evaluations.saturating_sub(survey.len() as u64);
-    let swarm = left * 2 / 3;
-    let best = swarm_best(cost, &survey, settings.seed, swarm)?;
-    let mut starts = vec![best.clone()];
-    for point in &survey {
-        let is_new = starts
-            .iter()
-            .all(|start| is_apart(&start.unit, &point.unit));
-        if starts.len() < STARTS + SPARE && is_new && point.cost < DISTANT {
-            starts.push(point.clone());
-        }
-    }
-    let spare = starts.split_off(STARTS.min(starts.len()));
-    let ascents = starts
-        .par_iter()
-        .map(|start| ascend(cost.problem, &start.unit));
-    let mut summits: Vec<Summit> = ascents.collect::<Vec<_>>().into_iter().flatten().collect();
-    let score = |it: &Summit| cost.problem.objective.score(it.design.value);
-    summits.sort_by(|a, b| score(b).total_cmp(&score(a)));
-    if let Some(summit) = summits.first() {
-        cost.note(summit, Rank::Seen);
-    }
-    let summit = summits.first().map(|it| Point {
-        unit: it.unit.clone(),
-        cost: -score(it),
-    });
-    let start = [Some(best), summit].into_iter().flatten();
-    let start = start.min_by(|a, b| a.cost.total_cmp(&b.cost));
-    let start = start.ok_or_else(|| Error::msg("the swarm is empty"))?;
-    Ok(Seen {
-        best: polish(cost, start, left - swarm)?.unit,
-        summits,
-        spare,
-    })
 }

@@ -1,29 +1,192 @@
-//! The survey of the outer search: a lattice over the box.
+//! The survey of a search: the best motions of the zones at points all over the unit cube.
+
+use std::convert::Infallible;
+use std::slice::from_ref;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use argmin::core::{CostFunction, Error};
+use rayon::prelude::*;
+use softstop::internals::budget;
+use softstop_dynamics::points::place;
+use softstop_dynamics::watch::{Kept, piece};
 
-use super::cost::{Cost, Point, Stoppable};
+use super::coordinates::Candidate;
+use super::incumbent::{Incumbent, Rank};
+use super::problem::Problem;
+use super::space::Space;
+use super::{Design, Infeasible};
 
-/// Most points along an axis.
+/// Who watches a search, from several threads at once.
+pub trait Watch: Sync {
+    /// One more zone is computed; the value is what its best motion, if any, has of what is sought.
+    fn evaluated(&self, value: Option<f64>);
+    /// Whether to give up.
+    fn stop(&self) -> bool;
+    /// Work that the survey and the ascents from it may cost, in scan windows.
+    fn budget(&self) -> u64 {
+        u64::MAX
+    }
+}
+
+/// Watches nothing.
+#[derive(Debug, Clone, Copy)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn evaluated(&self, _: Option<f64>) {}
+    fn stop(&self) -> bool {
+        false
+    }
+}
+
+/// A point of the unit cube and its cost.
+#[derive(Debug, Clone)]
+pub(super) struct Point {
+    pub unit: Vec<f64>,
+    pub cost: f64,
+}
+
+/// Longest edge of the lattice, in points, and the shortest: below that it has nothing but corners.
 const LONGEST_EDGE: usize = 64;
+const SHORTEST_EDGE: usize = 3;
+/// Points that are computed and kept together.
+const PIECE: usize = 16;
 
-/// Points of a lattice over the cube, its boundary included, the best ones first.
-pub(super) fn survey(cost: &Cost<'_>, evaluations: u64) -> Result<Vec<Point>, Error> {
-    let dimension = cost.space.dimension();
+/// Cost of an infeasible point: above that of every feasible one.
+fn cost(problem: &Problem, outcome: &Result<Design, Infeasible>) -> f64 {
+    match outcome {
+        Ok(design) => -problem.score(design),
+        Err(infeasible) => 1.0 + infeasible.gap,
+    }
+}
+
+/// Minus the score of the best motion in the zone at a point of the unit cube; where there is none, a positive grade that
+/// falls towards feasible points. Every optimiser of `argmin` that takes costs alone can minimise it.
+impl CostFunction for &Problem {
+    type Param = Vec<f64>;
+    type Output = f64;
+
+    fn cost(&self, unit: &Vec<f64>) -> Result<f64, Error> {
+        let values = Space(&self.axes).values(unit);
+        Ok(cost(self, &self.at_batch(&[values])[0]))
+    }
+}
+
+/// Computes points within a budget.
+pub(super) struct Survey<'a> {
+    pub problem: &'a Problem,
+    pub watch: &'a dyn Watch,
+    pub incumbent: &'a Incumbent<'a>,
+    kept: Kept<'a>,
+    /// Scan windows of the budget that are left.
+    left: AtomicU64,
+}
+
+impl<'a> Survey<'a> {
+    pub(super) fn new(
+        problem: &'a Problem,
+        watch: &'a dyn Watch,
+        incumbent: &'a Incumbent<'a>,
+        kept: Kept<'a>,
+    ) -> Self {
+        Self {
+            problem,
+            watch,
+            incumbent,
+            kept,
+            left: AtomicU64::new(watch.budget()),
+        }
+    }
+
+    /// True if the budget is spent.
+    pub(super) fn is_over_budget(&self) -> bool {
+        self.left.load(Ordering::Relaxed) == 0
+    }
+
+    /// Does work within the budget. Each part may cost what is left: whether the sum is over it does not depend on threads.
+    pub(super) fn charged<T>(&self, work: impl FnOnce() -> T) -> T {
+        let (done, spent) = budget::within(self.left.load(Ordering::Relaxed), work);
+        let less = |left: u64| Some(left.saturating_sub(spent));
+        let _ = self
+            .left
+            .fetch_update(Ordering::Relaxed, Ordering::Relaxed, less);
+        done
+    }
+
+    /// At most so many points of the unit cube, the best ones first; none if the survey is stopped.
+    pub(super) fn points(&self, evaluations: usize) -> Option<Vec<Point>> {
+        let units = units(Space(&self.problem.axes).dimension(), evaluations);
+        let pieces = units.par_chunks(PIECE).enumerate();
+        let pieces = pieces.map(|(index, units)| self.piece(index, units));
+        let mut points = pieces.collect::<Option<Vec<_>>>()?.concat();
+        points.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        Some(points)
+    }
+
+    /// Points that are recalled, or computed and kept; none if the survey is stopped.
+    fn piece(&self, index: usize, units: &[Vec<f64>]) -> Option<Vec<Point>> {
+        if self.watch.stop() || self.is_over_budget() {
+            return None;
+        }
+        let Ok(found) = self.charged(|| {
+            piece(self.kept, &index, || {
+                Ok::<_, Infallible>(self.compute(units))
+            })
+        });
+        let pairs = units.iter().zip(found);
+        let point = |(unit, (cost, value)): (&Vec<f64>, (f64, Option<f64>))| {
+            self.watch.evaluated(value);
+            // A recalled point has no design.
+            if value.is_some() && self.incumbent.is_beaten_by(-cost) {
+                budget::within(u64::MAX, || self.compute(from_ref(unit)));
+            }
+            let unit = unit.clone();
+            Point { unit, cost }
+        };
+        Some(pairs.map(point).collect())
+    }
+
+    /// The cost of each point, and what its best motion has of what is sought.
+    fn compute(&self, units: &[Vec<f64>]) -> Vec<(f64, Option<f64>)> {
+        let space = Space(&self.problem.axes);
+        let values: Vec<_> = units.iter().map(|unit| space.values(unit)).collect();
+        let outcomes = self.problem.at_batch(&values).into_iter();
+        let found = outcomes.zip(units).map(|(outcome, unit)| {
+            let cost = cost(self.problem, &outcome);
+            let value = outcome.as_ref().ok().map(|design| design.value);
+            if let Ok(design) = outcome {
+                let unit = unit.clone();
+                self.incumbent
+                    .update(&Candidate { unit, design }, Rank::Motion);
+            }
+            (cost, value)
+        });
+        found.collect()
+    }
+}
+
+/// Points of the unit cube: a lattice with its boundary. Where that would have nothing but corners, evenly many of these and
+/// points of a low-discrepancy sequence.
+fn units(dimension: usize, evaluations: usize) -> Vec<Vec<f64>> {
+    if dimension == 0 {
+        return vec![Vec::new()];
+    }
     let root = (evaluations as f64).powf(1.0 / dimension as f64) + 1e-9;
     let edge = (root as usize).clamp(2, LONGEST_EDGE);
-    // Of a lattice with more points than that, corners and all, evenly many are taken.
     let whole = edge.checked_pow(dimension as u32).unwrap_or(usize::MAX);
-    let count = whole.min((evaluations as usize).max(2));
-    let units: Vec<Vec<f64>> = (0..count)
+    let inside = match edge < SHORTEST_EDGE {
+        true => evaluations.saturating_sub(whole).max(evaluations / 2),
+        false => 0,
+    };
+    let count = whole.min((evaluations - inside).max(2));
+    let lattice = (0..count)
         .map(|index| (index as u128 * whole as u128 / count as u128) as usize)
-        .map(|index| lattice_point(index, edge, dimension))
-        .collect();
-    let costs = Stoppable(cost).bulk_cost(&units)?;
-    let points = units.into_iter().zip(costs);
-    let mut points: Vec<Point> = points.map(|(unit, cost)| Point { unit, cost }).collect();
-    points.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    Ok(points)
+        .map(|index| lattice_point(index, edge, dimension));
+    let inside = (0..inside).map(|index| {
+        let place = place(index, dimension).into_iter();
+        place.map(|at| 0.5 * (1.0 + at)).collect()
+    });
+    lattice.chain(inside).collect()
 }
 
 /// The point of this number in a lattice with `edge` points along each axis.
@@ -37,12 +200,22 @@ fn lattice_point(index: usize, edge: usize, dimension: usize) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::lattice_point;
+    use super::{lattice_point, units};
 
     #[test]
     fn the_survey_reaches_the_corners() {
         assert_eq!(lattice_point(0, 3, 2), [0.0, 0.0]);
         assert_eq!(lattice_point(5, 3, 2), [1.0, 0.5]);
         assert_eq!(lattice_point(8, 3, 2), [1.0, 1.0]);
+    }
+
+    #[test]
+    fn of_many_axes_the_inside_is_surveyed_too() {
+        for (dimension, evaluations) in [(1, 20), (2, 144), (5, 400), (7, 400), (10, 400)] {
+            let units = units(dimension, evaluations);
+            assert!(units.len() <= evaluations);
+            let is_inside = |unit: &&Vec<f64>| unit.iter().all(|at| *at > 0.0 && *at < 1.0);
+            assert!(units.iter().any(|unit| is_inside(&unit)), "{dimension}");
+        }
     }
 }

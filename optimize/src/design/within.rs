@@ -4,9 +4,7 @@ use softstop::{Parameter, Scene};
 use softstop_dynamics::slopes::Border;
 use softstop_dynamics::spread::Spread;
 
-use super::exact::Exact;
-use super::here::{At, Here};
-use super::problem::Problem;
+use super::exact::Linearization;
 use super::space::Space;
 
 const COUNT: usize = Parameter::ALL.len();
@@ -28,14 +26,10 @@ pub(super) struct Rows {
 
 impl Rows {
     /// At some coordinates of the box of tolerances.
-    pub(super) fn at(
-        problem: &Problem,
-        (at, here): (&At<'_>, &Here),
-        exact: &Exact,
-        coordinates: &[f64],
-    ) -> Option<Self> {
+    pub(super) fn at(about: &Linearization<'_>, coordinates: &[f64]) -> Option<Self> {
+        let Linearization { problem, at, .. } = about;
         let values = Space(&problem.axes).values(at.unit);
-        let frequency = here.orbit.scene.excitation.frequency;
+        let frequency = about.point.orbit.scene.excitation.frequency;
         let machine = |values: &[f64], frequency: f64, coordinates: &[f64]| {
             let mut machine = problem.machine_at(values);
             Parameter::Frequency.set(&mut machine.scene, frequency);
@@ -63,7 +57,7 @@ impl Rows {
             .collect();
         let own = at.moved.iter().map(|index| aside(free[*index]));
         let place = at.place.map(|_| Some([0.0; COUNT]));
-        let by = own.chain(place).zip(&exact.frequency);
+        let by = own.chain(place).zip(&about.frequency);
         let by: Option<Vec<Values>> = by
             .map(|(row, frequency)| {
                 let row = row?;

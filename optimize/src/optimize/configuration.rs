@@ -81,14 +81,14 @@ task! {
     search: Search, json!({
         "type": "object",
         "properties": {
-            "seed": { "type": "integer", "minimum": 0 },
+            "seed": { "type": "integer", "minimum": 0, "deprecated": true },
             "evaluations": { "type": "integer", "minimum": LEAST_EVALUATIONS }
         },
         "additionalProperties": false
     });
     /// The rest of the paper's machine.
     scene: SceneSettings, schema::shorthands();
-    /// Seed of the search.
+    /// Ignored: the search is deterministic.
     seed: Option<u64>, json!({ "type": "integer", "minimum": 0 });
     /// Zones that the search may compute.
     evaluations: Option<u64>, json!({ "type": "integer", "minimum": LEAST_EVALUATIONS });
@@ -102,7 +102,7 @@ task! {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Search {
-    /// Seed of the search.
+    /// Ignored: the search is deterministic.
     pub seed: Option<u64>,
     /// Zones that the search may compute.
     pub evaluations: Option<u64>,

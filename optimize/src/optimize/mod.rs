@@ -54,7 +54,7 @@ Examples:
       the paper's stop at its best clearance, for programs
   softstop optimize --fix clearance=10 --bounds frequency=1.1:1.2 --preload-deflection 10
       only frequencies that the drive can run at; the preload following the stiffness
-  softstop optimize --config task.toml --seed 1
+  softstop optimize --config task.toml --evaluations 400
       with task.toml (softstop schema task says what it may hold) holding, say,
           regime = \"loaded\"
           margin = 0.25
@@ -84,7 +84,7 @@ A machine's file may hold a task (docs/tutorials/press.md takes a press from fil
     stop_force = 5e5
     run_up = true
     [search]
-    seed = 1
+    evaluations = 2000
 With tolerances, all machines within them stay in the zone, and a million of them are looked at (--samples).
 
 Files, whole or not at all: report.html (for people, one page), design.json (what --format json prints),
@@ -126,8 +126,8 @@ pub struct OptimizeArguments {
     /// Folder for design.json, design.svg and design.fmu [default: softstop-design]
     #[arg(long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Seed of the search: the same one gives the same result [default: 0]
-    #[arg(long, value_name = "N")]
+    /// Ignored: the search is deterministic
+    #[arg(long, value_name = "N", hide = true)]
     pub seed: Option<u64>,
     /// Zones to compute at most, at least 100; the search ends before when it gains nothing [default: 1200]
     #[arg(long, value_name = "N")]
@@ -135,7 +135,7 @@ pub struct OptimizeArguments {
     /// Machines looked at within the tolerances
     #[arg(long, value_name = "N", default_value_t = 1 << 20)]
     pub samples: usize,
-    /// Work that the survey, the swarm and the polish of the search may cost, in millions of scan windows for each of
+    /// Work that survey and ascents of the search may cost, in millions of scan windows for each of
     /// --evaluations; a search that would cost more is refused, the same on every computer
     #[arg(long, value_name = "MILLIONS", default_value_t = Budget::POINT)]
     pub budget: Budget,
@@ -213,7 +213,6 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     }
     let search = SearchReport {
         bounds: bounds(&job.problem),
-        seed: job.settings.seed,
         evaluations: job.settings.evaluations,
         evaluations_used: outcome.evaluations,
         resolution: outcome.resolution,

@@ -1,5 +1,6 @@
 //! The task as command line and TOML file state it together, checked.
 
+use std::io::{self, Write};
 use std::path::PathBuf;
 
 use serde::Serialize;
@@ -91,6 +92,13 @@ impl Job {
                 machine.name(link.parameter)
             )));
         }
+        if arguments.seed.or(task.seed).or(task.search.seed).is_some() {
+            // If nobody reads it, there is nobody to tell.
+            let _ = writeln!(
+                io::stderr(),
+                "seed: the search is deterministic and needs none"
+            );
+        }
         let evaluations = arguments
             .evaluations
             .or(task.evaluations)
@@ -111,14 +119,7 @@ impl Job {
                 objective,
                 requirements,
             },
-            settings: Settings {
-                seed: arguments
-                    .seed
-                    .or(task.seed)
-                    .or(task.search.seed)
-                    .unwrap_or(0),
-                evaluations,
-            },
+            settings: Settings { evaluations },
             samples: arguments.samples,
             budget: arguments.budget,
             report: !arguments.no_report,
@@ -156,7 +157,6 @@ impl Job {
             )
         });
         let axes: Vec<_> = axes.collect();
-        let settings = (self.settings.seed, self.settings.evaluations);
         let frequency = (frequency.low, frequency.high);
         (
             &machine.scene,
@@ -164,7 +164,7 @@ impl Job {
             margin,
             axes,
             frequency,
-            settings,
+            self.settings.evaluations,
             wishes,
         )
     }

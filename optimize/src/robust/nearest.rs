@@ -102,26 +102,16 @@ impl Search<'_> {
         watcher: Watcher<'_>,
     ) -> Result<Vec<Nearest>, OrbitError> {
         let mut found: Vec<Nearest> = Vec::new();
-        while let Some(start) = {
-            let known = |meeting: &Meeting| {
-                found
-                    .iter()
-                    .any(|own| same(&own.manifold, &meeting.manifold))
+        loop {
+            let is_new = |it: &Meeting| found.iter().all(|own| !same(&own.manifold, &it.manifold));
+            met.retain(is_new);
+            let nearest = (0..met.len()).min_by(|a, b| met[*a].share.total_cmp(&met[*b].share));
+            let Some(nearest) = nearest else {
+                return Ok(found);
             };
-            met.retain(|meeting| !known(meeting));
-            let nearest = |(_, meeting): &(usize, &Meeting)| meeting.share;
-            let least = met
-                .iter()
-                .enumerate()
-                .min_by(|a, b| nearest(a).total_cmp(&nearest(b)));
-            least
-                .map(|(index, _)| index)
-                .map(|index| met.swap_remove(index))
-        } {
-            let own = self.descend(start, &mut met, watcher)?;
-            found.push(own);
+            let start = met.swap_remove(nearest);
+            found.push(self.descend(start, &mut met, watcher)?);
         }
-        Ok(found)
     }
 
     /// Goes to a nearest point of the manifold; what other ones are met on the way is kept.

@@ -11,15 +11,15 @@ use super::corners::corners;
 /// Steps towards the worst machine, and halvings of one.
 const STEPS: usize = 60;
 const HALVINGS: usize = 40;
-/// Share of a grade that is nothing to gain.
+/// Share of a velocity that is nothing to gain.
 const GAIN: f64 = 1e-10;
-/// Change of a coordinate over which a grade without exact derivatives is differenced.
+/// Change of a coordinate over which a velocity without exact derivatives is differenced.
 const DIFFERENCE: f64 = 1e-3;
 /// Corners that are looked at, at most, and from how many of the worst of them steps are taken.
 const CORNERS: usize = 16;
 const STARTS: usize = 3;
 
-/// The machine with the slowest impact, or the least of another grade.
+/// The machine with the slowest impact.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Worst {
@@ -27,31 +27,10 @@ pub struct Worst {
     pub at: Vec<f64>,
     /// Its motion.
     pub orbit: Orbit,
-    /// Its before-impact velocity in m/s, or its grade.
+    /// Its before-impact velocity in m/s.
     pub value: f64,
     /// d(value)/d(coordinate) there; zeros at a fold, where it has none.
     pub slopes: Vec<f64>,
-}
-
-/// What machines are graded by: the worst has the least.
-pub(crate) trait Grade: Sync {
-    /// Of the motion at some coordinates.
-    fn value(&self, at: &[f64], orbit: &Orbit) -> Option<f64>;
-    /// Its derivatives by the coordinates, where there are exact ones.
-    fn slopes(&self, at: &[f64], orbit: &Orbit) -> Option<Vec<f64>>;
-}
-
-/// The before-impact velocity.
-pub(super) struct Velocity<'a>(pub &'a dyn Spread);
-
-impl Grade for Velocity<'_> {
-    fn value(&self, _: &[f64], orbit: &Orbit) -> Option<f64> {
-        Some(orbit.before_impact_velocity())
-    }
-
-    fn slopes(&self, at: &[f64], orbit: &Orbit) -> Option<Vec<f64>> {
-        velocity_slopes(self.0, at, orbit).ok()
-    }
 }
 
 /// The slowest impact between the bounds: by steps down the velocity's gradient that end at the bounds, from the nominal
@@ -65,32 +44,19 @@ pub fn worst(
     nominal: &Orbit,
     watcher: Watcher<'_>,
 ) -> Result<Worst, OrbitError> {
-    least(spread, nominal, &Velocity(spread), watcher)
-}
-
-/// The same by any grade.
-pub(crate) fn least(
-    spread: &dyn Spread,
-    nominal: &Orbit,
-    grade: &impl Grade,
-    watcher: Watcher<'_>,
-) -> Result<Worst, OrbitError> {
     let dimensions = spread.dimensions();
     let search = Search {
         spread,
         nominal,
-        grade,
         watcher,
     };
     let mut best = search.descend(&vec![0.0; dimensions], nominal.clone())?;
-    let tried = |at: &Vec<f64>| {
-        let (orbit, value) = search.graded(at)?;
-        Some((at.clone(), orbit, value))
-    };
-    let corners = corners(dimensions, CORNERS);
-    let mut starts: Vec<_> = corners.par_iter().filter_map(tried).collect();
-    starts.sort_by(|a, b| a.2.total_cmp(&b.2));
-    for (at, orbit, _) in starts.into_iter().take(STARTS) {
+    let corners = corners(dimensions, CORNERS).into_par_iter();
+    let tried = corners.filter_map(|at| Some((search.motion(&at)?, at)));
+    let mut starts: Vec<(Orbit, Vec<f64>)> = tried.collect();
+    let velocity = |start: &(Orbit, _)| start.0.before_impact_velocity();
+    starts.sort_by(|a, b| velocity(a).total_cmp(&velocity(b)));
+    for (orbit, at) in starts.into_iter().take(STARTS) {
         let found = search.descend(&at, orbit)?;
         if found.value < best.value {
             best = found;
@@ -100,8 +66,9 @@ pub(crate) fn least(
         (0..2 * dimensions).find_map(|index| {
             let mut at = best.at.clone();
             at[index / 2] = if index.is_multiple_of(2) { 1.0 } else { -1.0 };
-            let (orbit, value) = search.graded(&at)?;
-            (value < best.value - GAIN * best.value.abs()).then_some((at, orbit))
+            let orbit = search.motion(&at)?;
+            let is_slower = orbit.before_impact_velocity() < best.value * (1.0 - GAIN);
+            is_slower.then_some((at, orbit))
         })
     };
     while let Some((at, orbit)) = flipped(&best) {
@@ -110,72 +77,60 @@ pub(crate) fn least(
     Ok(best)
 }
 
-struct Search<'a, G> {
+struct Search<'a> {
     spread: &'a dyn Spread,
     nominal: &'a Orbit,
-    grade: &'a G,
     watcher: Watcher<'a>,
 }
 
-impl<G: Grade> Search<'_, G> {
-    /// The motion at some coordinates that goes on from the nominal one, and its grade.
-    fn graded(&self, at: &[f64]) -> Option<(Orbit, f64)> {
-        let orbit = motion(self.spread, self.nominal, at)?;
-        let value = self.grade.value(at, &orbit)?;
-        Some((orbit, value))
+impl Search<'_> {
+    /// The motion at some coordinates that goes on from the nominal one.
+    fn motion(&self, at: &[f64]) -> Option<Orbit> {
+        let reached = along(self.spread, self.nominal, at, 1.0).ok()?;
+        let orbit = Orbit::near(&self.spread.scene(at), reached.point.state());
+        orbit.ok().filter(|_| reached.loss.is_none())
     }
 
-    /// The derivatives of the grade of a motion: exact, or by differences where it has no exact ones.
+    /// The derivatives of a motion's velocity: exact, or by differences where it has no exact ones.
     fn slopes(&self, at: &[f64], orbit: &Orbit) -> Option<Vec<f64>> {
-        let differenced = || {
-            let value = |index: usize, change: f64| {
-                let mut at = at.to_vec();
-                at[index] += change;
-                self.graded(&at).map(|(_, value)| value)
-            };
-            let slope = |index| {
-                let sides = value(index, -DIFFERENCE).zip(value(index, DIFFERENCE));
-                sides.map(|(below, above)| (above - below) / (2.0 * DIFFERENCE))
-            };
-            (0..at.len()).map(slope).collect()
+        let velocity = |index: usize, change: f64| {
+            let mut at = at.to_vec();
+            at[index] += change;
+            self.motion(&at).map(|it| it.before_impact_velocity())
         };
-        self.grade.slopes(at, orbit).or_else(differenced)
+        let slope = |index| {
+            let (below, above) = (velocity(index, -DIFFERENCE)?, velocity(index, DIFFERENCE)?);
+            Some((above - below) / (2.0 * DIFFERENCE))
+        };
+        let exact = velocity_slopes(self.spread, at, orbit).ok();
+        exact.or_else(|| (0..at.len()).map(slope).collect())
     }
 
-    /// The same, but none of them at a fold, where no step leads on.
-    fn slopes_or_none(&self, at: &[f64], orbit: &Orbit) -> Vec<f64> {
-        let slopes = self.slopes(at, orbit);
-        slopes.unwrap_or_else(|| vec![0.0; at.len()])
+    /// A machine and its motion; without derivatives at a fold, where no step leads on.
+    fn point(&self, at: Vec<f64>, orbit: Orbit) -> Worst {
+        let slopes = self.slopes(&at, &orbit);
+        Worst {
+            slopes: slopes.unwrap_or_else(|| vec![0.0; at.len()]),
+            value: orbit.before_impact_velocity(),
+            at,
+            orbit,
+        }
     }
 
     /// Steps down from a machine.
     fn descend(&self, at: &[f64], orbit: Orbit) -> Result<Worst, OrbitError> {
-        let value = self
-            .grade
-            .value(at, &orbit)
-            .ok_or(OrbitError::NotIsolated)?;
-        let mut here = Worst {
-            slopes: self.slopes_or_none(at, &orbit),
-            at: at.to_vec(),
-            orbit,
-            value,
-        };
+        let mut here = self.point(at.to_vec(), orbit);
         for _ in 0..STEPS {
-            let Some((at, orbit, value)) = self.step(&here)? else {
+            let Some((at, orbit)) = self.step(&here)? else {
                 break;
             };
-            here = Worst {
-                slopes: self.slopes_or_none(&at, &orbit),
-                at,
-                orbit,
-                value,
-            };
+            here = self.point(at, orbit);
         }
         Ok(here)
     }
 
-    /// A machine down the gradient with a smaller grade, if there is one.
-    fn step(&self, here: &Worst) -> Result<Option<(Vec<f64>, Orbit, f64)>, OrbitError> {
+    /// A machine down the gradient with a slower impact, if there is one.
+    fn step(&self, here: &Worst) -> Result<Option<(Vec<f64>, Orbit)>, OrbitError> {
         let sizes = here.slopes.iter().map(|slope| slope.abs());
         let flattest = sizes.filter(|slope| *slope > 0.0).min_by(f64::total_cmp);
         let Some(flattest) = flattest else {
@@ -196,21 +151,14 @@ impl<G: Grade> Search<'_, G> {
             if gain <= GAIN * here.value.abs() {
                 break;
             }
-            let tried = self.graded(&at);
-            if let Some((orbit, value)) = tried.filter(|(_, value)| *value < here.value) {
-                return Ok(Some((at, orbit, value)));
+            let tried = self.motion(&at);
+            if let Some(orbit) = tried.filter(|it| it.before_impact_velocity() < here.value) {
+                return Ok(Some((at, orbit)));
             }
             length *= 0.5;
         }
         Ok(None)
     }
-}
-
-/// The motion at some coordinates that goes on from the nominal one.
-pub(crate) fn motion(spread: &dyn Spread, nominal: &Orbit, at: &[f64]) -> Option<Orbit> {
-    let reached = along(spread, nominal, at, 1.0).ok()?;
-    let orbit = Orbit::near(&spread.scene(at), reached.point.state());
-    orbit.ok().filter(|_| reached.loss.is_none())
 }
 
 /// d(before-impact velocity)/d(coordinate) in m/s of the nominal motion.
@@ -222,7 +170,6 @@ pub(super) fn nominal_slopes(
     let search = Search {
         spread,
         nominal,
-        grade: &Velocity(spread),
         watcher,
     };
     let slopes = search.slopes(&vec![0.0; spread.dimensions()], nominal);

@@ -249,8 +249,8 @@ fn computed(job: &Job, outcome: &Outcome, study: Option<&Study>) -> Vec<Fact> {
         fact(
             "search",
             format!(
-                "{} hysteresis zones (lattice, particle swarm, gradients, Nelder-Mead), seed {}",
-                outcome.evaluations, job.settings.seed
+                "{} hysteresis zones (survey), sequential quadratic programming from the best",
+                outcome.evaluations
             ),
         ),
     ];

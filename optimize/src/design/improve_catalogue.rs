@@ -6,10 +6,10 @@ use std::collections::HashSet;
 use rayon::prelude::*;
 use softstop_console::interrupt;
 
-use super::coordinates::Summit;
-use super::gradient::{ascend, ascend_known};
-use super::hold::{Held, hold};
+use super::ascent::{ascend, ascend_from};
+use super::coordinates::Candidate;
 use super::problem::Problem;
+use super::robustify::{Robust, enforce_tolerance_box};
 
 /// How far along one catalogue values are tried; of two, both neighbours at once.
 const FAR: usize = 3;
@@ -17,21 +17,21 @@ const FAR: usize = 3;
 const GAIN: f64 = 1e-12;
 
 /// The best design by exchange of values of catalogues.
-pub(super) fn exchange(problem: &Problem, from: &Held) -> Held {
+pub(super) fn improve_catalogue(problem: &Problem, from: &Robust) -> Robust {
     let catalogues = Catalogues::of(problem);
-    let score = |it: &Held| problem.objective.score(it.summit.design.value);
+    let score = |it: &Robust| problem.score(&it.candidate.design);
     let mut best = from.clone();
-    let mut tried = HashSet::from([catalogues.places(&best.summit.unit)]);
+    let mut tried = HashSet::from([catalogues.places(&best.candidate.unit)]);
     loop {
-        let beside = catalogues.beside(&best.summit.unit).into_iter();
+        let beside = catalogues.beside(&best.candidate.unit).into_iter();
         let new: Vec<_> = beside
             .filter(|places| tried.insert(places.clone()))
             .collect();
         let sought = new.par_iter().filter_map(|places| {
-            let unit = catalogues.unit(&best.summit.unit, places);
-            let warm = ascend_known(problem, &best.known, &unit, best.summit.design.place);
-            let start: Summit = warm.or_else(|| ascend(problem, &unit))?;
-            hold(problem, &start).ok()
+            let unit = catalogues.unit(&best.candidate.unit, places);
+            let warm = ascend_from(problem, &best.known, (&unit, best.candidate.design.place));
+            let start: Candidate = warm.or_else(|| ascend(problem, &unit))?;
+            enforce_tolerance_box(problem, &start).ok()
         });
         let next = sought.collect::<Vec<_>>().into_iter().reduce(|one, other| {
             if score(&other) > score(&one) {

@@ -26,14 +26,14 @@ const ROUNDING: f64 = 1e-12;
 
 /// The stable motion of a point.
 #[derive(Debug)]
-pub(super) struct Here {
+pub(super) struct OperatingPoint {
     machine: Machine,
     pub(super) zone: Zone,
     pub(super) place: f64,
     pub(super) orbit: Orbit,
 }
 
-impl Here {
+impl OperatingPoint {
     /// None if there is no stable motion.
     pub(super) fn find(problem: &Problem, at: &At<'_>) -> Option<Self> {
         let values = Space(&problem.axes).values(at.unit);

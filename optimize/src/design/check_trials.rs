@@ -2,19 +2,21 @@
 //! search among zones: a lattice of them, then those around the best (a compass search, Kolda, Lewis and Torczon 2003),
 //! closer and closer. Of each zone only places that are better than the best so far are tried.
 
+use std::slice::from_ref;
+
 use rayon::prelude::*;
 use serde::Serialize;
 use softstop_console::interrupt;
 
+use super::ascent::ascend_from;
 use super::certain::certain;
 use super::conflict::conflict;
-use super::coordinates::{Coordinates, Summit};
-use super::gradient::ascend_from;
-use super::here::Here;
-use super::hold::{Held, look};
+use super::coordinates::{Candidate, Coordinates};
 use super::judge::{Met, violation};
+use super::operating_point::OperatingPoint;
 use super::problem::Problem;
-use super::reach::Known;
+use super::reach::LossDirections;
+use super::robustify::{Robust, look};
 use super::space::Space;
 use super::trial::FULL;
 use super::{Design, Infeasible};
@@ -24,12 +26,16 @@ const LATTICE: usize = 32;
 /// Distance of the zones around the best, in edges of the cube: the first and the last.
 const FIRST: f64 = 0.08;
 const LAST: f64 = 6e-4;
+/// The next distance, in units of the one before, where nothing better is found.
+const SHRINKING: f64 = 0.7;
 /// Places of a zone, and halvings between the best that passes and the next.
 const PLACES: usize = 24;
 const HALVINGS: u32 = 9;
-/// Places that are tried to find one that passes: if one is known elsewhere, and if none is.
-const FEW: usize = 3;
-const MANY: usize = 8;
+/// Relative distance from a score at which another is just above it, and steps to find that.
+const JUST: f64 = 1e-4;
+const SECANTS: usize = 4;
+/// Places of a zone that are tried to find one that passes, if none is known elsewhere.
+const TRIES: usize = 8;
 /// Share of a score that is no gain.
 const GAIN: f64 = 1e-9;
 /// Margins with which a design is sought that passes: motions are established the more surely, the farther from the fold.
@@ -56,24 +62,21 @@ const RESOLUTION: Resolution = Resolution {
 ///
 /// # Errors
 /// [`Infeasible`] if none was met: what this design fails.
-pub(super) fn pass(
+pub(super) fn check_trials(
     problem: &Problem,
-    mut held: Held,
-) -> Result<(Summit, Option<Resolution>), Infeasible> {
-    let tried = problem.tried(&held.summit.design.orbit);
-    let tried = tried.map_err(|error| Infeasible {
-        gap: super::DISTANT,
-        reason: error.to_string(),
-    })?;
+    mut held: Robust,
+) -> Result<(Candidate, Option<Resolution>), Infeasible> {
+    let tried = problem.tried(&held.candidate.design.orbit);
+    let tried = tried.map_err(Infeasible::unknown)?;
     if tried.iter().all(Met::is_met) {
-        return Ok((held.summit, None));
+        return Ok((held.candidate, None));
     }
     for _ in 0..ROUNDS {
         let trials = Trials {
             problem,
             known: &held.known,
         };
-        let Some(found) = trials.best(&held.summit) else {
+        let Some(found) = trials.best(&held.candidate) else {
             break;
         };
         if look(problem, &found.design, &mut held.known).is_ok() {
@@ -82,85 +85,83 @@ pub(super) fn pass(
     }
     Err(Infeasible {
         gap: violation(&tried),
-        reason: conflict(&held.summit.design.machine, &tried),
+        reason: conflict(&held.candidate.design.machine, &tried),
     })
 }
 
 /// A design near one that does not pass its trials and passes them: without the search that [`pass`] takes, and good to a
 /// per cent or so.
-pub(super) fn nearby(problem: &Problem, from: &Summit) -> Option<Summit> {
-    let known = &Known::default();
+pub(super) fn nearby(problem: &Problem, from: &Candidate) -> Option<Candidate> {
+    let known = &LossDirections::default();
     Trials { problem, known }.first(from)
 }
 
 struct Trials<'a> {
     problem: &'a Problem,
-    known: &'a Known,
+    known: &'a LossDirections,
 }
 
 impl Trials<'_> {
     fn score(&self, design: &Design) -> f64 {
-        self.problem.objective.score(design.value)
+        self.problem.score(design)
     }
 
-    /// The best design that passes, sought from one that does not.
-    fn best(&self, from: &Summit) -> Option<Summit> {
+    /// The best design that passes, sought from one that does not: from the first ones on among the zones of a lattice, then by
+    /// a compass search.
+    fn best(&self, from: &Candidate) -> Option<Candidate> {
         let coordinates = Coordinates::new(self.problem, &from.unit);
-        let mut best = self.first(from);
         let lattice = lattice(coordinates.axes().len());
         let lattice: Vec<_> = lattice.iter().map(|at| coordinates.unit(at)).collect();
-        best = self.best_of(&lattice, best.as_ref()).or(best);
-        let mut best = best?;
+        let first = self.first(from);
+        let mut best = self.best_of(&lattice, first.as_ref()).or(first)?;
         let mut step = FIRST;
         while step >= LAST && !interrupt::requested() {
             let around = Coordinates::new(self.problem, &best.unit).around(step);
             match self.best_of(&around, Some(&best)) {
                 Some(better) => best = better,
-                None => step *= 0.5,
+                None => step *= SHRINKING,
             }
         }
         Some(best)
     }
 
-    /// The best of the zone of a design, of those with wider margins, and of what linear models of the share of starts lead
-    /// to, if that is required.
-    fn first(&self, from: &Summit) -> Option<Summit> {
-        let wider = |margin: &f64| {
+    /// The best of the zone of a design and of those with wider margins, or what linear models of the share of starts lead to
+    /// from there, if that is required.
+    fn first(&self, from: &Candidate) -> Option<Candidate> {
+        let mut start = from.clone();
+        let mut best = self.best_of(from_ref(&from.unit), None);
+        for margin in MARGINS {
             let wider = Problem {
                 margin: margin.max(self.problem.margin),
                 ..self.problem.clone()
             };
-            ascend_from(&wider, &from.unit, from.design.place)
+            let place = (&from.unit[..], from.design.place);
+            if let Some(wider) = ascend_from(&wider, &LossDirections::default(), place) {
+                best = self.best_of(from_ref(&wider.unit), best.as_ref()).or(best);
+                start = wider;
+            }
+        }
+        let Some(share) = self.problem.least_share() else {
+            return best;
         };
-        let wider = MARGINS.par_iter().filter_map(wider);
-        let starts: Vec<Summit> = [from.clone()]
-            .into_iter()
-            .chain(wider.collect::<Vec<_>>())
-            .collect();
-        let share = self.problem.least_share();
-        let led = |start: &Summit| certain(self.problem, start, share?);
-        let led = starts
-            .par_iter()
-            .filter_map(led)
-            .filter(|it| self.passes(it));
-        let best = self.better_of(led.collect());
-        let units: Vec<_> = starts.into_iter().map(|it| it.unit).collect();
-        self.best_of(&units, best.as_ref()).or(best)
+        let led = certain(self.problem, best.as_ref().unwrap_or(&start), share);
+        let led = led.filter(|it| self.passes(it));
+        self.better_of(best.into_iter().chain(led).collect())
     }
 
     /// Whether a design keeps what is known of its box, and passes.
-    fn passes(&self, it: &Summit) -> bool {
+    fn passes(&self, it: &Candidate) -> bool {
         let design = &it.design;
-        let here = Here::on(design.machine.clone(), &design.zone, design.place);
+        let here = OperatingPoint::on(design.machine.clone(), &design.zone, design.place);
         here.is_some_and(|here| self.known.value(self.problem, &here).is_some())
             && self.problem.passes(&design.orbit, FULL)
     }
 
     /// The best of some zones that is better than one that is known.
-    fn best_of(&self, units: &[Vec<f64>], known: Option<&Summit>) -> Option<Summit> {
+    fn best_of(&self, units: &[Vec<f64>], known: Option<&Candidate>) -> Option<Candidate> {
         let least = known.map_or(0.0, |it| (1.0 + GAIN) * self.score(&it.design));
         let found = units.par_iter().filter_map(|unit| {
-            Some(Summit {
+            Some(Candidate {
                 unit: unit.clone(),
                 design: self.along(unit, least)?,
             })
@@ -169,8 +170,8 @@ impl Trials<'_> {
     }
 
     /// The best of some designs.
-    fn better_of(&self, found: Vec<Summit>) -> Option<Summit> {
-        let score = |it: &Summit| self.score(&it.design);
+    fn better_of(&self, found: Vec<Candidate>) -> Option<Candidate> {
+        let score = |it: &Candidate| self.score(&it.design);
         found.into_iter().reduce(|one, other| {
             if score(&other) > score(&one) {
                 other
@@ -188,17 +189,23 @@ impl Trials<'_> {
         let zone = problem.zone(&machine).ok()?;
         let window = problem.window(&machine, &zone).ok()?;
         let design = |place: f64| {
-            let here = Here::on(machine.clone(), &zone, place)?;
+            let here = OperatingPoint::on(machine.clone(), &zone, place)?;
             let value = self.known.value(problem, &here)?;
-            Some(here.design(value)).filter(|it| self.score(it) > least)
+            Some(here.design(value))
         };
         let places = (0..=PLACES).map(|index| window.at(index as f64 / PLACES as f64));
-        let mut all: Vec<Design> = places.filter_map(design).collect();
+        let sampled: Vec<Option<Design>> = places.map(design).collect();
+        let pairs = sampled.windows(2);
+        let pairs = pairs.filter_map(|pair| pair[0].as_ref().zip(pair[1].as_ref()));
+        let crossings = pairs.filter_map(|pair| self.just_above(least, pair, design));
+        let mut all: Vec<Design> = crossings.collect();
+        let better = sampled.into_iter().flatten();
+        all.extend(better.filter(|it| self.score(it) > least));
         all.sort_by(|a, b| self.score(a).total_cmp(&self.score(b)));
         let last = all.len().checked_sub(1)?;
-        let tries = if least > 0.0 { FEW } else { MANY };
         // The least of them passes most easily; the best ends the search.
-        let spread = (0..tries).map(|index| index * last / (tries - 1));
+        let tries = if least > 0.0 { 1 } else { TRIES };
+        let spread = (0..tries).map(|index| index * last / (TRIES - 1));
         let mut low = spread
             .filter(|index| problem.passes(&all[*index].orbit, FULL))
             .max()?;
@@ -210,20 +217,50 @@ impl Trials<'_> {
                 false => high = middle,
             }
         }
-        let mut best = all[low].clone();
-        let Some(next) = all.get(high) else {
+        let next = all.get(high).cloned();
+        let mut best = all.swap_remove(low);
+        let Some(mut failing) = next else {
             return Some(best);
         };
-        let mut failing = next.place;
         for _ in 0..HALVINGS {
-            match design(0.5 * (best.place + failing)) {
+            match design(0.5 * (best.place + failing.place)) {
                 Some(middle) if self.score(&middle) <= self.score(&best) => break,
                 Some(middle) if problem.passes(&middle.orbit, FULL) => best = middle,
-                Some(middle) => failing = middle.place,
+                Some(middle) => failing = middle,
                 None => break,
             }
         }
         Some(best)
+    }
+
+    /// Between two motions of a zone, one whose score is above a bound by very little; none if both are on one side of it.
+    fn just_above(
+        &self,
+        bound: f64,
+        (one, other): (&Design, &Design),
+        design: impl Fn(f64) -> Option<Design>,
+    ) -> Option<Design> {
+        let above = |it: &Design| self.score(it) - bound;
+        let [mut low, mut high] = [one, other].map(|it| (it.place, above(it)));
+        let mut found = None;
+        for _ in 0..SECANTS {
+            if low.1 > high.1 {
+                (low, high) = (high, low);
+            }
+            if low.1 > 0.0 || high.1 <= JUST * bound {
+                break;
+            }
+            let aim = 0.5 * JUST * bound;
+            let share = (aim - low.1) / (high.1 - low.1);
+            let middle = design(low.0 + share * (high.0 - low.0))?;
+            let end = (middle.place, above(&middle));
+            if end.1 > 0.0 {
+                (high, found) = (end, Some(middle));
+            } else {
+                low = end;
+            }
+        }
+        found
     }
 }
 

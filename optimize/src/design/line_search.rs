@@ -7,11 +7,11 @@ use argmin::solver::brent::BrentOpt;
 use softstop::Machine;
 use softstop_dynamics::{BranchPoint, Orbit, Zone};
 
-use super::Infeasible;
 use super::conflict::conflict;
 use super::judge::{Judged, violation};
 use super::problem::Problem;
 use super::space::Interval;
+use super::{DISTANT, Infeasible};
 
 /// Places that are looked at before the best one is refined.
 const SAMPLES: usize = 9;
@@ -95,7 +95,7 @@ impl Line<'_> {
     fn cost_at(&self, place: f64) -> f64 {
         let point = match self.zone.point_at(place) {
             Ok(point) => point,
-            Err(error) => return self.fails(LOST, || error.to_string()),
+            Err(error) => return self.fails(DISTANT, || error.to_string()),
         };
         let velocity = point.before_impact_velocity();
         // At the fold itself a multiplier is 1: the limit of the stable motions, wanted for M = 0.
@@ -127,18 +127,14 @@ impl Line<'_> {
 
     /// What is sought, of a motion that is as required.
     fn judged(&self, place: f64, point: &BranchPoint) -> Result<f64, Infeasible> {
-        let lost = |reason| Infeasible { gap: LOST, reason };
-        let orbit = self
-            .zone
-            .orbit(point)
-            .map_err(|error| lost(error.to_string()))?;
-        let motion = Judged::new(self.machine, self.zone, place, &orbit)
-            .map_err(|error| lost(error.to_string()))?;
+        let orbit = self.zone.orbit(point).map_err(Infeasible::unknown)?;
+        let motion = Judged::new(self.machine, self.zone, place, &orbit);
+        let motion = motion.map_err(Infeasible::unknown)?;
         let met = self.problem.met(&motion);
         match violation(&met) {
             0.0 => self.problem.sought(&motion).ok_or_else(|| {
                 let name = self.problem.objective.figure.name();
-                lost(format!("{name} has no value"))
+                Infeasible::unknown(format!("{name} has no value"))
             }),
             gap => Err(Infeasible {
                 gap,
@@ -180,10 +176,8 @@ impl Line<'_> {
             let (gap, reason) = self.reason.take();
             return Err(Infeasible { gap, reason });
         };
-        let orbit = self.zone.orbit(&best.point).map_err(|error| Infeasible {
-            gap: LOST,
-            reason: error.to_string(),
-        })?;
+        let orbit = self.zone.orbit(&best.point);
+        let orbit = orbit.map_err(Infeasible::unknown)?;
         Ok(Best {
             place: best.place,
             orbit,
@@ -201,9 +195,6 @@ impl CostFunction for &Line<'_> {
     }
 }
 
-/// The grade where no motion was found.
-const LOST: f64 = 10.0;
-
 /// The grade of an unstable motion: how far its largest multiplier is outside the unit circle.
 fn instability(point: &BranchPoint) -> f64 {
     let largest = point
@@ -213,8 +204,8 @@ fn instability(point: &BranchPoint) -> f64 {
         .map(|multiplier| multiplier.norm())
         .fold(0.0, f64::max);
     if largest.is_finite() {
-        (largest - 1.0).clamp(0.0, LOST)
+        (largest - 1.0).clamp(0.0, DISTANT)
     } else {
-        LOST
+        DISTANT
     }
 }

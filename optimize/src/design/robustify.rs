@@ -6,10 +6,10 @@ use softstop_console::interrupt;
 use softstop_dynamics::zone::Loss;
 use softstop_explore::zone::lost_by;
 
-use super::coordinates::Summit;
-use super::gradient::ascend_known;
+use super::ascent::ascend_from;
+use super::coordinates::Candidate;
 use super::problem::Problem;
-use super::reach::Known;
+use super::reach::LossDirections;
 use super::{Design, Infeasible};
 use crate::robust::{Manifold, Norm, Tolerances, first_losses, nearest};
 
@@ -26,7 +26,7 @@ const PLACES: [f64; 5] = [0.5, 0.3, 0.7, 0.1, 0.9];
 #[derive(Debug, Clone)]
 struct Lost {
     /// In this direction of the box.
-    way: Vec<f64>,
+    direction: Vec<f64>,
     /// At this share of the way.
     share: f64,
     /// By this, in words.
@@ -35,33 +35,36 @@ struct Lost {
 
 /// A design with its whole box.
 #[derive(Debug, Clone)]
-pub(super) struct Held {
-    pub summit: Summit,
+pub(super) struct Robust {
+    pub candidate: Candidate,
     /// What had to be known for that.
-    pub known: Known,
+    pub known: LossDirections,
 }
 
 /// The best design about this one of which no machine within the tolerances loses the motion.
 ///
 /// # Errors
 /// [`Infeasible`] with how much is lacking if there is none.
-pub(super) fn hold(problem: &Problem, start: &Summit) -> Result<Held, Infeasible> {
-    let mut known = Known::default();
-    let mut summit = start.clone();
+pub(super) fn enforce_tolerance_box(
+    problem: &Problem,
+    start: &Candidate,
+) -> Result<Robust, Infeasible> {
+    let mut known = LossDirections::default();
+    let mut candidate = start.clone();
     let mut lack: Option<Infeasible> = None;
     for _ in 0..ROUNDS {
-        let before = known.ways.len();
-        let Err(lost) = look(problem, &summit.design, &mut known) else {
-            return Ok(Held { summit, known });
+        let before = known.directions.len();
+        let Err(lost) = look(problem, &candidate.design, &mut known) else {
+            return Ok(Robust { candidate, known });
         };
-        if known.ways.len() == before {
+        if known.directions.len() == before {
             return Err(lost);
         }
         if lack.as_ref().is_none_or(|it| lost.gap < it.gap) {
             lack = Some(lost);
         }
-        let next = again(problem, &known, &summit).next();
-        summit = next.ok_or_else(|| lack.clone().unwrap_or_else(untold))?;
+        let next = again(problem, &known, &candidate).next();
+        candidate = next.ok_or_else(|| lack.clone().unwrap_or_else(untold))?;
     }
     Err(lack.unwrap_or_else(untold))
 }
@@ -73,14 +76,16 @@ pub(super) fn hold(problem: &Problem, start: &Summit) -> Result<Held, Infeasible
 pub(super) fn look(
     problem: &Problem,
     design: &Design,
-    known: &mut Known,
+    known: &mut LossDirections,
 ) -> Result<(), Infeasible> {
     let Some(spread) = problem.spread(&design.machine) else {
         return Ok(());
     };
     let lost = lost(&spread, design)?;
     let lacking = lost.first().map(lacking);
-    known.ways.extend(lost.into_iter().map(|it| it.way));
+    known
+        .directions
+        .extend(lost.into_iter().map(|it| it.direction));
     lacking.map_or(Ok(()), Err)
 }
 
@@ -90,15 +95,12 @@ impl Problem {
     /// # Errors
     /// [`Infeasible`] with how much is lacking.
     pub fn has_box(&self, design: &Design) -> Result<(), Infeasible> {
-        look(self, design, &mut Known::default())
+        look(self, design, &mut LossDirections::default())
     }
 }
 
 fn untold() -> Infeasible {
-    Infeasible {
-        gap: super::DISTANT,
-        reason: "the machines within the tolerances could not be computed".to_owned(),
-    }
+    Infeasible::unknown("the machines within the tolerances could not be computed")
 }
 
 fn lacking(lost: &Lost) -> Infeasible {
@@ -114,20 +116,17 @@ fn lacking(lost: &Lost) -> Infeasible {
 /// The best designs with what is known of the box, from one, and from other places of its zone.
 fn again<'a>(
     problem: &'a Problem,
-    known: &'a Known,
-    from: &'a Summit,
-) -> impl Iterator<Item = Summit> + 'a {
+    known: &'a LossDirections,
+    from: &'a Candidate,
+) -> impl Iterator<Item = Candidate> + 'a {
     let places = [from.design.place].into_iter().chain(PLACES);
-    places.filter_map(|place| ascend_known(problem, known, &from.unit, place))
+    places.filter_map(|place| ascend_from(problem, known, (&from.unit, place)))
 }
 
 /// The directions of the box in which the motion is lost within it.
 fn lost(spread: &Tolerances, design: &Design) -> Result<Vec<Lost>, Infeasible> {
     let found = nearest(spread, &design.orbit, Norm::Box, 1.0, &interrupt::watch);
-    let found = found.map_err(|error| Infeasible {
-        gap: super::DISTANT,
-        reason: error.to_string(),
-    })?;
+    let found = found.map_err(Infeasible::unknown)?;
     let nearest = found.into_iter().filter_map(|it| match it.manifold {
         Manifold::Motion(loss) => Some((it.at, loss)),
         Manifold::Hysteresis => None,
@@ -166,7 +165,7 @@ fn told(all: impl IntoIterator<Item = (Vec<f64>, Loss)>) -> Vec<Lost> {
             .iter()
             .fold(f64::MIN_POSITIVE, |most, part| most.max(part.abs()));
         Lost {
-            way: at.iter().map(|part| part / share).collect(),
+            direction: at.iter().map(|part| part / share).collect(),
             share,
             by: lost_by(&loss),
         }
