@@ -14,6 +14,7 @@ pub mod lock;
 pub mod machine;
 pub mod median;
 pub mod names;
+pub mod older;
 pub mod output;
 pub mod pieces;
 pub mod progress;

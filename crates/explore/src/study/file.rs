@@ -23,7 +23,7 @@ use super::outputs::Output;
 struct File {
     machine: Option<PathBuf>,
     #[serde(default)]
-    set: Vec<String>,
+    set: Vec<Change>,
     axis: Vec<Stated>,
     samples: Option<u64>,
     #[serde(default)]
@@ -225,13 +225,9 @@ fn machine(file: &File, folder: &Path) -> Result<Machine, Failure> {
         Some(_) => machine.clone(),
         None => folder.join(machine),
     });
-    let changes = file.set.iter().map(|text| {
-        let wrong = |error| Failure::usage(format!("set = [\"{text}\"]: {error}"));
-        text.parse::<Change>().map_err(wrong)
-    });
     let arguments = MachineArguments {
         machine: named,
-        set: changes.collect::<Result<_, _>>()?,
+        set: file.set.clone(),
         ..MachineArguments::default()
     };
     arguments.machine()
