@@ -6,12 +6,13 @@ use std::path::Path;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use softstop::{Machine, Parameter};
+use softstop_console::record::Record;
 use softstop_optimize::design::search::{Settings, Unwatched, search};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
 use softstop_optimize::page::data::{
-    Basin, Curve, Erosion, ErosionPoint, Fact, Front, Histogram, Label, Map, Portrait, Report,
-    Requirement, Response, Role, RunUp, Sensitivity,
+    Basin, Computed, Curve, Erosion, ErosionPoint, Fact, Front, Histogram, Label, Map, Portrait,
+    Report, Response, Role, RunUp, Sensitivity,
 };
 use softstop_optimize::page::{computed, csv, html};
 
@@ -65,15 +66,9 @@ fn report(design: &Design) -> Outcome<Report> {
     let velocity = Label::new("before-impact velocity", "", "m/s");
     let hardest = design.before_impact_velocity();
     let bell = |k: i32| (10_000.0 * (-f64::from((k - 25) * (k - 25)) / 60.0).exp()) as u64;
-    let met = |met| Requirement {
-        name: "margin.s_SN".to_owned(),
-        meaning: "distance to the fold s_SN, as a share of the frequency".to_owned(),
-        unit: "%".to_owned(),
-        required: "at least 3".to_owned(),
-        value: if met { 4.25 } else { 2.0 },
-        margin: if met { 1.25 } else { -1.0 },
-        met,
-        note: String::new(),
+    let met = |met| match met {
+        true => requirement(4.25, 1.25),
+        false => requirement(2.0, -1.0),
     };
     Ok(Report {
         machine: "press <1> & co".to_owned(),
@@ -131,12 +126,27 @@ fn report(design: &Design) -> Outcome<Report> {
             run_up("drive at full force from rest", false, "settles without impacts"),
             run_up("speed raised from below g₀", true, ""),
         ],
-        computed: vec![
-            Fact { name: "softstop".to_owned(), value: env!("CARGO_PKG_VERSION").to_owned() },
-            Fact { name: "command".to_owned(), value: "softstop optimize press.toml".to_owned() },
-            Fact { name: "seed".to_owned(), value: "0".to_owned() },
-        ],
+        computed: Some(Computed {
+            zones: 300,
+            ..Computed::default()
+        }),
     })
+}
+
+fn requirement(value: f64, margin: f64) -> Record {
+    Record::default()
+        .with("name", "", "margin.s_SN")
+        .with(
+            "meaning",
+            "",
+            "distance to the fold s_SN, as a share of the frequency",
+        )
+        .with("unit", "", "%")
+        .with("required", "", "at least 3")
+        .with("value", "", value)
+        .with("margin", "", margin)
+        .with("met", "", margin >= 0.0)
+        .with("note", "", "")
 }
 
 fn effect(name: &str, unit: &str, value: f64, tolerance: f64, effect: f64) -> Sensitivity {
@@ -269,11 +279,7 @@ fn what_is_no_number_is_a_dash() -> Outcome {
         points,
     };
     let report = Report {
-        requirements: vec![Requirement {
-            value: nan,
-            margin: f64::INFINITY,
-            ..Requirement::default()
-        }],
+        requirements: vec![requirement(nan, f64::INFINITY)],
         maps: vec![Map {
             columns: 2,
             cells: vec![Some(nan), None],

@@ -2,12 +2,13 @@
 
 mod branch;
 mod chart;
-mod fill;
+
 mod objective;
 mod older;
 pub mod outcome;
 mod progress;
 pub mod reference;
+mod report_data;
 mod require;
 mod solve;
 pub mod study;
@@ -241,8 +242,8 @@ fn looked(job: &Job, outcome: &Outcome) -> Result<(Option<Study>, Option<Page>),
     let mut page = None;
     if job.report {
         let references = reference::references(&job.problem.machine)?;
-        let report = fill::report(job, outcome, &references, study.as_ref());
-        let tables = csv(&report).map_err(anyhow::Error::from)?;
+        let report = report_data::report(job, outcome, &references, study.as_ref());
+        let tables = csv(&report)?;
         page = Some((html(&report).map_err(anyhow::Error::from)?, tables));
     }
     match interrupt::requested() {

@@ -9,7 +9,7 @@ use softstop_console::budget::Budget;
 use softstop_console::failure::Failure;
 use softstop_console::machine::Regime;
 use softstop_console::range::{require, within};
-use softstop_console::{pieces, scene_file};
+use softstop_console::{record_log, scene_file};
 use softstop_dynamics::attractors::Region;
 use softstop_dynamics::points::DIMENSIONS;
 use softstop_dynamics::settled::Settling;
@@ -194,7 +194,7 @@ impl Study {
             points,
             hash: String::new(),
         };
-        study.hash = pieces::fingerprint(&study.identity())?;
+        study.hash = record_log::fingerprint(&study.identity())?;
         Ok(study)
     }
 
