@@ -10,6 +10,7 @@ use softstop_console::record::Record;
 use softstop_optimize::design::search::{Settings, Unwatched, search};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
+use softstop_optimize::optimize::reference::Reference;
 use softstop_optimize::page::data::{
     Basin, Computed, Curve, Erosion, ErosionPoint, Fact, Front, Histogram, Label, Map, Portrait,
     Report, Response, Role, RunUp, Sensitivity,
@@ -63,6 +64,15 @@ fn report(design: &Design) -> Outcome<Report> {
         interval: [0.6 * (1.0 - place) - 0.02, 0.6 * (1.0 - place) + 0.02],
         integrity: Some(0.3 * (1.0 - place * place)),
     });
+    let given = Reference {
+        name: "given",
+        machine: design.machine.clone(),
+        orbit: design.orbit.clone(),
+    };
+    let pressed = Reference {
+        machine: Machine::from_toml(PRESS)?,
+        ..given.clone()
+    };
     let velocity = Label::new("before-impact velocity", "", "m/s");
     let hardest = design.before_impact_velocity();
     let bell = |k: i32| (10_000.0 * (-f64::from((k - 25) * (k - 25)) / 60.0).exp()) as u64;
@@ -83,7 +93,7 @@ fn report(design: &Design) -> Outcome<Report> {
         comparison: Some(computed::comparison(
             design,
             &[Parameter::StopStiffness, Parameter::Clearance, Parameter::Frequency],
-            &[("given".to_owned(), &design.machine, &design.orbit)],
+            std::slice::from_ref(&given),
         )),
         limit: Some("The margin from s_SN: with 1 % more frequency it would not be kept.".to_owned()),
         requirements: vec![met(true), met(false)],
@@ -91,7 +101,7 @@ fn report(design: &Design) -> Outcome<Report> {
             computed::map(design, Parameter::Clearance, [0.005, 0.04]),
             computed::map(design, Parameter::StopStiffness, [5e6, 8e7]),
         ],
-        response: Some(computed::response(design, &[("as given".to_owned(), Machine::from_toml(PRESS)?)])),
+        response: Some(computed::response(design, &[pressed])),
         portrait: Some(computed::portrait(design)),
         basin: Some(computed::basin(design)?),
         erosion: Some(Erosion {

@@ -3,8 +3,7 @@
 mod parts;
 
 use rayon::join;
-use softstop::{Dimension, Machine, Parameter};
-use softstop_dynamics::Orbit;
+use softstop::{Dimension, Parameter};
 
 use super::outcome::Outcome;
 use super::reference::Reference;
@@ -33,18 +32,9 @@ pub(super) fn report(
     let design = &outcome.design;
     let machine = &design.machine;
     let problem = &job.problem;
-    let chosen: Vec<Parameter> = chosen(problem);
-    let others: Vec<(String, &Machine, &Orbit)> = references
-        .iter()
-        .map(|it| (called(it), &it.machine, &it.orbit))
-        .collect();
-    let named: Vec<(String, Machine)> = references
-        .iter()
-        .map(|it| (called(it), it.machine.clone()))
-        .collect();
     let corners = study.map_or_else(Vec::new, |it| corners(machine, it));
     let ((maps, response), (basin, bands)) = join(
-        || join(|| maps(problem, design), || response(design, &named)),
+        || join(|| maps(problem, design), || response(design, references)),
         || join(|| basin(design).ok(), || bands(&corners)),
     );
     Report {
@@ -52,7 +42,7 @@ pub(super) fn report(
         task: task(problem),
         warnings: warnings(problem, outcome, study),
         highlights: highlights(problem, design, study),
-        comparison: Some(comparison(design, &chosen, &others)),
+        comparison: Some(comparison(design, &chosen(problem), references)),
         limit: limit(problem, outcome),
         requirements: outcome
             .met
@@ -87,14 +77,6 @@ pub(super) fn report(
             samples: study.map(|it| it.verdict.machines as u64),
             has_links: !problem.links.is_empty(),
         }),
-    }
-}
-
-/// What a reference is called: a point of the paper, or the machine as it was given.
-fn called(reference: &Reference) -> String {
-    match reference.name {
-        "given" => "as given".to_owned(),
-        point => format!("paper's {point}"),
     }
 }
 
