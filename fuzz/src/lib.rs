@@ -14,7 +14,7 @@ use std::io::Write;
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use softstop::{Effort, Machine, Simulation};
-use softstop_console::pieces::Pieces;
+use softstop_console::record_log::RecordLog;
 
 pub use state::{serialized, state};
 
@@ -54,7 +54,9 @@ pub fn pieces(data: &[u8]) {
     file.write_all(data).expect("a file");
     let read = || {
         let mut known = Vec::new();
-        let mut file = Pieces::open(&path).expect("a file").expect("no other run");
+        let mut file = RecordLog::open(&path)
+            .expect("a file")
+            .expect("no other run");
         let of = file.restore(|key, at| known.push((key.to_vec(), at)));
         let of = of.expect("a file that can be read");
         for (key, at) in &known {

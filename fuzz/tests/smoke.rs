@@ -5,7 +5,7 @@ use std::path::Path;
 
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
-use softstop_console::pieces::Pieces;
+use softstop_console::record_log::RecordLog;
 use softstop_testing::docs;
 
 /// Damages bytes here and there: other bits, other bytes, parts left out, twice or from elsewhere.
@@ -62,7 +62,7 @@ fn machines() -> Vec<Vec<u8>> {
 fn kept() -> Vec<Vec<u8>> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.part");
-    let file = Pieces::create(&path, b"a run").expect("a file");
+    let file = RecordLog::create(&path, b"a run").expect("a file");
     let mut file = file.expect("no other run");
     for number in 0..5u8 {
         let piece = vec![number; 40 * usize::from(number)];

@@ -38,9 +38,9 @@ pub struct CommandLine {
 const EXAMPLES: &str = "\
 Examples:
   softstop optimize                                the best design beside points A and B
-  softstop orbit --frequency 1.15 --clearance 10   the paper's point A
-  softstop motions --frequency 0.9875              all motions: z = 2/3, (2/4)B, chaos
-  softstop zone --regime loaded --clearance 10     where impacts and rest coexist
+  softstop orbit --set eta=1.15 --set clearance=10 the paper's point A
+  softstop motions --set eta=0.9875                all motions: z = 2/3, (2/4)B, chaos
+  softstop zone loaded --set clearance=10          where impacts and rest coexist
   softstop continue --parameter eta --from 0.9 --to 1.5   its branch with folds and flips
   softstop sweep --from 0.8 --to 1.8               bifurcation diagram, up and down
   softstop basin --size 1000                       which start leads to which motion

@@ -3,7 +3,7 @@
 use softstop::Parameter;
 
 use crate::design::Problem;
-use crate::design::conflict::{bound, bound_in};
+use crate::design::conflict::bound;
 use crate::design::figure::Figure;
 use crate::design::judge::Met;
 use crate::optimize::outcome::Outcome;
@@ -41,8 +41,8 @@ const AT_MARGIN: f64 = 1e-9;
 /// Share of a bound within which it holds a design back.
 const AT_BOUND: f64 = 1e-6;
 
-/// All that holds a design back, the numbers of its words written in some way.
-pub fn at_limits(problem: &Problem, found: &Outcome, write: impl Fn(f64) -> String) -> Vec<Limit> {
+/// All that holds a design back.
+pub fn at_limits(problem: &Problem, found: &Outcome) -> Vec<Limit> {
     let design = &found.design;
     let at_end = |parameter: Parameter, end: &str| {
         let words = format!("the {end} bound of the {}", parameter.about().meaning);
@@ -56,9 +56,9 @@ pub fn at_limits(problem: &Problem, found: &Outcome, write: impl Fn(f64) -> Stri
     limits.extend(found.met.iter().filter(is_bound).map(|it| {
         let (machine, requirement) = (&design.machine, &it.requirement);
         let (name, meaning) = (requirement.figure.name(), requirement.figure.meaning());
-        let required = bound_in(machine, requirement, &write);
+        let required = bound(machine, requirement);
         Limit::new(
-            format!("{name}: {}", bound(machine, requirement)),
+            format!("{name}: {required}"),
             format!("the {meaning} ({name}), {required}"),
         )
     }));

@@ -8,13 +8,13 @@ use softstop_console::column::{Column, Told, Units};
 use softstop_console::columns;
 use softstop_console::export::Report;
 use softstop_console::interrupt;
+use softstop_console::number::NumberStyle::Six;
 use softstop_console::record::{Record, below, beside};
 use softstop_console::report::{Stated, motion, state};
-use softstop_console::table::{heading, number};
+use softstop_console::table::{heading, sections};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::zone::{Stretch, stretches_watched};
 
-use crate::design::conflict::short;
 use crate::design::judge::Met;
 use crate::design::problem::Objective;
 use crate::design::{Design, Problem};
@@ -73,7 +73,7 @@ impl OptimizeReport {
     ) -> Self {
         let design = &found.design;
         let tolerances = study.map(|it| Tolerated::of(&design.machine, it));
-        let limits = at_limits(problem, found, short);
+        let limits = at_limits(problem, found);
         let one = |machine: &Machine, orbit: &Orbit, more: Record| Found {
             machine: Stated::of(machine),
             motion: motion(machine, orbit).and(more),
@@ -85,19 +85,18 @@ impl OptimizeReport {
         let rivals = found.rivals.iter();
         let rivals: Vec<Record> = rivals.map(|it| verdict::rival(problem, it)).collect();
         let units = Units::of(&design.machine);
-        let told = [
-            ("What was required", &requirements),
+        let beside = sections([
+            ("What was required", below(&requirements, &units)),
             (
                 "Nearly as good, but far from it: a small change of the task may lead there",
-                &rivals,
+                below(&rivals, &units),
             ),
             (
                 "Other ranges of stable z = 1, left out because they are no part of the zone",
-                &left_out,
+                below(&left_out, &units),
             ),
-        ];
-        let told = told.iter().filter(|(_, records)| !records.is_empty());
-        let told = told.map(|(what, records)| format!("{what}\n{}", below(records, &units)));
+        ]);
+        let tolerated = tolerances.as_ref().map(|it| it.text(&units));
         Self {
             design: one(
                 &design.machine,
@@ -107,10 +106,8 @@ impl OptimizeReport {
             reference: references.iter().map(reference).collect(),
             text: search.text()
                 + &text(problem, design, references, &limits)
-                + &told.collect::<Vec<_>>().join("\n")
-                + &tolerances
-                    .as_ref()
-                    .map_or_else(String::new, |it| it.text(&units)),
+                + &beside
+                + &tolerated.unwrap_or_default(),
             tolerances,
             requirements,
             rivals,
@@ -198,15 +195,15 @@ fn text(
     text += &format!(
         "\nZone of the design: {} from {} (g0) to {} (s_SN); the design stands at {:.1} % of the way.\n",
         design.machine.label_of(Parameter::Frequency),
-        number(own(design, design.zone.frequency_g0)),
-        number(own(design, design.zone.frequency_sn)),
+        Six.format(own(design, design.zone.frequency_g0)),
+        Six.format(own(design, design.zone.frequency_sn)),
         100.0 * design.place,
     );
     if !at_limits.is_empty() {
         let limits: Vec<&str> = at_limits.iter().map(|it| it.words.as_str()).collect();
         text += &format!("Held back by: {}.\n", limits.join("; "));
     }
-    text + "\n"
+    text
 }
 
 fn comparison(problem: &Problem, design: &Design, references: &[Reference]) -> String {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use softstop_console::table::number;
+use softstop_console::number::NumberStyle::Six;
 
 use crate::design::search::Resolution;
 use crate::optimize::outcome::Interrupted;
@@ -35,8 +35,8 @@ impl SearchReport {
             format!(
                 "What takes many motions is counted on some, and has no derivatives: searched in steps of {} % of each range \
                  and {} % of the zone.\n",
-                number(100.0 * it.axes),
-                number(100.0 * it.place)
+                Six.format(100.0 * it.axes),
+                Six.format(100.0 * it.place)
             )
         });
         interrupted.into_iter().chain(resolution).collect()

@@ -4,13 +4,14 @@ use serde::Serialize;
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::column::{Column, Units};
 use softstop_console::columns;
+use softstop_console::number::NumberStyle::Six;
 use softstop_console::record::{Record, below};
-use softstop_console::table::number;
+use softstop_console::table::sections;
 
 use softstop_explore::zone::lost_by;
 
 use crate::optimize::study::{Study, Without};
-use crate::robust::{Manifold, Nearest};
+use crate::robust::{Manifold, Nearest, Tolerance};
 
 /// The machines within the tolerances of a design.
 #[derive(Debug, Serialize)]
@@ -63,8 +64,8 @@ type One<'a> = (&'a Machine, &'a Study, usize);
 
 fn parameters<'a>() -> [Column<One<'a>>; 8] {
     columns! { One<'a>, it;
-        "parameter" [None] Plain, "which" => it.0.name(parameter(it));
-        "tolerance" [None] Seven, "half-width" => width(it);
+        "parameter" [None] Plain, "which" => it.0.name(it.1.tolerances[it.2].parameter);
+        "tolerance" [None] Seven, "half-width" => half_width(it.0, &it.1.tolerances[it.2]);
         "velocity" [Velocity] Seven, "change of the velocity at its upper end" => it.1.sensitivities.velocity[it.2];
         "to_fold" [Frequency] Seven, "of the margin to s_SN" => own(it, it.1.sensitivities.to_fold[it.2]);
         "to_g0" [Frequency] Seven, "of the margin to g0" => own(it, it.1.sensitivities.to_free[it.2]);
@@ -74,27 +75,32 @@ fn parameters<'a>() -> [Column<One<'a>>; 8] {
     }
 }
 
-fn parameter((_, study, index): &One<'_>) -> Parameter {
-    study.tolerances[*index].parameter
-}
-
 fn own((machine, ..): &One<'_>, frequency: f64) -> f64 {
     machine.to_own(Dimension::Frequency, frequency)
 }
 
-/// The half-width in the machine's own units.
-fn width(one: &One<'_>) -> f64 {
-    let half_width = one.1.tolerances[one.2].half_width;
-    match parameter(one) {
-        Parameter::Preload if one.0.preload_deflection.is_some() => half_width,
-        parameter => one.0.to_own(parameter.about().dimension, half_width),
+/// The half-width of a tolerance in the machine's own units.
+pub(crate) fn half_width(machine: &Machine, tolerance: &Tolerance) -> f64 {
+    let (parameter, half_width) = (tolerance.parameter, tolerance.half_width);
+    match parameter {
+        Parameter::Preload if machine.preload_deflection.is_some() => half_width,
+        _ => machine.to_own(parameter.about().dimension, half_width),
+    }
+}
+
+fn withouts() -> [Column<Without>; 4] {
+    columns! { Without, it;
+        "velocity" [None] Six, "before-impact velocity" => it.design.before_impact_velocity();
+        "machines" [None] Six, "machines within the tolerances" => it.machines;
+        "lost" [None] Six, "that lose the motion" => it.lost;
+        "slowest" [None] Six, "least velocity seen of the others" => it.slowest;
     }
 }
 
 /// What the tolerances cost: nominal and worst of the best design without them and of the one with them.
 fn price(machine: &Machine, study: &Study, without: &Without) -> String {
     let unit = machine.unit(Dimension::Velocity);
-    let own = |velocity| number(machine.to_own(Dimension::Velocity, velocity));
+    let own = |velocity| Six.format(machine.to_own(Dimension::Velocity, velocity));
     let slowest = own(without.slowest);
     let worst = match without.lost {
         0 => format!("{slowest} worst"),
@@ -116,17 +122,7 @@ impl Tolerated {
     /// Those of a study.
     pub(crate) fn of(machine: &Machine, study: &Study) -> Self {
         let all = 0..study.tolerances.len();
-        let without = study.without.as_ref().map(|it| {
-            Record::default()
-                .with(
-                    "velocity",
-                    "before-impact velocity",
-                    it.design.before_impact_velocity(),
-                )
-                .with("machines", "machines within the tolerances", it.machines)
-                .with("lost", "that lose the motion", it.lost)
-                .with("slowest", "least velocity seen of the others", it.slowest)
-        });
+        let without = study.without.as_ref();
         Self {
             machines: Record::of(&machines(), &(machine, study)),
             lost: study.verdict.lost,
@@ -138,38 +134,30 @@ impl Tolerated {
             parameters: all
                 .map(|index| Record::of(&parameters(), &(machine, study, index)))
                 .collect(),
-            without,
-            price: study.without.as_ref().map(|it| price(machine, study, it)),
+            without: without.map(|it| Record::of(&withouts(), it)),
+            price: without.map(|it| price(machine, study, it)),
         }
     }
 
-    /// The same for people.
+    /// The text for people.
     pub(crate) fn text(&self, units: &Units) -> String {
-        let mut text = format!("\nWithin the tolerances\n{}", self.machines.text(units));
+        let mut machines = self.machines.text(units);
         if self.lost > 0 {
-            text += "Warning: not all machines within the tolerances keep the motion.\n";
+            machines += "Warning: not all machines within the tolerances keep the motion.\n";
         }
-        if !self.manifolds.is_empty() {
-            text += &format!(
-                "\nWhere the motion is lost as all tolerances grow\n{}",
-                below(&self.manifolds, units)
-            );
-        }
-        text += &format!(
-            "\nWhat each tolerance does\n{}",
-            below(&self.parameters, units)
-        );
-        if let Some(without) = &self.without {
-            text += &format!(
-                "\nThe best design without tolerances, and what becomes of it with them\n{}",
-                without.text(units)
-            );
-        }
-        text += &self
-            .price
-            .iter()
-            .map(|price| format!("{price}\n"))
-            .collect::<String>();
-        text
+        let without = self.without.as_ref().map(|it| it.text(units));
+        let price = self.price.as_ref().map(|price| format!("{price}\n"));
+        sections([
+            ("Within the tolerances", machines),
+            (
+                "Where the motion is lost as all tolerances grow",
+                below(&self.manifolds, units),
+            ),
+            ("What each tolerance does", below(&self.parameters, units)),
+            (
+                "The best design without tolerances, and what becomes of it with them",
+                without.unwrap_or_default(),
+            ),
+        ]) + &price.unwrap_or_default()
     }
 }

@@ -51,34 +51,35 @@ pub(crate) fn rival(problem: &Problem, design: &Design) -> Record {
     head.with(figure.name(), figure.meaning(), value)
 }
 
+type Traded<'a> = (&'a Problem, &'a Front);
+
+fn trades<'a>() -> [Column<Traded<'a>>; 6] {
+    columns! { Traded<'a>, it;
+        "figure" [None], "what is traded" => it.1.figure.name();
+        "unit" [None], "its unit" => it.0.machine.unit(it.1.figure.dimension());
+        "left_out" [None], "designs that fail a trial or lose machines" => it.1.left_out;
+        "note" [None], "how it was found" => it.1.note();
+        "design" [None], "its value at the design, and what is sought" => place(it, &it.1.design);
+        "points" [None], "its values, and the best of what is sought" => points(it);
+    }
+}
+
+/// A point of a front in the machine's own units.
+fn place((problem, front): &Traded<'_>, (x, y): &(f64, f64)) -> [f64; 2] {
+    let own = |figure: Figure, value| problem.machine.to_own(figure.dimension(), value);
+    [own(front.figure, *x), own(problem.objective.figure, *y)]
+}
+
+fn points(traded: &Traded<'_>) -> Told {
+    let points = traded.1.points.iter();
+    let points: Vec<[f64; 2]> = points.map(|it| place(traded, it)).collect();
+    Told {
+        words: format!("{} designs", points.len()),
+        value: json!(points),
+    }
+}
+
 /// What more of one good costs of another.
 pub(crate) fn traded(problem: &Problem, front: &Front) -> Record {
-    let machine = &problem.machine;
-    let (figure, sought) = (front.figure, problem.objective.figure);
-    let own = |figure: Figure, value: f64| machine.to_own(figure.dimension(), value);
-    let place = |(x, y): &(f64, f64)| [own(figure, *x), own(sought, *y)];
-    let points: Vec<[f64; 2]> = front.points.iter().map(place).collect();
-    let words = format!("{} designs", points.len());
-    Record::default()
-        .with("figure", "what is traded", figure.name())
-        .with("unit", "its unit", machine.unit(figure.dimension()))
-        .with(
-            "left_out",
-            "designs that fail a trial or lose machines",
-            front.left_out,
-        )
-        .with("note", "how it was found", front.note())
-        .with(
-            "design",
-            "its value at the design, and what is sought",
-            place(&front.design),
-        )
-        .with(
-            "points",
-            "its values, and the best of what is sought",
-            Told {
-                value: json!(points),
-                words,
-            },
-        )
+    Record::of(&trades(), &(problem, front))
 }

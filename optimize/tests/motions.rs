@@ -52,7 +52,7 @@ fn the_coexisting_motions_of_four_frequencies_are_found() -> Outcome {
         ("0.9885", &["1-0", "1-1-0", "1-1-0-0"]),
     ];
     for (frequency, expected) in cases {
-        let motions = found(&["--frequency", frequency])?;
+        let motions = found(&["--set", &format!("eta={frequency}")])?;
         assert_eq!(names(&motions), expected, "eta = {frequency}");
     }
     Ok(())
@@ -88,14 +88,14 @@ fn point_a_has_its_figures() -> Outcome {
 #[test]
 fn chaos_that_fills_the_plane_is_one_motion() -> Outcome {
     // Its logs are too short to visit the same cells of any fine grid.
-    let motions = found(&["--clearance", "-1", "--transient", "200"])?;
+    let motions = found(&["--set", "clearance=-1", "--transient", "200"])?;
     assert_eq!(names(&motions), ["3", "chaos"]);
     Ok(())
 }
 
 #[test]
 fn a_seed_gives_other_starts_and_the_same_motions() -> Outcome {
-    let [one, other] = ["1", "2"].map(|seed| found(&["--frequency", "0.9885", "--seed", seed]));
+    let [one, other] = ["1", "2"].map(|seed| found(&["--set", "eta=0.9885", "--seed", seed]));
     let (one, other) = (one?, other?);
     assert_ne!(one, other);
     assert_eq!(names(&one), names(&other));

@@ -6,12 +6,14 @@ use std::path::Path;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use softstop::{Machine, Parameter};
+use softstop_console::record::Record;
 use softstop_optimize::design::search::{Settings, Unwatched, search};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
+use softstop_optimize::optimize::reference::Reference;
 use softstop_optimize::page::data::{
-    Basin, Curve, Erosion, ErosionPoint, Fact, Front, Histogram, Label, Map, Portrait, Report,
-    Requirement, Response, Role, RunUp, Sensitivity,
+    Basin, Computed, Curve, Erosion, ErosionPoint, Fact, Front, Histogram, Label, Map, Portrait,
+    Report, Response, Role, RunUp, Sensitivity,
 };
 use softstop_optimize::page::{computed, csv, html};
 
@@ -59,18 +61,21 @@ fn report(design: &Design) -> Outcome<Report> {
         interval: [0.6 * (1.0 - place) - 0.02, 0.6 * (1.0 - place) + 0.02],
         integrity: Some(0.3 * (1.0 - place * place)),
     });
+    let given = Reference {
+        name: "given",
+        machine: design.machine.clone(),
+        orbit: design.orbit.clone(),
+    };
+    let pressed = Reference {
+        machine: Machine::from_toml(PRESS)?,
+        ..given.clone()
+    };
     let velocity = Label::new("before-impact velocity", "", "m/s");
     let hardest = design.before_impact_velocity();
     let bell = |k: i32| (10_000.0 * (-f64::from((k - 25) * (k - 25)) / 60.0).exp()) as u64;
-    let met = |met| Requirement {
-        name: "margin.s_SN".to_owned(),
-        meaning: "distance to the fold s_SN, as a share of the frequency".to_owned(),
-        unit: "%".to_owned(),
-        required: "at least 3".to_owned(),
-        value: if met { 4.25 } else { 2.0 },
-        margin: if met { 1.25 } else { -1.0 },
-        met,
-        note: String::new(),
+    let met = |met| match met {
+        true => requirement(4.25, 1.25),
+        false => requirement(2.0, -1.0),
     };
     Ok(Report {
         machine: "press <1> & co".to_owned(),
@@ -85,7 +90,7 @@ fn report(design: &Design) -> Outcome<Report> {
         comparison: Some(computed::comparison(
             design,
             &[Parameter::StopStiffness, Parameter::Clearance, Parameter::Frequency],
-            &[("given".to_owned(), &design.machine, &design.orbit)],
+            std::slice::from_ref(&given),
         )),
         limit: Some("The margin from s_SN: with 1 % more frequency it would not be kept.".to_owned()),
         requirements: vec![met(true), met(false)],
@@ -93,7 +98,7 @@ fn report(design: &Design) -> Outcome<Report> {
             computed::map(design, Parameter::Clearance, [0.005, 0.04]),
             computed::map(design, Parameter::StopStiffness, [5e6, 8e7]),
         ],
-        response: Some(computed::response(design, &[("as given".to_owned(), Machine::from_toml(PRESS)?)])),
+        response: Some(computed::response(design, &[pressed])),
         portrait: Some(computed::portrait(design)),
         basin: Some(computed::basin(design)?),
         erosion: Some(Erosion {
@@ -128,12 +133,27 @@ fn report(design: &Design) -> Outcome<Report> {
             run_up("drive at full force from rest", false, "settles without impacts"),
             run_up("speed raised from below g₀", true, ""),
         ],
-        computed: vec![
-            Fact { name: "softstop".to_owned(), value: env!("CARGO_PKG_VERSION").to_owned() },
-            Fact { name: "command".to_owned(), value: "softstop optimize press.toml".to_owned() },
-            Fact { name: "seed".to_owned(), value: "0".to_owned() },
-        ],
+        computed: Some(Computed {
+            zones: 300,
+            ..Computed::default()
+        }),
     })
+}
+
+fn requirement(value: f64, margin: f64) -> Record {
+    Record::default()
+        .with("name", "", "margin.s_SN")
+        .with(
+            "meaning",
+            "",
+            "distance to the fold s_SN, as a share of the frequency",
+        )
+        .with("unit", "", "%")
+        .with("required", "", "at least 3")
+        .with("value", "", value)
+        .with("margin", "", margin)
+        .with("met", "", margin >= 0.0)
+        .with("note", "", "")
 }
 
 fn effect(name: &str, unit: &str, value: f64, tolerance: f64, effect: f64) -> Sensitivity {
@@ -266,11 +286,7 @@ fn what_is_no_number_is_a_dash() -> Outcome {
         points,
     };
     let report = Report {
-        requirements: vec![Requirement {
-            value: nan,
-            margin: f64::INFINITY,
-            ..Requirement::default()
-        }],
+        requirements: vec![requirement(nan, f64::INFINITY)],
         maps: vec![Map {
             columns: 2,
             cells: vec![Some(nan), None],

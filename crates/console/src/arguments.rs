@@ -1,16 +1,19 @@
 //! The machine on the command line: a file or the paper's, and changes of it.
 
-use std::path::{Path, PathBuf};
+use std::fmt;
+use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
+use serde::Deserialize;
 use softstop::{Language, Machine, Parameter};
 
 use crate::failure::Failure;
-use crate::machine::{Regime, SceneSettings};
-use crate::scene_file::{read, read_toml};
+use crate::machine::Regime;
+use crate::older::OlderFlags;
+use crate::scene_file::read;
 
-/// Arguments of every command that looks at one machine.
+/// Arguments of every command that looks at one machine: a file or a built-in name, changed by `KEY=VALUE`.
 #[derive(Debug, Clone, PartialEq, Default, Args)]
 pub struct MachineArguments {
     /// Machine: a TOML file (softstop schema says what it may hold), or the paper's by its name,
@@ -20,20 +23,40 @@ pub struct MachineArguments {
     /// Change a value of the machine, by its key in the file; repeatable
     #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
     pub set: Vec<Change>,
-    /// The paper's machine in a TOML file, by the names of the ratios below; the command line has the
-    /// last word
-    #[arg(long, value_name = "FILE.toml", conflicts_with = "machine")]
-    pub scene: Option<PathBuf>,
-    /// Shorthands for the paper's machines.
+    /// Older flags.
     #[command(flatten)]
-    pub ratios: SceneSettings,
+    pub older: OlderFlags,
 }
 
 /// `KEY=VALUE`.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "String")]
 pub struct Change {
     key: String,
     value: String,
+}
+
+impl Change {
+    pub(crate) fn new(key: &str, value: &str) -> Self {
+        let (key, value) = (key.to_owned(), value.to_owned());
+        Self { key, value }
+    }
+
+    /// The key of the machine's file.
+    pub fn key(&self) -> &str {
+        &self.key
+    }
+
+    /// Its new value as the user writes it.
+    pub fn value(&self) -> &str {
+        &self.value
+    }
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}={}", self.key, self.value)
+    }
 }
 
 impl FromStr for Change {
@@ -41,12 +64,17 @@ impl FromStr for Change {
 
     fn from_str(text: &str) -> Result<Self, String> {
         match text.split_once('=') {
-            Some((key, value)) if !key.trim().is_empty() => Ok(Self {
-                key: key.trim().to_owned(),
-                value: value.to_owned(),
-            }),
+            Some((key, value)) if !key.trim().is_empty() => Ok(Self::new(key.trim(), value)),
             _ => Err("must be KEY=VALUE, as in stop.stiffness=8e6".to_owned()),
         }
+    }
+}
+
+impl TryFrom<String> for Change {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse().map_err(|error| format!("{text:?}: {error}"))
     }
 }
 
@@ -56,31 +84,39 @@ impl MachineArguments {
     /// # Errors
     /// [`Failure::Usage`] naming the file, the key, its value and what is allowed.
     pub fn machine(&self) -> Result<Machine, Failure> {
-        self.machine_over(&SceneSettings::default())
+        self.machine_over(None, &[])
     }
 
-    /// The same over ratios that stand in a task: the command line has the first word.
+    /// The machine that they state over what a task says of it: the command line has the last word.
     ///
     /// # Errors
     /// As [`MachineArguments::machine`].
-    pub fn machine_over(&self, below: &SceneSettings) -> Result<Machine, Failure> {
-        let mut machine = match self.named()? {
-            Some(regime) => {
-                let machine = self.paper(regime, below)?;
-                self.refuse_both(&machine)?;
-                machine
-            }
-            None if *below == SceneSettings::default() => self.file()?,
-            None => {
-                return Err(Failure::usage(
-                    "regime and scene of a task go with the paper's machines, not with a file",
-                ));
-            }
+    pub fn machine_over(
+        &self,
+        machine: Option<PathBuf>,
+        below: &[Change],
+    ) -> Result<Machine, Failure> {
+        let said = self.older.rewrite(self.machine.as_deref(), &self.set)?;
+        let named = said.machine.or(machine);
+        let named = named.unwrap_or_else(|| Regime::Unloaded.name().into());
+        let regime = Regime::called(&named);
+        let mut machine = match regime.and_then(|regime| Machine::named(regime.name())) {
+            Some(machine) => machine,
+            None => read(&named)?,
         };
-        let changes = self.set.iter();
-        machine
-            .apply(changes.map(|change| (change.key.as_str(), change.value.as_str())))
-            .map_err(|error| Failure::usage(format!("--set {error}")))?;
+        for (word, changes) in [("set", below), ("set", &said.below), ("--set", &said.set)] {
+            let of_strip = changes.iter().find(|it| it.key.starts_with("piercing."));
+            if let (Some(Regime::Unloaded), Some(change)) = (regime, of_strip) {
+                return Err(Failure::usage(format!(
+                    "{} = {}: the unloaded machine has no strip; the machine called loaded has one",
+                    change.key, change.value
+                )));
+            }
+            let changes = changes.iter();
+            machine
+                .apply(changes.map(|change| (change.key.as_str(), change.value.as_str())))
+                .map_err(|error| Failure::usage(format!("{word} {error}")))?;
+        }
         Ok(machine)
     }
 
@@ -124,41 +160,6 @@ impl MachineArguments {
         }
     }
 
-    /// Refuses a value that is given by a shorthand and by its key, or that a new stop would not have.
-    fn refuse_both(&self, machine: &Machine) -> Result<(), Failure> {
-        for (name, _) in self.ratios.given() {
-            for Change { key, .. } in &self.set {
-                let Ok(shorthand) = machine.parameter(name) else {
-                    continue;
-                };
-                let is_lost = key == "stop.model" && shorthand.name().starts_with("stop.");
-                if is_lost || machine.parameter(key) == Ok(shorthand) {
-                    let flag = name.replace('_', "-");
-                    return Err(Failure::usage(format!(
-                        "--{flag} and --set {key}: only one of the two can be given"
-                    )));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// The paper's machine that is asked for; none if it is a file's.
-    fn named(&self) -> Result<Option<Option<Regime>>, Failure> {
-        let Some(path) = &self.machine else {
-            return Ok(Some(None));
-        };
-        let named = Regime::called(path);
-        match (named, self.ratios.regime) {
-            (Some(named), Some(regime)) if named != regime => Err(Failure::usage(format!(
-                "{}: goes not with --regime {}",
-                path.display(),
-                regime.name()
-            ))),
-            (named, _) => Ok(named.map(Some)),
-        }
-    }
-
     /// The parameter of this key that the machine has, and the key's unit in the machine's own
     /// ([`Machine::stated`]); `flag` asks for it.
     ///
@@ -176,88 +177,17 @@ impl MachineArguments {
 
     /// The keys that the command line states.
     pub fn keys(&self) -> Vec<String> {
-        let given = self.ratios.given().into_iter().map(|(name, _)| name);
-        let set = self.set.iter().map(|change| change.key.as_str());
-        given.chain(set).map(str::to_owned).collect()
-    }
-
-    /// The paper's machine under its shorthands, over those of a task.
-    fn paper(&self, regime: Option<Regime>, below: &SceneSettings) -> Result<Machine, Failure> {
-        let mut layers = vec![self.ratios.clone()];
-        if let Some(path) = &self.scene {
-            layers.push(read_toml(path)?);
-        }
-        layers.push(below.clone());
-        layers[0].regime = layers[0].regime.or(regime);
-        paper(&layers)
-    }
-
-    /// The machine of the file.
-    fn file(&self) -> Result<Machine, Failure> {
-        let path = self.machine.as_deref().unwrap_or(Path::new(""));
-        let key = |name| {
-            let parameter = Machine::named(Regime::Loaded.name())?.parameter(name).ok();
-            parameter.filter(|parameter| parameter.is_called(name))
-        };
-        let flag = match (self.ratios.regime, self.ratios.given().first()) {
-            (Some(_), _) => Some(("regime", String::new())),
-            (_, Some((name, value))) => {
-                let key = key(name).map_or(*name, Parameter::name);
-                Some((*name, format!("; say --set {key}={value}")))
-            }
-            _ => None,
-        };
-        if let Some((name, instead)) = flag {
-            return Err(Failure::usage(format!(
-                "--{} goes with the paper's machines, unloaded and loaded, not with {}{instead}",
-                name.replace('_', "-"),
-                path.display()
-            )));
-        }
-        read(path)
+        let older = self.older.changes().into_iter();
+        older
+            .chain(self.set.iter().cloned())
+            .map(|change| change.key)
+            .collect()
     }
 }
 
 /// The coordinate of the start that a key sets.
 fn of_start(key: &str) -> Option<&str> {
     key.strip_prefix("initial.").or(key.strip_prefix("start."))
-}
-
-/// The paper's machine with what layers say of it, the first one having the first word.
-///
-/// # Errors
-/// [`Failure::Usage`] naming parameter, value and allowed range.
-pub fn paper(layers: &[SceneSettings]) -> Result<Machine, Failure> {
-    let regime = layers.iter().find_map(|layer| layer.regime);
-    let regime = regime.unwrap_or(Regime::Unloaded);
-    let mut given: Vec<(&str, String)> = Vec::new();
-    for layer in layers {
-        let above = given.len();
-        for (name, value) in layer.given() {
-            let kind = |name: &str| name.trim_end_matches("_deflection").to_owned();
-            if regime == Regime::Unloaded && layer.is_of_strip(name) {
-                return Err(Failure::usage(format!(
-                    "{name} = {value}: the unloaded regime has no strip; allowed only with regime loaded"
-                )));
-            }
-            let mut told = given[..above].iter();
-            if !told.any(|(other, _)| kind(other) == kind(name)) {
-                given.push((name, format!("{value:?}")));
-            }
-        }
-    }
-    let tells = |name| given.iter().any(|(other, _)| *other == name);
-    if tells("preload") && tells("preload_deflection") {
-        return Err(Failure::usage(
-            "preload and preload_deflection: only one of the two can be given",
-        ));
-    }
-    let machine = Machine::named(regime.name());
-    let mut machine = machine.ok_or_else(|| Failure::usage("no such machine"))?;
-    machine
-        .apply(given.iter().map(|(name, value)| (*name, value.as_str())))
-        .map_err(|error| Failure::usage(error.to_string()))?;
-    Ok(machine)
 }
 
 /// The machine in a few words: its name, and the paper's ratios if it speaks them.

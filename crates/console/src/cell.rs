@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::table::{figure, number};
+use crate::number::NumberStyle;
 
 /// What stands in a column of a row.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -63,59 +63,32 @@ impl<T: Into<Cell>> From<Option<T>> for Cell {
     }
 }
 
-/// Numbers of a list that people are told.
-const MOST: usize = 8;
+/// Numbers of a list that people read.
+const MAX_LISTED: usize = 8;
 
-/// How numbers are written for people.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Form {
-    /// As they are.
-    Plain,
-    /// With so many decimals.
-    Fixed(usize),
-    /// With so many decimals and a power of ten.
-    Power(usize),
-    /// A share in per cent, with so many decimals.
-    Percent(usize),
-    /// With six decimals, or a power of ten where those would not tell it.
-    Six,
-    /// With seven significant digits.
-    Seven,
+impl Cell {
+    /// As people read it, its numbers in a style.
+    pub(crate) fn format(&self, style: NumberStyle) -> String {
+        match self {
+            Self::Empty => "-".to_owned(),
+            Self::Text(text) => text.clone(),
+            Self::Count(count) => count.to_string(),
+            Self::Flag(flag) => if *flag { "yes" } else { "no" }.to_owned(),
+            Self::Number(number) => style.format(*number),
+            Self::List(numbers) => format_list(numbers, style),
+            Self::Told(told) => told.words.clone(),
+        }
+    }
 }
 
-impl Form {
-    pub(crate) fn write(self, cell: &Cell) -> String {
-        match cell {
-            Cell::Empty => "-".to_owned(),
-            Cell::Text(text) => text.clone(),
-            Cell::Count(count) => count.to_string(),
-            Cell::Flag(flag) => if *flag { "yes" } else { "no" }.to_owned(),
-            Cell::Number(number) => self.number(*number),
-            Cell::List(numbers) => self.list(numbers),
-            Cell::Told(told) => told.words.clone(),
-        }
+fn format_list(numbers: &[f64], style: NumberStyle) -> String {
+    if numbers.is_empty() {
+        return "-".to_owned();
     }
-
-    fn number(self, value: f64) -> String {
-        match self {
-            Self::Plain => value.to_string(),
-            Self::Fixed(decimals) => format!("{value:.decimals$}"),
-            Self::Power(decimals) => format!("{value:.decimals$e}"),
-            Self::Percent(decimals) => format!("{:.decimals$} %", 100.0 * value),
-            Self::Six => number(value),
-            Self::Seven => figure(value),
-        }
+    let listed = numbers.iter().take(MAX_LISTED);
+    let mut listed: Vec<String> = listed.map(|it| style.format(*it)).collect();
+    if numbers.len() > MAX_LISTED {
+        listed.push(format!("... ({} in all)", numbers.len()));
     }
-
-    fn list(self, numbers: &[f64]) -> String {
-        if numbers.is_empty() {
-            return "-".to_owned();
-        }
-        let told = numbers.iter().take(MOST).map(|it| self.number(*it));
-        let mut told: Vec<String> = told.collect();
-        if numbers.len() > MOST {
-            told.push(format!("... ({} in all)", numbers.len()));
-        }
-        told.join(", ")
-    }
+    listed.join(", ")
 }

@@ -29,7 +29,8 @@ use std::borrow::Borrow;
 use crate::record::{Figure, Record, below};
 use crate::table::aligned;
 
-pub use crate::cell::{Cell, Form, Told};
+pub use crate::cell::{Cell, Told};
+pub use crate::number::NumberStyle;
 pub use crate::units::{Unit, Units};
 pub use softstop::Dimension;
 
@@ -40,7 +41,7 @@ pub struct Column<T> {
     pub(crate) unit: Unit,
     pub(crate) meaning: &'static str,
     pub(crate) cell: fn(&T) -> Cell,
-    pub(crate) form: Option<Form>,
+    pub(crate) form: Option<NumberStyle>,
 }
 
 /// A column that CSV has: its name, unit and meaning, and where its cells come from.
@@ -78,7 +79,7 @@ macro_rules! columns {
                 $meaning,
                 |$it: &$row| $crate::column::Cell::from($cell),
             )
-            $(.shown($crate::column::Form::$form $(($decimals))?))?
+            $(.shown($crate::column::NumberStyle::$form $(($decimals))?))?
         ),*]
     };
 }
@@ -86,7 +87,7 @@ macro_rules! columns {
 impl<T> Column<T> {
     /// The table for people has it, too, its numbers in this form.
     #[must_use]
-    pub const fn shown(self, form: Form) -> Self {
+    pub const fn shown(self, form: NumberStyle) -> Self {
         Self {
             form: Some(form),
             ..self

@@ -33,14 +33,14 @@ pub const LATE: &str = "ended in the middle of a long step";
 /// What a run has begun to write. Nothing ends the run while somebody holds it.
 #[derive(Debug)]
 pub struct UnderWay {
-    outputs: Vec<Making>,
+    outputs: Vec<StagingDir>,
     /// What is said if the run is ended.
     closing: &'static str,
 }
 
 /// What there is of an output that is not whole yet.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Making {
+pub struct StagingDir {
     /// The folder where its files are until then.
     pub staging: PathBuf,
     /// The file that its run holds locked.
@@ -49,7 +49,7 @@ pub struct Making {
     pub made: Vec<PathBuf>,
 }
 
-impl Making {
+impl StagingDir {
     /// Takes away what is there of it; a folder that has been filled meanwhile stays.
     pub fn undo(&self) {
         let _ = fs::remove_dir_all(&self.staging);
@@ -67,12 +67,12 @@ impl Making {
 
 impl UnderWay {
     /// Begins an output.
-    pub fn begin(&mut self, making: Making) {
+    pub fn begin(&mut self, making: StagingDir) {
         self.outputs.push(making);
     }
 
     /// Ends one, whole or not.
-    pub fn end(&mut self, making: &Making) {
+    pub fn end(&mut self, making: &StagingDir) {
         self.outputs.retain(|other| other.staging != making.staging);
     }
 
@@ -135,7 +135,7 @@ fn end_late() {
 }
 
 fn end(under_way: &UnderWay) -> ! {
-    under_way.outputs.iter().for_each(Making::undo);
+    under_way.outputs.iter().for_each(StagingDir::undo);
     let _ = writeln!(io::stderr(), "{}", under_way.closing);
     std::process::exit(exit_code().into())
 }

@@ -19,7 +19,7 @@ use softstop_dynamics::watch::Memory;
 use crate::failure::Failure;
 use crate::interrupt::{requested, under_way};
 use crate::lock;
-use crate::pieces::{At, Pieces};
+use crate::record_log::{RecordLog, RecordSpan};
 
 /// Whether a run goes on with what an earlier one has done.
 #[derive(Debug, Clone, Copy, Args)]
@@ -41,11 +41,11 @@ pub struct Keep {
 #[derive(Debug)]
 struct State {
     /// The file; none before the first piece.
-    file: Option<Pieces>,
+    file: Option<RecordLog>,
     /// Whether more can be kept.
     is_open: bool,
     /// Where what was done before is, until it is recalled.
-    known: HashMap<Vec<u8>, At>,
+    known: HashMap<Vec<u8>, RecordSpan>,
 }
 
 /// What is said of a run that is ended.
@@ -75,7 +75,7 @@ impl Keep {
             }),
         };
         let place = keep.path.display();
-        match (Pieces::open(&keep.path), arguments.resume) {
+        match (RecordLog::open(&keep.path), arguments.resume) {
             (Err(error), _) if error.kind() == ErrorKind::NotFound => {}
             (Ok(None), _) => return Err(lock::refusal(&keep.path)),
             (Ok(Some(file)), true) => keep.restore(file)?,
@@ -94,7 +94,7 @@ impl Keep {
     }
 
     /// Takes up what a file holds.
-    fn restore(&self, mut file: Pieces) -> Result<(), Failure> {
+    fn restore(&self, mut file: RecordLog) -> Result<(), Failure> {
         let mut state = self.state();
         let known = &mut state.known;
         let of = file.restore(|key, at| {
@@ -121,7 +121,7 @@ impl Keep {
         if let Some(file) = &mut state.file {
             return file.append(key, piece).map(drop);
         }
-        let Some(mut file) = Pieces::create(&self.path, &self.of)? else {
+        let Some(mut file) = RecordLog::create(&self.path, &self.of)? else {
             state.is_open = false;
             return Ok(());
         };

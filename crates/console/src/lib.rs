@@ -1,6 +1,7 @@
-//! What the programs share: the [`machine`] as the user states it, [`scene_file`]s, [`progress`],
-//! [`interrupt`], what long runs [`keep`] in files of [`pieces`], [`failure`], and one [`export`] of every report: [`mod@column`]s and [`record`]s said once, text [`table`]s, [`units`], [`range`]s, and
-//! [`output`] that is there whole or not at all.
+//! What the programs share: machines of the command line ([`arguments`]) and of [`scene_file`]s, [`progress`],
+//! [`interrupt`], what long runs [`keep`] in a [`record_log`], [`failure`], and one [`export`] of every report:
+//! [`mod@column`]s and [`record`]s said once, text [`table`]s, [`units`], [`range`]s, and [`output`] that is there whole
+//! or not at all.
 
 pub mod arguments;
 pub mod budget;
@@ -14,11 +15,14 @@ pub mod lock;
 pub mod machine;
 pub mod median;
 pub mod names;
+pub mod number;
+pub mod older;
 pub mod output;
-pub mod pieces;
+
 pub mod progress;
 pub mod range;
 pub mod record;
+pub mod record_log;
 pub mod report;
 pub mod scene_file;
 pub mod schema;

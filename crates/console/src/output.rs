@@ -10,7 +10,7 @@ use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
-use crate::interrupt::{self, Making, under_way};
+use crate::interrupt::{self, StagingDir, under_way};
 use crate::lock::{self, Locked};
 use crate::names::{check_file, escaped};
 
@@ -81,7 +81,7 @@ pub fn csv(rows: impl IntoIterator<Item = impl Serialize>) -> Result<Vec<u8>, Fa
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
-    making: Making,
+    making: StagingDir,
     /// As long as the run lives.
     _lock: Locked,
 }
@@ -114,7 +114,7 @@ impl Folder {
             return Err(in_place(&place));
         }
         let hidden = format!(".softstop-{:08x}", crc32fast::hash(part.as_bytes()));
-        let mut making = Making {
+        let mut making = StagingDir {
             staging: PathBuf::new(),
             lock: path.join(format!("{hidden}.lock")),
             made: missing(path),

@@ -19,7 +19,8 @@
 
 use serde::{Serialize, Serializer};
 
-use crate::cell::{Cell, Form};
+use crate::cell::Cell;
+use crate::number::NumberStyle;
 use crate::table::aligned;
 use crate::units::{Unit, Units};
 
@@ -33,7 +34,7 @@ pub(crate) struct Figure {
     pub(crate) name: &'static str,
     pub(crate) label: String,
     pub(crate) unit: Unit,
-    pub(crate) form: Option<Form>,
+    pub(crate) form: Option<NumberStyle>,
     pub(crate) cell: Cell,
 }
 
@@ -45,10 +46,16 @@ impl Record {
             name,
             label: label.to_owned(),
             unit: Unit::None,
-            form: Some(Form::Six),
+            form: Some(NumberStyle::Six),
             cell: cell.into(),
         });
         self
+    }
+
+    /// The cell of this name.
+    pub fn cell(&self, name: &str) -> Option<&Cell> {
+        let figure = self.0.iter().find(|it| it.name == name);
+        figure.map(|it| &it.cell)
     }
 
     /// The same, and then the figures of another one.
@@ -66,9 +73,9 @@ impl Record {
 
 /// Records beside one another, a line for each figure of the first one.
 pub fn beside(records: &[Record], units: &Units) -> String {
-    let cell = |record: &Record, name, form: Form| {
-        let cell = record.0.iter().find(|it| it.name == name);
-        cell.map_or_else(String::new, |it| form.write(&it.cell))
+    let cell = |record: &Record, name, form: NumberStyle| {
+        let cell = record.cell(name);
+        cell.map_or_else(String::new, |cell| cell.format(form))
     };
     let figures = records.first().into_iter().flat_map(|first| &first.0);
     let line = |figure: &Figure| {
@@ -94,7 +101,7 @@ pub fn below(records: &[Record], units: &Units) -> String {
         figures.iter().map(head).collect()
     });
     let line = |figures: &Vec<Figure>| {
-        let cell = |it: &Figure| it.form.unwrap_or(Form::Plain).write(&it.cell);
+        let cell = |it: &Figure| it.cell.format(it.form.unwrap_or(NumberStyle::Plain));
         figures.iter().map(cell).collect()
     };
     let lines: Vec<Vec<String>> = heads.chain(rows.iter().map(line)).collect();

@@ -11,18 +11,18 @@ use softstop_dynamics::{MotionKind, Orbit, orbit};
 use crate::column::{Cell, Column, Told};
 use crate::columns;
 use crate::machine::Regime;
+use crate::number::NumberStyle;
 use crate::record::Record;
-use crate::table::number;
 use crate::units;
 
 /// Floquet multipliers: their parts and moduli, the latter below 1 if the motion is stable.
 pub fn multipliers([first, second]: [Complex<f64>; 2]) -> Told {
     let parts = |it: Complex<f64>| json!({ "re": it.re, "im": it.im, "modulus": it.norm() });
-    let (re, im) = (number(first.re), first.im.abs());
+    let (re, im) = (NumberStyle::Six.format(first.re), first.im.abs());
     Told {
         value: json!([parts(first), parts(second)]),
         words: match im {
-            0.0 => format!("{re}, {}", number(second.re)),
+            0.0 => format!("{re}, {}", NumberStyle::Six.format(second.re)),
             _ => format!("{re} +- {im:.6} i, modulus {:.6}", first.norm()),
         },
     }

@@ -1,6 +1,7 @@
 //! The JSON Schema of machine files, made from the list of parameters, and parts of that of task files.
 
-use crate::machine::{Regime, SceneSettings};
+use crate::machine::Regime;
+use crate::older::PaperRatios;
 use clap::{Args, Command, ValueEnum};
 use serde_json::{Map, Value, json};
 use softstop::internals::{FASTEST, HEAVIEST};
@@ -24,7 +25,7 @@ pub fn keyed(value: Value) -> Value {
 
 /// The shorthands of the paper's machines, as the command line has them.
 pub fn shorthands() -> Value {
-    let flags = SceneSettings::augment_args(Command::new("shorthands"));
+    let flags = PaperRatios::augment_args(Command::new("shorthands"));
     let all = flags.get_arguments().map(|flag| {
         let mut schema = match flag.get_id().as_str() {
             "regime" => words::<Regime>(),

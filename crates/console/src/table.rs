@@ -1,30 +1,15 @@
-//! Text for people: titles, numbers, and cells under one another.
+//! Text for people: titles, and cells under one another.
 
 /// An underlined title.
 pub fn heading(title: &str) -> String {
     format!("{title}\n{}\n", "-".repeat(title.chars().count()))
 }
 
-/// A number with six places, or in powers of ten where those would not tell it.
-pub fn number(value: f64) -> String {
-    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
-        format!("{value:.6}")
-    } else {
-        format!("{value:.6e}")
-    }
-}
-
-/// A number with seven significant digits.
-pub fn figure(value: f64) -> String {
-    let size = value.abs();
-    if size == 0.0 {
-        "0".to_owned()
-    } else if (1e-3..1e7).contains(&size) {
-        let decimals = 6 - size.log10().floor() as i32;
-        format!("{value:.*}", usize::try_from(decimals).unwrap_or(0))
-    } else {
-        format!("{value:.3e}")
-    }
+/// Parts of a text, each under its title and a blank line; what is empty is left out.
+pub fn sections<T: AsRef<str>>(parts: impl IntoIterator<Item = (T, String)>) -> String {
+    let parts = parts.into_iter().filter(|(_, text)| !text.is_empty());
+    let parts = parts.map(|(title, text)| format!("\n{}\n{text}", title.as_ref()));
+    parts.collect()
 }
 
 /// Lines of cells, every column as wide as its widest cell; words stand to the left, numbers to the right.

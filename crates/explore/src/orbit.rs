@@ -22,15 +22,12 @@ const EXAMPLES: &str = "\
 Examples:
   softstop orbit unloaded --set frequency=1.15 --set clearance=10
       the paper's point A: before-impact velocity 6.494627
-  softstop orbit --regime loaded --frequency 1.15 --clearance 10 --format json
-      its point B by the shorthands of the paper's machines, for programs
+  softstop orbit loaded --set eta=1.15 --set clearance=10 --format json
+      its point B, for programs
   softstop orbit docs/scenes/kelvin-voigt.toml --set excitation.frequency=1.1
       any machine with any stop, in the units of its file
-  softstop orbit --scene machine.toml --frequency 1.2
-      with machine.toml holding the paper's ratios, say,
-          regime = \"loaded\"
-          clearance = 8.0
-          contact_damping = 0.1
+  softstop orbit machine.toml --set eta=1.2
+      with machine.toml holding a machine in the paper's ratios, in a table [ratios] (softstop schema)
 
 It is the motion with the hardest impact, of those on all stretches that `softstop zone` lists
 and of those that a search at this frequency finds.

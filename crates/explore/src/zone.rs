@@ -27,8 +27,8 @@ const EXAMPLES: &str = "\
 Examples:
   softstop zone unloaded --set clearance=10
       the paper's Fig. 8: from g0 = 1.04444 to s_SN = 1.369036
-  softstop zone --regime loaded --clearance 10 --stiffness 12 --format json
-      with a stiffer stop, by the shorthands of the paper's machines, for programs
+  softstop zone loaded --set clearance=10 --set stop.stiffness=12 --format json
+      with a stiffer stop, for programs
   softstop zone docs/scenes/kelvin-voigt.toml --set stop.stiffness=50
       any machine with any stop, in the units of its file
 

@@ -67,18 +67,9 @@ pub fn short(value: f64) -> String {
 
 /// `at least 10 m/s`.
 pub fn bound(machine: &Machine, requirement: &Requirement) -> String {
-    bound_in(machine, requirement, short)
-}
-
-/// The same, its numbers written in some way.
-pub fn bound_in(
-    machine: &Machine,
-    requirement: &Requirement,
-    write: impl Fn(f64) -> String,
-) -> String {
     let figure = requirement.figure;
     let unit = machine.unit(figure.dimension());
-    let own = |value: f64| write(machine.to_own(figure.dimension(), value));
+    let own = |value: f64| short(machine.to_own(figure.dimension(), value));
     let text = match (requirement.least, requirement.most) {
         (Some(least), Some(most)) => format!("from {} to {} {unit}", own(least), own(most)),
         (Some(least), None) => format!("at least {} {unit}", own(least)),

@@ -2,19 +2,21 @@
 
 mod branch;
 mod chart;
-mod configuration;
-mod fill;
-mod layers;
-mod leaves;
-mod named;
+
+mod objective;
+mod older;
 pub mod outcome;
 mod progress;
 pub mod reference;
-mod required;
+mod report_data;
+mod require;
 mod solve;
 pub mod study;
 mod task;
-mod wishes;
+mod task_spec;
+mod tolerance;
+mod toml_leaves;
+mod vary;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -36,38 +38,36 @@ use crate::limits::key;
 use crate::page::{csv, html};
 use crate::report::OptimizeReport;
 use crate::searched::SearchReport;
-use named::Named;
 use outcome::{Interrupted, Outcome};
 use solve::solve;
 use study::Study;
 use task::Job;
+use vary::Variable;
 
 const EXAMPLES: &str = "\
 Examples:
   softstop optimize
       the unloaded machine within stiffness 1 to 30 and clearance 2 to 22
-  softstop optimize press.toml --bounds clearance=5e-3:40e-3 --bounds excitation.frequency_hz=10:40
+  softstop optimize press.toml --vary clearance=5e-3:40e-3 --vary excitation.frequency_hz=10:40
       a machine in SI units (softstop schema says how it is stated), within what can be built
   softstop optimize loaded --margin 0.1
       with a strip to pierce, closer to the fold: harder, but easier to lose
-  softstop optimize --fix stiffness=7 --bounds clearance=2:22 --format json
+  softstop optimize --vary stop.stiffness=7 --vary clearance=2:22 --format json
       the paper's stop at its best clearance, for programs
-  softstop optimize --fix clearance=10 --bounds frequency=1.1:1.2 --preload-deflection 10
+  softstop optimize --vary clearance=10 --vary eta=1.1:1.2 --set stop.preload_deflection=10
       only frequencies that the drive can run at; the preload following the stiffness
   softstop optimize --config task.toml --evaluations 400
       with task.toml (softstop schema task says what it may hold) holding, say,
-          regime = \"loaded\"
-          margin = 0.25
-          [fix]
-          stiffness = 7.0
-          [bounds]
+          machine = \"loaded\"
+          set = [\"damping=0.02\"]
+          [vary]
+          stop.stiffness = 7.0
           clearance = [2.0, 22.0]
-          [scene]
-          damping = 0.02
+          [require]
+          margin = 0.25
 
 The zone of a machine reaches from g0 to s_SN; the drive frequency is g0 + s (s_SN - g0) with s in
-[M, 1 - M]. What --set, --stiffness, --clearance or --frequency say of a searched value is held, as by
---fix.
+[M, 1 - M]. What --set says of a searched value is held, as by --vary NAME=VALUE.
 
 A machine's file may hold a task (docs/tutorials/press.md takes a press from file to report):
     [vary]                                   what is searched, instead of the usual
@@ -99,7 +99,7 @@ pub fn check_tasks() {
 
 /// The JSON Schema of task files.
 pub fn task_schema() -> serde_json::Value {
-    configuration::Task::schema()
+    task_spec::TaskSpec::schema()
 }
 
 /// Arguments of `softstop optimize`.
@@ -110,14 +110,18 @@ pub struct OptimizeArguments {
     /// [default: 0.25]
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     pub margin: Option<f64>,
-    /// Hold a value, by its key in the machine's file or its letter; repeatable
-    #[arg(long, value_name = "NAME=VALUE")]
-    pub fix: Vec<Named<f64>>,
-    /// Search a range of a value: stop.stiffness [default: 1:30 times k1], clearance [default: 2:22
-    /// times F0/k1], excitation.frequency [default: the whole zone] or any other; repeatable
-    #[arg(long, value_name = "NAME=LOW:HIGH")]
-    pub bounds: Vec<Named<[f64; 2]>>,
-    /// Task in a TOML file, by the same names; the command line has the last word
+    /// Hold a value, or search a range of it, by its key in the machine's file or its letter: stop.stiffness
+    /// [default: 1:30 times k1], clearance [default: 2:22 times F0/k1], excitation.frequency [default: the whole
+    /// zone] or any other; repeatable
+    #[arg(long, value_name = "NAME=VALUE|LOW:HIGH")]
+    pub vary: Vec<Variable>,
+    /// Older form of --vary for a value
+    #[arg(long, hide = true)]
+    pub fix: Vec<Variable>,
+    /// Older form of --vary for a range
+    #[arg(long, hide = true)]
+    pub bounds: Vec<Variable>,
+    /// Task in a TOML file (softstop schema task says what it may hold); the command line has the last word
     #[arg(long, value_name = "FILE.toml")]
     pub config: Option<PathBuf>,
     /// How to print the result [default: text]
@@ -237,8 +241,8 @@ fn looked(job: &Job, outcome: &Outcome) -> Result<(Option<Study>, Option<Page>),
     let mut page = None;
     if job.report {
         let references = reference::references(&job.problem.machine)?;
-        let report = fill::report(job, outcome, &references, study.as_ref());
-        let tables = csv(&report).map_err(anyhow::Error::from)?;
+        let report = report_data::report(job, outcome, &references, study.as_ref());
+        let tables = csv(&report)?;
         page = Some((html(&report).map_err(anyhow::Error::from)?, tables));
     }
     match interrupt::requested() {

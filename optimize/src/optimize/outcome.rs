@@ -49,8 +49,6 @@ impl Interrupted {
 pub struct Outcome {
     /// The best design.
     pub design: Design,
-    /// Its point of the unit cube.
-    pub unit: Vec<f64>,
     /// Others nearly as good, far from it.
     pub rivals: Vec<Design>,
     /// What was required, and what the design has of it.

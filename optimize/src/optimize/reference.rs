@@ -18,6 +18,16 @@ pub struct Reference {
     pub orbit: Orbit,
 }
 
+impl Reference {
+    /// A point of the paper, or the machine as it was given.
+    pub fn title(&self) -> String {
+        match self.name {
+            "given" => "as given".to_owned(),
+            point => format!("paper's {point}"),
+        }
+    }
+}
+
 /// The references of a machine: both points of the paper for one that speaks its ratios, otherwise the
 /// machine itself, if it has a stable z = 1 motion as it is.
 pub(super) fn references(machine: &Machine) -> Result<Vec<Reference>, Failure> {

@@ -68,7 +68,6 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     Ok(Outcome {
         met,
         design: found.design,
-        unit: found.unit,
         erosion,
         run_up,
         fronts,

@@ -5,22 +5,22 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use softstop::{Machine, Parameter};
+use softstop_console::arguments::Change;
 use softstop_console::budget::Budget;
 use softstop_console::failure::Failure;
-use softstop_console::machine::{Regime, SceneSettings};
+use softstop_console::machine::Regime;
 use softstop_console::output::Format;
 use softstop_console::range::require;
-use softstop_console::report::MachineReport;
 use softstop_console::scene_file;
 
-use super::OptimizeArguments;
-use super::configuration::Task;
-use super::layers;
-use super::required::requirements;
-use super::wishes::{objective, tolerances};
+use super::objective::objective;
+use super::require::requirements;
+use super::task_spec::{Search, TaskSpec};
+use super::tolerance::tolerances;
+use super::vary::{Searched, held, searched, variables};
+use super::{OptimizeArguments, older};
 use crate::design::Problem;
-use crate::design::figure::Figure;
-use crate::design::problem::{Link, Tolerance};
+use crate::design::problem::Tolerance;
 use crate::design::search::{LEAST_EVALUATIONS, Settings};
 
 const MARGIN: f64 = 0.25;
@@ -49,65 +49,44 @@ impl Job {
         let task = task(arguments)?;
         let machine = machine(arguments, &task)?;
         let tolerances = tolerances(&machine, &task.tolerance)?;
-        let mut requirements = requirements(&machine, &task.require)?;
+        let (requirements, share) = requirements(&machine, &task.require)?;
         let objective = objective(&machine, &task.objective)?;
-        let share = requirements.iter().find(|it| it.figure == Figure::Share);
-        if share.is_some_and(|it| it.most.is_some()) {
-            return Err(Failure::usage(
-                "require.margin: can be at least so much, not at most",
-            ));
-        }
-        let share = share.and_then(|it| it.least);
-        if share.is_some() && task.margin.is_some() {
-            return Err(Failure::usage(
-                "margin and require.margin: only one of the two can be given",
-            ));
-        }
         let says_where = tolerances.iter().any(|it| !it.is_exact())
             || requirements.iter().any(|it| it.figure.is_margin());
         let usual = if says_where { 0.0 } else { MARGIN };
-        let margin = arguments.margin.or(task.margin).or(share).unwrap_or(usual);
-        requirements.retain(|it| it.figure != Figure::Share);
+        let margin = arguments.margin.or(share).unwrap_or(usual);
         require(
             (0.0..=0.5).contains(&margin),
             "margin",
             margin,
             "in [0, 0.5]",
         )?;
-        let (variables, links) = layers::variables(&machine, &task.vary)?;
-        let said = [
-            layers::spoken(arguments),
-            layers::written(&task, variables)?,
-        ];
-        let (axes, frequency) = layers::axes(&machine, &said, task.vary.is_empty())?;
+        let Searched {
+            axes,
+            frequency,
+            links,
+        } = searched_by(arguments, &task, &machine)?;
         for tolerance in &tolerances {
             let axis = axes.iter().find(|it| it.parameter == tolerance.parameter);
             let highest = axis.map(|it| it.range.high);
             leaves_machines(&machine, tolerance, highest)?;
         }
-        let both = |link: &&Link| axes.iter().any(|axis| axis.parameter == link.parameter);
-        if let Some(link) = links.iter().find(both) {
-            return Err(Failure::usage(format!(
-                "vary.{}: follows another parameter, and is searched or held as well; only one of the two can be given",
-                machine.name(link.parameter)
-            )));
-        }
-        if arguments.seed.or(task.seed).or(task.search.seed).is_some() {
+        let Search { seed, evaluations } = task.search;
+        if arguments.seed.or(seed).is_some() {
             // If nobody reads it, there is nobody to tell.
             let _ = writeln!(
                 io::stderr(),
                 "seed: the search is deterministic and needs none"
             );
         }
-        let evaluations = arguments
-            .evaluations
-            .or(task.evaluations)
-            .or(task.search.evaluations)
-            .unwrap_or(EVALUATIONS);
-        if evaluations < LEAST_EVALUATIONS {
-            let message = format!("evaluations = {evaluations}: must be >= {LEAST_EVALUATIONS}");
-            return Err(Failure::usage(message));
-        }
+        let evaluations = arguments.evaluations.or(evaluations).unwrap_or(EVALUATIONS);
+        let least = format!(">= {LEAST_EVALUATIONS}");
+        require(
+            evaluations >= LEAST_EVALUATIONS,
+            "evaluations",
+            evaluations,
+            &least,
+        )?;
         Ok(Self {
             problem: Problem {
                 machine,
@@ -136,37 +115,7 @@ impl Job {
 impl Job {
     /// What comes of the search follows from this.
     pub(super) fn identity(&self) -> impl Serialize {
-        let Problem {
-            machine,
-            margin,
-            axes,
-            frequency,
-            links,
-            tolerances,
-            objective,
-            requirements,
-        } = &self.problem;
-        let wishes = format!("{links:?} {tolerances:?} {objective:?} {requirements:?}");
-        let axes = axes.iter();
-        let axes = axes.map(|it| {
-            (
-                it.parameter.name(),
-                it.range.low,
-                it.range.high,
-                &it.catalogue,
-            )
-        });
-        let axes: Vec<_> = axes.collect();
-        let frequency = (frequency.low, frequency.high);
-        (
-            &machine.scene,
-            MachineReport::of(machine),
-            margin,
-            axes,
-            frequency,
-            self.settings.evaluations,
-            wishes,
-        )
+        (format!("{:?}", self.problem), self.settings.evaluations)
     }
 }
 
@@ -175,12 +124,28 @@ impl Job {
 /// # Errors
 /// [`Failure::Usage`] naming the key, its value and what is allowed.
 pub(super) fn check(machine: &Machine, text: &str) -> Result<(), Failure> {
-    let task = Task::beside_machine(text)?;
+    let task = TaskSpec::beside_machine(text)?.unwrap_or_default();
     tolerances(machine, &task.tolerance)?;
     requirements(machine, &task.require)?;
     objective(machine, &task.objective)?;
-    layers::variables(machine, &task.vary)?;
+    searched(machine, &[variables(&task.vary)?], false)?;
     Ok(())
+}
+
+/// What the command line says of searched values, over what the task says.
+fn searched_by(
+    arguments: &OptimizeArguments,
+    task: &TaskSpec,
+    machine: &Machine,
+) -> Result<Searched, Failure> {
+    let keys: Vec<&str> = task.set.iter().map(Change::key).collect();
+    let line = [
+        older::variables(arguments),
+        held(machine, &arguments.machine.keys()),
+    ];
+    let below = [variables(&task.vary)?, held(machine, &keys)];
+    let layers = [line.concat(), below.concat()];
+    searched(machine, &layers, task.with_usual || task.vary.is_empty())
 }
 
 /// Refuses a tolerance within which there are no machines even about the highest value that is searched.
@@ -207,56 +172,34 @@ fn leaves_machines(
 }
 
 /// The task of `--config`, or the one that stands beside the machine in its file.
-fn task(arguments: &OptimizeArguments) -> Result<Task, Failure> {
+fn task(arguments: &OptimizeArguments) -> Result<TaskSpec, Failure> {
     let machine = arguments.machine.machine.as_ref();
     let file = machine.filter(|path| Regime::called(path).is_none());
-    let beside = match file {
-        Some(path) => {
-            Task::beside_machine(&scene_file::text(path)?).map_err(|error| error.in_file(path))?
-        }
-        None => Task::default(),
+    let beside = |path: &PathBuf| {
+        let task = TaskSpec::beside_machine(&scene_file::text(path)?);
+        task.map_err(|error| error.in_file(path))
     };
-    let Some(path) = &arguments.config else {
-        return Ok(beside);
-    };
-    if beside.is_any() {
-        return Err(Failure::usage(format!(
+    let beside = file.map(beside).transpose()?.flatten();
+    match (&arguments.config, beside) {
+        (Some(path), Some(_)) => Err(Failure::usage(format!(
             "--config {}: the machine's file has a task of its own; only one of the two can be given",
             path.display()
-        )));
+        ))),
+        (Some(path), None) => TaskSpec::read(path),
+        (None, beside) => Ok(beside.unwrap_or_default()),
     }
-    scene_file::read_toml(path)
 }
 
-/// The command line's machine, or else the file's.
-fn machine(arguments: &OptimizeArguments, task: &Task) -> Result<Machine, Failure> {
+/// The command line's machine, or else the task's, seen from the task's folder.
+fn machine(arguments: &OptimizeArguments, task: &TaskSpec) -> Result<Machine, Failure> {
     arguments.machine.refuse_start()?;
-    let mut stated = arguments.machine.clone();
-    let says_scene = task.regime.is_some() || task.scene != SceneSettings::default();
-    if let Some(machine) = &task.machine {
-        if says_scene {
-            return Err(Failure::usage(
-                "machine and scene: only one of the two can be given in a task",
-            ));
-        }
-        let is_named = Regime::called(machine).is_some();
-        let folder = arguments.config.as_ref().and_then(|path| path.parent());
-        let place = folder
-            .filter(|_| !is_named)
-            .map_or(machine.clone(), |folder| folder.join(machine));
-        stated.machine.get_or_insert(place);
-    }
-    stated.machine_over(&scene(task)?)
-}
-
-/// The file's ratios; its regime may stand at the top or in `[scene]`.
-fn scene(task: &Task) -> Result<SceneSettings, Failure> {
-    let mut scene = task.scene.clone();
-    if task.regime.is_some() && scene.regime.is_some() {
-        return Err(Failure::usage(
-            "regime and scene.regime: only one of the two can be given",
-        ));
-    }
-    scene.regime = task.regime.or(scene.regime);
-    Ok(scene)
+    let folder = arguments.config.as_ref().and_then(|path| path.parent());
+    let place = task
+        .machine
+        .as_ref()
+        .map(|machine| match (Regime::called(machine), folder) {
+            (None, Some(folder)) => folder.join(machine),
+            _ => machine.clone(),
+        });
+    arguments.machine.machine_over(place, &task.set)
 }

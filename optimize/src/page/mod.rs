@@ -3,7 +3,6 @@
 pub mod computed;
 pub mod data;
 mod figure;
-mod glossary;
 mod pictures;
 mod tables;
 mod words;
@@ -15,6 +14,7 @@ use minijinja::value::{Serde, Value};
 use minijinja::{Environment, Error, UndefinedBehavior, context};
 use serde::Serialize;
 
+use softstop_console::number::NumberStyle::Percent;
 use softstop_draw::style;
 
 use data::Report;
@@ -45,14 +45,16 @@ pub fn html(report: &Report) -> Result<String, Error> {
     environment.add_filter("number", |value: Option<f64>| {
         value.map_or("–".to_owned(), words::number)
     });
+    environment.add_filter("numbers", words::with_numbers);
+    environment.add_filter("count", count);
     environment.add_filter("beside", |small: Option<f64>, size: Option<f64>| {
         let (small, size) = (small.unwrap_or(f64::NAN), size.unwrap_or(f64::NAN));
         let is_rounding = small.abs() < ROUNDING * size.abs();
         words::number(if is_rounding { 0.0 } else { small })
     });
-    environment.add_filter("percent", |share: Option<f64>| match share {
-        Some(share) if share.is_finite() => format!("{:.1} %", 100.0 * share),
-        _ => "–".to_owned(),
+    environment.add_filter("percent", |share: Option<f64>| {
+        let share = share.filter(|share| share.is_finite());
+        share.map_or("–".to_owned(), |share| Percent(1).format(share))
     });
     environment.add_template("report.html", include_str!("../../assets/report.html"))?;
     let template = environment.get_template("report.html")?;
@@ -60,7 +62,6 @@ pub fn html(report: &Report) -> Result<String, Error> {
         version => env!("CARGO_PKG_VERSION"),
         style => style::PAGE.to_owned() + include_str!("../../assets/report.css"),
         sections => Serde(sections(report)),
-        glossary => Serde(glossary::of(report)),
         report => Serde(report),
     })?;
     Ok(page)

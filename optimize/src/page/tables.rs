@@ -1,219 +1,187 @@
 //! The data of a report's tables and pictures as CSV, numbers with all their digits.
 
-use super::data::{Basin, Curve, Label, Map, Report};
+use softstop_console::column::Cell;
+use softstop_console::failure::Failure;
+use softstop_console::output;
+use softstop_console::record::Record;
+
+use super::data::{
+    Basin, Comparison, Curve, ErosionPoint, Histogram, Label, Map, Report, Sensitivity,
+};
 
 /// A table: its file's name, its columns, its rows.
-type Sheet = (String, Vec<String>, Vec<Vec<String>>);
+struct Sheet {
+    name: String,
+    head: Vec<String>,
+    rows: Vec<Vec<Cell>>,
+}
+
+/// A row of cells.
+macro_rules! row {
+    ($($cell:expr),*) => { vec![$(Cell::from($cell)),*] };
+}
 
 /// The files, each with its name and its bytes; those of absent data are left out.
 ///
 /// # Errors
 /// If a table cannot be written to memory.
-pub fn csv(report: &Report) -> Result<Vec<(String, Vec<u8>)>, csv::Error> {
-    let sheets = sheets(report)
-        .into_iter()
-        .filter(|(_, _, rows)| !rows.is_empty());
-    let written = sheets.map(|(name, columns, rows)| {
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record(&columns)?;
-        for row in &rows {
-            writer.write_record(row)?;
-        }
-        let bytes = writer.into_inner().map_err(|error| error.into_error())?;
-        Ok((format!("{name}.csv"), bytes))
-    });
-    written.collect()
+pub fn csv(report: &Report) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+    let all = sheets(report).into_iter();
+    let all = all.filter(|sheet| !sheet.rows.is_empty());
+    all.map(|Sheet { name, head, rows }| {
+        let head = head.into_iter().map(Cell::from).collect();
+        Ok((
+            format!("{name}.csv"),
+            output::csv([head].into_iter().chain(rows))?,
+        ))
+    })
+    .collect()
 }
 
 fn sheets(report: &Report) -> Vec<Sheet> {
-    let mut sheets = Vec::new();
-    if let Some(of) = &report.comparison {
-        let head = ["quantity", "unit", "chosen"]
-            .map(str::to_owned)
-            .into_iter();
-        let rows = of.rows.iter().map(|row| {
-            let told = [
-                row.label.name.clone(),
-                row.label.unit.clone(),
-                row.is_chosen.to_string(),
-            ];
-            told.into_iter()
-                .chain(row.values.iter().map(|value| optional(*value)))
-                .collect()
-        });
-        sheets.push((
-            "comparison".to_owned(),
-            head.chain(of.machines.clone()).collect(),
-            rows.collect(),
-        ));
-    }
-    let rows = report.requirements.iter().map(|it| {
-        let words = [&it.name, &it.meaning, &it.unit, &it.required].map(String::clone);
-        let values = [digits(it.value), digits(it.margin), it.met.to_string()];
-        words
-            .into_iter()
-            .chain(values)
-            .chain([it.note.clone()])
-            .collect()
-    });
-    let head = words(&[
-        "name", "meaning", "unit", "required", "value", "margin", "met", "note",
-    ]);
-    sheets.push(("requirements".to_owned(), head, rows.collect()));
-    for (index, map) in report.maps.iter().enumerate() {
-        let number = index + 1;
-        sheets.push((
-            format!("map-{number}"),
-            columns(&[&map.x, &map.y, &map.shade]),
-            cells(map),
-        ));
+    let mut sheets = Vec::from_iter(report.comparison.as_ref().map(comparison));
+    sheets.push(requirements(&report.requirements));
+    for (map, number) in report.maps.iter().zip(1..) {
+        sheets.push(cells(map, format!("map-{number}")));
         let name = format!("map-{number}-boundaries");
-        sheets.push(lines(name, "boundary", [&map.x, &map.y], &map.curves));
+        sheets.push(lines(&name, "boundary", [&map.x, &map.y], &map.curves));
     }
-    if let Some(of) = &report.response {
-        sheets.push(lines(
-            "response".to_owned(),
-            "motion",
-            [&of.x, &of.y],
-            &of.curves,
-        ));
-    }
-    if let Some(of) = &report.portrait {
-        sheets.push(lines(
-            "portrait".to_owned(),
-            "motion",
-            [&of.x, &of.y],
-            &of.curves,
-        ));
-    }
-    if let Some(of) = &report.basin {
-        let head = [columns(&[&of.x, &of.y]), words(&["motion"])].concat();
-        sheets.push(("basin".to_owned(), head, starts(of)));
-    }
-    if let Some(of) = &report.erosion {
-        let head = words(&[
-            "place",
-            "frequency",
-            "share",
-            "share_low",
-            "share_high",
-            "integrity",
-        ]);
-        let rows = of.points.iter().map(|it| {
-            let [low, high] = it.interval;
-            let values = [it.place, it.frequency, it.share, low, high].map(digits);
-            values.into_iter().chain([optional(it.integrity)]).collect()
-        });
-        sheets.push(("erosion".to_owned(), head, rows.collect()));
-    }
-    for front in &report.fronts {
-        let rows = front.points.iter().map(|point| point.map(digits).to_vec());
-        sheets.push((
-            format!("front-{}", front.name),
-            columns(&[&front.x, &front.y]),
-            rows.collect(),
-        ));
-    }
-    if let Some(of) = &report.histogram {
-        let [low, high] = of.range;
-        let step = (high - low) / of.counts.len().max(1) as f64;
-        let end = |index: usize| digits(low + step * index as f64);
-        let rows = of.counts.iter().enumerate();
-        let rows = rows.map(|(index, count)| vec![end(index), end(index + 1), count.to_string()]);
-        let [from, to] = ["from", "to"].map(|end| format!("{end}: {}", of.x.line()));
-        let head = vec![from, to, "machines".to_owned()];
-        sheets.push(("histogram".to_owned(), head, rows.collect()));
-    }
-    let rows = report.sensitivities.iter().map(|it| {
-        let named = [it.label.name.clone(), it.label.unit.clone()];
-        let values = [it.value, it.tolerance, it.effect].map(digits);
-        let shares = [it.share, it.total, it.margin].map(optional);
-        named
-            .into_iter()
-            .chain(values)
-            .chain([it.effect_unit.clone()])
-            .chain(shares)
-            .collect()
-    });
-    let head = words(&[
-        "parameter",
-        "unit",
-        "value",
-        "tolerance",
-        "effect",
-        "effect_unit",
-        "share",
-        "total",
-        "margin",
-    ]);
-    sheets.push(("sensitivities".to_owned(), head, rows.collect()));
+    let response = report.response.as_ref();
+    sheets.extend(response.map(|it| lines("response", "motion", [&it.x, &it.y], &it.curves)));
+    let portrait = report.portrait.as_ref();
+    sheets.extend(portrait.map(|it| lines("portrait", "motion", [&it.x, &it.y], &it.curves)));
+    sheets.extend(report.basin.as_ref().map(starts));
+    sheets.extend(report.erosion.as_ref().map(|it| erosion(&it.points)));
+    sheets.extend(report.fronts.iter().map(|it| {
+        let rows = it.points.iter().map(|[x, y]| row![*x, *y]);
+        sheet(
+            &format!("front-{}", it.name),
+            columns(&[&it.x, &it.y]),
+            rows,
+        )
+    }));
+    sheets.extend(report.histogram.as_ref().map(histogram));
+    sheets.push(sensitivities(&report.sensitivities));
     sheets
 }
 
-fn words(words: &[&str]) -> Vec<String> {
-    words.iter().map(|word| (*word).to_owned()).collect()
+/// A table; what is no number is left empty.
+fn sheet(name: &str, head: Vec<String>, rows: impl IntoIterator<Item = Vec<Cell>>) -> Sheet {
+    let finite = |cell| match cell {
+        Cell::Number(number) if !number.is_finite() => Cell::Empty,
+        cell => cell,
+    };
+    let rows = rows.into_iter();
+    Sheet {
+        name: name.to_owned(),
+        head,
+        rows: rows
+            .map(|row| row.into_iter().map(finite).collect())
+            .collect(),
+    }
+}
+
+fn words(words: &str) -> Vec<String> {
+    words.split_whitespace().map(str::to_owned).collect()
 }
 
 fn columns(labels: &[&Label]) -> Vec<String> {
     labels.iter().map(|label| label.line()).collect()
 }
 
-/// The shortest text that reads back as the same number; empty for what is none.
-fn digits(value: f64) -> String {
-    if value.is_finite() {
-        value.to_string()
-    } else {
-        String::new()
-    }
+fn comparison(of: &Comparison) -> Sheet {
+    let head = [words("quantity unit chosen"), of.machines.clone()].concat();
+    let rows = of.rows.iter().map(|it| {
+        let label = row![&*it.label.name, &*it.label.unit, it.is_chosen.to_string()];
+        let values = it.values.iter().copied().map(Cell::from);
+        label.into_iter().chain(values).collect()
+    });
+    sheet("comparison", head, rows)
 }
 
-fn optional(value: Option<f64>) -> String {
-    value.map_or(String::new(), digits)
+fn requirements(all: &[Record]) -> Sheet {
+    let head = words("name meaning unit required value margin met note");
+    let cell = |record: &Record, name| match record.cell(name) {
+        Some(Cell::Flag(flag)) => Cell::from(flag.to_string()),
+        cell => cell.cloned().unwrap_or(Cell::Empty),
+    };
+    let rows = all.iter();
+    let rows = rows.map(|it| head.iter().map(|name| cell(it, name)).collect());
+    let rows: Vec<Vec<Cell>> = rows.collect();
+    sheet("requirements", head, rows)
 }
 
-fn lines(name: String, what: &str, [x, y]: [&Label; 2], curves: &[Curve]) -> Sheet {
+fn lines(name: &str, what: &str, axes: [&Label; 2], curves: &[Curve]) -> Sheet {
     let rows = curves.iter().flat_map(|curve| {
-        let row = |[x, y]: &[f64; 2]| vec![curve.name.clone(), digits(*x), digits(*y)];
+        let row = |[x, y]: &[f64; 2]| row![&*curve.name, *x, *y];
         curve.points.iter().map(row)
     });
-    (
-        name,
-        [words(&[what]), columns(&[x, y])].concat(),
-        rows.collect(),
-    )
+    sheet(name, [words(what), columns(&axes)].concat(), rows)
 }
 
 /// The middle of a cell of a row or column.
-fn middle([low, high]: [f64; 2], index: usize, of: usize) -> String {
-    digits(low + (high - low) * (index as f64 + 0.5) / of.max(1) as f64)
+fn middle([low, high]: [f64; 2], index: usize, of: usize) -> f64 {
+    low + (high - low) * (index as f64 + 0.5) / of.max(1) as f64
 }
 
-fn cells(map: &Map) -> Vec<Vec<String>> {
-    let columns = map.columns.max(1);
-    let rows = map.cells.len() / columns;
-    let cell = |(index, value): (usize, &Option<f64>)| {
-        let x = middle(map.x_range, index % columns, columns);
-        vec![
-            x,
-            middle(map.y_range, index / columns, rows),
-            optional(*value),
-        ]
-    };
-    map.cells.iter().enumerate().map(cell).collect()
+fn cells(map: &Map, name: String) -> Sheet {
+    let across = map.columns.max(1);
+    let rows = map.cells.len() / across;
+    let cells = map.cells.iter().enumerate().map(|(index, value)| {
+        let x = middle(map.x_range, index % across, across);
+        row![x, middle(map.y_range, index / across, rows), *value]
+    });
+    sheet(&name, columns(&[&map.x, &map.y, &map.shade]), cells)
 }
 
-fn starts(basin: &Basin) -> Vec<Vec<String>> {
-    let columns = basin.columns.max(1);
-    let rows = basin.cells.len() / columns;
-    let cell = |(index, class): (usize, &u16)| {
+fn starts(basin: &Basin) -> Sheet {
+    let across = basin.columns.max(1);
+    let rows = basin.cells.len() / across;
+    let cells = basin.cells.iter().enumerate().map(|(index, class)| {
+        let x = middle(basin.x_range, index % across, across);
+        let y = middle(basin.y_range, index / across, rows);
         let motion = basin.motions.get(usize::from(*class));
-        let x = middle(basin.x_range, index % columns, columns);
-        let y = middle(basin.y_range, index / columns, rows);
-        vec![
-            x,
-            y,
-            motion.map_or(String::new(), |motion| motion.name.clone()),
-        ]
-    };
-    basin.cells.iter().enumerate().map(cell).collect()
+        row![x, y, motion.map(|motion| &*motion.name)]
+    });
+    sheet(
+        "basin",
+        [columns(&[&basin.x, &basin.y]), words("motion")].concat(),
+        cells,
+    )
+}
+
+fn erosion(points: &[ErosionPoint]) -> Sheet {
+    let head = words("place frequency share share_low share_high integrity");
+    let rows = points.iter().map(|it| {
+        let [low, high] = it.interval;
+        row![it.place, it.frequency, it.share, low, high, it.integrity]
+    });
+    sheet("erosion", head, rows)
+}
+
+fn histogram(of: &Histogram) -> Sheet {
+    let [low, high] = of.range;
+    let step = (high - low) / of.counts.len().max(1) as f64;
+    let end = |index: usize| low + step * index as f64;
+    let rows = of.counts.iter().enumerate();
+    let rows = rows.map(|(index, count)| row![end(index), end(index + 1), *count]);
+    let [from, to] = ["from", "to"].map(|end| format!("{end}: {}", of.x.line()));
+    sheet("histogram", vec![from, to, "machines".to_owned()], rows)
+}
+
+fn sensitivities(all: &[Sensitivity]) -> Sheet {
+    let head = words("parameter unit value tolerance effect effect_unit share total margin");
+    let rows = all.iter().map(|it| {
+        let (name, unit) = (&*it.label.name, &*it.label.unit);
+        let effect = row![
+            name,
+            unit,
+            it.value,
+            it.tolerance,
+            it.effect,
+            &*it.effect_unit
+        ];
+        [effect, row![it.share, it.total, it.margin]].concat()
+    });
+    sheet("sensitivities", head, rows)
 }

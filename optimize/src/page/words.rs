@@ -55,6 +55,16 @@ pub fn quantity(value: f64, unit: &str) -> String {
     }
 }
 
+/// A text with its numbers as the page writes them.
+pub(super) fn with_numbers(text: &str) -> String {
+    let written = text.split(' ').map(|word| {
+        let bare = word.trim_end_matches([',', ';', '.']);
+        let value: Option<f64> = bare.parse().ok();
+        value.map_or(word.to_owned(), |value| number(value) + &word[bare.len()..])
+    });
+    written.collect::<Vec<_>>().join(" ")
+}
+
 fn fixed(value: f64, places: i32) -> String {
     let text = format!("{value:.*}", places.max(0) as usize);
     match text.contains('.') {

@@ -121,6 +121,57 @@ fn task_file_and_command_line_say_the_same() -> Outcome {
     Ok(())
 }
 
+/// Older words do what the present ones do, and say once what to write instead.
+#[test]
+fn older_words_say_what_to_write_instead() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().to_str().ok_or("path")?;
+    let file = folder.path().join("task.toml");
+    let task = file.to_str().ok_or("path")?;
+    let ends = [
+        "--no-report",
+        "--evaluations",
+        "100",
+        "--format",
+        "json",
+        "--output",
+        path,
+    ];
+    let run = |words: &[&str]| {
+        let run = SOFTSTOP.run(&[&["optimize"], words, &ends[..]].concat());
+        let notes = String::from_utf8_lossy(&run.stderr).into_owned();
+        let notes: Vec<String> = notes.lines().map(str::to_owned).collect();
+        assert!(run.status.success(), "{notes:?}");
+        let found: Value = serde_json::from_slice(&run.stdout)?;
+        Ok::<_, serde_json::Error>((found, notes))
+    };
+    let present =
+        "loaded --set damping=0.021 --vary stop.stiffness=7 --vary clearance=2:22 --margin 0.3";
+    let older =
+        "--regime loaded --damping 0.021 --bounds clearance=2:22 --fix stiffness=7 --margin 0.3";
+    let ((expected, none), (found, notes)) = (run(&words(present))?, run(&words(older))?);
+    assert_eq!((&found, none.len()), (&expected, 0));
+    let told = [
+        "note: instead of --regime loaded --damping 0.021 write loaded --set damping=0.021",
+        "note: instead of --bounds clearance=2:22 --fix stiffness=7 write --vary clearance=2:22 --vary stiffness=7",
+    ];
+    assert_eq!(notes.len(), told.len(), "{notes:?}");
+    for (note, told) in notes.iter().zip(told) {
+        assert!(note.starts_with(told), "{note}");
+    }
+    let files = [
+        "machine = \"loaded\"\nset = [\"damping=0.021\"]\n[vary]\nstop.stiffness = 7\nclearance = [2, 22]\n\
+         [require]\nmargin = 0.3\n",
+        "regime = \"loaded\"\nmargin = 0.3\n[scene]\ndamping = 0.021\n[fix]\nstiffness = 7\n[bounds]\nclearance = [2, 22]\n",
+    ];
+    for (text, count) in files.into_iter().zip([0, 1]) {
+        fs::write(&file, text)?;
+        let (found, notes) = run(&["--config", task])?;
+        assert_eq!((&found, notes.len()), (&expected, count), "{notes:?}");
+    }
+    Ok(())
+}
+
 #[test]
 fn what_cannot_be_done_is_told_and_leaves_nothing_behind() -> Outcome {
     let folder = tempfile::tempdir()?;

@@ -34,7 +34,7 @@ const EXAMPLES: &str = "\
 Examples:
   softstop basin --size 1000
       the paper's point A: which of a million initial states lead to z = 1
-  softstop basin --frequency 0.9875 --x 0:15 --v=-20:20
+  softstop basin --set eta=0.9875 --x 0:15 --v=-20:20
       chaos, z = 2/3 and z = (2/4)B side by side
   softstop basin --plane phi,v --at 0
       over drive angle and velocity, from position 0

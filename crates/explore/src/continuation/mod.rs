@@ -28,7 +28,7 @@ Examples:
   softstop continue --parameter frequency --from 0.9 --to 1.5
       the z = 1 motion of the paper's point A, both ways: it is born and dies in grazing (G),
       doubles its period at eta = 0.988907 (PD) and turns back at the fold s_SN = 1.369036 (SN)
-  softstop continue --frequency 0.9875 --orbit 2/3 --parameter eta --from 0.95 --to 1.05
+  softstop continue --set eta=0.9875 --orbit 2/3 --parameter eta --from 0.95 --to 1.05
       the isolated z = 2/3 motion, found from scratch at eta = 0.9875
   softstop continue --parameter eta --from 0.9 --to 1.8 --second rho --second-from 2 --second-to 18
       besides, each special point as a curve in (eta, rho): regions of the z = 1 motion

@@ -21,15 +21,15 @@ use softstop_console::range::within;
 
 const EXAMPLES: &str = "\
 Examples:
-  softstop motions --frequency 0.9875 --clearance 10
+  softstop motions --set eta=0.9875 --set clearance=10
       three motions coexist: chaos, z = 2/3 and (2/4)B of the paper's Fig. 9
-  softstop motions --frequency 0.9526475
+  softstop motions --set eta=0.9526475
       below g0: z = 0, and chaos that ends after some 12,000 periods
-  softstop motions --frequency 0.9875 --output three
+  softstop motions --set eta=0.9875 --output three
       the same with a picture of each in the phase plane
   softstop motions docs/scenes/rigid.toml --starts 1000
       any machine with any stop, in the units of its file; more starts find smaller basins
-  softstop motions --regime loaded --frequency 1.15 --format json
+  softstop motions loaded --set eta=1.15 --format json
       for programs
 
 How they are found: --starts quasi-random starts fill the box that basin has, too, and settle: twice the

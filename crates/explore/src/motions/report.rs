@@ -191,7 +191,7 @@ fn both(exponents: &Exponents) -> Told {
         true => format!("{it:.6}"),
         false => "-infinity".to_owned(),
     });
-    told(exponents, format!("{first}, {second} per drive period"))
+    format_exponents(exponents, format!("{first}, {second} per drive period"))
 }
 
 /// Exponents with the words for the larger one.
@@ -199,10 +199,10 @@ fn larger(exponents: &Exponents) -> Told {
     let ([period, _], [second, _]) = (exponents.per_period, exponents.per_second());
     let error = exponents.error;
     let words = format!("{period:.4} +- {error:.4} per drive period, {second:.5} per unit of time");
-    told(exponents, words)
+    format_exponents(exponents, words)
 }
 
-fn told(exponents: &Exponents, words: String) -> Told {
+fn format_exponents(exponents: &Exponents, words: String) -> Told {
     Told {
         value: json!({
             "per_period": exponents.per_period,

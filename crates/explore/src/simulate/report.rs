@@ -11,9 +11,10 @@ use softstop_console::arguments::title;
 use softstop_console::column::{Column, Told, Units};
 use softstop_console::columns;
 use softstop_console::export::Report;
+use softstop_console::number::NumberStyle::Seven;
 use softstop_console::record::{Record, below};
 use softstop_console::report::MachineReport;
-use softstop_console::table::{figure, heading};
+use softstop_console::table::{heading, sections};
 
 /// A run.
 struct Run<'a> {
@@ -83,7 +84,11 @@ fn blows() -> [Column<Impact>; 2] {
 fn state(state: Start) -> Told {
     Told {
         value: json!({ "position": state.position, "velocity": state.velocity }),
-        words: format!("{}   {}", figure(state.position), figure(state.velocity)),
+        words: format!(
+            "{}   {}",
+            Seven.format(state.position),
+            Seven.format(state.velocity)
+        ),
     }
 }
 
@@ -169,10 +174,9 @@ impl Report for SimulateReport {
             (&rests, shown),
             ("Last impacts", &self.impacts.last),
         ];
-        let tables = tables.into_iter().filter(|(_, rows)| !rows.is_empty());
-        let tables = tables.map(|(title, rows)| format!("\n{title}\n{}", below(rows, &self.units)));
+        let tables = tables.map(|(title, rows)| (title, below(rows, &self.units)));
         heading(&format!("Motion of {}", self.title))
             + &figures.text(&self.units)
-            + &tables.collect::<String>()
+            + &sections(tables)
     }
 }

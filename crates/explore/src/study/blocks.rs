@@ -13,8 +13,8 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt::{requested, under_way};
 use softstop_console::keep::KEPT;
 use softstop_console::lock;
-use softstop_console::pieces::{At, Pieces};
 use softstop_console::progress::Progress;
+use softstop_console::record_log::{RecordLog, RecordSpan};
 use softstop_dynamics::points;
 
 use super::file::Study;
@@ -24,9 +24,9 @@ use super::shard::Shard;
 /// Blocks that are done: which file has them, and where.
 #[derive(Debug)]
 pub(super) struct Blocks {
-    files: Vec<Pieces>,
+    files: Vec<RecordLog>,
     /// Of each block; files by their place.
-    places: Vec<Option<(u32, At)>>,
+    places: Vec<Option<(u32, RecordSpan)>>,
 }
 
 fn place(path: &Path) -> String {
@@ -42,7 +42,7 @@ impl Blocks {
     }
 
     /// Takes in what a file holds of a study.
-    fn take(&mut self, study: &Study, mut file: Pieces) -> Result<(), Failure> {
+    fn take(&mut self, study: &Study, mut file: RecordLog) -> Result<(), Failure> {
         let number = self.files.len() as u32;
         let places = &mut self.places;
         let of = file.restore(|key, at| {
@@ -73,7 +73,7 @@ impl Blocks {
         let mut blocks = Self::none(study);
         for path in paths {
             let file =
-                Pieces::open(path).with_context(|| format!("cannot read {}", place(path)))?;
+                RecordLog::open(path).with_context(|| format!("cannot read {}", place(path)))?;
             let busy = || lock::refusal(path);
             blocks.take(study, file.ok_or_else(busy)?)?;
         }
@@ -99,7 +99,7 @@ impl Blocks {
         let Some((_, first)) = missing().next() else {
             return Ok(());
         };
-        let paths = self.files.iter().map(Pieces::path);
+        let paths = self.files.iter().map(RecordLog::path);
         let of = paths.filter_map(Shard::of_file);
         let of = of.map(|shard| shard.of).max().unwrap_or(1);
         let mut shards: Vec<u64> = missing().map(|(_, block)| block % of + 1).collect();
@@ -155,7 +155,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// [`Failure::Interrupted`].
     pub fn wait(path: &Path) -> Result<(), Failure> {
-        while matches!(Pieces::open(path), Ok(None)) && path.exists() {
+        while matches!(RecordLog::open(path), Ok(None)) && path.exists() {
             if requested() {
                 return Err(Failure::Interrupted);
             }
@@ -180,7 +180,7 @@ impl<'a> Run<'a> {
             let place = place(&path);
             Failure::Run(Error::from(error).context(format!("cannot write {place}")))
         };
-        match Pieces::open(&path) {
+        match RecordLog::open(&path) {
             Ok(Some(file)) if resume => blocks.take(study, file)?,
             Ok(_) => {}
             Err(error) if error.kind() == ErrorKind::NotFound => {}
@@ -190,7 +190,7 @@ impl<'a> Run<'a> {
         if !is_begun {
             // The lock of a file without any block goes before it is made anew.
             blocks.files.clear();
-            let file = Pieces::create(&path, study.hash.as_bytes()).map_err(cannot)?;
+            let file = RecordLog::create(&path, study.hash.as_bytes()).map_err(cannot)?;
             let busy = || lock::refusal(&path);
             blocks.files = vec![file.ok_or_else(busy)?];
         }

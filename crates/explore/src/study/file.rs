@@ -9,7 +9,7 @@ use softstop_console::budget::Budget;
 use softstop_console::failure::Failure;
 use softstop_console::machine::Regime;
 use softstop_console::range::{require, within};
-use softstop_console::{pieces, scene_file};
+use softstop_console::{record_log, scene_file};
 use softstop_dynamics::attractors::Region;
 use softstop_dynamics::points::DIMENSIONS;
 use softstop_dynamics::settled::Settling;
@@ -23,7 +23,7 @@ use super::outputs::Output;
 struct File {
     machine: Option<PathBuf>,
     #[serde(default)]
-    set: Vec<String>,
+    set: Vec<Change>,
     axis: Vec<Stated>,
     samples: Option<u64>,
     #[serde(default)]
@@ -194,7 +194,7 @@ impl Study {
             points,
             hash: String::new(),
         };
-        study.hash = pieces::fingerprint(&study.identity())?;
+        study.hash = record_log::fingerprint(&study.identity())?;
         Ok(study)
     }
 
@@ -225,13 +225,9 @@ fn machine(file: &File, folder: &Path) -> Result<Machine, Failure> {
         Some(_) => machine.clone(),
         None => folder.join(machine),
     });
-    let changes = file.set.iter().map(|text| {
-        let wrong = |error| Failure::usage(format!("set = [\"{text}\"]: {error}"));
-        text.parse::<Change>().map_err(wrong)
-    });
     let arguments = MachineArguments {
         machine: named,
-        set: changes.collect::<Result<_, _>>()?,
+        set: file.set.clone(),
         ..MachineArguments::default()
     };
     arguments.machine()

@@ -8,8 +8,9 @@ use softstop_console::arguments::title;
 use softstop_console::budget::Budget;
 use softstop_console::column::{Unit, Units};
 use softstop_console::export::Report;
+use softstop_console::number::NumberStyle::Seven;
 use softstop_console::report::MachineReport;
-use softstop_console::table::{aligned, figure};
+use softstop_console::table::aligned;
 use softstop_console::units;
 use softstop_dynamics::settled::Settling;
 
@@ -175,7 +176,7 @@ impl Report for StudyReport {
                 words,
                 ..
             } = &column.summary;
-            let number = |it: &Option<f64>| it.map_or("-".to_owned(), figure);
+            let number = |it: &Option<f64>| it.map_or("-".to_owned(), |it| Seven.format(it));
             let mut row = vec![
                 column.name.clone(),
                 values.to_string(),

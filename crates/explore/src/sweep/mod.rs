@@ -29,11 +29,11 @@ Examples:
       the paper's Fig. 8: rho = 10 up and down; jumps, and where the two ways differ
   softstop sweep --from 0.8 --to 1.8 --clearances 2,6,10,14,18,22
       its Fig. 6(a): six clearances, both ways, 1000 frequencies of 200 periods
-  softstop sweep --from 0.8 --to 1.8 --clearances 2,6,10,14,18,22 --regime loaded
+  softstop sweep loaded --from 0.8 --to 1.8 --clearances 2,6,10,14,18,22
       its Fig. 6(b)
   softstop sweep --from 1 --to 1.4 --steps 401 --periods 50 --tolerance 0.01 --direction up
       a fast sweep: it loses z = 1 at 1.371, later than at the fold, 1.369036
-  softstop sweep --parameter clearance --from 4 --to 20 --frequency 1.15
+  softstop sweep --parameter clearance --from 4 --to 20 --set eta=1.15
       along another parameter
   softstop sweep docs/scenes/rigid.toml --from 3 --to 1 --set clearance=0.5
       any machine with any stop, in its own units, downwards

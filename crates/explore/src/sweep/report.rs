@@ -7,6 +7,7 @@ use softstop_console::columns;
 use softstop_console::export::Report;
 use softstop_console::record::{Record, below};
 use softstop_console::report::{MachineReport, MotionName};
+use softstop_console::table::sections;
 use softstop_console::units;
 use softstop_dynamics::sweep::{Coexistence, Jump, hysteresis};
 use softstop_dynamics::{Chain, Direction, MotionKind, Plan};
@@ -165,9 +166,6 @@ impl Report for SweepReport {
                 text += &format!("and {} more\n", jumps.len() - MOST);
             }
         }
-        if !self.hysteresis.is_empty() {
-            text += &format!("\nHysteresis\n{}", below(&self.hysteresis, &self.units));
-        }
-        text
+        text + &sections([("Hysteresis", below(&self.hysteresis, &self.units))])
     }
 }

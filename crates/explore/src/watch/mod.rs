@@ -22,7 +22,7 @@ Examples:
       the paper's loaded machine from its start on, as watch.html
   softstop watch docs/scenes/chatter.toml --periods 5 --output chatter.html
       bounces that pile up to rest on a rigid stop
-  softstop watch --frequency 0.9875 --periods 2000 --last 40
+  softstop watch --set eta=0.9875 --periods 2000 --last 40
       chaos, once the start is forgotten
   softstop watch loaded --missing-strips 5:7
       what three missing strips do

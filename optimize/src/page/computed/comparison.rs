@@ -1,23 +1,20 @@
 //! A design beside other machines.
 
-use softstop::{Machine, Parameter};
+use softstop::Parameter;
 use softstop_dynamics::Orbit;
 
 use super::{label_of, velocity};
 use crate::design::Design;
+use crate::optimize::reference::Reference;
 use crate::page::data::{Comparison, Label, Row};
 
 /// All parameters of the design's machine and the figures of its motion beside those of others; the chosen ones are
 /// those that the search has set.
-pub fn comparison(
-    design: &Design,
-    chosen: &[Parameter],
-    others: &[(String, &Machine, &Orbit)],
-) -> Comparison {
+pub fn comparison(design: &Design, chosen: &[Parameter], others: &[Reference]) -> Comparison {
     let all = || {
         let own = [(&design.machine, &design.orbit)];
         own.into_iter()
-            .chain(others.iter().map(|(_, machine, orbit)| (*machine, *orbit)))
+            .chain(others.iter().map(|it| (&it.machine, &it.orbit)))
     };
     let figure = |label: Label, value: fn(&Orbit) -> f64| Row {
         label,
@@ -37,7 +34,7 @@ pub fn comparison(
         figure(velocity(&design.machine), Orbit::before_impact_velocity),
         figure(Label::new("largest multiplier", "|μ|", ""), largest),
     ];
-    let names = others.iter().map(|(name, ..)| name.clone());
+    let names = others.iter().map(Reference::title);
     Comparison {
         machines: ["design".to_owned()].into_iter().chain(names).collect(),
         rows: figures.into_iter().chain(parameters).collect(),

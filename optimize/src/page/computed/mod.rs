@@ -117,7 +117,7 @@ impl Motions {
 }
 
 /// Stable, or at the end of what is stable.
-fn is_shown(point: &BranchPoint) -> bool {
+pub(crate) fn is_shown(point: &BranchPoint) -> bool {
     let end = point
         .fold_test()
         .abs()
@@ -147,8 +147,8 @@ fn below(zone: &Zone) -> Option<(Vec<BranchPoint>, Option<f64>)> {
     Some((points, at))
 }
 
-/// The same motions with others between them, where Newton's method stays between its neighbours.
-fn refined(scene: &Scene, points: &[BranchPoint]) -> Vec<BranchPoint> {
+/// Motions of a branch with others between them, where Newton's method stays between its neighbours.
+pub(crate) fn refined(scene: &Scene, points: &[BranchPoint]) -> Vec<BranchPoint> {
     let Ok(family) = Along::new(scene.clone(), [Parameter::Frequency]) else {
         return points.to_vec();
     };

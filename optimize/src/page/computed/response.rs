@@ -7,10 +7,11 @@ use softstop_dynamics::{BranchPoint, Zone, zone};
 
 use super::{Motions, is_shown, label_of, refined, velocity};
 use crate::design::Design;
+use crate::optimize::reference::Reference;
 use crate::page::data::{Curve, Response, Role};
 
-/// The motions of the design's machine, and those of other machines under their names. No tolerance.
-pub fn response(design: &Design, beside: &[(String, Machine)]) -> Response {
+/// The motions of the design's machine, and those of references. No tolerance.
+pub fn response(design: &Design, beside: &[Reference]) -> Response {
     let machine = &design.machine;
     let own = |frequency: f64| machine.to_own(Dimension::Frequency, frequency);
     let motions = Motions::of(&design.zone);
@@ -27,13 +28,14 @@ pub fn response(design: &Design, beside: &[(String, Machine)]) -> Response {
         role: Role::Unstable,
         points: points(machine, &refined(&design.zone.scene, piece)),
     }));
-    for (name, other) in beside {
+    for reference in beside {
+        let other = &reference.machine;
         if let Ok(zone) = zone::hysteresis_watched(&other.scene, &interrupt::watch) {
             curves.extend(stable(
                 other,
                 &zone,
                 &Motions::of(&zone),
-                name,
+                &reference.title(),
                 Role::Beside,
             ));
         }

@@ -11,6 +11,7 @@ pub use pictures::{
 };
 
 use serde::Serialize;
+use softstop_console::record::Record;
 
 /// The whole report.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -27,8 +28,8 @@ pub struct Report {
     pub comparison: Option<Comparison>,
     /// What limits the design, in a sentence.
     pub limit: Option<String>,
-    /// What was required of it.
-    pub requirements: Vec<Requirement>,
+    /// What was required of it, and what it has: [`crate::verdict::required`].
+    pub requirements: Vec<Record>,
     /// Maps over two parameters.
     pub maps: Vec<Map>,
     /// The motion over the drive's frequency.
@@ -47,8 +48,19 @@ pub struct Report {
     pub sensitivities: Vec<Sensitivity>,
     /// Ways to bring the machine into its motion.
     pub run_up: Vec<RunUp>,
-    /// How all this was computed: version, command, seed, zones, samples, accuracy of the numbers.
-    pub computed: Vec<Fact>,
+    /// How all this was computed.
+    pub computed: Option<Computed>,
+}
+
+/// How a design was computed.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Computed {
+    /// Hysteresis zones.
+    pub zones: u64,
+    /// Machines within the tolerances, if there are tolerances.
+    pub samples: Option<u64>,
+    /// Whether parameters follow others.
+    pub has_links: bool,
 }
 
 /// What an axis, a column or a row shows.
@@ -71,6 +83,14 @@ pub struct Fact {
     pub value: String,
 }
 
+impl Fact {
+    /// With this name and value.
+    pub fn new(name: impl Into<String>, value: impl Into<String>) -> Self {
+        let (name, value) = (name.into(), value.into());
+        Self { name, value }
+    }
+}
+
 /// Machines side by side.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Comparison {
@@ -89,27 +109,6 @@ pub struct Row {
     pub is_chosen: bool,
     /// Its value for each machine; none where a machine does not have it.
     pub values: Vec<Option<f64>>,
-}
-
-/// A requirement and how the design meets it.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct Requirement {
-    /// As in the task file.
-    pub name: String,
-    /// What it is, in words.
-    pub meaning: String,
-    /// Unit of value and margin; empty for bare numbers.
-    pub unit: String,
-    /// What is required: `at least 0.5`.
-    pub required: String,
-    /// What the design has.
-    pub value: f64,
-    /// Distance to the limit, negative beyond it.
-    pub margin: f64,
-    /// Whether it is met.
-    pub met: bool,
-    /// Why there is no value, or how it was counted; may be empty.
-    pub note: String,
 }
 
 /// What the tolerance of a parameter does to the objective.

@@ -16,7 +16,7 @@ use crate::lock::{self, Locked};
 
 /// A file of records, locked by this run.
 #[derive(Debug)]
-pub struct Pieces {
+pub struct RecordLog {
     path: PathBuf,
     file: File,
     /// Where its whole records end.
@@ -27,7 +27,7 @@ pub struct Pieces {
 
 /// Where a piece is in its file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct At {
+pub struct RecordSpan {
     offset: u64,
     key: u32,
     piece: u32,
@@ -38,7 +38,7 @@ const SYNC: Duration = Duration::from_secs(5);
 /// Bytes in front of a record: its checksum, and the lengths of key and piece.
 const HEAD: usize = 12;
 
-impl Pieces {
+impl RecordLog {
     /// A new file, of which this says what it is; none if a run that lives has one there.
     ///
     /// # Errors
@@ -47,11 +47,11 @@ impl Pieces {
         let Some(Locked { file, .. }) = lock::open(path, true)? else {
             return Ok(None);
         };
-        let mut pieces = Self::of(path, file);
-        let empty = pieces.file.set_len(0);
-        let begun = empty.and_then(|()| pieces.append(&[], of));
+        let mut log = Self::of(path, file);
+        let empty = log.file.set_len(0);
+        let begun = empty.and_then(|()| log.append(&[], of));
         begun.inspect_err(|_| drop(fs::remove_file(path)))?;
-        Ok(Some(pieces))
+        Ok(Some(log))
     }
 
     /// The file that is there, not yet read; none if a run that lives has it.
@@ -81,7 +81,10 @@ impl Pieces {
     ///
     /// # Errors
     /// What the system says.
-    pub fn restore(&mut self, mut visit: impl FnMut(&[u8], At)) -> io::Result<Option<Vec<u8>>> {
+    pub fn restore(
+        &mut self,
+        mut visit: impl FnMut(&[u8], RecordSpan),
+    ) -> io::Result<Option<Vec<u8>>> {
         let length = self.file.seek(SeekFrom::End(0))?;
         self.file.seek(SeekFrom::Start(0))?;
         let (mut of, mut end) = (None, 0);
@@ -104,9 +107,9 @@ impl Pieces {
     ///
     /// # Errors
     /// What the system says; the file then ends as before.
-    pub fn append(&mut self, key: &[u8], piece: &[u8]) -> io::Result<At> {
+    pub fn append(&mut self, key: &[u8], piece: &[u8]) -> io::Result<RecordSpan> {
         let record = record(key, piece)?;
-        let at = At {
+        let at = RecordSpan {
             offset: self.end,
             key: key.len() as u32,
             piece: piece.len() as u32,
@@ -127,7 +130,7 @@ impl Pieces {
     ///
     /// # Errors
     /// What the system says; [`io::ErrorKind::InvalidData`] if its checksum is wrong.
-    pub fn read(&mut self, at: At) -> io::Result<Vec<u8>> {
+    pub fn read(&mut self, at: RecordSpan) -> io::Result<Vec<u8>> {
         self.file.seek(SeekFrom::Start(at.offset))?;
         let found = next(&mut self.file, at.offset, at.end())?;
         let whole = found.filter(|(other, _)| *other == at);
@@ -145,7 +148,7 @@ impl Pieces {
     }
 }
 
-impl At {
+impl RecordSpan {
     fn end(self) -> u64 {
         self.offset + HEAD as u64 + u64::from(self.key) + u64::from(self.piece)
     }
@@ -168,7 +171,7 @@ fn next(
     reader: &mut impl Read,
     offset: u64,
     length: u64,
-) -> io::Result<Option<(At, [Vec<u8>; 2])>> {
+) -> io::Result<Option<(RecordSpan, [Vec<u8>; 2])>> {
     if offset + HEAD as u64 > length {
         return Ok(None);
     }
@@ -178,7 +181,7 @@ fn next(
         let bytes = head[at..].first_chunk().copied().unwrap_or_default();
         u32::from_le_bytes(bytes)
     };
-    let at = At {
+    let at = RecordSpan {
         offset,
         key: number(4),
         piece: number(8),

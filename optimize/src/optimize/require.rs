@@ -6,8 +6,8 @@ use softstop_console::failure::Failure;
 use softstop_dynamics::run_up::Way;
 use toml::{Table, Value};
 
-use super::leaves::number;
-use super::wishes::{known, lacks};
+use super::objective::{known, lacks};
+use super::toml_leaves::number;
 use crate::design::figure::{Figure, Sense};
 use crate::design::requirement::Requirement;
 
@@ -19,8 +19,11 @@ struct Bounds {
     most: Option<f64>,
 }
 
-/// `[require]`, in SI units.
-pub(super) fn requirements(machine: &Machine, table: &Table) -> Result<Vec<Requirement>, Failure> {
+/// `[require]`, in SI units, and apart from it the least distance from both ends of the zone as a share of its width.
+pub(super) fn requirements(
+    machine: &Machine,
+    table: &Table,
+) -> Result<(Vec<Requirement>, Option<f64>), Failure> {
     let one = |(name, value): (&String, &Value)| {
         let figure = known("require.", name)?;
         let wrong = |what: &str| Failure::usage(format!("require.{name} = {value}: {what}"));
@@ -59,7 +62,7 @@ pub(super) fn requirements(machine: &Machine, table: &Table) -> Result<Vec<Requi
         })
     };
     let all: Result<Vec<Requirement>, Failure> = table.iter().map(one).collect();
-    let all = all?;
+    let mut all = all?;
     for requirement in &all {
         if let Some(lacks) = lacks(machine, requirement.figure) {
             let name = requirement.figure.name();
@@ -68,7 +71,13 @@ pub(super) fn requirements(machine: &Machine, table: &Table) -> Result<Vec<Requi
             )));
         }
     }
-    Ok(all)
+    let share = all.extract_if(.., |it| it.figure == Figure::Share).next();
+    match share {
+        Some(share) if share.most.is_some() => Err(Failure::usage(
+            "require.margin: can be at least so much, not at most",
+        )),
+        share => Ok((all, share.and_then(|it| it.least))),
+    }
 }
 
 /// Where bounds of a figure can lie.

@@ -3,8 +3,7 @@
 mod parts;
 
 use rayon::join;
-use softstop::{Dimension, Machine, Parameter};
-use softstop_dynamics::Orbit;
+use softstop::{Dimension, Parameter};
 
 use super::outcome::Outcome;
 use super::reference::Reference;
@@ -18,8 +17,9 @@ use crate::limits::at_limits;
 use crate::page::computed::{bands, basin, comparison, portrait, response};
 use crate::page::data::{self, Fact, Report};
 use crate::page::{count, quantity};
+use crate::verdict;
 use parts::{
-    corners, erosion, fronts, histogram, maps, requirement, run_up, sensitivities, speed, told,
+    corners, erosion, format_quantity, fronts, histogram, maps, run_up, sensitivities, speed,
 };
 
 /// All that is told of a design.
@@ -32,18 +32,9 @@ pub(super) fn report(
     let design = &outcome.design;
     let machine = &design.machine;
     let problem = &job.problem;
-    let chosen: Vec<Parameter> = chosen(problem);
-    let others: Vec<(String, &Machine, &Orbit)> = references
-        .iter()
-        .map(|it| (called(it), &it.machine, &it.orbit))
-        .collect();
-    let named: Vec<(String, Machine)> = references
-        .iter()
-        .map(|it| (called(it), it.machine.clone()))
-        .collect();
     let corners = study.map_or_else(Vec::new, |it| corners(machine, it));
     let ((maps, response), (basin, bands)) = join(
-        || join(|| maps(problem, design), || response(design, &named)),
+        || join(|| maps(problem, design), || response(design, references)),
         || join(|| basin(design).ok(), || bands(&corners)),
     );
     Report {
@@ -51,12 +42,12 @@ pub(super) fn report(
         task: task(problem),
         warnings: warnings(problem, outcome, study),
         highlights: highlights(problem, design, study),
-        comparison: Some(comparison(design, &chosen, &others)),
+        comparison: Some(comparison(design, &chosen(problem), references)),
         limit: limit(problem, outcome),
         requirements: outcome
             .met
             .iter()
-            .map(|it| requirement(machine, it))
+            .map(|it| verdict::required(machine, it))
             .collect(),
         maps,
         response: Some(data::Response {
@@ -80,15 +71,11 @@ pub(super) fn report(
             .flat_map(|it| &it.ways)
             .map(|it| run_up(machine, it))
             .collect(),
-        computed: computed(job, outcome, study),
-    }
-}
-
-/// What a reference is called: a point of the paper, or the machine as it was given.
-fn called(reference: &Reference) -> String {
-    match reference.name {
-        "given" => "as given".to_owned(),
-        point => format!("paper's {point}"),
+        computed: Some(data::Computed {
+            zones: outcome.evaluations,
+            samples: study.map(|it| it.verdict.machines as u64),
+            has_links: !problem.links.is_empty(),
+        }),
     }
 }
 
@@ -156,7 +143,7 @@ fn warnings(problem: &Problem, outcome: &Outcome, study: Option<&Study>) -> Vec<
             .collect();
         format!(
             "Another design, far from this one, is nearly as good: {} at {}. A small change of the task may lead there.",
-            told(&rival.machine, figure.dimension(), rival.value),
+            format_quantity(&rival.machine, figure.dimension(), rival.value),
             place.join(", ")
         )
     });
@@ -170,52 +157,35 @@ fn warnings(problem: &Problem, outcome: &Outcome, study: Option<&Study>) -> Vec<
 }
 
 fn highlights(problem: &Problem, design: &Design, study: Option<&Study>) -> Vec<Fact> {
-    let machine = &design.machine;
-    let zone = &design.zone;
+    let (machine, zone) = (&design.machine, &design.zone);
     let frequency = design.orbit.scene.excitation.frequency;
     let figure = problem.objective.figure;
-    let fact = |name: &str, dimension, value| Fact {
-        name: name.to_owned(),
-        value: told(machine, dimension, value),
-    };
-    let below = Dimension::Frequency;
-    let tolerated = study.map(|it| {
-        let velocity = Dimension::Velocity;
-        let machines = count(it.verdict.machines as u64);
-        [
-            fact(
-                "least velocity within the tolerances",
-                velocity,
-                it.slowest(),
-            ),
-            Fact {
-                name: format!("of {machines} machines lose the motion"),
-                value: count(it.verdict.lost as u64),
-            },
-        ]
-    });
-    let nominal = [
+    let fact = |name, dimension, value| Fact::new(name, format_quantity(machine, dimension, value));
+    let frequency_fact = |name, value| fact(name, Dimension::Frequency, value);
+    let mut facts = vec![
         fact(figure.meaning(), figure.dimension(), design.value),
-        fact("drive frequency", below, frequency),
-        fact(
-            "below the fold s_SN by",
-            below,
-            zone.frequency_sn - frequency,
-        ),
-        fact(
+        frequency_fact("drive frequency", frequency),
+        frequency_fact("below the fold s_SN by", zone.frequency_sn - frequency),
+        frequency_fact(
             "above the grazing boundary g0 by",
-            below,
             frequency - zone.frequency_g0,
         ),
     ];
-    nominal
-        .into_iter()
-        .chain(tolerated.into_iter().flatten())
-        .collect()
+    if let Some(study) = study {
+        let least = "least velocity within the tolerances";
+        facts.push(fact(least, Dimension::Velocity, study.slowest()));
+        let machines = count(study.verdict.machines as u64);
+        let lost = count(study.verdict.lost as u64);
+        facts.push(Fact::new(
+            format!("of {machines} machines lose the motion"),
+            lost,
+        ));
+    }
+    facts
 }
 
 fn limit(problem: &Problem, outcome: &Outcome) -> Option<String> {
-    let limits = at_limits(problem, outcome, |value| quantity(value, "")).into_iter();
+    let limits = at_limits(problem, outcome).into_iter();
     let limits: Vec<String> = limits.map(|it| it.words).collect();
     Some(match limits.is_empty() {
         true => format!(
@@ -224,35 +194,4 @@ fn limit(problem: &Problem, outcome: &Outcome) -> Option<String> {
         ),
         false => format!("The design is held back by {}.", limits.join(", and by ")),
     })
-}
-
-fn computed(job: &Job, outcome: &Outcome, study: Option<&Study>) -> Vec<Fact> {
-    let fact = |name: &str, value: String| Fact {
-        name: name.to_owned(),
-        value,
-    };
-    let samples = study.map(|it| {
-        let machines = count(it.verdict.machines as u64);
-        let links = match job.problem.links.is_empty() {
-            true => "",
-            false => "; what follows another value keeps to the design's: links are rules of design and carry no tolerance",
-        };
-        let words = format!("{machines} machines, Owen-scrambled Sobol points{links}");
-        fact("tolerances", words)
-    });
-    let all = [
-        fact("program", format!("softstop {}", env!("CARGO_PKG_VERSION"))),
-        fact(
-            "motions",
-            "exact between crossings; crossings proven; figures to some 1e-10".to_owned(),
-        ),
-        fact(
-            "search",
-            format!(
-                "{} hysteresis zones (survey), sequential quadratic programming from the best",
-                outcome.evaluations
-            ),
-        ),
-    ];
-    all.into_iter().chain(samples).collect()
 }

@@ -5,9 +5,7 @@ use softstop_dynamics::basin::{ErosionProfile, Integrity};
 use softstop_dynamics::run_up::{Attempt, Way};
 
 use crate::design::Design;
-use crate::design::conflict::bound_in;
 use crate::design::figure::Figure;
-use crate::design::judge::Met;
 use crate::design::problem::Problem;
 use crate::design::space::Axis;
 use crate::design::trial::STARTS;
@@ -17,6 +15,7 @@ use crate::page::computed::{label_of, map};
 use crate::page::data::{self, Label};
 use crate::page::quantity;
 use crate::robust::{Scatter, Tolerance, Tolerances};
+use crate::tolerated::half_width;
 
 /// Maps at most.
 const MAPS: usize = 2;
@@ -24,28 +23,13 @@ const MAPS: usize = 2;
 const BARS: usize = 40;
 
 /// A value with its unit.
-pub(super) fn told(machine: &Machine, dimension: Dimension, value: f64) -> String {
+pub(super) fn format_quantity(machine: &Machine, dimension: Dimension, value: f64) -> String {
     let own = machine.to_own(dimension, value);
     quantity(own, machine.unit(dimension))
 }
 
-pub(super) fn requirement(machine: &Machine, met: &Met) -> data::Requirement {
-    let figure = met.requirement.figure;
-    let own = |value: f64| machine.to_own(figure.dimension(), value);
-    data::Requirement {
-        name: figure.name().to_owned(),
-        meaning: figure.meaning().to_owned(),
-        unit: machine.unit(figure.dimension()).to_owned(),
-        required: bound_in(machine, &met.requirement, |value| quantity(value, "")),
-        value: own(met.value),
-        margin: own(met.margin()),
-        met: met.is_met(),
-        note: met.note(machine),
-    }
-}
-
 /// Half-width of the tolerance of a parameter, in the machine's own units.
-fn half_width(problem: &Problem, design: &Design, parameter: Parameter) -> Option<f64> {
+fn half_width_of(problem: &Problem, design: &Design, parameter: Parameter) -> Option<f64> {
     let tolerance = problem
         .tolerances
         .iter()
@@ -57,7 +41,7 @@ pub(super) fn maps(problem: &Problem, design: &Design) -> Vec<data::Map> {
     let axes = problem.axes.iter().filter(|axis| !axis.range.is_held());
     let one = |axis: &Axis| {
         let [across, upwards] =
-            [Parameter::Frequency, axis.parameter].map(|it| half_width(problem, design, it));
+            [Parameter::Frequency, axis.parameter].map(|it| half_width_of(problem, design, it));
         let tolerance = (across.is_some() || upwards.is_some())
             .then(|| [across.unwrap_or(0.0), upwards.unwrap_or(0.0)]);
         data::Map {
@@ -70,7 +54,7 @@ pub(super) fn maps(problem: &Problem, design: &Design) -> Vec<data::Map> {
 
 /// The frequencies within the tolerance of the drive's speed.
 pub(super) fn speed(problem: &Problem, design: &Design) -> Option<[f64; 2]> {
-    let width = half_width(problem, design, Parameter::Frequency)?;
+    let width = half_width_of(problem, design, Parameter::Frequency)?;
     let own = design.frequency();
     Some([own - width, own + width])
 }
@@ -167,7 +151,10 @@ pub(super) fn run_up(machine: &Machine, attempt: &Attempt) -> data::RunUp {
         (way, _, Some(lost)) => match way.changes() {
             Some(parameter) => {
                 let dimension = parameter.about().dimension;
-                format!("z = 1 is lost at {}", told(machine, dimension, lost))
+                format!(
+                    "z = 1 is lost at {}",
+                    format_quantity(machine, dimension, lost)
+                )
             }
             None => String::new(),
         },
@@ -215,7 +202,7 @@ fn begun(machine: &Machine, attempt: &Attempt) -> String {
     changes.map_or_else(String::new, |(parameter, from)| {
         format!(
             "begun at {}",
-            told(machine, parameter.about().dimension, from)
+            format_quantity(machine, parameter.about().dimension, from)
         )
     })
 }
@@ -223,17 +210,12 @@ fn begun(machine: &Machine, attempt: &Attempt) -> String {
 /// What each tolerance does to the velocity.
 pub(super) fn sensitivities(machine: &Machine, study: &Study) -> Vec<data::Sensitivity> {
     let one = |(index, it): (usize, &Tolerance)| {
-        let about = it.parameter.about();
-        let own = |value: f64| match it.parameter {
-            Parameter::Preload if machine.preload_deflection.is_some() => value,
-            _ => machine.to_own(about.dimension, value),
-        };
         let scatter: Option<&Scatter> = study.scatter.as_ref();
         let shares = scatter.map(|all| all.velocity[index]);
         data::Sensitivity {
             label: label_of(machine, it.parameter),
             value: machine.value(it.parameter).unwrap_or(f64::NAN),
-            tolerance: own(it.half_width),
+            tolerance: half_width(machine, it),
             effect: machine.to_own(Dimension::Velocity, study.sensitivities.velocity[index]),
             effect_unit: machine.unit(Dimension::Velocity).to_owned(),
             share: shares.map(|it| it.first.value),

@@ -1,19 +1,20 @@
-//! The task of `softstop optimize` as a TOML file: the names of the command line.
+//! The task of `softstop optimize` as a TOML file.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use serde_json::json;
 use softstop::Machine;
+use softstop_console::arguments::Change;
 use softstop_console::failure::Failure;
-use softstop_console::machine::{Regime, SceneSettings};
+use softstop_console::machine::Regime;
+use softstop_console::older::PaperRatios;
 use softstop_console::output::Format;
-use softstop_console::schema;
-use toml::{Table, Value};
+use softstop_console::{scene_file, schema};
+use toml::Table;
 
-use super::leaves::{flatten, number, range};
-use super::named::Named;
-use super::wishes::Goal;
+use super::objective::Goal;
+use super::older::rewrite;
 use crate::design::figure::Figure;
 use crate::design::search::LEAST_EVALUATIONS;
 
@@ -23,17 +24,24 @@ macro_rules! task {
         /// The file.
         #[derive(Debug, Clone, Default, Deserialize)]
         #[serde(deny_unknown_fields, default)]
-        pub struct Task {
+        pub struct TaskSpec {
             $($(#[doc = $what])* pub $key: $type,)*
+            /// Whether the usual parameters are searched beside those of [`TaskSpec::vary`]: older words have them.
+            #[serde(skip)]
+            pub with_usual: bool,
         }
 
-        impl Task {
+        impl TaskSpec {
             /// The JSON Schema of such files (draft 2020-12).
             pub fn schema() -> serde_json::Value {
                 let mut keys = serde_json::Map::new();
                 $({
+                    let what = concat!($($what),*).trim();
                     let mut schema: serde_json::Value = $schema;
-                    schema["description"] = concat!($($what),*).trim().into();
+                    schema["description"] = what.into();
+                    if what.starts_with(OLDER) {
+                        schema["deprecated"] = true.into();
+                    }
                     keys.insert(stringify!($key).to_owned(), schema);
                 })*
                 json!({
@@ -50,21 +58,16 @@ macro_rules! task {
     };
 }
 
+/// How the description of an older word begins.
+const OLDER: &str = "Older form of";
+
 task! {
     /// Machine file, seen from the task's folder, or `unloaded` (A) or `loaded` (B).
     machine: Option<PathBuf>, json!({ "type": "string" });
-    /// Without or with a strip: the paper's machine.
-    regime: Option<Regime>, schema::words::<Regime>();
-    /// Distance M from both ends of the zone as a share of its width, 0 to 0.5.
-    margin: Option<f64>, json!({ "type": "number", "minimum": 0, "maximum": 0.5 });
-    /// Values held, by the keys of the machine's file.
-    fix: Table, schema::keyed(json!({ "type": "number" }));
-    /// Ranges searched: `clearance = [2, 22]`.
-    bounds: Table, schema::keyed(json!({
-        "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2
-    }));
+    /// Changes of the machine: `stop.stiffness=8e6`.
+    set: Vec<Change>, json!({ "type": "array", "items": { "type": "string" } });
     /// What is searched instead of the usual parameters: `clearance = [2, 22]`, `{ values = [5, 7, 9] }` of a
-    /// catalogue, `{ follows = "stop.stiffness", factor = 10 }`.
+    /// catalogue, `{ follows = "stop.stiffness", factor = 10 }`; a number is held.
     vary: Table, json!({ "type": "object" });
     /// Half-widths of what cannot be made exactly: `clearance = 0.1` or `"2 %"`.
     tolerance: Table, json!({ "type": "object" });
@@ -82,20 +85,34 @@ task! {
         "type": "object",
         "properties": {
             "seed": { "type": "integer", "minimum": 0, "deprecated": true },
-            "evaluations": { "type": "integer", "minimum": LEAST_EVALUATIONS }
+            "evaluations": evaluations()
         },
         "additionalProperties": false
     });
-    /// The rest of the paper's machine.
-    scene: SceneSettings, schema::shorthands();
-    /// Ignored: the search is deterministic.
-    seed: Option<u64>, json!({ "type": "integer", "minimum": 0 });
-    /// Zones that the search may compute.
-    evaluations: Option<u64>, json!({ "type": "integer", "minimum": LEAST_EVALUATIONS });
     /// Output folder.
     output: Option<PathBuf>, json!({ "type": "string" });
     /// How to print the result.
     format: Option<Format>, schema::words::<Format>();
+    /// Older form of `machine`.
+    regime: Option<Regime>, schema::words::<Regime>();
+    /// Older form of `set`, for the paper's machines.
+    scene: PaperRatios, schema::shorthands();
+    /// Older form of `require.margin`.
+    margin: Option<f64>, json!({ "type": "number", "minimum": 0, "maximum": 0.5 });
+    /// Older form of a number in `[vary]`, beside the usual parameters.
+    fix: Table, schema::keyed(json!({ "type": "number" }));
+    /// Older form of a range in `[vary]`, beside the usual parameters.
+    bounds: Table, schema::keyed(json!({
+        "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2
+    }));
+    /// Older form of `search.seed`.
+    seed: Option<u64>, json!({ "type": "integer", "minimum": 0 });
+    /// Older form of `search.evaluations`.
+    evaluations: Option<u64>, evaluations();
+}
+
+fn evaluations() -> serde_json::Value {
+    json!({ "type": "integer", "minimum": LEAST_EVALUATIONS })
 }
 
 /// The table `[search]`.
@@ -130,67 +147,48 @@ fn requirements_schema() -> serde_json::Value {
     json!({ "type": "object", "properties": figures, "additionalProperties": false })
 }
 
-impl Task {
-    /// The task that stands in a machine's file.
+impl TaskSpec {
+    /// The task of a file.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] naming the file, and line and key of what is wrong in it.
+    pub(super) fn read(path: &Path) -> Result<Self, Failure> {
+        let mut task: Self = scene_file::read_toml(path)?;
+        rewrite(&mut task).map_err(|error| error.in_file(path))?;
+        Ok(task)
+    }
+
+    /// The task that stands in a machine's file; none if it says nothing of one.
     ///
     /// # Errors
     /// [`Failure::Usage`] naming the key.
-    pub(super) fn beside_machine(text: &str) -> Result<Self, Failure> {
-        let mut file: Table =
-            toml::from_str(text).map_err(|error| Failure::usage(error.to_string()))?;
-        file.retain(|key, _| Machine::TASK.contains(&key));
-        file.try_into()
-            .map_err(|error: toml::de::Error| Failure::usage(error.to_string()))
+    pub(super) fn beside_machine(text: &str) -> Result<Option<Self>, Failure> {
+        let usage = |error: toml::de::Error| Failure::usage(error.to_string());
+        let mut file: Table = toml::from_str(text).map_err(usage)?;
+        file.retain(|key, value| {
+            Machine::TASK.contains(&key) && value.as_table().is_none_or(|table| !table.is_empty())
+        });
+        let is_any = !file.is_empty();
+        let task = file.try_into().map_err(usage)?;
+        Ok(Some(task).filter(|_| is_any))
     }
-
-    /// True if a machine's file says anything of a task.
-    pub(super) fn is_any(&self) -> bool {
-        let tables = [&self.vary, &self.tolerance, &self.require];
-        tables.iter().any(|table| !table.is_empty())
-            || self.objective != Goal::default()
-            || self.search != Search::default()
-    }
-
-    /// What it says of the searched values, each as a range.
-    pub(super) fn words(&self) -> Result<Vec<Named<[f64; 2]>>, Failure> {
-        let mut words = Vec::new();
-        for (table, read) in [
-            (&self.fix, value as fn(&Value) -> Option<[f64; 2]>),
-            (&self.bounds, range),
-        ] {
-            flatten(table, "", &|_| false, &mut |name, value| {
-                let value = read(value).ok_or_else(|| {
-                    Failure::usage(format!(
-                        "{name} = {value}: fix holds a number, bounds a range [low, high]"
-                    ))
-                })?;
-                words.push(Named { name, value });
-                Ok(())
-            })?;
-        }
-        Ok(words)
-    }
-}
-
-fn value(value: &Value) -> Option<[f64; 2]> {
-    number(value).map(|number| [number, number])
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Task;
+    use super::TaskSpec;
 
     /// A task with every key; a key that the schema lacks is unknown to the reader, and the other way about.
     #[test]
     fn schema_and_reader_have_the_same_keys() -> Result<(), Box<dyn std::error::Error>> {
-        let file = "machine = \"press.toml\"\nregime = \"loaded\"\nmargin = 0.2\nseed = 1\n\
+        let file = "machine = \"press.toml\"\nset = [\"clearance=3\"]\nregime = \"loaded\"\nmargin = 0.2\nseed = 1\n\
                     evaluations = 200\noutput = \"there\"\nformat = \"json\"\n[fix]\nstop.stiffness = 7\n\
                     [bounds]\nclearance = [2, 22]\n[scene]\ndamping = 0.02\n[vary]\nclearance = 3\n\
                     [tolerance]\nclearance = 0.1\n[objective]\nmaximise = \"velocity\"\n[require]\n\
                     velocity = 3\n[search]\nseed = 1\n";
-        toml::from_str::<Task>(file)?;
+        toml::from_str::<TaskSpec>(file)?;
         let written: toml::Table = toml::from_str(file)?;
-        let schema = Task::schema();
+        let schema = TaskSpec::schema();
         let keys = schema["properties"].as_object().ok_or("no keys")?;
         let mut all: Vec<&str> = written.keys().map(String::as_str).collect();
         all.sort_unstable();
@@ -204,7 +202,7 @@ mod tests {
             } else {
                 "1.5"
             };
-            toml::from_str::<Task>(&format!("[scene]\n{key} = {value}\n"))?;
+            toml::from_str::<TaskSpec>(&format!("[scene]\n{key} = {value}\n"))?;
         }
         assert_eq!(scene.len(), 12);
         Ok(())

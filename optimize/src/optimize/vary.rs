@@ -1,0 +1,295 @@
+//! What is searched: `[vary]` of a file and `--vary` of the command line.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::Deserialize;
+use softstop::{Dimension, Machine, Parameter};
+use softstop_console::failure::Failure;
+use toml::{Table, Value};
+
+use super::toml_leaves::{leaves, number};
+use crate::design::problem::Link;
+use crate::design::space::{Axis, Interval};
+
+/// What is searched if nothing else is said, in units of k1 and of F0/k1.
+const USUAL: [(Parameter, [f64; 2]); 2] = [
+    (Parameter::StopStiffness, [1.0, 30.0]),
+    (Parameter::Clearance, [2.0, 22.0]),
+];
+/// No bound: the zone itself and the margin limit the frequency.
+const ANY: Interval = Interval {
+    low: f64::MIN_POSITIVE,
+    high: f64::INFINITY,
+};
+
+/// What is said of one parameter, by a key of the machine's file or a letter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variable {
+    pub(super) key: String,
+    pub(super) values: Values,
+}
+
+/// The values that a parameter may take, in units of its key.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    /// It is searched from one value to another; equal ones hold it.
+    Range([f64; 2]),
+    /// It is one of these, in rising order.
+    Catalogue(Vec<f64>),
+    /// It follows another parameter.
+    Follows(Follow),
+}
+
+/// `{ follows = "stop.stiffness", factor = 2e-5 }`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Follow {
+    follows: String,
+    factor: f64,
+    #[serde(default)]
+    offset: f64,
+}
+
+/// `NAME=VALUE` or `NAME=LOW:HIGH`.
+impl FromStr for Variable {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (key, values) = text
+            .split_once('=')
+            .ok_or("expected name=value or name=low:high")?;
+        let number = |text: &str| {
+            let number = text.trim().parse::<f64>();
+            number.map_err(|_| format!("{text}: not a number"))
+        };
+        let (low, high) = values.split_once(':').unwrap_or((values, values));
+        Ok(Self {
+            key: key.trim().to_owned(),
+            values: Values::Range([number(low)?, number(high)?]),
+        })
+    }
+}
+
+impl fmt::Display for Variable {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.values {
+            Values::Range([low, high]) if low == high => write!(formatter, "{}={low}", self.key),
+            Values::Range([low, high]) => write!(formatter, "{}={low}:{high}", self.key),
+            _ => formatter.write_str(&self.key),
+        }
+    }
+}
+
+impl Values {
+    fn read(value: &Value) -> Option<Self> {
+        let numbers = |value: &Value| {
+            value
+                .as_array()?
+                .iter()
+                .map(number)
+                .collect::<Option<Vec<_>>>()
+        };
+        match value {
+            Value::Table(words) if words.contains_key("values") && words.len() == 1 => {
+                let mut values = numbers(&words["values"])?;
+                values.sort_by(f64::total_cmp);
+                values.dedup();
+                Some(Self::Catalogue(values)).filter(|it| *it != Self::Catalogue(Vec::new()))
+            }
+            Value::Table(words) => words.clone().try_into().ok().map(Self::Follows),
+            Value::Array(_) => Some(Self::Range(numbers(value)?.try_into().ok()?)),
+            value => number(value).map(|held| Self::Range([held, held])),
+        }
+    }
+}
+
+/// What `[vary]` holds: ranges first, then catalogues, in the file's order of keys.
+pub(super) fn variables(table: &Table) -> Result<Vec<Variable>, Failure> {
+    let one = |(key, value): (String, &Value)| match Values::read(value) {
+        Some(values) => Ok(Variable { key, values }),
+        None => Err(Failure::usage(format!(
+            "vary.{key} = {value}: must be a range [low, high], a number to hold, {{ values = [a, b, c] }} of \
+             a catalogue, or {{ follows = KEY, factor = NUMBER }}; numbers alone, in the machine's own units"
+        ))),
+    };
+    let all: Result<Vec<Variable>, Failure> = leaves(table).into_iter().map(one).collect();
+    let mut all = all?;
+    all.sort_by_key(|it| !matches!(it.values, Values::Range(_)));
+    Ok(all)
+}
+
+/// The machine's own values of these keys, held: those that the search would choose.
+pub(super) fn held(machine: &Machine, keys: &[impl AsRef<str>]) -> Vec<Variable> {
+    let one = |key: &str| {
+        let parameter = machine.parameter(key).ok()?;
+        let usual = USUAL.iter().any(|(usual, _)| *usual == parameter);
+        let is_searched = usual || parameter == Parameter::Frequency;
+        let value = machine.value(parameter).filter(|_| is_searched)?;
+        Some(Variable {
+            key: machine.name(parameter).to_owned(),
+            values: Values::Range([value, value]),
+        })
+    };
+    keys.iter().filter_map(|key| one(key.as_ref())).collect()
+}
+
+/// What is searched, and what follows it, in the machine's own units.
+#[derive(Debug)]
+pub(super) struct Searched {
+    /// All but the drive's frequency.
+    pub axes: Vec<Axis>,
+    /// The drive's frequency.
+    pub frequency: Interval,
+    /// What follows.
+    pub links: Vec<Link>,
+}
+
+/// What layers say of a machine. The first one that speaks of a parameter decides; it may do so only once. The usual
+/// parameters are searched as well, if that is asked for and nothing else is said of them.
+pub(super) fn searched(
+    machine: &Machine,
+    layers: &[Vec<Variable>],
+    with_usual: bool,
+) -> Result<Searched, Failure> {
+    let (mut said, mut links) = (Vec::<Axis>::new(), Vec::<Link>::new());
+    for layer in layers {
+        let above = said.len();
+        for variable in layer {
+            let Some(axis) = axis(machine, variable)? else {
+                links.extend(link(machine, variable)?);
+                continue;
+            };
+            let is_same = |it: &Axis| it.parameter == axis.parameter;
+            if said[above..].iter().any(is_same) {
+                let name = machine.name(axis.parameter);
+                return Err(wrong(
+                    name,
+                    "only one value to hold or one range can be given",
+                ));
+            }
+            said.push(axis);
+        }
+    }
+    let usual = USUAL.into_iter().filter(|_| with_usual);
+    let mut axes: Vec<Axis> = usual
+        .filter_map(|(it, range)| usual_axis(machine, it, range))
+        .collect();
+    let mut frequency = ANY;
+    for (index, axis) in said.iter().enumerate() {
+        let is_same = |it: &Axis| it.parameter == axis.parameter;
+        if said[..index].iter().any(is_same) {
+            continue;
+        }
+        match axes.iter_mut().find(|it| is_same(it)) {
+            _ if axis.parameter == Parameter::Frequency => frequency = axis.range,
+            Some(known) => known.clone_from(axis),
+            None => axes.push(axis.clone()),
+        }
+    }
+    check_links(machine, &links, &axes)?;
+    Ok(Searched {
+        axes,
+        frequency,
+        links,
+    })
+}
+
+fn wrong(key: &str, what: &str) -> Failure {
+    Failure::usage(format!("vary.{key}: {what}"))
+}
+
+/// The parameter of a key and the key's unit in the machine's own.
+fn stated(machine: &Machine, key: &str) -> Result<(Parameter, f64), Failure> {
+    let stated = machine.stated(key);
+    stated.map_err(|error| Failure::usage(format!("vary.{error}")))
+}
+
+/// The axis of a variable; none if it follows another one.
+fn axis(machine: &Machine, variable: &Variable) -> Result<Option<Axis>, Failure> {
+    let (parameter, unit) = stated(machine, &variable.key)?;
+    let axis = match &variable.values {
+        Values::Follows(_) => return Ok(None),
+        Values::Range(ends) => {
+            let [low, high] = ends.map(|end| end * unit);
+            Axis::new(parameter, Interval { low, high })
+        }
+        Values::Catalogue(_) if parameter == Parameter::Frequency => {
+            return Err(wrong(
+                &variable.key,
+                "can be a range or a value to hold, not a catalogue",
+            ));
+        }
+        Values::Catalogue(values) => {
+            Axis::of_catalogue(parameter, values.iter().map(|value| value * unit).collect())
+        }
+    };
+    let Interval { low, high } = axis.range;
+    let name = machine.name(parameter);
+    for value in [low, high] {
+        let checked = parameter.about().allowed.check(name, value);
+        checked.map_err(|error| Failure::usage(format!("vary.{error}")))?;
+    }
+    match low > high {
+        true => Err(Failure::usage(format!(
+            "vary.{name} = {low}:{high}: low must be <= high"
+        ))),
+        false => Ok(Some(axis)),
+    }
+}
+
+/// A usual axis in the machine's own units; none if it has no such parameter.
+fn usual_axis(machine: &Machine, parameter: Parameter, ends: [f64; 2]) -> Option<Axis> {
+    machine.value(parameter)?;
+    let scene = &machine.scene;
+    let unit = match parameter.about().dimension {
+        Dimension::Stiffness => scene.stiffness,
+        _ => scene.excitation.amplitude / scene.stiffness,
+    };
+    let [low, high] = ends.map(|end| end * unit);
+    Some(Axis::new(parameter, Interval { low, high }))
+}
+
+/// The link of one parameter to another, in the machine's own units; none if it follows none.
+fn link(machine: &Machine, Variable { key, values }: &Variable) -> Result<Option<Link>, Failure> {
+    let Values::Follows(follow) = values else {
+        return Ok(None);
+    };
+    let (parameter, unit) = stated(machine, key)?;
+    let (follows, other) = stated(machine, &follow.follows)?;
+    if [parameter, follows].contains(&Parameter::Frequency) {
+        let what = "the drive's frequency follows nothing, and nothing follows it: it is found along the zone";
+        return Err(wrong(key, what));
+    }
+    if !(follow.factor.is_finite() && follow.offset.is_finite()) || parameter == follows {
+        return Err(wrong(
+            key,
+            "must follow another parameter by a finite factor and offset",
+        ));
+    }
+    Ok(Some(Link {
+        parameter,
+        follows,
+        factor: follow.factor * unit / other,
+        offset: follow.offset * unit,
+    }))
+}
+
+fn check_links(machine: &Machine, links: &[Link], axes: &[Axis]) -> Result<(), Failure> {
+    for (index, it) in links.iter().enumerate() {
+        let is_same = |one: &Link| one.parameter == it.parameter;
+        let name = machine.name(it.parameter);
+        if links[..index].iter().any(is_same) || links.iter().any(|one| one.parameter == it.follows)
+        {
+            return Err(wrong(
+                name,
+                "must follow one parameter that follows no other",
+            ));
+        }
+        if axes.iter().any(|axis| axis.parameter == it.parameter) {
+            let what = "follows another parameter, and is searched or held as well; only one of the two can be given";
+            return Err(wrong(name, what));
+        }
+    }
+    Ok(())
+}
