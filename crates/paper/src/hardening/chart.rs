@@ -65,15 +65,22 @@ impl Picture<'_> {
         let place = |(low, high): (f64, f64), index: usize, count: usize| {
             low + (high - low) * (index as f64 + 0.5) / count as f64
         };
-        let mut differs = Vec::new();
+        let mut differs = [Vec::new(), Vec::new()];
         for (row, swept) in self.map.iter().enumerate() {
             let cells = swept.up.iter().zip(&swept.down).enumerate();
             let others = cells.filter(|(_, (up, down))| kind(up) != kind(down));
             let stiffness = 10f64.powf(place(DECADES, row, rows));
-            differs.extend(others.map(|(column, _)| (place(RANGE, column, columns), stiffness)));
+            for (column, (up, _)) in others {
+                let is_dark = matches!(kind(up), MotionClass::Chaos | MotionClass::Unsettled);
+                differs[usize::from(is_dark)].push((place(RANGE, column, columns), stiffness));
+            }
         }
-        let differs = Layer::dots(differs, 0.9, style::OPTIMUM).named("falling η differs");
-        let mut layers = vec![Layer::cells(columns, colors), differs];
+        let [on_light, on_dark] = differs;
+        let mut layers = vec![
+            Layer::cells(columns, colors),
+            Layer::dots(on_light, 0.9, style::INK).named("falling η differs"),
+            Layer::dots(on_dark, 0.9, "#ffffff"),
+        ];
         layers.extend(grazes());
         let upper = Layer::text((grazing(CLEARANCE).1, 0.1), Align::Left, "g₀");
         layers.push(upper.moved(6.0, -6.0).plated());
