@@ -160,10 +160,7 @@ fn of_catalogues_the_best_of_all_combinations_is_found() -> Outcome {
             ],
         )
     };
-    let few = Settings {
-        evaluations: 100,
-        ..SETTINGS
-    };
+    let few = Settings { evaluations: 100 };
     let found = search(&problem(&stiffness, &clearance), few, &Unwatched, None)?;
     let all = stiffness
         .into_par_iter()
