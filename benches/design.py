@@ -2,7 +2,7 @@
 """The optimiser beside what a user does today: FMPy and scipy's differential evolution on the FMU of the same machine.
 
 Each task (benches/design/*.toml) is one file for both. For each seed, `benches/design/user.py` searches by
-simulations and `softstop optimize` by zones; then `softstop orbit` and `softstop zone` of each design say whether
+simulations and `softstop optimize`, which needs no seed, by zones; then `softstop orbit` and `softstop zone` of each design say whether
 it is what was claimed: a stable z = 1 motion as fast as that (to 1e-4), with the margins that the task requires
 (to 1e-6 of them). Seconds are processor time of the whole command, user and system, start of Python included. The
 optimiser uses all cores, the user's script one. Some two minutes of processor time.
@@ -68,10 +68,10 @@ def by_user(task, unit, seed, tol):
     return {**said, "way": USER, "seconds": seconds}
 
 
-def by_softstop(program, task, seed, folder, varied):
+def by_softstop(program, task, folder, varied):
     """A design of the optimiser."""
     said, seconds = timed(
-        [program, "optimize", task, "--no-report", "--format", "json", "--seed", str(seed), "--output", folder]
+        [program, "optimize", task, "--no-report", "--format", "json", "--output", folder]
     )
     design = said["design"]
     return {
@@ -121,7 +121,7 @@ def searches(given, name, folder):
     for seed in range(given.seeds):
         print(f"{name}, seed {seed}", file=sys.stderr)
         user = by_user(path, unit, seed, given.tol)
-        for found in (user, by_softstop(given.program, path, seed, f"{folder}/{name}-{seed}", user["design"])):
+        for found in (user, by_softstop(given.program, path, f"{folder}/{name}-{seed}", user["design"])):
             yield {"task": name, "seed": seed, **verified(given.program, path, task["require"], found)}
 
 
