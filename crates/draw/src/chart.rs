@@ -1,6 +1,7 @@
 //! A chart as data: panels in a grid, and the axes of each.
 
-use crate::layer::Layer;
+use crate::layer::{Layer, Shape};
+use crate::scale::around;
 
 /// A picture of one or more panels. Margins follow from the texts at the axes; sizes are pixels.
 #[derive(Debug, Clone)]
@@ -141,6 +142,19 @@ impl Default for Panel {
             layers: Vec::new(),
             legend: None,
         }
+    }
+}
+
+impl Panel {
+    /// The bar of shades that stands beside it, if there is one: its range and its name.
+    pub(crate) fn bar(&self) -> Option<((f64, f64), &str)> {
+        self.layers.iter().find_map(|layer| match &layer.shape {
+            Shape::Shades(_, values, name) => {
+                let range = around(values.iter().copied(), 0.0);
+                Some((range, name.as_str()))
+            }
+            _ => None,
+        })
     }
 }
 

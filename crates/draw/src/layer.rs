@@ -1,6 +1,5 @@
 //! What is drawn between the axes of a panel.
 
-use crate::chart::Panel;
 use crate::pen::Align;
 use crate::shapes::{Mark, Sign};
 use crate::stroke::{Point, Stroke};
@@ -268,18 +267,5 @@ impl Layer {
             Shape::Upwards(place, ..) => vec![(*place, f64::NAN)],
             _ => Vec::new(),
         }
-    }
-}
-
-impl Panel {
-    /// The bar of shades that stands beside it, if there is one: its range and its name.
-    pub(crate) fn bar(&self) -> Option<((f64, f64), &str)> {
-        self.layers.iter().find_map(|layer| match &layer.shape {
-            Shape::Shades(_, values, name) => {
-                let range = crate::scale::around(values.iter().copied(), 0.0);
-                Some((range, name.as_str()))
-            }
-            _ => None,
-        })
     }
 }
