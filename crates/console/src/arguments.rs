@@ -1,13 +1,11 @@
 //! The machine on the command line: a file or the paper's, and changes of it.
 
-use std::fmt;
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::Args;
-use serde::Deserialize;
 use softstop::{Language, Machine, Parameter};
 
+use crate::change::Change;
 use crate::failure::Failure;
 use crate::machine::Regime;
 use crate::older::OlderFlags;
@@ -26,56 +24,6 @@ pub struct MachineArguments {
     /// Older flags.
     #[command(flatten)]
     pub older: OlderFlags,
-}
-
-/// `KEY=VALUE`.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-#[serde(try_from = "String")]
-pub struct Change {
-    key: String,
-    value: String,
-}
-
-impl Change {
-    pub(crate) fn new(key: &str, value: &str) -> Self {
-        let (key, value) = (key.to_owned(), value.to_owned());
-        Self { key, value }
-    }
-
-    /// The key of the machine's file.
-    pub fn key(&self) -> &str {
-        &self.key
-    }
-
-    /// Its new value as the user writes it.
-    pub fn value(&self) -> &str {
-        &self.value
-    }
-}
-
-impl fmt::Display for Change {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}={}", self.key, self.value)
-    }
-}
-
-impl FromStr for Change {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        match text.split_once('=') {
-            Some((key, value)) if !key.trim().is_empty() => Ok(Self::new(key.trim(), value)),
-            _ => Err("must be KEY=VALUE, as in stop.stiffness=8e6".to_owned()),
-        }
-    }
-}
-
-impl TryFrom<String> for Change {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, String> {
-        text.parse().map_err(|error| format!("{text:?}: {error}"))
-    }
 }
 
 impl MachineArguments {
@@ -105,16 +53,17 @@ impl MachineArguments {
             None => read(&named)?,
         };
         for (word, changes) in [("set", below), ("set", &said.below), ("--set", &said.set)] {
-            let of_strip = changes.iter().find(|it| it.key.starts_with("piercing."));
+            let of_strip = changes.iter().find(|it| it.key().starts_with("piercing."));
             if let (Some(Regime::Unloaded), Some(change)) = (regime, of_strip) {
                 return Err(Failure::usage(format!(
                     "{} = {}: the unloaded machine has no strip; the machine called loaded has one",
-                    change.key, change.value
+                    change.key(),
+                    change.value()
                 )));
             }
             let changes = changes.iter();
             machine
-                .apply(changes.map(|change| (change.key.as_str(), change.value.as_str())))
+                .apply(changes.map(|change| (change.key(), change.value())))
                 .map_err(|error| Failure::usage(format!("{word} {error}")))?;
         }
         Ok(machine)
@@ -180,7 +129,7 @@ impl MachineArguments {
         let older = self.older.changes().into_iter();
         older
             .chain(self.set.iter().cloned())
-            .map(|change| change.key)
+            .map(|change| change.key().to_owned())
             .collect()
     }
 }

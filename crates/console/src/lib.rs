@@ -6,6 +6,7 @@
 pub mod arguments;
 pub mod budget;
 pub mod cell;
+pub mod change;
 pub mod column;
 pub mod export;
 pub mod failure;

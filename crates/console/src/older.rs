@@ -7,7 +7,7 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use softstop::{Machine, Parameter};
 
-use crate::arguments::Change;
+use crate::change::Change;
 use crate::failure::Failure;
 use crate::machine::Regime;
 use crate::scene_file::read_toml;

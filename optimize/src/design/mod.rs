@@ -3,7 +3,7 @@
 //! Parameters of the machine (its stop's stiffness and clearance, if nothing else is said) are searched in
 //! a box; the frequency is written as g0 + s (w_SN - g0) with s in [M, 1 - M], so that every point that has
 //! a zone is feasible. The zone does not depend on s: at each point it is computed once and the best s is
-//! then found along it ([`line_search`]). [`search`] drives the outer search.
+//! then found along it (`line_search`). [`search`] drives the outer search.
 
 mod ascent;
 mod box_window;

@@ -1,9 +1,9 @@
 //! The search for the best design: a survey of zones all over the box, ascents with exact derivatives from its best distant
 //! points, the box of tolerances, the values beside those of catalogues, and the trials.
 //!
-//! The survey finds hills: the best design can stand on a narrow ridge. Each ascent ([`ascend`]) leads to the top of one. The
-//! best of these give way until they keep the motion within the whole box of tolerances ([`enforce_tolerance_box`]); the best
-//! of those is compared with what else catalogues hold ([`improve_catalogue`]) and passes its trials ([`check_trials`]).
+//! The survey finds hills: the best design can stand on a narrow ridge. Each ascent (`ascend`) leads to the top of one. The
+//! best of these give way until they keep the motion within the whole box of tolerances (`enforce_tolerance_box`); the best
+//! of those is compared with what else catalogues hold (`improve_catalogue`) and passes its trials (`check_trials`).
 //!
 //! The survey sees the unit cube, whose boundary is part of its lattice: many optima stand there. `&Problem` is the cost
 //! function of every solver of `argmin` that needs no derivatives.

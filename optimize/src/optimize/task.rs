@@ -1,12 +1,12 @@
 //! The task as command line and TOML file state it together, checked.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use softstop::{Machine, Parameter};
-use softstop_console::arguments::Change;
 use softstop_console::budget::Budget;
+use softstop_console::change::Change;
 use softstop_console::failure::Failure;
 use softstop_console::machine::Regime;
 use softstop_console::output::Format;
@@ -185,7 +185,7 @@ fn task(arguments: &OptimizeArguments) -> Result<TaskSpec, Failure> {
             "--config {}: the machine's file has a task of its own; only one of the two can be given",
             path.display()
         ))),
-        (Some(path), None) => TaskSpec::read(path),
+        (Some(path), None) => read(path),
         (None, beside) => Ok(beside.unwrap_or_default()),
     }
 }
@@ -202,4 +202,14 @@ fn machine(arguments: &OptimizeArguments, task: &TaskSpec) -> Result<Machine, Fa
             _ => machine.clone(),
         });
     arguments.machine.machine_over(place, &task.set)
+}
+
+/// The task of a file, older words rewritten.
+///
+/// # Errors
+/// [`Failure::Usage`] naming the file, and line and key of what is wrong in it.
+fn read(path: &Path) -> Result<TaskSpec, Failure> {
+    let mut task: TaskSpec = scene_file::read_toml(path)?;
+    older::rewrite(&mut task).map_err(|error| error.in_file(path))?;
+    Ok(task)
 }

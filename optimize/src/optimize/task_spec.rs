@@ -1,20 +1,19 @@
 //! The task of `softstop optimize` as a TOML file.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::Deserialize;
 use serde_json::json;
 use softstop::Machine;
-use softstop_console::arguments::Change;
+use softstop_console::change::Change;
 use softstop_console::failure::Failure;
 use softstop_console::machine::Regime;
 use softstop_console::older::PaperRatios;
 use softstop_console::output::Format;
-use softstop_console::{scene_file, schema};
+use softstop_console::schema;
 use toml::Table;
 
 use super::objective::Goal;
-use super::older::rewrite;
 use crate::design::figure::Figure;
 use crate::design::search::LEAST_EVALUATIONS;
 
@@ -148,16 +147,6 @@ fn requirements_schema() -> serde_json::Value {
 }
 
 impl TaskSpec {
-    /// The task of a file.
-    ///
-    /// # Errors
-    /// [`Failure::Usage`] naming the file, and line and key of what is wrong in it.
-    pub(super) fn read(path: &Path) -> Result<Self, Failure> {
-        let mut task: Self = scene_file::read_toml(path)?;
-        rewrite(&mut task).map_err(|error| error.in_file(path))?;
-        Ok(task)
-    }
-
     /// The task that stands in a machine's file; none if it says nothing of one.
     ///
     /// # Errors

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use softstop::Machine;
-use softstop_console::arguments::{Change, MachineArguments};
+use softstop_console::arguments::MachineArguments;
 use softstop_console::budget::Budget;
+use softstop_console::change::Change;
 use softstop_console::failure::Failure;
 use softstop_console::machine::Regime;
 use softstop_console::range::{require, within};

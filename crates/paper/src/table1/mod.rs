@@ -1,5 +1,6 @@
 //! `softstop-lab table1`: the paper's Table 1, found anew.
 
+pub(crate) mod figure;
 pub(crate) mod matching;
 pub mod paper;
 mod picture;
@@ -15,7 +16,6 @@ use softstop_dynamics::Along;
 use softstop_dynamics::transitions::{Explorer, Rules, Transition};
 use softstop_dynamics::watch::{Kept, Memory};
 
-use crate::figure::{Drawn, Figure, Findings, Studio};
 pub use picture::picture;
 use report::TableReport;
 use softstop_console::failure::Failure;
@@ -167,18 +167,4 @@ pub fn transitions(
     let found = found.recalling(kept).explore(values);
     drop(bar);
     Ok(found?)
-}
-
-/// The table among the figures: its picture and its rows.
-pub(crate) fn figure(studio: &Studio, _: &Figure) -> Result<Drawn> {
-    let report = TableReport::new(&paper::ROWS, studio.transitions()?, &studio.rules());
-    let mut findings = Findings::default();
-    for row in &report.rows {
-        findings.add(format!("row {:02}", row.number), row.eta);
-    }
-    let picture = picture(&report).svg().into_bytes();
-    Ok(Drawn {
-        files: vec![picture, output::csv(&report.rows)?],
-        findings,
-    })
 }
