@@ -28,7 +28,7 @@ pub struct Report {
     pub comparison: Option<Comparison>,
     /// What limits the design, in a sentence.
     pub limit: Option<String>,
-    /// What was required of it, and what it has: [`crate::verdict::required`].
+    /// What was required of it, and what it has: `verdict::required`.
     pub requirements: Vec<Record>,
     /// Maps over two parameters.
     pub maps: Vec<Map>,
