@@ -2,8 +2,6 @@
 //! search among zones: a lattice of them, then those around the best (a compass search, Kolda, Lewis and Torczon 2003),
 //! closer and closer. Of each zone only places that are better than the best so far are tried.
 
-use std::slice::from_ref;
-
 use rayon::prelude::*;
 use serde::Serialize;
 use softstop_console::interrupt;
@@ -125,28 +123,25 @@ impl Trials<'_> {
         Some(best)
     }
 
-    /// The best of the zone of a design and of those with wider margins, or what linear models of the share of starts lead to
-    /// from there, if that is required.
+    /// The best of the zone of a design, of those with wider margins, and of what linear models of the share of starts lead
+    /// to from each, if that is required.
     fn first(&self, from: &Candidate) -> Option<Candidate> {
-        let mut start = from.clone();
-        let mut best = self.best_of(from_ref(&from.unit), None);
-        for margin in MARGINS {
+        let wider = MARGINS.par_iter().filter_map(|margin| {
             let wider = Problem {
                 margin: margin.max(self.problem.margin),
                 ..self.problem.clone()
             };
             let place = (&from.unit[..], from.design.place);
-            if let Some(wider) = ascend_from(&wider, &LossDirections::default(), place) {
-                best = self.best_of(from_ref(&wider.unit), best.as_ref()).or(best);
-                start = wider;
-            }
-        }
-        let Some(share) = self.problem.least_share() else {
-            return best;
-        };
-        let led = certain(self.problem, best.as_ref().unwrap_or(&start), share);
-        let led = led.filter(|it| self.passes(it));
-        self.better_of(best.into_iter().chain(led).collect())
+            ascend_from(&wider, &LossDirections::default(), place)
+        });
+        let mut starts = vec![from.clone()];
+        starts.extend(wider.collect::<Vec<_>>());
+        let share = self.problem.least_share();
+        let led = |start: &Candidate| certain(self.problem, start, share?);
+        let led = starts.par_iter().filter_map(led);
+        let best = self.better_of(led.filter(|it| self.passes(it)).collect());
+        let units: Vec<_> = starts.into_iter().map(|it| it.unit).collect();
+        self.best_of(&units, best.as_ref()).or(best)
     }
 
     /// Whether a design keeps what is known of its box, and passes.
