@@ -138,10 +138,12 @@ impl Trials<'_> {
         starts.extend(wider.collect::<Vec<_>>());
         let share = self.problem.least_share();
         let led = |start: &Candidate| certain(self.problem, start, share?);
-        let led = starts.par_iter().filter_map(led);
-        let best = self.better_of(led.filter(|it| self.passes(it)).collect());
+        let passing = starts.par_iter().filter_map(led);
+        let best = self.better_of(passing.filter(|it| self.passes(it)).collect());
         let units: Vec<_> = starts.into_iter().map(|it| it.unit).collect();
-        self.best_of(&units, best.as_ref()).or(best)
+        let best = self.best_of(&units, best.as_ref()).or(best)?;
+        let further = led(&best).filter(|it| self.passes(it));
+        self.better_of([best].into_iter().chain(further).collect())
     }
 
     /// Whether a design keeps what is known of its box, and passes.
