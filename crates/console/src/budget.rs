@@ -27,7 +27,7 @@ pub struct Budget(u32);
 
 impl Budget {
     /// For one machine: some seconds of a core.
-    pub const MACHINE: Self = Self(500);
+    pub const MACHINE: Self = Self(400);
     /// For a point of a study, of which there are many: some fifty times as much as one usually costs.
     pub const POINT: Self = Self(10);
 

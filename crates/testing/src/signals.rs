@@ -1,5 +1,6 @@
 //! What programs do on signals, and where they inherit that signals are ignored, files limited, or outputs unread.
 
+use std::io::PipeWriter;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::thread::sleep;
@@ -106,12 +107,12 @@ impl Program {
     pub fn ends_when_unread(&self, arguments: &[&str], folder: &Path) {
         for is_heard in [true, false] {
             let mut command = self.command(arguments);
-            command.current_dir(folder).stdout(Stdio::piped());
-            let mut run = command.stderr(Stdio::piped()).spawn().expect("it starts");
-            drop(run.stdout.take());
-            if !is_heard {
-                drop(run.stderr.take());
-            }
+            command.current_dir(folder).stdout(unread_pipe());
+            command.stderr(match is_heard {
+                true => Stdio::piped(),
+                false => unread_pipe().into(),
+            });
+            let run = command.spawn().expect("it starts");
             let Output { status, stderr, .. } = run.wait_with_output().expect("it ends");
             let said = String::from_utf8_lossy(&stderr);
             assert_eq!(status.code(), Some(141), "{arguments:?}: {status}: {said}");
@@ -134,6 +135,12 @@ impl Program {
         assert_eq!(status.code(), Some(1), "{arguments:?}: {status}: {said}");
         assert!(said.contains("No space left"), "{arguments:?}: {said}");
     }
+}
+
+/// A pipe that has lost its reader before anything is written.
+fn unread_pipe() -> PipeWriter {
+    let (_reader, writer) = std::io::pipe().expect("a pipe");
+    writer
 }
 
 /// The number of a signal, as Linux has it.

@@ -62,8 +62,8 @@ impl Record {
     }
 }
 
-/// What an impact that is kept costs, in scan windows.
-const KEPT: u64 = 16;
+/// What an impact or a period that is kept costs, in scan windows.
+const KEPT: u64 = 32;
 
 /// Keeps records.
 struct Log {
@@ -92,6 +92,7 @@ impl Watch for Log {
     }
 
     fn period(&mut self, job: usize, _: u64, state: Start) {
+        budget::charge(KEPT);
         self.records[job].states.push(state);
     }
 }
