@@ -14,7 +14,7 @@ use crate::interrupt;
 /// The option that limits the work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Args)]
 pub struct BudgetArguments {
-    /// Work that the answer may cost, or each thousand steps of a sweep or cells of a basin, in millions of scan windows;
+    /// Work that the answer may cost, or each thousand steps of a sweep, cells of a basin or motions of models, in millions of scan windows;
     /// what would cost more is refused, the same on every computer
     #[arg(long, value_name = "MILLIONS", default_value_t = Budget::MACHINE)]
     pub budget: Budget,
@@ -27,7 +27,7 @@ pub struct Budget(u32);
 
 impl Budget {
     /// For one machine: some seconds of a core.
-    pub const MACHINE: Self = Self(400);
+    pub const MACHINE: Self = Self(200);
     /// For a point of a study, of which there are many: some fifty times as much as one usually costs.
     pub const POINT: Self = Self(10);
 

@@ -27,7 +27,7 @@ pub(crate) fn follow<W: Watch>(
 /// Work of the lanes, and of the engine that takes over from them, between two questions.
 const ASKED: u64 = 1 << 15;
 /// What a unit of the lanes' own work costs, in scan windows.
-const ROUND: u64 = 3;
+const ROUND: u64 = 2;
 /// What a batch costs besides, that may end before the first.
 const BATCH: u64 = 1 << 10;
 

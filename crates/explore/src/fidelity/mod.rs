@@ -150,8 +150,8 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     let limit = arguments.limit.budget;
     let study = limit.limit(|| Study::new(&machine, arguments))?;
     let structure = frequencies.map(|frequencies| {
-        let structure = || Structure::new(&machine, &study, frequencies);
-        limit.limit_many(arguments.points as usize, structure)
+        let motions = Structure::motion_count(&study, frequencies.len());
+        limit.limit_many(motions, || Structure::new(&machine, &study, frequencies))
     });
     let structure = structure.transpose()?;
     let chart = chart::models(arguments, &machine, &study);

@@ -36,13 +36,18 @@ pub(super) struct Structure<'a> {
 }
 
 impl<'a> Structure<'a> {
+    /// Motions of all models from both starts at a number of frequencies.
+    pub(super) fn motion_count(study: &Study, frequencies: usize) -> usize {
+        STARTS.len() * frequencies * study.entries.len()
+    }
+
     /// Runs all models of a study from both starts at these frequencies.
     pub(super) fn new(
         machine: &Machine,
         study: &'a Study,
         frequencies: Vec<f64>,
     ) -> Result<Self, Failure> {
-        let count = STARTS.len() * frequencies.len() * study.entries.len();
+        let count = Self::motion_count(study, frequencies.len());
         let progress = Progress::new(count as u64, "motions");
         let regimes = |entry: &Entry, (_, flung)| {
             let each = frequencies.iter().map(|frequency| {
