@@ -106,7 +106,7 @@ impl Table<'_> {
         self.add_figure(["velocity at drive angle 0", ""], speed, false, |orbit| {
             Some(orbit.velocity)
         });
-        self.add_figure(["largest multiplier", "|μ|"], number, false, |orbit| {
+        self.add_figure(["largest multiplier |μ|", ""], number, false, |orbit| {
             let moduli = orbit.multipliers().map(|it| it.norm());
             moduli.into_iter().reduce(f64::max)
         });

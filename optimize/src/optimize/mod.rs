@@ -184,7 +184,8 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         None => Looked::new(&job, &outcome, false)?,
     };
     let report = looked.report(&job, &outcome);
-    export.file("svg", looked.response.document().as_bytes())?;
+    let name = job.problem.machine.name.as_deref().unwrap_or_default();
+    export.file("svg", looked.response.document(name).as_bytes())?;
     let start = Start::from(outcome.design.orbit.state());
     let machine = Machine {
         start,

@@ -11,6 +11,9 @@ pub const WIDE: (f64, f64) = (980.0, 460.0);
 /// Width and height of one that takes half of it.
 pub const HALF: (f64, f64) = (480.0, 400.0);
 
+/// Room for title, machine and caption in a document.
+const HEADINGS: f64 = 120.0;
+
 /// The design's own motion.
 pub(super) const DESIGN: Stroke = Stroke::solid(style::DESIGN, 2.5);
 /// Another machine, or the same one in other circumstances.
@@ -78,11 +81,13 @@ impl Figure {
         self
     }
 
-    /// As an SVG document with its caption.
-    pub fn document(&self) -> String {
-        let notes = vec![plain(&self.caption)];
+    /// As an SVG document about a machine of this name, with its caption.
+    pub fn document(&self, machine: &str) -> String {
+        let page = self.chart.page;
         let chart = Chart {
-            notes,
+            subtitle: machine.to_owned(),
+            notes: vec![plain(&self.caption)],
+            page: page.map(|(width, height)| (width, height + HEADINGS)),
             ..self.chart.clone()
         };
         chart.svg()

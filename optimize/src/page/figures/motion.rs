@@ -37,7 +37,7 @@ pub(super) fn motion(design: &Design, motions: &[Period]) -> Figure {
     let points: Vec<[f64; 4]> = periods.map(own).collect();
     let names = ["time", "position", "velocity", "force of contact"];
     let label = |it: usize| machine.label(names[it], "", units[it]);
-    let [time, position, velocity, force] = std::array::from_fn(label);
+    let [time, position_label, velocity, force] = std::array::from_fn(label);
     let end = points.last().map_or(0.0, |it| it[0]);
     let panel = |row: usize, label: &str, layers: Vec<Layer>| {
         let line = points.iter().map(|point| (point[0], point[row]));
@@ -53,22 +53,29 @@ pub(super) fn motion(design: &Design, motions: &[Period]) -> Figure {
     };
     let faces = faces(&machine.scene).into_iter();
     let faces = faces.map(|(_, at)| Layer::across(at, BOUND, "")).collect();
-    let panels = [panel(1, &position, faces), panel(3, &force, Vec::new())];
-    let drawn = points.iter().map(|it| it[3]).fold(0.0, f64::max);
+    let position = panel(1, &position_label, faces);
+    let drawn = points.iter().map(|it| it[3].abs()).fold(0.0, f64::max);
     let stroke = Stroke::of(&design.orbit);
     let largest = stroke.map_or(drawn, |it| machine.to_own(Dimension::Force, it.stop_force));
+    let forces = (drawn > 0.0).then(|| panel(3, &force, Vec::new()));
+    let of_forces = match &forces {
+        Some(_) => {
+            let largest = quantity(largest, machine.unit(Dimension::Force));
+            format!(" Beside it the force of strip and stop on the mass, at most {largest}.")
+        }
+        None => String::new(),
+    };
     let wall = match machine.scene.wall() {
         Some(_) => " An impact on a rigid stop is an instant and has no force in time.",
         None => "",
     };
     let caption = format!(
-        "Left the position of the mass, with lines where it meets something; right the force of strip and stop on it, at \
-         most {}. Time 0 is drive angle 0.{wall}",
-        quantity(largest, machine.unit(Dimension::Force))
+        "The position of the mass, with lines where it meets something. Time 0 is drive angle 0.{of_forces}{wall}"
     );
+    let panels = [position].into_iter().chain(forces);
     let title = "Position and force of contact over two periods of the drive";
     let rows = points.iter().map(|[t, x, v, f]| row![*t, *x, *v, *f]);
-    let sheet = Sheet::new("motion", [&time, &position, &velocity, &force], rows);
+    let sheet = Sheet::new("motion", [&time, &position_label, &velocity, &force], rows);
     let mut figure = Figure::new(Section::Motion, WIDE, title, panels, caption).with([sheet]);
     figure.chart.shares_upwards = false;
     figure

@@ -1,6 +1,6 @@
 //! A sketch of the machine with its dimensions, from its values; lengths are not to scale.
 
-use softstop::{Machine, Parameter};
+use softstop::{Machine, Parameter, Stop};
 use softstop_draw::{Align, Axis, Layer, Panel, Stroke, style};
 
 use crate::page::figure::{Figure, Section};
@@ -212,25 +212,30 @@ impl Sketch<'_> {
     }
 
     fn stop(&mut self, face: f64) {
-        let wall = face + STOP;
-        match self.machine.value(Parameter::StopStiffness) {
-            Some(_) => {
-                self.line(&[(face, FRAME.0 + 10.0), (face, FRAME.1 - 10.0)], THICK);
-                self.spring(face, wall);
-                self.damper(face, wall);
-                self.wall(wall, 1.0);
-            }
-            None => self.wall(face, 1.0),
+        let stop = &self.machine.scene.stop;
+        if *stop == Stop::None {
+            return;
         }
+        let mut wall = face;
+        if !matches!(stop, Stop::Rigid { .. }) {
+            wall += STOP;
+            self.line(&[(face, FRAME.0 + 10.0), (face, FRAME.1 - 10.0)], THICK);
+            self.spring(face, wall);
+            self.damper(face, wall);
+        }
+        self.wall(wall, 1.0);
+        let place = (wall + 16.0, FRAME.1 - 22.0);
+        let model = format!("stop: {}", stop.model());
+        self.layers.push(Layer::text(place, Align::Left, model));
         let values = [
-            ("stop: stiffness", Parameter::StopStiffness),
+            ("stiffness", Parameter::StopStiffness),
             ("preload", Parameter::Preload),
             ("restitution", Parameter::Restitution),
             ("exponent", Parameter::Exponent),
             ("damping in contact", Parameter::ContactDamping),
         ];
-        let place = (wall + 16.0, FRAME.1 - 22.0);
-        self.values(place, Align::Left, &values);
+        let values = &values[..values.len() - usize::from(wall == face)];
+        self.values((place.0, place.1 - LINE), Align::Left, values);
         if let Some(rigid) = self.machine.value(Parameter::RigidTravel) {
             let text = quantity(rigid, self.machine.unit_of(Parameter::RigidTravel));
             let text = format!("rigid stop {text} behind");
