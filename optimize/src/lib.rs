@@ -5,6 +5,7 @@
 //! The commands that look at one machine are in `softstop-explore`; here are the search ([`design`]), its
 //! command ([`optimize`]) and [`report`], and machines as FMUs ([`fmu`]).
 
+mod comparison;
 pub mod design;
 pub mod fmu;
 mod limits;
@@ -13,6 +14,7 @@ pub mod page;
 pub mod report;
 pub mod robust;
 pub mod searched;
+mod started;
 mod tolerated;
 mod verdict;
 

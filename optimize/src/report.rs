@@ -1,4 +1,4 @@
-//! The report of `optimize`: design, references and search.
+//! The report of `optimize`: one struct, which text, JSON, CSV and the page are written from.
 
 use std::collections::BTreeMap;
 
@@ -9,22 +9,25 @@ use softstop_console::columns;
 use softstop_console::export::Report;
 use softstop_console::interrupt;
 use softstop_console::number::NumberStyle::Six;
-use softstop_console::record::{Record, below, beside};
-use softstop_console::report::{Stated, motion, state};
+use softstop_console::record::{Record, below};
+use softstop_console::report::{Stated, motion};
+use softstop_console::sheet::Sheet;
 use softstop_console::table::{heading, sections};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::zone::{Stretch, stretches_watched};
 
-use crate::design::judge::Met;
+use crate::comparison::comparison;
 use crate::design::problem::Objective;
 use crate::design::{Design, Problem};
 use crate::limits::{Limit, at_limits};
 use crate::optimize::outcome::Outcome;
 use crate::optimize::reference::Reference;
 use crate::optimize::study::Study;
+use crate::optimize::title::{Source, Title};
+use crate::page::figure::Figure;
 use crate::searched::SearchReport;
 use crate::tolerated::Tolerated;
-use crate::verdict;
+use crate::{started, verdict};
 
 /// A motion and its machine, in the machine's own units.
 #[derive(Debug, Serialize)]
@@ -38,10 +41,19 @@ struct Found {
 /// What `softstop optimize` reports and writes.
 #[derive(Debug, Serialize)]
 pub struct OptimizeReport {
+    /// What its user has put above it.
+    #[serde(rename = "report", skip_serializing_if = "Title::is_empty")]
+    pub title: Title,
+    /// What is sought, and its value.
+    objective: Record,
     /// With its place in its zone and the limits that hold it back.
     design: Found,
     /// The motions beside it, the paper's points A and B or the machine as it was given, with the gain in velocity.
     reference: BTreeMap<&'static str, Found>,
+    /// All of them side by side, a record for each quantity.
+    comparison: Vec<Record>,
+    /// What holds the design back.
+    limits: Vec<Limit>,
     /// What was required, and what the design has of it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     requirements: Vec<Record>,
@@ -54,78 +66,138 @@ pub struct OptimizeReport {
     /// Its machines within the tolerances.
     #[serde(skip_serializing_if = "Option::is_none")]
     tolerances: Option<Tolerated>,
+    /// Ways to run the machine up.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    run_up: Vec<Record>,
     /// Stretches of stable z = 1 of the same machine outside its zone: the search leaves them out.
     left_out: Vec<Record>,
     search: SearchReport,
-    /// The same for people.
+    /// The design's machine.
     #[serde(skip)]
-    text: String,
+    pub machine: Machine,
+    /// What the design is, in a line.
+    #[serde(skip)]
+    heading: String,
+    /// Its pictures.
+    #[serde(skip)]
+    pub figures: Vec<Figure>,
+    /// The texts that state the task.
+    #[serde(skip)]
+    pub sources: Vec<Source>,
 }
 
 impl OptimizeReport {
-    /// The report on the solution of this problem.
+    /// The report on the solution of this problem, searched with so many zones at most; without title and pictures.
     pub fn new(
         problem: &Problem,
         found: &Outcome,
         references: &[Reference],
-        search: SearchReport,
         study: Option<&Study>,
+        evaluations: u64,
     ) -> Self {
         let design = &found.design;
-        let tolerances = study.map(|it| Tolerated::of(&design.machine, it));
+        let machine = &design.machine;
         let limits = at_limits(problem, found);
         let one = |machine: &Machine, orbit: &Orbit, more: Record| Found {
             machine: Stated::of(machine),
             motion: motion(machine, orbit).and(more),
         };
-        let left_out = left_out(design);
         let reference = |it: &Reference| (it.name, one(&it.machine, &it.orbit, gain(design, it)));
-        let requirement = |it: &Met| verdict::required(&design.machine, it);
-        let requirements: Vec<Record> = found.met.iter().map(requirement).collect();
-        let rivals = found.rivals.iter();
-        let rivals: Vec<Record> = rivals.map(|it| verdict::rival(problem, it)).collect();
-        let units = Units::of(&design.machine);
-        let beside = sections([
-            ("What was required", below(&requirements, &units)),
-            (
-                "Nearly as good, but far from it: a small change of the task may lead there",
-                below(&rivals, &units),
-            ),
-            (
-                "Other ranges of stable z = 1, left out because they are no part of the zone",
-                below(&left_out, &units),
-            ),
-        ]);
-        let tolerated = tolerances.as_ref().map(|it| it.text(&units));
+        let place = Record::of(&place(), &(problem, design, &limits));
+        let met = found.met.iter().map(|it| verdict::required(machine, it));
+        let rivals = found.rivals.iter().map(|it| verdict::rival(problem, it));
+        let fronts = found.fronts.iter().map(|it| verdict::traded(problem, it));
+        let ways = found.run_up.iter().flat_map(|it| &it.ways);
+        let ways = ways.map(|it| Record::of(&started::columns(), &(machine, it)));
         Self {
-            design: one(
-                &design.machine,
-                &design.orbit,
-                Record::of(&place(), &(problem, design, &limits)),
-            ),
+            title: Title::default(),
+            objective: Record::of(&objective(), &(problem, design)),
+            design: one(machine, &design.orbit, place),
             reference: references.iter().map(reference).collect(),
-            text: search.text()
-                + &text(problem, design, references, &limits)
-                + &beside
-                + &tolerated.unwrap_or_default(),
-            tolerances,
-            requirements,
-            rivals,
-            fronts: found
-                .fronts
-                .iter()
-                .map(|it| verdict::traded(problem, it))
-                .collect(),
-            left_out,
-            search,
+            comparison: comparison(problem, design, references),
+            limits,
+            requirements: met.collect(),
+            rivals: rivals.collect(),
+            fronts: fronts.collect(),
+            tolerances: study.map(|it| Tolerated::of(machine, it)),
+            run_up: ways.collect(),
+            left_out: left_out(design),
+            search: SearchReport::new(problem, evaluations, found),
+            machine: machine.clone(),
+            heading: head(problem),
+            figures: Vec::new(),
+            sources: Vec::new(),
         }
+    }
+
+    /// The tables of the report and of its pictures.
+    pub fn sheets(&self) -> Vec<Sheet> {
+        let tolerances = self.tolerances.as_ref();
+        let parameters = tolerances.map_or(&[][..], |it| &it.parameters);
+        let tables = [
+            Sheet::of_records("comparison", &self.comparison),
+            Sheet::of_records("requirements", &self.requirements),
+            Sheet::of_records("sensitivities", parameters),
+        ];
+        let figures = self.figures.iter().flat_map(|it| it.sheets.clone());
+        tables.into_iter().chain(figures).collect()
+    }
+
+    /// Where the design stands, and what holds it back.
+    fn stands(&self) -> String {
+        let number = |name| Six.format(self.design.motion.number(name));
+        let mut text = format!(
+            "\nZone of the design: {} from {} (g0) to {} (s_SN); the design stands at {:.1} % of the way.\n",
+            self.machine.label_of(Parameter::Frequency),
+            number("frequency_g0"),
+            number("frequency_sn"),
+            100.0 * self.design.motion.number("s"),
+        );
+        if !self.limits.is_empty() {
+            let limits: Vec<&str> = self.limits.iter().map(|it| it.words.as_str()).collect();
+            text += &format!("Held back by: {}.\n", limits.join("; "));
+        }
+        text
     }
 }
 
 impl Report for OptimizeReport {
     fn text(&self) -> String {
-        self.text.clone()
+        let units = Units::of(&self.machine);
+        let tolerances = self.tolerances.as_ref().map(|it| it.text(&units));
+        let tables = sections([
+            ("What was required", below(&self.requirements, &units)),
+            (
+                "Nearly as good, but far from it: a small change of the task may lead there",
+                below(&self.rivals, &units),
+            ),
+            (
+                "Other ranges of stable z = 1, left out because they are no part of the zone",
+                below(&self.left_out, &units),
+            ),
+        ]);
+        let mut text = self.search.text() + &heading(&self.heading);
+        text += &below(&self.comparison, &units);
+        text + &self.stands() + &tables + &tolerances.unwrap_or_default()
     }
+}
+
+/// What was sought of which machine.
+fn head(problem: &Problem) -> String {
+    let name = problem
+        .machine
+        .name
+        .as_deref()
+        .unwrap_or("the given machine");
+    let what = match problem.objective == Objective::default() {
+        true => "Hardest impact".to_owned(),
+        false => problem.objective.words(),
+    };
+    let margin = match problem.margin {
+        0.0 => String::new(),
+        margin => format!(", margin M = {margin} from both ends of the zone"),
+    };
+    crate::page::capital(&format!("{what}: {name}{margin}"))
 }
 
 type Placed<'a> = (&'a Problem, &'a Design, &'a [Limit]);
@@ -137,6 +209,18 @@ fn place<'a>() -> [Column<Placed<'a>>; 5] {
         "margin" [None], "least distance M from both ends, as a share of the zone" => it.0.margin;
         "s" [None], "place in the zone, in [M, 1 - M]" => it.1.place;
         "at_limits" [None], "what holds it back" => keys(it.2);
+    }
+}
+
+type Sought<'a> = (&'a Problem, &'a Design);
+
+fn objective<'a>() -> [Column<Sought<'a>>; 5] {
+    columns! { Sought<'a>, it;
+        "figure" [None], "what is sought" => it.0.objective.figure.name();
+        "meaning" [None], "what it is" => it.0.objective.figure.meaning();
+        "words" [None], "what is sought of it" => it.0.objective.words();
+        "value" [None], "what the design has" => it.0.machine.to_own(it.0.objective.figure.dimension(), it.1.value);
+        "unit" [None], "its unit" => it.0.machine.unit(it.0.objective.figure.dimension());
     }
 }
 
@@ -172,65 +256,4 @@ fn gain(design: &Design, reference: &Reference) -> Record {
 
 fn own(design: &Design, frequency: f64) -> f64 {
     design.machine.to_own(Dimension::Frequency, frequency)
-}
-
-/// The design beside its references, then what holds it back.
-fn text(
-    problem: &Problem,
-    design: &Design,
-    references: &[Reference],
-    at_limits: &[Limit],
-) -> String {
-    let name = problem.machine.name.as_deref().unwrap_or("given");
-    let what = match problem.objective == Objective::default() {
-        true => format!("Hardest impact of the {name} machine"),
-        false => format!("The {name} machine with the {}", problem.objective.words()),
-    };
-    let margin = match problem.margin {
-        0.0 => String::new(),
-        margin => format!(", margin M = {margin} from both ends of the zone"),
-    };
-    let mut text = heading(&(what + &margin));
-    text += &comparison(problem, design, references);
-    text += &format!(
-        "\nZone of the design: {} from {} (g0) to {} (s_SN); the design stands at {:.1} % of the way.\n",
-        design.machine.label_of(Parameter::Frequency),
-        Six.format(own(design, design.zone.frequency_g0)),
-        Six.format(own(design, design.zone.frequency_sn)),
-        100.0 * design.place,
-    );
-    if !at_limits.is_empty() {
-        let limits: Vec<&str> = at_limits.iter().map(|it| it.words.as_str()).collect();
-        text += &format!("Held back by: {}.\n", limits.join("; "));
-    }
-    text
-}
-
-fn comparison(problem: &Problem, design: &Design, references: &[Reference]) -> String {
-    let searched = problem.axes.iter().map(|axis| axis.parameter);
-    let preload = design.machine.value(Parameter::Preload);
-    let preload = preload.map(|_| Parameter::Preload);
-    let shown = searched.chain(preload).chain([Parameter::Frequency]);
-    let shown: Vec<Parameter> = shown.collect();
-    let column = |name: String, machine: &Machine, orbit: &Orbit, gain: Record| {
-        let head = Record::default().with("name", "", name).and(gain);
-        let values = shown.iter().fold(head, |record, it| {
-            record.with(it.name(), &design.machine.label_of(*it), machine.value(*it))
-        });
-        let moduli = orbit.multipliers().map(|it| it.norm());
-        let largest = moduli.into_iter().fold(0.0, f64::max);
-        let motion = values.and(state(machine, orbit));
-        motion.with("largest", "largest multiplier |mu|", largest)
-    };
-    let none = Record::default().with("gain", "velocity, design over this one", "");
-    let own = column("design".to_owned(), &design.machine, &design.orbit, none);
-    let others = references.iter().map(|it| {
-        let name = match it.machine.name.as_deref() {
-            Some(name) if name != it.name => format!("{} ({name})", it.name),
-            _ => it.name.to_owned(),
-        };
-        column(name, &it.machine, &it.orbit, gain(design, it))
-    });
-    let all: Vec<Record> = [own].into_iter().chain(others).collect();
-    beside(&all, &Units::of(&design.machine))
 }

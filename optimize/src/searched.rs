@@ -1,18 +1,28 @@
-//! How a design was searched, as a record.
+//! How a design was searched, as records.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
+use softstop::Parameter;
+use softstop_console::column::Column;
+use softstop_console::columns;
 use softstop_console::number::NumberStyle::Six;
+use softstop_console::record::Record;
 
+use crate::design::Problem;
 use crate::design::search::Resolution;
-use crate::optimize::outcome::Interrupted;
+use crate::design::space::Axis;
+use crate::optimize::outcome::{Interrupted, Outcome};
 
 /// How the design was searched.
 #[derive(Debug, Serialize)]
 pub struct SearchReport {
     /// Values held and ranges searched, in words.
     pub bounds: BTreeMap<String, String>,
+    /// What was searched, by the keys of the machine's file.
+    pub axes: Vec<Record>,
+    /// Parameters that follow others.
+    pub links: usize,
     /// Zones computed at most.
     pub evaluations: u64,
     /// Zones that were computed.
@@ -25,7 +35,50 @@ pub struct SearchReport {
     pub interrupted: Option<Interrupted>,
 }
 
+/// The name of a parameter in [`SearchReport::bounds`]: the last word of its key, as the paper's ratios are called.
+fn short_name(parameter: Parameter) -> String {
+    match parameter {
+        Parameter::StopStiffness => "stiffness".to_owned(),
+        Parameter::Suspension => "suspension_stiffness".to_owned(),
+        Parameter::Frequency => "frequency".to_owned(),
+        other => other.name().replace('.', "_"),
+    }
+}
+
+type Searched<'a> = (&'a Problem, &'a Axis);
+
+fn columns<'a>() -> [Column<Searched<'a>>; 7] {
+    columns! { Searched<'a>, it;
+        "parameter" [None] Plain, "its key in the machine's file" => it.0.machine.name(it.1.parameter);
+        "name" [None] Plain, "its name in figures of rivals" => it.1.parameter.name();
+        "meaning" [None] Plain, "what it is" => it.0.machine.meaning_of(it.1.parameter).0;
+        "unit" [None] Plain, "unit of its values" => it.0.machine.unit_of(it.1.parameter);
+        "low" [None] Six, "lower end" => it.1.range.low;
+        "high" [None] Six, "upper end" => Some(it.1.range.high).filter(|high| high.is_finite());
+        "values" [None] Six, "the values of a catalogue" => it.1.catalogue.clone();
+    }
+}
+
 impl SearchReport {
+    /// How this outcome was found with so many zones at most.
+    pub(crate) fn new(problem: &Problem, evaluations: u64, outcome: &Outcome) -> Self {
+        let frequency = Axis::new(Parameter::Frequency, problem.frequency);
+        let all = || problem.axes.iter().chain([&frequency]);
+        let bounds = all().map(|it| (short_name(it.parameter), it.range.to_string()));
+        let axes = all().filter(|it| !it.range.is_held());
+        Self {
+            bounds: bounds.collect(),
+            axes: axes
+                .map(|it| Record::of(&columns(), &(problem, it)))
+                .collect(),
+            links: problem.links.len(),
+            evaluations,
+            evaluations_used: outcome.evaluations,
+            resolution: outcome.resolution,
+            interrupted: outcome.interrupted,
+        }
+    }
+
     /// What has to be known of the design, for people.
     pub(crate) fn text(&self) -> String {
         let interrupted = self

@@ -11,19 +11,17 @@ use softstop_console::table::sections;
 use softstop_explore::zone::lost_by;
 
 use crate::optimize::study::{Study, Without};
-use crate::robust::{Manifold, Nearest, Tolerance};
+use crate::robust::{Index, Manifold, Nearest, Tolerance};
 
 /// The machines within the tolerances of a design.
 #[derive(Debug, Serialize)]
 pub(crate) struct Tolerated {
     /// All of them.
     machines: Record,
-    #[serde(skip)]
-    lost: usize,
     /// Where the motion is lost as all tolerances grow, the nearest first.
     manifolds: Vec<Record>,
     /// What each tolerance does.
-    parameters: Vec<Record>,
+    pub(crate) parameters: Vec<Record>,
     /// The best design without tolerances.
     #[serde(skip_serializing_if = "Option::is_none")]
     without: Option<Record>,
@@ -32,47 +30,53 @@ pub(crate) struct Tolerated {
     price: Option<String>,
 }
 
-type Of<'a> = (&'a Machine, &'a Study);
-
-fn machines<'a>() -> [Column<Of<'a>>; 6] {
-    columns! { Of<'a>, it;
-        "looked_at" [None] Plain, "machines looked at" => it.1.verdict.machines;
-        "lost" [None] Plain, "machines that lose the motion" => it.1.verdict.lost;
-        "nominal" [Velocity] Six, "before-impact velocity of the design" => it.1.nominal;
-        "worst" [Velocity] Six, "least within the tolerances" => it.1.slowest();
-        "factor" [None] Six, "factor by which all tolerances may grow" => it.1.nearest_box.first().map(|it| it.distance);
-        "normal_distance" [None] Six, "normal distance in units of the tolerances" => it.1.nearest_ball.first().map(|it| it.distance);
+fn machines<'a>() -> [Column<&'a Study>; 6] {
+    columns! { &'a Study, it;
+        "looked_at" [None] Plain, "machines looked at" => it.verdict.machines;
+        "lost" [None] Plain, "machines that lose the motion" => it.verdict.lost;
+        "nominal" [Velocity] Six, "before-impact velocity of the design" => it.nominal;
+        "worst" [Velocity] Six, "least within the tolerances" => it.slowest();
+        "factor" [None] Six, "factor by which all tolerances may grow" => it.nearest_box.first().map(|it| it.distance);
+        "normal_distance" [None] Six, "normal distance in units of the tolerances" => it.nearest_ball.first().map(|it| it.distance);
     }
 }
 
 fn manifolds<'a>() -> [Column<&'a Nearest>; 2] {
     columns! { &'a Nearest, it;
-        "manifold" [None] Plain, "what is lost there" => name(&it.manifold);
+        "manifold" [None] Plain, "what is lost there" => match &it.manifold {
+            Manifold::Hysteresis => "g0: the motion without impacts strikes".to_owned(),
+            Manifold::Motion(loss) => lost_by(loss),
+        };
         "factor" [None] Six, "factor by which all tolerances may grow" => it.distance;
-    }
-}
-
-/// A manifold in a word or two.
-pub(crate) fn name(manifold: &Manifold) -> String {
-    match manifold {
-        Manifold::Hysteresis => "g0: the motion without impacts strikes".to_owned(),
-        Manifold::Motion(loss) => lost_by(loss),
     }
 }
 
 type One<'a> = (&'a Machine, &'a Study, usize);
 
-fn parameters<'a>() -> [Column<One<'a>>; 8] {
+fn parameters<'a>() -> [Column<One<'a>>; 11] {
     columns! { One<'a>, it;
-        "parameter" [None] Plain, "which" => it.0.name(it.1.tolerances[it.2].parameter);
+        "parameter" [None] Plain, "which" => it.0.name(parameter(it));
+        "meaning" [None], "what it is" => it.0.meaning_of(parameter(it)).0;
+        "unit" [None], "unit of value and tolerance" => it.0.unit_of(parameter(it));
+        "value" [None], "its value" => it.0.value(parameter(it));
         "tolerance" [None] Seven, "half-width" => half_width(it.0, &it.1.tolerances[it.2]);
         "velocity" [Velocity] Seven, "change of the velocity at its upper end" => it.1.sensitivities.velocity[it.2];
         "to_fold" [Frequency] Seven, "of the margin to s_SN" => own(it, it.1.sensitivities.to_fold[it.2]);
         "to_g0" [Frequency] Seven, "of the margin to g0" => own(it, it.1.sensitivities.to_free[it.2]);
-        "first_index" [None] Fixed(4), "Sobol index of the velocity" => it.1.scatter.as_ref().map(|all| all.velocity[it.2].first.value);
-        "total_index" [None] Fixed(4), "with all others" => it.1.scatter.as_ref().map(|all| all.velocity[it.2].total.value);
-        "margin_index" [None] Fixed(4), "of the place in the zone, with all others; g0 and s_SN as fitted polynomials" => it.1.scatter.as_ref().map(|all| all.place[it.2].total.value);
+        "first_index" [None] Fixed(4), "Sobol index of the velocity" => indices(it).map(|all| all[0].first.value);
+        "total_index" [None] Fixed(4), "with all others" => indices(it).map(|all| all[0].total.value);
+        "margin_index" [None] Fixed(4), "of the place in the zone, with all others; g0 and s_SN as fitted polynomials" => indices(it).map(|all| all[1].total.value);
     }
+}
+
+fn parameter((_, study, index): &One<'_>) -> Parameter {
+    study.tolerances[*index].parameter
+}
+
+/// Sobol indices of the velocity and of the place in the zone.
+fn indices((_, study, index): &One<'_>) -> Option<[Index; 2]> {
+    let all = study.scatter.as_ref()?;
+    Some([all.velocity[*index], all.place[*index]])
 }
 
 fn own((machine, ..): &One<'_>, frequency: f64) -> f64 {
@@ -80,14 +84,13 @@ fn own((machine, ..): &One<'_>, frequency: f64) -> f64 {
 }
 
 /// The half-width of a tolerance in the machine's own units.
-pub(crate) fn half_width(machine: &Machine, tolerance: &Tolerance) -> f64 {
+fn half_width(machine: &Machine, tolerance: &Tolerance) -> f64 {
     let (parameter, half_width) = (tolerance.parameter, tolerance.half_width);
     match parameter {
         Parameter::Preload if machine.preload_deflection.is_some() => half_width,
         _ => machine.to_own(parameter.about().dimension, half_width),
     }
 }
-
 fn withouts() -> [Column<Without>; 4] {
     columns! { Without, it;
         "velocity" [None] Six, "before-impact velocity" => it.design.before_impact_velocity();
@@ -124,8 +127,7 @@ impl Tolerated {
         let all = 0..study.tolerances.len();
         let without = study.without.as_ref();
         Self {
-            machines: Record::of(&machines(), &(machine, study)),
-            lost: study.verdict.lost,
+            machines: Record::of(&machines(), &study),
             manifolds: study
                 .nearest_box
                 .iter()
@@ -142,7 +144,7 @@ impl Tolerated {
     /// The text for people.
     pub(crate) fn text(&self, units: &Units) -> String {
         let mut machines = self.machines.text(units);
-        if self.lost > 0 {
+        if self.machines.number("lost") > 0.0 {
             machines += "Warning: not all machines within the tolerances keep the motion.\n";
         }
         let without = self.without.as_ref().map(|it| it.text(units));

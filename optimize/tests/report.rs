@@ -1,180 +1,71 @@
-//! The page of a report: whole, alone, and of what there is.
+//! The report of a run: text, JSON, tables and the page state the same; the page is whole, alone, and of what there is.
 
 use std::fs;
 use std::path::Path;
 
 use quick_xml::Reader;
 use quick_xml::events::Event;
-use softstop::{Machine, Parameter};
-use softstop_console::record::Record;
-use softstop_optimize::design::search::{Settings, Unwatched, search};
-use softstop_optimize::design::space::{Axis, Interval};
-use softstop_optimize::design::{Design, Problem};
-use softstop_optimize::optimize::reference::Reference;
-use softstop_optimize::page::data::{
-    Basin, Computed, Curve, Erosion, ErosionPoint, Fact, Front, Histogram, Label, Map, Portrait,
-    Report, Response, Role, RunUp, Sensitivity,
-};
-use softstop_optimize::page::{computed, csv, html};
+use serde_json::Value;
+use softstop_testing::Program;
 
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
-/// A press with a strip of 2 mm, as its user states it.
-const PRESS: &str = "
-name = \"press\"
+const SOFTSTOP: Program = Program {
+    file: env!("CARGO_BIN_EXE_softstop"),
+    first: &[],
+};
+
+/// A press with a strip of 2 mm, as its user states it, with its task.
+const PRESS: &str = "\
+name = \"press <1> & co\"
 mass = 120.0
 stiffness = 2.4e6
 damping = 680.0
 clearance = 0.02
-contact.damping = 3050.0
-excitation = { amplitude = 9e3, frequency_hz = 24.5 }
-stop = { model = \"kelvinVoigt\", stiffness = 4e7 }
-piercing = { stiffness = 5e7, friction = 5.5e7, thickness = 0.002, travel = 0.002 }
+contact.damping = 3060.0
+excitation = { amplitude = 9e3, frequency_hz = 24.0 }
+stop = { model = \"preloaded\", stiffness = 1.68e7, preload_deflection = 0.02 }
+piercing = { stiffness = 4.8e6, friction = 2.4e6, thickness = 0.002, travel = 0.001 }
+[vary]
+stop.stiffness = [5e6, 8e7]
+clearance = [0.005, 0.04]
+excitation.frequency_hz = [10, 40]
+contact.damping = { follows = \"stop.stiffness\", factor = 1.8e-4 }
+[tolerance]
+clearance = 2e-4
+damping = \"10 %\"
+[objective]
+maximise = \"impact_energy\"
+[require]
+stop_force = 5e5
+cut_through = 5e-4
+[report]
+author = \"A. Engineer\"
+date = 2026-11-26
 ";
+/// Of these bytes, by `sha256sum`.
+const HASH: &str = "1fd602f7e28bfe7991bfb240022e846c75f81bde1e874c21fbdacdb3959baece";
 
-/// A design of it, found quickly.
-fn design() -> Outcome<Design> {
-    let axis = |parameter, low, high| Axis::new(parameter, Interval { low, high });
-    let axes = vec![
-        axis(Parameter::StopStiffness, 5e6, 8e7),
-        axis(Parameter::Clearance, 0.005, 0.04),
-    ];
-    let problem = Problem {
-        margin: 0.25,
-        frequency: Interval {
-            low: 10.0,
-            high: 40.0,
-        },
-        ..Problem::of(Machine::from_toml(PRESS)?, axes)
-    };
-    let settings = Settings { evaluations: 300 };
-    Ok(search(&problem, settings, &Unwatched, None)?.design)
+/// What a run has written.
+struct Written {
+    page: String,
+    text: String,
+    report: Value,
+    folder: tempfile::TempDir,
 }
 
-/// A report with all that can be computed of a design alone, and one of everything else.
-fn report(design: &Design) -> Outcome<Report> {
-    let places = (0..=20).map(|k| f64::from(k) / 20.0);
-    let erosion = places.map(|place| ErosionPoint {
-        place,
-        frequency: 20.0 + place,
-        share: 0.6 * (1.0 - place),
-        interval: [0.6 * (1.0 - place) - 0.02, 0.6 * (1.0 - place) + 0.02],
-        integrity: Some(0.3 * (1.0 - place * place)),
-    });
-    let given = Reference {
-        name: "given",
-        machine: design.machine.clone(),
-        orbit: design.orbit.clone(),
-    };
-    let pressed = Reference {
-        machine: Machine::from_toml(PRESS)?,
-        ..given.clone()
-    };
-    let velocity = Label::new("before-impact velocity", "", "m/s");
-    let hardest = design.before_impact_velocity();
-    let bell = |k: i32| (10_000.0 * (-f64::from((k - 25) * (k - 25)) / 60.0).exp()) as u64;
-    let met = |met| match met {
-        true => requirement(4.25, 1.25),
-        false => requirement(2.0, -1.0),
-    };
-    Ok(Report {
-        machine: "press <1> & co".to_owned(),
-        task: "Hardest impact inside the hysteresis zone, at least a quarter of the zone away from g₀ and s_SN."
-            .to_owned(),
-        warnings: vec!["The best place jumps between two ridges when the clearance changes by 1 %.".to_owned()],
-        highlights: vec![
-            Fact { name: "before-impact velocity".to_owned(), value: format!("{hardest:.3} m/s") },
-            Fact { name: "drive frequency".to_owned(), value: format!("{:.2} Hz", design.frequency()) },
-            Fact { name: "machines lost of 1 000 000".to_owned(), value: "0".to_owned() },
-        ],
-        comparison: Some(computed::comparison(
-            design,
-            &[Parameter::StopStiffness, Parameter::Clearance, Parameter::Frequency],
-            std::slice::from_ref(&given),
-        )),
-        limit: Some("The margin from s_SN: with 1 % more frequency it would not be kept.".to_owned()),
-        requirements: vec![met(true), met(false)],
-        maps: vec![
-            computed::map(design, Parameter::Clearance, [0.005, 0.04]),
-            computed::map(design, Parameter::StopStiffness, [5e6, 8e7]),
-        ],
-        response: Some(computed::response(design, &[pressed])),
-        portrait: Some(computed::portrait(design)),
-        basin: Some(computed::basin(design)?),
-        erosion: Some(Erosion {
-            points: erosion.collect(),
-            design: Some(design.place),
-            required: Some(0.3),
-            starts: "positions and velocities of a box that holds all motions".to_owned(),
-        }),
-        fronts: vec![Front {
-            name: "margin".to_owned(),
-            note: String::new(),
-            title: "Velocity against margin".to_owned(),
-            x: Label::new("margin from the ends of the zone", "M", ""),
-            y: velocity.clone(),
-            points: (0..10).map(|k| [0.05 * f64::from(k), hardest * (1.1 - 0.03 * f64::from(k))]).collect(),
-            design: Some([0.25, hardest]),
-        }],
-        histogram: Some(Histogram {
-            x: velocity,
-            range: [0.97 * hardest, 1.03 * hardest],
-            counts: (0..50).map(bell).collect(),
-            nominal: hardest,
-            worst: Some(0.972 * hardest),
-            samples: 1_000_000,
-            lost: 0,
-        }),
-        sensitivities: vec![
-            effect("clearance", "m", 0.02, 1e-4, -0.012),
-            effect("stiffness of the stop", "N/m", 4e7, 2e6, 0.0031),
-        ],
-        run_up: vec![
-            run_up("drive at full force from rest", false, "settles without impacts"),
-            run_up("speed raised from below g₀", true, ""),
-        ],
-        computed: Some(Computed {
-            zones: 300,
-            ..Computed::default()
-        }),
+fn optimize(more: &[&str]) -> Outcome<Written> {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().to_str().ok_or("path")?;
+    let few = ["--evaluations", "100", "--samples", "256", "--output", path];
+    let text = SOFTSTOP.text(&[&["optimize"], more, &few[..]].concat());
+    let read = |name: &str| fs::read_to_string(folder.path().join(name));
+    Ok(Written {
+        page: read("report.html").unwrap_or_default(),
+        report: serde_json::from_str(&read("design.json")?)?,
+        text,
+        folder,
     })
-}
-
-fn requirement(value: f64, margin: f64) -> Record {
-    Record::default()
-        .with("name", "", "margin.s_SN")
-        .with(
-            "meaning",
-            "",
-            "distance to the fold s_SN, as a share of the frequency",
-        )
-        .with("unit", "", "%")
-        .with("required", "", "at least 3")
-        .with("value", "", value)
-        .with("margin", "", margin)
-        .with("met", "", margin >= 0.0)
-        .with("note", "", "")
-}
-
-fn effect(name: &str, unit: &str, value: f64, tolerance: f64, effect: f64) -> Sensitivity {
-    Sensitivity {
-        label: Label::new(name, "", unit),
-        value,
-        tolerance,
-        effect,
-        effect_unit: "m/s".to_owned(),
-        share: Some(0.4),
-        total: Some(0.45),
-        margin: Some(0.3),
-    }
-}
-
-fn run_up(way: &str, succeeds: bool, note: &str) -> RunUp {
-    RunUp {
-        way: way.to_owned(),
-        succeeds,
-        note: note.to_owned(),
-    }
 }
 
 /// Reads a page to its end; how often each element begins.
@@ -211,128 +102,201 @@ fn stands_alone(page: &str) {
     }
 }
 
+/// A table as rows of cells under their heads.
+fn table(folder: &Path, name: &str) -> Outcome<Vec<csv::StringRecord>> {
+    let mut reader = csv::Reader::from_path(folder.join(name))?;
+    let head = reader.headers()?.clone();
+    let rows = reader.records().collect::<Result<Vec<_>, _>>()?;
+    assert!(!rows.is_empty(), "{name}");
+    Ok([vec![head], rows].concat())
+}
+
 #[test]
 fn a_report_of_a_press_is_whole_and_stands_alone() -> Outcome {
-    let design = design()?;
-    let report = report(&design)?;
-    let page = html(&report)?;
+    let folder = tempfile::tempdir()?;
+    let file = folder.path().join("press.toml");
+    fs::write(&file, PRESS)?;
+    let written = optimize(&[file.to_str().ok_or("path")?])?;
+    let (page, report) = (&written.page, &written.report);
     // Kept to be looked at.
     fs::write(
         Path::new(env!("CARGO_TARGET_TMPDIR")).join("report.html"),
-        &page,
+        page,
     )?;
-    stands_alone(&page);
+    stands_alone(page);
     // The policy comes before what it allows: styles in the page, and nothing from elsewhere.
     let policy = page.find("content=\"default-src 'none'; style-src 'unsafe-inline'");
     assert!(
         policy.is_some() && policy < page.find("<style>"),
         "{policy:?}"
     );
-    assert_eq!(
-        page.matches("class=\"requirement\"").count(),
-        report.requirements.len()
+    let requirements = report["requirements"].as_array().ok_or("requirements")?;
+    assert_eq!(requirements.len(), 2);
+    assert_eq!(page.matches("class=\"requirement\"").count(), 2);
+    assert_eq!(count(page, "section")?, 11);
+    let (pictures, sources) = (
+        count(page, "svg")?,
+        page.matches("class=\"source\"").count(),
     );
-    assert_eq!(count(&page, "section")?, 10);
-    assert_eq!(count(&page, "figure")?, 9);
-    assert_eq!(count(&page, "svg")?, count(&page, "figure")?);
-    assert!(page.contains("press &lt;1&gt; &amp; co"));
-    assert!(page.contains("s<sub>SN</sub>"));
-    tables(&report)
+    assert_eq!((count(page, "figure")?, sources), (pictures + 2, 2));
+    for told in [
+        "<h1>press &lt;1&gt; &amp; co</h1>",
+        "s<sub>SN</sub>",
+        "A. Engineer",
+        "2026-11-26",
+        HASH,
+        "maximise = &quot;impact_energy&quot;",
+        "mass 120\u{a0}kg",
+        "(follows stop.stiffness)",
+        "(sought)",
+    ] {
+        assert!(page.contains(told), "{told}");
+    }
+    assert_eq!(report["report"]["date"], "2026-11-26");
+    assert_eq!(report["objective"]["figure"], "impact_energy");
+    for told in [
+        "follows stop.stiffness",
+        "kinetic energy before the impact",
+        "sought",
+    ] {
+        assert!(written.text.contains(told), "{told}");
+    }
+    tables(written.folder.path(), report)
 }
 
-/// All rows of a table have its columns, and numbers in them are numbers.
-fn tables(report: &Report) -> Outcome {
-    let tables = csv(report)?;
-    let names: Vec<&str> = tables.iter().map(|it| it.0.as_str()).collect();
-    let front = [
-        "comparison.csv",
-        "requirements.csv",
-        "map-1.csv",
-        "map-1-boundaries.csv",
-    ];
-    assert_eq!(names[..4], front);
-    assert_eq!(names.len(), 13);
-    for (name, bytes) in &tables {
-        let mut reader = ::csv::Reader::from_reader(bytes.as_slice());
-        let rows = reader.records().collect::<Result<Vec<_>, _>>()?;
-        assert!(!rows.is_empty(), "{name}");
-        let text = String::from_utf8(bytes.clone())?;
-        assert!(!text.contains("NaN") && !text.contains("inf"), "{name}");
+/// The tables hold what JSON does, rows have all columns, and numbers in them are numbers.
+fn tables(folder: &Path, report: &Value) -> Outcome {
+    for file in fs::read_dir(folder)? {
+        let name = file?.file_name().to_string_lossy().into_owned();
+        if name.ends_with(".csv") {
+            table(folder, &name)?;
+            let text = fs::read_to_string(folder.join(&name))?;
+            assert!(!text.contains("NaN") && !text.contains("inf"), "{name}");
+        }
+    }
+    let comparison = table(folder, "comparison.csv")?;
+    let records = report["comparison"].as_array().ok_or("comparison")?;
+    assert_eq!(comparison.len(), records.len() + 1);
+    let requirements = table(folder, "requirements.csv")?;
+    assert_eq!(&requirements[0][0], "name");
+    // Two periods of the drive, in each of which the force reaches its peak.
+    let frequency = report["design"]["frequency"].as_f64().ok_or("frequency")?;
+    let motion = table(folder, "motion.csv")?;
+    let number = |row: &csv::StringRecord, column: usize| row[column].parse::<f64>();
+    let end = number(&motion[motion.len() - 1], 0)?;
+    assert!((end * frequency - 2.0).abs() < 1e-9, "{end}");
+    let figure = |name: &str| {
+        report["requirements"]
+            .as_array()?
+            .iter()
+            .find(|it| it["name"] == name)
+    };
+    let peak = figure("stop_force")
+        .and_then(|it| it["value"].as_f64())
+        .ok_or("peak")?;
+    let mut peaks = [0.0f64; 2];
+    for row in &motion[1..] {
+        let period = usize::from(number(row, 0)? > 0.5 * end);
+        peaks[period] = peaks[period].max(number(row, 3)?);
+    }
+    for found in peaks {
+        assert!(
+            (found / peak - 1.0).abs() < 1e-3 && found <= peak * (1.0 + 1e-9),
+            "{found} {peak}"
+        );
     }
     Ok(())
 }
 
+/// The same task makes the same page, whenever it is made.
 #[test]
 fn what_is_absent_is_left_out_with_its_heading() -> Outcome {
-    let page = html(&Report {
-        machine: "press".to_owned(),
-        ..Report::default()
-    })?;
-    stands_alone(&page);
-    for element in ["section", "h2", "table", "figure", "ul", "dl"] {
-        assert_eq!(count(&page, element)?, 0, "{element}");
+    let line = [
+        "unloaded",
+        "--vary",
+        "stop.stiffness=7",
+        "--vary",
+        "clearance=9:11",
+        "--margin",
+        "0",
+    ];
+    let [written, again] = [optimize(&line)?, optimize(&line)?];
+    assert_eq!(written.page, again.page);
+    stands_alone(&written.page);
+    for id in ["requirements", "tolerances", "sensitivities"] {
+        assert!(!written.page.contains(&format!("id=\"{id}\"")), "{id}");
+        assert!(
+            !written.folder.path().join(format!("{id}.csv")).exists(),
+            "{id}"
+        );
     }
-    assert_eq!(csv(&Report::default())?, []);
+    assert!(written.page.contains("--vary clearance=9:11"));
+    assert!(written.page.contains("paper&#x27;s A"));
     Ok(())
 }
 
-/// Figures that are no numbers come to nothing worse than a dash.
+/// In ratios, with m = k1 = F0 = 1, a preload is the deflection times the stiffness of the stop, in every column.
 #[test]
-fn what_is_no_number_is_a_dash() -> Outcome {
-    let nan = f64::NAN;
-    let curve = |points: Vec<[f64; 2]>| Curve {
-        name: "design".to_owned(),
-        role: Role::Design,
-        points,
-    };
-    let report = Report {
-        requirements: vec![requirement(nan, f64::INFINITY)],
-        maps: vec![Map {
-            columns: 2,
-            cells: vec![Some(nan), None],
-            design: [nan, nan],
-            ..Map::default()
-        }],
-        response: Some(Response {
-            curves: vec![curve(vec![[1.0, nan], [nan, nan]]), curve(Vec::new())],
-            design: [nan, nan],
-            tolerance: Some([nan, nan]),
-            bands: vec![vec![[nan; 3], [1.0, nan, 2.0]]],
-            ..Response::default()
-        }),
-        portrait: Some(Portrait {
-            faces: vec![("stop".to_owned(), nan)],
-            ..Portrait::default()
-        }),
-        basin: Some(Basin::default()),
-        erosion: Some(Erosion {
-            points: vec![ErosionPoint {
-                share: nan,
-                ..ErosionPoint::default()
-            }],
-            ..Erosion::default()
-        }),
-        fronts: vec![Front {
-            points: vec![[nan, 1.0]],
-            design: Some([nan, nan]),
-            ..Front::default()
-        }],
-        histogram: Some(Histogram {
-            nominal: nan,
-            worst: Some(nan),
-            range: [nan, nan],
-            counts: vec![0, 3],
-            ..Histogram::default()
-        }),
-        sensitivities: vec![Sensitivity {
-            effect: nan,
-            share: Some(nan),
-            ..Sensitivity::default()
-        }],
-        ..Report::default()
-    };
-    let page = html(&report)?;
-    stands_alone(&page);
-    count(&page, "svg")?;
+fn preloads_of_ratio_machines_are_of_one_kind_in_a_row() -> Outcome {
+    for (machine, deflection) in [("unloaded", 10.0), ("loaded", 4.0), ("loaded", 0.0)] {
+        let set = format!("stop.preload_deflection={deflection}");
+        let written = optimize(&[
+            machine,
+            "--set",
+            &set,
+            "--vary",
+            "stop.stiffness=2:3",
+            "--vary",
+            "clearance=10:12",
+            "--no-report",
+        ])?;
+        let rows = written.report["comparison"]
+            .as_array()
+            .ok_or("comparison")?;
+        let row = |name: &str| {
+            rows.iter()
+                .find(|row| row["quantity"] == name)
+                .ok_or("a row")
+        };
+        let stiffness = row("stiffness of the stop")?;
+        let (force, bend) = (
+            row("preload of the stop")?,
+            row("preload of the stop as a deflection")?,
+        );
+        for (column, expected) in [("design", None), ("A", Some(70.0)), ("B", Some(70.0))] {
+            let number = |row: &Value| row[column].as_f64().ok_or("a number");
+            let product = number(bend)? * number(stiffness)?;
+            assert!(
+                (number(force)? - product).abs() <= 1e-12 * product,
+                "{column}"
+            );
+            assert!(expected.is_none_or(|it| (number(force).unwrap_or(0.0) - it).abs() < 1e-12));
+        }
+        assert_eq!(bend["design"], deflection);
+        assert_eq!(
+            written.report["design"]["at_limits"][0],
+            "stop.stiffness: lower bound"
+        );
+    }
+    Ok(())
+}
+
+/// An older result is not taken for a new one.
+#[test]
+fn files_in_place_of_older_ones_are_told() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().to_str().ok_or("path")?;
+    let line = [
+        "optimize",
+        "--vary",
+        "stop.stiffness=7",
+        "--vary",
+        "clearance=9:11",
+    ];
+    let few = ["--evaluations", "100", "--no-report", "--output", path];
+    let line = [&line[..], &few].concat();
+    let texts = [SOFTSTOP.text(&line), SOFTSTOP.text(&line)];
+    let older = texts.map(|text| text.matches(", in place of an older one)").count());
+    assert_eq!(older, [0, 5]);
     Ok(())
 }

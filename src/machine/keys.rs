@@ -33,7 +33,14 @@ pub(super) const FURTHER: [&str; 10] = [
 ];
 
 /// Tables of a file that are no part of the machine: what `softstop optimize` is to do with it.
-pub(super) const TASK: [&str; 5] = ["vary", "tolerance", "objective", "require", "search"];
+pub(super) const TASK: [&str; 6] = [
+    "vary",
+    "tolerance",
+    "objective",
+    "require",
+    "search",
+    "report",
+];
 
 /// All keys of a file in a language.
 pub(super) fn all(speaks: Language) -> Vec<&'static str> {

@@ -280,10 +280,10 @@ impl Machine {
         self.labelled(what, symbol, self.unit(dimension))
     }
 
-    /// The label of a parameter.
-    pub fn label_of(&self, parameter: Parameter) -> String {
+    /// What a parameter is, as this machine states it, and its symbol in the paper; empty if it has none there.
+    pub fn meaning_of(&self, parameter: Parameter) -> (&'static str, &'static str) {
         let about = parameter.about();
-        let (what, symbol) = match parameter {
+        match parameter {
             Parameter::Preload if self.preload_deflection.is_some() => {
                 ("preload of the stop as a deflection", "Fₚ/k₄")
             }
@@ -291,7 +291,12 @@ impl Machine {
                 (about.meaning, "")
             }
             _ => (about.meaning, about.symbol),
-        };
+        }
+    }
+
+    /// The label of a parameter.
+    pub fn label_of(&self, parameter: Parameter) -> String {
+        let (what, symbol) = self.meaning_of(parameter);
         self.labelled(what, symbol, self.unit_of(parameter))
     }
 

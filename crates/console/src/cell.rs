@@ -67,6 +67,14 @@ impl<T: Into<Cell>> From<Option<T>> for Cell {
 const MAX_LISTED: usize = 8;
 
 impl Cell {
+    /// The same, and nothing in place of a number that is not finite.
+    pub(crate) fn finite(&self) -> &Self {
+        match self {
+            Self::Number(number) if !number.is_finite() => &Self::Empty,
+            cell => cell,
+        }
+    }
+
     /// As people read it, its numbers in a style.
     pub(crate) fn format(&self, style: NumberStyle) -> String {
         match self {

@@ -51,9 +51,10 @@ use std::path::Path;
 use anyhow::anyhow;
 use serde::Serialize;
 
-use crate::column::Column;
+use crate::column::{Cell, Column};
 use crate::failure::Failure;
 use crate::output::{self, Folder, Format, Staged};
+use crate::sheet::Sheet;
 
 /// What a command found: plain data whose field names are the keys of the JSON.
 pub trait Report: Serialize {
@@ -113,11 +114,23 @@ impl Export {
         self.folder.refuse_folders_called(ending)
     }
 
-    /// Writes one more file, of which nothing was known before.
-    pub fn further(&mut self, name: &str, content: &[u8]) -> Result<(), Failure> {
-        let kind = name.replace('.', "_");
-        self.files.push((kind, name.to_owned()));
-        self.folder.stage(name, content)
+    /// Writes tables of which nothing was known before, each as a CSV file of its name; an empty one is left out, and
+    /// so is what is no finite number.
+    pub fn sheets<'a>(
+        &mut self,
+        sheets: impl IntoIterator<Item = &'a Sheet>,
+    ) -> Result<(), Failure> {
+        for Sheet { name, heads, rows } in sheets.into_iter().filter(|it| !it.rows.is_empty()) {
+            let kind = format!("{name}_csv");
+            self.files.push((kind.clone(), format!("{name}.csv")));
+            let mut staged = self.rows(&kind)?;
+            staged.row(heads)?;
+            for row in rows {
+                staged.row(row.iter().map(Cell::finite))?;
+            }
+            staged.close()?;
+        }
+        Ok(())
     }
 
     /// There will be no file of a kind.
@@ -185,7 +198,11 @@ impl Export {
         let files: BTreeMap<_, _> = self.files.iter().map(place).collect();
         let mut text = report.text() + "\n";
         for (kind, path) in &files {
-            text += &format!("Written: {path} ({kind})\n");
+            let older = match Path::new(path).exists() {
+                true => ", in place of an older one",
+                false => "",
+            };
+            text += &format!("Written: {path} ({kind}{older})\n");
         }
         let json = output::json(&Filed { report, files })?;
         if let Some((kind, _)) = self.files.iter().find(|file| file.1.ends_with(".json")) {

@@ -27,6 +27,7 @@ pub mod record_log;
 pub mod report;
 pub mod scene_file;
 pub mod schema;
+pub mod sheet;
 pub mod signals;
 pub mod table;
 pub mod units;

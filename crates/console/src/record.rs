@@ -52,10 +52,29 @@ impl Record {
         self
     }
 
+    /// The same, and a figure for programs and pages alone.
+    #[must_use]
+    pub fn hidden(self, name: &'static str, cell: impl Into<Cell>) -> Self {
+        let mut record = self.with(name, "", cell);
+        if let Some(last) = record.0.last_mut() {
+            last.form = None;
+        }
+        record
+    }
+
     /// The cell of this name.
     pub fn cell(&self, name: &str) -> Option<&Cell> {
         let figure = self.0.iter().find(|it| it.name == name);
         figure.map(|it| &it.cell)
+    }
+
+    /// The number of this name; NaN if there is none.
+    pub fn number(&self, name: &str) -> f64 {
+        match self.cell(name) {
+            Some(Cell::Number(number)) => *number,
+            Some(Cell::Count(count)) => *count as f64,
+            _ => f64::NAN,
+        }
     }
 
     /// The same, and then the figures of another one.

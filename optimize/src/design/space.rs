@@ -37,19 +37,6 @@ impl Interval {
             (self.low + unit * (self.high - self.low)).clamp(self.low, self.high)
         }
     }
-
-    /// Which end a value stands at, if the interval has two.
-    pub fn end(&self, value: f64) -> Option<&'static str> {
-        if self.is_held() {
-            None
-        } else if value == self.low {
-            Some("lower")
-        } else if value == self.high {
-            Some("upper")
-        } else {
-            None
-        }
-    }
 }
 
 impl fmt::Display for Interval {
@@ -153,9 +140,6 @@ mod tests {
             [7.0, 0.3],
             "outside the cube: pulled in"
         );
-        assert_eq!(range.end(0.3), Some("upper"));
-        assert_eq!(range.end(0.2), None);
-        assert_eq!(Interval::held(2.0).end(2.0), None);
     }
 
     #[test]

@@ -1,28 +1,25 @@
 //! `softstop optimize`: the hardest impact inside the hysteresis zone.
 
-mod branch;
-mod chart;
-
 mod objective;
 mod older;
 pub mod outcome;
 mod progress;
 pub mod reference;
-mod report_data;
 mod require;
 mod solve;
 pub mod study;
 mod task;
 mod task_spec;
+pub mod title;
 mod tolerance;
 mod toml_leaves;
 mod vary;
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::slice;
 
 use clap::Args;
-use softstop::{Dimension, Machine, Parameter, Start};
+use softstop::{Dimension, Machine, Start};
 use softstop_console::arguments::MachineArguments;
 use softstop_console::budget::Budget;
 use softstop_console::export::Export;
@@ -34,11 +31,12 @@ use softstop_console::scene_file;
 
 use crate::design::Problem;
 use crate::fmu::{archive, library, parameters};
-use crate::limits::key;
-use crate::page::{csv, html};
+use crate::page::figure::Figure;
+use crate::page::figures::{figures, response};
+use crate::page::html;
 use crate::report::OptimizeReport;
-use crate::searched::SearchReport;
-use outcome::{Interrupted, Outcome};
+use outcome::Outcome;
+use reference::Reference;
 use solve::solve;
 use study::Study;
 use task::Job;
@@ -85,6 +83,8 @@ A machine's file may hold a task (docs/tutorials/press.md takes a press from fil
     run_up = true
     [search]
     evaluations = 2000
+    [report]                                 title, author and date above the report
+    author = \"A. Engineer\"
 With tolerances, all machines within them stay in the zone, and a million of them are looked at (--samples).
 
 Files, whole or not at all: report.html (for people, one page), design.json (what --format json prints),
@@ -154,20 +154,21 @@ pub struct OptimizeArguments {
     pub machine: MachineArguments,
 }
 
+/// The files of a run by their kinds, besides the tables.
+const FILES: [(&str, &str); 6] = [
+    ("json", "design.json"),
+    ("svg", "design.svg"),
+    ("fmu", "design.fmu"),
+    ("toml", "design.toml"),
+    ("ssv", "design.ssv"),
+    ("html", "report.html"),
+];
+
 /// Searches, prints and writes the files.
 pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let job = Job::new(arguments)?;
     can_be_packed(&job.problem.machine)?;
-    let files = [
-        ("json", "design.json"),
-        ("svg", "design.svg"),
-        ("fmu", "design.fmu"),
-        ("toml", "design.toml"),
-        ("ssv", "design.ssv"),
-        ("html", "report.html"),
-    ];
-    let files = &files[..files.len() - usize::from(!job.report)];
-    let mut export = Export::open(&job.output, files)?;
+    let mut export = Export::open(&job.output, &FILES)?;
     export.refuse_folders_called(".csv")?;
     let library = library()?;
     let keep = Keep::open(&job.output, "optimize", &job.identity(), arguments.keep)?;
@@ -178,24 +179,14 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         }
         outcome => outcome?,
     };
-    let looked = match outcome.interrupted {
-        None => looked(&job, &outcome),
-        Some(_) => Err(Failure::Interrupted),
+    let looked = match outcome.go_on(|outcome| Looked::new(&job, outcome, true))? {
+        Some(looked) => looked,
+        None => Looked::new(&job, &outcome, false)?,
     };
-    let (study, page) = match looked {
-        Err(_) if interrupt::requested() || outcome.interrupted.is_some() => {
-            interrupt::save();
-            outcome.interrupted.get_or_insert(Interrupted::Report);
-            (None, None)
-        }
-        looked => looked?,
-    };
-    let design = &outcome.design;
-    let references = reference::references(&job.problem.machine)?;
-    let beside = reference::nearest(&job.problem.machine, &references);
-    let chart = chart::svg(design, job.problem.margin, beside);
-    export.file("svg", chart.as_bytes())?;
-    let start = Start::from(design.orbit.state());
+    let report = looked.report(&job, &outcome);
+    let name = job.problem.machine.name.as_deref().unwrap_or_default();
+    export.file("svg", looked.response.document(name).as_bytes())?;
+    let start = Start::from(outcome.design.orbit.state());
     let machine = Machine {
         start,
         ..named(&job.problem, &outcome)
@@ -206,23 +197,14 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let machine = Machine::from_toml(&text).map_err(anyhow::Error::from)?;
     export.file("fmu", &archive(&library, &machine, start)?)?;
     export.file("ssv", parameters(&machine, start)?.as_bytes())?;
-    match &page {
-        Some((page, tables)) => {
+    match report.figures.is_empty() {
+        false => {
+            let page = html(&report).map_err(anyhow::Error::from)?;
             export.file("html", page.as_bytes())?;
-            for (name, table) in tables {
-                export.further(name, table)?;
-            }
+            export.sheets(&report.sheets())?;
         }
-        None => export.forgo("html"),
+        true => export.forgo("html"),
     }
-    let search = SearchReport {
-        bounds: bounds(&job.problem),
-        evaluations: job.settings.evaluations,
-        evaluations_used: outcome.evaluations,
-        resolution: outcome.resolution,
-        interrupted: outcome.interrupted,
-    };
-    let report = OptimizeReport::new(&job.problem, &outcome, &references, search, study.as_ref());
     export.finish(&report, job.format)?;
     if let Some(interrupted) = outcome.interrupted {
         interrupt::under_way().close_with(interrupted.closing());
@@ -232,22 +214,47 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A page and its tables, by their names.
-type Page = (String, Vec<(String, Vec<u8>)>);
-
 /// What is looked at of a design besides.
-fn looked(job: &Job, outcome: &Outcome) -> Result<(Option<Study>, Option<Page>), Failure> {
-    let study = study::study(job, &outcome.design)?;
-    let mut page = None;
-    if job.report {
-        let references = reference::references(&job.problem.machine)?;
-        let report = report_data::report(job, outcome, &references, study.as_ref());
-        let tables = csv(&report)?;
-        page = Some((html(&report).map_err(anyhow::Error::from)?, tables));
+struct Looked {
+    references: Vec<Reference>,
+    study: Option<Study>,
+    response: Figure,
+    /// The other pictures.
+    figures: Vec<Figure>,
+}
+
+impl Looked {
+    /// Of an unfinished run only what takes no time.
+    fn new(job: &Job, outcome: &Outcome, is_whole: bool) -> Result<Self, Failure> {
+        let (problem, design) = (&job.problem, &outcome.design);
+        let references = reference::references(&problem.machine)?;
+        let study = match is_whole {
+            true => study::study(job, design)?,
+            false => None,
+        };
+        let response = response(problem, design, &references, study.as_ref());
+        let figures = match is_whole && job.report {
+            true => figures(problem, outcome, study.as_ref()),
+            false => Vec::new(),
+        };
+        Ok(Self {
+            references,
+            study,
+            response,
+            figures,
+        })
     }
-    match interrupt::requested() {
-        true => Err(Failure::Interrupted),
-        false => Ok((study, page)),
+
+    fn report(&self, job: &Job, outcome: &Outcome) -> OptimizeReport {
+        let (study, evaluations) = (self.study.as_ref(), job.settings.evaluations);
+        let mut report =
+            OptimizeReport::new(&job.problem, outcome, &self.references, study, evaluations);
+        report.title = job.title.clone();
+        report.sources = job.sources.clone();
+        if !self.figures.is_empty() {
+            report.figures = [&self.figures[..], slice::from_ref(&self.response)].concat();
+        }
+        report
     }
 }
 
@@ -289,13 +296,4 @@ fn named(problem: &Problem, outcome: &Outcome) -> Machine {
         )),
         ..machine.clone()
     }
-}
-
-/// Values held and ranges searched, by their keys.
-fn bounds(problem: &Problem) -> BTreeMap<String, String> {
-    let axes = problem.axes.iter();
-    let axes = axes.map(|axis| (axis.parameter, axis.range));
-    let bounds = axes.chain([(Parameter::Frequency, problem.frequency)]);
-    let bounds = bounds.map(|(parameter, range)| (key(parameter), range.to_string()));
-    bounds.collect()
 }

@@ -1,6 +1,8 @@
 //! What came of a search, and what was looked at of the design beside it.
 
 use serde::Serialize;
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
 use softstop_dynamics::basin::ErosionProfile;
 use softstop_dynamics::run_up::RunUp;
 
@@ -65,4 +67,23 @@ pub struct Outcome {
     pub run_up: Option<RunUp>,
     /// What more of one good costs of another, for the report.
     pub fronts: Vec<Front>,
+}
+
+impl Outcome {
+    /// Goes on with the run; none, and the run is marked as interrupted, once it was asked to end.
+    pub(super) fn go_on<T>(
+        &mut self,
+        what: impl FnOnce(&Self) -> Result<T, Failure>,
+    ) -> Result<Option<T>, Failure> {
+        if self.interrupted.is_some() {
+            return Ok(None);
+        }
+        let done = what(self);
+        if !interrupt::requested() {
+            return done.map(Some);
+        }
+        interrupt::save();
+        self.interrupted = Some(Interrupted::Report);
+        Ok(None)
+    }
 }

@@ -54,11 +54,3 @@ pub(super) fn references(machine: &Machine) -> Result<Vec<Reference>, Failure> {
         })
         .collect()
 }
-
-/// The one that stands in the chart: that of the machine's own regime.
-pub(super) fn nearest<'a>(machine: &Machine, all: &'a [Reference]) -> Option<&'a Reference> {
-    let is_like = |reference: &&Reference| {
-        reference.machine.scene.piercing.is_some() == machine.scene.piercing.is_some()
-    };
-    all.iter().find(is_like)
-}

@@ -16,6 +16,7 @@ use softstop_console::scene_file;
 use super::objective::objective;
 use super::require::requirements;
 use super::task_spec::{Search, TaskSpec};
+use super::title::{Source, Title};
 use super::tolerance::tolerances;
 use super::vary::{Searched, held, searched, variables};
 use super::{OptimizeArguments, older};
@@ -41,13 +42,19 @@ pub(super) struct Job {
     pub report: bool,
     pub output: PathBuf,
     pub format: Format,
+    /// What stands above the report.
+    pub title: Title,
+    /// The texts that state the task.
+    pub sources: Vec<Source>,
 }
 
 impl Job {
     /// Joins command line, file and defaults.
     pub(super) fn new(arguments: &OptimizeArguments) -> Result<Self, Failure> {
         let task = task(arguments)?;
-        let machine = machine(arguments, &task)?;
+        let place = place(arguments, &task);
+        let machine = machine(arguments, &task, place.clone())?;
+        let sources = Source::all(arguments, place.as_deref())?;
         let tolerances = tolerances(&machine, &task.tolerance)?;
         let (requirements, share) = requirements(&machine, &task.require)?;
         let objective = objective(&machine, &task.objective)?;
@@ -108,6 +115,8 @@ impl Job {
                 .or(task.output)
                 .unwrap_or_else(|| OUTPUT.into()),
             format: arguments.format.or(task.format).unwrap_or_default(),
+            title: task.report,
+            sources,
         })
     }
 }
@@ -190,17 +199,26 @@ fn task(arguments: &OptimizeArguments) -> Result<TaskSpec, Failure> {
     }
 }
 
-/// The command line's machine, or else the task's, seen from the task's folder.
-fn machine(arguments: &OptimizeArguments, task: &TaskSpec) -> Result<Machine, Failure> {
-    arguments.machine.refuse_start()?;
+/// Where the machine is: what the command line says, or else the task, seen from the task's folder.
+fn place(arguments: &OptimizeArguments, task: &TaskSpec) -> Option<PathBuf> {
     let folder = arguments.config.as_ref().and_then(|path| path.parent());
-    let place = task
+    let of_task = task
         .machine
         .as_ref()
         .map(|machine| match (Regime::called(machine), folder) {
             (None, Some(folder)) => folder.join(machine),
             _ => machine.clone(),
         });
+    arguments.machine.machine.clone().or(of_task)
+}
+
+/// The machine at its place, changed as the task and the command line say.
+fn machine(
+    arguments: &OptimizeArguments,
+    task: &TaskSpec,
+    place: Option<PathBuf>,
+) -> Result<Machine, Failure> {
+    arguments.machine.refuse_start()?;
     arguments.machine.machine_over(place, &task.set)
 }
 

@@ -14,6 +14,7 @@ use softstop_console::schema;
 use toml::Table;
 
 use super::objective::Goal;
+use super::title::Title;
 use crate::design::figure::Figure;
 use crate::design::search::LEAST_EVALUATIONS;
 
@@ -88,6 +89,8 @@ task! {
         },
         "additionalProperties": false
     });
+    /// What stands above the report.
+    report: Title, Title::schema();
     /// Output folder.
     output: Option<PathBuf>, json!({ "type": "string" });
     /// How to print the result.
@@ -174,7 +177,7 @@ mod tests {
                     evaluations = 200\noutput = \"there\"\nformat = \"json\"\n[fix]\nstop.stiffness = 7\n\
                     [bounds]\nclearance = [2, 22]\n[scene]\ndamping = 0.02\n[vary]\nclearance = 3\n\
                     [tolerance]\nclearance = 0.1\n[objective]\nmaximise = \"velocity\"\n[require]\n\
-                    velocity = 3\n[search]\nseed = 1\n";
+                    velocity = 3\n[search]\nseed = 1\n[report]\nauthor = \"A. Engineer\"\ndate = 2026-11-26\n";
         toml::from_str::<TaskSpec>(file)?;
         let written: toml::Table = toml::from_str(file)?;
         let schema = TaskSpec::schema();

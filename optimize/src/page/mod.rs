@@ -1,52 +1,57 @@
-//! The report of a design: plain data ([`data`]) made into one page that stands alone, light or dark, on screen or paper.
+//! The report of a design as one page that stands alone, light or dark, on screen or paper.
 
-pub mod computed;
-pub mod data;
-mod figure;
-mod pictures;
-mod tables;
+mod branches;
+pub mod figure;
+pub mod figures;
 mod words;
 
-pub use tables::csv;
-pub use words::{count, quantity};
+pub use words::{capital, quantity};
+
+use std::collections::BTreeMap;
 
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, Error, UndefinedBehavior, context};
 use serde::Serialize;
+use softstop::{Dimension, Machine};
 
 use softstop_console::number::NumberStyle::Percent;
 use softstop_draw::style;
 
-use data::Report;
-use figure::{Figure, HALF, WIDE};
-use pictures::{basin, effects, erosion, front, histogram, map, portrait, response};
+use crate::report::OptimizeReport;
+use figure::{Figure, Section, WIDE};
 
 /// A margin that is less, in units of the value, is rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Pictures under a heading.
-#[derive(Serialize)]
-struct Section {
-    id: &'static str,
-    title: &'static str,
-    figures: Vec<Figure>,
-}
+/// The sections of the page that have pictures.
+const SECTIONS: [(Section, &str, &str); 4] = [
+    (Section::Place, "place", "Where the design stands"),
+    (
+        Section::Motion,
+        "motion",
+        "The machine, how it moves, and how it is reached",
+    ),
+    (Section::Cost, "fronts", "What it costs"),
+    (Section::Tolerances, "tolerances", "What the tolerances do"),
+];
 
 /// The page of a report: an HTML document, well-formed as XML, without scripts and without anything from elsewhere.
 ///
 /// # Errors
 /// If the page's template does not fit the data.
-pub fn html(report: &Report) -> Result<String, Error> {
+pub fn html(report: &OptimizeReport) -> Result<String, Error> {
     let mut environment = Environment::new();
-    environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    environment.set_undefined_behavior(UndefinedBehavior::SemiStrict);
     environment.add_filter("symbols", |text: &str| {
         Value::from_safe_string(words::html(text))
     });
     environment.add_filter("number", |value: Option<f64>| {
         value.map_or("–".to_owned(), words::number)
     });
+    environment.add_filter("quantity", quantity);
+    environment.add_filter("capital", capital);
     environment.add_filter("numbers", words::with_numbers);
-    environment.add_filter("count", count);
+    environment.add_filter("count", words::count);
     environment.add_filter("beside", |small: Option<f64>, size: Option<f64>| {
         let (small, size) = (small.unwrap_or(f64::NAN), size.unwrap_or(f64::NAN));
         let is_rounding = small.abs() < ROUNDING * size.abs();
@@ -58,58 +63,89 @@ pub fn html(report: &Report) -> Result<String, Error> {
     });
     environment.add_template("report.html", include_str!("../../assets/report.html"))?;
     let template = environment.get_template("report.html")?;
-    let page = template.render(context! {
+    template.render(context! {
         version => env!("CARGO_PKG_VERSION"),
         style => style::PAGE.to_owned() + include_str!("../../assets/report.css"),
-        sections => Serde(sections(report)),
+        sections => Serde(sections(&report.figures)),
         report => Serde(report),
-    })?;
-    Ok(page)
+        header => Serde(&report.title),
+        name => report.machine.name.as_deref().unwrap_or("machine"),
+        sources => Serde(&report.sources),
+        units => units(&report.machine),
+    })
 }
 
-/// The sections that have a picture.
-fn sections(report: &Report) -> Vec<Section> {
-    let of_map = |it| map::figure(it, if report.maps.len() == 1 { WIDE } else { HALF });
-    let effects = Some(&report.sensitivities[..]).filter(|all| !all.is_empty());
+/// A picture as the template takes it.
+#[derive(Serialize)]
+struct Picture {
+    title: String,
+    svg: String,
+    caption: String,
+    is_wide: bool,
+}
+
+/// The pictures of each section that has some, under its name in addresses and its heading.
+fn sections(figures: &[Figure]) -> Vec<(&'static str, &'static str, Vec<Picture>)> {
+    let picture = |it: &Figure| Picture {
+        title: it.chart.title.clone(),
+        svg: it.chart.inline(words::plain),
+        caption: it.caption.clone(),
+        is_wide: it.chart.page.is_some_and(|(width, _)| width == WIDE.0),
+    };
+    let pictures = |section| {
+        let figures = figures.iter().filter(|it| it.section == section);
+        figures.map(picture).collect::<Vec<_>>()
+    };
+    let all = SECTIONS.map(|(section, id, title)| (id, title, pictures(section)));
+    all.into_iter().filter(|it| !it.2.is_empty()).collect()
+}
+
+/// The signs of the units of a machine; empty for ratios.
+fn units(machine: &Machine) -> BTreeMap<&'static str, &'static str> {
     let all = [
-        Section {
-            id: "place",
-            title: "Where the design stands",
-            figures: report
-                .maps
-                .iter()
-                .map(of_map)
-                .chain(report.response.iter().map(response::figure))
-                .collect(),
-        },
-        Section {
-            id: "motion",
-            title: "How it moves, and how it is reached",
-            figures: report
-                .portrait
-                .iter()
-                .map(portrait::figure)
-                .chain(report.basin.iter().map(basin::figure))
-                .chain(report.erosion.iter().map(erosion::figure))
-                .collect(),
-        },
-        Section {
-            id: "fronts",
-            title: "What it costs",
-            figures: report.fronts.iter().map(front::figure).collect(),
-        },
-        Section {
-            id: "tolerances",
-            title: "What the tolerances do",
-            figures: report
-                .histogram
-                .iter()
-                .map(histogram::figure)
-                .chain(effects.map(effects::figure))
-                .collect(),
-        },
+        ("velocity", Dimension::Velocity),
+        ("frequency", Dimension::Frequency),
     ];
     all.into_iter()
-        .filter(|section| !section.figures.is_empty())
+        .map(|(name, dimension)| (name, machine.unit(dimension)))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use softstop_draw::{Axis, Layer, Mark, Panel, style};
+
+    use super::figure::{AT, BOUND, DESIGN, Figure, HALF, Section, bounds};
+    use super::sections;
+
+    /// Values that are no numbers leave gaps, and nothing of them is written.
+    #[test]
+    fn what_is_no_number_is_not_drawn() {
+        let nan = f64::NAN;
+        let places = [(1.0, nan), (nan, nan)];
+        let layers = [
+            Layer::line(places, DESIGN),
+            Layer::line([], DESIGN),
+            Layer::contour(places, None),
+            Layer::marks(places, Mark::Diamond, style::OPTIMUM),
+            Layer::band([(nan, [nan; 2]), (1.0, [nan, 2.0])], style::OPTIMUM, 0.3),
+            Layer::boxes([[(nan, nan), (0.0, nan)]], style::ALLOWED, 1.0),
+            Layer::shades(2, [nan, nan], "shade"),
+            Layer::ring((nan, nan), (nan, nan)),
+            Layer::across(nan, AT, ""),
+        ];
+        let stop = [("stop", nan)];
+        let layers = layers.into_iter().chain(bounds(&stop, BOUND));
+        for layer in layers {
+            let panel = Panel {
+                x: Axis::new("x"),
+                layers: vec![layer.clone()],
+                ..Panel::default()
+            };
+            let figure = Figure::new(Section::Place, HALF, "", [panel], "");
+            let pictures = &sections(&[figure])[0].2;
+            let svg = &pictures[0].svg;
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{layer:?}");
+        }
+    }
 }

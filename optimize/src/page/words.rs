@@ -3,8 +3,6 @@
 use softstop_draw::index::pieces;
 use softstop_draw::scale::power_of_ten;
 
-use super::data::Label;
-
 /// Significant digits of numbers in the page.
 const DIGITS: i32 = 5;
 /// Powers of ten that are not split off.
@@ -35,7 +33,7 @@ pub(super) fn number(value: f64) -> String {
 }
 
 /// A whole number, its digits in groups of three.
-pub fn count(value: u64) -> String {
+pub(super) fn count(value: u64) -> String {
     let digits = value.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
@@ -85,7 +83,7 @@ fn grouped(text: &str) -> String {
 }
 
 /// The text with a capital at its beginning.
-pub(super) fn capital(text: &str) -> String {
+pub fn capital(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().into_iter().flat_map(char::to_uppercase);
     first.chain(letters).collect()
@@ -127,26 +125,6 @@ fn escaped(text: &str) -> String {
         .replace('<', "&lt;")
         .replace('>', "&gt;")
         .replace('"', "&quot;")
-}
-
-impl Label {
-    /// With this name, letter and unit.
-    pub fn new(name: &str, symbol: &str, unit: &str) -> Self {
-        let [name, symbol, unit] = [name, symbol, unit].map(str::to_owned);
-        Self { name, symbol, unit }
-    }
-
-    /// In one line: name, letter, and the unit in brackets.
-    pub(super) fn line(&self) -> String {
-        let mut line = self.name.clone();
-        if !self.symbol.is_empty() {
-            line += &format!(" {}", self.symbol);
-        }
-        if !self.unit.is_empty() {
-            line += &format!(" ({})", self.unit);
-        }
-        line
-    }
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ use softstop::PhaseKind;
 
 pub use begin::MotionArguments;
 pub(crate) use record::Crossed;
+pub use record::contact_force;
 pub(crate) use report::SimulateReport;
 pub(crate) use run::{Outcome, Plan, faces};
 

@@ -128,7 +128,7 @@ impl<'a, F> Recorder<'a, F> {
         for step in 0..=steps as u32 {
             let after = skipped + shown * f64::from(step) / steps;
             let state = arc.at(after);
-            let force = force(self.scene, arc.phase, state, arc.drive(after));
+            let force = contact_force(self.scene, arc.phase, state, arc.drive(after));
             let point = [begin + after, state.position, state.velocity, force];
             self.drawing.points.push(point);
         }
@@ -168,7 +168,7 @@ impl<F: FnMut(&Crossed) -> Result<(), Failure>> Observer for Recorder<'_, F> {
 }
 
 /// Force in N of stop and strip in a state; on a mass that is held, the one that holds it.
-pub(super) fn force(
+pub fn contact_force(
     scene: &Scene,
     phase: Option<&Phase>,
     Start { position, velocity }: Start,

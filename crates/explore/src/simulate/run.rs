@@ -6,7 +6,7 @@ use softstop::{Instant, Scene, Start};
 
 use super::begin::Begun;
 use super::name;
-use super::record::{Crossed, Recorder, force};
+use super::record::{Crossed, Recorder, contact_force};
 use super::tally::Tally;
 use crate::simulate::chart::Drawing;
 use softstop_console::column::Column;
@@ -126,7 +126,7 @@ impl Plan<'_> {
         Sample {
             time: motion.clock().time(motion.now()),
             state,
-            force: force(&self.begun.machine.scene, motion.phase(), state, drive),
+            force: contact_force(&self.begun.machine.scene, motion.phase(), state, drive),
             phase: name(motion.kind()),
         }
     }

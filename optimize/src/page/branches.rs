@@ -1,71 +1,20 @@
-//! What pictures show of a design, computed from its machine, its zone and its motion alone.
+//! The z = 1 motions of a zone and below it, as curves of the velocity over the drive's frequency.
 
-mod basin;
-mod comparison;
-mod map;
-mod portrait;
-mod response;
-
-pub use basin::basin;
-pub use comparison::comparison;
-pub use map::map;
-pub use portrait::portrait;
-pub use response::{bands, response};
-
-use softstop::{Dimension, Language, Machine, Parameter, Scene};
+use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_console::interrupt;
+use softstop_draw::Stroke;
 use softstop_dynamics::continuation::{Follower, Heading, Test};
 use softstop_dynamics::watch::stop_if;
 use softstop_dynamics::{Along, BranchPoint, Orbit, Zone};
 
-use super::data::Label;
-
-/// The label of a parameter of a machine.
-pub(crate) fn label_of(machine: &Machine, parameter: Parameter) -> Label {
-    let about = parameter.about();
-    match machine.speaks {
-        Language::Ratios => Label::new(about.meaning, about.symbol, ""),
-        _ if parameter == Parameter::Preload && machine.preload_deflection.is_some() => Label::new(
-            "preload of the stop as a deflection",
-            "",
-            machine.unit_of(parameter),
-        ),
-        _ => Label::new(about.meaning, "", machine.unit_of(parameter)),
-    }
-}
-
-/// The label of a quantity in a machine's own units, with its letter if it speaks ratios.
-fn label(machine: &Machine, name: &str, symbol: &str, dimension: Dimension) -> Label {
-    match machine.speaks {
-        Language::Ratios => Label::new(name, symbol, ""),
-        _ => Label::new(name, "", machine.unit(dimension)),
-    }
-}
-
-/// The label of the before-impact velocity.
-fn velocity(machine: &Machine) -> Label {
-    label(
-        machine,
-        "before-impact velocity",
-        "X′₋",
-        Dimension::Velocity,
-    )
-}
-
-/// The machine's scene with nothing to pierce where its strip was.
-fn unfed(scene: &Scene) -> Option<Scene> {
-    let mut scene = scene.clone();
-    let strip = scene.piercing.as_mut()?;
-    (strip.stiffness, strip.friction) = (0.0, 0.0);
-    Some(scene)
-}
+use super::figure::Curve;
 
 /// The z = 1 motions of a zone: those above g0, and those below, from g0 down.
-struct Motions {
+pub(super) struct Motions {
     above: Vec<BranchPoint>,
     below: Vec<BranchPoint>,
     /// Frequency in rad/s at which the period doubles below g0.
-    flip: Option<f64>,
+    pub(super) flip: Option<f64>,
 }
 
 /// Points after which the motions below g0 are given up, and how far they are looked for.
@@ -75,7 +24,7 @@ const FARTHEST: f64 = 4.0;
 const BETWEEN: u32 = 8;
 
 impl Motions {
-    fn of(zone: &Zone) -> Self {
+    pub(super) fn of(zone: &Zone) -> Self {
         let (below, flip) = below(zone).unwrap_or_default();
         Self {
             above: zone.branch.clone(),
@@ -85,7 +34,7 @@ impl Motions {
     }
 
     /// The same with others between them.
-    fn refined(self, zone: &Zone) -> Self {
+    pub(super) fn refined(self, zone: &Zone) -> Self {
         Self {
             above: refined(&zone.scene, &self.above),
             below: refined(&zone.scene, &self.below),
@@ -94,7 +43,7 @@ impl Motions {
     }
 
     /// Least and greatest frequency in rad/s.
-    fn range(&self) -> [f64; 2] {
+    pub(super) fn range(&self) -> [f64; 2] {
         let all = || self.above.iter().chain(&self.below).map(|it| it.parameter);
         [
             all().fold(f64::INFINITY, f64::min),
@@ -103,7 +52,7 @@ impl Motions {
     }
 
     /// The highest velocity of a stable motion at a frequency in rad/s, between neighbours along a straight line.
-    fn velocity_at(&self, frequency: f64) -> Option<f64> {
+    pub(super) fn velocity_at(&self, frequency: f64) -> Option<f64> {
         let at = |pair: &[BranchPoint]| {
             let (from, to) = (&pair[0], &pair[1]);
             let share = (frequency - from.parameter) / (to.parameter - from.parameter);
@@ -114,10 +63,51 @@ impl Motions {
         let pairs = self.above.windows(2).chain(self.below.windows(2));
         pairs.filter_map(at).max_by(f64::total_cmp)
     }
+
+    /// The stable motions of this machine as curves of one name.
+    pub(super) fn stable(&self, machine: &Machine, name: &str, stroke: Stroke) -> Vec<Curve> {
+        let all = [&self.below, &self.above].into_iter();
+        let pieces = all.flat_map(|points| points.chunk_by(|a, b| is_shown(a) && is_shown(b)));
+        curves(machine, pieces, name, stroke)
+    }
+
+    /// The unstable motions above g0.
+    pub(super) fn unstable(&self, machine: &Machine, name: &str, stroke: Stroke) -> Vec<Curve> {
+        let pieces = self.above.chunk_by(|a, b| is_lost(a) && is_lost(b));
+        curves(machine, pieces, name, stroke)
+    }
+}
+
+/// Pieces of a branch of this machine in its own units.
+fn curves<'a>(
+    machine: &Machine,
+    pieces: impl Iterator<Item = &'a [BranchPoint]>,
+    name: &str,
+    stroke: Stroke,
+) -> Vec<Curve> {
+    let place = |point: BranchPoint| {
+        let frequency = machine.to_own(Dimension::Frequency, point.parameter);
+        (frequency, point.before_impact_velocity())
+    };
+    let curve = |piece: &[BranchPoint]| Curve {
+        name: name.to_owned(),
+        stroke,
+        points: refined(&machine.scene, piece)
+            .into_iter()
+            .map(place)
+            .collect(),
+    };
+    let pieces = pieces.filter(|piece| piece.len() > 1);
+    pieces.map(curve).collect()
+}
+
+/// Unstable, or a fold, where an unstable piece begins.
+fn is_lost(point: &BranchPoint) -> bool {
+    !point.is_stable() || point.fold_test().abs() < 1e-6
 }
 
 /// Stable, or at the end of what is stable.
-pub(crate) fn is_shown(point: &BranchPoint) -> bool {
+fn is_shown(point: &BranchPoint) -> bool {
     let end = point
         .fold_test()
         .abs()
@@ -148,7 +138,7 @@ fn below(zone: &Zone) -> Option<(Vec<BranchPoint>, Option<f64>)> {
 }
 
 /// Motions of a branch with others between them, where Newton's method stays between its neighbours.
-pub(crate) fn refined(scene: &Scene, points: &[BranchPoint]) -> Vec<BranchPoint> {
+fn refined(scene: &Scene, points: &[BranchPoint]) -> Vec<BranchPoint> {
     let Ok(family) = Along::new(scene.clone(), [Parameter::Frequency]) else {
         return points.to_vec();
     };

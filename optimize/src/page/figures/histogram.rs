@@ -1,0 +1,59 @@
+//! How often a velocity occurs among machines within the tolerances.
+
+use softstop::{Dimension, Machine};
+use softstop_console::row;
+use softstop_console::sheet::Sheet;
+use softstop_draw::{Axis, Layer, Panel, style};
+
+use crate::optimize::study::Study;
+use crate::page::figure::{AT, Figure, HALF, Section, bounds};
+use crate::page::words::{count, quantity};
+
+/// Bars of the histogram.
+const BARS: usize = 40;
+
+/// The picture.
+pub(super) fn histogram(machine: &Machine, study: &Study) -> Figure {
+    let own = |value: f64| machine.to_own(Dimension::Velocity, value);
+    let bins = study.verdict.histogram(BARS);
+    let ends = bins
+        .iter()
+        .map(|it| ([own(it.low), own(it.high)], it.machines as u64));
+    let counted = bins.iter().map(|it| it.machines).sum::<usize>().max(1) as f64;
+    let bars = ends.clone();
+    let bars =
+        bars.map(|([low, high], count)| [(low, high), (0.0, 100.0 * count as f64 / counted)]);
+    let (nominal, worst) = (own(study.nominal), own(study.slowest()));
+    let marks = bounds(&[("design", nominal), ("worst", worst)], AT).collect::<Vec<_>>();
+    let x = machine.label("before-impact velocity", "", Dimension::Velocity);
+    let panel = Panel {
+        x: Axis::new(&x),
+        y: Axis::new("machines in each bar (%)").from(0.0),
+        layers: [vec![Layer::boxes(bars, style::ALLOWED, 1.0)], marks].concat(),
+        ..Panel::default()
+    };
+    let lost = match study.verdict.lost {
+        0 => "none of them loses the motion".to_owned(),
+        1 => "one of them loses the motion".to_owned(),
+        lost => format!("{} of them lose the motion", count(lost as u64)),
+    };
+    let unit = machine.unit(Dimension::Velocity);
+    let caption = format!(
+        "{} machines drawn from the tolerances: {lost}. The design has {}, the worst within the tolerances {}.",
+        count(study.verdict.machines as u64),
+        quantity(nominal, unit),
+        quantity(worst, unit)
+    );
+    let rows = ends.map(|([low, high], count)| row![low, high, count]);
+    let heads = [
+        format!("from: {x}"),
+        format!("to: {x}"),
+        "machines".to_owned(),
+    ];
+    let title = "The machines as they will be built";
+    Figure::new(Section::Tolerances, HALF, title, [panel], caption).with([Sheet::new(
+        "histogram",
+        heads,
+        rows,
+    )])
+}

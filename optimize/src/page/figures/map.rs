@@ -1,0 +1,160 @@
+//! The before-impact velocity over the drive's frequency and another parameter.
+
+use rayon::prelude::*;
+use softstop::{Dimension, Parameter, Scene};
+use softstop_console::interrupt;
+use softstop_console::row;
+use softstop_console::sheet::Sheet;
+use softstop_draw::scale::around;
+use softstop_draw::{Axis, Layer, Mark, Panel, Stroke, style};
+use softstop_dynamics::zone;
+
+use super::{half_width, velocity};
+use crate::design::{Design, Problem, space};
+use crate::page::branches::Motions;
+use crate::page::figure::{Curve, Figure, HALF, Section, WIDE, lines, middles};
+use crate::page::words::quantity;
+
+/// Maps at most.
+const MAPS: usize = 2;
+/// Cells across and upwards.
+const CELLS: (usize, usize) = (96, 40);
+/// Half the size of the design's mark.
+const MARK: f64 = 8.0;
+/// The boundaries g0, `s_SN` and `s_PD` of the zone.
+const BOUNDARIES: [(&str, Stroke); 3] = [
+    ("g₀", Stroke::solid(style::INK, 1.6)),
+    ("s_SN", Stroke::dashed(style::INK, 1.6, (9.0, 4.0))),
+    ("s_PD", Stroke::dashed(style::INK, 1.6, (2.0, 3.0))),
+];
+/// Corners of a box about its middle, in half widths, round to the first.
+const CORNERS: [(f64, f64); 5] = [
+    (-1.0, -1.0),
+    (1.0, -1.0),
+    (1.0, 1.0),
+    (-1.0, 1.0),
+    (-1.0, -1.0),
+];
+
+/// A map for each of the first parameters that were searched.
+pub(super) fn maps(problem: &Problem, design: &Design) -> Vec<Figure> {
+    let axes = problem.axes.iter().filter(|axis| !axis.range.is_held());
+    let axes: Vec<&space::Axis> = axes.take(MAPS).collect();
+    let size = if axes.len() == 1 { WIDE } else { HALF };
+    let all = axes.iter().zip(1..);
+    all.map(|(axis, number)| map(problem, design, axis, number, size))
+        .collect()
+}
+
+fn map(
+    problem: &Problem,
+    design: &Design,
+    axis: &space::Axis,
+    number: usize,
+    size: (f64, f64),
+) -> Figure {
+    let (machine, parameter) = (&design.machine, axis.parameter);
+    let up = (axis.range.low, axis.range.high);
+    let value = middles(up, CELLS.1);
+    let at = |row: usize| {
+        let mut machine = machine.clone();
+        machine.set(parameter, value(row));
+        machine.scene
+    };
+    let scenes: Vec<Scene> = (0..CELLS.1).map(at).collect();
+    let zones = zone::hysteresis_soon(&scenes, &interrupt::watch);
+    let rows = zones.into_par_iter().map(|zone| {
+        let zone = zone.ok()?;
+        let motions = Motions::of(&zone);
+        Some((
+            [
+                Some(zone.frequency_g0),
+                Some(zone.frequency_sn),
+                motions.flip,
+            ],
+            motions,
+        ))
+    });
+    let rows: Vec<Option<([Option<f64>; 3], Motions)>> = rows.collect();
+    let own = |frequency: f64| machine.to_own(Dimension::Frequency, frequency);
+    let boundaries = BOUNDARIES.iter().enumerate();
+    let curves = boundaries.flat_map(|(index, (name, stroke))| {
+        let place = |row: usize| Some((own(rows[row].as_ref()?.0[index]?), value(row)));
+        let places: Vec<Option<(f64, f64)>> = (0..CELLS.1).map(place).collect();
+        let pieces = places
+            .split(Option::is_none)
+            .map(|it| it.iter().copied().flatten());
+        let pieces = pieces.map(Iterator::collect::<Vec<_>>);
+        let pieces: Vec<_> = pieces.filter(|points| points.len() > 1).collect();
+        pieces.into_iter().map(|points| Curve {
+            name: (*name).to_owned(),
+            stroke: *stroke,
+            points,
+        })
+    });
+    let curves: Vec<Curve> = curves.collect();
+    let frequencies = curves.iter().flat_map(|it| it.points.iter().map(|it| it.0));
+    let across = around(frequencies.chain([design.frequency()]), 0.05);
+    let frequency = middles(across, CELLS.0);
+    let cell = |row: usize, column: usize| {
+        let (_, motions) = rows[row].as_ref()?;
+        motions.velocity_at(machine.to_si(Dimension::Frequency, frequency(column)))
+    };
+    let places = (0..CELLS.1).flat_map(|row| (0..CELLS.0).map(move |column| (row, column)));
+    let cells: Vec<Option<f64>> = places
+        .clone()
+        .map(|(row, column)| cell(row, column))
+        .collect();
+
+    let labels = [Parameter::Frequency, parameter].map(|it| machine.label_of(it));
+    let [x, y] = labels.each_ref();
+    let shade = velocity(machine);
+    let place = (
+        design.frequency(),
+        machine.value(parameter).unwrap_or(f64::NAN),
+    );
+    let widths = [Parameter::Frequency, parameter].map(|it| half_width(problem, design, it));
+    let shades = cells.iter().map(|value| value.unwrap_or(f64::NAN));
+    let mut layers = vec![Layer::shades(CELLS.0, shades, &shade)];
+    layers.extend(curves.iter().map(|curve| {
+        Layer::contour(curve.points.iter().copied(), curve.stroke.dashes).named(&curve.name)
+    }));
+    if widths != [0.0, 0.0] {
+        let corner = |(a, b)| (place.0 + a * widths[0], place.1 + b * widths[1]);
+        layers.push(Layer::contour(CORNERS.map(corner), None));
+    }
+    let mark = Layer::marks([place], Mark::Diamond, style::OPTIMUM);
+    layers.push(mark.sized(MARK).named("design"));
+    let panel = Panel {
+        x: Axis::new(x).range(across),
+        y: Axis::new(y).range(up),
+        layers,
+        ..Panel::default()
+    };
+    let names = [Parameter::Frequency, parameter].map(|it| machine.meaning_of(it).0);
+    let title = format!("Before-impact velocity over {} and {}", names[0], names[1]);
+    let rows = places.zip(&cells);
+    let rows = rows.map(|((row, column), cell)| row![frequency(column), value(row), *cell]);
+    let name = format!("map-{number}");
+    let boundaries = lines(&format!("{name}-boundaries"), "boundary", [x, y], &curves);
+    let units = [Parameter::Frequency, parameter].map(|it| machine.unit_of(it));
+    let caption = caption(&shade, place, widths, units);
+    Figure::new(Section::Place, size, title, [panel], caption)
+        .with([Sheet::new(name, [x, y, &shade], rows), boundaries])
+}
+
+fn caption(shade: &str, place: (f64, f64), widths: [f64; 2], units: [&str; 2]) -> String {
+    let widths = widths.into_iter().zip(units).filter(|it| it.0 > 0.0);
+    let widths = widths.map(|(width, unit)| format!("±{}", quantity(width, unit)));
+    let widths = widths.collect::<Vec<String>>().join(" and ");
+    let tolerance = match widths.as_str() {
+        "" => String::new(),
+        widths => format!(" The box about it is its tolerance, {widths}."),
+    };
+    format!(
+        "Colour: {shade} of the stable motion with one impact a period, in the hysteresis zone (from g₀ to s_SN) and below it; \
+         no colour: no such motion. The design stands at {} and {}.{tolerance}",
+        quantity(place.0, units[0]),
+        quantity(place.1, units[1])
+    )
+}

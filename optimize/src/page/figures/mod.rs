@@ -1,0 +1,57 @@
+//! The pictures of a design, one file for each kind: what is computed for it, how it is drawn, and its words.
+
+mod basin;
+mod effects;
+mod erosion;
+mod front;
+mod histogram;
+mod map;
+mod motion;
+mod portrait;
+mod response;
+mod sketch;
+
+use rayon::join;
+use softstop::{Dimension, Machine, Parameter};
+
+use super::figure::Figure;
+use crate::design::{Design, Problem};
+use crate::optimize::outcome::Outcome;
+use crate::optimize::study::Study;
+
+pub use response::response;
+
+/// The pictures of what a run has found, but for the response.
+pub fn figures(problem: &Problem, outcome: &Outcome, study: Option<&Study>) -> Vec<Figure> {
+    let design = &outcome.design;
+    let (maps, (motions, basin)) = join(
+        || map::maps(problem, design),
+        || join(|| portrait::motions(design), || basin::basin(design).ok()),
+    );
+    let erosion = outcome.erosion.iter();
+    let fronts = outcome.fronts.iter();
+    let mut figures = maps;
+    figures.push(sketch::sketch(&design.machine));
+    figures.push(motion::motion(design, &motions));
+    figures.push(portrait::portrait(design, &motions));
+    figures.extend(basin);
+    figures.extend(erosion.map(|it| erosion::erosion(problem, design, it)));
+    figures.extend(fronts.map(|it| front::front(problem, it)));
+    figures.extend(study.map(|it| histogram::histogram(&design.machine, it)));
+    figures.extend(study.map(|it| effects::effects(&design.machine, it)));
+    figures
+}
+
+/// The label of the before-impact velocity.
+fn velocity(machine: &Machine) -> String {
+    machine.label("before-impact velocity", "X′₋", Dimension::Velocity)
+}
+
+/// Half-width of the tolerance of a parameter, in the machine's own units; 0 if it has none.
+fn half_width(problem: &Problem, design: &Design, parameter: Parameter) -> f64 {
+    let mut tolerances = problem.tolerances.iter();
+    let tolerance = tolerances.find(|it| it.parameter == parameter);
+    let value = design.machine.value(parameter);
+    let width = tolerance.zip(value);
+    width.map_or(0.0, |(tolerance, value)| tolerance.width.around(value))
+}

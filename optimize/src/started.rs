@@ -1,0 +1,46 @@
+//! Ways to bring a machine into its motion, as records.
+
+use softstop::Machine;
+use softstop_console::column::Column;
+use softstop_console::columns;
+use softstop_dynamics::run_up::{Attempt, Way};
+
+use crate::page::quantity;
+
+type Tried<'a> = (&'a Machine, &'a Attempt);
+
+/// What came of a way of a machine.
+pub(crate) fn columns<'a>() -> [Column<Tried<'a>>; 4] {
+    columns! { Tried<'a>, it;
+        "way" [None] Plain, "what is done" => it.1.way.name();
+        "reaches" [None] Plain, "whether the machine then moves as designed" => it.1.share == 1.0;
+        "share" [None], "share of the runs that end on the motion" => it.1.share;
+        "note" [None] Plain, "what else is to be known" => note(it);
+    }
+}
+
+fn note((machine, attempt): &Tried<'_>) -> String {
+    let angle = attempt.angle.filter(|_| attempt.share < 1.0);
+    let own = |value: f64| {
+        let dimension = attempt.way.changes()?.about().dimension;
+        let value = machine.to_own(dimension, value);
+        Some(quantity(value, machine.unit(dimension)))
+    };
+    let note = match (attempt.way, angle, attempt.lost) {
+        (Way::SwitchedOn, Some(angle), _) if attempt.share > 0.0 => Some(format!(
+            "from {:.0} % of the drive angles, best at {angle:.2} rad",
+            100.0 * attempt.share
+        )),
+        (Way::SwitchedOn, ..) if attempt.share == 0.0 => Some("from no drive angle".to_owned()),
+        (Way::SwitchedOn, ..) => None,
+        (_, _, Some(lost)) => own(lost).map(|lost| format!("z = 1 is lost at {lost}")),
+        _ => match &attempt.ends {
+            Some(motion) if attempt.share < 1.0 => Some(format!("ends in {motion}")),
+            _ => attempt
+                .from
+                .and_then(own)
+                .map(|from| format!("begun at {from}")),
+        },
+    };
+    note.unwrap_or_default()
+}
