@@ -300,3 +300,17 @@ fn files_in_place_of_older_ones_are_told() -> Outcome {
     assert_eq!(older, [0, 5]);
     Ok(())
 }
+
+/// With a margin of 0.1 a design of another ridge is nearly as good as the best.
+#[test]
+fn a_distant_design_that_is_nearly_as_good_is_told() -> Outcome {
+    let line = ["unloaded", "--vary", "stop.stiffness=7", "--vary"];
+    let written = optimize(&[&line[..], &["clearance=2:22", "--margin", "0.1"]].concat())?;
+    let rivals = written.report["rivals"].as_array().ok_or("rivals")?;
+    assert_eq!(rivals.len(), 1);
+    let velocity = rivals[0]["velocity"].as_f64().ok_or("velocity")?;
+    let told = format!("is nearly as good: {velocity:.3} at clearance");
+    assert!(written.page.contains(&told), "{told}");
+    assert!(written.text.contains("Nearly as good"));
+    Ok(())
+}

@@ -19,6 +19,7 @@ pub use scatter::{Scatter, Sensitivities, scatter, sensitivities, shares};
 pub use verify::{Bin, LostMachine, Settings, Verdict, verify};
 pub use worst::{Worst, worst};
 
+pub(crate) use corners::corners;
 pub(crate) use meeting::is_loss;
 pub(crate) use nearest::first_losses;
 

@@ -4,7 +4,7 @@ use softstop::Dimension;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
 use softstop_draw::{Axis, Layer, Panel, Stroke, style};
-use softstop_dynamics::basin::{ErosionProfile, Integrity};
+use softstop_dynamics::basin::ErosionProfile;
 
 use crate::design::figure::Figure as Quantity;
 use crate::design::trial::STARTS;
@@ -17,8 +17,7 @@ const REQUIRED: Stroke = Stroke::dashed(style::ASIDE, 1.6, (3.0, 3.0));
 /// The picture.
 pub(super) fn erosion(problem: &Problem, design: &Design, profile: &ErosionProfile) -> Figure {
     let machine = &design.machine;
-    let finite = |it: &&Integrity| it.certainty.share.is_finite();
-    let places = || profile.places.iter().filter(finite);
+    let places = || profile.places.iter();
     let sure = places().map(|it| {
         (
             it.place,
@@ -59,7 +58,7 @@ pub(super) fn erosion(problem: &Problem, design: &Design, profile: &ErosionProfi
         ends(Dimension::Length, profile.region.position),
         ends(Dimension::Velocity, profile.region.velocity)
     );
-    let rows = profile.places.iter().map(|it| {
+    let rows = places().map(|it| {
         let [low, high] = it.certainty.interval;
         let frequency = machine.to_own(Dimension::Frequency, it.frequency);
         row![

@@ -13,7 +13,7 @@ use crate::optimize::study::Study;
 use crate::page::branches::Motions;
 use crate::page::figure::{BESIDE, BOUND, DESIGN, Figure, Section, UNSTABLE, WIDE, bounds, lines};
 use crate::page::words::quantity;
-use crate::robust::{Tolerance, Tolerances};
+use crate::robust::{self, Tolerance, Tolerances};
 
 /// Half the size of the marks of designs and references.
 const MARK: f64 = 8.0;
@@ -120,30 +120,20 @@ fn caption(machine: &Machine, at: (f64, f64), ends: &[(&str, f64)], machines: us
     caption
 }
 
-/// Corners of tolerances that are looked at: all of as many tolerances as this power of two, an even choice of more.
-const CORNERS: u32 = 6;
+/// Corners of the tolerances at most.
+const CORNERS: usize = 64;
 
 /// Machines at corners of the tolerances but that of the drive's frequency.
 fn corners(machine: &Machine, study: &Study) -> Vec<Machine> {
     let is_kept = |it: &&Tolerance| it.parameter != Parameter::Frequency;
     let all: Vec<Tolerance> = study.tolerances.iter().filter(is_kept).copied().collect();
-    let Ok(spread) = Tolerances::new(machine, &all) else {
-        return Vec::new();
-    };
-    // Each tolerance changes its side with the parity of its own bits of the corner's number (Walsh).
-    let mut bits: Vec<u32> = (1..1 << CORNERS).collect();
-    bits.sort_by_key(|bits| bits.count_ones());
-    let side = |corner: u32, bits: &u32| match (corner & bits).count_ones() % 2 {
-        0 => 1.0,
-        _ => -1.0,
-    };
-    let place = |corner| {
-        let sides = bits.iter().take(all.len()).map(|bits| side(corner, bits));
-        sides.collect::<Vec<f64>>()
-    };
-    let count = CORNERS.min(all.len() as u32);
-    let machines = (0..1 << count).map(|corner| spread.machine(&place(corner)));
-    machines.filter(|_| !all.is_empty()).collect()
+    match Tolerances::new(machine, &all) {
+        Ok(spread) if !all.is_empty() => {
+            let places = robust::corners(all.len(), CORNERS);
+            places.iter().map(|place| spread.machine(place)).collect()
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// Frequencies at which a band is computed.
