@@ -26,8 +26,8 @@ pub(super) fn svg(design: &Design, margin: f64, beside: Option<&Reference>) -> S
     let allowed = Layer::boxes([[ends.into(), whole]], style::ALLOWED, 0.18);
     let mut layers = vec![
         allowed.named(format!("allowed by margin M = {margin}")),
-        Layer::upwards(branch.frequency_g0, END, "g₀"),
-        Layer::upwards(branch.frequency_sn, END, "s_SN"),
+        Layer::vertical(branch.frequency_g0, END, "g₀"),
+        Layer::vertical(branch.frequency_sn, END, "s_SN"),
     ];
     let others = beside.iter().filter_map(|it| it.branch.as_ref());
     let drawn = others.map(|branch| (branch, BESIDE));

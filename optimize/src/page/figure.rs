@@ -34,7 +34,7 @@ impl Figure {
         let chart = Chart {
             legend: Legend::Above,
             page: Some(size),
-            shares_upwards: true,
+            shares_y: true,
             ..Chart::new(title, panels)
         };
         let chart = chart.in_columns(2);
@@ -49,7 +49,7 @@ impl Figure {
 
 /// Lines up through a panel at named places.
 pub(super) fn bounds(names: &[(String, f64)], stroke: Stroke) -> impl Iterator<Item = Layer> {
-    let line = move |(name, at): &(String, f64)| Layer::upwards(*at, stroke, name);
+    let line = move |(name, at): &(String, f64)| Layer::vertical(*at, stroke, name);
     names.iter().map(line)
 }
 

@@ -5,7 +5,7 @@ use softstop_console::interrupt;
 use softstop_dynamics::attractors::{SurveyError, starting_box};
 use softstop_dynamics::basin::{Options, basins};
 use softstop_dynamics::{Axis, Grid, Orbit};
-use softstop_explore::basin::cells::color;
+use softstop_explore::palette::distinct_colors;
 
 use super::label;
 use crate::design::Design;
@@ -14,8 +14,6 @@ use crate::page::data::{Basin, BasinMotion};
 /// Cells on each side.
 const CELLS: usize = 64;
 
-/// Colours of motions whose own colour is taken.
-const OTHERS: [&str; 5] = ["#E69F00", "#009E73", "#AA4499", "#F0E442", "#D55E00"];
 /// Distance of states of one motion, in units of their size.
 const SAME: f64 = 1e-6;
 
@@ -39,25 +37,20 @@ pub fn basin(design: &Design) -> Result<Basin, SurveyError> {
         .classes
         .iter()
         .position(|class| is_own(class.orbit.as_deref(), &design.orbit));
-    let mut motions: Vec<BasinMotion> = Vec::new();
-    for (index, class) in found.classes.iter().enumerate() {
-        let is_free = |color: &&str| motions.iter().all(|other| other.color != *color);
-        let color = [color(class.motion.class())]
-            .into_iter()
-            .chain(OTHERS)
-            .find(is_free);
-        let whose = if own == Some(index) {
-            ", the design"
-        } else {
-            ""
+    let colors = distinct_colors(found.classes.iter().map(|class| class.motion.class()));
+    let classes = found.classes.iter().zip(colors).enumerate();
+    let motions = classes.map(|(index, (class, color))| {
+        let whose = match own == Some(index) {
+            true => ", the design",
+            false => "",
         };
-        motions.push(BasinMotion {
+        BasinMotion {
             name: format!("{}{whose}", class.motion),
-            color: color.unwrap_or(OTHERS[0]),
+            color,
             share: class.share,
             interval: class.interval,
-        });
-    }
+        }
+    });
     let ball = own.and_then(|own| found.largest_ball(own));
     Ok(Basin {
         x: label(machine, "initial position", "X", Dimension::Length),
@@ -66,7 +59,7 @@ pub fn basin(design: &Design) -> Result<Basin, SurveyError> {
         y_range: region.velocity,
         columns: CELLS,
         cells: found.cells.clone(),
-        motions,
+        motions: motions.collect(),
         ball: ball.map(|ball| (ball.radius, ball.centre)),
         spots: vec![[design.orbit.position, design.orbit.velocity]],
     })

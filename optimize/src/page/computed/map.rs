@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use softstop::{Dimension, Parameter, Scene};
 use softstop_console::interrupt;
-use softstop_draw::scale::around;
+use softstop_draw::around;
 use softstop_dynamics::zone;
 
 use super::{Motions, label_of, velocity};

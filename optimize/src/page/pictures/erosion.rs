@@ -1,4 +1,4 @@
-//! How the basin of z = 1 shrinks along the zone.
+//! The basin of z = 1 along the zone.
 
 use softstop_draw::{Axis, Layer, Panel, Stroke, style};
 
@@ -16,10 +16,10 @@ pub(in crate::page) fn figure(erosion: &Erosion) -> Figure {
     let sure = points().map(|it| (it.place, it.interval.map(|end| end.clamp(0.0, 1.0))));
     let required = erosion
         .required
-        .map(|it| Layer::across(it, REQUIRED, "").named("share required"));
+        .map(|it| Layer::horizontal(it, REQUIRED, "").named("share required"));
     let design = erosion
         .design
-        .map(|place| Layer::upwards(place, DESIGN, "design"));
+        .map(|place| Layer::vertical(place, DESIGN, "design"));
     let integrity = points().filter_map(|it| Some((it.place, it.integrity?)));
     let integrity: Vec<(f64, f64)> = integrity.collect();
     let has_integrity = !integrity.is_empty();
@@ -44,10 +44,5 @@ pub(in crate::page) fn figure(erosion: &Erosion) -> Figure {
         "Share of the initial states that lead to the design's kind of motion, with its 95 % interval, and the radius of \
          the largest ball about the motion inside its basin.{starts}"
     );
-    Figure::new(
-        HALF,
-        "How the basin shrinks along the zone",
-        [panel],
-        caption,
-    )
+    Figure::new(HALF, "The basin along the zone", [panel], caption)
 }

@@ -21,7 +21,7 @@ pub(in crate::page) fn figure(portrait: &Portrait) -> Figure {
     let unnamed = portrait
         .faces
         .iter()
-        .map(|(_, at)| Layer::upwards(*at, BOUND, ""));
+        .map(|(_, at)| Layer::vertical(*at, BOUND, ""));
     let whole = Panel {
         x: axis(&portrait.x),
         y: axis(&portrait.y),
