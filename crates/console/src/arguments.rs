@@ -142,11 +142,21 @@ fn of_start(key: &str) -> Option<&str> {
 /// The machine in a few words: its name, and the paper's ratios if it speaks them.
 pub fn title(machine: &Machine) -> String {
     let name = machine.name.as_deref().unwrap_or("machine");
-    if machine.speaks != Language::Ratios {
-        return name.to_owned();
+    let scene = &machine.scene;
+    match machine.speaks {
+        Language::Ratios => {
+            let (eta, rho) = (scene.excitation.frequency, scene.clearance);
+            format!("the {name} machine at η = {eta}, ρ = {rho}")
+        }
+        _ => name.to_owned(),
     }
-    format!(
-        "the {name} machine at η = {}, ρ = {}",
-        machine.scene.excitation.frequency, machine.scene.clearance
-    )
+}
+
+/// The machine in a few words where its drive has many frequencies.
+pub fn title_over_frequency(machine: &Machine) -> String {
+    let name = machine.name.as_deref().unwrap_or("machine");
+    match machine.speaks {
+        Language::Ratios => format!("the {name} machine, ρ = {}", machine.scene.clearance),
+        _ => name.to_owned(),
+    }
 }

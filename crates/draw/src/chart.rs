@@ -20,10 +20,10 @@ pub struct Chart {
     pub letters: u32,
     /// Width and height of the whole picture; if there is none, each panel has its own size.
     pub page: Option<(f64, f64)>,
-    /// Panels of a column share the range across, and only the lowest one has its numbers.
-    pub shares_across: bool,
+    /// Panels of a column share the range across, and the lowest one alone has its numbers.
+    pub shares_x: bool,
     /// Panels of a row share the range upwards, and only the first one has its numbers.
-    pub shares_upwards: bool,
+    pub shares_y: bool,
 }
 
 /// Where a legend stands: that of a chart about all panels, that of a panel about it.
@@ -97,8 +97,8 @@ impl Default for Chart {
             notes: Vec::new(),
             letters: 14,
             page: None,
-            shares_across: false,
-            shares_upwards: false,
+            shares_x: false,
+            shares_y: false,
         }
     }
 }
@@ -146,12 +146,12 @@ impl Default for Panel {
 }
 
 impl Panel {
-    /// The bar of shades that stands beside it, if there is one: its range and its name.
-    pub(crate) fn bar(&self) -> Option<((f64, f64), &str)> {
+    /// The bar of shades that stands beside it, if there is one: its range and its axis.
+    pub(crate) fn bar(&self) -> Option<((f64, f64), Axis)> {
         self.layers.iter().find_map(|layer| match &layer.shape {
             Shape::Shades(_, values, name) => {
                 let range = around(values.iter().copied(), 0.0);
-                Some((range, name.as_str()))
+                Some((range, Axis::new(name)))
             }
             _ => None,
         })

@@ -6,13 +6,10 @@ use kuva::render::render::{Primitive, TextAnchor, TextSpan};
 const DROP: f64 = 0.22;
 /// Size of an index, in units of the letters.
 const SMALL: f64 = 0.75;
-/// Mean width of a letter in units of its size, of the letters in use, and of those of indices.
-const LETTER: f64 = 0.61;
-const INDEX: f64 = 0.72 * SMALL;
 
 /// The pieces of a text, and whether each is an index: up to three letters or digits behind the underscore of a single
 /// letter.
-pub fn pieces(text: &str) -> Vec<(String, bool)> {
+pub fn split_indices(text: &str) -> Vec<(String, bool)> {
     let mut pieces = Vec::new();
     let (mut line, mut rest) = (String::new(), text);
     while let Some((head, tail)) = rest.split_once('_') {
@@ -39,14 +36,31 @@ pub fn pieces(text: &str) -> Vec<(String, bool)> {
     pieces
 }
 
-/// About how wide a text of this size is.
-pub fn width(size: u32, text: &str) -> f64 {
-    pieces(text).iter().map(|piece| wide(size, piece)).sum()
+/// About how wide a text of this size is; bold ones are a tenth wider.
+pub(crate) fn width(size: u32, text: &str) -> f64 {
+    split_indices(text)
+        .iter()
+        .map(|piece| wide(size, piece))
+        .sum()
 }
 
 fn wide(size: u32, (text, is_index): &(String, bool)) -> f64 {
-    let letter = if *is_index { INDEX } else { LETTER };
-    letter * f64::from(size) * text.chars().count() as f64
+    let size = if *is_index { SMALL } else { 1.0 } * f64::from(size);
+    text.chars().map(|letter| size * letter_width(letter)).sum()
+}
+
+/// Width of a letter of DejaVu Sans in units of its size, to a tenth.
+fn letter_width(letter: char) -> f64 {
+    match letter {
+        'i' | 'j' | 'l' | 'I' | ' ' | '.' | ',' | ':' | ';' | '|' | '\'' | '′' => 0.31,
+        'f' | 'r' | 't' | '(' | ')' | '[' | ']' | '-' | '/' | '⁰'..='₎' | '²' | '³' | '¹' => {
+            0.4
+        }
+        '+' | '−' | '±' | '×' | '=' | '<' | '>' | '≤' | '≥' | '→' | '←' | '↔' => 0.84,
+        'm' | 'w' | 'M' | 'W' | '%' | '—' => 0.93,
+        letter if letter.is_uppercase() => 0.69,
+        _ => 0.62,
+    }
 }
 
 /// An SVG document, one element in each line, whose texts are written anew and have their indices below the line.
@@ -69,19 +83,24 @@ fn lowered(line: &str, anew: impl Fn(&str) -> String) -> String {
     let size: f64 = size.unwrap_or(1.0);
     let (drop, small) = (DROP * size, SMALL * size);
     let mut written = format!("{tag}>");
-    for (index, (piece, is_index)) in pieces(&anew(text)).into_iter().enumerate() {
+    for (index, (piece, is_index)) in split_indices(&anew(text)).into_iter().enumerate() {
         written += &match (index, is_index) {
             (_, true) => {
                 format!("<tspan dy=\"{drop:.1}\" font-size=\"{small:.1}\">{piece}</tspan>")
             }
             (0, false) => piece,
-            (_, false) => format!("<tspan dy=\"{:.1}\">{piece}</tspan>", -drop),
+            (_, false) => {
+                // librsvg leaves out spaces with which an element begins or ends.
+                let rest = piece.trim_start();
+                let space = &piece[..piece.len() - rest.len()];
+                format!("{space}<tspan dy=\"{:.1}\">{rest}</tspan>", -drop)
+            }
         };
     }
     written + "</text>"
 }
 
-/// The same of an element for a picture of pixels, which has no texts of several sizes: a piece each, side by side.
+/// An element for a picture of pixels, which has no texts of several sizes: a piece each, side by side.
 pub(crate) fn placed(element: &Primitive) -> Vec<Primitive> {
     let Primitive::Text {
         x,
@@ -96,57 +115,56 @@ pub(crate) fn placed(element: &Primitive) -> Vec<Primitive> {
     else {
         return vec![element.clone()];
     };
-    let pieces = pieces(content);
-    if let ([_], None, true) = (&pieces[..], rotate, bold) {
-        // What is bold is so in a rich text only.
-        let mut span = TextSpan::plain(content.as_str());
-        span.bold = true;
-        return vec![Primitive::RichText {
-            x: *x,
-            y: *y,
-            spans: vec![span],
-            size: *size,
-            anchor: *anchor,
-            color: color.clone(),
-        }];
-    }
-    let letters = f64::from(*size);
-    let small = (SMALL * letters).round() as u32;
-    let whole = width(*size, content);
-    let mut along = match (pieces.len(), anchor) {
-        (1, _) | (_, TextAnchor::Start) => 0.0,
-        (_, TextAnchor::Middle) => -0.5 * whole,
-        (_, TextAnchor::End) => -whole,
-    };
-    let anchor = match pieces.len() {
-        1 => *anchor,
-        _ => TextAnchor::Start,
-    };
+    let pieces = split_indices(content);
+    let is_whole = pieces.len() == 1;
     let (sin, cos) = rotate.unwrap_or(0.0).to_radians().sin_cos();
-    let mut elements = Vec::new();
-    for piece in pieces {
-        let (below, step) = (
-            if piece.1 { DROP * letters } else { 0.0 },
-            wide(*size, &piece),
-        );
-        elements.push(Primitive::Text {
-            x: x + along * cos - below * sin,
-            y: y + along * sin + below * cos,
-            size: if piece.1 { small } else { *size },
-            content: piece.0,
-            anchor,
-            rotate: *rotate,
-            bold: *bold,
-            color: color.clone(),
-        });
+    let mut along = match anchor {
+        _ if is_whole => 0.0,
+        TextAnchor::Start => 0.0,
+        TextAnchor::Middle => -0.5 * width(*size, content),
+        TextAnchor::End => -width(*size, content),
+    };
+    let place = |piece: (String, bool)| {
+        let letters = f64::from(*size);
+        let step = wide(*size, &piece);
+        let (below, size) = match piece.1 {
+            true => (DROP * letters, (SMALL * letters).round() as u32),
+            false => (0.0, *size),
+        };
+        let (x, y) = (x + along * cos - below * sin, y + along * sin + below * cos);
         along += step;
-    }
-    elements
+        let anchor = if is_whole { *anchor } else { TextAnchor::Start };
+        let mut span = TextSpan::plain(piece.0.as_str());
+        span.bold = *bold;
+        let (color, rotate) = (color.clone(), *rotate);
+        match rotate {
+            // Letters of a rich text alone are bold.
+            None => Primitive::RichText {
+                x,
+                y,
+                spans: vec![span],
+                size,
+                anchor,
+                color,
+            },
+            Some(_) => Primitive::Text {
+                x,
+                y,
+                content: piece.0,
+                size,
+                anchor,
+                rotate,
+                bold: false,
+                color,
+            },
+        }
+    };
+    pieces.into_iter().map(place).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{lowered, pieces};
+    use super::{lowered, split_indices as pieces};
 
     #[test]
     fn an_index_follows_the_underscore_of_a_single_letter() {
@@ -164,6 +182,8 @@ mod tests {
 
     #[test]
     fn texts_of_a_document_come_back_to_the_line() {
+        let space = "<text font-size=\"10\">s_SN back</text>";
+        assert!(lowered(space, str::to_owned).contains("SN</tspan> <tspan dy=\"-2.2\">back<"));
         let line = "  <text x=\"1\" font-size=\"10\">s_SN, up</text>";
         let below = "  <text x=\"1\" font-size=\"10\">s<tspan dy=\"2.2\" font-size=\"7.5\">SN</tspan>\
                      <tspan dy=\"-2.2\">, up</tspan></text>";

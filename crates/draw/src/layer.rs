@@ -1,18 +1,23 @@
 //! What is drawn between the axes of a panel.
 
-use crate::pen::Align;
-use crate::shapes::{Mark, Sign};
-use crate::stroke::{Point, Stroke};
+use std::f64::consts::TAU;
+
+use crate::mark::{Align, Mark, Sign};
+use crate::stroke::{Point, RIMMED, Stroke};
 use crate::style;
 
 /// Half the size of a mark.
 const MARK: f64 = 6.0;
+/// Sides of the polygon that stands for an ellipse.
+const SIDES: u32 = 180;
 
 /// Something drawn between the axes of a panel; a name explains it in the legend.
 #[derive(Debug, Clone)]
 pub struct Layer {
     pub(crate) shape: Shape,
     pub(crate) name: String,
+    /// What stands for it in the legend.
+    pub(crate) sign: Option<Sign>,
 }
 
 /// What a layer is made of; places are values of the axes.
@@ -26,15 +31,14 @@ pub(crate) enum Shape {
     Boxes(Vec<[(f64, f64); 2]>, &'static str, f64),
     Cells(usize, Vec<&'static str>),
     Shades(usize, Vec<f64>, String),
-    Ring(Point, (f64, f64)),
-    Across(f64, Stroke, String),
-    Upwards(f64, Stroke, String),
+    Horizontal(f64, Stroke, String),
+    Vertical(f64, Stroke, String),
     Arrow(Point, Point, Stroke),
     Direction(Vec<Point>, f64, Stroke),
     Text(Text),
     Label(Point, String),
     Message(String),
-    Key(Sign),
+    Nothing,
 }
 
 /// A text at a place.
@@ -49,9 +53,9 @@ pub(crate) struct Text {
 }
 
 impl Layer {
-    const fn new(shape: Shape) -> Self {
+    const fn new(shape: Shape, sign: Option<Sign>) -> Self {
         let name = String::new();
-        Self { shape, name }
+        Self { shape, name, sign }
     }
 
     /// With a name in the legend; layers of one name have one entry.
@@ -62,27 +66,40 @@ impl Layer {
 
     /// A line through points, cut at the frame; it has gaps where a value is not finite.
     pub fn line(points: impl IntoIterator<Item = Point>, stroke: Stroke) -> Self {
-        Self::new(Shape::Line(points.into_iter().collect(), stroke))
+        let shape = Shape::Line(points.into_iter().collect(), stroke);
+        Self::new(shape, Some(Sign::Line(stroke)))
     }
 
     /// A line that is seen on any ground; with lengths of dashes and gaps it is dashed.
     pub fn contour(points: impl IntoIterator<Item = Point>, dashes: Option<(f64, f64)>) -> Self {
-        Self::new(Shape::Contour(points.into_iter().collect(), dashes))
+        let sign = Sign::Line(Stroke { dashes, ..RIMMED });
+        let shape = Shape::Contour(points.into_iter().collect(), dashes);
+        Self::new(shape, Some(sign))
+    }
+
+    /// An ellipse that is seen on any ground: its middle and its half-axes.
+    pub fn ring(middle: Point, half_axes: (f64, f64)) -> Self {
+        let points = (0..=SIDES).map(|k| {
+            let (sin, cos) = (f64::from(k) / f64::from(SIDES) * TAU).sin_cos();
+            (middle.0 + half_axes.0 * cos, middle.1 + half_axes.1 * sin)
+        });
+        let sign = Some(Sign::Ring);
+        Self {
+            sign,
+            ..Self::contour(points, None)
+        }
     }
 
     /// Dots of this radius in pixels, any number: those that would hide each other are one.
     pub fn dots(points: impl IntoIterator<Item = Point>, radius: f64, color: &'static str) -> Self {
-        Self::new(Shape::Dots(points.into_iter().collect(), radius, color))
+        let shape = Shape::Dots(points.into_iter().collect(), radius, color);
+        Self::new(shape, Some(Sign::Patch(color)))
     }
 
     /// A mark at each point.
     pub fn marks(points: impl IntoIterator<Item = Point>, mark: Mark, color: &'static str) -> Self {
-        Self::new(Shape::Marks(
-            points.into_iter().collect(),
-            mark,
-            MARK,
-            color,
-        ))
+        let shape = Shape::Marks(points.into_iter().collect(), mark, MARK, color);
+        Self::new(shape, Some(Sign::Mark(mark, color)))
     }
 
     /// With marks of this half size in pixels.
@@ -99,7 +116,8 @@ impl Layer {
         color: &'static str,
         opacity: f64,
     ) -> Self {
-        Self::new(Shape::Band(places.into_iter().collect(), color, opacity))
+        let shape = Shape::Band(places.into_iter().collect(), color, opacity);
+        Self::new(shape, Some(Sign::Band(color, opacity)))
     }
 
     /// Filled boxes: ranges across and upwards, cut at the frame, so that infinite ones reach to it.
@@ -108,12 +126,13 @@ impl Layer {
         color: &'static str,
         opacity: f64,
     ) -> Self {
-        Self::new(Shape::Boxes(boxes.into_iter().collect(), color, opacity))
+        let shape = Shape::Boxes(boxes.into_iter().collect(), color, opacity);
+        Self::new(shape, Some(Sign::Band(color, opacity)))
     }
 
     /// Rows of coloured cells that fill the panel, the lowest row first.
     pub fn cells(columns: usize, colors: impl IntoIterator<Item = &'static str>) -> Self {
-        Self::new(Shape::Cells(columns, colors.into_iter().collect()))
+        Self::new(Shape::Cells(columns, colors.into_iter().collect()), None)
     }
 
     /// Rows of cells whose colours stand for values, the lowest row first, beside a bar of this name; a value that is
@@ -123,52 +142,44 @@ impl Layer {
         values: impl IntoIterator<Item = f64>,
         name: impl Into<String>,
     ) -> Self {
-        Self::new(Shape::Shades(
-            columns,
-            values.into_iter().collect(),
-            name.into(),
-        ))
+        let values = values.into_iter().collect();
+        Self::new(Shape::Shades(columns, values, name.into()), None)
     }
 
-    /// An ellipse that is seen on any ground: its middle and its half-axes.
-    pub fn ring(middle: Point, half_axes: (f64, f64)) -> Self {
-        Self::new(Shape::Ring(middle, half_axes))
+    /// A line through the whole panel at this height, its name above its right end.
+    pub fn horizontal(height: f64, stroke: Stroke, name: impl Into<String>) -> Self {
+        let shape = Shape::Horizontal(height, stroke, name.into());
+        Self::new(shape, Some(Sign::Line(stroke)))
     }
 
-    /// A line across the whole panel at this height, its name above its right end.
-    pub fn across(height: f64, stroke: Stroke, name: impl Into<String>) -> Self {
-        Self::new(Shape::Across(height, stroke, name.into()))
-    }
-
-    /// A line up through the whole panel at this place, its name above the panel.
-    pub fn upwards(place: f64, stroke: Stroke, name: impl Into<String>) -> Self {
-        Self::new(Shape::Upwards(place, stroke, name.into()))
+    /// A line through the whole panel at this place across, its name above the panel.
+    pub fn vertical(place: f64, stroke: Stroke, name: impl Into<String>) -> Self {
+        let shape = Shape::Vertical(place, stroke, name.into());
+        Self::new(shape, Some(Sign::Line(stroke)))
     }
 
     /// A line with a head at its end.
     pub fn arrow(from: Point, to: Point, stroke: Stroke) -> Self {
-        Self::new(Shape::Arrow(from, to, stroke))
+        Self::new(Shape::Arrow(from, to, stroke), Some(Sign::Line(stroke)))
     }
 
     /// An arrow that shows which way a curve goes, at this share of its length; none on a curve that is too short.
     pub fn direction(points: impl IntoIterator<Item = Point>, share: f64, stroke: Stroke) -> Self {
-        Self::new(Shape::Direction(
-            points.into_iter().collect(),
-            share,
-            stroke,
-        ))
+        let points = points.into_iter().collect();
+        Self::new(Shape::Direction(points, share, stroke), None)
     }
 
     /// A text at a place.
     pub fn text(at: Point, align: Align, text: impl Into<String>) -> Self {
-        Self::new(Shape::Text(Text {
+        let text = Text {
             at,
             offset: (0.0, 0.0),
             align,
             text: text.into(),
             color: style::INK,
             is_plated: false,
-        }))
+        };
+        Self::new(Shape::Text(text), None)
     }
 
     fn with_text(mut self, change: impl FnOnce(&mut Text)) -> Self {
@@ -195,17 +206,17 @@ impl Layer {
 
     /// The name of a point, beside it where there is room and no other name.
     pub fn label(at: Point, text: impl Into<String>) -> Self {
-        Self::new(Shape::Label(at, text.into()))
+        Self::new(Shape::Label(at, text.into()), None)
     }
 
     /// Words in the middle of a panel that has nothing else to show.
     pub fn message(words: impl Into<String>) -> Self {
-        Self::new(Shape::Message(words.into()))
+        Self::new(Shape::Message(words.into()), None)
     }
 
     /// An entry of the legend alone.
     pub fn key(sign: Sign, name: impl Into<String>) -> Self {
-        Self::new(Shape::Key(sign)).named(name)
+        Self::new(Shape::Nothing, Some(sign)).named(name)
     }
 
     /// Whether it fills its panel with colour.
@@ -218,29 +229,7 @@ impl Layer {
         let is_stripe = |[x, y]: &[(f64, f64); 2]| x.0.is_infinite() || y.0.is_infinite();
         match &self.shape {
             Shape::Boxes(boxes, ..) => boxes.iter().all(is_stripe),
-            shape => matches!(shape, Shape::Key(_)),
-        }
-    }
-
-    /// What stands for it in the legend.
-    pub(crate) fn sign(&self) -> Option<Sign> {
-        match &self.shape {
-            Shape::Line(_, stroke)
-            | Shape::Across(_, stroke, _)
-            | Shape::Upwards(_, stroke, _)
-            | Shape::Arrow(_, _, stroke) => Some(Sign::Line(*stroke)),
-            Shape::Contour(_, dashes) => Some(Sign::Line(Stroke {
-                dashes: *dashes,
-                ..Stroke::solid(style::INK, 1.6)
-            })),
-            Shape::Dots(_, _, color) => Some(Sign::Patch(color)),
-            Shape::Marks(_, mark, _, color) => Some(Sign::Mark(*mark, color)),
-            Shape::Band(_, color, opacity) | Shape::Boxes(_, color, opacity) => {
-                Some(Sign::Band(color, *opacity))
-            }
-            Shape::Ring(..) => Some(Sign::Ring),
-            Shape::Key(sign) => Some(*sign),
-            _ => None,
+            shape => matches!(shape, Shape::Nothing),
         }
     }
 
@@ -263,8 +252,8 @@ impl Layer {
             }
             Shape::Arrow(from, to, _) => vec![*from, *to],
             Shape::Label(at, _) => vec![*at],
-            Shape::Across(height, ..) => vec![(f64::NAN, *height)],
-            Shape::Upwards(place, ..) => vec![(*place, f64::NAN)],
+            Shape::Horizontal(height, ..) => vec![(f64::NAN, *height)],
+            Shape::Vertical(place, ..) => vec![(*place, f64::NAN)],
             _ => Vec::new(),
         }
     }

@@ -14,7 +14,7 @@
 //!         Layer::boxes([[(1.1, 1.3), (0.0, f64::INFINITY)]], style::ALLOWED, 0.2).named("allowed"),
 //!         Layer::line(curve, Stroke::solid(style::DESIGN, 2.4)).named("stable"),
 //!         Layer::marks([curve[2]], Mark::Circle, style::OPTIMUM).named("fold (SN)"),
-//!         Layer::upwards(1.37, Stroke::dashed(style::ASIDE, 1.0, (5.0, 4.0)), "s_SN"),
+//!         Layer::vertical(1.37, Stroke::dashed(style::ASIDE, 1.0, (5.0, 4.0)), "s_SN"),
 //!     ],
 //!     ..Panel::default()
 //! };
@@ -29,40 +29,42 @@
 //!
 //! - Panels: [`Chart::in_columns`] places them row by row; [`Panel::at`] and [`Panel::span`] say it one by one;
 //!   [`Panel::size`] is the room between the axes in pixels, or a weight where [`Chart::page`] is fixed; panels share axes by
-//!   [`Chart::shares_across`] and [`Chart::shares_upwards`].
+//!   [`Chart::shares_x`] and [`Chart::shares_y`].
 //! - Axes: [`Axis::range`], [`Axis::from`], [`Axis::log`] (values stay what they are), [`Axis::ticks`] (own values and
 //!   words, so categories, too), [`Axis::bare`] (nothing written).
 //! - Layers: lines, contours, dots, marks, bands, boxes (of infinite ends: whole stripes), cells, shades with their bar, rings,
-//!   lines across and upwards with their names, arrows, directions, texts, labels that make room for each other, messages.
+//!   horizontal and vertical lines with their names, arrows, directions, texts, labels that make room for each other, messages.
 //! - Legends: a layer that is [`Layer::named`] has an entry; layers of one name share it; [`Layer::key`] is an entry alone; a
 //!   second line of a name stands below the first. [`Panel::legend`] explains the layers of a panel inside it.
 //! - Colours are those of [`style`]: each means one thing in all pictures.
 //! - `s_SN` is written with SN below the line in all texts.
 //!
-//! Back end: [`pen`] (plain shapes), [`shapes`] (made of others), [`stroke`] (lines), [`panel`] (a frame and what is cut at
-//! it), [`scale`] (ranges and round values), [`shade`] (colours of numbers), [`index`] (indices below the line), [`table`] (a
-//! table as a picture).
+//! Back end: `layout` places panels by the texts at their axes, `paint` draws what is inside of one, `border` what is around
+//! it, on a `canvas` of plain shapes.
 #![forbid(unsafe_code)]
 
-mod axes;
-mod between;
+mod axis;
+mod border;
+mod canvas;
 mod chart;
-pub mod index;
+mod frame;
+mod grid;
+mod index;
 mod layer;
 mod layout;
 mod legend;
-pub mod panel;
-pub mod pen;
+mod mark;
+mod names;
+mod paint;
 mod render;
-pub mod scale;
-pub mod shade;
-pub mod shapes;
-pub mod stroke;
+mod scale;
+mod shade;
+mod stroke;
 pub mod style;
-pub mod table;
 
 pub use chart::{Axis, Chart, Corner, Legend, Panel};
+pub use index::split_indices;
 pub use layer::Layer;
-pub use pen::Align;
-pub use shapes::{Mark, Sign};
+pub use mark::{Align, Mark, Sign};
+pub use scale::{around, power_of_ten};
 pub use stroke::Stroke;

@@ -1,22 +1,26 @@
 //! A chart on its page: SVG, PNG, and SVG inside HTML.
 
-use crate::chart::{Chart, Legend};
+use crate::canvas::Canvas;
+use crate::chart::Chart;
+use crate::grid::GAP;
 use crate::index::width;
-use crate::layout::{GAP, LINE, place};
-use crate::legend::{column, draw_column, draw_lines, entries, height};
-use crate::pen::{Align, Pen};
+use crate::layout::{LINE, place};
+use crate::legend::Key;
+use crate::mark::Align;
 use crate::stroke::Point;
 use crate::style;
 
 /// Room around the page.
 const EDGE: f64 = 16.0;
+/// Width of bold letters in units of that of others.
+const BOLD: f64 = 1.13;
 /// Pixels of a PNG for each pixel of the chart.
 const SCALE: f32 = 2.0;
 
 impl Chart {
     /// As an SVG document.
     pub fn svg(&self) -> String {
-        self.drawn(true).svg()
+        self.drawn(true).svg(str::to_owned)
     }
 
     /// As PNG, with two pixels for each of the chart's.
@@ -24,99 +28,98 @@ impl Chart {
     /// # Errors
     /// Why it cannot be made.
     pub fn png(&self) -> Result<Vec<u8>, String> {
-        self.drawn(true).png_at(SCALE)
+        self.drawn(true).png(SCALE)
     }
 
     /// As an element of an HTML page, without its headings and in the page's colours, light or dark; the title is told to
     /// those who cannot see it. Its texts are written anew.
     pub fn inline(&self, anew: impl Fn(&str) -> String) -> String {
-        let pen = self.drawn(false);
+        let canvas = self.drawn(false);
         let title = anew(&self.title).replace('&', "&amp;").replace('<', "&lt;");
         let title = title.replace('"', "&quot;");
-        let document = pen.svg_with(anew);
+        let document = canvas.svg(anew);
         // What stands before is the ground of the document.
         let (_, body) = document.split_once("fill=\"white\" />").unwrap_or_default();
         let body = body.replace("</svg>", "");
         let body: String = body.lines().map(str::trim).collect();
         let body = style::themed(&body);
-        let (width, height) = pen.size();
+        let (width, height) = canvas.size();
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\">{body}</svg>"
         )
     }
 
     /// With headings on white, or without on the ground of another page.
-    fn drawn(&self, is_page: bool) -> Pen {
+    fn drawn(&self, is_page: bool) -> Canvas {
         let letters = self.letters;
-        let key = entries(self.panels.iter().filter(|it| self.legend_of(it).is_none()));
-        let (beside, least) = match self.legend {
-            Legend::Right if !key.is_empty() => {
-                let (wide, high) = column(&key, letters);
-                (GAP + wide, high)
-            }
-            _ => (0.0, 0.0),
-        };
-        let title = 0.95 * width(letters + 6, &self.title);
+        let key = Key::new(
+            self.panels.iter().filter(|it| self.legend_of(it).is_none()),
+            letters,
+        );
         let wide = match self.page {
             Some((width, _)) => width - 2.0 * EDGE,
-            None => (place(self, None).1.0 + beside).max(if is_page { title } else { 0.0 }),
+            None => {
+                let title = if is_page {
+                    BOLD * width(letters + 6, &self.title)
+                } else {
+                    0.0
+                };
+                let beside = key.room(self.legend, f64::INFINITY)[0];
+                title.max(place(self, None).1.0 + beside)
+            }
         };
-        let in_lines = |wanted: Legend| match self.legend == wanted && !key.is_empty() {
-            true => height(&key, letters, wide) + 0.5 * GAP,
-            false => 0.0,
+        let [beside, over, under] = key.room(self.legend, wide);
+        let head = if is_page {
+            self.headings(wide)
+        } else {
+            Vec::new()
         };
-        let (head, notes) = match is_page {
-            true => (self.headings(wide), lines(&self.notes, letters - 1, wide)),
-            false => (Vec::new(), Vec::new()),
+        let notes = if is_page {
+            self.notes(wide)
+        } else {
+            Vec::new()
         };
         let top = EDGE + tall(&head);
-        let above = top + in_lines(Legend::Above);
-        let below = in_lines(Legend::Below);
-        let rest = below + tall(&notes) + EDGE;
-        let room = self.page.map(|it| (wide - beside, it.1 - above - rest));
+        let rest = under + tall(&notes) + EDGE;
+        let room = self
+            .page
+            .map(|it| (wide - beside, it.1 - top - over - rest));
         let (mut placed, end) = place(self, room);
-        let bottom = above + end.1.max(least);
-        let size = self.page.unwrap_or((wide + 2.0 * EDGE, bottom + rest));
-        let size = (size.0.ceil(), size.1.ceil());
-        let mut pen = match is_page {
-            true => Pen::page(size.0, size.1),
-            false => Pen::new(size.0, size.1),
-        };
-        write(&mut pen, (EDGE, EDGE), &head);
-        match self.legend {
-            Legend::Right => {
-                let first = placed.first().map_or(0.0, |it| it.frame.area.1);
-                let place = (
-                    EDGE + end.0 + GAP,
-                    above + first.min(end.1 - least).max(0.0),
-                );
-                draw_column(&mut pen, place, letters, &key);
-            }
-            Legend::Above => draw_lines(&mut pen, (EDGE, top), letters, wide, &key),
-            Legend::Below => {
-                let place = (EDGE, bottom + 0.5 * GAP);
-                draw_lines(&mut pen, place, letters, wide, &key);
-            }
-            Legend::Inside(_) => {}
+        let least = key.height(self.legend);
+        let bottom = top + over + end.1.max(least);
+        let (width, height) = self.page.unwrap_or((wide + 2.0 * EDGE, bottom + rest));
+        let size = (width.ceil(), height.ceil());
+        let mut canvas = Canvas::new(size);
+        if is_page {
+            canvas.fill(&[(0.0, 0.0, size.0, size.1)], style::PAPER);
         }
+        write(&mut canvas, (EDGE, EDGE), &head);
+        // A legend beside begins at the height of the first panel, if it has room there.
+        let first = placed.first().map_or(0.0, |it| it.frame.area.1);
+        let lower = first.min(end.1 - least).max(0.0);
+        let inner = (EDGE, top + over + lower, wide, bottom - top - over - lower);
+        let outer = (EDGE, top, end.0 + beside, bottom + under - top);
+        key.draw(&mut canvas, self.legend, inner, outer);
         for panel in &mut placed {
             panel.frame.area.0 += EDGE;
-            panel.frame.area.1 += above;
-            panel.draw(&mut pen, letters);
+            panel.frame.area.1 += top + over;
+            panel.draw(&mut canvas);
         }
-        write(&mut pen, (EDGE, bottom + below), &notes);
-        pen
+        write(&mut canvas, (EDGE, bottom + under), &notes);
+        canvas
     }
 
     /// Title and subtitle in lines of this width.
     fn headings(&self, wide: f64) -> Vec<Line> {
-        let mut head = Vec::new();
-        if !self.title.is_empty() {
-            head.push((self.letters + 6, true, self.title.clone()));
-        }
-        let subtitle = std::slice::from_ref(&self.subtitle);
-        head.extend(lines(subtitle, self.letters - 1, wide));
-        head
+        let title = (self.letters + 6, true, self.title.clone());
+        let subtitle = lines(std::slice::from_ref(&self.subtitle), self.letters - 1, wide);
+        let title = Some(title).filter(|it| !it.2.is_empty());
+        title.into_iter().chain(subtitle).collect()
+    }
+
+    /// Notes in lines of this width.
+    fn notes(&self, wide: f64) -> Vec<Line> {
+        lines(&self.notes, self.letters - 1, wide)
     }
 }
 
@@ -129,39 +132,41 @@ fn tall(lines: &[Line]) -> f64 {
     heights.sum::<f64>() + if lines.is_empty() { 0.0 } else { 0.5 * GAP }
 }
 
-fn write(pen: &mut Pen, (left, mut top): Point, lines: &[Line]) {
+fn write(canvas: &mut Canvas, (left, mut top): Point, lines: &[Line]) {
     for (letters, is_bold, text) in lines {
         top += LINE * f64::from(*letters);
         let place = (left, top - 0.35 * f64::from(*letters));
         match is_bold {
-            true => pen.heading(place, *letters, Align::Left, text),
-            false => pen.words(place, *letters, Align::Left, (style::ASIDE, false), text),
+            true => canvas.heading(place, *letters, text),
+            false => canvas.colored_text(place, *letters, Align::Left, style::ASIDE, text),
         }
     }
 }
 
 /// Paragraphs in lines of this width.
 fn lines(paragraphs: &[String], letters: u32, wide: f64) -> Vec<Line> {
-    let mut lines: Vec<Line> = Vec::new();
-    for paragraph in paragraphs {
-        let mut line = String::new();
+    let mut lines: Vec<String> = Vec::new();
+    for paragraph in paragraphs.iter().filter(|it| !it.is_empty()) {
+        lines.push(String::new());
         for word in paragraph.split(' ') {
-            let longer = format!("{line} {word}").trim().to_owned();
-            if 0.92 * width(letters, &longer) > wide && !line.is_empty() {
-                lines.push((
-                    letters,
-                    false,
-                    std::mem::replace(&mut line, word.to_owned()),
-                ));
-            } else {
-                line = longer;
+            let last = lines.last_mut();
+            let longer = last
+                .as_ref()
+                .map(|line| format!("{line} {word}").trim().to_owned());
+            match (last, longer) {
+                (Some(line), Some(longer))
+                    if line.is_empty() || width(letters, &longer) <= wide =>
+                {
+                    *line = longer
+                }
+                _ => lines.push(word.to_owned()),
             }
-        }
-        if !line.is_empty() {
-            lines.push((letters, false, line));
         }
     }
     lines
+        .into_iter()
+        .map(|line| (letters, false, line))
+        .collect()
 }
 
 #[cfg(test)]
@@ -181,8 +186,8 @@ mod tests {
                 Layer::boxes([[(x, 1.0), (0.0, f64::INFINITY)]], style::INK, 0.5),
                 Layer::shades(2, [x, 1.0], "shade"),
                 Layer::ring((x, 0.5), (0.1, 0.1)),
-                Layer::across(x, stroke, "across"),
-                Layer::upwards(x, stroke, "upwards"),
+                Layer::horizontal(x, stroke, "across"),
+                Layer::vertical(x, stroke, "upwards"),
                 Layer::arrow((x, 0.0), (1.0, 1.0), stroke),
                 Layer::direction([(x, 0.0), (1.0, 1.0)], 0.5, stroke),
                 Layer::text((0.5, x), Align::Left, "text"),

@@ -20,31 +20,36 @@ pub fn around(values: impl IntoIterator<Item = f64>, room: f64) -> (f64, f64) {
     }
 }
 
-/// Round values in a range, about so many, and how they are written.
-pub(crate) fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
+/// Round values in a range, about so many, and how they are written in units of a power of ten, which stands behind
+/// them if it is to be told.
+pub(crate) fn ticks(
+    (low, high): (f64, f64),
+    count: usize,
+    power: i32,
+    is_told: bool,
+) -> Vec<(f64, String)> {
     let width = high - low;
     if !width.is_finite() || width <= 0.0 || count == 0 {
         return Vec::new();
     }
     let rough = width / count as f64;
-    let power = 10f64.powf(rough.log10().floor());
+    let decade = 10f64.powf(rough.log10().floor());
     let factor = [1.0, 2.0, 5.0, 10.0]
         .into_iter()
-        .find(|factor| factor * power >= 0.8 * rough);
-    let step = factor.unwrap_or(10.0) * power;
+        .find(|factor| factor * decade >= 0.8 * rough);
+    let step = factor.unwrap_or(10.0) * decade;
     let (first, last) = (
         (low / step - 1e-6).ceil() as i64,
         (high / step + 1e-6).floor() as i64,
     );
-    let split = split_off(low.abs().max(high.abs()));
-    let decimals = (f64::from(split) - (step.log10() + 1e-9).floor()).max(0.0) as usize;
+    let decimals = (f64::from(power) - (step.log10() + 1e-9).floor()).max(0.0) as usize;
     let written = |index: i64| {
         let value = index as f64 * step;
-        let digits = format!("{:.decimals$}", value / 10f64.powi(split)).replace('-', "−");
-        let name = match (split, index) {
-            (0, _) => digits,
-            (_, 0) => "0".to_owned(),
-            (split, _) => format!("{digits}×{}", power_of_ten(split)),
+        let digits = format!("{:.decimals$}", value / 10f64.powi(power)).replace('-', "−");
+        let name = match index {
+            0 if power != 0 => "0".to_owned(),
+            _ if power == 0 || !is_told => digits,
+            _ => format!("{digits}×{}", power_of_ten(power)),
         };
         (value, name)
     };
@@ -73,7 +78,8 @@ pub(crate) fn log_ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, Stri
     let values = factors.map(|(factor, power)| (factor.log10() + f64::from(power), factor, power));
     let inside: Vec<_> = values.filter(|it| inside(it.0)).collect();
     if inside.len() < 2 {
-        let ticks = ticks((10f64.powf(low), 10f64.powf(high)), count);
+        let range = (10f64.powf(low), 10f64.powf(high));
+        let ticks = ticks(range, count, power_of(range), true);
         return ticks
             .into_iter()
             .map(|(value, text)| (value.log10(), text))
@@ -96,12 +102,33 @@ pub(crate) fn log_ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, Stri
 /// Numbers from here to there are written without a power of ten.
 const PLAIN: (f64, f64) = (1e-3, 1e5);
 
-/// The power of ten, a multiple of three, that numbers of this size are written in units of.
-fn split_off(size: f64) -> i32 {
+/// The power of ten, a multiple of three, in units of which the numbers of a range are written.
+pub(crate) fn power_of((low, high): (f64, f64)) -> i32 {
+    let size = low.abs().max(high.abs());
     match (PLAIN.0..PLAIN.1).contains(&size) {
         true => 0,
         false => 3 * (size.log10() / 3.0).floor() as i32,
     }
+}
+
+/// Units that take a prefix.
+const UNITS: [&str; 9] = ["N", "m", "s", "J", "W", "Pa", "Hz", "V", "A"];
+
+/// A name whose unit, in parentheses at its end, has the prefix of a power of ten; none if it takes none.
+pub(crate) fn prefixed(name: &str, power: i32) -> Option<String> {
+    let prefixes = [
+        (-9, "n"),
+        (-6, "µ"),
+        (-3, "m"),
+        (3, "k"),
+        (6, "M"),
+        (9, "G"),
+    ];
+    let (_, prefix) = prefixes.into_iter().find(|it| it.0 == power)?;
+    let (what, unit) = name.strip_suffix(')')?.rsplit_once('(')?;
+    let first = unit.split([' ', '/']).next()?;
+    let takes = UNITS.contains(&first);
+    takes.then(|| format!("{what}({prefix}{unit})"))
 }
 
 /// A power of ten in print: 10 with a raised exponent.
@@ -119,7 +146,7 @@ pub fn power_of_ten(exponent: i32) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{around, log_ticks, power_of_ten, ticks};
+    use super::{around, log_ticks, power_of, power_of_ten, prefixed, ticks};
 
     #[test]
     fn exponents_are_raised() {
@@ -128,9 +155,21 @@ mod tests {
     }
 
     #[test]
+    fn units_take_prefixes() {
+        let written = |name, power| prefixed(name, power).unwrap_or_default();
+        assert_eq!(written("contact force F (N)", 3), "contact force F (kN)");
+        assert_eq!(written("stiffness (N/m)", 6), "stiffness (MN/m)");
+        assert_eq!(written("mass (kg)", 3), "");
+        assert_eq!(written("area (m^2)", -6), "");
+        assert_eq!(written("velocity X′₋", 6), "");
+        assert_eq!(written("force (N)", 12), "");
+    }
+
+    #[test]
     fn ticks_are_round_and_inside() {
         let names = |range, count| -> Vec<String> {
-            ticks(range, count).into_iter().map(|tick| tick.1).collect()
+            let ticks = ticks(range, count, power_of(range), true);
+            ticks.into_iter().map(|tick| tick.1).collect()
         };
         assert_eq!(
             names((0.8, 1.0), 4),
@@ -163,6 +202,6 @@ mod tests {
         assert_eq!(around([3.0], 0.1), (2.0, 4.0));
         assert_eq!(around([0.0, 12.5e-48], 0.1), (-1.0, 1.0));
         assert_eq!(around([1.0, f64::NAN, 3.0], 0.5), (0.0, 4.0));
-        assert!(ticks((1.0, 1.0), 5).is_empty());
+        assert!(ticks((1.0, 1.0), 5, 0, true).is_empty());
     }
 }

@@ -13,17 +13,6 @@ const VIRIDIS: [[f64; 3]; 9] = [
     [253.0, 231.0, 37.0],
 ];
 
-/// Colours of plasma (the same), from dark to light, those that are seen as thin lines on white.
-const ORDERED: [&str; 6] = [
-    "#0D0887", "#8004A8", "#AB2494", "#CC4778", "#E76F5A", "#FBA238",
-];
-
-/// The colour of one of a few curves whose parameter rises from the first to the last.
-pub fn ordered(index: usize, count: usize) -> &'static str {
-    let last = ORDERED.len() - 1;
-    ORDERED[(index * last / count.saturating_sub(1).max(1)).min(last)]
-}
-
 /// How many shades there are.
 pub(crate) const SHADES: usize = 48;
 

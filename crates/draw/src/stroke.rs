@@ -1,5 +1,7 @@
 //! Lines: their colour, width and dashes.
 
+use crate::style;
+
 /// A point of a page or of axes.
 pub(crate) type Point = (f64, f64);
 
@@ -33,6 +35,9 @@ impl Stroke {
         }
     }
 }
+
+/// A line that a light rim tells from any ground.
+pub(crate) const RIMMED: Stroke = Stroke::solid(style::INK, 1.6);
 
 /// The dashes of a line, which go on over its corners.
 pub(crate) fn dashed(points: &[Point], (dash, gap): (f64, f64)) -> Vec<Vec<Point>> {

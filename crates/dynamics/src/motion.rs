@@ -197,7 +197,7 @@ classes! {
     /// No regime.
     Chaos "chaos";
     /// Not settled.
-    Unsettled "not settled";
+    Unsettled "unsettled";
     /// Not computed.
     Lost "lost";
 }

@@ -15,6 +15,7 @@ pub mod continuation;
 pub mod fidelity;
 pub mod motions;
 pub mod orbit;
+pub mod palette;
 pub mod simulate;
 pub mod stops;
 pub mod study;

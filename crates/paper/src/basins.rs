@@ -11,7 +11,8 @@ use softstop_dynamics::{Axis, Basins, Grid, MotionKind, StroboscopicMap};
 use crate::figure::{self, Drawn, Figure, Findings, Studio};
 use crate::figure9::section::Section;
 use softstop_console::progress::Progress;
-use softstop_explore::basin::picture::{BasinPage, BasinPicture};
+use softstop_draw::{Chart, Legend, Panel};
+use softstop_explore::basin::chart;
 
 /// Cells on each side.
 const CELLS: [usize; 2] = [600, 100];
@@ -60,13 +61,19 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     });
     let found = found.collect::<Result<Vec<_>>>()?;
     drop(progress);
-    let pictures = found.iter().map(|(plane, machine, basins, wandering)| {
-        BasinPicture::new(machine, basins, &plane.title).with_wandering(wandering)
-    });
-    let page = BasinPage {
-        pictures: pictures.collect(),
+    let panels = found
+        .iter()
+        .map(|(plane, machine, basins, wandering)| Panel {
+            title: plane.title.clone(),
+            legend: Some(Legend::Right),
+            ..chart::panel(machine, basins, wandering)
+        });
+    let title = "Basins of attraction: which start leads to which motion";
+    let chart = Chart {
+        letters: 17,
+        ..Chart::new(title, panels)
     };
-    let png = page.png().map_err(Error::msg)?;
+    let png = chart.in_columns(2).png().map_err(Error::msg)?;
     let basins = found.iter().flat_map(|(plane, _, basins, _)| {
         (0..basins.classes.len()).map(move |index| (*plane, basins, index))
     });

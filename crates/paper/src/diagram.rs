@@ -97,9 +97,9 @@ pub(super) fn table<'a>(
 
 /// The way on which a motion is seen, and its colour.
 pub(super) const WAYS: [(&str, &str); 3] = [
-    ("up and down", "#444444"),
-    ("up only", style::DESIGN),
-    ("down only", style::OPTIMUM),
+    ("up and down", style::BOTH_WAYS),
+    ("up only", style::RISING),
+    ("down only", style::FALLING),
 ];
 
 /// Steps up and down at the same values by the way on which their motions are seen.

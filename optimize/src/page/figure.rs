@@ -63,7 +63,7 @@ impl Figure {
         let chart = Chart {
             legend: Legend::Above,
             page: Some(size),
-            shares_upwards: true,
+            shares_y: true,
             ..Chart::new(title, panels)
         };
         Self {
@@ -128,6 +128,6 @@ pub(super) fn middles((low, high): (f64, f64), cells: usize) -> impl Fn(usize) -
 
 /// Lines up through a panel at named places.
 pub(super) fn bounds(names: &[(&str, f64)], stroke: Stroke) -> impl Iterator<Item = Layer> {
-    let line = move |(name, at): &(&str, f64)| Layer::upwards(*at, stroke, *name);
+    let line = move |(name, at): &(&str, f64)| Layer::vertical(*at, stroke, *name);
     names.iter().map(line)
 }

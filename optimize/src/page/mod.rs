@@ -132,7 +132,7 @@ mod tests {
             Layer::boxes([[(nan, nan), (0.0, nan)]], style::ALLOWED, 1.0),
             Layer::shades(2, [nan, nan], "shade"),
             Layer::ring((nan, nan), (nan, nan)),
-            Layer::across(nan, AT, ""),
+            Layer::horizontal(nan, AT, ""),
         ];
         let stop = [("stop", nan)];
         let layers = layers.into_iter().chain(bounds(&stop, BOUND));

@@ -1,7 +1,6 @@
 //! Numbers and symbols as people read them.
 
-use softstop_draw::index::pieces;
-use softstop_draw::scale::power_of_ten;
+use softstop_draw::{power_of_ten, split_indices};
 
 /// Significant digits of numbers in the page.
 const DIGITS: i32 = 5;
@@ -117,7 +116,7 @@ pub(super) fn html(text: &str) -> String {
         true => format!("<sub>{}</sub>", escaped(&text)),
         false => escaped(&text),
     };
-    pieces(&plain(text)).into_iter().map(write).collect()
+    split_indices(&plain(text)).into_iter().map(write).collect()
 }
 
 fn escaped(text: &str) -> String {

@@ -1,8 +1,7 @@
 //! `softstop basin`: which initial states lead to which motion.
 
-pub mod cells;
 pub mod certainty;
-pub mod picture;
+pub mod chart;
 mod plane;
 mod report;
 
@@ -16,7 +15,6 @@ use softstop_dynamics::basin::{Options, basins, establishing, zone_box};
 use softstop_dynamics::watch::Kept;
 use softstop_dynamics::zone;
 
-use crate::basin::picture::BasinPicture;
 use plane::Plane;
 use report::{BasinReport, CertaintyReport};
 use softstop_console::arguments::{MachineArguments, title};
@@ -168,9 +166,8 @@ fn picture(
     })?;
     drop(progress);
     let shown = format!("Basins: {}", title(machine));
-    let png = BasinPicture::new(machine, &basins, &shown)
-        .png()
-        .map_err(|error| anyhow!("cannot draw basin.png: {error}"))?;
+    let png = chart::png(machine, &basins, shown);
+    let png = png.map_err(|error| anyhow!("cannot draw basin.png: {error}"))?;
     export.file("png", &png)?;
     let report = BasinReport::new(machine, &basins, plane::beyond(machine, &grid));
     export.table("csv", &report::columns(), report::rows(&basins))?;

@@ -1,27 +1,29 @@
 //! Branches of periodic motions and curves of their bifurcations.
 
 use softstop::{Dimension, Machine, Parameter};
-use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Stroke, style};
+use softstop_draw::style::{self, bifurcation};
+use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Stroke};
 use softstop_dynamics::continuation::{Curve, SpecialKind, Test};
 use softstop_dynamics::{Branch, BranchPoint};
 
 /// Name, mark and line of a kind of special points.
 fn sign(kind: &SpecialKind) -> (&'static str, Mark, Stroke) {
-    let (solid, dashed) = (Stroke::solid, Stroke::dashed);
+    let dashed = |color, dashes| Stroke::dashed(color, 2.2, dashes);
     match kind {
         SpecialKind::Critical(Test::Fold) => {
-            ("fold (SN)", Mark::Circle, solid(style::OPTIMUM, 2.2))
+            let line = Stroke::solid(bifurcation::FOLD, 2.2);
+            ("fold (SN)", Mark::Circle, line)
         }
         SpecialKind::Critical(Test::Flip) => {
-            let line = dashed(style::DESIGN, 2.2, (9.0, 5.0));
+            let line = dashed(bifurcation::FLIP, (9.0, 5.0));
             ("flip (PD)", Mark::Square, line)
         }
         SpecialKind::Critical(Test::NeimarkSacker) => {
-            let line = dashed(style::REFERENCE, 2.2, (9.0, 3.0));
+            let line = dashed(bifurcation::NEIMARK_SACKER, (9.0, 3.0));
             ("Neimark-Sacker (NS)", Mark::Triangle, line)
         }
         SpecialKind::Grazing(_) => {
-            let line = dashed(style::POINT, 2.2, (2.0, 4.0));
+            let line = dashed(bifurcation::GRAZING, (2.0, 4.0));
             ("grazing (G)", Mark::Diamond, line)
         }
     }
@@ -29,9 +31,13 @@ fn sign(kind: &SpecialKind) -> (&'static str, Mark, Stroke) {
 
 /// The before-impact velocities of branches over the parameter, as an SVG document.
 pub fn branches(machine: &Machine, parameter: Parameter, branches: &[Branch]) -> String {
-    let lines = branches.iter().flat_map(|branch| {
+    let (stable, unstable): (Vec<_>, Vec<_>) = branches
+        .iter()
+        .flat_map(pieces)
+        .partition(|piece| is_stable(&piece.1));
+    let lines = stable.iter().chain(&unstable).flat_map(|(branch, piece)| {
         let order = (branch.periods / branches[0].periods).ilog2() as usize;
-        lines(branch, style::SERIES[order % style::SERIES.len()])
+        lines(branch, piece, style::SERIES[order % style::SERIES.len()])
     });
     let specials = branches.iter().flat_map(|branch| &branch.specials);
     let specials = specials.map(|special| {
@@ -70,23 +76,23 @@ pub fn curves(machine: &Machine, parameters: [Parameter; 2], curves: &[Curve]) -
     Chart::new("Bifurcations of periodic motions", [panel]).svg()
 }
 
-/// Pieces of one stability and one number of impacts, a line for each impact, the hardest first.
-fn lines(branch: &Branch, color: &'static str) -> Vec<Layer> {
-    let mut lines = Vec::new();
-    for piece in pieces(branch) {
-        let (stroke, word) = match is_stable(&piece) {
-            true => (Stroke::solid(color, 2.4), "stable"),
-            false => (Stroke::dashed(color, 1.4, (6.0, 4.0)), "unstable"),
-        };
-        let ranks = piece.iter().map(|point| point.impacts.len()).max();
-        for rank in 0..ranks.unwrap_or(0).max(1) {
-            let points = piece.iter();
-            let points = points.map(|point| (point.parameter, ranked(point, rank)));
-            let name = format!("period {}, {word}", branch.periods);
-            lines.push(Layer::line(points, stroke).named(name));
-        }
-    }
-    lines
+/// A line for each impact of a piece, the hardest first.
+fn lines<'a>(
+    branch: &Branch,
+    piece: &'a Piece<'_>,
+    color: &'static str,
+) -> impl Iterator<Item = Layer> + 'a {
+    let (stroke, word) = match is_stable(piece) {
+        true => (Stroke::solid(color, 2.4), "stable"),
+        false => (Stroke::dashed(color, 1.4, (6.0, 4.0)), "unstable"),
+    };
+    let name = format!("period {}, {word}", branch.periods);
+    let ranks = piece.iter().map(|point| point.impacts.len()).max();
+    (0..ranks.unwrap_or(0).max(1)).map(move |rank| {
+        let points = piece.iter();
+        let points = points.map(|point| (point.parameter, ranked(point, rank)));
+        Layer::line(points, stroke).named(&name)
+    })
 }
 
 /// The velocity of an orbit's impact of this rank; 0 where it has none.
@@ -96,8 +102,11 @@ fn ranked(point: &BranchPoint, rank: usize) -> f64 {
     velocities.get(rank).copied().unwrap_or(0.0)
 }
 
-/// Stretches between special points.
-fn pieces(branch: &Branch) -> Vec<Vec<&BranchPoint>> {
+/// Points of one stability and one number of impacts.
+type Piece<'a> = [&'a BranchPoint];
+
+/// The parts of a branch between special points.
+fn pieces(branch: &Branch) -> impl Iterator<Item = (&Branch, Vec<&BranchPoint>)> {
     let mut pieces = vec![Vec::new()];
     for point in &branch.points {
         let last = pieces.len() - 1;
@@ -107,7 +116,7 @@ fn pieces(branch: &Branch) -> Vec<Vec<&BranchPoint>> {
         }
     }
     pieces.retain(|piece| piece.len() > 1);
-    pieces
+    pieces.into_iter().map(move |piece| (branch, piece))
 }
 
 fn is_special(branch: &Branch, point: &BranchPoint) -> bool {
@@ -115,8 +124,8 @@ fn is_special(branch: &Branch, point: &BranchPoint) -> bool {
     specials.any(|special| special.point.state() == point.state())
 }
 
-/// By a point inside: the ends of a stretch are on the border.
-fn is_stable(piece: &[&BranchPoint]) -> bool {
+/// By a point inside: the ends of a piece are on the border.
+fn is_stable(piece: &Piece<'_>) -> bool {
     match piece {
         [one, other] => one.is_stable() && other.is_stable(),
         _ => piece[piece.len() / 2].is_stable(),

@@ -1,31 +1,20 @@
 //! Pictures: the error of models over what they cost, and their regimes over drive frequency.
 
 use softstop::{Machine, Parameter};
-use softstop_draw::scale::around;
-use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Sign, Stroke, style};
+use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Sign, Stroke, around, style};
 use softstop_dynamics::Regime;
+use softstop_dynamics::motion::MotionClass;
 
 use super::FidelityArguments;
 use super::structure::Structure;
 use super::study::{Entry, Study};
-use softstop_console::arguments::title;
+use crate::palette::{motion_color, motion_keys, regime_class};
+use softstop_console::arguments::{title, title_over_frequency};
 
 /// Height of the strips beyond the scale, in decades.
 const STRIP: f64 = 0.5;
 /// Width of the panels of regimes, and height of a row.
 const ROW: (f64, f64) = (760.0, 26.0);
-
-/// Classes of regimes, with their colours: Okabe and Ito's but for a wine red, which those who see no green tell from
-/// it, grey for no impacts and black for what does not repeat.
-const CLASSES: [(&str, &str); 7] = [
-    ("z = 0", "#D9D9D9"),
-    ("z = 1", "#0072B2"),
-    ("z = p, p > 1", "#56B4E9"),
-    ("z = p/2", "#E69F00"),
-    ("z = p/3", "#009E73"),
-    ("z = p/n, n > 3", "#882255"),
-    ("unsettled", "#000000"),
-];
 
 /// Models with both axes logarithmic, as an SVG document: what has no error stands in a strip below the scale, what
 /// has no value in one above it.
@@ -56,7 +45,7 @@ pub(super) fn models(arguments: &FidelityArguments, machine: &Machine, study: &S
     let mut layers = vec![Layer::boxes(strips, style::ASIDE, 0.12)];
     if tolerance > 0.0 {
         let line = Stroke::dashed(style::OPTIMUM, 1.5, (6.0, 4.0));
-        layers.push(Layer::across(
+        layers.push(Layer::horizontal(
             tolerance,
             line,
             format!("tolerance {tolerance}"),
@@ -109,14 +98,15 @@ pub(super) fn regimes(machine: &Machine, structure: &Structure) -> String {
     let (frequencies, rows) = (&structure.frequencies, structure.tracks.len() as f64);
     let (low, high) = around(frequencies.iter().copied(), 0.0);
     let room = 0.5 * (high - low) / (frequencies.len() - 1) as f64;
-    let starts = ["from rest", "flung towards the stop"]
-        .into_iter()
-        .enumerate();
-    let panels = starts.map(|(start, title)| {
+    let x = Axis::new(machine.label_of(Parameter::Frequency)).range((low - room, high + room));
+    let tracks = structure.tracks.iter();
+    let all: Vec<_> = tracks.flat_map(|track| track.regimes.concat()).collect();
+    let starts = ["from rest", "flung towards the stop"];
+    let panels = starts.into_iter().enumerate().map(|(start, title)| {
         let lowest_first = || structure.tracks.iter().rev();
         let regimes = lowest_first().flat_map(|track| &track.regimes[start]);
-        let cells = Layer::cells(frequencies.len(), regimes.map(|regime| color(*regime)));
-        let keys = CLASSES.map(|(name, color)| Layer::key(Sign::Patch(color), name));
+        let colors = regimes.map(|regime| motion_color(class(*regime)));
+        let cells = Layer::cells(frequencies.len(), colors);
         let names = lowest_first().map(|track| track.entry.full_name());
         let names = names
             .enumerate()
@@ -124,25 +114,27 @@ pub(super) fn regimes(machine: &Machine, structure: &Structure) -> String {
         Panel {
             title: title.to_owned(),
             size: (ROW.0, ROW.1 * rows),
-            x: Axis::new(machine.label_of(Parameter::Frequency)).range((low - room, high + room)),
+            x: x.clone(),
             y: Axis::new("").range((0.0, rows)).ticks(names),
-            layers: [cells].into_iter().chain(keys).collect(),
+            layers: [cells].into_iter().chain(keys(&all)).collect(),
             ..Panel::default()
         }
     });
-    let head = format!("Regimes of the models of {}", title(machine));
+    let head = title_over_frequency(machine);
+    let head = format!("Regimes of the models of {head}");
     Chart::new(head, panels).in_columns(1).svg()
 }
 
-fn color(regime: Option<Regime>) -> &'static str {
-    let class = match regime.map(|regime| (regime.impacts, regime.periods)) {
-        None => 6,
-        Some((0, _)) => 0,
-        Some((1, 1)) => 1,
-        Some((_, 1)) => 2,
-        Some((_, 2)) => 3,
-        Some((_, 3)) => 4,
-        Some(_) => 5,
+fn class(regime: Option<Regime>) -> MotionClass {
+    regime.map_or(MotionClass::Unsettled, regime_class)
+}
+
+/// What the colours of regimes mean; without one a motion is chaotic or unsettled.
+fn keys(regimes: &[Option<Regime>]) -> impl Iterator<Item = Layer> {
+    let occurs = |kind| {
+        let mut periodic = regimes.iter().flatten();
+        periodic.any(|regime| regime_class(*regime) == kind)
     };
-    CLASSES[class].1
+    let other = Layer::key(Sign::Patch(style::motion::UNSETTLED), "does not repeat");
+    motion_keys(occurs).chain(regimes.contains(&None).then_some(other))
 }

@@ -3,13 +3,12 @@
 use softstop::{Clock, Dimension, Machine, MotionError, Scene, Start};
 use softstop_console::arguments::title;
 use softstop_console::report::MotionName;
-use softstop_draw::scale::around;
-use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Stroke, style};
+use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Stroke, around};
 use softstop_dynamics::Survey;
 use softstop_dynamics::attractors::Attractor;
-use softstop_dynamics::motion::MotionClass;
 
-use crate::basin::cells::color;
+use crate::palette::line_color;
+use crate::simulate::chart::FACE;
 
 /// Motions in a row, and the most that are drawn.
 const COLUMNS: usize = 3;
@@ -20,14 +19,11 @@ const SAMPLES: u32 = 400;
 const WANDERING: (u64, u64) = (40, 3000);
 /// Room around what is drawn, as a share of it.
 const ROOM: f64 = 0.06;
-/// The position at which the clearance ends.
-const FACE: Stroke = Stroke::dashed(style::ASIDE, 1.0, (5.0, 4.0));
 
 /// A motion as it is drawn.
 struct Loop {
     name: String,
-    share: f64,
-    class: MotionClass,
+    color: &'static str,
     repeats: bool,
     line: Vec<(f64, f64)>,
     states: Vec<(f64, f64)>,
@@ -55,10 +51,9 @@ pub(super) fn svg(machine: &Machine, survey: &Survey) -> Result<String, MotionEr
             layers,
             ..Panel::default()
         };
-        let name = format!("{}: {:.1} % of starts", motion.name, 100.0 * motion.share);
         let lines = motion.line_layers(machine.scene.clearance);
         [
-            panel(plane.clone(), row, name, lines),
+            panel(plane.clone(), row, motion.name.clone(), lines),
             panel(
                 section.clone(),
                 row + 1,
@@ -100,11 +95,11 @@ impl Loop {
                 .after(Clock::at_cycle(cycle), f64::from(part) * step);
             motion.at(at).map(|it: Start| (it.position, it.velocity))
         };
+        let name = MotionName::of(&attractor.motion).text;
         let fine = (0..drawn).flat_map(|cycle| (0..=SAMPLES).map(move |part| (cycle, part)));
         Ok(Self {
-            name: MotionName::of(&attractor.motion).text,
-            share: attractor.share,
-            class: attractor.motion.class(),
+            name: format!("{name}: {:.1} % of starts", 100.0 * attractor.share),
+            color: line_color(attractor.motion.class()),
             repeats: periods.is_some(),
             line: fine
                 .filter_map(|(cycle, part)| sample(cycle, part))
@@ -113,18 +108,11 @@ impl Loop {
         })
     }
 
-    fn color(&self) -> &'static str {
-        match self.class {
-            MotionClass::Zero => style::ASIDE,
-            class => color(class),
-        }
-    }
-
     fn line_layers(&self, clearance: f64) -> Vec<Layer> {
         let width = if self.repeats { 1.8 } else { 0.4 };
-        let stroke = Stroke::solid(self.color(), width);
+        let stroke = Stroke::solid(self.color, width);
         vec![
-            Layer::upwards(clearance, FACE, ""),
+            Layer::vertical(clearance, FACE, ""),
             Layer::line(self.line.iter().copied(), stroke),
         ]
     }
@@ -132,8 +120,8 @@ impl Loop {
     fn state_layer(&self) -> Layer {
         let states = self.states.iter().copied();
         match self.repeats {
-            true => Layer::marks(states, Mark::Circle, self.color()).sized(5.0),
-            false => Layer::dots(states, 0.9, self.color()),
+            true => Layer::marks(states, Mark::Circle, self.color).sized(5.0),
+            false => Layer::dots(states, 0.9, self.color),
         }
     }
 }

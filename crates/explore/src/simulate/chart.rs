@@ -2,9 +2,9 @@
 //! and the phase plane.
 
 use softstop::{Dimension, Machine, PhaseKind};
+use softstop_draw::{Axis, Chart, Layer, Legend, Panel, Stroke, around, style};
 
-use softstop_draw::scale::around;
-use softstop_draw::{Axis, Chart, Layer, Legend, Panel, Stroke, style};
+use crate::palette::phase_color;
 
 /// A motion as it is drawn.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -15,9 +15,10 @@ pub(crate) struct Drawing {
     pub(crate) phases: Vec<(PhaseKind, f64, f64)>,
 }
 
-/// The line of the motion, and that of positions at which laws change.
+/// The line of the motion.
 const LINE: Stroke = Stroke::solid(style::POINT, 1.3);
-const FACE: Stroke = Stroke::dashed(style::ASIDE, 1.0, (5.0, 4.0));
+/// The line of a position at which the law of force changes.
+pub(crate) const FACE: Stroke = Stroke::dashed(style::ASIDE, 1.0, (5.0, 4.0));
 
 /// From the bottom of a panel to its top.
 const ENDLESS: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -38,7 +39,7 @@ impl Drawing {
         let series = (1..4).map(|row| {
             let mut layers = self.shades();
             if row == 1 {
-                layers.extend(faces.iter().map(|face| Layer::across(*face, FACE, "")));
+                layers.extend(faces.iter().map(|face| Layer::horizontal(*face, FACE, "")));
             }
             layers.push(self.line((0, row)));
             Panel {
@@ -50,7 +51,7 @@ impl Drawing {
                 ..Panel::default()
             }
         });
-        let faces = faces.iter().map(|face| Layer::upwards(*face, FACE, ""));
+        let faces = faces.iter().map(|face| Layer::vertical(*face, FACE, ""));
         let plane = Panel {
             at: (1, 0),
             span: (1, 3),
@@ -62,7 +63,7 @@ impl Drawing {
         };
         let chart = Chart {
             legend: Legend::Below,
-            shares_across: true,
+            shares_x: true,
             ..Chart::new(title, series.chain([plane]))
         };
         chart.svg()
@@ -84,7 +85,7 @@ impl Drawing {
         let shade = |kind: PhaseKind| {
             let own = self.phases.iter().filter(|phase| phase.0 == kind);
             let times = own.map(|(_, begin, end)| [(*begin, *end), ENDLESS]);
-            Some(Layer::boxes(times, color(kind)?, 1.0).named(super::name(kind)))
+            Some(Layer::boxes(times, phase_color(kind)?, 1.0).named(super::name(kind)))
         };
         kinds.into_iter().filter_map(shade).collect()
     }
@@ -99,20 +100,4 @@ pub(crate) fn labels(machine: &Machine) -> [String; 4] {
         ("contact force F", Dimension::Force),
     ];
     names.map(|(what, dimension)| machine.label(what, "", dimension))
-}
-
-/// Tints of Okabe and Ito's colours for the phases, grey for a mass at rest; free flight stays
-/// white.
-pub const fn color(kind: PhaseKind) -> Option<&'static str> {
-    match kind {
-        PhaseKind::Free => None,
-        PhaseKind::Pierce => Some("#F4D48C"),
-        PhaseKind::Cut => Some("#F8F3AA"),
-        PhaseKind::Gap => Some("#E0E0E0"),
-        PhaseKind::Stop => Some("#B3DDF5"),
-        PhaseKind::Released => Some("#8CD3C0"),
-        PhaseKind::Chatter => Some("#E8C3D7"),
-        PhaseKind::Stuck => Some("#E28E4D"),
-        PhaseKind::Resting => Some("#A9A9A9"),
-    }
 }

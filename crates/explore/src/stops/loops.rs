@@ -33,7 +33,10 @@ pub fn svg(title: &str, subtitle: &str, strokes: &[(&str, Stroke)]) -> String {
         ((-1.0, 1.0), force.range((-0.15, 1.0)).ticks([zero]))
     };
     let top = force.ends[1].unwrap_or(1.0);
-    let mut layers = vec![Layer::across(0.0, ZERO, ""), Layer::upwards(0.0, ZERO, "")];
+    let mut layers = vec![
+        Layer::horizontal(0.0, ZERO, ""),
+        Layer::vertical(0.0, ZERO, ""),
+    ];
     for ((name, stroke), line) in strokes.iter().zip(LINES) {
         let name = if strokes.len() > 1 { *name } else { "" };
         draw(&mut layers, stroke, line, name, top);

@@ -3,14 +3,13 @@
 use anyhow::anyhow;
 use softstop_console::failure::Failure;
 use softstop_draw::{Axis, Chart, Layer, Panel, Sign, style};
+use softstop_dynamics::Regime;
 use softstop_dynamics::motion::MotionClass;
-use softstop_dynamics::orbit::ImpactPattern;
-use softstop_dynamics::{MotionKind, Regime};
 
 use super::plot::{Point, View};
 use super::report::AxisReport;
 use super::values::Scale;
-use crate::basin::cells::color;
+use crate::palette::{motion_color, regime_class};
 
 /// Radius of a dot.
 const DOT: f64 = 1.4;
@@ -75,7 +74,7 @@ impl View<'_> {
                 let word = |cell: Option<&Point>| cell.and_then(|it| it.word.clone());
                 let colors = cells
                     .iter()
-                    .map(|cell| color(class(word(*cell).as_deref())));
+                    .map(|cell| motion_color(class(word(*cell).as_deref())));
                 let mut layers = vec![Layer::cells(across.count, colors)];
                 layers.extend(self.legend());
                 layers
@@ -91,14 +90,14 @@ impl View<'_> {
         words.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
         let mut lines: Vec<(&'static str, Vec<&str>)> = Vec::new();
         for (word, _) in words {
-            let color = color(class(Some(word)));
+            let color = motion_color(class(Some(word)));
             match lines.iter_mut().find(|line| line.0 == color) {
                 Some(line) => line.1.push(word),
                 None => lines.push((color, vec![word])),
             }
         }
         if self.column.summary.values < self.manifest.points {
-            lines.push((color(class(None)), vec!["does not repeat"]));
+            lines.push((motion_color(class(None)), vec!["does not repeat"]));
         }
         lines.into_iter().map(|(color, words)| {
             let is_z = words[0].starts_with(|it: char| it.is_ascii_digit() || it == '∞');
@@ -191,9 +190,6 @@ fn class(word: Option<&str>) -> MotionClass {
         Some("chaos") => MotionClass::Chaos,
         Some("rest") => MotionClass::Rest,
         Some("lost") => MotionClass::Lost,
-        Some(word) => regime(word).map_or(MotionClass::Many, |regime| {
-            let order = ImpactPattern::new(&[], &[], regime.periods, 1.0);
-            MotionKind::repeating(regime, order).class()
-        }),
+        Some(word) => regime(word).map_or(MotionClass::Many, regime_class),
     }
 }

@@ -5,8 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use softstop::{Dimension, Language, Machine, Parameter};
 use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Step};
 
-use softstop_draw::scale::around;
-use softstop_draw::{Align, Axis, Chart, Layer, Legend, Panel, Stroke, style};
+use softstop_draw::{Align, Axis, Chart, Layer, Legend, Panel, Stroke, around, style};
 
 /// The diagram of all chains of a plan.
 #[derive(Debug, Clone, Copy)]
@@ -18,9 +17,9 @@ pub struct SweepChart<'a> {
 
 /// Where points are: seen on the way up, on the way down, or both.
 const WAYS: [(&str, &str); 3] = [
-    ("both ways", "#555555"),
-    ("up only →", style::DESIGN),
-    ("down only ←", style::OPTIMUM),
+    ("both ways", style::BOTH_WAYS),
+    ("up only →", style::RISING),
+    ("down only ←", style::FALLING),
 ];
 
 /// Size of a panel, and the least and the largest radius of a dot.

@@ -11,6 +11,7 @@ use softstop_console::report::MachineReport;
 use softstop_draw::style;
 
 use super::strip::Strip;
+use crate::palette::phase_color;
 use crate::simulate::{Crossed, Outcome, Plan, chart, name};
 
 /// What the page shows, in the machine's own units.
@@ -117,7 +118,7 @@ impl Page {
             kind: name(*kind),
             from: *from,
             to: *to,
-            color: chart::color(*kind),
+            color: phase_color(*kind),
         };
         Self {
             title: title(machine),

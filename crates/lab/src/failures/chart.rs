@@ -1,7 +1,7 @@
 //! A page of the atlas: a map of verdicts for each method with the limits that theory sets, and the strip of the exact one.
 
-use softstop_draw::scale::power_of_ten;
-use softstop_draw::{Axis, Chart, Layer, Legend, Panel, Sign};
+use softstop_draw::style::{self, verdict};
+use softstop_draw::{Axis, Chart, Layer, Legend, Panel, Sign, power_of_ten};
 
 use super::{Atlas, Map};
 use crate::methods::Verdict;
@@ -36,7 +36,7 @@ pub(super) fn svg(atlas: &Atlas) -> String {
         ),
         legend: Legend::Below,
         letters: 12,
-        shares_upwards: true,
+        shares_y: true,
         ..Chart::new(&view.title, maps.chain([exact]))
     };
     chart.svg()
@@ -81,7 +81,7 @@ fn map(atlas: &Atlas, map: &Map) -> Panel {
 fn exact(atlas: &Atlas) -> Panel {
     let stiffness = &atlas.axes.stiffness;
     let cells = atlas.columns.iter().map(|column| column.exact);
-    let colors = cells.map(|cell| cell.map_or("#ffffff", |cell| color(cell.verdict)));
+    let colors = cells.map(|cell| cell.map_or(style::PAPER, |cell| color(cell.verdict)));
     Panel {
         title: "exact: no step".to_owned(),
         size: (MAP, STRIP),
@@ -115,17 +115,16 @@ fn keys(atlas: &Atlas) -> impl Iterator<Item = Layer> {
     shown.map(|verdict| Layer::key(Sign::Patch(color(verdict)), verdict.name()))
 }
 
-/// The colour of a class of outcomes: blues where the motion is right at least in kind, all others apart from
-/// them and from each other in lightness too, so that readers who see no green and red tell them apart.
+/// The colour of a class of outcomes.
 const fn color(verdict: Verdict) -> &'static str {
     match verdict {
-        Verdict::Converged => "#0072B2",
-        Verdict::Inaccurate => "#9CCDEC",
-        Verdict::WrongCount => "#F0E442",
-        Verdict::MissedContact => "#009E73",
-        Verdict::EnergyGain => "#CC6D00",
-        Verdict::BlownUp => "#3A3A3A",
-        Verdict::Stuck => "#7F3B08",
-        Verdict::Unsuited => "#EEEEEE",
+        Verdict::Converged => verdict::CONVERGED,
+        Verdict::Inaccurate => verdict::INACCURATE,
+        Verdict::WrongCount => verdict::WRONG_COUNT,
+        Verdict::MissedContact => verdict::MISSED_CONTACT,
+        Verdict::EnergyGain => verdict::ENERGY_GAIN,
+        Verdict::BlownUp => verdict::BLOWN_UP,
+        Verdict::Stuck => verdict::STUCK,
+        Verdict::Unsuited => verdict::UNSUITED,
     }
 }

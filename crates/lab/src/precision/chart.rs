@@ -1,7 +1,7 @@
 //! The work-precision diagram: what each method's accuracy costs.
 
-use softstop_draw::scale::around;
-use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Sign, Stroke, style};
+use softstop_draw::style::{self, method};
+use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Sign, Stroke, around};
 
 use crate::precision::family::Look;
 use crate::precision::measure::Row;
@@ -9,26 +9,24 @@ use crate::precision::report::SceneReport;
 
 /// Half the size of marks.
 const MARK: f64 = 4.5;
-/// Colour of what ignores events.
-const BLIND: &str = "#AAAAAA";
 /// Errors below and above which they are drawn at the edge.
 const ERRORS: (f64, f64) = (1e-17, 10.0);
 
 /// Colour and mark of each scheme: the colour says of which kind it is.
 const LOOKS: [(&str, Mark); 13] = [
-    (style::POINT, Mark::Diamond),
-    (style::ALLOWED, Mark::Circle),
-    (style::ALLOWED, Mark::Square),
-    (style::DESIGN, Mark::Triangle),
-    ("#009E73", Mark::Circle),
-    ("#009E73", Mark::Square),
-    ("#009E73", Mark::Diamond),
-    ("#882255", Mark::Triangle),
-    (style::OPTIMUM, Mark::Circle),
-    (style::OPTIMUM, Mark::Square),
-    (style::OPTIMUM, Mark::Diamond),
-    (style::REFERENCE, Mark::Circle),
-    (style::REFERENCE, Mark::Triangle),
+    (method::EXACT, Mark::Diamond),
+    (method::FIRST_ORDER, Mark::Circle),
+    (method::FIRST_ORDER, Mark::Square),
+    (method::RUNGE_KUTTA, Mark::Triangle),
+    (method::IMPLICIT, Mark::Circle),
+    (method::IMPLICIT, Mark::Square),
+    (method::IMPLICIT, Mark::Diamond),
+    (method::TIME_STEPPING, Mark::Triangle),
+    (method::DIFFSOL, Mark::Circle),
+    (method::DIFFSOL, Mark::Square),
+    (method::DIFFSOL, Mark::Diamond),
+    (method::DIFFERENTIAL_EQUATIONS, Mark::Circle),
+    (method::DIFFERENTIAL_EQUATIONS, Mark::Triangle),
 ];
 
 /// The runs of a method.
@@ -72,12 +70,19 @@ pub(super) fn svg(report: &SceneReport, looks: impl Iterator<Item = Look>) -> St
 impl Curve<'_> {
     fn look(&self) -> (&'static str, Mark) {
         let (color, mark) = LOOKS[self.look.scheme % LOOKS.len()];
-        (if self.look.blind { BLIND } else { color }, mark)
+        (
+            if self.look.blind {
+                method::BLIND
+            } else {
+                color
+            },
+            mark,
+        )
     }
 
     fn stroke(&self) -> Stroke {
         match self.look.blind {
-            true => Stroke::dashed(BLIND, 1.2, (5.0, 4.0)),
+            true => Stroke::dashed(method::BLIND, 1.2, (5.0, 4.0)),
             false => Stroke::solid(self.look().0, 1.6),
         }
     }

@@ -11,7 +11,6 @@ use softstop::Ratios;
 use crate::figure::{self, Drawn, Figure, Studio};
 use curve::{Curve, Starts, integrity, motions};
 use softstop_console::progress::Progress;
-use softstop_draw::shade::ordered;
 use softstop_draw::{Axis, Chart, Corner, Layer, Legend, Mark, Panel, Stroke, style};
 use softstop_explore::basin::certainty::{SHARES, layers};
 
@@ -67,7 +66,7 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
 fn chart(curves: &[Curve]) -> Chart {
     let (unloaded, rest) = curves.split_at(CLEARANCES.len());
     let (loaded, others) = rest.split_at(CLEARANCES.len());
-    let color = |index| ordered(index, CLEARANCES.len());
+    let color = |index| style::ordered(index, CLEARANCES.len());
     let by_clearance = |curves: &[Curve], show: fn(&Curve, Stroke) -> Vec<Layer>| -> Vec<Layer> {
         let lines = curves.iter().enumerate();
         let lines = lines.flat_map(|(index, curve)| {

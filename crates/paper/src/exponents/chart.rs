@@ -19,7 +19,7 @@ pub(super) fn chart(
     let mut panels: Vec<Panel> = Vec::new();
     for (column, part) in parts.iter().enumerate() {
         let mut own = [panel(part, column, 0), panel(part, column, 1)];
-        let zero = Layer::across(0.0, Stroke::solid(style::INK, 1.0), "");
+        let zero = Layer::horizontal(0.0, Stroke::solid(style::INK, 1.0), "");
         own[1].layers.push(zero);
         if column == 0 {
             for (row, panel) in own.iter_mut().enumerate() {
@@ -29,7 +29,7 @@ pub(super) fn chart(
                 panel.layers.extend(marks.iter().flat_map(|(_, at)| {
                     let spot = Layer::marks([(at[0], at[1 + row])], Mark::Hollow, style::INK);
                     let line = Stroke::dashed(style::ASIDE, 0.9, (3.0, 3.0));
-                    [Layer::upwards(at[0], line, ""), spot.sized(4.5)]
+                    [Layer::vertical(at[0], line, ""), spot.sized(4.5)]
                 }));
             }
             let beyond = Layer::text((0.965, 0.0), Align::Left, "chaos: λ > 0, at the right");
@@ -48,7 +48,7 @@ pub(super) fn chart(
     Chart {
         subtitle: explanation,
         legend: Legend::Above,
-        shares_across: true,
+        shares_x: true,
         ..Chart::new(title, panels)
     }
 }

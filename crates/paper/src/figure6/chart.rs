@@ -4,7 +4,6 @@
 use super::RANGE;
 use super::boundaries::Figures;
 use crate::diagram::{is_one, steps};
-use softstop_draw::shade::ordered;
 use softstop_draw::{Align, Axis, Chart, Corner, Layer, Legend, Mark, Panel, Sign, Stroke, style};
 use softstop_dynamics::sweep::Jump;
 use softstop_dynamics::{Chain, MotionKind, Step};
@@ -52,7 +51,7 @@ impl Picture<'_> {
         let panels = [upper].into_iter().chain(pierced).chain([self.panel(2)]);
         Chart {
             subtitle: explanation,
-            shares_across: true,
+            shares_x: true,
             ..Chart::new(title, panels).in_columns(1)
         }
     }
@@ -98,7 +97,7 @@ impl Picture<'_> {
 /// The sweeps of each clearance, and its colour.
 fn rows(chains: &[Chain]) -> impl Iterator<Item = (&[Chain], &'static str)> {
     let rows = chains.chunks_exact(2).enumerate();
-    rows.map(|(index, ways)| (ways, ordered(index, chains.len() / 2)))
+    rows.map(|(index, ways)| (ways, style::ordered(index, chains.len() / 2)))
 }
 
 /// Dots of all motions, and lines where z = 1 is stable.

@@ -39,11 +39,13 @@ pub(super) fn chart(cycles: &[Cycle; 2]) -> Chart {
         ..Panel::default()
     };
     let faces = faces(scene).into_iter();
-    let across = faces.clone().map(|(face, _)| Layer::across(face, FACE, ""));
+    let across = faces
+        .clone()
+        .map(|(face, _)| Layer::horizontal(face, FACE, ""));
     let upwards = faces
         .clone()
-        .map(|(face, _)| Layer::upwards(face, FACE, ""));
-    let named = faces.map(|(face, name)| Layer::upwards(face, FACE, name));
+        .map(|(face, _)| Layer::vertical(face, FACE, ""));
+    let named = faces.map(|(face, name)| Layer::vertical(face, FACE, name));
     let series = curves(&|at| (at.time / period, at.position));
     let time = Axis::new("time τ / T").range((0.0, 1.0));
     let close = Axis::new("position X near the stop").range(near);

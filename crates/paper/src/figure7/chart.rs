@@ -7,7 +7,7 @@ use super::{Cycle, faces};
 use crate::figure::ends;
 use crate::path::Point;
 use softstop_draw::{Align, Axis, Chart, Layer, Legend, Mark, Panel, Sign, Stroke, style};
-use softstop_explore::simulate::chart::color;
+use softstop_explore::palette::phase_color;
 
 /// Height of the panels.
 const HEIGHT: f64 = 320.0;
@@ -40,8 +40,9 @@ impl Cycle {
         let occurs = PHASES
             .into_iter()
             .filter(|it| self.path.first(it.0).is_some());
-        let keys = occurs
-            .map(|(kind, name)| Layer::key(Sign::Patch(color(kind).unwrap_or("#ffffff")), name));
+        let keys = occurs.map(|(kind, name)| {
+            Layer::key(Sign::Patch(phase_color(kind).unwrap_or(style::PAPER)), name)
+        });
         let mut series = self.series();
         series.layers.extend(keys);
         let (slow, fast) = self.range(STATE);
@@ -82,7 +83,7 @@ impl Cycle {
         let shifts = || (0..=SHOWN as u32).map(|cycle| f64::from(cycle) * period);
         let mut layers: Vec<Layer> = shifts().flat_map(|shift| self.shades(shift)).collect();
         let faces = faces(&self.orbit.scene).into_iter();
-        layers.extend(faces.map(|(face, _)| Layer::across(face, FACE, "")));
+        layers.extend(faces.map(|(face, _)| Layer::horizontal(face, FACE, "")));
         layers.extend(shifts().map(|shift| {
             let points = self.path.points.iter();
             let points = points.map(|point| (point.time + shift, point.position));
@@ -123,7 +124,7 @@ impl Cycle {
         let mut layers = self.shades(0.0);
         for (face, name) in faces(&self.orbit.scene) {
             let name = Layer::text((x.0, face), Align::Left, name).moved(8.0, -5.0);
-            layers.extend([Layer::across(face, FACE, ""), name]);
+            layers.extend([Layer::horizontal(face, FACE, ""), name]);
         }
         layers.push(Layer::line(self.curve(SERIES), CURVE));
         layers.extend(self.letters(SERIES, [(-11.0, -7.0), (-11.0, -7.0), (-12.0, 18.0)]));
@@ -143,9 +144,9 @@ impl Cycle {
         let mut layers = if column > 0 { self.tints() } else { Vec::new() };
         let lines = faces
             .iter()
-            .map(|(face, _)| Layer::upwards(*face, FACE, ""));
+            .map(|(face, _)| Layer::vertical(*face, FACE, ""));
         layers.extend(lines);
-        let zero = Layer::across(0.0, Stroke::solid("#cccccc", 1.0), "");
+        let zero = Layer::horizontal(0.0, Stroke::solid(style::FAINT, 1.0), "");
         let show = if column == 2 { FORCE } else { STATE };
         layers.extend([zero, Layer::line(self.curve(show), CURVE)]);
         if column < 2 {
@@ -261,5 +262,5 @@ fn around((low, high): (f64, f64), room: f64) -> (f64, f64) {
 
 /// Shades a range of the axis across in the colour of a phase, if it has one.
 fn fill(ends: (f64, f64), kind: PhaseKind, opacity: f64) -> Option<Layer> {
-    color(kind).map(|color| Layer::boxes([[ends, ALL]], color, opacity))
+    phase_color(kind).map(|color| Layer::boxes([[ends, ALL]], color, opacity))
 }

@@ -15,9 +15,9 @@ const DOT: f64 = 0.65;
 /// Above this frequency bifurcations are numbered in the overview.
 const BEYOND: f64 = 1.03;
 /// Motions that are met on no sweep from rest.
-const ISOLATED: (&str, &str) = ("on none of these sweeps", "#009E73");
+const ISOLATED: (&str, &str) = ("on none of these sweeps", style::NEITHER_WAY);
 /// The line at a bifurcation.
-const MARK: Stroke = Stroke::dashed("#9a9a9a", 0.9, (3.0, 3.0));
+const MARK: Stroke = Stroke::dashed(style::ASIDE, 0.9, (3.0, 3.0));
 /// Share of the range that a motion has to fill to be named.
 const LEAST: f64 = 0.02;
 
@@ -38,7 +38,7 @@ pub(super) fn chart(
         let numbered = bifurcations.iter().filter(|it| is_numbered(it.eta));
         panel
             .layers
-            .extend(numbered.map(|it| Layer::upwards(it.eta, MARK, it.words())));
+            .extend(numbered.map(|it| Layer::vertical(it.eta, MARK, it.words())));
         if index == 0 {
             (panel.span, panel.size) = ((2, 1), SIZES[0]);
             for Diagram { part: zoom, .. } in &diagrams[1..] {
@@ -48,7 +48,9 @@ pub(super) fn chart(
                     .insert(0, Layer::boxes([stripe], style::ALLOWED, 0.22));
                 let line = Stroke::solid(style::ALLOWED, 0.5);
                 let middle = f64::midpoint(zoom.range.0, zoom.range.1);
-                panel.layers.push(Layer::upwards(middle, line, &*zoom.name));
+                panel
+                    .layers
+                    .push(Layer::vertical(middle, line, &*zoom.name));
             }
         } else {
             panel.at = ((index - 1) % 2, 1 + (index - 1) / 2);

@@ -6,16 +6,16 @@ use super::found::Found;
 use super::{CLEARANCE, SHALLOW};
 use crate::figure::ends;
 use crate::path::Path;
-use softstop_draw::scale::around;
-use softstop_draw::{Align, Axis, Chart, Layer, Panel, Stroke, style};
+use softstop_draw::{Align, Axis, Chart, Layer, Panel, Stroke, around, style};
+use softstop_explore::palette::line_color;
 
 /// Widths of the panels, and their height.
 const WIDTHS: [f64; 4] = [560.0, 200.0, 200.0, 200.0];
 const HEIGHT: f64 = 166.0;
 const FACE: Stroke = Stroke::dashed(style::ASIDE, 1.1, (6.0, 4.0));
 /// Every other drive period, and the states of other motions.
-const BAND: &str = "#f3f3f3";
-const OTHERS: &str = "#b4b4b4";
+const BAND: &str = style::GRID;
+const OTHERS: &str = style::FAINT;
 /// Points for each drive period, of all of a motion and of what is near the stop; and fewest of an arc.
 const FINENESS: [(u32, u32); 2] = [(72, 8), (1440, 8)];
 /// Room before the stop near it, in units of the depth beyond it.
@@ -70,11 +70,7 @@ pub(super) fn page(motions: &[Found], all: &[Found], shown: u64) -> Result<(Char
 }
 
 fn color(motion: &Found) -> &'static str {
-    if motion.is_chaotic() {
-        style::OPTIMUM
-    } else {
-        style::DESIGN
-    }
+    line_color(motion.class())
 }
 
 /// The time series, its impacts, and how long it takes to repeat.
@@ -87,8 +83,8 @@ fn series(motion: &Found, path: &Path, shown: u64, period: f64) -> Panel {
         .map(|it| [(it as f64, it as f64 + 1.0), y]);
     let points = path.points.iter().map(|at| (at.time / period, at.position));
     let mut layers = vec![
-        Layer::boxes(bands, BAND, 1.0),
-        Layer::across(CLEARANCE, FACE, ""),
+        Layer::boxes(bands, BAND, 0.5),
+        Layer::horizontal(CLEARANCE, FACE, ""),
         Layer::line(points, Stroke::solid(color(motion), 1.3)),
     ];
     let [tip, tail] = [0.024, 0.1].map(|share| CLEARANCE + share * unit);
@@ -121,7 +117,7 @@ fn series(motion: &Found, path: &Path, shown: u64, period: f64) -> Panel {
 fn trajectory(motion: &Found, points: Vec<(f64, f64)>, width: f64) -> Vec<Layer> {
     let width = if motion.is_chaotic() { 0.45 } else { width };
     let line = Layer::line(points, Stroke::solid(color(motion), width));
-    vec![Layer::upwards(CLEARANCE, FACE, ""), line]
+    vec![Layer::vertical(CLEARANCE, FACE, ""), line]
 }
 
 fn phase_plane(motion: &Found, points: Vec<(f64, f64)>) -> Panel {

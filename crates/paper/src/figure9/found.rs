@@ -4,6 +4,7 @@ use anyhow::Result;
 use serde::Serialize;
 use softstop::{Ratios, Scene, SceneError};
 use softstop_dynamics::attractors::Attractor;
+use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::{Orbit, StroboscopicMap, Survey};
 
 use super::Asked;
@@ -62,6 +63,11 @@ impl Found {
 
     fn lifetime(&self) -> Option<f64> {
         self.attractor.chaos.as_ref()?.lifetime
+    }
+
+    /// What tells its colour.
+    pub fn class(&self) -> MotionClass {
+        self.attractor.motion.class()
     }
 
     pub fn is_chaotic(&self) -> bool {

@@ -5,10 +5,9 @@ use super::stops::{CLEARANCE, RESTITUTION, grazing};
 use super::subharmonics::{self, NARROW, Subharmonic};
 use super::swept::{RANGE, Swept, kind};
 use super::{DECADES, SUBHARMONIC};
-use softstop_draw::shade::ordered;
-use softstop_draw::{Align, Axis, Chart, Corner, Layer, Legend, Panel, Sign, Stroke, style};
+use softstop_draw::{Align, Axis, Chart, Corner, Layer, Legend, Panel, Stroke, style};
 use softstop_dynamics::motion::MotionClass;
-use softstop_explore::basin::cells::color;
+use softstop_explore::palette::{motion_color, motion_keys};
 
 /// What is drawn.
 pub(super) struct Picture<'a> {
@@ -61,7 +60,7 @@ impl Picture<'_> {
     fn map(&self) -> Panel {
         let (columns, rows) = (self.map[0].up.len(), self.map.len());
         let cells = self.map.iter().flat_map(|swept| &swept.up);
-        let colors = cells.map(|step| color(kind(step)));
+        let colors = cells.map(|step| motion_color(kind(step)));
         let place = |(low, high): (f64, f64), index: usize, count: usize| {
             low + (high - low) * (index as f64 + 0.5) / count as f64
         };
@@ -79,7 +78,7 @@ impl Picture<'_> {
         let mut layers = vec![
             Layer::cells(columns, colors),
             Layer::dots(on_light, 0.9, style::INK).named("falling η differs"),
-            Layer::dots(on_dark, 0.9, "#ffffff"),
+            Layer::dots(on_dark, 0.9, style::PAPER),
         ];
         layers.extend(grazes());
         let upper = Layer::text((grazing(CLEARANCE).1, 0.1), Align::Left, "g₀");
@@ -96,16 +95,9 @@ impl Picture<'_> {
                 layers.push(text.moved(8.0, 24.0).plated());
             }
         }
-        let there = MotionClass::ALL.iter().filter(|class| {
+        layers.extend(motion_keys(|class| {
             let mut steps = self.map.iter().flat_map(|swept| &swept.up);
-            steps.any(|step| kind(step) == **class)
-        });
-        layers.extend(there.map(|class| {
-            let name = match class {
-                MotionClass::Few => "other z = p/n",
-                class => class.name(),
-            };
-            Layer::key(Sign::Patch(color(*class)), name)
+            steps.any(|step| kind(step) == class)
         }));
         let decades = (10f64.powf(DECADES.0), 10f64.powf(DECADES.1));
         Panel {
@@ -168,7 +160,7 @@ impl Picture<'_> {
             // The dots of each stop are a little lower than those of the one before.
             let shift = 0.17 * (index as f64 - 1.0);
             let points = own.map(|motion| (motion.frequency, motion.periods as f64 - shift));
-            let color = ordered(index, SUBHARMONIC.len());
+            let color = style::ordered(index, SUBHARMONIC.len());
             Layer::dots(points, 3.2, color).named(format!("k₂/k₁ = {stiffness}"))
         });
         let name = "g₀: beyond it z = 0 coexists";
@@ -183,7 +175,7 @@ impl Picture<'_> {
             y: Axis::new("n of z = 1/n")
                 .range((1.4, highest as f64 + 0.6))
                 .ticks(orders),
-            layers: stops.chain([Layer::upwards(eta, GRAZING, name)]).collect(),
+            layers: stops.chain([Layer::vertical(eta, GRAZING, name)]).collect(),
             legend: Some(Legend::Inside(Corner::BottomRight)),
         }
     }
@@ -192,8 +184,8 @@ impl Picture<'_> {
 /// The diagram of a stop.
 fn diagram(swept: &Swept, at: (usize, usize), top: f64) -> Panel {
     let [up, down] = swept.points();
-    let down = Layer::dots(down, DOT, style::OPTIMUM).named("η falling only");
-    let up = Layer::dots(up, DOT, style::DESIGN).named("η rising");
+    let down = Layer::dots(down, DOT, style::FALLING).named("η falling only");
+    let up = Layer::dots(up, DOT, style::RISING).named("η rising");
     Panel {
         title: swept.law.name(),
         at,
@@ -213,5 +205,5 @@ fn diagram(swept: &Swept, at: (usize, usize), top: f64) -> Panel {
 /// Where the motion without impacts grazes.
 fn grazes() -> [Layer; 2] {
     let (lower, upper) = grazing(CLEARANCE);
-    [lower, upper].map(|eta| Layer::upwards(eta, GRAZING, ""))
+    [lower, upper].map(|eta| Layer::vertical(eta, GRAZING, ""))
 }

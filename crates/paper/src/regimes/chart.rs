@@ -3,10 +3,11 @@
 use softstop_dynamics::motion::MotionClass;
 
 use super::Map;
+use super::map::RegimeMap;
 use crate::boundaries::Boundaries;
 use softstop_console::machine::Regime;
-use softstop_draw::{Align, Axis, Chart, Layer, Legend, Mark, Panel, Sign, style};
-use softstop_explore::basin::cells::{RegimeMap, color};
+use softstop_draw::{Align, Axis, Chart, Layer, Legend, Mark, Panel, style};
+use softstop_explore::palette::{motion_color, motion_keys};
 
 /// Size of a map.
 const SIZE: (f64, f64) = (600.0, 400.0);
@@ -26,9 +27,7 @@ pub(super) fn chart(maps: &[(&Map, RegimeMap)], boundaries: &[Boundaries; 2]) ->
     });
     let title = "Regimes z = p/n: p impacts in n drive periods";
     let mut chart = Chart::new(title, panels).in_columns(2);
-    let classes = MotionClass::ALL.iter().copied();
-    let there = classes.filter(|class| maps.iter().any(|(_, map)| map.share(*class) > 0.0));
-    let keys = there.map(|class| Layer::key(Sign::Patch(color(class)), class.name()));
+    let keys = motion_keys(|class| maps.iter().any(|(_, map)| map.share(class) > 0.0));
     chart.panels[0].layers.extend(keys);
     (chart.legend, chart.letters) = (Legend::Below, 18);
     chart
@@ -36,7 +35,7 @@ pub(super) fn chart(maps: &[(&Map, RegimeMap)], boundaries: &[Boundaries; 2]) ->
 
 /// A map with its boundaries, the point A or B, and names of wide regimes and of boundaries.
 fn panel(index: usize, spec: &Map, map: &RegimeMap, boundaries: &Boundaries) -> Panel {
-    let colors = map.cells.iter().map(|cell| color(cell.class()));
+    let colors = map.cells.iter().map(|cell| motion_color(cell.class()));
     let mut layers = vec![Layer::cells(map.columns, colors)];
     let mut lines = vec![("g₀", boundaries.grazing.clone())];
     lines.extend(boundaries.curves().map(|(name, _, points)| {

@@ -2,6 +2,7 @@
 //! The paper speaks of it at the beginning of its section 3.
 
 mod chart;
+mod map;
 mod report;
 mod starts;
 mod swept;
@@ -12,10 +13,11 @@ use softstop::{Ratios, Scene, SceneError};
 use softstop_console::machine::Regime;
 use softstop_dynamics::Direction;
 
+use map::RegimeMap;
+
 use crate::boundaries::Boundaries;
 use crate::figure::{self, Drawn, Figure, Studio};
 use softstop_console::progress::Progress;
-use softstop_explore::basin::cells::RegimeMap;
 
 /// Drive periods at each frequency of a sweep.
 const PERIODS: u64 = 120;

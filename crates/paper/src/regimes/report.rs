@@ -2,13 +2,13 @@
 
 use anyhow::Result;
 
+use super::map::RegimeMap;
 use super::{Map, middle};
 use crate::boundaries::Boundaries;
 use crate::figure::{self, Findings};
 use softstop_dynamics::continuation::CurvePoint;
 use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::{MotionKind, Regime};
-use softstop_explore::basin::cells::RegimeMap;
 
 /// A row for each run of cells of the same motion: from the middle of the first cell to that of the last.
 pub(super) fn runs(maps: &[(&Map, RegimeMap)]) -> Result<Vec<u8>> {

@@ -1,6 +1,5 @@
 //! How many z = 1 motions outlast an interrupted supply, and how many miss no stroke.
 
-use softstop_draw::shade::ordered;
 use softstop_draw::{Align, Axis, Chart, Layer, Panel, Sign, Stroke, style};
 use softstop_dynamics::basin::wilson;
 
@@ -20,13 +19,13 @@ pub(super) fn chart(outcomes: &[Outcome], grazing: f64, fold: f64, clearance: f6
         let own: Vec<Outcome> = own.copied().collect();
         let runs = RUNS.into_iter().enumerate();
         let curves = runs.flat_map(|(index, mean)| {
-            let color = ordered(index, RUNS.len());
+            let color = style::ordered(index, RUNS.len());
             curves(of_run(&own, mean).collect(), color, mean)
         });
         let marks = [
-            Layer::upwards(grazing, MARK, ""),
+            Layer::vertical(grazing, MARK, ""),
             Layer::text((grazing, 0.5), Align::Left, "g₀").moved(6.0, 0.0),
-            Layer::upwards(fold, MARK, "s_SN with strips"),
+            Layer::vertical(fold, MARK, "s_SN with strips"),
         ];
         let keys = [
             (Stroke::solid(style::INK, 2.2), "z = 1 in the end"),

@@ -6,17 +6,15 @@ use softstop_console::row;
 use softstop_console::sheet::Sheet;
 use softstop_draw::{Axis, Layer, Mark, Panel, Sign, style};
 use softstop_dynamics::attractors::{SurveyError, starting_box};
-use softstop_dynamics::basin::{Basins, Class, Options, basins};
+use softstop_dynamics::basin::{Class, Options, basins};
 use softstop_dynamics::{self as dynamics, Grid, Orbit};
-use softstop_explore::basin::cells::color;
+use softstop_explore::palette::distinct_colors;
 
 use crate::design::Design;
 use crate::page::figure::{Figure, HALF, Section, middles};
 
 /// Cells on each side.
 const CELLS: usize = 64;
-/// Colours of motions whose own colour is taken.
-const OTHERS: [&str; 5] = ["#E69F00", "#009E73", "#AA4499", "#F0E442", "#D55E00"];
 /// Distance of states of one motion, in units of their size.
 const SAME: f64 = 1e-6;
 /// Radius of the spot where a motion passes the plane.
@@ -44,7 +42,7 @@ pub(super) fn basin(design: &Design) -> Result<Figure, SurveyError> {
         false => class.motion.to_string(),
     };
     let names: Vec<String> = classes().enumerate().map(name).collect();
-    let colors = colors(&found);
+    let colors = distinct_colors(classes().map(|it| it.motion.class()));
     let labels = [
         machine.label("initial position", "X", Dimension::Length),
         machine.label("initial velocity", "X′", Dimension::Velocity),
@@ -91,17 +89,6 @@ pub(super) fn basin(design: &Design) -> Result<Figure, SurveyError> {
     let sheet = Sheet::new("basin", [x, y, "motion"], rows);
     let title = "Which start leads to which motion";
     Ok(Figure::new(Section::Motion, HALF, title, [panel], caption).with([sheet]))
-}
-
-/// A colour for each class: that of its kind of motion, or another one if a class before has that.
-fn colors(found: &Basins) -> Vec<&'static str> {
-    let mut colors: Vec<&str> = Vec::new();
-    for class in &found.classes {
-        let wanted = [color(class.motion.class())].into_iter().chain(OTHERS);
-        let free = wanted.into_iter().find(|it| !colors.contains(it));
-        colors.push(free.unwrap_or(OTHERS[0]));
-    }
-    colors
 }
 
 /// Whether an orbit is the design's.

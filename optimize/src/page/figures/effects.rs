@@ -44,7 +44,7 @@ pub(super) fn effects(machine: &Machine, study: &Study) -> Figure {
                 Layer::text((effect, -top - BAR.1), align, number).moved(away, -2.0),
             ]
         });
-    let zero = Layer::upwards(0.0, Stroke::solid(style::ASIDE, 1.0), "");
+    let zero = Layer::vertical(0.0, Stroke::solid(style::ASIDE, 1.0), "");
     let rows = effects.len() as f64;
     let panel = Panel {
         x: Axis::bare().range((-end, end)),

@@ -1,4 +1,4 @@
-//! How the basin of z = 1 shrinks along the zone.
+//! The basin of z = 1 along the zone.
 
 use softstop::Dimension;
 use softstop_console::row;
@@ -27,12 +27,12 @@ pub(super) fn erosion(problem: &Problem, design: &Design, profile: &ErosionProfi
     let mut requirements = problem.requirements.iter();
     let required = requirements.find(|it| it.figure == Quantity::Certainty);
     let required = required.and_then(|it| it.least);
-    let required = required.map(|it| Layer::across(it, REQUIRED, "").named("share required"));
+    let required = required.map(|it| Layer::horizontal(it, REQUIRED, "").named("share required"));
     let shares = Layer::line(places().map(|it| (it.place, it.certainty.share)), DESIGN);
     let integrity = Layer::line(places().map(|it| (it.place, it.radius)), BESIDE);
     let layers = [Layer::band(sure, style::DESIGN, 0.2)].into_iter();
     let layers = layers.chain(required).chain([
-        Layer::upwards(design.place, AT, "design"),
+        Layer::vertical(design.place, AT, "design"),
         shares.named("share of starts"),
         integrity.named("integrity"),
     ]);
@@ -78,7 +78,7 @@ pub(super) fn erosion(problem: &Problem, design: &Design, profile: &ErosionProfi
         "share_high",
         "integrity",
     ];
-    let title = "How the basin shrinks along the zone";
+    let title = "The basin along the zone";
     Figure::new(Section::Motion, HALF, title, [panel], caption)
         .with([Sheet::new("erosion", heads, rows)])
 }

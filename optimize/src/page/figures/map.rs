@@ -5,7 +5,7 @@ use softstop::{Dimension, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
-use softstop_draw::scale::around;
+use softstop_draw::around;
 use softstop_draw::{Axis, Layer, Mark, Panel, Stroke, style};
 use softstop_dynamics::zone;
 

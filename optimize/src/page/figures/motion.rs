@@ -52,7 +52,9 @@ pub(super) fn motion(design: &Design, motions: &[Period]) -> Figure {
         }
     };
     let faces = faces(&machine.scene).into_iter();
-    let faces = faces.map(|(_, at)| Layer::across(at, BOUND, "")).collect();
+    let faces = faces
+        .map(|(_, at)| Layer::horizontal(at, BOUND, ""))
+        .collect();
     let position = panel(1, &position_label, faces);
     let drawn = points.iter().map(|it| it[3].abs()).fold(0.0, f64::max);
     let stroke = Stroke::of(&design.orbit);
@@ -77,6 +79,6 @@ pub(super) fn motion(design: &Design, motions: &[Period]) -> Figure {
     let rows = points.iter().map(|[t, x, v, f]| row![*t, *x, *v, *f]);
     let sheet = Sheet::new("motion", [&time, &position_label, &velocity, &force], rows);
     let mut figure = Figure::new(Section::Motion, WIDE, title, panels, caption).with([sheet]);
-    figure.chart.shares_upwards = false;
+    figure.chart.shares_y = false;
     figure
 }

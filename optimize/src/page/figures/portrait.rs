@@ -133,7 +133,7 @@ pub(super) fn portrait(design: &Design, motions: &[Period]) -> Figure {
         machine.label("position, near the stop", "", Dimension::Length),
     ];
     let [x, y, near] = labels.each_ref();
-    let unnamed = faces.iter().map(|it| Layer::upwards(it.1, BOUND, ""));
+    let unnamed = faces.iter().map(|it| Layer::vertical(it.1, BOUND, ""));
     let whole = Panel {
         x: Axis::new(x),
         y: Axis::new(y),

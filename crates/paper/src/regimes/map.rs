@@ -1,4 +1,4 @@
-//! What moves where: motions in the cells of a map, and their colours.
+//! What moves where: motions in the cells of a map.
 
 use softstop_dynamics::basin::clearing;
 use softstop_dynamics::motion::MotionClass;
@@ -7,47 +7,28 @@ use softstop_dynamics::{Axis, Grid, MotionKind};
 /// Radius of a place, in units of half the map, that has room for its name.
 const WIDE: f64 = 0.09;
 
-/// Okabe and Ito's colours, greys, and others that those who see no green tell from them.
-pub const fn color(class: MotionClass) -> &'static str {
-    match class {
-        MotionClass::Zero => "#E4E4E4",
-        MotionClass::One => "#56B4E9",
-        MotionClass::Doubled => "#0072B2",
-        MotionClass::TwoThirds => "#009E73",
-        MotionClass::Between => "#7FC8A0",
-        MotionClass::Half => "#E69F00",
-        MotionClass::Paired => "#D55E00",
-        MotionClass::Few => "#AA4499",
-        MotionClass::Many => "#F0E442",
-        MotionClass::Rest => "#8A6D3B",
-        MotionClass::Chaos => "#000000",
-        MotionClass::Unsettled => "#5A5A5A",
-        MotionClass::Lost => "#FFFFFF",
-    }
-}
-
 /// Cells over frequency and clearance.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RegimeMap {
+pub(super) struct RegimeMap {
     /// Where the first column begins and the last one ends.
-    pub eta: (f64, f64),
+    pub(super) eta: (f64, f64),
     /// Where the lowest row begins and the highest one ends.
-    pub rho: (f64, f64),
+    pub(super) rho: (f64, f64),
     /// Cells in a row.
-    pub columns: usize,
+    pub(super) columns: usize,
     /// The cells, row by row, the lowest row first.
-    pub cells: Vec<MotionKind>,
+    pub(super) cells: Vec<MotionKind>,
 }
 
 impl RegimeMap {
     /// Share of the cells that belong to a class.
-    pub fn share(&self, class: MotionClass) -> f64 {
+    pub(super) fn share(&self, class: MotionClass) -> f64 {
         let own = self.cells.iter().filter(|cell| cell.class() == class);
         own.count() as f64 / self.cells.len() as f64
     }
 
     /// The middle of the widest place of a class, if that is wide.
-    pub fn widest(&self, class: MotionClass) -> Option<(f64, f64)> {
+    pub(super) fn widest(&self, class: MotionClass) -> Option<(f64, f64)> {
         let rows = self.cells.len() / self.columns;
         let grid = Grid::states(
             Axis::position(self.eta.0, self.eta.1, self.columns),
