@@ -48,7 +48,7 @@ fn map(atlas: &Atlas, map: &Map) -> Panel {
     let row = |row: usize| {
         map.columns
             .iter()
-            .map(move |cells| color(cells[row].verdict))
+            .map(move |cells| cells[row].verdict.color())
     };
     let line = |steps: Vec<Option<f64>>, dashes| {
         let points = stiffness.iter().zip(steps);
@@ -81,7 +81,7 @@ fn map(atlas: &Atlas, map: &Map) -> Panel {
 fn exact(atlas: &Atlas) -> Panel {
     let stiffness = &atlas.axes.stiffness;
     let cells = atlas.columns.iter().map(|column| column.exact);
-    let colors = cells.map(|cell| cell.map_or("#ffffff", |cell| color(cell.verdict)));
+    let colors = cells.map(|cell| cell.map_or("#ffffff", |cell| cell.verdict.color()));
     Panel {
         title: "exact: no step".to_owned(),
         size: (MAP, STRIP),
@@ -112,20 +112,5 @@ fn keys(atlas: &Atlas) -> impl Iterator<Item = Layer> {
     let unsuited = cells.any(|cell| cell.verdict == Verdict::Unsuited);
     let shown = Verdict::ALL.into_iter();
     let shown = shown.filter(move |verdict| unsuited || *verdict != Verdict::Unsuited);
-    shown.map(|verdict| Layer::key(Sign::Patch(color(verdict)), verdict.name()))
-}
-
-/// The colour of a class of outcomes: blues where the motion is right at least in kind, all others apart from
-/// them and from each other in lightness too, so that readers who see no green and red tell them apart.
-const fn color(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Converged => "#0072B2",
-        Verdict::Inaccurate => "#9CCDEC",
-        Verdict::WrongCount => "#F0E442",
-        Verdict::MissedContact => "#009E73",
-        Verdict::EnergyGain => "#CC6D00",
-        Verdict::BlownUp => "#3A3A3A",
-        Verdict::Stuck => "#7F3B08",
-        Verdict::Unsuited => "#EEEEEE",
-    }
+    shown.map(|verdict| Layer::key(Sign::Patch(verdict.color()), verdict.name()))
 }

@@ -7,53 +7,56 @@ use softstop::{Impact, Scene, Start};
 /// Beyond so many times the greatest speed that energy allows, a motion has blown up.
 const BLOWN_UP: f64 = 1e3;
 
-/// The class of an outcome. Of several that apply the one named last here is taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Verdict {
-    /// Every impact has its counterpart, and the error at the end is within the tolerance.
-    Converged,
-    /// Every impact has its counterpart, but the error at the end is larger.
-    Inaccurate,
-    /// The first impact that is out of order is one too many.
-    WrongCount,
-    /// The first impact that is out of order is one that was not seen.
-    MissedContact,
-    /// More energy than start and drive could ever have supplied.
-    EnergyGain,
-    /// The numbers left all bounds.
-    BlownUp,
-    /// The method did not get to the end.
-    Stuck,
-    /// The method is not made for the machine.
-    Unsuited,
+/// Each class of outcomes in one line: name, letter in maps, colour.
+macro_rules! verdicts {
+    ($($(#[$what:meta])* $verdict:ident $name:literal $letter:literal $color:literal;)*) => {
+        /// The class of an outcome. Of several that apply the one named last here is taken.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Verdict {
+            $($(#[$what])* $verdict),*
+        }
+
+        impl Verdict {
+            /// All classes, from the best on.
+            pub const ALL: [Self; 8] = [$(Self::$verdict),*];
+
+            /// Its name in charts and tables.
+            pub const fn name(self) -> &'static str {
+                match self { $(Self::$verdict => $name),* }
+            }
+
+            /// Its letter in maps.
+            pub const fn letter(self) -> char {
+                match self { $(Self::$verdict => $letter),* }
+            }
+
+            /// Its colour.
+            pub const fn color(self) -> &'static str {
+                match self { $(Self::$verdict => $color),* }
+            }
+        }
+    };
 }
 
-impl Verdict {
-    /// All classes, from the best on.
-    pub const ALL: [Self; 8] = [
-        Self::Converged,
-        Self::Inaccurate,
-        Self::WrongCount,
-        Self::MissedContact,
-        Self::EnergyGain,
-        Self::BlownUp,
-        Self::Stuck,
-        Self::Unsuited,
-    ];
-
-    /// Its name in charts and tables.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Converged => "converged",
-            Self::Inaccurate => "inaccurate",
-            Self::WrongCount => "wrong impact count",
-            Self::MissedContact => "missed contact",
-            Self::EnergyGain => "energy gain",
-            Self::BlownUp => "blow-up",
-            Self::Stuck => "stuck",
-            Self::Unsuited => "unsuited",
-        }
-    }
+// Blues where the motion is right at least in kind, all others apart from them and from each other in lightness too, so
+// that readers who see no green and red tell them apart.
+verdicts! {
+    /// Every impact has its counterpart, and the error at the end is within the tolerance.
+    Converged "converged" 'C' "#0072B2";
+    /// Every impact has its counterpart, but the error at the end is larger.
+    Inaccurate "inaccurate" 'I' "#9CCDEC";
+    /// The first impact that is out of order is one too many.
+    WrongCount "wrong impact count" 'W' "#F0E442";
+    /// The first impact that is out of order is one that was not seen.
+    MissedContact "missed contact" 'M' "#009E73";
+    /// More energy than start and drive could ever have supplied.
+    EnergyGain "energy gain" 'E' "#CC6D00";
+    /// The numbers left all bounds.
+    BlownUp "blow-up" 'B' "#3A3A3A";
+    /// The method did not get to the end.
+    Stuck "stuck" 'S' "#7F3B08";
+    /// The method is not made for the machine.
+    Unsuited "unsuited" 'U' "#EEEEEE";
 }
 
 /// Tells the class of outcomes of one task by its true motion.
