@@ -3,29 +3,20 @@
 use softstop::{Machine, Parameter};
 use softstop_draw::scale::around;
 use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Sign, Stroke, style};
-use softstop_dynamics::Regime;
+use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::orbit::ImpactPattern;
+use softstop_dynamics::{MotionKind, Regime};
 
 use super::FidelityArguments;
 use super::structure::Structure;
 use super::study::{Entry, Study};
+use crate::basin::cells::color;
 use softstop_console::arguments::title;
 
 /// Height of the strips beyond the scale, in decades.
 const STRIP: f64 = 0.5;
 /// Width of the panels of regimes, and height of a row.
 const ROW: (f64, f64) = (760.0, 26.0);
-
-/// Classes of regimes, with their colours: Okabe and Ito's but for a wine red, which those who see no green tell from
-/// it, grey for no impacts and black for what does not repeat.
-const CLASSES: [(&str, &str); 7] = [
-    ("z = 0", "#D9D9D9"),
-    ("z = 1", "#0072B2"),
-    ("z = p, p > 1", "#56B4E9"),
-    ("z = p/2", "#E69F00"),
-    ("z = p/3", "#009E73"),
-    ("z = p/n, n > 3", "#882255"),
-    ("unsettled", "#000000"),
-];
 
 /// Models with both axes logarithmic, as an SVG document: what has no error stands in a strip below the scale, what
 /// has no value in one above it.
@@ -115,8 +106,11 @@ pub(super) fn regimes(machine: &Machine, structure: &Structure) -> String {
     let panels = starts.map(|(start, title)| {
         let lowest_first = || structure.tracks.iter().rev();
         let regimes = lowest_first().flat_map(|track| &track.regimes[start]);
-        let cells = Layer::cells(frequencies.len(), regimes.map(|regime| color(*regime)));
-        let keys = CLASSES.map(|(name, color)| Layer::key(Sign::Patch(color), name));
+        let classes: Vec<MotionClass> = regimes.map(|regime| class(*regime)).collect();
+        let cells = classes.iter().map(|class| color(*class));
+        let cells = Layer::cells(frequencies.len(), cells);
+        let keys = MotionClass::ALL.iter().filter(|it| classes.contains(it));
+        let keys = keys.map(|class| Layer::key(Sign::Patch(color(*class)), name(*class)));
         let names = lowest_first().map(|track| track.entry.full_name());
         let names = names
             .enumerate()
@@ -134,15 +128,19 @@ pub(super) fn regimes(machine: &Machine, structure: &Structure) -> String {
     Chart::new(head, panels).in_columns(1).svg()
 }
 
-fn color(regime: Option<Regime>) -> &'static str {
-    let class = match regime.map(|regime| (regime.impacts, regime.periods)) {
-        None => 6,
-        Some((0, _)) => 0,
-        Some((1, 1)) => 1,
-        Some((_, 1)) => 2,
-        Some((_, 2)) => 3,
-        Some((_, 3)) => 4,
-        Some(_) => 5,
+/// A class by its name; whether impacts come in pairs is not known.
+const fn name(class: MotionClass) -> &'static str {
+    match class {
+        MotionClass::Half => "z = 1/2, (2/4)A or B",
+        class => class.name(),
+    }
+}
+
+/// The class of a regime, of which the order of impacts is not known.
+fn class(regime: Option<Regime>) -> MotionClass {
+    let repeating = |regime: Regime| {
+        let order = ImpactPattern::new(&[], &[], regime.periods, 1.0);
+        MotionKind::repeating(regime, order)
     };
-    CLASSES[class].1
+    regime.map_or(MotionKind::Unsettled, repeating).class()
 }
