@@ -70,6 +70,26 @@ pub fn print(report: &impl Report, format: Format) -> Result<(), Failure> {
     })
 }
 
+/// A table as comma-separated values.
+///
+/// # Errors
+/// [`Failure::Run`] if it cannot be written.
+pub fn csv<T>(
+    columns: &[Column<T>],
+    rows: impl IntoIterator<Item = impl Borrow<T>>,
+) -> Result<Vec<u8>, Failure> {
+    let cells = |row| -> Vec<Cell> {
+        let row = Borrow::borrow(&row);
+        columns.iter().map(|column| (column.cell)(row)).collect()
+    };
+    let head = columns.iter().map(|column| Cell::from(column.name));
+    output::csv(
+        [head.collect()]
+            .into_iter()
+            .chain(rows.into_iter().map(cells)),
+    )
+}
+
 /// A report with the paths of its files by kind.
 #[derive(Serialize)]
 struct Filed<'a, R> {

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
+use softstop::Ratios;
 
 /// The paper's two regimes (its Figs. 6 and 7, a and b).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
@@ -16,6 +17,14 @@ pub enum Regime {
 }
 
 impl Regime {
+    /// Its machine, at that point.
+    pub const fn ratios(self) -> Ratios {
+        match self {
+            Self::Unloaded => Ratios::unloaded(),
+            Self::Loaded => Ratios::loaded(),
+        }
+    }
+
     /// The paper's name of its point in this regime (Fig. 7).
     pub const fn point(self) -> &'static str {
         match self {

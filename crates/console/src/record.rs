@@ -77,6 +77,16 @@ impl Record {
         }
     }
 
+    /// The numbers and counts that people read, by what they mean.
+    pub fn numbers(&self) -> impl Iterator<Item = (&str, f64)> {
+        let shown = self.0.iter().filter(|it| it.form.is_some());
+        shown.filter_map(|it| match it.cell {
+            Cell::Number(number) => Some((&*it.label, number)),
+            Cell::Count(count) => Some((&*it.label, count as f64)),
+            _ => None,
+        })
+    }
+
     /// The same, and then the figures of another one.
     #[must_use]
     pub fn and(mut self, other: Self) -> Self {

@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 use nalgebra::Vector2;
 use softstop::{Parameter, Ratios, Scene, Stop};
 use softstop_dynamics::continuation::{
-    Curve, CurvePoint, End, Face, Region, Special, SpecialKind, Test, curve,
+    Curve, CurveEnd, CurvePoint, End, Face, Region, Special, SpecialKind, Test, curve,
 };
 use softstop_dynamics::zone::grazing_frequencies;
 use softstop_dynamics::{Along, Branch, BranchPoint, Follower, Limits, StroboscopicMap};

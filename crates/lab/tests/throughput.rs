@@ -1,9 +1,10 @@
 //! `softstop-lab throughput` as users and scripts meet it. Times are not looked at.
 
 use softstop::{Ratios, Scene, Start};
+use softstop_console::machine::Regime;
 use softstop_lab::throughput::check::{Plan, check};
 use softstop_lab::throughput::doubt::judge;
-use softstop_lab::throughput::fleet::{Machinery, Range};
+use softstop_lab::throughput::fleet::Range;
 use softstop_lab::throughput::measure::narrower;
 use softstop_lab::throughput::random_machines::{Draw, Kind};
 use softstop_lanes::Instructions;
@@ -119,7 +120,7 @@ fn both_engines_end_in_the_same_states_where_machines_are_aimed_at_trouble() -> 
 #[test]
 fn engines_agree_on_the_motions_that_are_timed() -> Outcome {
     let range = Range {
-        machine: Machinery::Unloaded,
+        machine: Regime::Unloaded,
         frequencies: (1.1, 1.4),
         motions: 20,
         periods: 30,

@@ -5,11 +5,14 @@ use std::f64::consts::TAU;
 use anyhow::{Error, Result};
 use serde::Deserialize;
 use softstop::{Machine, Ratios, Scene};
-use softstop_dynamics::basin::{Options, basins};
+use softstop_dynamics::basin::{Class, Clearing, Options, basins};
 use softstop_dynamics::{Axis, Basins, Grid, MotionKind, StroboscopicMap};
 
-use crate::figure::{self, Drawn, Figure, Findings, Studio};
+use crate::figure::{Drawn, Figure, Findings, Studio};
 use crate::figure9::section::Section;
+use softstop_console::column::Column;
+use softstop_console::columns;
+use softstop_console::export::csv;
 use softstop_console::progress::Progress;
 use softstop_draw::{Chart, Legend, Panel};
 use softstop_explore::basin::chart;
@@ -75,17 +78,44 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     };
     let png = chart.in_columns(2).png().map_err(Error::msg)?;
     let basins = found.iter().flat_map(|(plane, _, basins, _)| {
-        (0..basins.classes.len()).map(move |index| (*plane, basins, index))
+        let classes = basins.classes.iter().enumerate();
+        classes.map(move |(index, class)| Basin {
+            plane,
+            class,
+            ball: basins.largest_ball(index),
+        })
     });
     let basins: Vec<Basin<'_>> = basins.collect();
     Ok(Drawn {
-        files: vec![png, table(&basins)?],
+        files: vec![png, csv(&columns(), &basins)?],
         findings: findings(&basins),
     })
 }
 
-/// One of the basins of a plane, by its number.
-type Basin<'a> = (&'a Plane, &'a Basins, usize);
+/// One of the basins of a plane.
+struct Basin<'a> {
+    plane: &'a Plane,
+    class: &'a Class,
+    ball: Option<Clearing>,
+}
+
+/// A row for each basin of each plane; numbers that are findings are shown.
+fn columns<'a>() -> [Column<Basin<'a>>; 12] {
+    columns! { Basin<'a>, it;
+        "plane" [None], "which starts" => it.plane.name.as_str();
+        "eta" [None], "drive frequency" => it.plane.eta;
+        "motion" [None], "on which they settle" => it.class.motion.to_string();
+        "impact_pattern" [None], "its impacts in each drive period" => it.class.orbit.as_ref().map(|orbit| orbit.pattern().to_string());
+        "before_impact_velocity" [None], "of its hardest impact" => it.class.orbit.as_ref().map(|orbit| orbit.before_impact_velocity());
+        "cells" [None], "of the plane" => it.class.cells;
+        "share" [None] Plain, "share" => it.class.share;
+        "share_low" [None] Plain, "share at least" => it.class.interval[0];
+        "share_high" [None] Plain, "share at most" => it.class.interval[1];
+        "largest_ball" [None] Plain, "largest ball" => it.ball.map(|ball| ball.radius);
+        "ball_across" [None], "its centre" => it.ball.map(|ball| ball.centre[0]);
+        "ball_up" [None], "its centre" => it.ball.map(|ball| ball.centre[1]);
+    }
+}
 
 /// States of chaos at drive angle 0, if a basin is its.
 fn wandering(scene: &Scene, basins: &Basins) -> Result<Vec<(f64, f64)>> {
@@ -102,43 +132,15 @@ fn wandering(scene: &Scene, basins: &Basins) -> Result<Vec<(f64, f64)>> {
     Ok(states.split_off(STATES.1 as usize))
 }
 
-/// A row for each basin of each plane.
-fn table(all: &[Basin<'_>]) -> Result<Vec<u8>> {
-    let columns = "plane,eta,motion,impact_pattern,before_impact_velocity,cells,share,share_low,share_high,\
-        largest_ball,ball_across,ball_up";
-    let rows = all.iter().map(|(plane, basins, index)| {
-        let (class, ball) = (&basins.classes[*index], basins.largest_ball(*index));
-        let orbit = class.orbit.as_ref();
-        (
-            (&plane.name, plane.eta, class.motion.to_string()),
-            orbit.map(|orbit| orbit.pattern().to_string()),
-            orbit.map(|orbit| orbit.before_impact_velocity()),
-            (class.cells, class.share, class.interval),
-            ball.map(|ball| ball.radius),
-            ball.map(|ball| ball.centre[0]),
-            ball.map(|ball| ball.centre[1]),
-        )
-    });
-    figure::table(columns, rows)
-}
-
 /// Shares with their intervals, and the largest balls.
 fn findings(all: &[Basin<'_>]) -> Findings {
     let mut findings = Findings::default();
-    for (plane, basins, index) in all {
-        let (class, ball) = (&basins.classes[*index], basins.largest_ball(*index));
-        let order = class.motion.told_order();
+    for basin in all {
+        let motion = &basin.class.motion;
+        let order = motion.told_order();
         let order = order.map_or_else(String::new, |order| format!(" ({order})"));
-        let name = format!("{}, {}{order}: ", plane.name, class.motion);
-        findings.group(
-            &name,
-            [
-                ("share", Some(class.share)),
-                ("share at least", Some(class.interval[0])),
-                ("share at most", Some(class.interval[1])),
-                ("largest ball", ball.map(|ball| ball.radius)),
-            ],
-        );
+        let name = format!("{}, {motion}{order}: ", basin.plane.name);
+        findings.add_numbers(&name, &columns(), basin);
     }
     findings
 }

@@ -2,14 +2,41 @@
 
 use anyhow::{Error, Result};
 use rayon::prelude::*;
-use softstop::Scene;
+use serde::Deserialize;
+use softstop::{Parameter, Scene};
 use softstop_dynamics::watch::Kept;
-use softstop_dynamics::{Chain, Direction, Plan, Regime, Step};
+use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Regime, Step};
 
-use crate::figure;
+use crate::figure::Detail;
+use softstop_console::column::{Unit, column};
+use softstop_console::columns;
+use softstop_console::export::csv;
 use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
 use softstop_draw::style;
+
+/// A part of the diagram.
+#[derive(Deserialize)]
+pub(super) struct Part {
+    /// Its letter, if it has one.
+    #[serde(default)]
+    pub(super) name: String,
+    /// Range of eta.
+    pub(super) range: (f64, f64),
+    /// Number of frequencies, and drive periods at each, for print and for a first look.
+    sizes: [(usize, u64); 2],
+}
+
+impl Part {
+    pub(super) fn size(&self, detail: Detail) -> (usize, u64) {
+        detail.pick(self.sizes[0], self.sizes[1])
+    }
+
+    pub(super) fn plan(&self, detail: Detail) -> Result<Plan> {
+        let (steps, periods) = self.size(detail);
+        Ok(Plan::new(Parameter::Frequency, self.range, steps, periods)?)
+    }
+}
 
 /// Sweeps that go together: a plan and its chains.
 pub(super) type Job = (Plan, Vec<Chain>);
@@ -61,6 +88,20 @@ pub(super) fn same(a: &Step, b: &Step) -> bool {
         && (regime.is_none() || (one - other).abs() <= APART * one.max(other))
 }
 
+/// The motion of a step with the order of its impacts as Newton's method has it, where that tells its name or colour.
+pub(super) fn motion(scene: &Scene, step: &Step) -> MotionKind {
+    let seen = || step.motion.clone();
+    match step.motion.regime() {
+        Some(regime) if regime.periods >= 4 && 2 * regime.impacts == regime.periods => {
+            let scene = scene.at_frequency(step.value);
+            let orbit = Orbit::periodic(&scene, step.end.into(), regime.periods).ok();
+            let orbit = orbit.filter(|orbit| orbit.regime() == regime);
+            orbit.map_or_else(seen, |orbit| MotionKind::of(&orbit))
+        }
+        _ => seen(),
+    }
+}
+
 /// The before-impact velocities over the parameter; 0 for a motion without impacts.
 pub(super) fn dots(step: &Step) -> Vec<(f64, f64)> {
     let rest = step.velocities.is_empty().then_some(0.0);
@@ -73,26 +114,34 @@ pub(super) fn is_one(step: &Step) -> bool {
     step.motion.regime() == Some(Regime::ONE)
 }
 
-/// A row for each step of some sweeps: the name of a sweep, its direction, what a step shows and how it was met.
+/// A sweep's name, its direction, a step of it.
+type Row<'a> = (String, &'a str, &'a Step);
+
+/// A row for each step of some sweeps, of which the first column tells this.
 pub(super) fn table<'a>(
-    name: &str,
+    name: &'static str,
     sweeps: impl IntoIterator<Item = (String, &'a str, &'a [Step])>,
 ) -> Result<Vec<u8>> {
-    let columns =
-        format!("{name},direction,eta,z,impacts_per_period,max_position,before_impact_velocities");
+    let mut columns = columns! { Row<'a>, it;
+        "sweep" [None], "which one" => it.0.clone();
+        "direction" [None], "of the frequency" => it.1;
+        "eta" [None], "drive frequency" => format!("{:.12}", it.2.value);
+        "z" [None], "p/n, or what else the motion is" => it.2.motion.to_string().trim_start_matches("z = ");
+        "impacts_per_period" [None], "mean per drive period" => it.2.impacts_per_period;
+        "max_position" [None], "largest position" => format!("{:.6}", it.2.max_position);
+        "before_impact_velocities" [None], "all of them, rising" => velocities(it.2);
+    };
+    columns[0] = column(name, Unit::None, "which sweep", |it| it.0.clone().into());
     let rows = sweeps.into_iter().flat_map(|(sweep, direction, steps)| {
-        steps.iter().map(move |step| {
-            let motion = step.motion.to_string();
-            let motion = motion.trim_start_matches("z = ").to_owned();
-            let velocities = step.velocities.iter().map(|it| format!("{it:.6}"));
-            let velocities = velocities.collect::<Vec<String>>().join(" ");
-            let position = format!("{:.6}", step.max_position);
-            let eta = format!("{:.12}", step.value);
-            let how = (step.impacts_per_period, position, velocities);
-            (sweep.clone(), direction, eta, motion, how)
-        })
+        let steps = steps.iter();
+        steps.map(move |step| (sweep.clone(), direction, step))
     });
-    figure::table(&columns, rows)
+    Ok(csv(&columns, rows)?)
+}
+
+fn velocities(step: &Step) -> String {
+    let velocities = step.velocities.iter().map(|it| format!("{it:.6}"));
+    velocities.collect::<Vec<String>>().join(" ")
 }
 
 /// The way on which a motion is seen, and its colour.

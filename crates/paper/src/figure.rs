@@ -7,8 +7,8 @@ use anyhow::{Context, Result};
 use rayon::prelude::*;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use softstop::Ratios;
-use softstop_console::machine::Regime;
+use softstop_console::column::Column;
+use softstop_console::record::Record;
 use softstop_dynamics::attractors::Options;
 use softstop_dynamics::transitions::{Rules, Transition};
 use softstop_dynamics::watch::{Kept, piece};
@@ -56,14 +56,6 @@ impl Figure {
 /// Makes the files of a figure.
 pub(crate) type Draw = fn(&Studio<'_>, &Figure) -> Result<Drawn>;
 
-/// One of the paper's machines.
-pub(crate) fn machine(regime: Regime) -> Ratios {
-    match regime {
-        Regime::Unloaded => Ratios::unloaded(),
-        Regime::Loaded => Ratios::loaded(),
-    }
-}
-
 /// What came out of a figure.
 #[derive(Serialize, Deserialize)]
 pub(crate) struct Drawn {
@@ -77,6 +69,13 @@ pub(crate) struct Drawn {
 pub(crate) struct Findings(pub(crate) BTreeMap<String, f64>);
 
 impl Findings {
+    /// Adds the numbers of a thing that people read, by what their columns mean; their names begin alike.
+    pub(crate) fn add_numbers<T>(&mut self, group: &str, columns: &[Column<T>], thing: &T) {
+        for (what, value) in Record::of(columns, thing).numbers() {
+            self.add(format!("{group}{what}"), value);
+        }
+    }
+
     /// Adds the values that there are of a group, whose names begin alike.
     pub(crate) fn group<'a>(
         &mut self,
@@ -177,26 +176,4 @@ impl Detail {
             Self::Draft => draft,
         }
     }
-}
-
-/// A table of these columns, their names separated by commas.
-pub(crate) fn table<R: Serialize>(
-    columns: &str,
-    rows: impl IntoIterator<Item = R>,
-) -> Result<Vec<u8>> {
-    let mut table = csv::WriterBuilder::new()
-        .has_headers(false)
-        .from_writer(Vec::new());
-    table.write_record(columns.split(','))?;
-    for row in rows {
-        table.serialize(row)?;
-    }
-    Ok(table.into_inner()?)
-}
-
-/// Least and largest.
-pub(crate) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-        (low.min(value), high.max(value))
-    })
 }

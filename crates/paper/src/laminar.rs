@@ -11,8 +11,11 @@ use softstop_dynamics::transitions::Transition;
 use softstop_dynamics::watch::piece;
 use softstop_lanes::{Job, Machine, Watch};
 
-use crate::figure::{self, Drawn, Figure, Findings, Studio};
+use crate::figure::{Drawn, Figure, Findings, Studio};
 use crate::table1::{matching, paper};
+use softstop_console::column::Column;
+use softstop_console::columns;
+use softstop_console::export::csv;
 use softstop_console::progress::Progress;
 
 /// Rows with an ISN.
@@ -61,23 +64,35 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
             let logarithms = own.iter().map(|it| [it.distance.ln(), length(it).ln()]);
             slope(&logarithms.collect::<Vec<_>>())
         };
-        let mut add = |what: &str, value: Option<f64>| {
-            findings.add(format!("row {row:02}: {what}"), value);
-        };
-        add("distances", Some(own.len() as f64));
-        let mean = power(|it| it.mean_drive_periods);
-        add("mean length goes with the distance to the power", mean);
         let longest = power(|it| it.longest_drive_periods as f64);
-        add(
-            "longest length goes with the distance to the power",
-            longest,
-        );
+        let values = [
+            ("distances", Some(own.len() as f64)),
+            (
+                "mean length goes with the distance to the power",
+                power(|it| it.mean_drive_periods),
+            ),
+            (
+                "longest length goes with the distance to the power",
+                longest,
+            ),
+        ];
+        findings.group(&format!("row {row:02}: "), values);
     }
-    let columns = "row,eta,distance,stretches,mean_drive_periods,longest_drive_periods";
     Ok(Drawn {
-        files: vec![figure::table(columns, beside)?],
+        files: vec![csv(&columns(), &beside)?],
         findings,
     })
+}
+
+fn columns() -> [Column<Beside>; 6] {
+    columns! { Beside, it;
+        "row" [None], "of Table 1" => it.row;
+        "eta" [None], "drive frequency" => it.eta;
+        "distance" [None], "from where the old motion loses its stability" => it.distance;
+        "stretches" [None], "with its order of impacts" => it.stretches;
+        "mean_drive_periods" [None], "of a stretch" => it.mean_drive_periods;
+        "longest_drive_periods" [None], "of a stretch" => it.longest_drive_periods;
+    }
 }
 
 /// The stretches at all distances at which there are enough of them: the motions go together.
@@ -246,13 +261,10 @@ impl Counter {
 
 /// The slope of the straight line through points by least squares.
 fn slope(points: &[[f64; 2]]) -> Option<f64> {
+    let sum = |term: &dyn Fn(&[f64; 2]) -> f64| points.iter().map(term).sum::<f64>();
     let count = points.len() as f64;
-    let mean = |index: usize| points.iter().map(|point| point[index]).sum::<f64>() / count;
-    let (x, y) = (mean(0), mean(1));
-    let across: f64 = points.iter().map(|point| (point[0] - x).powi(2)).sum();
-    let both: f64 = points
-        .iter()
-        .map(|point| (point[0] - x) * (point[1] - y))
-        .sum();
+    let (x, y) = (sum(&|at| at[0]) / count, sum(&|at| at[1]) / count);
+    let across = sum(&|at| (at[0] - x).powi(2));
+    let both = sum(&|at| (at[0] - x) * (at[1] - y));
     (points.len() > 2).then(|| both / across)
 }

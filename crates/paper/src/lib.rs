@@ -30,6 +30,7 @@ use clap::builder::PossibleValuesParser;
 
 use figure::{Detail, Draw, Drawn, Figure, Studio};
 use report::{FigureReport, PaperReport};
+use softstop_console::export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
@@ -139,14 +140,10 @@ pub fn run(arguments: &PaperArguments) -> Result<(), Failure> {
         figures,
         seconds: begin.elapsed().as_secs_f64(),
     };
-    let json = output::json(&report)?;
-    folder.stage(REPORT, json.as_bytes())?;
+    folder.stage(REPORT, output::json(&report)?.as_bytes())?;
     folder.commit(&names)?;
     keep.forget();
-    output::print(&match arguments.format {
-        Format::Json => json,
-        Format::Text => report.text(),
-    })
+    export::print(&report, arguments.format)
 }
 
 fn make(

@@ -7,7 +7,10 @@ use softstop::{Parameter, Ratios};
 use softstop_dynamics::{Chain, Direction, Plan, Step};
 
 use crate::diagram;
-use crate::figure::{self, Drawn, Figure, Findings, Studio};
+use crate::figure::{Drawn, Figure, Findings, Studio};
+use softstop_console::column::Column;
+use softstop_console::columns;
+use softstop_console::export::csv;
 
 /// Frequencies: both motions are stable on parts of this range at rho = 10.
 const ETAS: (f64, f64, usize) = (0.984, 1.004, 11);
@@ -28,7 +31,7 @@ const SOUGHT: [(&str, u64, u64, &str); 2] =
 
 pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let etas = etas();
-    let mut rows = Vec::new();
+    let mut rows: Vec<Row> = Vec::new();
     let mut findings = Findings::default();
     let steps = studio.detail.pick(&STEPS[..], &STEPS[..1]);
     for steps in steps.iter().copied() {
@@ -54,7 +57,7 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
                 let stays = chain.steps.last().is_some_and(shows);
                 met += u32::from(first.is_some());
                 there += u32::from(stays);
-                rows.push((plan.rate(), eta, name, first, stays));
+                rows.push((plan.rate(), *eta, name, first, stays));
             }
             let told = format!(
                 "{name}, {:.0e} per period: ways of {}",
@@ -65,11 +68,23 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
             findings.add(format!("{told} on it at rho = 10"), f64::from(there));
         }
     }
-    let columns = "change_of_rho_per_period,eta,motion,first_rho,at_rho_10";
     Ok(Drawn {
-        files: vec![figure::table(columns, rows)?],
+        files: vec![csv(&columns(), rows)?],
         findings,
     })
+}
+
+/// Rate, frequency, motion, where it is met first, whether the way ends on it.
+type Row = (f64, f64, &'static str, Option<f64>, bool);
+
+fn columns() -> [Column<Row>; 5] {
+    columns! { Row, it;
+        "change_of_rho_per_period" [None], "how fast" => it.0;
+        "eta" [None], "drive frequency" => it.1;
+        "motion" [None], "that is looked for" => it.2;
+        "first_rho" [None], "clearance at which it is met first" => it.3;
+        "at_rho_10" [None], "whether the way ends on it" => it.4;
+    }
 }
 
 fn etas() -> Vec<f64> {

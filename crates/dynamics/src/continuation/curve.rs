@@ -217,37 +217,37 @@ fn way<E: Codimension>(
     let mut walker = Walker::new(equations, start, along, region.step)?;
     let mut points = Vec::new();
     while points.len() < region.points {
-        let cause = match walker.attempt() {
-            Ok(stride) if equations.sequence(&stride.node.here.point) == sequence => {
-                let last = walker.node.clone();
-                walker.take(stride);
-                let (node, leaves) = within(equations, (&last, &walker.node), region)?;
-                let step = &node.at - &last.at;
-                let off = (&origin - &last.at)
-                    - step.dot(&(&origin - &last.at)) / step.norm_squared() * &step;
-                let passes =
-                    (0.0..=1.0).contains(&(step.dot(&(&origin - &last.at)) / step.norm_squared()));
-                let closed =
-                    points.len() >= SHORTEST_LOOP && passes && off.norm() < CLOSED * step.norm();
-                let point = equations.describe(&node)?;
-                let stopped = watch(&point).is_break();
-                points.push(point);
-                if leaves {
-                    return Ok((points, CurveEnd::Range));
-                }
-                if closed {
-                    return Ok((points, CurveEnd::Closed));
-                }
-                if stopped {
-                    return Ok((points, CurveEnd::Stopped));
-                }
-                continue;
+        let last = walker.node.clone();
+        let next = walker.attempt().map_err(CurveEnd::Lost);
+        let next = next.and_then(|stride| {
+            if equations.sequence(&stride.node.here.point) != sequence {
+                return Err(CurveEnd::Grazing);
             }
-            Ok(_) => CurveEnd::Grazing,
-            Err(error) => CurveEnd::Lost(error),
+            let end = within(equations, (&last, &stride.node), region);
+            Ok((stride, end.map_err(CurveEnd::Lost)?))
+        });
+        let (stride, (node, leaves)) = match next {
+            Ok(next) => next,
+            Err(_) if walker.shorten() => continue,
+            Err(cause) => return Ok((points, cause)),
         };
-        if !walker.shorten() {
-            return Ok((points, cause));
+        walker.take(stride);
+        let step = &node.at - &last.at;
+        let share = step.dot(&(&origin - &last.at)) / step.norm_squared();
+        let off = (&origin - &last.at) - share * &step;
+        let passes = (0.0..=1.0).contains(&share);
+        let closed = points.len() >= SHORTEST_LOOP && passes && off.norm() < CLOSED * step.norm();
+        let point = equations.describe(&node)?;
+        let stopped = watch(&point).is_break();
+        points.push(point);
+        if leaves {
+            return Ok((points, CurveEnd::Range));
+        }
+        if closed {
+            return Ok((points, CurveEnd::Closed));
+        }
+        if stopped {
+            return Ok((points, CurveEnd::Stopped));
         }
     }
     Ok((points, CurveEnd::Points))

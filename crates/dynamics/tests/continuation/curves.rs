@@ -15,10 +15,21 @@ fn followed(
     second: f64,
     ranges: [(f64, f64); 2],
 ) -> Curve {
+    followed_by_steps(special, periods, family, second, ranges, 0.25)
+}
+
+fn followed_by_steps(
+    special: &Special,
+    periods: u64,
+    family: &Along<2>,
+    second: f64,
+    ranges: [(f64, f64); 2],
+    step: f64,
+) -> Curve {
     let region = Region {
         ranges,
         points: 500,
-        step: 0.25,
+        step,
     };
     let start = [special.point.parameter, second];
     curve(
@@ -149,4 +160,21 @@ fn flip_curve_meets_the_branch_of_another_stiffness() {
         end.parameters[0],
         epsilon = SOLVED
     );
+}
+
+/// Close to the resonance the end of the range may lie where Newton's method does not settle from between the ends of a
+/// long step.
+#[test]
+fn flip_curve_comes_to_the_end_of_its_range_with_any_step() {
+    let flip = of_kind(&all_of_z1(), "PD").remove(0);
+    let family = plane(FREQUENCY_CLEARANCE);
+    let ends = [0.04, 0.08, 0.25].map(|step| {
+        let ranges = [(0.7, 1.9), (1.0, 24.5)];
+        let curve = followed_by_steps(&flip, 1, &family, 10.0, ranges, step);
+        assert!(matches!(curve.ends.1, CurveEnd::Range), "{:?}", curve.ends);
+        at_clearance(&curve, 24.5).parameters[0]
+    });
+    for eta in ends {
+        assert_abs_diff_eq!(eta, ends[0], epsilon = 10.0 * SOLVED);
+    }
 }

@@ -163,7 +163,7 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
         let chart = chart::regimes(&machine, structure);
         export.sheet(kinds, &structure::columns(), structure.rows(), &chart)?;
     }
-    let report = FidelityReport::new(arguments, &machine, &study, structure.as_ref());
+    let report = FidelityReport::new(arguments, (&machine, &study), structure.as_ref());
     export.finish(&report, arguments.format)
 }
 

@@ -164,7 +164,7 @@ struct TrackReport {
 
 /// The whole result.
 #[derive(Debug, Serialize)]
-pub(super) struct FidelityReport {
+pub(super) struct FidelityReport<'a> {
     machine: MachineReport,
     /// Where its motion starts.
     start: Start,
@@ -182,14 +182,13 @@ pub(super) struct FidelityReport {
     unmatched: Vec<Unmatched>,
     structure: Option<Vec<TrackReport>>,
     #[serde(skip)]
-    text: String,
+    of: (&'a Machine, &'a Study),
 }
 
-impl FidelityReport {
+impl<'a> FidelityReport<'a> {
     pub(super) fn new(
         arguments: &FidelityArguments,
-        machine: &Machine,
-        study: &Study,
+        (machine, study): (&'a Machine, &'a Study),
         structure: Option<&Structure>,
     ) -> Self {
         let quantity = arguments.quantity;
@@ -200,7 +199,7 @@ impl FidelityReport {
             figures: Record::of(&tracks(), &(machine, structure, track)),
         };
         let regimes = structure.map(|it| it.tracks.iter().map(|own| track(it, own)).collect());
-        let mut report = Self {
+        Self {
             machine: MachineReport::of(machine),
             start: machine.start,
             quantity,
@@ -214,39 +213,12 @@ impl FidelityReport {
             models: models.map(ModelReport::new).collect(),
             unmatched: study.unmatched.clone(),
             structure: regimes,
-            text: String::new(),
-        };
-        report.text = report.write(machine, study);
-        report
-    }
-
-    /// For people.
-    fn write(&self, machine: &Machine, study: &Study) -> String {
-        let units = Units::of(machine);
-        let table = |figures: Vec<&Record>| {
-            let named = figures.into_iter().zip(&study.entries).map(|(it, entry)| {
-                let name = Record::default().with("model", "", entry.full_name());
-                name.and(it.clone())
-            });
-            below(&named.collect::<Vec<_>>(), &units)
-        };
-        let models = table(self.models.iter().map(|it| &it.figures).collect());
-        let value = units.label(self.quantity.name(), Unit::Of(self.unit));
-        let mut text = heading(&format!("Models of {} for its {value}", title(machine)));
-        text += &format!("{models}\n{}", self.advice(&units, study));
-        for Unmatched { name, reason } in &self.unmatched {
-            text += &format!("Without a model: {name}: {reason}\n");
+            of: (machine, study),
         }
-        if let Some(tracks) = &self.structure {
-            let title = heading("Regimes over the sweep, from rest and from a flung start");
-            let tracks = table(tracks.iter().map(|it| &it.figures).collect());
-            text += &format!("\n{title}{tracks}");
-        }
-        text
     }
 
     /// Which model to take.
-    fn advice(&self, units: &Units, study: &Study) -> String {
+    fn advice(&self, units: &Units) -> String {
         let matched = match self.operating_velocity {
             _ if self.predictive => {
                 "Matched at the velocity of each model's own motion.".to_owned()
@@ -259,25 +231,40 @@ impl FidelityReport {
             None => "The scene's motion has no impact.".to_owned(),
         };
         let tolerance = self.tolerance;
-        let found = match study.cheapest(tolerance) {
+        let found = match self.cheapest {
             None => format!("No model is within {tolerance}."),
-            Some(Entry {
-                name,
-                is_truth: true,
-                ..
-            }) => format!(
+            Some(name) if self.cheapest_is_scene => format!(
                 "Within {tolerance} nothing costs less than the scene itself ({name}): take it as it is."
             ),
-            Some(Entry { name, .. }) => {
-                format!("The cheapest model within {tolerance}: {name}.")
-            }
+            Some(name) => format!("The cheapest model within {tolerance}: {name}."),
         };
         format!("{matched} Costs are per drive period.\n{found}\n")
     }
 }
 
-impl Report for FidelityReport {
+impl Report for FidelityReport<'_> {
     fn text(&self) -> String {
-        self.text.clone()
+        let (machine, study) = self.of;
+        let units = Units::of(machine);
+        let table = |figures: Vec<&Record>| {
+            let named = figures.into_iter().zip(&study.entries).map(|(it, entry)| {
+                let name = Record::default().with("model", "", entry.full_name());
+                name.and(it.clone())
+            });
+            below(&named.collect::<Vec<_>>(), &units)
+        };
+        let models = table(self.models.iter().map(|it| &it.figures).collect());
+        let value = units.label(self.quantity.name(), Unit::Of(self.unit));
+        let mut text = heading(&format!("Models of {} for its {value}", title(machine)));
+        text += &format!("{models}\n{}", self.advice(&units));
+        for Unmatched { name, reason } in &self.unmatched {
+            text += &format!("Without a model: {name}: {reason}\n");
+        }
+        if let Some(tracks) = &self.structure {
+            let title = heading("Regimes over the sweep, from rest and from a flung start");
+            let tracks = table(tracks.iter().map(|it| &it.figures).collect());
+            text += &format!("\n{title}{tracks}");
+        }
+        text
     }
 }

@@ -57,7 +57,7 @@ pub(super) struct Entry {
 }
 
 /// What a drive period of a model's settled motion takes.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Cost {
     /// Evaluations of the law of force: the same on every machine.
     pub(super) evaluations_per_period: f64,
@@ -96,24 +96,26 @@ impl Study {
         }
         let plan = plan(truth, arguments.matched.likenesses());
         let progress = Progress::new(plan.len() as u64, "models");
-        let (mut found, mut unmatched) = (Vec::new(), Vec::new());
+        let mut study = Self {
+            velocity: from_truth(&observed).ok(),
+            truth: answers,
+            entries: Vec::new(),
+            unmatched: Vec::new(),
+        };
         for name in plan {
-            let ladder = Ladder {
-                truth: truth.clone(),
-                likeness: name.matched.unwrap_or_default(),
-            };
-            match model(
-                &ladder,
-                name.rung,
-                &observed,
-                machine.start,
-                arguments.predictive,
-            ) {
+            match model(truth, name, &observed, machine.start, arguments.predictive) {
                 Ok((model, seen)) => {
                     let answers = answers_of(&model.scene, seen)?;
-                    found.push((name, model.scene, answers));
+                    study.entries.push(Entry {
+                        name,
+                        is_truth: name.rung == Rung::of(truth),
+                        scene: model.scene,
+                        error: quantity.error(&study.truth, &answers),
+                        answers,
+                        cost: Cost::default(),
+                    });
                 }
-                Err(error) => unmatched.push(Unmatched {
+                Err(error) => study.unmatched.push(Unmatched {
                     name,
                     reason: error.to_string(),
                 }),
@@ -121,24 +123,31 @@ impl Study {
             progress.step()?;
         }
         drop(progress);
-        let motions = found
-            .iter()
-            .map(|(_, scene, seen)| (scene, seen.observed.start));
-        let costs = costs(&motions.collect::<Vec<_>>(), arguments)?;
-        let entry = |((name, scene, seen), cost): ((Name, Scene, Answers), Cost)| Entry {
-            name,
-            is_truth: name.rung == Rung::of(truth),
-            scene,
-            error: quantity.error(&answers, &seen),
-            answers: seen,
-            cost,
-        };
-        Ok(Self {
-            velocity: from_truth(&observed).ok(),
-            truth: answers,
-            entries: found.into_iter().zip(costs).map(entry).collect(),
-            unmatched,
-        })
+        study.measure(arguments)?;
+        Ok(study)
+    }
+
+    /// Takes the costs of the motions, timed turn and turn about, so that what else the machine does meanwhile falls on
+    /// all of them.
+    fn measure(&mut self, arguments: &FidelityArguments) -> Result<(), Failure> {
+        let (periods, repeats) = (arguments.periods, arguments.repeats);
+        let progress = Progress::new(self.entries.len() as u64 * repeats, "runs");
+        let mut times = vec![Vec::new(); self.entries.len()];
+        for _ in 0..repeats {
+            for (entry, times) in self.entries.iter_mut().zip(&mut times) {
+                let begin = Instant::now();
+                let start = entry.answers.observed.start;
+                let taken =
+                    evaluated(&entry.scene, start, periods).context("cannot time a motion")?;
+                times.push(1e6 * begin.elapsed().as_secs_f64() / periods as f64);
+                entry.cost.evaluations_per_period = taken.evaluations as f64 / periods as f64;
+                progress.step()?;
+            }
+        }
+        for (entry, times) in self.entries.iter_mut().zip(times) {
+            entry.cost.microseconds_per_period = median(times);
+        }
+        Ok(())
     }
 
     /// The cheapest model within a tolerance; the scene itself always is.
@@ -178,17 +187,21 @@ fn plan(truth: &Scene, likenesses: &[Likeness]) -> Vec<Name> {
 }
 
 fn model(
-    ladder: &Ladder,
-    rung: Rung,
+    truth: &Scene,
+    Name { rung, matched }: Name,
     observed: &Observation,
     start: Start,
     is_predictive: bool,
 ) -> Result<(Model, Observation), FidelityError> {
-    if rung == Rung::of(&ladder.truth) {
+    let ladder = Ladder {
+        truth: truth.clone(),
+        likeness: matched.unwrap_or_default(),
+    };
+    if rung == Rung::of(truth) {
         return Ok((ladder.model(rung, f64::NAN)?, *observed));
     }
     if is_predictive {
-        return from_model(ladder, rung, start);
+        return from_model(&ladder, rung, start);
     }
     let velocity = match rung {
         Rung::Linear => f64::NAN,
@@ -208,30 +221,6 @@ fn absent(quantity: Quantity) -> Failure {
     Failure::Run(anyhow!(
         "quantity = {name}: the scene itself has none, so no model can be measured by it"
     ))
-}
-
-/// The costs of motions, timed turn and turn about, so that what else the machine does meanwhile falls on
-/// all of them.
-fn costs(motions: &[(&Scene, Start)], arguments: &FidelityArguments) -> Result<Vec<Cost>, Failure> {
-    let (periods, repeats) = (arguments.periods, arguments.repeats);
-    let progress = Progress::new(motions.len() as u64 * repeats, "runs");
-    let mut times = vec![Vec::new(); motions.len()];
-    let mut evaluations = vec![0; motions.len()];
-    for _ in 0..repeats {
-        for (index, (scene, start)) in motions.iter().enumerate() {
-            let begin = Instant::now();
-            let taken = evaluated(scene, *start, periods).context("cannot time a motion")?;
-            times[index].push(begin.elapsed().as_secs_f64());
-            evaluations[index] = taken.evaluations;
-            progress.step()?;
-        }
-    }
-    let per_period = |total: f64| total / periods as f64;
-    let cost = |(times, evaluations): (Vec<f64>, u64)| Cost {
-        evaluations_per_period: per_period(evaluations as f64),
-        microseconds_per_period: 1e6 * per_period(median(times)),
-    };
-    Ok(times.into_iter().zip(evaluations).map(cost).collect())
 }
 
 fn evaluated(scene: &Scene, start: Start, periods: u64) -> Result<Evaluations, MotionError> {

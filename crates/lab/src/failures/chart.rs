@@ -1,7 +1,6 @@
 //! A page of the atlas: a map of verdicts for each method with the limits that theory sets, and the strip of the exact one.
 
-use softstop_draw::style::{self, verdict};
-use softstop_draw::{Axis, Chart, Layer, Legend, Panel, Sign, power_of_ten};
+use softstop_draw::{Axis, Chart, Layer, Legend, Panel, Sign, power_of_ten, style};
 
 use super::{Atlas, Map};
 use crate::methods::Verdict;
@@ -48,7 +47,7 @@ fn map(atlas: &Atlas, map: &Map) -> Panel {
     let row = |row: usize| {
         map.columns
             .iter()
-            .map(move |cells| color(cells[row].verdict))
+            .map(move |cells| cells[row].verdict.color())
     };
     let line = |steps: Vec<Option<f64>>, dashes| {
         let points = stiffness.iter().zip(steps);
@@ -81,7 +80,7 @@ fn map(atlas: &Atlas, map: &Map) -> Panel {
 fn exact(atlas: &Atlas) -> Panel {
     let stiffness = &atlas.axes.stiffness;
     let cells = atlas.columns.iter().map(|column| column.exact);
-    let colors = cells.map(|cell| cell.map_or(style::PAPER, |cell| color(cell.verdict)));
+    let colors = cells.map(|cell| cell.map_or(style::PAPER, |cell| cell.verdict.color()));
     Panel {
         title: "exact: no step".to_owned(),
         size: (MAP, STRIP),
@@ -112,19 +111,5 @@ fn keys(atlas: &Atlas) -> impl Iterator<Item = Layer> {
     let unsuited = cells.any(|cell| cell.verdict == Verdict::Unsuited);
     let shown = Verdict::ALL.into_iter();
     let shown = shown.filter(move |verdict| unsuited || *verdict != Verdict::Unsuited);
-    shown.map(|verdict| Layer::key(Sign::Patch(color(verdict)), verdict.name()))
-}
-
-/// The colour of a class of outcomes.
-const fn color(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Converged => verdict::CONVERGED,
-        Verdict::Inaccurate => verdict::INACCURATE,
-        Verdict::WrongCount => verdict::WRONG_COUNT,
-        Verdict::MissedContact => verdict::MISSED_CONTACT,
-        Verdict::EnergyGain => verdict::ENERGY_GAIN,
-        Verdict::BlownUp => verdict::BLOWN_UP,
-        Verdict::Stuck => verdict::STUCK,
-        Verdict::Unsuited => verdict::UNSUITED,
-    }
+    shown.map(|verdict| Layer::key(Sign::Patch(verdict.color()), verdict.name()))
 }

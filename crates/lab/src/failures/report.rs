@@ -83,15 +83,10 @@ struct MapReport<'a> {
     longest_stable_step: &'a [Option<f64>],
 }
 
-fn letter(verdict: Verdict) -> char {
-    // Of `Verdict::ALL`.
-    char::from(b"CIWMEBSU"[verdict as usize])
-}
-
 impl<'a> FailuresReport<'a> {
     pub(super) fn new(atlases: &'a [Atlas]) -> Self {
         let key = |verdict: Verdict| Key {
-            letter: letter(verdict),
+            letter: verdict.letter(),
             name: verdict.name(),
         };
         Self {
@@ -112,7 +107,7 @@ impl<'a> SceneReport<'a> {
         let columns = atlas.columns.iter();
         let exact = columns.clone().map(|column| column.exact);
         let letters = exact.clone();
-        let letters = letters.map(|cell| cell.map_or('-', |cell| letter(cell.verdict)));
+        let letters = letters.map(|cell| cell.map_or('-', |cell| cell.verdict.letter()));
         let impacts = |column: &Column| column.truth.impacts.len();
         Self {
             name: &atlas.view.name,
@@ -165,7 +160,7 @@ impl<'a> MapReport<'a> {
         let all = verdicts().count() as f64;
         let share = |verdict| verdicts().filter(|other| *other == verdict).count() as f64 / all;
         let columns = map.columns.iter();
-        let letters = columns.map(|cells| cells.iter().map(|cell| letter(cell.verdict)).collect());
+        let letters = columns.map(|cells| cells.iter().map(|cell| cell.verdict.letter()).collect());
         Self {
             scheme: map.family.title(),
             events: map.family.row(),

@@ -145,10 +145,7 @@ pub fn contact_mode(scene: &Scene) -> Option<(f64, f64)> {
 /// # Errors
 /// [`MotionError`] if the motion cannot be carried on.
 pub fn shortest_contact(task: &Task) -> Result<Option<f64>, MotionError> {
-    let cycles = task.periods.floor();
-    let offset = (task.periods - cycles) * task.scene.period();
-    let end = softstop::Instant { cycles, offset };
-    let trajectory = task.scene.trajectory_until(task.start, end)?;
+    let trajectory = task.scene.trajectory_until(task.start, task.end())?;
     let arcs = &trajectory.arcs;
     let contacts = arcs.split(|arc| arc.kind == PhaseKind::Free);
     // The first and the last group touch the ends of the run: they may be parts of contacts.

@@ -1,7 +1,7 @@
 //! The exact method, as one among others.
 
 use super::{Integrator, MethodError, Solution, Task, Work};
-use softstop::{Arc, Clock, Crossing, Impact, Instant, Observer};
+use softstop::{Arc, Clock, Crossing, Impact, Observer};
 
 /// Closed forms from crossing to crossing, Taylor steps where a law is not linear.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -19,9 +19,8 @@ impl Integrator for Exact {
             impacts: Vec::new(),
             taken: Work::default(),
         };
-        let end = end_of(task, motion.clock());
         motion
-            .advance(end, &mut watcher)
+            .advance(task.end(), &mut watcher)
             .map_err(|error| MethodError::from(error).after(watcher.taken.steps))?;
         motion.tell_arc(&mut watcher.taken);
         let state = motion.state();
@@ -31,13 +30,6 @@ impl Integrator for Exact {
             work: watcher.taken,
         })
     }
-}
-
-/// Whole periods and the rest of them.
-fn end_of(task: &Task, clock: &Clock) -> Instant {
-    let cycles = task.periods.floor();
-    let offset = (task.periods - cycles) * clock.period();
-    Instant { cycles, offset }
 }
 
 struct Watcher {

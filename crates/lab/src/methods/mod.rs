@@ -28,7 +28,7 @@ use thiserror::Error;
 
 use softstop::MotionError;
 pub use softstop::internals::Evaluations as Work;
-use softstop::{Impact, Scene, Start};
+use softstop::{Impact, Instant, Scene, Start};
 
 /// A motion to be computed, from time 0 on.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,6 +57,13 @@ impl Task {
     /// Time to cover, in s.
     pub fn duration(&self) -> f64 {
         self.periods * self.scene.period()
+    }
+
+    /// When it ends: whole periods and the rest of them.
+    pub fn end(&self) -> Instant {
+        let cycles = self.periods.floor();
+        let offset = (self.periods - cycles) * self.scene.period();
+        Instant { cycles, offset }
     }
 
     /// The same, of a task that makes sense.

@@ -3,57 +3,59 @@
 use super::{MethodError, Solution, Task};
 use softstop::internals::mechanical_energy;
 use softstop::{Impact, Scene, Start};
+use softstop_draw::style::verdict;
 
 /// Beyond so many times the greatest speed that energy allows, a motion has blown up.
 const BLOWN_UP: f64 = 1e3;
 
-/// The class of an outcome. Of several that apply the one named last here is taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Verdict {
-    /// Every impact has its counterpart, and the error at the end is within the tolerance.
-    Converged,
-    /// Every impact has its counterpart, but the error at the end is larger.
-    Inaccurate,
-    /// The first impact that is out of order is one too many.
-    WrongCount,
-    /// The first impact that is out of order is one that was not seen.
-    MissedContact,
-    /// More energy than start and drive could ever have supplied.
-    EnergyGain,
-    /// The numbers left all bounds.
-    BlownUp,
-    /// The method did not get to the end.
-    Stuck,
-    /// The method is not made for the machine.
-    Unsuited,
+/// Each class of outcomes in one line: name, letter in maps, colour.
+macro_rules! verdicts {
+    ($($(#[$what:meta])* $verdict:ident $name:literal $letter:literal $color:expr;)*) => {
+        /// The class of an outcome. Of several that apply the one named last here is taken.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Verdict {
+            $($(#[$what])* $verdict),*
+        }
+
+        impl Verdict {
+            /// All classes, from the best on.
+            pub const ALL: [Self; 8] = [$(Self::$verdict),*];
+
+            /// Its name in charts and tables.
+            pub const fn name(self) -> &'static str {
+                match self { $(Self::$verdict => $name),* }
+            }
+
+            /// Its letter in maps.
+            pub const fn letter(self) -> char {
+                match self { $(Self::$verdict => $letter),* }
+            }
+
+            /// Its colour.
+            pub const fn color(self) -> &'static str {
+                match self { $(Self::$verdict => $color),* }
+            }
+        }
+    };
 }
 
-impl Verdict {
-    /// All classes, from the best on.
-    pub const ALL: [Self; 8] = [
-        Self::Converged,
-        Self::Inaccurate,
-        Self::WrongCount,
-        Self::MissedContact,
-        Self::EnergyGain,
-        Self::BlownUp,
-        Self::Stuck,
-        Self::Unsuited,
-    ];
-
-    /// Its name in charts and tables.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Converged => "converged",
-            Self::Inaccurate => "inaccurate",
-            Self::WrongCount => "wrong impact count",
-            Self::MissedContact => "missed contact",
-            Self::EnergyGain => "energy gain",
-            Self::BlownUp => "blow-up",
-            Self::Stuck => "stuck",
-            Self::Unsuited => "unsuited",
-        }
-    }
+verdicts! {
+    /// Every impact has its counterpart, and the error at the end is within the tolerance.
+    Converged "converged" 'C' verdict::CONVERGED;
+    /// Every impact has its counterpart, but the error at the end is larger.
+    Inaccurate "inaccurate" 'I' verdict::INACCURATE;
+    /// The first impact that is out of order is one too many.
+    WrongCount "wrong impact count" 'W' verdict::WRONG_COUNT;
+    /// The first impact that is out of order is one that was not seen.
+    MissedContact "missed contact" 'M' verdict::MISSED_CONTACT;
+    /// More energy than start and drive could ever have supplied.
+    EnergyGain "energy gain" 'E' verdict::ENERGY_GAIN;
+    /// The numbers left all bounds.
+    BlownUp "blow-up" 'B' verdict::BLOWN_UP;
+    /// The method did not get to the end.
+    Stuck "stuck" 'S' verdict::STUCK;
+    /// The method is not made for the machine.
+    Unsuited "unsuited" 'U' verdict::UNSUITED;
 }
 
 /// Tells the class of outcomes of one task by its true motion.

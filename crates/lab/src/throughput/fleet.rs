@@ -2,10 +2,10 @@
 
 use std::ops::AddAssign;
 
-use clap::ValueEnum;
 use rayon::prelude::*;
 use serde::Serialize;
-use softstop::{Clock, MotionError, Ratios, Scene, SceneError, Start};
+use softstop::{Clock, MotionError, Scene, SceneError, Start};
+use softstop_console::machine::Regime;
 use softstop_dynamics::internals::ImpactCounter;
 use softstop_lanes::{Instructions, Job, Machine, Outcome, Watch, run_parallel, run_with};
 
@@ -13,7 +13,7 @@ use softstop_lanes::{Instructions, Job, Machine, Outcome, Watch, run_parallel, r
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Range {
     /// The machine.
-    pub machine: Machinery,
+    pub machine: Regime,
     /// Lowest and highest frequency ratio eta.
     pub frequencies: (f64, f64),
     /// Frequencies, evenly over the range.
@@ -24,36 +24,9 @@ pub struct Range {
     pub start: (f64, f64),
 }
 
-/// The paper's machines.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ValueEnum)]
-#[serde(rename_all = "lowercase")]
-pub enum Machinery {
-    /// Without a strip.
-    Unloaded,
-    /// With a strip to pierce.
-    Loaded,
-}
-
-impl Machinery {
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Unloaded => "unloaded",
-            Self::Loaded => "loaded",
-        }
-    }
-
-    fn ratios(self) -> Ratios {
-        match self {
-            Self::Unloaded => Ratios::unloaded(),
-            Self::Loaded => Ratios::loaded(),
-        }
-    }
-}
-
 /// The range that softstop's figures are given for.
 pub const RANGE: Range = Range {
-    machine: Machinery::Unloaded,
+    machine: Regime::Unloaded,
     frequencies: (0.95, 1.4),
     motions: 1000,
     periods: 200,

@@ -20,10 +20,11 @@ use clap::Args;
 
 use beside::Beside;
 use check::Plan;
-use fleet::{Machinery, RANGE, Range};
+use fleet::{RANGE, Range};
 use report::ThroughputReport;
 use softstop_console::export;
 use softstop_console::failure::Failure;
+use softstop_console::machine::Regime;
 use softstop_console::output::Format;
 use softstop_console::progress::Progress;
 use softstop_console::range::within;
@@ -58,8 +59,8 @@ Exit code 1 if one differs.";
 #[command(after_help = EXAMPLES)]
 pub struct ThroughputArguments {
     /// Machine whose drive periods are counted
-    #[arg(value_enum, default_value_t = Machinery::Unloaded)]
-    pub machine: Machinery,
+    #[arg(value_enum, default_value_t = Regime::Unloaded)]
+    pub machine: Regime,
     /// Random motions to compare both engines on, 0 to 1000000000
     #[arg(long, value_name = "N", default_value_t = 10_000)]
     pub check: u64,

@@ -1,6 +1,6 @@
 //! The largest Lyapunov exponent beneath the bifurcation diagram.
 
-use super::{Part, Place};
+use super::{Found, Place};
 use crate::diagram::{WAYS, by_way, dots};
 use softstop_draw::{Align, Axis, Chart, Layer, Legend, Mark, Panel, Stroke, style};
 
@@ -11,7 +11,7 @@ const DOT: f64 = 0.7;
 
 /// The whole range and a part of it, in the whole z = 1 up to its fold and points to mark on it with their names.
 pub(super) fn chart(
-    parts: &[Part],
+    parts: &[Found],
     branch: &[Place],
     marks: &[(String, Place)],
     explanation: String,
@@ -54,12 +54,12 @@ pub(super) fn chart(
 }
 
 /// The diagram or the exponents of a part.
-fn panel(part: &Part, column: usize, row: usize) -> Panel {
+fn panel(part: &Found, column: usize, row: usize) -> Panel {
     let points = part.ways.iter().flatten();
     let top = points.map(|point| point.step.hardest()).fold(1.0, f64::max);
     let (name, range) = match row {
         0 => ("before-impact velocity X′₋", (-0.04 * top, 1.08 * top)),
-        _ => ("λ per unit of τ", part.exponents),
+        _ => ("λ per unit of τ", part.asked.exponents),
     };
     let [up, down] = &part.ways;
     let ways = by_way(up, down, |point| &point.step);
@@ -75,7 +75,7 @@ fn panel(part: &Part, column: usize, row: usize) -> Panel {
     Panel {
         at: (column, row),
         size: (WIDTHS[column], HEIGHT),
-        x: Axis::new("drive frequency η = ω/Ω").range(part.range),
+        x: Axis::new("drive frequency η = ω/Ω").range(part.asked.part.range),
         y: Axis::new(name).range(range),
         layers: layers.collect(),
         ..Panel::default()

@@ -4,18 +4,27 @@ mod chart;
 
 use anyhow::{Context, Error, Result};
 use rayon::prelude::*;
-use softstop::{MotionError, Parameter, Ratios, Scene};
+use serde::Deserialize;
+use softstop::{MotionError, Ratios, Scene};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::hysteresis;
-use softstop_dynamics::{Chain, Exponents, Orbit, Plan, Step};
+use softstop_dynamics::{Chain, Exponents, Orbit, Step};
 
-use crate::diagram;
-use crate::figure::{self, Drawn, Figure, Findings, Studio};
+use crate::diagram::{self, Part};
+use crate::figure::{Drawn, Figure, Findings, Studio};
+use softstop_console::column::Column;
+use softstop_console::columns;
+use softstop_console::export::csv;
 use softstop_console::progress::Progress;
 
-/// Both ranges of eta, and the exponents that their panels show.
-const PARTS: [((f64, f64), (f64, f64)); 2] =
-    [((0.8, 1.8), (-0.03, 0.008)), ((0.95, 1.0), (-0.03, 0.09))];
+/// A part of the diagram.
+#[derive(Deserialize)]
+struct Asked {
+    #[serde(flatten)]
+    part: Part,
+    /// Least and largest exponent to be seen.
+    exponents: (f64, f64),
+}
 
 /// A step of a sweep, its largest exponent per unit of tau, and the half-width of the 95 % interval of that.
 struct Point {
@@ -23,11 +32,9 @@ struct Point {
     exponent: (f64, f64),
 }
 
-/// Sweeps over a range of eta.
-struct Part {
-    range: (f64, f64),
-    /// Least and largest exponent to be seen.
-    exponents: (f64, f64),
+/// A part as it was swept.
+struct Found<'a> {
+    asked: &'a Asked,
     /// Up and down, in rising order of eta.
     ways: [Vec<Point>; 2],
 }
@@ -35,14 +42,15 @@ struct Part {
 /// eta, X'- and the exponent.
 type Place = [f64; 3];
 
-pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
-    let detail = studio.detail;
-    let sizes = detail.pick([(1401, 200), (900, 200)], [(101, 100), (41, 100)]);
-    let plan = |part: usize| {
-        let (steps, periods) = sizes[part];
-        Plan::new(Parameter::Frequency, PARTS[part].0, steps, periods)
-    };
-    let plans = [plan(0)?, plan(1)?];
+/// The whole range and a part of it.
+#[derive(Deserialize)]
+struct What {
+    parts: [Asked; 2],
+}
+
+pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
+    let (detail, asked) = (studio.detail, figure.what::<What>()?.parts);
+    let plans = [asked[0].part.plan(detail)?, asked[1].part.plan(detail)?];
     let ways = diagram::ways(&Ratios::unloaded().scene()?).to_vec();
     let mut chains = diagram::sweep(vec![(plans[0], ways)], "steps of the sweeps", studio.kept)?;
     let zoom = chains.iter();
@@ -56,13 +64,10 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let progress = Progress::new(steps as u64, "exponents");
     let batch = detail.pick(40, 4);
     let mut parts = Vec::new();
-    for (ways, (range, exponents)) in chains.chunks_exact(2).zip(PARTS) {
+    for (ways, asked) in chains.chunks_exact(2).zip(&asked) {
         let points = |way: usize| points(&ways[way], batch, &progress);
-        parts.push(Part {
-            range,
-            exponents,
-            ways: [points(0)?, points(1)?],
-        });
+        let ways = [points(0)?, points(1)?];
+        parts.push(Found { asked, ways });
     }
     let branch = branch(detail.pick(400, 80))?;
     let none = "z = 1 was not met";
@@ -104,8 +109,12 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
         32 * batch
     );
     let chart = chart::chart(&parts, &branch, &marks, explanation);
+    let ways = parts
+        .iter()
+        .flat_map(|part| part.ways.iter().zip(["up", "down"]));
+    let rows = ways.flat_map(|(points, way)| points.iter().map(move |point| (way, point)));
     Ok(Drawn {
-        files: vec![chart.png().map_err(Error::msg)?, table(&parts)?],
+        files: vec![chart.png().map_err(Error::msg)?, csv(&columns(), rows)?],
         findings,
     })
 }
@@ -150,18 +159,15 @@ fn branch(count: u32) -> Result<Vec<Place>> {
     places.collect()
 }
 
-fn table(parts: &[Part]) -> Result<Vec<u8>> {
-    let ways = parts
-        .iter()
-        .flat_map(|part| part.ways.iter().zip(["up", "down"]));
-    let points = ways.flat_map(|(points, way)| points.iter().map(move |point| (way, point)));
-    let rows = points.map(|(way, Point { step, exponent })| {
-        let regime = step.motion.regime();
-        let regime = regime.map(|it| (it.impacts, it.periods)).unzip();
-        let eta = format!("{:.9}", step.value);
-        (way, eta, regime, *exponent, step.hardest())
-    });
-    let columns =
-        "direction,eta,impacts,periods,lambda,lambda_half_width,largest_before_impact_velocity";
-    figure::table(columns, rows)
+/// A row for each step of each way.
+fn columns<'a>() -> [Column<(&'a str, &'a Point)>; 7] {
+    columns! { (&'a str, &'a Point), it;
+        "direction" [None], "of the frequency" => it.0;
+        "eta" [None], "drive frequency" => format!("{:.9}", it.1.step.value);
+        "impacts" [None], "p of z = p/n" => it.1.step.motion.regime().map(|z| z.impacts);
+        "periods" [None], "n of it" => it.1.step.motion.regime().map(|z| z.periods);
+        "lambda" [None], "largest exponent per unit of tau" => it.1.exponent.0;
+        "lambda_half_width" [None], "of its 95 % interval" => it.1.exponent.1;
+        "largest_before_impact_velocity" [None], "of the motion" => it.1.step.hardest();
+    }
 }

@@ -6,12 +6,14 @@ mod chart;
 use anyhow::{Error, Result};
 use serde::Deserialize;
 use softstop::Parameter;
+use softstop_console::columns;
+use softstop_console::export::csv;
 use softstop_console::machine::Regime;
 use softstop_dynamics::zone::free_amplitude;
 use softstop_dynamics::{Chain, Plan, Step, orbit};
 
 use crate::diagram;
-use crate::figure::{self, Drawn, Figure, Findings, Studio};
+use crate::figure::{Drawn, Figure, Findings, Studio};
 use boundaries::Ends;
 use chart::Picture;
 
@@ -31,7 +33,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         machine: regime,
         heading,
     } = figure.what()?;
-    let machine = figure::machine(regime);
+    let machine = regime.ratios();
     let (steps, periods) = studio.detail.pick((1000, 200), (120, 100));
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods)?;
     let mut chains = Vec::new();
@@ -67,13 +69,18 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     });
     let points = across
         .iter()
-        .flat_map(|(name, curve)| curve.iter().map(move |at| (name, *at)));
-    let columns = "boundary,eta,max_position,before_impact_velocity";
+        .flat_map(|(name, curve)| curve.iter().map(move |at| (*name, *at)));
+    let columns = columns! { (&str, [f64; 3]), it;
+        "boundary" [None], "which one" => it.0;
+        "eta" [None], "drive frequency" => it.1[0];
+        "max_position" [None], "X_m" => it.1[1];
+        "before_impact_velocity" [None], "X'_-" => it.1[2];
+    };
     Ok(Drawn {
         files: vec![
             chart.png().map_err(Error::msg)?,
             diagram::table("rho", sweeps)?,
-            figure::table(columns, points)?,
+            csv(&columns, points)?,
         ],
         findings: findings(&ends, &chains, optimum),
     })

@@ -3,7 +3,6 @@
 use softstop_draw::{Axis, Chart, Layer, Legend, Panel, Stroke, style};
 
 use super::{Cycle, faces};
-use crate::figure::ends;
 use crate::path::Point;
 
 const CURVES: [(&str, Stroke); 2] = [
@@ -18,51 +17,46 @@ const BEFORE: f64 = 0.6;
 pub(super) fn chart(cycles: &[Cycle; 2]) -> Chart {
     let scene = &cycles[1].orbit.scene;
     let (eta, rho, period) = (scene.excitation.frequency, scene.clearance, scene.period());
-    let highest = ends(cycles.iter().map(|cycle| cycle.orbit.max_position)).1;
-    let near = (
-        rho - BEFORE * (highest - rho),
-        highest + 0.2 * (highest - rho),
-    );
-    let state = |at: &Point| (at.position, at.velocity);
-    let curves = |show: &dyn Fn(&Point) -> (f64, f64)| -> Vec<Layer> {
+    let highest = cycles[0]
+        .orbit
+        .max_position
+        .max(cycles[1].orbit.max_position);
+    let depth = highest - rho;
+    let near = (rho - BEFORE * depth, highest + 0.2 * depth);
+    let panel = |width, x, y: &str, show: &dyn Fn(&Point) -> (f64, f64), face: DrawFace| {
         let curves = cycles.iter().zip(CURVES);
         let curves = curves.map(|(cycle, (name, stroke))| {
             Layer::line(cycle.path.points.iter().map(show), stroke).named(name)
         });
-        curves.collect()
+        let faces = faces(scene).into_iter();
+        Panel {
+            size: (width, 350.0),
+            x,
+            y: Axis::new(y),
+            layers: faces
+                .map(|(at, name)| face(at, name))
+                .chain(curves)
+                .collect(),
+            ..Panel::default()
+        }
     };
-    let panel = |width, x, y: &str, layers: Vec<Layer>| Panel {
-        size: (width, 350.0),
-        x,
-        y: Axis::new(y),
-        layers,
-        ..Panel::default()
-    };
-    let faces = faces(scene).into_iter();
-    let across = faces
-        .clone()
-        .map(|(face, _)| Layer::horizontal(face, FACE, ""));
-    let upwards = faces
-        .clone()
-        .map(|(face, _)| Layer::vertical(face, FACE, ""));
-    let named = faces.map(|(face, name)| Layer::vertical(face, FACE, name));
-    let series = curves(&|at| (at.time / period, at.position));
+    let series = |at: &Point| (at.time / period, at.position);
+    let state = |at: &Point| (at.position, at.velocity);
     let time = Axis::new("time τ / T").range((0.0, 1.0));
     let close = Axis::new("position X near the stop").range(near);
+    let across: DrawFace = |at, _| Layer::horizontal(at, FACE, "");
+    let upwards: DrawFace = |at, _| Layer::vertical(at, FACE, "");
+    let named: DrawFace = |at, name| Layer::vertical(at, FACE, name);
     let panels = [
-        panel(400.0, time, "position X", across.chain(series).collect()),
+        panel(400.0, time, "position X", &series, across),
         panel(
             290.0,
             Axis::new("position X"),
             "velocity X′",
-            upwards.chain(curves(&state)).collect(),
+            &state,
+            upwards,
         ),
-        panel(
-            290.0,
-            close,
-            "velocity X′",
-            named.chain(curves(&state)).collect(),
-        ),
+        panel(290.0, close, "velocity X′", &state, named),
     ];
     let title = format!("Fig. 7, A over B: η = {eta}, ρ = {rho}, z = 1");
     Chart {
@@ -71,3 +65,6 @@ pub(super) fn chart(cycles: &[Cycle; 2]) -> Chart {
         ..Chart::new(title, panels).in_columns(3)
     }
 }
+
+/// The line at a position at which the law changes, and its name.
+type DrawFace = fn(f64, &'static str) -> Layer;

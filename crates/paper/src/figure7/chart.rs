@@ -4,9 +4,8 @@
 use softstop::PhaseKind;
 
 use super::{Cycle, faces};
-use crate::figure::ends;
 use crate::path::Point;
-use softstop_draw::{Align, Axis, Chart, Layer, Legend, Mark, Panel, Sign, Stroke, style};
+use softstop_draw::{Align, Axis, Chart, Layer, Legend, Mark, Panel, Sign, Stroke, around, style};
 use softstop_explore::palette::phase_color;
 
 /// Height of the panels.
@@ -45,14 +44,14 @@ impl Cycle {
         });
         let mut series = self.series();
         series.layers.extend(keys);
-        let (slow, fast) = self.range(STATE);
-        let x = (1.12 * self.range(SERIES).0, 1.3 * orbit.max_position);
-        let contact = self.range(|point| match point.phase {
+        let (slow, fast) = self.range(STATE, 0.0);
+        let x = (1.12 * self.range(SERIES, 0.0).0, 1.3 * orbit.max_position);
+        let contact: Show = |point| match point.phase {
             PhaseKind::Free => (point.position, 0.0),
             _ => STATE(point),
-        });
-        let close = [self.positions(0.6, 0.25), around(contact, 0.22)];
-        let force = [self.positions(0.3, 0.2), around(self.range(FORCE), 0.12)];
+        };
+        let close = [self.positions(0.6, 0.25), self.range(contact, 0.22)];
+        let force = [self.positions(0.3, 0.2), self.range(FORCE, 0.12)];
         let planes = [
             (
                 ["position X", "velocity X′"],
@@ -110,7 +109,7 @@ impl Cycle {
             span: (2, 1),
             size: (694.0, HEIGHT),
             x: Axis::new("time τ").range((0.0, SHOWN * period)),
-            y: Axis::new("position X").range((1.12 * self.range(SERIES).0, 1.32 * highest)),
+            y: Axis::new("position X").range((1.12 * self.range(SERIES, 0.0).0, 1.32 * highest)),
             layers,
             ..Panel::default()
         }
@@ -219,9 +218,9 @@ impl Cycle {
         self.path.points.iter().map(show)
     }
 
-    /// Least and largest value of a panel's axis upwards.
-    fn range(&self, show: Show) -> (f64, f64) {
-        ends(self.curve(show).map(|point| point.1))
+    /// Least and largest value of a panel's axis upwards, with this share of room on both sides.
+    fn range(&self, show: Show, room: f64) -> (f64, f64) {
+        around(self.curve(show).map(|point| point.1), room)
     }
 
     /// Beginning and end of contact.
@@ -252,12 +251,6 @@ impl Cycle {
         });
         marks.flatten().collect()
     }
-}
-
-/// A range with this share of it as room on both sides.
-fn around((low, high): (f64, f64), room: f64) -> (f64, f64) {
-    let room = room * (high - low);
-    (low - room, high + room)
 }
 
 /// Shades a range of the axis across in the colour of a phase, if it has one.

@@ -6,11 +6,13 @@ mod chart;
 use anyhow::Result;
 use serde::Deserialize;
 use softstop::{PhaseKind, Scene};
+use softstop_console::columns;
+use softstop_console::export::csv;
 use softstop_console::machine::Regime;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::{Exponents, Orbit};
 
-use crate::figure::{self, Drawn, Figure, Findings, Studio};
+use crate::figure::{Drawn, Figure, Findings, Studio};
 use crate::path::{Path, Point};
 
 /// Which machine, and what stands above the picture.
@@ -28,7 +30,7 @@ struct Cycle {
 
 impl Cycle {
     fn of(studio: &Studio, machine: Regime) -> Result<Self> {
-        let orbit = find(&figure::machine(machine).scene()?)?;
+        let orbit = find(&machine.ratios().scene()?)?;
         let fineness = (studio.detail.pick(2000, 400), 24);
         let path = Path::new(&orbit.scene, orbit.state().into(), orbit.periods, fineness)?;
         Ok(Self { orbit, path })
@@ -48,11 +50,14 @@ fn faces(scene: &Scene) -> Vec<(f64, &'static str)> {
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let What { machine, heading } = figure.what()?;
     let cycle = Cycle::of(studio, machine)?;
-    let rows = cycle.path.points.iter().map(|at| {
-        let phase = softstop_explore::simulate::name(at.phase);
-        (at.time, at.position, at.velocity, at.force, phase)
-    });
-    let table = figure::table("tau,position,velocity,contact_force,phase", rows)?;
+    let columns = columns! { Point, it;
+        "tau" [None], "time" => it.time;
+        "position" [None], "X" => it.position;
+        "velocity" [None], "X'" => it.velocity;
+        "contact_force" [None], "F/F0" => it.force;
+        "phase" [None], "whose law holds" => softstop_explore::simulate::name(it.phase);
+    };
+    let table = csv(&columns, &cycle.path.points)?;
     Ok(Drawn {
         files: vec![cycle.chart(&heading).svg().into_bytes(), table],
         findings: findings(&cycle),

@@ -2,11 +2,12 @@
 
 use anyhow::Result;
 use softstop::Ratios;
-use softstop_dynamics::{Chain, Orbit, Step};
+use softstop_dynamics::{Chain, Step};
 
 use super::{Bifurcation, Diagram};
-use crate::diagram::{WAYS, by_way, dots, steps};
+use crate::diagram::{self, WAYS, by_way, dots, steps};
 use crate::figure9;
+use crate::table1::report;
 use softstop_draw::{Align, Axis, Chart, Layer, Legend, Panel, Stroke, style};
 
 /// Sizes of the overview and of a zoom, and radius of a dot.
@@ -162,19 +163,11 @@ impl Diagram<'_> {
     }
 }
 
-/// A periodic motion's name; the two of z = 2/4 differ by the order of their impacts.
+/// A periodic motion's name.
 fn name(step: &Step) -> Option<String> {
-    let regime = step.motion.regime()?;
-    if (regime.impacts, regime.periods) != (2, 4) {
-        return Some(format!("z = {regime}"));
-    }
-    let machine = Ratios::unloaded().at_frequency(step.value);
-    let orbit = Orbit::periodic(&machine.scene().ok()?, step.end.into(), 4).ok()?;
-    let letter = match orbit.pattern().to_string().as_str() {
-        "1-1-0-0" => 'B',
-        _ => 'A',
-    };
-    Some(format!("z = (2/4){letter}"))
+    step.motion.regime()?;
+    let scene = Ratios::unloaded().scene().ok()?;
+    Some(report::name(&diagram::motion(&scene, step)))
 }
 
 /// True if a step shows a motion on its way from one periodic motion to another.

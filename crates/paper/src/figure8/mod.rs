@@ -5,13 +5,15 @@ mod isolated;
 
 use anyhow::{Error, Result};
 use serde::Deserialize;
-use softstop::{Parameter, Ratios};
-use softstop_dynamics::{Chain, Direction, Plan, Step};
+use softstop::Ratios;
+use softstop_dynamics::{Chain, Direction, Step};
 
-use crate::diagram::{self, Job};
-use crate::figure::{self, Detail, Drawn, Figure, Findings, Studio};
+use crate::diagram::{self, Job, Part};
+use crate::figure::{Detail, Drawn, Figure, Findings, Studio};
 use crate::table1::matching::{self, Match};
 use crate::table1::paper;
+use softstop_console::columns;
+use softstop_console::export::csv;
 
 /// The whole diagram, its zooms, and sweeps side by side that show chaos while it lasts.
 #[derive(Deserialize)]
@@ -20,28 +22,6 @@ struct What {
     zooms: Vec<Part>,
     fleeting: Part,
     side_by_side: usize,
-}
-
-/// A part of the diagram.
-#[derive(Deserialize)]
-struct Part {
-    /// Its letter, if it has one.
-    name: String,
-    /// Range of eta.
-    range: (f64, f64),
-    /// Number of frequencies, and drive periods at each, for print and for a first look.
-    sizes: [(usize, u64); 2],
-}
-
-impl Part {
-    fn size(&self, detail: Detail) -> (usize, u64) {
-        detail.pick(self.sizes[0], self.sizes[1])
-    }
-
-    fn plan(&self, detail: Detail) -> Result<Plan> {
-        let (steps, periods) = self.size(detail);
-        Ok(Plan::new(Parameter::Frequency, self.range, steps, periods)?)
-    }
 }
 
 /// A part as it was swept.
@@ -188,9 +168,12 @@ fn table(diagrams: &[Diagram], isolated: &[Step]) -> Result<Vec<u8>> {
 }
 
 fn rows_table(bifurcations: &[Bifurcation]) -> Result<Vec<u8>> {
-    let rows = bifurcations.iter().map(|it| {
-        let eta = format!("{:.10}", it.eta);
-        (it.number, eta, &it.symbols, it.hysteresis, it.direction)
-    });
-    figure::table("number,eta,type,hysteresis,direction", rows)
+    let columns = columns! { Bifurcation, it;
+        "number" [None], "in Table 1" => it.number;
+        "eta" [None], "drive frequency" => format!("{:.10}", it.eta);
+        "type" [None], "in the paper's symbols" => it.symbols.as_str();
+        "hysteresis" [None], "whether it cannot be reversed" => it.hysteresis;
+        "direction" [None], "of eta in which it is met" => it.direction;
+    };
+    Ok(csv(&columns, bifurcations)?)
 }

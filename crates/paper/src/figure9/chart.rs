@@ -4,7 +4,6 @@ use anyhow::Result;
 
 use super::found::Found;
 use super::{CLEARANCE, SHALLOW};
-use crate::figure::ends;
 use crate::path::Path;
 use softstop_draw::{Align, Axis, Chart, Layer, Panel, Stroke, around, style};
 use softstop_explore::palette::line_color;
@@ -75,7 +74,7 @@ fn color(motion: &Found) -> &'static str {
 
 /// The time series, its impacts, and how long it takes to repeat.
 fn series(motion: &Found, path: &Path, shown: u64, period: f64) -> Panel {
-    let (low, high) = ends(path.points.iter().map(|at| at.position));
+    let (low, high) = around(path.points.iter().map(|at| at.position), 0.0);
     let y = (1.1 * low, 1.42 * high.max(CLEARANCE));
     let unit = y.1 - y.0;
     let bands = (0..shown)
@@ -131,7 +130,7 @@ fn phase_plane(motion: &Found, points: Vec<(f64, f64)>) -> Panel {
 
 /// The part of it near the stop.
 fn near_stop(motion: &Found, points: Vec<(f64, f64)>) -> Panel {
-    let (_, high) = ends(points.iter().map(|point| point.0));
+    let (_, high) = around(points.iter().map(|point| point.0), 0.0);
     let depth = (high - CLEARANCE).max(SHALLOW * CLEARANCE);
     let x = (CLEARANCE - NEAR * depth, CLEARANCE + 1.6 * depth);
     let near = points.iter().filter(|point| point.0 > x.0);

@@ -1,8 +1,9 @@
 //! A motion of the figure as it was found.
 
 use anyhow::Result;
-use serde::Serialize;
 use softstop::{Ratios, Scene, SceneError};
+use softstop_console::column::Column;
+use softstop_console::columns;
 use softstop_dynamics::attractors::Attractor;
 use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::{Orbit, StroboscopicMap, Survey};
@@ -25,10 +26,24 @@ pub struct Found {
     pub section: Section,
 }
 
-/// Columns of the table.
-pub const COLUMNS: &str = "motion,eta,eta_is_the_papers,impacts,periods,impacts_per_period,\
-    order_of_impacts,largest_multiplier_modulus,lyapunov_exponent_per_period,max_position,\
-    before_impact_velocity,mean_life_periods,share_of_starts";
+/// A row for each motion; numbers that are findings are shown.
+pub fn columns() -> [Column<Found>; 13] {
+    columns! { Found, it;
+        "motion" [None], "its letter" => it.asked.letter.to_string();
+        "eta" [None] Plain, "eta" => it.asked.eta;
+        "eta_is_the_papers" [None], "whether the paper gives it" => it.asked.is_given;
+        "impacts" [None] Plain, "impacts p" => it.orbit().map(|orbit| orbit.impacts.len());
+        "periods" [None] Plain, "periods n" => it.period();
+        "impacts_per_period" [None], "mean per drive period" => it.section.impacts_per_period();
+        "order_of_impacts" [None], "in each drive period" => it.orbit().map(|orbit| orbit.pattern().to_string());
+        "largest_multiplier_modulus" [None] Plain, "largest multiplier, modulus" => it.modulus();
+        "lyapunov_exponent_per_period" [None] Plain, "Lyapunov exponent per period" => it.exponent();
+        "max_position" [None], "largest position" => it.orbit().map(|orbit| orbit.max_position);
+        "before_impact_velocity" [None], "of the hardest impact" => it.velocity();
+        "mean_life_periods" [None] Plain, "mean life, periods" => it.lifetime();
+        "share_of_starts" [None] Plain, "share of starts" => it.attractor.share;
+    }
+}
 
 fn scene(asked: &Asked) -> Result<Scene, SceneError> {
     Ratios::unloaded().at_frequency(asked.eta).scene()
@@ -135,25 +150,12 @@ impl Found {
         said.join("; ")
     }
 
-    /// A row of the table.
-    pub fn line(&self) -> impl Serialize {
-        let (asked, orbit) = (&self.asked, self.orbit());
-        let velocities = self.attractor.chaos.as_ref().and_then(|it| it.velocities);
-        let order = orbit.map_or_else(String::new, |orbit| orbit.pattern().to_string());
-        let velocity = orbit.map(Orbit::before_impact_velocity);
-        (
-            (asked.letter, asked.eta, asked.is_given),
-            orbit.map(|orbit| orbit.impacts.len()),
-            self.period(),
-            self.section.impacts_per_period(),
-            order,
-            self.modulus(),
-            self.exponent(),
-            orbit.map(|orbit| orbit.max_position),
-            velocity.or(velocities.map(|ends| ends[1])),
-            self.lifetime(),
-            self.attractor.share,
-        )
+    fn velocity(&self) -> Option<f64> {
+        let chaos = self.attractor.chaos.as_ref();
+        let hardest = || chaos.and_then(|it| it.velocities).map(|ends| ends[1]);
+        self.orbit()
+            .map(Orbit::before_impact_velocity)
+            .or_else(hardest)
     }
 
     /// The kinetic energy in units of F0^2/k1: its mean over time, and the largest.
@@ -174,21 +176,15 @@ impl Found {
     /// What is told of it.
     pub fn tell(&self, findings: &mut Findings) -> Result<()> {
         let [energy, largest] = self.kinetic()?;
-        let orbit = self.orbit();
         let mean = self.section.impacts_per_period();
         let values = [
-            ("eta", Some(self.asked.eta)),
-            ("Lyapunov exponent per period", Some(self.exponent())),
-            ("share of starts", Some(self.attractor.share)),
-            ("impacts p", orbit.map(|it| it.impacts.len() as f64)),
-            ("periods n", orbit.map(|it| it.periods as f64)),
             ("impacts per period", self.is_chaotic().then_some(mean)),
-            ("largest multiplier, modulus", self.modulus()),
-            ("mean life, periods", self.lifetime()),
             ("mean kinetic energy", Some(energy)),
             ("largest kinetic energy", Some(largest)),
         ];
-        findings.group(&format!("({}) ", self.asked.letter), values);
+        let name = format!("({}) ", self.asked.letter);
+        findings.group(&name, values);
+        findings.add_numbers(&name, &columns(), self);
         Ok(())
     }
 }

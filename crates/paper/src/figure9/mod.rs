@@ -10,8 +10,10 @@ use softstop::Ratios;
 use softstop_dynamics::Survey;
 use softstop_dynamics::attractors::{Options, attractors};
 
-use crate::figure::{self, Detail, Drawn, Figure, Findings, Studio};
+use crate::figure::{Detail, Drawn, Figure, Findings, Studio};
 use found::Found;
+use softstop_console::columns;
+use softstop_console::export::csv;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
@@ -72,15 +74,22 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         let states = motion.section.states.iter();
         sections.extend(states.map(|state| (motion.asked.letter, *state)));
     }
-    files.push(figure::table(
-        found::COLUMNS,
-        found.iter().map(Found::line),
-    )?);
-    files.push(figure::table(
-        "motion,drive_periods,position,velocity",
-        series,
-    )?);
-    files.push(figure::table("motion,position,velocity", sections)?);
+    let points = columns! { (char, [f64; 3]), it;
+        "motion" [None], "its letter" => it.0.to_string();
+        "drive_periods" [None], "time" => it.1[0];
+        "position" [None], "X" => it.1[1];
+        "velocity" [None], "X'" => it.1[2];
+    };
+    let states = columns! { (char, (f64, f64)), it;
+        "motion" [None], "its letter" => it.0.to_string();
+        "position" [None], "X at drive angle 0" => it.1.0;
+        "velocity" [None], "X' there" => it.1.1;
+    };
+    files.extend([
+        csv(&found::columns(), &found)?,
+        csv(&points, series)?,
+        csv(&states, sections)?,
+    ]);
     Ok(Drawn { files, findings })
 }
 

@@ -12,14 +12,15 @@ pub(super) fn of_stops(findings: &mut Findings, drawn: &[Swept], folds: &[Folds]
     let plain = |law: Law| law.name().replace('₂', "2").replace('₁', "1");
     for swept in drawn {
         let name = plain(swept.law);
-        let mut add = |point: u32, what: &str, value: Option<f64>| {
-            findings.add(format!("({point}) {name}: {what}"), value);
-        };
         let (reversible, complex) = (swept.reversible(), swept.complex());
-        add(1, "share of eta that is reversible", Some(reversible));
-        add(2, "share of eta beyond z = 0 and z = 1", Some(complex));
         let lowest = swept.lowest_with_impacts();
-        add(3, "lowest eta with impacts, falling", lowest);
+        for (point, what, value) in [
+            (1, "share of eta that is reversible", Some(reversible)),
+            (2, "share of eta beyond z = 0 and z = 1", Some(complex)),
+            (3, "lowest eta with impacts, falling", lowest),
+        ] {
+            findings.add(format!("({point}) {name}: {what}"), value);
+        }
     }
     let (lower, upper) = grazing(CLEARANCE);
     findings.add("(3) lower eta of g0", lower);
@@ -27,17 +28,17 @@ pub(super) fn of_stops(findings: &mut Findings, drawn: &[Swept], folds: &[Folds]
     for fold in folds {
         let decade = fold.stiffness.log10();
         if (decade - decade.round()).abs() < 1e-9 {
-            let mut add = |what: &str, value: Option<f64>| {
-                findings.add(
-                    format!("(3) k2/k1 = {:.0}: width of {what}", fold.stiffness),
-                    value,
-                );
-            };
-            let widths = fold.widths();
-            add("weak z = 1", widths.map(|it| it[1]));
-            add("hysteresis", widths.map(|it| it[2]));
-            let flip = fold.first_flip.map(|flip| flip - lower);
-            add("weak z = 1 below resonance, to its flip", flip);
+            let (widths, flip) = (fold.widths(), fold.first_flip);
+            let values = [
+                ("weak z = 1", widths.map(|it| it[1])),
+                ("hysteresis", widths.map(|it| it[2])),
+                (
+                    "weak z = 1 below resonance, to its flip",
+                    flip.map(|eta| eta - lower),
+                ),
+            ];
+            let name = format!("(3) k2/k1 = {:.0}: width of ", fold.stiffness);
+            findings.group(&name, values);
         }
     }
     let hard = folds.iter().filter_map(Folds::widths);
@@ -51,16 +52,13 @@ pub(super) fn of_stops(findings: &mut Findings, drawn: &[Swept], folds: &[Folds]
     for law in [Law::TwoSlopes(10.0), Law::Hertz(10.0)] {
         let both = of(Law::KelvinVoigt(10.0)).zip(of(law));
         let likeness = both.map(|(kelvin, other)| kelvin.likeness(other));
-        let mut add = |what: &str, value: Option<f64>| {
-            let name = format!(
-                "(4) {}: share of eta with the same motion{what}",
-                plain(law)
-            );
-            findings.add(name, value);
-        };
-        add("", likeness.map(|it| it[0]));
         let others = ", where either is neither z = 0 nor z = 1";
-        add(others, likeness.map(|it| it[1]));
+        let values = [
+            ("", likeness.map(|it| it[0])),
+            (others, likeness.map(|it| it[1])),
+        ];
+        let name = format!("(4) {}: share of eta with the same motion", plain(law));
+        findings.group(&name, values);
     }
 }
 

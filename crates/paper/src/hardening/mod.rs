@@ -11,9 +11,12 @@ mod swept;
 use anyhow::Result;
 
 use crate::diagram;
-use crate::figure::{self, Drawn, Figure, Findings, Studio};
+use crate::figure::{Drawn, Figure, Findings, Studio};
 use chart::Picture;
 use folds::Folds;
+use softstop_console::column::Column;
+use softstop_console::columns;
+use softstop_console::export::csv;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::output;
@@ -63,7 +66,7 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
             picture.chart().svg().into_bytes(),
             steps(&drawn)?,
             steps(&map)?,
-            branches(&folds)?,
+            csv(&branches(), &folds)?,
             output::csv(&subharmonics)?,
         ],
         findings,
@@ -91,20 +94,15 @@ fn steps(swept: &[Swept]) -> Result<Vec<u8>> {
 }
 
 /// A row for each branch of z = 1.
-fn branches(folds: &[Folds]) -> Result<Vec<u8>> {
-    let columns = "stiffness,eta_grazing,eta_strong_fold,velocity_strong_fold,eta_weak_fold,\
-                   velocity_weak_fold,eta_first_flip,eta_flip";
-    let (_, grazing) = grazing(CLEARANCE);
-    let rows = folds.iter().map(|fold| {
-        let (strong, weak) = (fold.strong.unzip(), fold.weak.unzip());
-        (
-            fold.stiffness,
-            grazing,
-            strong,
-            weak,
-            fold.first_flip,
-            fold.flip,
-        )
-    });
-    figure::table(columns, rows)
+fn branches() -> [Column<Folds>; 8] {
+    columns! { Folds, it;
+        "stiffness" [None], "k2/k1" => it.stiffness;
+        "eta_grazing" [None], "upper g0" => grazing(CLEARANCE).1;
+        "eta_strong_fold" [None], "where strong impacts end" => it.strong.map(|at| at.0);
+        "velocity_strong_fold" [None], "X'_- there" => it.strong.map(|at| at.1);
+        "eta_weak_fold" [None], "where weak impacts end" => it.weak.map(|at| at.0);
+        "velocity_weak_fold" [None], "X'_- there" => it.weak.map(|at| at.1);
+        "eta_first_flip" [None], "right beyond grazing, below the resonance" => it.first_flip;
+        "eta_flip" [None], "from which on z = 1 is stable" => it.flip;
+    }
 }

@@ -38,52 +38,48 @@ impl Law {
         }
     }
 
-    /// The stiffness k2 that it has or is like; 0 if rigid.
-    fn stiffness(self) -> f64 {
+    /// The law, and the stiffness k2 that it has or is like; 0 if rigid.
+    fn stop(self) -> (Stop, f64) {
         match self {
-            Self::KelvinVoigt(stiffness) | Self::TwoSlopes(stiffness) | Self::Hertz(stiffness) => {
-                stiffness
+            Self::KelvinVoigt(stiffness) => {
+                let release = Release::Clearance;
+                (Stop::KelvinVoigt { stiffness, release }, stiffness)
             }
-            Self::Rigid => 0.0,
-        }
-    }
-
-    fn stop(self) -> Stop {
-        match self {
-            Self::KelvinVoigt(stiffness) => Stop::KelvinVoigt {
-                stiffness,
-                release: Release::Clearance,
-            },
             Self::TwoSlopes(stiffness) => {
                 // k d^2/2 = a d^2/2 + (b - a) (d/2)^2/2 with b = 5 a: a = k/2.
                 let first = 0.5 * stiffness;
                 let slope = |from, stiffness| Slope { from, stiffness };
                 let second = slope(0.5 * depth(stiffness), 5.0 * first);
-                Stop::PiecewiseLinear {
+                let stop = Stop::PiecewiseLinear {
                     loading: vec![slope(0.0, first), second],
                     unloading: Vec::new(),
-                }
+                };
+                (stop, stiffness)
             }
-            // k d^2/2 = 2/5 h d^(5/2)
-            Self::Hertz(stiffness) => Stop::Hertz {
-                stiffness: 1.25 * stiffness / depth(stiffness).sqrt(),
-                exponent: 1.5,
-                dissipation: 0.0,
-            },
-            Self::Rigid => Stop::Rigid {
-                restitution: RESTITUTION,
-            },
+            Self::Hertz(stiffness) => {
+                // k d^2/2 = 2/5 h d^(5/2)
+                let stop = Stop::Hertz {
+                    stiffness: 1.25 * stiffness / depth(stiffness).sqrt(),
+                    exponent: 1.5,
+                    dissipation: 0.0,
+                };
+                (stop, stiffness)
+            }
+            Self::Rigid => {
+                let restitution = RESTITUTION;
+                (Stop::Rigid { restitution }, 0.0)
+            }
         }
     }
 
     /// The machine with m = k1 = F0 = 1.
     pub(super) fn scene(self, frequency: f64, clearance: f64) -> Scene {
-        let critical = 2.0 * self.stiffness().sqrt();
+        let (stop, stiffness) = self.stop();
         let mut scene = Scene {
             damping: DAMPING,
             clearance,
-            contact_damping: DAMPING + damping_ratio() * critical,
-            ..Scene::of_stop(self.stop())
+            contact_damping: DAMPING + damping_ratio() * (2.0 * stiffness.sqrt()),
+            ..Scene::of_stop(stop)
         };
         scene.excitation.frequency = frequency;
         scene

@@ -16,7 +16,7 @@ use softstop_dynamics::Direction;
 use map::RegimeMap;
 
 use crate::boundaries::Boundaries;
-use crate::figure::{self, Drawn, Figure, Studio};
+use crate::figure::{Drawn, Figure, Studio};
 use softstop_console::progress::Progress;
 
 /// Drive periods at each frequency of a sweep.
@@ -57,7 +57,7 @@ struct What {
 impl Map {
     /// The machine in the middle of a cell.
     fn scene(&self, cell: (usize, usize), size: (usize, usize)) -> Result<Scene, SceneError> {
-        let machine = figure::machine(self.machine);
+        let machine = self.machine.ratios();
         let machine = machine.at_frequency(middle(self.window[0], cell.0, size.0));
         let machine = machine.at_clearance(middle(self.window[1], cell.1, size.1));
         machine.scene()

@@ -5,14 +5,23 @@ use anyhow::Result;
 use super::map::RegimeMap;
 use super::{Map, middle};
 use crate::boundaries::Boundaries;
-use crate::figure::{self, Findings};
+use crate::figure::Findings;
+use softstop_console::columns;
+use softstop_console::export::csv;
 use softstop_dynamics::continuation::CurvePoint;
 use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::{MotionKind, Regime};
 
 /// A row for each run of cells of the same motion: from the middle of the first cell to that of the last.
 pub(super) fn runs(maps: &[(&Map, RegimeMap)]) -> Result<Vec<u8>> {
-    let columns = "machine,way,rho,eta_from,eta_to,motion";
+    let columns = columns! { (&Map, f64, [f64; 2], String), it;
+        "machine" [None], "unloaded or loaded" => it.0.machine.name();
+        "way" [None], "by which the motions are reached" => it.0.names[0].as_str();
+        "rho" [None], "clearance" => it.1;
+        "eta_from" [None], "lowest drive frequency of the run" => it.2[0];
+        "eta_to" [None], "highest one" => it.2[1];
+        "motion" [None], "in all of its cells" => it.3.as_str();
+    };
     let mut lines = Vec::new();
     for (spec, map) in maps {
         let rows = map.cells.len() / map.columns;
@@ -23,29 +32,35 @@ pub(super) fn runs(maps: &[(&Map, RegimeMap)]) -> Result<Vec<u8>> {
                 let to = from + run.len() - 1;
                 let ends = [from, to].map(|column| middle(map.eta, column, map.columns));
                 from = to + 1;
-                let names = (spec.machine.name(), &spec.names[0]);
-                lines.push((names, rho, ends, run[0].to_string()));
+                lines.push((*spec, rho, ends, run[0].to_string()));
             }
         }
     }
-    figure::table(columns, lines)
+    Ok(csv(&columns, lines)?)
 }
 
 /// A row for each point of a boundary.
 pub(super) fn boundaries(boundaries: &[Boundaries; 2]) -> Result<Vec<u8>> {
-    let columns = "machine,boundary,curve,eta,rho,before_impact_velocity";
+    let columns = columns! { ([&str; 2], usize, [f64; 2], Option<f64>), it;
+        "machine" [None], "unloaded or loaded" => it.0[0];
+        "boundary" [None], "which one" => it.0[1];
+        "curve" [None], "its number, where there are several" => it.1;
+        "eta" [None], "drive frequency" => it.2[0];
+        "rho" [None], "clearance" => it.2[1];
+        "before_impact_velocity" [None], "X'_- of z = 1 there" => it.3;
+    };
     let mut lines = Vec::new();
     for (machine, own) in ["unloaded", "loaded"].into_iter().zip(boundaries) {
         let grazing = own.grazing.iter();
-        lines.extend(grazing.map(|&(eta, rho)| (machine, "g0", 0, [eta, rho], None)));
+        lines.extend(grazing.map(|&(eta, rho)| ([machine, "g0"], 0, [eta, rho], None)));
         for (name, number, points) in own.curves() {
             lines.extend(points.iter().map(|point| {
                 let velocity = Some(point.before_impact_velocity());
-                (machine, name, number, point.parameters, velocity)
+                ([machine, name], number, point.parameters, velocity)
             }));
         }
     }
-    figure::table(columns, lines)
+    Ok(csv(&columns, lines)?)
 }
 
 /// Shares of the maps, and what the boundaries say.
@@ -69,13 +84,15 @@ pub(super) fn findings(maps: &[(&Map, RegimeMap)], boundaries: &[Boundaries; 2])
     let ways = [("unloaded", &maps[..2]), ("loaded", &maps[4..])];
     for ((name, ways), own) in ways.into_iter().zip(boundaries) {
         let share = hysteresis(&ways[0].1, &ways[1].1);
-        findings.add(format!("{name}: share of z = 1 or z = 0 by the way"), share);
         let point = own.hardest();
         let velocity = point.map(CurvePoint::before_impact_velocity);
-        findings.add(format!("{name}: largest velocity on s_SN"), velocity);
-        let [eta, rho] = [0, 1].map(|index: usize| point.map(|at| at.parameters[index]));
-        findings.add(format!("{name}: its clearance rho"), rho);
-        findings.add(format!("{name}: its frequency eta"), eta);
+        let values = [
+            ("share of z = 1 or z = 0 by the way", Some(share)),
+            ("largest velocity on s_SN", velocity),
+            ("its clearance rho", point.map(|at| at.parameters[1])),
+            ("its frequency eta", point.map(|at| at.parameters[0])),
+        ];
+        findings.group(&format!("{name}: "), values);
     }
     findings
 }

@@ -2,12 +2,13 @@
 
 use anyhow::Result;
 use rayon::prelude::*;
-use softstop::{Parameter, Scene};
+use softstop::Parameter;
 use softstop_dynamics::points::blocks;
 use softstop_dynamics::watch::{Kept, piece};
-use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Step};
+use softstop_dynamics::{Chain, Direction, MotionKind, Plan};
 
 use super::{Map, PERIODS, middle};
+use crate::diagram;
 use softstop_console::progress::Progress;
 
 /// Frequencies before the first column, in which the motion settles from rest.
@@ -49,25 +50,11 @@ pub(super) fn cells(
 /// The cells of a chain; what it has not come to is lost.
 fn row(plan: &Plan, chain: &Chain) -> Vec<MotionKind> {
     let steps = chain.steps.iter().skip(AHEAD);
-    let cells = steps.map(|step| cell(&chain.machine.scene, step));
+    let cells = steps.map(|step| diagram::motion(&chain.machine.scene, step));
     let mut cells: Vec<MotionKind> = cells.collect();
     cells.resize(plan.steps - AHEAD, MotionKind::Lost);
     if chain.direction == Direction::Down {
         cells.reverse();
     }
     cells
-}
-
-/// The motion with the order of its impacts as Newton's method has it, where that tells its colour.
-fn cell(scene: &Scene, step: &Step) -> MotionKind {
-    let seen = || step.motion.clone();
-    match step.motion.regime() {
-        Some(regime) if regime.periods >= 4 && 2 * regime.impacts == regime.periods => {
-            let scene = scene.at_frequency(step.value);
-            let orbit = Orbit::periodic(&scene, step.end.into(), regime.periods).ok();
-            let orbit = orbit.filter(|orbit| orbit.regime() == regime);
-            orbit.map_or_else(seen, |orbit| MotionKind::of(&orbit))
-        }
-        _ => seen(),
-    }
 }

@@ -14,13 +14,10 @@ pub(super) fn chart(outcomes: &[Outcome], grazing: f64, fold: f64, clearance: f6
     let right = outcomes.iter().map(|it| it.eta).fold(fold, f64::max);
     let room = 0.03 * (right - grazing);
     let panels = READINGS.into_iter().map(|(reading, name)| {
-        let own = outcomes.iter();
-        let own = own.filter(|it| it.stop_without_strip == reading);
-        let own: Vec<Outcome> = own.copied().collect();
         let runs = RUNS.into_iter().enumerate();
         let curves = runs.flat_map(|(index, mean)| {
             let color = style::ordered(index, RUNS.len());
-            curves(of_run(&own, mean).collect(), color, mean)
+            curves(of_run(outcomes, reading, mean).collect(), color, mean)
         });
         let marks = [
             Layer::vertical(grazing, MARK, ""),

@@ -66,35 +66,53 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let detail = studio.detail;
     let machine = Ratios::loaded();
     let zones = zones(machine.clearance)?;
+    let [grazing, loaded, unloaded] = zones;
     let mut etas = etas(zones, detail.pick(55, 12));
     // Point B among them.
     etas.push(machine.frequency);
     etas.sort_by(f64::total_cmp);
-    let progress = Progress::new((2 * etas.len() * RUNS.len()) as u64, "frequencies");
-    let mut outcomes = Vec::new();
+    let runs = READINGS.map(|(reading, _)| RUNS.map(|mean| (reading, mean)));
+    let cases = runs.iter().flatten();
+    let cases = cases.flat_map(|(reading, mean)| etas.iter().map(move |eta| (reading, eta, mean)));
+    let cases: Vec<(&Reading, &f64, &f64)> = cases.collect();
+    let progress = Progress::new(cases.len() as u64, "frequencies");
+    let (motions, periods) = detail.pick((64, 400), (16, 200));
+    let outcomes = studio.each("supply", &cases, |&(reading, &eta, &mean)| {
+        let press = Press::new(*reading, eta, eta < loaded)?;
+        let ends = press.run(mean, periods, motions)?;
+        progress.step()?;
+        Ok(Outcome {
+            stop_without_strip: *reading,
+            eta,
+            mean_run: mean,
+            motions,
+            missed: ends.iter().filter(|it| it.0).count(),
+            ended: ends.iter().filter(|it| it.1).count(),
+        })
+    })?;
+    drop(progress);
     let mut findings = Findings::default();
-    let [grazing, loaded, unloaded] = zones;
     findings.add("eta_SN loaded", loaded);
     findings.add("eta_SN unloaded", unloaded);
     for (reading, name) in READINGS {
-        let found = survey(reading, &etas, loaded, studio, &progress)?;
         for mean in RUNS {
-            let mut add = |what: &str, value: Option<f64>| {
-                findings.add(format!("{name}, runs of {mean}: {what}"), value);
-            };
-            let ended = of_run(&found, mean).find(|it| it.ended > 0);
-            add("first eta at which a motion ends", ended.map(|it| it.eta));
-            let missed = of_run(&found, mean).filter(|it| it.missed > 0 && it.ended == 0);
-            let missed = missed.map(|it| it.eta).max_by(f64::total_cmp);
-            add(
-                "last eta at which strokes are missed and no motion ends",
-                missed,
-            );
-            let at_b = of_run(&found, mean).find(|it| it.eta == machine.frequency);
-            let at_b = at_b.map(|it| it.missed as f64);
-            add("motions with a missed stroke at B", at_b);
+            let own = || of_run(&outcomes, reading, mean);
+            let ended = own().find(|it| it.ended > 0);
+            let missed = own().filter(|it| it.missed > 0 && it.ended == 0);
+            let at_b = own().find(|it| it.eta == machine.frequency);
+            let values = [
+                ("first eta at which a motion ends", ended.map(|it| it.eta)),
+                (
+                    "last eta at which strokes are missed and no motion ends",
+                    missed.map(|it| it.eta).max_by(f64::total_cmp),
+                ),
+                (
+                    "motions with a missed stroke at B",
+                    at_b.map(|it| it.missed as f64),
+                ),
+            ];
+            findings.group(&format!("{name}, runs of {mean}: "), values);
         }
-        outcomes.extend(found);
     }
     let chart = chart::chart(&outcomes, grazing, loaded, machine.clearance);
     Ok(Drawn {
@@ -116,38 +134,6 @@ fn etas([grazing, loaded, unloaded]: [f64; 3], count: usize) -> Vec<f64> {
     let (low, high) = (at(SHARES.0), at(SHARES.1).min(unloaded));
     let step = (high - low) / (count - 1) as f64;
     (0..count).map(|index| low + step * index as f64).collect()
-}
-
-fn survey(
-    reading: Reading,
-    etas: &[f64],
-    loaded: f64,
-    studio: &Studio,
-    progress: &Progress,
-) -> Result<Vec<Outcome>> {
-    let cases = RUNS
-        .iter()
-        .flat_map(|mean| etas.iter().map(move |eta| (reading, *eta, *mean)));
-    let cases: Vec<(Reading, f64, f64)> = cases.collect();
-    let (motions, periods) = studio.detail.pick((64, 400), (16, 200));
-    let outcome = |&(reading, eta, mean): &(Reading, f64, f64)| {
-        let press = Press::new(reading, eta, eta < loaded)?;
-        let mut outcome = Outcome {
-            stop_without_strip: reading,
-            eta,
-            mean_run: mean,
-            motions,
-            missed: 0,
-            ended: 0,
-        };
-        for (missed, ended) in press.run(mean, periods, motions)? {
-            outcome.missed += usize::from(missed);
-            outcome.ended += usize::from(ended);
-        }
-        progress.step()?;
-        Ok(outcome)
-    };
-    studio.each("supply", &cases, outcome)
 }
 
 impl Press {
@@ -271,6 +257,7 @@ impl Watch for Counter<'_> {
     }
 }
 
-fn of_run(outcomes: &[Outcome], mean: f64) -> impl Iterator<Item = &Outcome> {
-    outcomes.iter().filter(move |it| it.mean_run == mean)
+fn of_run(outcomes: &[Outcome], reading: Reading, mean: f64) -> impl Iterator<Item = &Outcome> {
+    let own = outcomes.iter();
+    own.filter(move |it| it.stop_without_strip == reading && it.mean_run == mean)
 }

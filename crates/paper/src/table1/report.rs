@@ -19,7 +19,7 @@ pub struct TableReport {
 }
 
 /// One row. Of a row that was not found only the number, the paper's figure and the remark are there.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 pub struct RowReport {
     /// The paper's number.
     pub number: usize,
@@ -101,30 +101,35 @@ impl RowReport {
     fn new(row: &PaperRow, found: Option<&Match<'_>>, rules: &Rules) -> Self {
         let missing =
             "not found: no transition between these motions was met near the paper's figure";
-        let transition = found.map(|found| found.transition);
-        let motions = found.map(|found| {
-            let (from, path) = (name(&found.transition.from), &found.transition.path);
-            match found.is_reversed {
-                true => (name(found.transition.to()), from),
-                false => (from, path.iter().map(name).collect::<Vec<_>>().join(" -> ")),
-            }
-        });
-        let (from, to) = motions.unzip();
-        Self {
+        let missing = Self {
             number: row.number,
             paper: row.eta,
-            eta: found.map(|found| found.eta),
-            kind: transition.map(Transition::symbols),
-            hysteresis: transition.map(|transition| transition.hysteresis),
-            from,
-            to,
-            branch_ends: transition
-                .filter(|it| it.state.is_some())
-                .map(|it| it.value),
-            flip: transition.and_then(flip),
-            follows_from: transition.and_then(|it| it.settled_at.filter(|_| it.hysteresis)),
-            follows_decimals: transition.map_or(LOCATED, follows_decimals),
-            remark: found.map_or(missing.to_owned(), |found| remark(row, found, rules)),
+            follows_decimals: LOCATED,
+            remark: missing.to_owned(),
+            ..Self::default()
+        };
+        let Some(found) = found else {
+            return missing;
+        };
+        let transition = found.transition;
+        let first = name(&transition.from);
+        let path = || transition.path.iter().map(name).collect::<Vec<_>>();
+        let (from, to) = match found.is_reversed {
+            true => (name(transition.to()), first),
+            false => (first, path().join(" -> ")),
+        };
+        Self {
+            eta: Some(found.eta),
+            kind: Some(transition.symbols()),
+            hysteresis: Some(transition.hysteresis),
+            from: Some(from),
+            to: Some(to),
+            branch_ends: transition.state.map(|_| transition.value),
+            flip: flip(transition),
+            follows_from: transition.settled_at.filter(|_| transition.hysteresis),
+            follows_decimals: follows_decimals(transition),
+            remark: remark(row, found, rules),
+            ..missing
         }
     }
 
@@ -142,7 +147,7 @@ impl RowReport {
 }
 
 /// A motion by its regime, and by the paper's letter where there are two of one regime.
-fn name(motion: &MotionKind) -> String {
+pub(crate) fn name(motion: &MotionKind) -> String {
     match motion {
         MotionKind::Periodic {
             regime: Regime {
