@@ -4,8 +4,9 @@ use softstop::Parameter;
 
 use crate::design::Problem;
 use crate::design::conflict::bound;
+use crate::design::constraint::Limit as Active;
 use crate::design::figure::Figure;
-use crate::design::judge::Met;
+use crate::design::space::End;
 use crate::optimize::outcome::Outcome;
 
 /// One thing that does.
@@ -36,68 +37,63 @@ pub fn key(parameter: Parameter) -> String {
     }
 }
 
-/// Distance in s within which a design stands at the end of the allowed window.
-const AT_MARGIN: f64 = 1e-9;
-/// Share of a bound within which it holds a design back.
-const AT_BOUND: f64 = 1e-6;
-
 /// All that holds a design back.
 pub fn at_limits(problem: &Problem, found: &Outcome) -> Vec<Limit> {
-    let design = &found.design;
-    let at_end = |parameter: Parameter, end: &str| {
+    let limits = found.limits.iter();
+    limits.filter_map(|it| limit(problem, found, it)).collect()
+}
+
+fn limit(problem: &Problem, found: &Outcome, limit: &Active) -> Option<Limit> {
+    let at_end = |parameter: Parameter, end: End| {
+        let end = match end {
+            End::Lower => "lower",
+            End::Upper => "upper",
+        };
         let words = format!("the {end} bound of the {}", parameter.about().meaning);
         Limit::new(format!("{}: {end} bound", key(parameter)), words)
     };
-    let axes = problem.axes.iter().filter_map(|axis| {
-        let end = axis.range.end(design.machine.value(axis.parameter)?)?;
-        Some(at_end(axis.parameter, end))
-    });
-    let mut limits: Vec<Limit> = axes.collect();
-    limits.extend(found.met.iter().filter(is_bound).map(|it| {
-        let (machine, requirement) = (&design.machine, &it.requirement);
-        let (name, meaning) = (requirement.figure.name(), requirement.figure.meaning());
-        let required = bound(machine, requirement);
-        Limit::new(
-            format!("{name}: {required}"),
-            format!("the {meaning} ({name}), {required}"),
-        )
-    }));
-    limits.extend(problem.edge_at(design).map(|edge| {
-        let words = edge.replace("tolerances: they reach", "the tolerances, which reach");
-        Limit::new(&edge, words)
-    }));
-    if design.place <= problem.margin + AT_MARGIN {
-        limits.push(at_margin("g0"));
-    }
-    if design.place >= 1.0 - problem.margin - AT_MARGIN {
-        limits.push(at_margin("s_SN"));
-    } else if let Some(end) = near_end(problem, design.frequency()) {
-        limits.push(at_end(Parameter::Frequency, end));
-    }
-    limits
+    let side = |end| match end {
+        End::Lower => "g0",
+        End::Upper => "s_SN",
+    };
+    let design = &found.design;
+    Some(match limit {
+        Active::Axis(parameter, end) => at_end(*parameter, *end),
+        Active::Frequency(end) => at_end(Parameter::Frequency, *end),
+        Active::Margin(end) => at_margin(side(*end)),
+        Active::Required(Figure::Share, _) => match design.place < 0.5 {
+            true => at_margin("g0"),
+            false => at_margin("s_SN"),
+        },
+        Active::Required(figure, _) => {
+            let requirement = problem
+                .requirements
+                .iter()
+                .find(|it| it.figure == *figure)?;
+            let (name, meaning) = (figure.name(), figure.meaning());
+            let required = bound(&design.machine, requirement);
+            Limit::new(
+                format!("{name}: {required}"),
+                format!("the {meaning} ({name}), {required}"),
+            )
+        }
+        Active::Tolerances(end) => reached(side(*end)),
+        Active::Loss => reached(&match problem.border_within(design) {
+            Some(by) => format!("a border inside the zone ({by})"),
+            None => "a border inside the zone".to_owned(),
+        }),
+    })
 }
 
-/// True if a requirement holds a design back. Trials count, and are not counted on beyond what is required; the margin
-/// from the ends of the zone is told with its end.
-fn is_bound(met: &&Met) -> bool {
-    let figure = met.requirement.figure;
-    let size = (met.value - met.margin()).abs();
-    !figure.is_trial() && figure != Figure::Share && met.margin() <= AT_BOUND * size
+fn reached(what: &str) -> Limit {
+    Limit::new(
+        format!("tolerances: they reach {what}"),
+        format!("the tolerances, which reach {what}"),
+    )
 }
 
 fn at_margin(end: &str) -> Limit {
     let key = format!("margin from {end}");
     let words = format!("the {key}");
     Limit::new(key, words)
-}
-
-/// Frequencies pass through the place in the zone and back, so an end is met to rounding only.
-fn near_end(problem: &Problem, frequency: f64) -> Option<&'static str> {
-    let near = |end: f64| end.is_finite() && (frequency - end).abs() <= 1e-12 * end.abs();
-    let range = &problem.frequency;
-    match (range.is_held(), near(range.low), near(range.high)) {
-        (false, true, _) => Some("lower"),
-        (false, _, true) => Some("upper"),
-        _ => None,
-    }
 }

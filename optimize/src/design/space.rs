@@ -4,6 +4,18 @@ use std::fmt;
 
 use softstop::Parameter;
 
+/// An end of a range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum End {
+    /// The lower one; of a zone g0.
+    Lower,
+    /// The upper one; of a zone `s_SN`.
+    Upper,
+}
+
+/// Distance from an end of an interval, as a share of it, that is none.
+const AT_END: f64 = 1e-9;
+
 /// A closed interval; a value that is held has both ends equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
@@ -38,16 +50,13 @@ impl Interval {
         }
     }
 
-    /// Which end a value stands at, if the interval has two.
-    pub fn end(&self, value: f64) -> Option<&'static str> {
-        if self.is_held() {
-            None
-        } else if value == self.low {
-            Some("lower")
-        } else if value == self.high {
-            Some("upper")
-        } else {
-            None
+    /// Which end a value stands at to rounding, if the interval has two.
+    pub fn end_at(&self, value: f64) -> Option<End> {
+        let near = |end: f64| (value - end).abs() <= AT_END * (self.high - self.low);
+        match self.is_held() {
+            true => None,
+            false if near(self.low) => Some(End::Lower),
+            false => near(self.high).then_some(End::Upper),
         }
     }
 }
@@ -153,9 +162,9 @@ mod tests {
             [7.0, 0.3],
             "outside the cube: pulled in"
         );
-        assert_eq!(range.end(0.3), Some("upper"));
-        assert_eq!(range.end(0.2), None);
-        assert_eq!(Interval::held(2.0).end(2.0), None);
+        assert_eq!(range.end_at(0.3), Some(End::Upper));
+        assert_eq!(range.end_at(0.2), None);
+        assert_eq!(Interval::held(2.0).end_at(2.0), None);
     }
 
     #[test]

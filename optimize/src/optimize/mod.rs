@@ -179,7 +179,7 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         outcome => outcome?,
     };
     let looked = match outcome.interrupted {
-        None => looked(&job, &outcome),
+        None => looked(&job, &mut outcome),
         Some(_) => Err(Failure::Interrupted),
     };
     let (study, page) = match looked {
@@ -236,8 +236,11 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
 type Page = (String, Vec<(String, Vec<u8>)>);
 
 /// What is looked at of a design besides.
-fn looked(job: &Job, outcome: &Outcome) -> Result<(Option<Study>, Option<Page>), Failure> {
-    let study = study::study(job, &outcome.design)?;
+fn looked(job: &Job, outcome: &mut Outcome) -> Result<(Option<Study>, Option<Page>), Failure> {
+    let study = study::study(job, outcome)?;
+    if let Some(study) = &study {
+        outcome.note_violating(study.violating());
+    }
     let mut page = None;
     if job.report {
         let references = reference::references(&job.problem.machine)?;

@@ -3,7 +3,7 @@
 use softstop_dynamics::points::place;
 
 /// Corners of the box: all of them if they are not more than so many, otherwise those nearest to that many of the points.
-pub(super) fn corners(dimensions: usize, most: usize) -> Vec<Vec<f64>> {
+pub(crate) fn corners(dimensions: usize, most: usize) -> Vec<Vec<f64>> {
     let all = 1_usize.checked_shl(dimensions as u32);
     let sign = |is_up| if is_up { 1.0 } else { -1.0 };
     match all.filter(|all| *all <= most) {
